@@ -12,7 +12,7 @@ sigma = +1, ``"cw"`` is sigma = -1.  By inversion a point fixed to the frame app
 -sigma*phi.  All coordinates of profiles are cam coordinates at phi = 0.
 
 - Translating follower: the trace point (roller centre or knife edge) moves up along x = e.  r0 is the *prime radius*,
-  the least radius of the pitch curve; s0 = sqrt((r0 - e)(r0 + e)); the trace point is (e, s0 + s), and
+  the minimum radius of the pitch curve; s0 = sqrt((r0 - e)(r0 + e)); the trace point is (e, s0 + s), and
   tan(alpha) = (v - sigma*e)/(s0 + s), positive on an ordinary rise.  A favourable offset has sigma*e > 0.
 - Oscillating follower: pivot at (c, 0), arm l above the line of centres, psi the angle between them;
   cos(psi0) = (c^2 + l^2 - r0^2)/(2 c l), psi = psi0 + s, tan(alpha) = (l (1 + sigma*v) - c cos(psi))/(c sin(psi)).

@@ -11,11 +11,11 @@ from typing import Any
 
 
 class GraphcamError(Exception):
-    """The parent of every error that graphcam raises on purpose."""
+    """The base class of every error that graphcam raises on purpose."""
 
 
 class DesignError(GraphcamError, ValueError):
-    """A design that cannot be.
+    """A design that is impossible.
 
     Parameters
     ----------

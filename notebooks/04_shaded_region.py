@@ -8,7 +8,7 @@
 #     display_name: Python 3
 #     language: python
 #     name: python3
-#   title: The shaded region and the least radius
+#   title: The shaded region and the minimum radius
 # ---
 
 # %% [markdown]

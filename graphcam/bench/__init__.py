@@ -1,1 +1,1 @@
-"""Speed against error: every construction beside its exact counterpart and beside what a user would take instead."""
+"""Speed against error: every construction beside its exact counterpart and the usual alternatives."""

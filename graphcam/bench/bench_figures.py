@@ -94,7 +94,7 @@ def _labelled(report: Report, follower: str, shown: Iterable[tuple[str, str, str
 
 
 def _panel_of_parts(axes: Axes, title: str, found: Labelled, guides: Mapping[int, float]) -> None:
-    """``guides`` are the lines' orders with their errors at the least n, 0 for above all curves."""
+    """``guides`` are the lines' orders with their errors at the smallest n, 0 for above all curves."""
     axes.set_title(title)
     axes.set(xscale="log", yscale="log")
     if not found:
@@ -167,7 +167,7 @@ def spread(places: Floats, gap: float) -> Floats:
 
 QUESTIONS = {
     "displacement": "Displacement from acceleration",
-    "least radius": "Minimum prime radius",
+    "minimum prime radius": "Minimum prime radius",
     "profile": "Working profile",
 }
 SPOTS = {
@@ -175,9 +175,9 @@ SPOTS = {
     ("displacement", "cumulative_trapezoid"): (0.5, (-9, 0), "right"),
     ("displacement", "cumulative_simpson"): (0.6, (-9, 4), "right"),
     ("displacement", "CubicSpline"): (0.6, (11, 0), "left"),
-    ("least radius", "graphical"): (0.72, (10, 4), "left"),
-    ("least radius", "HalfspaceIntersection"): (0.5, (-9, -2), "right"),
-    ("least radius", "SLSQP"): (0.34, (0, 10), "center"),
+    ("minimum prime radius", "graphical"): (0.72, (10, 4), "left"),
+    ("minimum prime radius", "HalfspaceIntersection"): (0.5, (-9, -2), "right"),
+    ("minimum prime radius", "SLSQP"): (0.34, (0, 10), "center"),
     ("profile", "graphical"): (1.0, (8, 10), "left"),
     ("profile", "shapely buffer"): (0.5, (-9, -4), "right"),
 }
@@ -297,8 +297,8 @@ def error_of_the_hand(report: Report) -> Figure:
     axes.yaxis.set_minor_locator(NullLocator())
     axes.yaxis.set_major_formatter(FuncFormatter("{:g} %".format))
     axes.set_xlabel("parts a phase")
-    axes.set_ylabel("greatest error of the displacement, of the lift")
-    axes.set_title("Drawn by a hand with σ = 0.2 mm: the best number of parts")
+    axes.set_ylabel("maximum error of the displacement, of the lift")
+    axes.set_title("Drawn with a pencil of σ = 0.2 mm: the best number of parts")
     labels = [f"{h.law}: {h.best} parts, {100 * h.floor:.2f} %" for h in report.hands]
     _labels_at_the_end(axes, parts[-1], ends, labels, gap=0.05)
     return figure
@@ -308,11 +308,11 @@ def _notes_by_hand(axes: Axes, report: Report) -> None:
     """What band, dashes and dots are, said at the first law."""
     hands, colour = report.hands[0], COLOURS[0]
     k = len(hands.parts) * 3 // 4
-    band = f"nine hands in ten, {hands.law}"
+    band = f"nine drawings in ten, {hands.law}"
     axes.text(hands.parts[k], 112 * hands.high[k], band, color=colour, ha="right", va="bottom", fontsize=9)
     below = [(n, 100 * error) for n, error in zip(hands.parts, hands.method, strict=True) if error < hands.floor / 3]
     if below:
-        without = "without the hand:\norder 2"
+        without = "ideal pencil:\norder 2"
         _note(axes, without, below[0], (-16, -14), color=colour, ha="right", va="center", fontsize=9)
     best, floor = hands.best, 100 * hands.floor
     look = {"color": colour, "ha": "center", "va": "bottom", "weight": "bold"}

@@ -111,9 +111,9 @@ def _convergence(report: Report) -> TextTable:
         cells.setdefault((s.follower, s.quantity), {})[s.law] = text
     rows = [[*key, *(by_law.get(law, NONE) for law in laws)] for key, by_law in cells.items()]
     note = (
-        "Drawn by a perfect hand: the fitted order p of error ~ 1/n^p over n = 12, 24, 48, 96 parts a phase, and in "
-        "brackets the greatest n² times the relative error. A greatest value is read off a faired curve between the "
-        "stations: its error stays below the bracket over n² but goes up and down, so its order is no whole number."
+        "Drawn with an ideal pencil: the fitted order p of error ~ 1/n^p over n = 12, 24, 48, 96 parts per phase, and "
+        "in brackets the maximum of n² times the relative error. A maximum is read off a faired curve between the "
+        "stations: its error stays below the bracket over n² but oscillates, so its order is not a whole number."
     )
     return TextTable("Error against the number of parts", note, ("follower", "quantity", *laws), rows, 2)
 
@@ -124,12 +124,12 @@ def _pencil(report: Report) -> TextTable:
         for h in report.hands
     ]
     note = (
-        f"The greatest error of the displacement, of the lift, drawn by many hands that are off by {SIGMA} mm in every "
-        "line, every setting and at the edge of the protractor: the number of parts at which its mean is least, that "
-        "floor, and the range of nine hands in ten. Under a law that the method draws exactly the fewest parts are the "
-        "best."
+        "The maximum error of the displacement, as a part of the lift, over many drawings with errors of "
+        f"{SIGMA} mm in every line, every setting and at the edge of the protractor: the number of parts at which its "
+        "mean is smallest, this mean, and the range of nine drawings in ten. If the method draws a law exactly, the "
+        "smallest number of parts is the best."
     )
-    return TextTable("Error of the hand", note, ("law", "best number of parts", "floor", "nine in ten hands"), rows)
+    return TextTable("Drawing error", note, ("law", "best number of parts", "mean error", "nine drawings in ten"), rows)
 
 
 def _budgets(report: Report) -> TextTable:
@@ -139,16 +139,16 @@ def _budgets(report: Report) -> TextTable:
         brought = ", ".join(f"{kind} {100 * part:.0f}" for kind, part in largest if part >= LEAST_SHARE)
         rows.append([b.follower, f"{b.construction}: {b.reading}", f"{b.deviation:.3g}", brought])
     note = (
-        f"By hands that are off by {SIGMA} mm, 12 parts a phase: the standard deviation in mm of paper (of an angle "
-        "that is measured itself, in radians), and what part of its variance the acts of each kind bring, in percent; "
-        "together is what errors of several kinds bring only together."
+        f"With drawing errors of {SIGMA} mm, 12 parts per phase: the standard deviation in mm of paper (for a measured "
+        "angle in radians), and the share of its variance, in percent, that is due to the acts of each kind; "
+        '"together" is the share that errors of several kinds have only in combination.'
     )
-    columns = ("follower", "reading", "scatter", "brought by, %")
-    return TextTable("Error budget of the hand", note, columns, rows, 4, False)
+    columns = ("follower", "reading", "scatter", "due to, %")
+    return TextTable("Error budget of the drawing", note, columns, rows, 4, False)
 
 
 LEAST_SHARE = 0.01
-"""A part of the variance that is told."""
+"""The smallest share of the variance that is listed."""
 
 
 def _methods(report: Report) -> TextTable:
@@ -158,8 +158,8 @@ def _methods(report: Report) -> TextTable:
         for n, pairs, error in zip(m.n, m.pairs, m.errors, strict=True)
     ]
     note = (
-        "From the task to the result, everything in between included. Time is in sines and cosines: one pair of them "
-        f"took {1e9 * report.pair:.1f} ns here."
+        "From the task to the result, including everything in between. Times are in pairs of a sine and a cosine: one "
+        f"pair took {1e9 * report.pair:.1f} ns on this machine."
     )
     return TextTable(
         "Error against time", note, ("question", "method", "n", "time, pairs", "relative error"), rows, 2, False
@@ -185,7 +185,7 @@ def _peers(report: Report) -> TextTable:
         "On a cam of prime radius 60, offset 10, roller 12, lift 30, phases of 120, 30, 90 and 120 degrees, cycloidal "
         "rise, harmonic return. Time is a multiple of graphcam's for 360 stations."
     )
-    return TextTable("Other packages", note, ("package", "quantity", "remark", "greatest error", "time ratio"), rows, 3)
+    return TextTable("Other packages", note, ("package", "quantity", "remark", "maximum error", "time ratio"), rows, 3)
 
 
 def _drawing(report: Report) -> TextTable:
@@ -196,8 +196,8 @@ def _drawing(report: Report) -> TextTable:
     rows = [[d.follower, d.construction, here(d.readings), here(d.steps)] for d in report.drawing]
     rows += [["sheet", name, "", here(pairs)] for name, pairs in report.rendering.items()]
     note = (
-        "Milliseconds on this machine, 12 parts a phase: what is read, then what is drawn of it, then the sheet of all "
-        "of it."
+        "Milliseconds on this machine, 12 parts per phase: for the readings, for the steps drawn from them, and for "
+        "the whole sheet."
     )
     columns = ("follower", "construction", "readings, ms", "steps, ms")
     return TextTable("Readings, steps and rendering", note, columns, rows, 2)

@@ -54,8 +54,8 @@ def _greatest(values: Floats, span: slice) -> float:
 BOUNDS = Section(
     "bounds",
     "Bounds of the double integration",
-    "The greatest proved bound of a rise's displacement, velocity or acceleration, over the greatest error that the "
-    "construction makes; errors are those of the lift, and of its derivatives over the phase. Beside it the estimate "
-    "from redrawings. What is drawn exactly is left out.",
+    "The maximum proved bound for a rise's displacement, velocity or acceleration, over the maximum error of the "
+    "construction; errors are relative to the lift, and to its derivatives over the phase. Beside it is the estimate "
+    "from redrawings. Values that are drawn exactly are omitted.",
     bound_rows,
 )

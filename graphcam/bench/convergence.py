@@ -1,6 +1,6 @@
 """Error against the number of parts: every construction of every scene beside its exact counterpart.
 
-All errors are relative: to the greatest exact value of the quantity, lengths on the cam to the prime radius.
+All errors are relative: to the maximum exact value of the quantity, lengths on the cam to the prime radius.
 """
 
 import math
@@ -50,7 +50,7 @@ class Series:
 
     @property
     def constant(self) -> float:
-        """The greatest n^2 error: the error is at most this over n^2, whatever its ups and downs."""
+        """The maximum of n^2 times the error: the error is at most this over n^2, however it oscillates."""
         return max(n * n * error for n, error in zip(self.parts, self.errors, strict=True))
 
 

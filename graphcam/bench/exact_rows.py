@@ -1,6 +1,6 @@
 """The exact side as ratios: its cost in sine-cosine pairs or beside a general optimiser, and its rounding in eps.
 
-Beside it stand running sums, in memory copies, and the order of the curvature through three points.
+It also has running sums, in memory copies, and the order of the curvature through three points.
 """
 
 import math
@@ -75,7 +75,7 @@ def designs(follower: str, law: str, n: int) -> Designs:
 
 
 def exact_rows(gauge: Gauge) -> Iterator[Row]:
-    """Laws, cam points, extremes, sweeps, and least radii beside their rivals."""
+    """Laws, cam points, extremes, sweeps, and minimum radii beside their rivals."""
     timer, few = gauge.timer, gauge.unit(RIVAL_STATIONS)
     yield from _laws(gauge.unit(gauge.stations), timer)
     yield from _cam_points(gauge.unit(gauge.points), few, timer)
@@ -118,7 +118,7 @@ def _in_any_order(name: str, mixed: float, growing: float) -> Row:
 
 
 def _law_error(name: str) -> float | None:
-    """The greatest rounding of a law and its derivatives [eps], each beside its greatest value."""
+    """The maximum rounding of a law and its derivatives [eps], each relative to its maximum value."""
     if name not in reference.REFERENCED or not reference.available():
         return None
     checked, the_law = inner_places(), law(name)
@@ -173,7 +173,7 @@ def _undercuts(timer: Timer) -> Iterator[Row]:
     ):
         seconds, what = timer.seconds(work), f"{LOBES} phases, {len(cam.undercuts())} loops"
         yield Row(name, what, 1e3 * seconds, "ms", "<= 500", None, seconds)
-        yield Row(name, f"{what}: greatest memory", _peak(work) / 1e6, "MB", "<= 120", None, seconds)
+        yield Row(name, f"{what}: maximum memory", _peak(work) / 1e6, "MB", "<= 120", None, seconds)
 
 
 def _peak(work: Callable[[], object]) -> float:
@@ -188,7 +188,7 @@ def _peak(work: Callable[[], object]) -> float:
 def _extremes(unit: Unit, timer: Timer) -> Iterator[Row]:
     for follower in FOLLOWERS:
         seconds = timer.seconds(scene(follower, "3-4-5").cam.extremes)
-        yield unit.row(f"extremes, {follower}", "pressure angles and least convex radius", seconds)
+        yield unit.row(f"extremes, {follower}", "pressure angles and minimum convex radius", seconds)
 
 
 def _sweeps(timer: Timer) -> Iterator[Row]:
@@ -214,7 +214,7 @@ def _sweeps(timer: Timer) -> Iterator[Row]:
 
 
 def _by_loop(some: Designs) -> list[list[float]]:
-    """The same of one cam after another: the greatest pressure angles and the least convex radius."""
+    """The same of one cam after another: the maximum pressure angles and the minimum convex radius."""
     extremes = [some.cam(k).extremes() for k in range(len(some))]
     return [[e.pressure_angle_rise[0], e.pressure_angle_return[0], e.min_convex_radius[0]] for e in extremes]
 
@@ -229,8 +229,8 @@ def _least_radii(unit: Unit, timer: Timer) -> Iterator[Row]:
     closed, exchange = map(timer.seconds, sized)
     least, arm_least = (work().prime_radius for work in sized)
     error = reference.in_eps(least, reference.least_radius(free)) if reference.available() else None
-    yield unit.row("least radius, translating", "closed form", closed, "<= 5 µs", error)
-    yield unit.row("least radius, arm", "exchange of half-planes", exchange)
+    yield unit.row("minimum prime radius, translating", "closed form", closed, "<= 5 µs", error)
+    yield unit.row("minimum prime radius, arm", "exchange of half-planes", exchange)
     lines = rivals.translating_lines(free.board.motion, LIMIT, n)
     arms = rivals.arm_lines(arm.board.motion, arm.board.limits.rise, ARM, n)
     inside = 0.2 * ARM, 0.9 * ARM
@@ -249,7 +249,7 @@ def _least_radii(unit: Unit, timer: Timer) -> Iterator[Row]:
     for follower, rival, work, goal in beside:
         ours, exact = (exchange, arm_least) if follower == "arm" else (closed, least)
         seconds, what = patient.seconds(work), f"beside {rival}, {n} stations: off by {work() / exact - 1:+.1e}"
-        yield Row(f"least radius, {follower}", what, seconds / ours, "times faster", goal, None, seconds)
+        yield Row(f"minimum prime radius, {follower}", what, seconds / ours, "times faster", goal, None, seconds)
 
 
 def _sums(timer: Timer) -> Iterator[Row]:
@@ -283,8 +283,8 @@ def _three_points(timer: Timer) -> Iterator[Row]:
 EXACT = Section(
     "exact",
     "The exact side",
-    "Times are those of the processor, SC(N) that of N sines and N cosines in the same run. Rounding is in units of "
-    "2.2e-16 of the greatest value, against 50 digits where mpmath is installed. Matrix routines share their "
-    "processors badly: where other work runs, set OPENBLAS_NUM_THREADS=1.",
+    "Times are processor times; SC(N) is the time of N sines and N cosines in the same run. Rounding is in units of "
+    "2.2e-16 of the maximum value, against 50 digits if mpmath is installed. Matrix routines share their processors "
+    "badly: if other work runs, set OPENBLAS_NUM_THREADS=1.",
     exact_rows,
 )

@@ -1,4 +1,4 @@
-"""Pencil error against the number of parts: more parts lower the method's error and raise the hand's."""
+"""Pencil error against the number of parts: more parts lower the method's error and raise the drawing error."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -12,18 +12,18 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import Floats
 
 SIGMA = 0.2
-"""What a hand is off in a line, in a setting and at the edge of the protractor [mm]."""
+"""The error of a line, of a setting and at the edge of the protractor [mm]."""
 PARTS = (3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 24, 32, 48, 64, 96)
 QUANTILES = (5.0, 95.0)
-"""Between these percentages lies a band of hands."""
+"""A band of drawings is between these percentiles."""
 
 
 @dataclass(frozen=True)
 class Hands:
-    """What many hands make of the displacement of one rise, by the number of parts, relative to the lift.
+    """Errors of many drawings of the displacement of one rise, by the number of parts, relative to the lift.
 
-    mean, low, high : the greatest error of a hand, its mean and its quantiles over the hands
-    method : the same of a perfect hand
+    mean, low, high : the maximum error of a drawing, its mean and its quantiles over the drawings
+    method : the same with an ideal pencil
     """
 
     law: str
@@ -39,12 +39,12 @@ class Hands:
 
     @property
     def best(self) -> int:
-        """The number of parts with the least mean error."""
+        """The number of parts with the smallest mean error."""
         return self.parts[self._best]
 
     @property
     def floor(self) -> float:
-        """That least mean error: a hand does no better."""
+        """That smallest mean error, which drawing by hand does not improve."""
         return self.mean[self._best]
 
     @property
@@ -65,7 +65,7 @@ def by_hand(law: str, hands: int, parts: Sequence[int] = PARTS) -> Hands:
 
 
 def shape_errors(where: TestScene, parts: int, pencil: Pencil) -> Floats:
-    """The greatest error of s on the rise of every hand, relative to the lift."""
+    """The maximum error of s on the rise in every drawing, relative to the lift."""
     chain = where.chain(parts, pencil)
     stations = chain.board.stations
     rise = stations.phases[0]
@@ -103,20 +103,20 @@ def budgets(law: str, parts: int = 12) -> list[BudgetRow]:
 
 
 def bands(law: str, hands: int, parts: int = 12) -> Mapping[str, tuple[float, float]]:
-    """Between which relative errors nine hands in ten stay, in the usual number of parts, by question."""
+    """The relative errors between which nine drawings in ten are, with the usual number of parts, by question."""
     pencil = Pencil.of(SIGMA, hands)
     fixed, free = scene("translating", law), free_scene(law)
     least = free.chain(parts, pencil)["minimum_radius"].readings["prime_radius"].value
     errors = {
         "displacement": shape_errors(fixed, parts, pencil),
-        "least radius": np.abs(least / free.least().prime_radius - 1),
+        "minimum prime radius": np.abs(least / free.least().prime_radius - 1),
         "profile": _profile_errors(fixed, parts, pencil),
     }
     return {question: tuple(np.nanpercentile(found, QUANTILES).tolist()) for question, found in errors.items()}
 
 
 def _profile_errors(where: TestScene, parts: int, pencil: Pencil) -> Floats:
-    """The greatest distance of every hand's touch points from the exact profile, relative to the prime radius."""
+    """The maximum distance of a drawing's contact points from the exact profile, relative to the prime radius."""
     chain = where.chain(parts, pencil)
     profile = chain["working_profile"]
     touch = profile.points["touch"] * profile.givens.inverted.givens.mu_l.per_mm

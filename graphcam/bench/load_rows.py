@@ -1,6 +1,6 @@
-"""What a loaded and what an elastic follower ask of the exact side: forces, shock spectra, motions by conditions.
+"""The cost of loaded and elastic followers on the exact side: forces, shock spectra, motions by conditions.
 
-Each beside what a user would write instead: samples of the forces, steps of an integrator, scipy's interpolation.
+Each is compared with a user's own alternative: samples of the forces, steps of an integrator, scipy's interpolation.
 """
 
 from collections.abc import Iterator
@@ -71,7 +71,7 @@ def load_of(follower: str) -> SpringLoad | ArmLoad:
 
 
 def extreme_forces(cam: Cam, follower: str) -> tuple[float, float, float]:
-    """The greatest and the least normal force [N], and the greatest torque [N mm]."""
+    """The maximum and the minimum normal force [N], and the maximum torque [N mm]."""
     forces = CamForces(cam, load_of(follower), friction=FRICTION)
     return forces.greatest_normal().value, forces.least_normal().value, forces.greatest_torque().value
 
@@ -90,7 +90,7 @@ def force_rows(follower: str, unit: Unit, timer: Timer) -> Iterator[Row]:
     """Of one cam: the extremes, beside samples, which always miss them on the unsafe side."""
     cam = scene(follower, "3-4-5").cam
     exact, seconds = extreme_forces(cam, follower), timer.seconds(partial(extreme_forces, cam, follower))
-    yield unit.row(f"forces, {follower}", "greatest and least normal force, greatest torque", seconds)
+    yield unit.row(f"forces, {follower}", "maximum and minimum normal force, maximum torque", seconds)
     for n in SAMPLED:
         sampled, work = sampled_forces(cam, follower, n), partial(sampled_forces, cam, follower, n)
         off = max(abs(a / b - 1) for a, b in zip(sampled, exact, strict=True))
@@ -110,7 +110,7 @@ def swept_rows(follower: str, unit: Unit, timer: Timer) -> Iterator[Row]:
     swept = sweep(some, FORCES, load=load, friction=FRICTION)
     found = np.stack([swept[quantity] for quantity in FORCES[:3]], axis=1)
     error_eps = float(np.abs(found / np.array(looped_forces(some, follower)) - 1).max()) / reference.EPS
-    yield unit.row(name, "greatest and least normal force of a design", seconds, "<= 2", error_eps)
+    yield unit.row(name, "maximum and minimum normal force of a design", seconds, "<= 2", error_eps)
     yield unit.row(name, "all forces of a design", patient.seconds(every) / CHUNK_OF_DESIGNS)
     what = "beside a loop over CamForces, which finds the places too"
     yield Row(name, what, looped / seconds, "times faster", "", None, looped)
@@ -177,7 +177,7 @@ def by_conditions() -> BoundaryMotion:
 
 
 def conditions_error() -> float | None:
-    """The greatest rounding of s, v and a [eps], each beside its greatest value."""
+    """The maximum rounding of s, v and a [eps], each relative to its maximum value."""
     if not reference.available():
         return None
     motion, phi = by_conditions(), CONDITIONS[-1].angle * (np.arange(PLACES) + 0.5) / PLACES
@@ -209,7 +209,7 @@ def condition_rows(unit: Unit, timer: Timer) -> Iterator[Row]:
 LOADS = Section(
     "loads",
     "Forces, spectra, motions by conditions",
-    "Forces under a spring with friction, found to full precision, beside samples; of many designs beside one after "
+    "Forces under a spring with friction, to full precision, beside samples; of many designs at once beside one after "
     "another. The residual of the cycloidal law against its closed form. Motions by conditions against 50 digits.",
     load_rows,
 )

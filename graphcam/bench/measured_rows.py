@@ -1,4 +1,4 @@
-"""Measured motions against those they were sampled from: random ones, with noise, and what noise permits at best."""
+"""Random motions, measured with noise, against the motions they were sampled from and the best that noise permits."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NOISES = 0.0, 0.003, 0.01, 0.03
 """Standard deviations of the displacements [mm]."""
 ROWS = 360
 SHORTEST = math.radians(25)
-"""The least angle of a phase [rad]."""
+"""The minimum angle of a phase [rad]."""
 LOWEST, HIGHEST = 4.0, 40.0
 """Lifts are between these [mm]."""
 UNEVEN = 0.4, 1.6
@@ -39,7 +39,7 @@ JERK = 60.0
 
 
 def measured_rows(gauge: Gauge) -> Iterator[Row]:
-    """Of random motions with every noise: wrong phases, ends and greatest accelerations, beside what noise permits."""
+    """Of random motions with every noise: wrong phases, ends and maximum accelerations, beside what noise permits."""
     every = list(sampled_motions(MOTIONS))
     for noise in NOISES:
         some = [one for one in every if one.noise == noise]
@@ -48,7 +48,7 @@ def measured_rows(gauge: Gauge) -> Iterator[Row]:
         seconds = gauge.timer.seconds(partial(measured_motion, first.phi, first.s, tolerance))
         wrong, end = sum(not one.phases_right for one in some), max(one.end_error for one in some)
         yield Row(name, "phases wrong", wrong, f"of {len(some)}", "<= 0", None, seconds)
-        yield Row(name, "ends off, beside two rows or what noise hides", end, "greatest", "<= 1", None, seconds)
+        yield Row(name, "ends off, beside two rows or what noise hides", end, "maximum", "<= 1", None, seconds)
         for jumps, what in enumerate(("continuous", "jumps")):
             of_these = [one for one in some if one.jumps == bool(jumps)]
             off = 100 * max(abs(one.peak_error) for one in of_these)
@@ -83,7 +83,7 @@ class Sampled:
 
     @cached_property
     def end_error(self) -> float:
-        """The greatest |error| of an end of a phase, beside two rows or what the noise hides, if that is more."""
+        """The maximum |error| of an end of a phase, beside two rows or what the noise hides, if that is more."""
         if self._turned is None:
             return math.inf
         away = np.abs((self._turned - self.motion.starts + math.pi) % FULL_TURN - math.pi)
@@ -252,7 +252,8 @@ def _peaks(motion: Motion) -> NDArray[np.floating]:
 MEASURED = Section(
     "measured",
     "Measured motions",
-    "Random motions of 2 to 6 phases by all laws, sampled at about 1 degree with noise, against what was sampled. What "
-    "noise hides of an end: motions that no test tells apart. The best linear estimate knows the jerk's usual change.",
+    "Random motions of 2 to 6 phases by all laws, sampled at about 1 degree with noise, against the sampled motions. "
+    "Noise hides an end as far as no test can distinguish the motions. The best linear estimate knows the jerk's usual "
+    "change.",
     measured_rows,
 )

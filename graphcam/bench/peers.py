@@ -1,5 +1,5 @@
 """Other packages on one test cam: prime radius 60, offset 10, roller 12, lift 30, phases of 120, 30, 90, 120 degrees,
-cycloidal rise, harmonic return.  What a package cannot describe is left out, and said.
+cycloidal rise, harmonic return.  Rows that a package cannot describe are omitted, with the reason.
 """
 
 import math

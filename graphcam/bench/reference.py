@@ -68,7 +68,7 @@ def profile_points(where: TestScene, u: Floats) -> Floats:
 
 
 def least_radius(where: TestScene) -> float:
-    """The least radius of the free scene, where the rise's and the return's tangent meet, rounded from 50 digits."""
+    """The minimum radius of the free scene, where the rise's and the return's tangent meet, rounded from 50 digits."""
     with mp.workdps(DIGITS):
         slope = mp.tan(mp.mpf(LIMIT))
         heights: list[Any] = []

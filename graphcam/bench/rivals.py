@@ -1,4 +1,4 @@
-"""What a user would take instead: sampled integration, general optimisers, polygon buffers."""
+"""The usual alternatives: sampled integration, general optimisers, polygon buffers."""
 
 import math
 from collections.abc import Callable
@@ -20,7 +20,7 @@ Lines = tuple[Floats, Floats]
 Integrator = Callable[[Floats, Floats], Floats]
 """s of the angles and the accelerations."""
 Solver = Callable[[Lines, tuple[float, float]], float]
-"""The least distance of half-planes, from a start inside them."""
+"""The minimum distance of half-planes, from a start inside them."""
 SLSQP = {"ftol": 1e-15, "maxiter": 200}
 """What the optimiser is asked for."""
 
@@ -56,7 +56,7 @@ INTEGRATORS: dict[str, Integrator] = {
 
 
 def integrated_error(motion: Motion, n: int, method: Integrator) -> float:
-    """The greatest error of s over all phases, relative to the lift."""
+    """The maximum error of s over all phases, relative to the lift."""
     errors: list[float] = []
     for k, (phi, a) in zip((0, 2), samples(motion, n), strict=True):
         exact = motion.at(k, np.linspace(0, 1, n + 1))[0]
@@ -122,7 +122,7 @@ def _square(x: Floats) -> tuple[float, Floats]:
 
 
 def by_pressure_angles(motion: Motion, limit: float, n: int, start: tuple[float, float]) -> float:
-    """The translating follower's least radius as one would first write it: SLSQP on (s0, e') and the pressure angles.
+    """The translating follower's minimum radius as one would first write it: SLSQP on (s0, e') and the pressure angles.
 
     The angles at n stations of rise and return and at the rest keep the limit; SLSQP takes its derivatives by
     differences.
@@ -169,7 +169,7 @@ _Seen = tuple[Floats, Floats, Floats]
 
 
 def by_stations(designs: Designs, n: int) -> Floats:
-    """(designs, 3) greatest pressure angles of rise and return, least convex radius, of n stations of each phase.
+    """(designs, 3) maximum pressure angles of rise and return, minimum convex radius, of n stations of each phase.
 
     A loop over the designs in plain NumPy, by the textbooks' formulas; all rises follow one law, and all returns.
     """

@@ -1,4 +1,4 @@
-"""Measured figures beside their goals: what a module of rows gives, and its place in the report."""
+"""Measured figures and their goals: the rows of a module, and their place in the report."""
 
 import math
 import re

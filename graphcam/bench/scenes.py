@@ -25,7 +25,7 @@ BENCH_LAWS = ("cycloidal", "3-4-5", "rectangular", "cosine")
 LIFT = 30.0
 """Of the translating and the flat-faced follower [mm]."""
 ARM = 100.0
-"""Length of the arm [mm]; its centre distance is left open where the least radius is sought."""
+"""Length of the arm [mm]; its centre distance is left open where the minimum radius is sought."""
 LIMIT = radians(30)
 """The permitted pressure angle of the translating follower [rad]."""
 
@@ -55,7 +55,7 @@ class TestScene:
         return Comparison(self.chain(self.board.divisions), self.cam).exact
 
     def least(self) -> LeastRadius:
-        """The exact least prime radius."""
+        """The exact minimum prime radius."""
         board, limits = self.board, self.board.limits
         follower = board.follower.built(board.follower.place, 0.0)
         allowed = board.follower.conditions | {"rise": limits.rise, "return_": limits.return_}
@@ -89,7 +89,7 @@ def scene(follower: str, law: str) -> TestScene:
 
 
 def free_scene(law: str) -> TestScene:
-    """The translating follower with its offset left open and both pressure angles limited: the least radius alone."""
+    """The translating follower with its offset left open and both pressure angles limited: the minimum radius alone."""
     fixed = scene("translating", law)
     board = replace(fixed.board, follower=DrawnTranslating(None), limits=Limits(LIMIT, LIMIT, True))
     return replace(fixed, board=board)

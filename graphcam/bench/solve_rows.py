@@ -1,4 +1,4 @@
-"""What a user waits for: a task solved with all its files, and one view of it drawn anew after a size was changed."""
+"""Waiting times: a task solved with all its files, and one view of it drawn anew after a size was changed."""
 
 import os
 import subprocess
@@ -108,7 +108,7 @@ def view_svg(task: Task | ArcsTask, view: str, names: Sequence[str]) -> str:
 
 WAITING = Section(
     "waiting",
-    "What a user waits for",
+    "Waiting times of a user",
     "A whole run is told by what it takes beyond the loading of the libraries that draw, which depends on the disk and "
     "on their versions; everything else in milliseconds of the processor on this machine.",
     solve_rows,

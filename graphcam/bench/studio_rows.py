@@ -1,4 +1,4 @@
-"""What a hand waits for that drags a handle of the studio: one view, solved and drawn anew."""
+"""The time that you wait while you drag a handle of the studio: one view, solved and drawn anew."""
 
 from collections.abc import Callable, Iterator
 from itertools import count
@@ -54,8 +54,8 @@ def dragged_size(task: dict[str, Any]) -> str:
 
 STUDIO = Section(
     "studio",
-    "What a hand waits for in the studio",
-    "One view, solved and drawn anew while a size is dragged, its labels and scales held; in milliseconds of the "
-    "processor on this machine.",
+    "Waiting times in the studio",
+    "One view, solved and drawn anew while a size is dragged, with its labels and scales held; in milliseconds of "
+    "processor time on this machine.",
     studio_rows,
 )

@@ -1,7 +1,7 @@
-"""Sweeps into Parquet files by number of designs and of workers: designs a second, and the memory of all processes.
+"""Sweeps into Parquet files by number of designs and of workers: designs per second, and the memory of all processes.
 
 Each is a run of ``graphcam sweep`` of its own, start and imports included, so that its memory is its own too.  Here the
-time of the clock counts beside that of the processors, because the workers are processes.
+elapsed time counts as well as the processor time, because the workers are processes.
 """
 
 import os

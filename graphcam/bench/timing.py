@@ -1,7 +1,7 @@
 """Times as ratios: the unit is one sine plus one cosine, measured in the same run, so it holds on every machine.
 
-A time is what the processor spent on this thread.  Other work on the machine is not in it, nor what a matrix routine
-leaves to threads of its own.
+A time is the processor time of this thread.  It includes neither other work on the machine nor the threads that a
+matrix routine starts.
 """
 
 import math
@@ -23,7 +23,7 @@ class Timer:
     least_runs: int = 3
 
     def seconds(self, work: Callable[[], object]) -> float:
-        """The least time of one run: what is longer was disturbed.
+        """The minimum time of one run: longer times were disturbed.
 
         >>> Timer(0.0).seconds(lambda: None) > 0
         True

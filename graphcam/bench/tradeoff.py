@@ -19,7 +19,7 @@ INSIDE = (0.0, 3 * LIFT)
 STATIONS = 360
 """At which the exact side is asked, of one turn."""
 ROUNDS = 2
-"""How often all points of a method are timed; the least time of each counts."""
+"""How often all points of a method are timed; the minimum time of each counts."""
 CHECKED = 24
 """Places at which the exact side is held against 50 digits."""
 Kind = Literal["graphical", "sampled", "exact"]
@@ -106,7 +106,7 @@ def _displacement(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
 
 def _least_radius(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
     motion, exact = where.board.motion, where.least().prime_radius
-    yield _drawn("least radius", sizes.graphical, where, "minimum_radius", "prime_radius")
+    yield _drawn("minimum prime radius", sizes.graphical, where, "minimum_radius", "prime_radius")
     solvers = (
         ("HalfspaceIntersection", rivals.by_half_planes, sizes.half_planes),
         ("SLSQP", rivals.by_optimiser, sizes.optimiser),
@@ -114,10 +114,12 @@ def _least_radius(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
     for name, solve, counts in solvers:
 
         def work(n: int, solve: rivals.Solver = solve) -> float:
-            """The least radius of n lines [mm]."""
+            """The minimum radius of n lines [mm]."""
             return solve(rivals.translating_lines(motion, LIMIT, n), INSIDE)
 
-        yield Trial("least radius", name, "sampled", counts, work, lambda n, work=work: abs(work(n) / exact - 1))
+        yield Trial(
+            "minimum prime radius", name, "sampled", counts, work, lambda n, work=work: abs(work(n) / exact - 1)
+        )
 
 
 def _profile(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
@@ -143,7 +145,7 @@ def _exact(fixed: TestScene, free: TestScene) -> Iterator[Trial]:
     motion, cam = fixed.board.motion, fixed.cam
     exact: list[tuple[str, Callable[[int], object], Callable[[], float]]] = [
         ("displacement", lambda n: motion(turn(n)), partial(exact_displacement_error, fixed)),
-        ("least radius", lambda _: free.least(), partial(exact_least_radius_error, free)),
+        ("minimum prime radius", lambda _: free.least(), partial(exact_least_radius_error, free)),
         ("profile", lambda n: cam.profile(turn(n)), partial(exact_profile_error, fixed)),
     ]
     for question, work, error in exact:
@@ -158,18 +160,18 @@ def turn(n: int) -> Floats:
 
 
 def exact_displacement_error(where: TestScene) -> float:
-    """The greatest error of the exact s on the rise, relative to the lift; needs mpmath."""
+    """The maximum error of the exact s on the rise, relative to the lift; needs mpmath."""
     u = inner_places()
     return float(np.abs(where.board.motion.at(0, u)[0] / LIFT - reference.law_values(where.law, u)[0]).max())
 
 
 def exact_least_radius_error(where: TestScene) -> float:
-    """The relative error of the exact least radius; needs mpmath."""
+    """The relative error of the exact minimum radius; needs mpmath."""
     return abs(where.least().prime_radius / reference.least_radius(where) - 1)
 
 
 def exact_profile_error(where: TestScene) -> float:
-    """The greatest error of an exact coordinate on the rise, relative to the prime radius; needs mpmath."""
+    """The maximum error of an exact coordinate on the rise, relative to the prime radius; needs mpmath."""
     u = inner_places()
     exact = where.cam.profile(where.board.motion.angle_at(0, u))
     return float(np.abs(exact - reference.profile_points(where, u)).max()) / where.sizes.prime_radius

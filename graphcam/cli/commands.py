@@ -32,10 +32,12 @@ def notebook(
     out: Annotated[
         Path, Option(parser=named, metavar="DIR", help="Folder for the notebook and its task.")
     ] = DEFAULT_FOLDER / "notebook",
-    run: Annotated[bool, Option("--execute", help="Execute it, so that it holds its figures.")] = False,
-    html: Annotated[bool, Option("--html", help="Execute it and make a page that stands alone.")] = False,
-    pdf: Annotated[bool, Option("--pdf", help="Execute it and print it with the installed Chromium.")] = False,
-    language: Annotated[str | None, Option(metavar="NAME", help="Of the captions, not the task's.")] = None,
+    run: Annotated[bool, Option("--execute", help="Execute it, so that it contains its figures.")] = False,
+    html: Annotated[bool, Option("--html", help="Execute it and make a web page of it in one file.")] = False,
+    pdf: Annotated[bool, Option("--pdf", help="Execute it and print it as PDF with the installed Chromium.")] = False,
+    language: Annotated[
+        str | None, Option(metavar="NAME", help="Language of the captions, instead of the task's.")
+    ] = None,
 ) -> None:
     """Write the step-by-step notebook of a task.
 
@@ -47,7 +49,7 @@ def notebook(
 
     graphcam notebook cam.toml --out lesson --html --pdf
 
-    Executing needs the extra "notebooks": in the folder of graphcam's source, pip install ".\\[notebooks]"
+    To execute it you need the extra "notebooks": in the folder of graphcam's source, pip install ".\\[notebooks]"
     """
     voice().choose(language)
     with one_message():
@@ -70,7 +72,7 @@ def bench(
         Path, Option(parser=named, metavar="DIR", help="Folder for the report and its figures.")
     ] = DEFAULT_FOLDER / "bench",
 ) -> None:
-    """Report speed against error: drawn, sampled and exact, beside what else one would use.
+    """Report speed against error of drawn, sampled and exact methods and of the usual alternatives.
 
     [bold]Examples[/bold]
 
@@ -92,17 +94,20 @@ def bench(
 def sweep(
     space: Annotated[Path, Argument(parser=named, metavar="SPACE.toml", help="File with the values of every size.")],
     out: Annotated[
-        str, Option(parser=said, metavar="PLACE", help="Results, a row a design: a .csv or .parquet file, or a folder.")
+        str,
+        Option(parser=said, metavar="PLACE", help="Results, one row per design: a .csv or .parquet file, or a folder."),
     ],
-    workers: Annotated[int, Option(min=1, help="Processes that compute.")] = 1,
-    cluster: Annotated[str, Option(metavar="ADDRESS", help="A dask scheduler, instead of processes here.")] = "",
+    workers: Annotated[int, Option(min=1, help="Number of processes.")] = 1,
+    cluster: Annotated[
+        str, Option(metavar="ADDRESS", help="A dask scheduler, instead of processes on this machine.")
+    ] = "",
 ) -> None:
-    """Compute the extremes of every combination of sizes, and which of the cams keep the limits.
+    """Compute the extremes for every combination of sizes, and find the cams that satisfy the limits.
 
-    It ends with how many keep the limits, the smallest, and the Pareto front of size and pressure angle, which is
-    written beside the results as a table and a figure.
+    At the end it shows how many cams satisfy the limits, the smallest of them, and the Pareto front of size and
+    pressure angle, which is also written beside the results as a table and a figure.
 
-    Into a folder the workers write Parquet parts themselves, and a run that was stopped goes on when started again.
+    If PLACE is a folder, the workers write Parquet parts themselves; start an interrupted run again to resume it.
 
     [bold]Examples[/bold]
 
@@ -139,11 +144,12 @@ def sweep(
 
 def init(
     file: Annotated[
-        Path, Argument(parser=named, metavar="FILE", help="Name of the task file to write; it must not be there yet.")
+        Path,
+        Argument(parser=named, metavar="FILE", help="Name of the task file to write; the file must not exist yet."),
     ],
     space: Annotated[bool, Option("--sweep", help="Write a file for 'graphcam sweep' instead.")] = False,
 ) -> None:
-    """Write a task file in which every key is explained: the coursework task, to be changed.
+    """Write the coursework task as a file in which every key is explained, for you to change.
 
     [bold]Examples[/bold]
 

@@ -39,9 +39,9 @@ if TYPE_CHECKING:
 exercise = typer.Typer(
     name="exercise", no_args_is_help=True, help="Exercises that grade themselves: variants, marking, reports."
 )
-Cluster = Annotated[str, Option(metavar="ADDRESS", help="A dask scheduler, instead of processes here.")]
+Cluster = Annotated[str, Option(metavar="ADDRESS", help="A dask scheduler, instead of processes on this machine.")]
 Hand = Annotated[
-    str, Option(metavar="NAME", help="Whose errors make the tolerances: careful, usual or first-year students'.")
+    str, Option(metavar="NAME", help="Students whose drawing errors set the tolerances: careful, usual or first-year.")
 ]
 SECRET = b"simulation"
 """Of the simulated course."""
@@ -71,15 +71,17 @@ def list_exercises() -> None:
 @exercise.command()
 def simulate(
     name: Name,
-    variants: Annotated[int, Option(min=1, metavar="N", help="Variants that are drawn.")] = 5,
-    hands: Annotated[int, Option(min=1, metavar="N", help="Students a variant and mistake.")] = 400,
-    as_json: Annotated[bool, Option("--json", help="Print the figures as JSON alone.")] = False,
+    variants: Annotated[int, Option(min=1, metavar="N", help="Number of variants.")] = 5,
+    hands: Annotated[int, Option(min=1, metavar="N", help="Students per variant and mistake.")] = 400,
+    as_json: Annotated[bool, Option("--json", help="Print only the figures, as JSON.")] = False,
     out: Annotated[Path | None, Option(parser=named, metavar="FILE", help="Write the JSON into a new file.")] = None,
-    workers: Annotated[int, Option(min=1, metavar="N", help="Processes; the figures are the same.")] = 1,
+    workers: Annotated[
+        int, Option(min=1, metavar="N", help="Number of processes; the figures do not depend on it.")
+    ] = 1,
     cluster: Cluster = "",
     hand: Hand = "",
 ) -> None:
-    """Let simulated students do an exercise: such who draw all right, and some with every catalogued mistake.
+    """Let simulated students do an exercise: some draw everything right, others make each catalogued mistake.
 
     [bold]Examples[/bold]
 
@@ -147,7 +149,8 @@ def _print_matrix(found: Simulation) -> None:
 def make(
     name: Name,
     roster: Annotated[
-        Path, Option(parser=named, metavar="CSV", help="The students: their ids in a column 'id', or the first.")
+        Path,
+        Option(parser=named, metavar="CSV", help="The students: ids in the column 'id', or else in the first column."),
     ],
     out: Annotated[Path, Option(parser=named, metavar="DIR", help="Folder for the handouts.")] = DEFAULT_FOLDER
     / "exercise",
@@ -156,25 +159,33 @@ def make(
         Option(
             parser=named,
             metavar="F",
-            help="An earlier course's secret; if left out, a new one is made.",
+            help="An earlier course's secret; by default a new one is made.",
         ),
     ] = None,
-    language: Annotated[str, Option(metavar="|".join(languages()), help="Of the handouts and of the feedback.")] = "en",
-    workers: Annotated[int, Option(min=1, metavar="N", help="Processes that draw.")] = 1,
+    language: Annotated[
+        str, Option(metavar="|".join(languages()), help="Language of the handouts and of the feedback.")
+    ] = "en",
+    workers: Annotated[int, Option(min=1, metavar="N", help="Number of processes.")] = 1,
     cluster: Cluster = "",
     hand: Hand = "",
     paper: Annotated[
-        str, Option(metavar="P", help="A1, A3, A4 or A3-tiles, to be photographed; A3 where it can be; or unmarked.")
+        str,
+        Option(
+            metavar="P",
+            help="A1, A3, A4 or A3-tiles, to be photographed, or unmarked; the default is A3 if the exercise has it.",
+        ),
     ] = "",
     ink: Annotated[
-        Literal["colour", "grey"], Option("--print", help="How the light lines of these papers are printed.")
+        Literal["colour", "grey"], Option("--print", help="How the light lines of these worksheets are printed.")
     ] = "colour",
-    studio: Annotated[str, Option(metavar="URL", help="Where your studio's page is; each gets a link into it.")] = "",
+    studio: Annotated[
+        str, Option(metavar="URL", help="Address of your studio; each student gets a link into it.")
+    ] = "",
     studio_checks: Annotated[
-        bool, Option("--studio-checks", help="Let it say right and wrong: by hashes, which a program can guess.")
+        bool, Option("--studio-checks", help="Let the studio say right or wrong, by hashes, which a program can guess.")
     ] = False,
 ) -> None:
-    """Make every student's variant: notebook, worksheet, file for the answers; and the keys for you.
+    """Make a variant for each student: notebook, worksheet and file for the answers; and the answer keys for you.
 
     [bold]Examples[/bold]
 
@@ -221,20 +232,29 @@ exercise.command()(read)
 
 @exercise.command()
 def grade(
-    folder: Annotated[Path, Argument(parser=named, metavar="DIR", help="With a folder for every student; or a zip.")],
-    out: Annotated[Path, Option(parser=named, metavar="CSV", help="The grades; reports of that name go beside it.")],
+    folder: Annotated[
+        Path, Argument(parser=named, metavar="DIR", help="Folder with a folder for each student, or a zip file.")
+    ],
+    out: Annotated[
+        Path,
+        Option(
+            parser=named, metavar="CSV", help="File for the grades; reports of the same name are written beside it."
+        ),
+    ],
     secret_file: SecretFile = None,
-    exercise: Annotated[str, Option(metavar="NAME", help="The exercise, if DIR was not made by 'exercise make'.")] = "",
-    level: Annotated[Level, Option(help="Where the code of notebooks is run; at L0 nothing is run.")] = Level.L0,
-    seconds: Annotated[float, Option(min=0.1, help="What a notebook's code may take.")] = 10.0,
+    exercise: Annotated[str, Option(metavar="NAME", help="The exercise, if 'exercise make' did not make DIR.")] = "",
+    level: Annotated[Level, Option(help="Where the code of notebooks is run; at L0 no code is run.")] = Level.L0,
+    seconds: Annotated[float, Option(min=0.1, help="Time limit in seconds for a notebook's code.")] = 10.0,
     workers: Annotated[
-        int, Option(min=1, metavar="N", help="Processes; one for each core if left out.")
+        int, Option(min=1, metavar="N", help="Number of processes; the default is one for each core.")
     ] = os.cpu_count() or 1,
     cluster: Cluster = "",
     feedback: Annotated[
-        Path | None, Option(parser=named, metavar="DIR", help="A page for every student goes there.")
+        Path | None, Option(parser=named, metavar="DIR", help="Folder for the feedback pages, one for each student.")
     ] = None,
-    gradebook: Annotated[str, Option(metavar="URL", help="Also enter the scores here, sqlite:///gradebook.db.")] = "",
+    gradebook: Annotated[
+        str, Option(metavar="URL", help="Also enter the scores into this database, such as sqlite:///gradebook.db.")
+    ] = "",
     trusted: Annotated[
         bool, Option("--i-trust-these-students", help="Allow level L1, where code can change your files.")
     ] = False,
@@ -249,9 +269,9 @@ def grade(
     anonymous: Anonymous = False,
     show_right: ShowRight = False,
 ) -> None:
-    """Grade what a course handed in: answers.toml, .csv, .ipynb or .dxf in the folder of each student.
+    """Grade the submissions of a course: answers.toml, .csv, .ipynb or .dxf in the folder of each student.
 
-    An interrupted run goes on where it was when it is started again.
+    Start an interrupted run again: it continues where it stopped.
 
     [bold]Examples[/bold]
 
@@ -283,22 +303,24 @@ def grade(
 
 @exercise.command()
 def export(
-    name: Annotated[str, Argument(metavar="NAME", help="An exercise, or the path of its file.")],
-    target: Annotated[LearningSystem, Option("--format", help="The system that it is for.")],
-    count: Annotated[int, Option(min=1, max=1000, metavar="N", help="How many variants.")] = 1,
+    name: Annotated[str, Argument(metavar="NAME", help="Name of an exercise, or its file NAME.toml.")],
+    target: Annotated[LearningSystem, Option("--format", help="The system for which to export.")],
+    count: Annotated[int, Option(min=1, max=1000, metavar="N", help="Number of variants.")] = 1,
     roster: Annotated[
-        Path | None, Option(parser=named, metavar="CSV", help="A variant for each of these students instead.")
+        Path | None, Option(parser=named, metavar="CSV", help="The students: one variant for each, instead of --count.")
     ] = None,
     secret_file: Annotated[
         Path | None,
-        Option(parser=named, metavar="F", help="An earlier course's secret; if left out, a new one is made."),
+        Option(parser=named, metavar="F", help="An earlier course's secret; by default a new one is made."),
     ] = None,
-    language: Annotated[str, Option(metavar="|".join(languages()), help="Of all that students read.")] = "en",
+    language: Annotated[
+        str, Option(metavar="|".join(languages()), help="Language of everything that students read.")
+    ] = "en",
     out: Annotated[Path, Option(parser=named, metavar="DIR", help="A new folder for the export.")] = DEFAULT_FOLDER
     / "export",
     hand: Hand = "",
 ) -> None:
-    """Export variants of an exercise for Moodle, Canvas, PrairieLearn, nbgrader, Gradescope, or what reads QTI 2.1.
+    """Export variants of an exercise for Moodle, Canvas, PrairieLearn, nbgrader, Gradescope or QTI 2.1.
 
     [bold]Examples[/bold]
 
@@ -335,12 +357,12 @@ def export(
 @exercise.command()
 def speed(
     names: Annotated[
-        list[str] | None, Argument(metavar="[NAME]...", help="Exercises or their files; all if left out.")
+        list[str] | None, Argument(metavar="[NAME]...", help="Exercises or their files; the default is all.")
     ] = None,
 ) -> None:
     """Measure how long handouts take to make, and how many submissions one core grades in a second.
 
-    Read and marked alone, and as a whole course with its files; simulated students hand in answers.toml.
+    Submissions are read and marked alone, and as a whole course with its files; simulated students submit answers.toml.
 
     [bold]Examples[/bold]
 

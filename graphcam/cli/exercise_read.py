@@ -26,19 +26,21 @@ def read(
         Path | None, Option(parser=named, metavar="DIR", help="Folder for the readings, instead of DIR/photos.")
     ] = None,
     review: Annotated[
-        Path | None, Option(parser=named, metavar="FILE.html", help="Write the page on which you check and correct.")
+        Path | None,
+        Option(parser=named, metavar="FILE.html", help="Write the page on which you check and correct the readings."),
     ] = None,
     corrections: Annotated[
-        Path | None, Option(parser=named, metavar="FILE", help="What that page exported; it is kept for later runs.")
+        Path | None,
+        Option(parser=named, metavar="FILE", help="File that this page exported; it is kept for later runs."),
     ] = None,
     workers: Annotated[
-        int, Option(min=1, metavar="N", help="Processes; one for each core if left out.")
+        int, Option(min=1, metavar="N", help="Number of processes; the default is one for each core.")
     ] = os.cpu_count() or 1,
 ) -> None:
-    """Read photographs of the worksheets of a course, whatever the files are called; then grade DIR/photos.
+    """Read photographs of a course's worksheets, with any file names; then grade DIR/photos.
 
-    A photograph is read once: an interrupted run goes on where it was, and later photographs are added.  Without any
-    photograph the corrections alone are taken in.
+    Each photograph is read once: an interrupted run continues where it stopped, and later photographs are added.  If
+    you name no photographs, only the corrections are applied.
 
     [bold]Examples[/bold]
 

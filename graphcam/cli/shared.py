@@ -56,7 +56,7 @@ def echo(words: object, *, err: bool = False) -> None:
 
 TaskFile = Annotated[
     Path | None,
-    typer.Argument(parser=named, metavar="TASK.toml", help="Task file; without it the built-in coursework."),
+    typer.Argument(parser=named, metavar="TASK.toml", help="Task file; the default is the built-in coursework task."),
 ]
 
 
@@ -157,7 +157,7 @@ def _aligned(rows: Sequence[Sequence[str]], words: int) -> list[str]:
 
 @contextmanager
 def progress_bar(things: str) -> Generator[Callable[[int, int], None]]:
-    """A bar on standard error for somebody who sits before it; it hears how many of how many are done."""
+    """A bar on standard error if it is a terminal; call what it yields with (done, total)."""
     if not sys.stderr.isatty():
         yield lambda done, total: None
         return

@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     from graphcam.solving.sizing_design import Sizing
 
 FOLDER = DEFAULT_FOLDER / "size"
-IN_FOLDER = f"Folder for the files, {FOLDER} if left out."
-JSON_ALONE = "Print the result as JSON alone; write files only with --out."
-BEST = "size: the smallest cam; stress: that under the minimum contact stress.  Left out: what the task says."
-OTHER_LANGUAGE = f"Language of the chart, not the task's: {', '.join(languages())}."
+IN_FOLDER = f"Folder for the files; the default is {FOLDER}."
+JSON_ALONE = "Print only the result, as JSON; write files only with --out."
+BEST = "size: the smallest cam; stress: the cam with the minimum contact stress.  The default is that of the task."
+OTHER_LANGUAGE = f"Language of the chart, instead of the task's: {', '.join(languages())}."
 
 
 class Objective(StrEnum):
@@ -37,16 +37,16 @@ class Objective(StrEnum):
 def size(
     task: Annotated[
         Path | None,
-        Argument(parser=named, metavar="TASK.toml", help="Task file with a table \\[sizing]; without it an example."),
+        Argument(parser=named, metavar="TASK.toml", help="Task file with a table \\[sizing]; by default an example."),
     ] = None,
     out: Annotated[Path | None, Option(parser=named, metavar="DIR", help=IN_FOLDER)] = None,
     as_json: Annotated[bool, Option("--json", help=JSON_ALONE)] = False,
     objective: Annotated[Objective | None, Option(help=BEST)] = None,
     language: Annotated[str | None, Option(metavar="NAME", help=OTHER_LANGUAGE)] = None,
 ) -> None:
-    """Find the best cam within ranges of its sizes: chart of the permitted cams, radius against stress, a sized task.
+    """Find the best cam within ranges of its sizes, chart the permitted cams, and write a task with the sizes found.
 
-    The ranges stand in the task's table \\[sizing], what is permitted in \\[limits], \\[follower] and \\[material].
+    The ranges are in the task's table \\[sizing], the limits in \\[limits], \\[follower] and \\[material].
 
     [bold]Examples[/bold]
 

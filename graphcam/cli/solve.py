@@ -36,16 +36,16 @@ if TYPE_CHECKING:
 
 LARGE = ("A1", "A2")
 """Formats that are too large for one construction."""
-FOLDER = f"Folder for the files, {DEFAULT_FOLDER} if left out."
-JSON_ALONE = "Print the solution as JSON alone; write files only with --out."
-OWN_SHEETS = "Each construction on sheets of its own, A3 where the task has A1 or A2."
-BLANK = "A blank sheet to draw on, without answers: axes, divisions, and what the task gives."
-HALF_DONE = "A half-done sheet, without other answers: up to step K, or to the end of the construction NAME."
-BY_HAND = "Draw with a hand of this standard deviation, in mm, in lines, divider settings and at a protractor's edge."
-KINDS = "plain: for every CAD program; cad: with true dimensions and attributes."
+FOLDER = f"Folder for the files; the default is {DEFAULT_FOLDER}."
+JSON_ALONE = "Print only the solution, as JSON; write files only with --out."
+OWN_SHEETS = "Each construction on sheets of its own; A3 if the task has A1 or A2."
+BLANK = "A blank sheet to draw on, without answers: axes, divisions, and the data of the task."
+HALF_DONE = "A half-done sheet: up to step K, or to the end of the construction NAME, without the later answers."
+BY_HAND = "Standard deviation, in mm, of random errors in lines, divider settings and at the protractor's edge."
+KINDS = "plain: for any CAD program; cad: with true dimensions and attributes."
 # Brackets are markup here.
-AS_PART = r"For the workshop: the cam's working drawing too, a solid and G-code, by the task's table \[part]."
-OTHER_LANGUAGE = f"Language of sheet and note, not the task's: {', '.join(languages())}."
+AS_PART = r"Also the cam's working drawing, a solid and G-code for the workshop, from the task's table \[part]."
+OTHER_LANGUAGE = f"Language of sheet and note, instead of the task's: {', '.join(languages())}."
 
 
 def solve(
@@ -53,7 +53,9 @@ def solve(
     out: Annotated[Path | None, Option(parser=named, metavar="DIR", help=FOLDER)] = None,
     as_json: Annotated[bool, Option("--json", help=JSON_ALONE)] = False,
     pencil: Annotated[float | None, Option(metavar="SIGMA_MM", help=BY_HAND)] = None,
-    divisions: Annotated[int | None, Option(metavar="N", help="Parts per phase or arc, not the task's.")] = None,
+    divisions: Annotated[
+        int | None, Option(metavar="N", help="Number of parts per phase or arc, instead of the task's.")
+    ] = None,
     language: Annotated[str | None, Option(metavar="NAME", help=OTHER_LANGUAGE)] = None,
     seed: Annotated[int, Option(metavar="N", help="Seed of the pencil's random errors.")] = 0,
     per_construction: Annotated[bool, Option("--per-construction", help=OWN_SHEETS)] = False,
@@ -72,17 +74,17 @@ def solve(
 
     graphcam solve cam.toml --json > solution.json
 
-    graphcam solve cam.toml --pencil 0.2 --seed 7   (drawn by hand, 0.2 mm off)
+    graphcam solve cam.toml --pencil 0.2 --seed 7   (with drawing errors of 0.2 mm)
 
     graphcam solve cam.toml --language ru
 
-    graphcam solve cam.toml --divisions 24   (finer: see the errors shrink)
+    graphcam solve cam.toml --divisions 24   (finer: the errors become smaller)
 
     graphcam solve cam.toml --worksheet   (blank, for students)
 
     graphcam solve cam.toml --per-construction --upto integration
 
-    graphcam solve cam.toml --dxf cad   (dimensions and title block that a CAD program can edit)
+    graphcam solve cam.toml --dxf cad   (with dimensions and a title block that a CAD program can edit)
 
     graphcam solve cam.toml --working-drawing   (the cam as a part, with its polar table)
     """

@@ -22,11 +22,11 @@ if TYPE_CHECKING:
     from graphcam.tasks.arcs_task import ArcsTask
     from graphcam.tasks.task import Task
 
-FOLDER = f"Folder for the files that the page writes, {DEFAULT_FOLDER} if left out."
-LANGUAGE = f"Language of the page and of what it writes, not the task's: {', '.join(languages())}."
-ONE_FILE = "Write the studio as one file that needs no server, and end."
-STATIC = "Write the studio as a folder for a web server, and end."
-PYODIDE = "Folder with Pyodide and NumPy for browsers, which --html and --site pack."
+FOLDER = f"Folder for the files that the page writes; the default is {DEFAULT_FOLDER}."
+LANGUAGE = f"Language of the page and of what it writes, instead of the task's: {', '.join(languages())}."
+ONE_FILE = "Write the studio as one file that needs no server, and exit."
+STATIC = "Write the studio as a folder for a web server, and exit."
+PYODIDE = "Folder with Pyodide and NumPy for browsers, which --html and --site include."
 ENDS = say("It ends with its last tab, or with Ctrl-C.")
 
 
@@ -39,10 +39,10 @@ def studio(
     site: Annotated[Path | None, Option(parser=named, metavar="DIR", help=STATIC)] = None,
     pyodide: Annotated[Path | None, Option(parser=named, metavar="DIR", help=PYODIDE)] = None,
 ) -> None:
-    """Open the studio: move a size, and see the construction and the exact values follow.
+    """Open the studio: change a size, and see the construction and the exact values follow.
 
-    The page is served to this machine alone, at an address with a secret in it: where others use the machine too, open
-    that address yourself, with --no-browser.
+    The page is served to this machine only, at an address that contains a secret.  If others use the machine too, give
+    --no-browser and open that address yourself.
 
     [bold]Examples[/bold]
 
@@ -50,7 +50,7 @@ def studio(
 
     graphcam studio cam.toml --out cam
 
-    graphcam studio cam.toml --no-browser   (prints the address to be opened)
+    graphcam studio cam.toml --no-browser   (prints the address, for you to open)
 
     graphcam studio cam.toml --html studio.html --pyodide pyodide   (one file for a course page)
 

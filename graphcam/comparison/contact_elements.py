@@ -85,7 +85,7 @@ class ElementContact:
 
     @cached_property
     def half_width(self) -> float:
-        """Where the pressure ends [mm]: its square, taken as even over x^2 by least squares, is nought there."""
+        """Where the pressure ends [mm]: there the straight line through p^2 over x^2, by least squares, is zero."""
         touch = self.pressure > 0
         slope, middle = np.polyfit(self.x[touch] ** 2, self.pressure[touch] ** 2, 1)
         return math.sqrt(-middle / slope)
@@ -100,7 +100,7 @@ def contact_by_elements(
     poisson: float = STEEL_POISSON,
     parts: int = 20,
 ) -> ElementContact:
-    """The contact of two cylinders of one material with parallel axes; it takes the extra ``fem``.
+    """The contact of two cylinders of one material with parallel axes; it needs the extra ``fem``.
 
     force : N, more than 0;  width : of the contact along the axes [mm]
     radius1, radius2 : of the cam and of the roller [mm]; a concave one is negative, a flat one infinite
@@ -109,7 +109,7 @@ def contact_by_elements(
 
     Raises
     ------
-    DesignError : a value cannot be, they touch in no single line, or the contact is too wide for one
+    DesignError : a value is impossible, they touch in no single line, or the contact is too wide for one
     TaskError : scikit-fem is not installed
 
     >>> contact = contact_by_elements(1000, 20, 30, 15)

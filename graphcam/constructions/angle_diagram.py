@@ -50,7 +50,7 @@ MEANING = Meaning(
             "max α",
             "rad",
             (Compared("max_pressure_angle_rise_deg", say("pressure angle, rise"), sides="rise_candidates"),),
-            Converges("greatest angle, rise", "max_pressure_angle_rise"),
+            Converges("maximum angle, rise", "max_pressure_angle_rise"),
         ),
         "max_return": ReadingMeaning(
             say("maximum α on the return"),

@@ -84,10 +84,10 @@ MEANING = Meaning(
         "v": ReadingMeaning(say("velocity v"), "v", "lift/rad", converges=Converges("velocity", "v", "at stations")),
         "a": ReadingMeaning(say("acceleration a"), "a", "lift/rad²"),
         "max_v": ReadingMeaning(
-            say("maximum v"), "max v", "lift/rad", (Compared("max_v"),), Converges("greatest velocity", "max_v")
+            say("maximum v"), "max v", "lift/rad", (Compared("max_v"),), Converges("maximum velocity", "max_v")
         ),
         "max_a": ReadingMeaning(
-            say("maximum a"), "max a", "lift/rad²", (Compared("max_a"),), Converges("greatest acceleration", "max_a")
+            say("maximum a"), "max a", "lift/rad²", (Compared("max_a"),), Converges("maximum acceleration", "max_a")
         ),
         "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad", over=phase_names),
         "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),

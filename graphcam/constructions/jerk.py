@@ -76,7 +76,7 @@ MEANING = Meaning(
     {
         "j": ReadingMeaning(say("jerk j"), "j", "lift/rad³", over=_parts),
         "max_j": ReadingMeaning(
-            say("maximum j"), "max j", "lift/rad³", (Compared("max_j"),), Converges("greatest jerk", "max_j")
+            say("maximum j"), "max j", "lift/rad³", (Compared("max_j"),), Converges("maximum jerk", "max_j")
         ),
     },
     "report.jerk_paragraphs.jerk",

@@ -74,7 +74,7 @@ def _amount(length: Length) -> tuple[Floats, bool]:
 class Hand:
     """A pencil at work on one construction.
 
-    meaning : what the construction says of itself
+    meaning : the construction's name, reason and readings
     lift : the unit of the lift, in those of its readings
     acts : what was done so far, by the name of what it left
     readings : what was read

@@ -127,7 +127,7 @@ class Reading:
 
     paper : mm (an angle: rad), scalar or array; with a pencil that carries samples their axis comes first
     scale : machine units per mm of paper; 1 for an angle, which is itself on every scale
-    act : how it was read, or reckoned from other readings
+    act : how it was read, or computed from other readings
     """
 
     paper: NDArray[np.float64]
@@ -158,7 +158,7 @@ class Reading:
 
 
 def _range(values: ArrayLike) -> str:
-    """A number, or the least and the greatest of many."""
+    """A number, or the minimum and the maximum of many."""
     values = np.asarray(values)
     if not values.ndim:
         return f"{values:.5g}"
@@ -185,13 +185,13 @@ class Construction(Shown, Generic[G]):
 
     Attributes
     ----------
-    meaning : what the construction says of itself
-    givens : what lay on the board, among it the constructions it started from: a small frozen dataclass
-    pencil : the hand that drew
+    meaning : the construction's name, reason and readings
+    givens : the data on the board, including the constructions it started from: a small frozen dataclass
+    pencil : the pencil that drew
     readings : what was read off the paper, by name
     points : places on the paper (complex, mm in the view's frame) that the steps and later constructions use, by name
     draw : module-level function that makes the steps
-    acts : what was done, by the name of what it left on the paper
+    acts : the acts of drawing, by the name of what each left on the paper
 
     >>> import graphcam as gc
     >>> gc.solve(gc.builtin_task()).drawn["minimum_radius"]

@@ -21,16 +21,16 @@ Stream = np.random.Generator | np.random.RandomState
 
 @dataclass(frozen=True)
 class Pencil:
-    """Standard deviations of a hand's errors; by what each act errs with them says :mod:`graphcam.drafting.slips`.
+    """Standard deviations of drawing errors; :mod:`graphcam.drafting.slips` defines the error of each act.
 
     line : of a drawn line's or point's position [mm]
     dividers : of a length that dividers carry from one place to another [mm]
     division : of the scale that readings are rounded to [mm]; 0 reads exactly
     protractor : of a measured or laid off angle [rad]
-    samples : how many hands draw at once; None for one, without a sample axis
+    samples : number of drawings made at once; None for one, without a sample axis
     seed : of the random numbers; each construction has its own stream of them
-    only : the kinds of acts that err, for an error budget; None for all.  The others' random numbers are drawn and left
-        out, so hands that differ in this alone make the same errors where both err
+    only : the kinds of acts that have errors, for an error budget; None for all.  The others' random numbers are drawn
+        and not used, so pencils that differ only in this have the same errors in the acts that have errors in both
 
     >>> import graphcam as gc
     >>> gc.Pencil(line=0.2, samples=3).perfect
@@ -47,7 +47,7 @@ class Pencil:
 
     @classmethod
     def of(cls, sigma: float, samples: int | None = None, seed: int = 0) -> Self:
-        """A hand of one number [mm]: it errs by that in lines and settings, and by it at the edge of a protractor.
+        """A pencil with one number [mm]: the error of lines and settings, and at the edge of a protractor.
 
         >>> import graphcam as gc
         >>> hand = gc.Pencil.of(0.2)
@@ -83,7 +83,7 @@ class Pencil:
         return slip.times * getattr(self, slip.of) if self.only is None or kind in self.only else 0.0
 
     def slips(self, kind: Kind, what: str, stream: Stream, shape: tuple[int, ...]) -> Floats:
-        """By how much one thing is off in as many acts, out of a construction's random numbers."""
+        """The errors of one kind in so many acts, from a construction's random numbers."""
         return self.deviation(kind, what) * stream.standard_normal(shape)
 
     def read_off(self, lengths: Floats) -> Floats:
@@ -109,7 +109,7 @@ class Pencil:
     def stream(self, construction: str) -> Stream:
         """The random numbers of one construction.
 
-        They depend on the seed and the construction's name only, so that drawing one construction more or less never
+        They depend on the seed and the construction's name only, so that adding or omitting a construction never
         changes another.
         """
         return np.random.default_rng([self.seed, *construction.encode()])

@@ -63,8 +63,8 @@ class ArmLoad:
     inertia : J of the arm and all that swings with it, about the pivot [kg mm^2]
     speed_rpm : of the cam at the instant [rpm];  acceleration : eps of the cam at the instant [rad/s^2]
     stiffness : c, of a torsion spring [N mm/rad], of a spring at a point [N/mm]
-    preload : F0 at the lowest place, of a torsion spring [N mm], of a spring at a point [N]
-    load : P, what presses on the arm's end along its path [N], positive towards the cam: a number, or a
+    preload : F0 in the lowest position, of a torsion spring [N mm], of a spring at a point [N]
+    load : P, the force on the arm's end along its path [N], positive towards the cam: a number, or a
         :class:`~graphcam.LoadCurve` over the turn
     at : where a spring at a point acts; None for a torsion spring about the pivot
 
@@ -112,7 +112,7 @@ class ArmLoad:
 
         Raises
         ------
-        DesignError : a spring at a point is led over its dead point, where it turns nothing
+        DesignError : a spring at a point passes its dead point, where it has no torque
         """
         placed = PlacedArmLoad(self, arm, distance, psi0)
         placed.check(swing)
@@ -123,7 +123,7 @@ class ArmLoad:
 class PlacedArmLoad:
     """A load on an arm beside its cam: a torque about the pivot [N mm], positive towards the cam.
 
-    arm, distance : l and c [mm];  psi0 : angle between the arm and the line of centres at the low rest [rad]; each may
+    arm, distance : l and c [mm];  psi0 : angle between arm and line of centres at the lower dwell [rad]; each may
         be an array, of many arms at once
     """
 
@@ -134,7 +134,7 @@ class PlacedArmLoad:
 
     @property
     def preload(self) -> float:
-        """Of the spring at the lowest place [N mm, or N of a spring at a point]."""
+        """Of the spring in the lowest position [N mm, or N of a spring at a point]."""
         return self.given.preload
 
     @property

@@ -29,7 +29,7 @@ LOWEST = Fraction(1, 1 << 60)
 
 @dataclass(frozen=True, eq=False, repr=False)
 class BoundaryMotion(Motion):
-    """A motion whose parts meet conditions; made by :func:`boundary_motion`.
+    """A motion whose parts satisfy conditions; made by :func:`boundary_motion`.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class BoundaryMotion(Motion):
 
 
 def boundary_motion(parts: Sequence[Part]) -> BoundaryMotion:
-    """The motion over one turn whose parts meet conditions; in the gaps between them the follower rests.
+    """The motion over one turn whose parts satisfy conditions; in the gaps between them the follower dwells.
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ SPLINE_DEGREES = 2, 9
 MOST_POINTS = 100
 """Of a part."""
 LAST_DIGITS = 1e-9
-"""Of the part's greatest displacement: what the last digits of the given numbers may change it by."""
+"""Of the part's maximum displacement: what the last digits of the given numbers may change it by."""
 MOST_TURNS = 2
 """So often a part may turn between neighbouring points."""
 WILD = 0.5
@@ -151,7 +151,7 @@ class PolynomialPart(_Part):
     Parameters
     ----------
     points : two or more in the order of their angles; the part leads from the first to the last
-    degree : one less than the conditions; None takes what they ask for, a number is checked
+    degree : one less than the number of conditions; None takes this degree, a given number is checked
 
     Raises
     ------
@@ -214,14 +214,14 @@ def _newton(places: Sequence[Fraction], at: Fraction, order: int) -> list[Fracti
 class SplinePart(_Part):
     """A part of a motion: the B-spline of a degree that meets all conditions of its points.
 
-    With n conditions a spline of degree p has n - p - 1 inner knots.  Left out, each is the mean of p neighbouring
-    places of conditions, so that every B-spline has its own; moved, they shift the peaks of the acceleration.
+    With n conditions a spline of degree p has n - p - 1 inner knots.  By default each is the mean of p neighbouring
+    places of conditions, so that every B-spline has its own; moving them shifts the peaks of the acceleration.
 
     Parameters
     ----------
     points : two or more in the order of their angles; the part leads from the first to the last
     degree : 2 to 9; all derivatives below it are continuous at the knots, where the pieces join
-    knots : the angles [rad] of the inner knots; None has them chosen
+    knots : the angles [rad] of the inner knots; if None, they are chosen
 
     Raises
     ------

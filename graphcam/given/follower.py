@@ -59,7 +59,7 @@ class Oscillating:
     """A follower that swings about a pivot at (distance, 0) on an arm, with a roller or a knife edge.
 
     arm, roller_radius : mm
-    distance : centre distance [mm]; None leaves it to be found with the least radius, a cam needs it
+    distance : centre distance [mm]; if None, it is found with the minimum radius; a cam needs it
     """
 
     arm: float

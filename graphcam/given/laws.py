@@ -325,7 +325,7 @@ LAWS: tuple[str, ...] = (*BETWEEN_DWELLS, *RISE_FALL)
 
 
 def law(name: str | Law, ratio: float = 1.0) -> Law:
-    """The normalised motion law of that name; a law of one's own as it is.
+    """The normalised motion law of that name; a law of your own is returned as it is.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
 
 @dataclass(frozen=True)
 class LoadCurve:
-    """A load that depends on the cam angle; between two rows it changes evenly.
+    """A load that depends on the cam angle; between two rows it is linear.
 
     phi : (n,) cam angles [rad], each greater than the one before, from 0 to a full turn
     force : (n,) the load there [N], positive where it presses the follower on the cam; the last as the first
@@ -103,7 +103,7 @@ def check_load(load: Load) -> None:
 
 
 def largest(load: Load) -> float:
-    """The greatest magnitude of a load [N].
+    """The maximum magnitude of a load [N].
 
     >>> largest(-3.0)
     3.0

@@ -58,7 +58,7 @@ class Deviations:
         return deviation, slope, bend
 
     def times(self, share: float) -> "Deviations":
-        """All of them so many times as large."""
+        """All of them multiplied by a factor."""
         return Deviations(self.harmonics, share * self.waves, {name: share * off for name, off in self.sizes.items()})
 
 
@@ -73,7 +73,7 @@ class MakingErrors:
     Parameters
     ----------
     waviness : mm, the amplitudes of the profile's waves, along its normal;  harmonics : as many, waves per turn
-    roller_diameter, offset, distance, arm : mm, the width of the tolerance zone, from the least size to the greatest;
+    roller_diameter, offset, distance, arm : mm, the width of the tolerance zone, from the minimum size to the maximum;
         0 is exact.  A flat face has none of them, a translating follower no distance and no arm
     distribution : of the sizes, "normal" or "uniform"
 
@@ -128,9 +128,9 @@ class MakingErrors:
         return PARTS[self.distribution] if name in SIZES else OF_A_WAVE
 
     def sample(self, samples: int, seed: int = 0) -> Deviations:
-        """So many cams as they may come from the workshop, each of the arrays (..., samples, 1).
+        """A sample of cams as the workshop may make them; the arrays are (..., samples, 1).
 
-        The random numbers of an error depend on the seed and its name alone: one error more does not change the others.
+        The random numbers of an error depend only on the seed and its name: adding an error does not change the others.
 
         >>> import graphcam as gc
         >>> off = gc.MakingErrors((0.01,), (12,), roller_diameter=0.06).sample(100_000)

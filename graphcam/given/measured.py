@@ -60,7 +60,7 @@ class MeasuredMotion(Motion):
     ----------
     zero : the cam angle [rad] of the table where this motion's begins: 0, unless the follower moves there
     phi, measured : (n,) the table: its cam angles [rad], and displacements [mm] above the motion's lowest
-    tolerance : how far the motion may pass a row [mm]
+    tolerance : how far the motion may be from a row [mm]
     """
 
     zero: float
@@ -78,7 +78,7 @@ class MeasuredMotion(Motion):
 
     @property
     def greatest_residual(self) -> float:
-        """The greatest |residual| [mm]; it is no greater than the tolerance."""
+        """The maximum |residual| [mm]; it is at most the tolerance."""
         return float(np.max(np.abs(self.residuals)))
 
     @property
@@ -104,20 +104,20 @@ class IntegratedMotion(MeasuredMotion):
 def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOLERANCE) -> MeasuredMotion:
     """The motion through measured displacements, smooth to the third derivative.
 
-    Where the rows keep to one level the motion rests; else it rises or falls from each rest or turning point to the
-    next: by a quintic spline, the most likely one (:mod:`graphcam.given.monotone_spline`).
+    Where the rows stay at one level the motion dwells; otherwise it rises or falls from each dwell or turning point to
+    the next, by a quintic spline, the most likely one (:mod:`graphcam.given.monotone_spline`).
 
-    The rows are taken to err each for itself, by Gaussian noise of one standard deviation: what neighbouring rows show,
-    and no more than the tolerance/4.5.  So a tolerance is 4.5 times what the table scatters by, or more; if it is less,
-    noise becomes motion, if it is more, small motions are not seen.  Where rests are off their level by more than such
-    noise explains, as with waves or after an integration, the tolerance/4.5 is taken for it.  Ends of phases are told
-    as far as the noise lets them: with the 4-5-6-7 law they are hidden for several degrees.
+    The errors of the rows are assumed to be independent, with Gaussian noise of one standard deviation, which is found
+    from neighbouring rows and is at most tolerance/4.5.  So give a tolerance of 4.5 times the scatter of the table, or
+    more: if it is smaller, noise becomes motion; if it is larger, small motions are not seen.  Where dwells are off
+    their level by more than such noise explains, as with waves or after an integration, tolerance/4.5 is used instead.
+    Ends of phases are found as exactly as the noise permits: with the 4-5-6-7 law they are hidden for several degrees.
 
     Parameters
     ----------
     phi : (n,) cam angles [rad], growing, over one turn; the last row may repeat the first one a turn later
     s : (n,) displacements [mm; an arm's: rad]
-    tolerance : how far the motion may pass a row, in the unit of s
+    tolerance : how far the motion may be from a row, in the unit of s
 
     Raises
     ------
@@ -156,9 +156,9 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
 def integrated_motion(phi: ArrayLike, a: ArrayLike, tolerance: float = DEFAULT_TOLERANCE) -> IntegratedMotion:
     """The motion whose accelerations were measured [mm/rad^2 at cam angles in rad]: integrated twice, then fitted.
 
-    Between rows the acceleration is taken to be straight.  For the follower to come back to where it was, the mean of
-    the acceleration is taken from every row, and the velocity begins so that its own mean is zero; what was taken is
-    ``closing``.  The tolerance holds for the displacements.
+    Between rows the acceleration is assumed to be linear.  So that the follower returns to its initial place, the mean
+    acceleration is subtracted from every row, and the initial velocity makes its own mean zero; ``closing`` is what was
+    subtracted.  The tolerance holds for the displacements.
 
     Raises
     ------
@@ -249,7 +249,7 @@ def _degrees(angle: float) -> Unquoted:
 def _scatter(phi: Floats, s: Floats) -> float:
     """The standard deviation of the rows, from what a polynomial of the fifth degree through every seven leaves.
 
-    The median of a part of the turn does not see the few rows about a jump; the greatest of the parts is taken,
+    The median of a part of the turn does not see the few rows about a jump; the maximum of the parts is taken,
     because rounding is smaller where the follower rests.
     """
     rows = np.arange(s.size)[:, None] + np.arange(WINDOW)

@@ -17,7 +17,7 @@ from graphcam.given.pieces import Piece, Piecewise, at_rest, chunks, in_phase
 from graphcam.showing import Shown, in_lines
 
 CLOSURE = 1e-9
-"""How far the angles may miss a full turn (rad), and the lifts zero (relative to the greatest)."""
+"""How far the angles may miss a full turn (rad), and the lifts zero (relative to the maximum)."""
 FULL_TURN = 2 * math.pi
 NEARLY = 0.02
 """So much of a turn angles may miss it and still be meant for one, where another unit or argument is looked for."""
@@ -69,7 +69,7 @@ def _check_side(side: str) -> None:
 
 @dataclass(frozen=True)
 class Dwell:
-    """A phase of rest over ``angle`` radians of the cam."""
+    """A dwell over ``angle`` radians of the cam."""
 
     angle: float
     kind: ClassVar[str] = "dwell"
@@ -214,7 +214,7 @@ class Motion(Shown):
 
     @cached_property
     def lift(self) -> float:
-        """The greatest displacement [mm]."""
+        """The maximum displacement [mm]."""
         return float(self.levels.max())
 
     @property

@@ -23,14 +23,14 @@ from graphcam.given.pieces import Floats, Formula, Piece, Piecewise, Side, chunk
 Fourth = Callable[[Floats], tuple[Floats, float]]
 """f'''' of the distance x from an end of a phase, and a bound on |f'''''| over the piece."""
 Tangent = Callable[[float], tuple[float, float]]
-"""Where f' - f/k is greatest, and how great, as a function of k: a closed form."""
+"""Where f' - f/k is largest, and how great, as a function of k: a closed form."""
 _OfNumber = Callable[[float], Sequence[Any]]
 SHARP = 1e-6
-"""Where the acceleration, or its slope, jumps by more than this part of the greatest acceleration, it is told."""
+"""Where the acceleration, or its slope, jumps by more than this part of the maximum acceleration, it is told."""
 CLOSE = 1e-9
-"""What a law gives of itself is true to this; intervals around a greatest value are narrowed to it."""
+"""What a law gives of itself is true to this; intervals around a maximum value are narrowed to it."""
 SMOOTH = 1e-7
-"""The derivatives are one another's, over a part of a piece, to this fraction of the greatest."""
+"""The derivatives are one another's, over a part of a piece, to this fraction of the maximum."""
 PARTS = 17
 """So many parts of a piece are looked at: a prime, so that no usual fraction, where a formula may bend, ends one."""
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
@@ -52,11 +52,11 @@ class Law:
     middle : from here on formulas are functions of w = 1 - u that return 1 - f and its derivatives by w
     ratio : |a1|/|a2|, first part's acceleration over the second's, if the law has two such parts
     peaks : max f' and max |f''|; None has them found
-    tangents : closed forms of the place u where f' - f/k is greatest, and of that value, for any k > 0; the second one
+    tangents : closed forms of the place u where f' - f/k is largest, and of that value, for any k > 0; the second one
         is that of the law seen from its end.  None has the place found
     fourths : for each formula a function that returns f'''' at an array, and a bound on |f'''''| over the piece; with
-        them it is proved where a quantity is greatest.  Left out, f'''' is estimated, and nothing is proved
-    trusted : it is known to be a law, so it is not checked, which takes some milliseconds
+        them it is proved where a quantity is largest.  Left out, f'''' is estimated, and nothing is proved
+    trusted : it is known to be a law, so the check is omitted, which takes some milliseconds
     seams : those edges at which no derivative jumps: the formulas of either side only look from different ends
 
     Raises
@@ -131,7 +131,7 @@ class Law:
         return tuple(out.reshape(4, *u.shape)[: derivatives + 1])
 
     def at(self, u: float, side: Side = "right") -> list[float]:
-        """f, f', f'' and the third derivative at one place in [0, 1], sooner than from an array of one.
+        """f, f', f'' and the third derivative at one place in [0, 1], faster than from an array of one.
 
         >>> import graphcam as gc
         >>> gc.law("3-4-5").at(0.5)
@@ -231,7 +231,7 @@ class Law:
     # --- what a law must keep to --------------------------------------------------------------------------------------
 
     def _greatest(self, order: int) -> float:
-        """The greatest magnitude of a derivative, of both sides of a jump, to full precision."""
+        """The maximum magnitude of a derivative, of both sides of a jump, to full precision."""
         low, high = self._parts()
         while True:
             u = np.linspace(low, high, 9)

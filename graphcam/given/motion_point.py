@@ -14,7 +14,7 @@ ORDERS = "s", "v", "a", "j"
 
 @dataclass(frozen=True)
 class MotionPoint:
-    """What is asked of a motion at one cam angle; what is left out is free there.
+    """Conditions on a motion at one cam angle; values that are omitted are free there.
 
     Parameters
     ----------

@@ -142,7 +142,7 @@ def boundary_law(parts: Sequence[Part] | Sequence[MotionPoint], name: str = "by 
 def constant_velocity_law(start: float = 0.25, end: float = 0.25, smooth: int = 2) -> Law:
     """The law of constant velocity between two blends, which lead from rest to it and back to rest.
 
-    The velocity of a blend is the polynomial of least degree with ``smooth - 1`` derivatives that are zero at both of
+    The velocity of a blend is the polynomial of lowest degree with ``smooth - 1`` derivatives that are zero at both of
     its ends: a line with 1, 3 x^2 - 2 x^3 with 2, 10 x^3 - 15 x^4 + 6 x^5 with 3.  Its mean is half the constant
     velocity V, so V = 2/(2 - start - end).  Sources: H. A. Rothbart, *Cams* (1956), chapter 2; R. L. Norton, *Cam
     Design and Manufacturing Handbook* (2009), section 4.6.
@@ -150,11 +150,11 @@ def constant_velocity_law(start: float = 0.25, end: float = 0.25, smooth: int = 
     Parameters
     ----------
     start, end : fractions of the phase that the first and the last blend take, together less than 1
-    smooth : the derivative of the lift that is the highest continuous one: 1 velocity, 2 acceleration, 3 jerk
+    smooth : the order of the highest continuous derivative of the lift: 1 velocity, 2 acceleration, 3 jerk
 
     Raises
     ------
-    DesignError : a blend is too short, they leave no way between them, or there are no such blends
+    DesignError : a blend is too short, they leave nothing between them, or there are no such blends
 
     >>> import graphcam as gc
     >>> gc.constant_velocity_law(0.25, 0.25).at(0.5)

@@ -17,7 +17,7 @@ class RollerContact:
 
     Raises
     ------
-    DesignError : a value cannot be
+    DesignError : a value is impossible
 
     >>> import graphcam as gc
     >>> round(gc.RollerContact(width=15).modulus, 3)

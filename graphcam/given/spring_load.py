@@ -24,10 +24,10 @@ class SpringLoad:
     mass : of the follower and all that moves with it [kg]
     speed_rpm : of the cam at the instant [rpm];  acceleration : eps of the cam at the instant [rad/s^2], 0 at a
         constant speed
-    stiffness : c of the spring [N/mm];  preload : F0 at the lowest place [N], with a constant load of the follower
-    friction : in the guide [N], whatever the side force: it acts against the motion, so the cam bears it on a rise and
+    stiffness : c of the spring [N/mm];  preload : F0 in the lowest position [N], with a constant load of the follower
+    friction : in the guide [N], whatever the side force: it acts against the motion, so it loads the cam on a rise and
         is relieved of it on a return
-    load : P, what presses on the follower besides [N], positive towards the cam: a number, or a
+    load : P, a further force on the follower [N], positive towards the cam: a number, or a
         :class:`~graphcam.LoadCurve` over the turn
 
     Raises
@@ -89,7 +89,7 @@ class SpringLoad:
         return inertia + self.stiffness * v + load_slope(self.load, phi)
 
     def size(self, values: Values) -> Floats:
-        """The sum of the magnitudes of the force's terms [N]: what its rounding is a part of."""
+        """The sum of the magnitudes of the force's terms [N], to which its rounding is relative."""
         s, v, a, _ = values
         inertia = self.mass / MM_PER_M * (abs(a) * self.omega**2 + abs(v * self.acceleration))
         return inertia + abs(self.preload) + self.stiffness * s + self.friction + largest(self.load)
@@ -104,7 +104,7 @@ class Guide:
     """Two bearings in which the stem of a translating follower slides.
 
     friction : mu, the coefficient of friction between stem and bearing
-    overhang : b, from the roller's centre up to the nearer bearing with the follower at its lowest place [mm]
+    overhang : b, from the roller's centre up to the nearer bearing with the follower in its lowest position [mm]
     length : l, from the nearer bearing to the farther one [mm]
 
     Raises

@@ -147,7 +147,7 @@ class ArcMotion(Shown):
 
     @property
     def prime_radius(self) -> float:
-        """The least distance of the trace point from the cam centre [mm]."""
+        """The minimum distance of the trace point from the cam centre [mm]."""
         return float(1 / self.arcs.curvature[4])
 
     @property
@@ -186,7 +186,7 @@ class ArcMotion(Shown):
 
     @property
     def jumps(self) -> list[Jump]:
-        """The soft impacts: where the acceleration jumps [mm/rad^2]; the velocity jumps nowhere, for arcs touch."""
+        """The soft impacts: where the acceleration jumps [mm/rad^2]; the velocity never does: the arcs are tangent."""
         phi = self.breaks
         before, after = self(phi, "left")[2], self(phi, "right")[2]
         jumped = np.abs(after - before) > ROUNDING * np.abs(before).max()
@@ -194,15 +194,15 @@ class ArcMotion(Shown):
         return [Jump(*row) for row in zip(*columns, strict=True)]
 
     def max_velocity(self) -> tuple[float, float]:
-        """The greatest |v| [mm/rad] of the turn and where on the rise [rad]."""
+        """The maximum |v| [mm/rad] of the turn and where on the rise [rad]."""
         return self._greatest(lambda r: r[1], slope=lambda r: r[2])
 
     def max_acceleration(self) -> tuple[float, float]:
-        """The greatest |a| [mm/rad^2] of the turn, of both sides at a jump, and where on the rise [rad]."""
+        """The maximum |a| [mm/rad^2] of the turn, of both sides at a jump, and where on the rise [rad]."""
         return self._greatest(lambda r: r[2], slope=lambda r: r[3])
 
     def max_pressure_angle(self) -> tuple[float, float]:
-        """The greatest pressure angle [rad] and where on the rise [rad]; on the return it is the same, negative."""
+        """The maximum pressure angle [rad] and where on the rise [rad]; on the return it is the same, negative."""
         return self._greatest(lambda r: np.arctan2(r[1], r[0]), slope=lambda r: r[2] * r[0] - r[1] ** 2)
 
     # --- how it is found ---------------------------------------------------------------------------------------------
@@ -240,7 +240,7 @@ class ArcMotion(Shown):
         return r, r1, r2, (3 * b * r1 + b1 * r - 3 * s1 * r2) / s
 
     def _greatest(self, value: Callable[[Values], Floats], slope: Callable[[Values], Floats]) -> tuple[float, float]:
-        """The value of greatest magnitude on the rise: at an end of an arc, or where its slope vanishes."""
+        """The value of maximum magnitude on the rise: at an end of an arc, or where its slope vanishes."""
 
         def slope_at(psi: Floats, arc: NDArray[np.intp]) -> Floats:
             """The slope at places [rad] of arcs."""

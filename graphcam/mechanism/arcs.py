@@ -70,7 +70,7 @@ def three_arc_cam(
 
     Raises
     ------
-    DesignError : the data cannot be, or A and G ask for a second arc that is straight
+    DesignError : the data are impossible, or A and G ask for a second arc that is straight
 
     >>> import graphcam as gc
     >>> cam, other = gc.three_arc_cam(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, C1=(35.71, 13), C2=(0, -75.64))

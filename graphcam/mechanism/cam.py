@@ -48,9 +48,9 @@ class CamPoints:
 class Extremes:
     """The extremes of a cam, each as (value, phi) to full precision; equal ones are told by the first.
 
-    pressure_angle_rise, pressure_angle_return : the signed value [rad] of greatest magnitude in any rise, any return
-    min_convex_radius : the least radius of curvature [mm] of the convex parts of the pitch curve; at a jump of the
-        acceleration both one-sided values count.  Of a flat-faced follower the least rho = r0 + s + a, signed: at 0
+    pressure_angle_rise, pressure_angle_return : the signed value [rad] of maximum magnitude in any rise, any return
+    min_convex_radius : the minimum radius of curvature [mm] of the convex parts of the pitch curve; at a jump of the
+        acceleration both one-sided values count.  Of a flat-faced follower the minimum rho = r0 + s + a, signed: at 0
         the profile has a cusp, below 0 it cannot be cut
     min_convex_radius_moving : the same over the rises and returns alone; (inf, nan) if nothing there is convex
     """
@@ -69,7 +69,7 @@ class Cam(Shown):
     ----------
     motion : displacement over one revolution
     follower : translating, oscillating or flat-faced; of a flat-faced one pitch curve and profile are the same curve
-    prime_radius : r0 [mm], the least radius of the pitch curve
+    prime_radius : r0 [mm], the minimum radius of the pitch curve
     rotation : "ccw" or "cw"
 
     Raises
@@ -78,7 +78,7 @@ class Cam(Shown):
         centre distance is left open, or the rotation is unknown
 
     A roller larger than the minimum radius of curvature is no error here: the profile is then the whole envelope, with
-    its loops; :meth:`undercuts` finds them.  So it is with a flat face on too small a cam.
+    its loops; :meth:`undercuts` finds them.  The same holds for a flat face on too small a cam.
 
     >>> import graphcam as gc
     >>> from math import degrees, radians
@@ -184,12 +184,12 @@ class Cam(Shown):
         return CamPoints(phi, values, pitch, profile, self._pressure_angle(values), curvature)
 
     def extremes(self) -> Extremes:
-        """Greatest pressure angles and least convex radii of curvature, each proved to be exceeded nowhere.
+        """Maximum pressure angles and minimum convex radii of curvature, each proved to be exceeded nowhere.
 
-        Of the laws that graphcam brings, measured and sampled ones among them, no extreme can hide beside another: what
-        they do between two places is bounded by their fourth derivatives (see :mod:`graphcam.mechanism.highest`).  So
-        it is with a law of one's own that brings ``fourths``.  Of one without, these are estimated over 128 parts of
-        the phase, which finds the extremes of every law that does not wave faster, and proves nothing.
+        With the laws of graphcam, measured and sampled ones included, no extreme can hide beside another, because their
+        fourth derivatives bound them between two points (see :mod:`graphcam.mechanism.highest`).  The same holds for a
+        law of your own that has ``fourths``.  Without them, they are estimated over 128 parts of the phase; this finds
+        the extremes of every law that does not oscillate faster, but proves nothing.
         """
         search, kin = Search(self.motion), self.kinematics
         steep = search.highest(kin.steepness, kin.pressure_slope, signed=True)
@@ -203,7 +203,7 @@ class Cam(Shown):
         )
 
     def undercuts(self) -> list[Undercut]:
-        """What is lost of the profile where the roller is too large, in order; an empty list if the cam is sound.
+        """The parts of the profile that are lost if the roller is too large, in order; an empty list for a sound cam.
 
         A flat face undercuts a cam that is too small.
 
@@ -290,7 +290,7 @@ class Cam(Shown):
 
 
 def largest_roller(cam: Cam) -> float:
-    """The roller radius [mm] that a sound profile stays below: the least convex radius of the pitch curve.
+    """The roller radius [mm] that a sound profile stays below: the minimum convex radius of the pitch curve.
 
     The prime radius limits it too.  It is a matter of the pitch curve alone, whatever roller the follower has.
 

@@ -34,7 +34,7 @@ from graphcam.showing import by_parts
 
 
 class SpringPreload(NamedTuple):
-    """The least preload [N] that keeps contact, and the cam angle [rad] where it is needed.
+    """The minimum preload [N] that keeps contact, and the cam angle [rad] where it is needed.
 
     It is the supremum of -(m (a omega^2 + v eps) + c s) over the turn.  If it is negative, contact is kept even by a
     spring without preload.
@@ -58,7 +58,7 @@ class ContactCurve:
 def spring_preload(
     motion: Motion, mass: float, speed_rpm: float, stiffness: float, acceleration: float = 0.0
 ) -> SpringPreload:
-    """The least preload that keeps a translating follower on its cam over the whole turn: sup -(m a omega^2 + ...).
+    """The minimum preload that keeps a translating follower on its cam over the whole turn: sup -(m a omega^2 + ...).
 
     mass : kg;  speed_rpm : of the cam [rpm];  stiffness : of the spring [N/mm]
     acceleration : of the cam [rad/s^2], 0 at a constant speed
@@ -78,7 +78,7 @@ def spring_preload(
 
 
 def least_preload(cam: Cam, load: SpringLoad | ArmLoad) -> SpringPreload:
-    """The least preload of a load's spring that keeps any follower on its cam over the whole turn.
+    """The minimum preload of a load's spring that keeps any follower on its cam over the whole turn.
 
     load : its own preload does not count
     returns : preload [N; N mm of a torsion spring about an arm's pivot], negative if none is needed, and the cam angle
@@ -143,12 +143,12 @@ class Contact:
     __repr__ = by_parts
 
     def least_force(self) -> ValueAt:
-        """The least xi over the turn [N], both sides of every jump included; of equal ones the first."""
+        """The minimum xi over the turn [N], both sides of every jump included; of equal ones the first."""
         value, phi, side = self._greatest(-1)
         return ValueAt(-value, phi, side)
 
     def greatest_force(self) -> ValueAt:
-        """The greatest xi over the turn [N], both sides of every jump included; of equal ones the first."""
+        """The maximum xi over the turn [N], both sides of every jump included; of equal ones the first."""
         return self._greatest(+1)
 
     def lost(self) -> list[tuple[float, float]]:

@@ -135,9 +135,9 @@ def _ones(values: Values) -> Floats:
 
 @dataclass(frozen=True)
 class FaceWidth:
-    """How far the contact wanders on the face, to the left and to the right of the follower's axis [mm].
+    """How far the contact moves on the face, to the left and to the right of the follower's axis [mm].
 
-    It is the least face; a design adds a margin.
+    It is the minimum face; a design adds a margin.
     """
 
     left: float
@@ -145,7 +145,7 @@ class FaceWidth:
 
 
 def face_width(motion: Motion, rotation: Rotation = "ccw") -> FaceWidth:
-    """The least half-widths of a flat face: the contact wanders by sigma v from the follower's axis.
+    """The minimum half-widths of a flat face: the contact moves by sigma v from the follower's axis.
 
     >>> from math import pi, radians
     >>> import graphcam as gc
@@ -160,7 +160,7 @@ def face_width(motion: Motion, rotation: Rotation = "ccw") -> FaceWidth:
 
 @dataclass(frozen=True)
 class FlatMinimumRadius:
-    """The least prime radius [mm] under a flat face; ``active`` is ("curvature",), or () where any radius will do."""
+    """The minimum prime radius [mm] under a flat face; ``active`` is ("curvature",), or () where any radius will do."""
 
     prime_radius: float
     active: tuple[Literal["curvature"], ...]
@@ -172,7 +172,7 @@ class FlatMinimumRadius:
 def flat_minimum_radius(
     motion: Motion, follower: FlatFaced, sigma: int, limits: Limits, curvature: float | None = None
 ) -> FlatMinimumRadius:
-    """The least prime radius at which rho = r0 + s + a is nowhere less than the permitted ``curvature`` radius [mm].
+    """The minimum prime radius at which rho = r0 + s + a is nowhere less than the permitted ``curvature`` radius [mm].
 
     >>> from math import pi
     >>> import graphcam as gc

@@ -45,12 +45,12 @@ class FollowerTrain:
 
     mass : m of all that moves, reduced to the follower's motion [kg];  stiffness : k of the train [N/mm]
     damping : ratio c/c_critical, as a free vibration in a dwell shows it; 0.02 to 0.1 is usual
-    spring : c_s, stiffness of the return spring [N/mm];  preload : F0, its force at the lowest place [N], with any
+    spring : c_s, stiffness of the return spring [N/mm];  preload : F0, its force in the lowest position [N], with any
         constant load
 
     Raises
     ------
-    DesignError : a value cannot be
+    DesignError : a value is impossible
 
     >>> import graphcam as gc
     >>> train = gc.FollowerTrain(mass=0.5, stiffness=2000, damping=0.05, spring=20, preload=200)
@@ -189,15 +189,15 @@ class VibratingFollower(Shown):
         return TrainMotion(phi, *((each + unknown).reshape(phi.shape) for each in (x, x1, x2, y, force)))
 
     def least_force(self) -> ValueAt:
-        """The least N of the turn [N]; of equal ones the first."""
+        """The minimum N of the turn [N]; of equal ones the first."""
         return self._first(np.argmin)
 
     def greatest_force(self) -> ValueAt:
-        """The greatest N of the turn [N]; of equal ones the first."""
+        """The maximum N of the turn [N]; of equal ones the first."""
         return self._first(np.argmax)
 
     def least_preload(self) -> float:
-        """The least preload [N] with which the follower keeps to the cam at this speed."""
+        """The minimum preload [N] with which the follower keeps to the cam at this speed."""
         return self.train.preload - self.least_force().value
 
     def lost(self) -> list[tuple[float, float]]:

@@ -199,7 +199,7 @@ class CamForces:
         )
 
     def greatest_normal(self) -> ValueAt:
-        """The greatest normal force over the turn [N], both sides of every jump included.
+        """The maximum normal force over the turn [N], both sides of every jump included.
 
         Raises
         ------
@@ -208,7 +208,7 @@ class CamForces:
         return self._greatest(self.normal_slope, self.normal)
 
     def least_normal(self) -> ValueAt:
-        """The least normal force over the turn [N]; contact is lost where it is negative.
+        """The minimum normal force over the turn [N]; contact is lost where it is negative.
 
         Raises
         ------
@@ -217,7 +217,7 @@ class CamForces:
         return self._greatest(self.normal_slope, self.normal, -1)
 
     def greatest_torque(self) -> ValueAt:
-        """The greatest torque that must drive the cam [N mm].
+        """The maximum torque that must drive the cam [N mm].
 
         Raises
         ------
@@ -237,7 +237,7 @@ class CamForces:
         return self._greatest(self.torque_slope, self.torque)
 
     def least_torque(self) -> ValueAt:
-        """The least torque on the cam [N mm], negative where the follower drives it.
+        """The minimum torque on the cam [N mm], negative where the follower drives it.
 
         Raises
         ------
@@ -246,7 +246,7 @@ class CamForces:
         return self._greatest(self.torque_slope, self.torque, -1)
 
     def least_efficiency(self) -> ValueAt:
-        """The least efficiency of the guide over the rises; at 0 or below it jams."""
+        """The minimum efficiency of the guide over the rises; at 0 or below it jams."""
         worst = greatest_of(self.cam.motion, self._slip_slope, self._slip_on_rises)
         return worst._replace(value=1 - worst.value)
 
@@ -299,7 +299,7 @@ class CamForces:
     def _greatest(
         self, slope: Callable[[Places], Floats], quantity: Callable[[Places], Floats], sign: int = 1
     ) -> ValueAt:
-        """The greatest value, or with -1 the least, of a quantity that grows without bound where the follower jams."""
+        """The maximum value, or with -1 the minimum, of a quantity that grows without bound where the follower jams."""
         self.check()
         found = greatest_of(self.cam.motion, slope, lambda places: sign * quantity(places), knots=self.pressing.knots)
         return found._replace(value=sign * found.value)

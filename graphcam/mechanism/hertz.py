@@ -48,7 +48,7 @@ def hertz_line_contact(
 
     Raises
     ------
-    DesignError : a value cannot be, or a hollow is no wider than what lies in it: they touch in no single line
+    DesignError : a value is impossible, or a hollow is no wider than what lies in it: they touch in no single line
 
     >>> import graphcam as gc
     >>> pressure, half_width = gc.hertz_line_contact(1000, 20, 30, 15)
@@ -152,7 +152,7 @@ class ContactStress:
         return over_turn(self.forces.cam.motion, lambda places: self.of(places).peak_pressure, knots, parts)
 
     def greatest(self) -> ValueAt:
-        """The greatest peak pressure over the turn [MPa], both sides of every jump included.
+        """The maximum peak pressure over the turn [MPa], both sides of every jump included.
 
         Raises
         ------
@@ -170,7 +170,7 @@ class ContactStress:
         return ValueAt(math.sqrt(squared), phi, side)
 
     def contact_at(self, found: ValueAt) -> Stresses:
-        """The contact at the place of a peak pressure, such as the greatest: arrays of the shape ()."""
+        """The contact at the place of a peak pressure, such as the maximum: arrays of the shape ()."""
         values = self.forces.cam.motion(found.phi, found.side)
         relative, _ = self._kinematics.relative_radius(values, self._roller)
         # p = E' b/(2 R) and F = pi/2 p b w.
@@ -180,7 +180,7 @@ class ContactStress:
         return Stresses(phi, force, self._profile_radius(values), peak, half_width)
 
     def least_width(self, permitted: float) -> float:
-        """The width [mm] at which the greatest peak pressure is the permitted one [MPa]; p^2 falls as 1/width."""
+        """The width [mm] at which the maximum peak pressure is the permitted one [MPa]; p^2 falls as 1/width."""
         if not (math.isfinite(permitted) and permitted > 0):
             raise DesignError("permitted stress", permitted, "a finite number greater than 0 MPa")
         return self.contact.width * (self.greatest().value / permitted) ** 2

@@ -44,7 +44,7 @@ def lever_about_cam(kin: Kinematics, values: Values, friction: float, roller: An
 
 
 def jamming_margin(cam: Cam, friction: float) -> ValueAt:
-    """The least transmission coefficient over the turn, cos alpha - mu sin alpha, and where it is; at 0 the cam jams.
+    """The minimum transmission coefficient over the turn, cos alpha - mu sin alpha, and where it is; at 0 the cam jams.
 
     friction : mu between cam and follower
 
@@ -63,7 +63,7 @@ def jamming_margin(cam: Cam, friction: float) -> ValueAt:
     check_friction(friction)
 
     def margin(places: Places) -> Floats:
-        """Its negative: the least coefficient is the greatest of these."""
+        """Its negative: the minimum coefficient is the maximum of these."""
         return -transmission(cam, places.values, friction)[0]
 
     worst = greatest_of(cam.motion, lambda places: transmission(cam, places.values, friction)[1], margin)
@@ -89,7 +89,7 @@ def contact_angle(kin: Kinematics, values: Values) -> tuple[Floats, Floats, Floa
 
 
 def most_friction(cam: Cam) -> float:
-    """The friction at the cam at which the least transmission coefficient is zero; infinite or negative for none.
+    """The friction at the cam at which the minimum transmission coefficient is zero; infinite or negative for none.
 
     >>> from math import radians
     >>> import graphcam as gc

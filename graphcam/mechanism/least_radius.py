@@ -1,4 +1,4 @@
-"""The least prime radius that keeps the pressure angle, or of a flat-faced follower the curvature, within its limits.
+"""The minimum prime radius that keeps the pressure angle, or of a flat-faced follower the curvature, within its limits.
 
 Each follower's stands in a file of its own: :mod:`~graphcam.mechanism.least_radius_translating`,
 :mod:`~graphcam.mechanism.least_radius_arm` and :mod:`~graphcam.mechanism.flat_faced`.
@@ -60,7 +60,7 @@ def minimum_radius(
     rest: bool = True,
     curvature: float | None = None,
 ) -> LeastRadius:
-    """The least prime radius for permitted pressure angles, or, under a flat face, for a permitted curvature.
+    """The minimum prime radius for permitted pressure angles, or, under a flat face, for a permitted curvature.
 
     Parameters
     ----------
@@ -69,18 +69,18 @@ def minimum_radius(
     rise, return_ : permitted |alpha| [rad] on rises and on returns; rise = None is the usual limit, 30 degrees for a
         translating follower and 45 for an arm, return_ = None is force closure, no limit there
     offset : e [mm] of a translating follower if it is given; None leaves it free
-    rest : whether the angle at the low rest must keep the rise's limit too; for an arm, whether the angle at both rests
-        must keep the limits of the phases that end there, so that |alpha| keeps them all the way
-    curvature : the least permitted radius of curvature [mm] of the profile under a flat face; None is 0, where the
+    rest : whether the angle in the lower dwell must also satisfy the rise's limit; for an arm, whether the angle in
+        both dwells must satisfy the limits of the phases that end there, so that |alpha| satisfies them all the way
+    curvature : the minimum permitted radius of curvature [mm] of the profile under a flat face; None is 0, where the
         profile has a cusp, which a cam can only approach
 
     Without the rest condition a given offset larger than M needs no height at all; the radius returned is then the
-    offset itself, which a cam can only approach, and no line binds.  So it is with an arm that only has to reach:
-    r0 = |c - l|.  The least radius under a flat face is never negative; it is 0 where any prime radius will do.
+    offset itself, which a cam can only approach, and no line binds.  The same holds for an arm that only has to reach:
+    r0 = |c - l|.  The minimum radius under a flat face is never negative; it is 0 where any prime radius will do.
 
     Raises
     ------
-    DesignError : a limit is not between 0 and 90 degrees or cannot be kept by an arm (its lift is too large for any
+    DesignError : a limit is not between 0 and 90 degrees or an arm cannot satisfy it (its lift is too large for any
         radius, or for the given distance), a length is not finite, or an offset or a curvature is given for a follower
         that has none
 

@@ -1,4 +1,4 @@
-"""The least prime radius of an oscillating follower: the region for the cam centre, cut out by lines.
+"""The minimum prime radius of an oscillating follower: the region for the cam centre, cut out by lines.
 
 The arm is drawn in its positions about the pivot, the low one along the real axis, and along each the segment l v from
 the trace point, outwards on a rise if cam and arm turn in opposite senses (sigma = +1), else inwards.  The cam centre
@@ -32,16 +32,16 @@ from graphcam.mechanism.leg_places import sampled_legs
 ROUNDING = 1e-15
 """How far a point may lie beyond a line and count as on it, relative to the arm and the distance from its start."""
 KEPT = 1e-12
-"""How far the least point may lie beyond a line, relative to the same, if the limits can be kept at all."""
+"""How far the minimum point may lie beyond a line, relative to the same, if the limits can be kept at all."""
 SQUARED = 1e-6
-"""A step of so small a part of the place leaves an error of its square, which changes a greatest value by no bit."""
+"""A step of so small a part of the place leaves an error of its square, which changes a maximum value by no bit."""
 PATIENCE = 12
 """Steps after which the search begins anew."""
 
 
 @dataclass(frozen=True)
 class ArmMinimumRadius:
-    """The least permitted prime radius and the centre distance that goes with it [mm]; ``active`` names what binds."""
+    """The minimum permitted prime radius and its centre distance [mm]; ``active`` names the active limits."""
 
     prime_radius: float
     distance: float
@@ -55,7 +55,7 @@ class ArmMinimumRadius:
 
 
 def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits: Limits) -> ArmMinimumRadius:
-    """The least prime radius for permitted pressure angles, with the follower's distance if it is given.
+    """The minimum prime radius for permitted pressure angles, with the follower's distance if it is given.
 
     With ``limits.rest`` |alpha| keeps the limit on every rise and, if there is one, on every return.  Without, a rise
     must only keep the side to which the velocity drives the angle, and so must a return; the arm must still reach,
@@ -156,10 +156,10 @@ def _rest_line(turned: float, tau: int, s: float, arm: float) -> HalfPlane:
 def _least(
     region: _Region, point: complex, meet: Callable[[Sequence[HalfPlane]], Kept]
 ) -> tuple[complex, tuple[HalfPlane, ...], float]:
-    """The least point that keeps all lines, those that hold it off, and how far it still lies beyond one [mm].
+    """The minimum point that keeps all lines, those that hold it off, and how far it still lies beyond one [mm].
 
     The lines that bind and the worst one meet, and touch anew where they meet, until no other is worse.  A place where
-    the excess is greatest enters with the square of its error, so this converges like Newton's method; wherever it
+    the excess is largest enters with the square of its error, so this converges like Newton's method; wherever it
     stops, no permitted point is nearer.
     """
     kept: tuple[HalfPlane, ...] = ()

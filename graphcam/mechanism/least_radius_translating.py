@@ -1,6 +1,6 @@
-"""The least prime radius of a translating follower: the region for the cam centre, cut out by lines.
+"""The minimum prime radius of a translating follower: the region for the cam centre, cut out by lines.
 
-With e' = sigma e the pressure angle is permitted on the rises, on the returns and at the low rest where
+With e' = sigma e the pressure angle is permitted on the rises, on the returns and at the lower dwell where
 
     s0 tan A  + e' >= M,    M  = max over the rises of (v - s tan A)
     s0 tan A' - e' >= M',   M' = max over the returns of (|v| - s tan A')
@@ -30,7 +30,7 @@ from graphcam.mechanism.stationary import SAMPLES
 
 @dataclass(frozen=True)
 class MinimumRadius:
-    """The least permitted prime radius and the offset that goes with it [mm]; ``active`` names the lines that bind."""
+    """The minimum permitted prime radius and its offset [mm]; ``active`` names the active lines."""
 
     prime_radius: float
     offset: float
@@ -46,7 +46,7 @@ class MinimumRadius:
 def translating_minimum_radius(
     motion: Motion, follower: Translating, sigma: int, limits: Limits, offset: float | None = None
 ) -> MinimumRadius:
-    """The least prime radius for permitted pressure angles, at an offset [mm] if it is given; not the follower's own.
+    """The minimum prime radius for permitted pressure angles, at an offset [mm] if it is given; not the follower's own.
 
     >>> import graphcam as gc
     >>> motion = gc.Motion([gc.Rise(30, math.pi / 2, "cosine"), gc.Return(30, math.pi / 2, "cosine"),
@@ -103,7 +103,7 @@ def _nearest(slope: float, height: float, lines: list[_Bound]) -> tuple[float, f
 
 
 def _steepest_line(motion: Motion, direction: int, slope: float) -> float:
-    """M or M': the greatest |v| - s * slope over all rises or all returns [mm/rad]."""
+    """M or M': the maximum |v| - s * slope over all rises or all returns [mm/rad]."""
     heights: list[float] = []
     for law, lift, angle, low in legs(motion, direction):
         heights.append(lift / angle * steepest_tangent(law, 1 / (slope * angle))[1] - slope * low)
@@ -111,7 +111,7 @@ def _steepest_line(motion: Motion, direction: int, slope: float) -> float:
 
 
 def steepest_tangent(law: Law, k: float) -> tuple[float, float]:
-    """The u at which f' - f/k is greatest, k = cot(A)/F, and that value.
+    """The u at which f' - f/k is largest, k = cot(A)/F, and that value.
 
     There the tangent at the angle A touches the s - v diagram, and it meets the axis of v at that height.
 
@@ -124,7 +124,7 @@ def steepest_tangent(law: Law, k: float) -> tuple[float, float]:
         return closed_form(k)
 
     def slope(u: Floats) -> Floats:
-        """The slope of k f' - f, a pure number; it vanishes where that is greatest."""
+        """The slope of k f' - f, a pure number; it vanishes where that is largest."""
         _, f1, f2 = law(u, derivatives=2)
         return k * f2 - f1
 

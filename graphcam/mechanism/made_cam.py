@@ -46,7 +46,7 @@ class MadeCam:
     >>> cam = gc.Cam(motion, gc.Translating(roller_radius=8), prime_radius=30)
     >>> larger = gc.MadeCam(cam, gc.Deviations((), np.zeros(0), {"roller_radius": 0.01}))
     >>> s, v, a = larger([0.0, pi / 2])
-    >>> s.round(6).tolist()  # at the low rest by 0.01, on the steep flank by 0.01/cos(alpha)
+    >>> s.round(6).tolist()  # in the lower dwell by 0.01, on the steep flank by 0.01/cos(alpha)
     [0.01, 5.010144]
     """
 

@@ -137,7 +137,7 @@ class MotionBands(Shown):
         """(3, n) of the bands to the first order: that of a normal distribution, but never beyond the worst case.
 
         A sum of several errors is nearly normal.  A single wave of random phase is not: it never lies beyond its
-        amplitude, and where it dominates this is too wide, by up to two fifths.  :attr:`sample` has no such doubt.
+        amplitude, and where it dominates this is too wide, by up to two fifths.  :attr:`sample` is free of this.
         """
         return half_widths(self.effects, self.errors, self.coverage)
 
@@ -171,7 +171,7 @@ class MotionBands(Shown):
 
     @property
     def widest(self) -> tuple[ValueAt, ValueAt, ValueAt]:
-        """The greatest half-widths of the bands of s, v and a to the first order, and where."""
+        """The maximum half-widths of the bands of s, v and a to the first order, and where."""
         at, half = self._widest
         phi, _, inner = self._dense
         s, v, a = (
@@ -188,7 +188,7 @@ class MotionBands(Shown):
 
     @cached_property
     def sample(self) -> MotionSample:
-        """What a sample of mechanisms does, each of which is solved: nothing in it is of the first order.
+        """The motions of a sample of mechanisms, each of which is solved, not taken to the first order.
 
         Raises
         ------
@@ -257,7 +257,7 @@ def motion_bands(
 def effects_of(kin: Kinematics, errors: MakingErrors, values: Values) -> dict[str, Floats]:
     """By how much each error moves s, v and a at the most, (3, ...), to the first order, from (s, v, a, j).
 
-    A wave reaches its greatest displacement, velocity and acceleration at different phases.
+    A wave reaches its maximum displacement, velocity and acceleration at different phases.
     """
     lifted, found = lifted_over(kin, values), dict[str, Floats]()
     waves = {wave_name(n): n for n in errors.harmonics}

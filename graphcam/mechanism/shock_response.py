@@ -2,7 +2,7 @@
 
 A mass on the end of an elastic train follows a rise of the cam as x'' + 2 zeta Omega (x' - f') + Omega^2 (x - f) = 0,
 in lifts and rise times, with Omega = 2 pi n and the ratio n of the rise time to the natural period.  The acceleration
-x'' is what the train is strained by, so its greatest values are what counts: the *primary* one during the rise, the
+x'' is what the train is strained by, so its maximum values are what counts: the *primary* one during the rise, the
 *residual* one in the dwell after it.  Over n they make the shock spectrum (dynamic response spectrum) of the law.
 
 Without damping the residual one is Omega |integral of f'' exp(i Omega u) du|.  By it, as tests show again:
@@ -43,7 +43,7 @@ MOST = 1000.0
 TOGETHER = 2048
 """Cells of all oscillators that are solved at a time, which bounds the memory."""
 NEAR = 0.9
-"""An extreme cannot be the greatest where the values beside it stay below this part of the greatest one."""
+"""An extreme cannot be the maximum where the values beside it stay below this part of the maximum one."""
 PREPARED = np.linspace(0.1, 10.0, 397)
 """The ratios n of a spectrum for which none are given, the whole numbers and their halves among them."""
 AnyMotion = Motion | ArcMotion
@@ -55,7 +55,7 @@ class Event:
 
     name : of the law, or the phases;  drive : minus the acceleration, from 0 to the end of the event
     lift : s, v, a at times from 0 to the end;  level : s in the dwell after it
-    peak : the greatest |a|, a law's C_a
+    peak : the maximum |a|, a law's C_a
     """
 
     name: str
@@ -144,7 +144,7 @@ def turn_edges(motion: AnyMotion) -> Floats:
 class FollowerResponse(Shown):
     """What the mass does during a rise and after it; call it with times in rise times for (x, x', x''), in lifts.
 
-    Made by :func:`follower_response`.  Before u = 0 it rests, after the event it vibrates freely.
+    Made by :func:`follower_response`.  Before u = 0 it is at rest, after the event it vibrates freely.
 
     n : rise time over natural period;  damping : ratio to the critical one
     event : what the cam does
@@ -173,12 +173,12 @@ class FollowerResponse(Shown):
 
     @cached_property
     def primary(self) -> float:
-        """The greatest |x''| up to the dwell [lifts/rise time^2]."""
+        """The maximum |x''| up to the dwell [lifts/rise time^2]."""
         return float(_primary(self.solved)[0])
 
     @cached_property
     def residual(self) -> float:
-        """The greatest |x''| in the dwell [lifts/rise time^2]; without damping the amplitude."""
+        """The maximum |x''| in the dwell [lifts/rise time^2]; without damping the amplitude."""
         return float(_residual(self.solved)[0][0])
 
     @cached_property
@@ -189,7 +189,7 @@ class FollowerResponse(Shown):
     def __repr__(self) -> str:
         sizes = (
             f"damping ratio {self.damping:g}",
-            f"greatest acceleration {self.primary:.6g} during it, {self.residual:.6g} after it (lifts/rise time²)",
+            f"maximum acceleration {self.primary:.6g} during it, {self.residual:.6g} after it (lifts/rise time²)",
             f"amplitude after it {self.amplitude:.6g} lifts",
         )
         first = f"FollowerResponse, {self.event.name}, n = {self.n:g} natural periods in the rise"
@@ -209,7 +209,7 @@ def follower_response(law: str | Law | AnyMotion, n: float, damping: float = 0.0
 
     Raises
     ------
-    DesignError : there is no such law; n or the damping cannot be; the motion has no dwell before a rise
+    DesignError : there is no such law; n or the damping is impossible; the motion has no dwell before a rise
 
     >>> import graphcam as gc
     >>> response = gc.follower_response("cycloidal", n=2.5)
@@ -240,13 +240,13 @@ def _check_ratios(n: Floats) -> None:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class ShockSpectrum(Shown):
-    """The greatest accelerations of elastic followers under one law, over n; made by :func:`shock_spectrum`.
+    """The maximum accelerations of elastic followers under one law, over n; made by :func:`shock_spectrum`.
 
     law : its name, or the phases from one dwell of a motion to the next;  damping : ratio to the critical one
     n : (k,) rise time over natural period
-    primary, residual : (k,) the greatest |x''| during the rise, and in the dwell after it [lifts/rise time^2]
+    primary, residual : (k,) the maximum |x''| during the rise, and in the dwell after it [lifts/rise time^2]
     amplitude : (k,) how far the mass swings off its place in the dwell at most [lifts]
-    peak : the greatest |f''| of the cam itself, C_a [lifts/rise time^2]
+    peak : the maximum |f''| of the cam itself, C_a [lifts/rise time^2]
     """
 
     _drawn_in = "spectrum_curves"
@@ -261,12 +261,12 @@ class ShockSpectrum(Shown):
 
     @property
     def greatest(self) -> Floats:
-        """(k,) the greatest |x''| at any time (maximax) [lifts/rise time^2]."""
+        """(k,) the maximum |x''| at any time (maximax) [lifts/rise time^2]."""
         return np.maximum(self.primary, self.residual)
 
     @property
     def factor(self) -> Floats:
-        """(k,) the dynamic factor: the greatest |x''| over the cam's own."""
+        """(k,) the dynamic factor: the maximum |x''| over the cam's own."""
         return self.greatest / self.peak
 
     def __repr__(self) -> str:
@@ -280,7 +280,7 @@ class ShockSpectrum(Shown):
 
 
 def shock_spectrum(law: str | Law | AnyMotion, n: ArrayLike | None = None, damping: float = 0.0) -> ShockSpectrum:
-    """The shock spectrum of a law: greatest accelerations during the rise and after it over n = T_rise/T_natural.
+    """The shock spectrum of a law: maximum accelerations during the rise and after it over n = T_rise/T_natural.
 
     Parameters
     ----------
@@ -290,7 +290,7 @@ def shock_spectrum(law: str | Law | AnyMotion, n: ArrayLike | None = None, dampi
 
     Raises
     ------
-    DesignError : there is no such law; n or the damping cannot be; the motion has no dwell before a rise
+    DesignError : there is no such law; n or the damping is impossible; the motion has no dwell before a rise
 
     >>> import graphcam as gc
     >>> spectrum = gc.shock_spectrum("rectangular", n=[1, 2, 3])
@@ -325,7 +325,7 @@ def _acceleration(oscillator: Oscillator, y: Floats, y1: Floats, who: Which = AL
 
 
 def _residual(solved: Driven) -> tuple[Floats, Floats]:
-    """(N,) the greatest |x''| and the greatest |y| of the free vibration that the drive leaves."""
+    """(N,) the maximum |x''| and the maximum |y| of the free vibration that the drive leaves."""
     y, y1 = solved.final
     swing = solved.oscillator
     a = _acceleration(swing, y, y1)
@@ -334,7 +334,7 @@ def _residual(solved: Driven) -> tuple[Floats, Floats]:
 
 
 def _primary(solved: Driven) -> Floats:
-    """(N,) the greatest |x''| while the drive lasts."""
+    """(N,) the maximum |x''| while the drive lasts."""
     oscillator = solved.oscillator
     cell, tau = solved.places()
 

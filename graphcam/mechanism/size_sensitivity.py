@@ -1,4 +1,4 @@
-"""How pressure angle, radius of curvature, least radius and motion change with the sizes of a cam: exact derivatives.
+"""How pressure angle, radius of curvature, minimum radius and motion change with the sizes of a cam: exact derivatives.
 
 Two questions differ.  In *design* a size is chosen otherwise, and the cam is computed anew for the same motion: then
 pressure angle and curvature change.  In *making* the cam is what it is, and the mechanism around it is off: then the
@@ -29,15 +29,15 @@ from graphcam.mechanism.made_cam import lifted_over
 from graphcam.showing import by_parts
 
 BINDS = 1e-7
-"""How far a pressure angle may be off its limit [rad] where the least radius is said to be held by it."""
+"""How far a pressure angle may be off its limit [rad] where the minimum radius is said to be held by it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Sensitivities:
     """The derivatives of a cam's quantities by its sizes, per mm; by the lift per mm, or of an arm per rad.
 
-    Every method takes cam angles phi [rad] and gives arrays shaped like them by the names of the sizes.  By the lift is
-    meant that the whole motion is stretched.
+    Every method takes cam angles phi [rad] and gives arrays shaped like them by the names of the sizes.  A change of
+    the lift stretches the whole motion.
 
     >>> import graphcam as gc
     >>> from math import degrees, pi
@@ -81,8 +81,8 @@ class Sensitivities:
 def sensitivities(cam: Cam) -> Sensitivities:
     """How pressure angle, curvature and motion of a cam change with its sizes.
 
-    A follower that is pushed along a flank at the pressure angle alpha feels an error of the profile by 1/cos(alpha),
-    one of the offset by tan(alpha).
+    On a flank with the pressure angle alpha an error of the profile displaces the follower by 1/cos(alpha) times its
+    size, one of the offset by tan(alpha) times its size.
 
     Source: R. L. Norton, *Cam Design and Manufacturing Handbook* (2009), chapters 7 and 13, for the quantities; the
     derivatives are those of the conventions of :mod:`graphcam`.
@@ -116,10 +116,10 @@ def radius_sensitivity(
     rest: bool = True,
     curvature: float | None = None,
 ) -> dict[str, float]:
-    """The derivatives of the least prime radius by what decides it, per mm or, by an angle, per rad.
+    """The derivatives of the minimum prime radius by the sizes that determine it, per mm or, by an angle, per rad.
 
-    At the least radius one or two places of the motion have just the permitted pressure angle: sigma_i alpha_i = A_i.
-    Along the motion alpha is greatest there, so these places stand still to the first order (the theorem of the
+    At the minimum radius one or two places of the motion have just the permitted pressure angle: sigma_i alpha_i = A_i.
+    Along the motion alpha is largest there, so these places stand still to the first order (the theorem of the
     envelope); and so does an offset or a distance that is free, where one limit alone holds the radius.  What remains
     is linear in the changes of r0, of a free offset or distance x, and of a size p:
 
@@ -163,7 +163,7 @@ def radius_sensitivity(
 def _held(
     motion: Motion, kin: Kinematics, active: Sequence[str], limits: Mapping[str, float | None]
 ) -> Iterator[_Held]:
-    """The places that hold the least radius."""
+    """The places that hold the minimum radius."""
     for name, direction in (("rise", 1.0), ("return", -1.0)):
         if name in active:
             towards = direction * kin.leaning
@@ -177,7 +177,7 @@ def _held(
 
 
 def _steepest(motion: Motion, kin: Kinematics, direction: float, towards: float) -> Values:
-    """(s, v, a, j) where towards * alpha is greatest on all rises, or on all returns."""
+    """(s, v, a, j) where towards * alpha is largest on all rises, or on all returns."""
 
     def steepness(values: Values) -> Floats:
         return towards * kin.steepness(values)

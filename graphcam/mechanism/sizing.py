@@ -1,7 +1,7 @@
-"""The smallest cam within given ranges, or that of the least stress, and the front between both.
+"""The smallest cam within given ranges, or that of the minimum stress, and the front between both.
 
 The unknowns are the cam's radius, offset and roller radius.  Limits are the pressure angles, the roller's rule and the
-contact stress.  Hertz's stress falls as 1/sqrt(width), so the least stress with the widest face and the least width
+contact stress.  Hertz's stress falls as 1/sqrt(width), so the minimum stress with the widest face and the minimum width
 for a permitted stress are found by the same search, and one front of radius and stress is that of radius and width too.
 Last, the radius is moved to where the exact extremes just keep all limits, so that nothing rests on samples.
 
@@ -30,7 +30,7 @@ from graphcam.mechanism.sizing_search import Watched, best, exchange, polished
 
 Objective = Literal["size", "stress"]
 OBJECTIVES: tuple[Objective, ...] = ("size", "stress")
-"""The least radius, and at it the narrowest face; or the least stress, with the widest face."""
+"""The minimum radius, and at it the narrowest face; or the minimum stress, with the widest face."""
 DOMINATED = 1e-6
 """A cam of the front whose stress is less by no more than this part is no gain."""
 
@@ -40,13 +40,13 @@ class SizedCam:
     """The best cam.
 
     cam : with its prime radius and roller;  offset : of its follower [mm]
-    face_width : of its face [mm];  least_width : the least that the stress permits, whatever its range [mm]
+    face_width : of its face [mm];  least_width : the minimum that the stress permits, whatever its range [mm]
     max_pressure_angle : on the rises and, if it is limited, on the returns, in magnitude [rad]
-    min_convex_radius : of the pitch curve [mm];  stress : greatest peak pressure with this face width [MPa]
-    binding : what keeps the radius, or with the objective "stress" the stress, from being less: limits that no wider
-        face would leave room in, and ends of ranges
-    active : limits that just keep with this face width, and ends of ranges
-    problem : what was asked
+    min_convex_radius : of the pitch curve [mm];  stress : maximum peak pressure with this face width [MPa]
+    binding : what keeps the radius, or with the objective "stress" the stress, from being smaller: ends of ranges, and
+        limits that a wider face would not relax
+    active : limits that are just satisfied with this face width, and ends of ranges
+    problem : the sizing problem
     """
 
     cam: Cam
@@ -89,23 +89,23 @@ def size_cam(
     contact: RollerContact | None = None,
     friction: float = 0.0,
 ) -> SizedCam:
-    """The best cam for a translating roller follower: the smallest, or that of the least stress.
+    """The best cam for a translating roller follower: the smallest, or that of the minimum stress.
 
     load : that presses the follower on the cam over the whole turn; SpringLoad(0, 0, 0, preload=F) is a constant force
     prime_radius, base_radius, offset, roller_radius, face_width : ranges [mm], machine sign; two equal ends fix a size.
-        Of the first two one is given, and made as small as possible; the base radius is the least one of the profile,
+        Of the first two one is given, and made as small as possible; the base radius is the minimum one of the profile,
         less than the prime radius by the roller
     permitted_stress : peak pressure of the line contact [MPa]
-    objective : "size", the least radius and then the narrowest face, or "stress", with the widest face
+    objective : "size", the minimum radius and then the narrowest face, or "stress", with the widest face
     rise, return_ : permitted pressure angles, as magnitudes [rad], at rest too; None is force closure
-    roller_rule : the largest roller that is permitted, by the least convex radius of curvature or the prime radius
+    roller_rule : the largest roller that is permitted, by the minimum convex radius of curvature or the prime radius
     contact : moduli and Poisson's ratios of cam and roller; its width does not matter.  None is steel on steel
     friction : mu, between cam and follower
 
     Raises
     ------
-    DesignError : the load does not keep contact, a range is none, or no cam in the ranges keeps the limits; then it
-        says which of them, and how near the nearest cam comes
+    DesignError : the load does not keep contact, a range is empty, or no cam in the ranges satisfies the limits; the
+        message then says which of them, and how close the nearest cam comes
 
     >>> from math import radians
     >>> import graphcam as gc
@@ -148,8 +148,8 @@ def best_cam(problem: SizingProblem, objective: Objective) -> SizedCam:
 def pareto_front(problem: SizingProblem, count: int = 11) -> list[SizedCam]:
     """Cams with the widest face none of which is both smaller and under less stress than another, the smallest first.
 
-    Between the smallest cam and that of the least stress the radius is limited step by step, and the least stress is
-    found each time (epsilon constraint: Y. Y. Haimes, L. S. Lasdon, D. A. Wismer, 1971).
+    Between the smallest cam and that of the minimum stress the radius is limited step by step, and the minimum stress
+    is found each time (epsilon constraint: Y. Y. Haimes, L. S. Lasdon, D. A. Wismer, 1971).
 
     count : of the radii; fewer cams where a larger radius is no gain
 
@@ -187,7 +187,7 @@ def _undominated(cams: list[SizedCam]) -> list[SizedCam]:
 
 
 def _narrowest(problem: SizingProblem, smallest: Sizes) -> Sizes:
-    """The least face width at a radius, by the choice of offset and roller."""
+    """The minimum face width at a radius, by the choice of offset and roller."""
     radius = problem.values(smallest)[0]
     widest = problem.face_width[1]
     fixed = exchange(replace(problem, radius=(radius, radius)), "width", smallest, Watched(problem))

@@ -63,7 +63,7 @@ NODES, WEIGHTS = (0.5 * x for x in np.polynomial.legendre.leggauss(4))
 NEAREST = {2: 124.0, 3: 720.0, 4: 4900.0, 5: 30240.0}
 """By degree p, of least squares with even knots: the error is d h^(p+1) over this, d the derivative p + 1.
 
-Its reciprocal is the greatest value of Bernoulli's polynomial over (p + 1)!.
+Its reciprocal is the maximum value of Bernoulli's polynomial over (p + 1)!.
 """
 
 
@@ -73,7 +73,7 @@ class ProfileSpline:
 
     degree : p
     knots : (m + p + 1,), the first p + 1 equal, and the last p + 1;  control : (m, 2) control points [mm]
-    deviation : greatest distance from the exact profile along its normal [mm], measured
+    deviation : maximum distance from the exact profile along its normal [mm], measured
     """
 
     degree: Degree
@@ -103,10 +103,10 @@ def profile_spline(
     """The profile, no farther than ``deviation`` mm from the exact one, or with a given number of control points.
 
     degree : 2 to 5
-    control_points : how many there shall be, set as well as may be; what they reach is told by the spline's own
-        ``deviation``, and none is demanded.  None takes as many as the demanded deviation needs
-    trimmed : of an undercut cam what can be cut is wanted, without what is lost, as :meth:`Cam.trimmed_profile` tells
-        it in points
+    control_points : their number, placed as well as possible; the spline's own ``deviation`` says how close it is, and
+        no deviation is required.  None takes as many as the required deviation needs
+    trimmed : for an undercut cam take the profile that can be cut, without the lost parts, as
+        :meth:`Cam.trimmed_profile` gives it in points
 
     Raises
     ------
@@ -176,9 +176,9 @@ class _Stretch:
 
 @dataclass(frozen=True, eq=False)
 class _Fit:
-    """The nearest spline: its knots and control points as complex numbers, and the greatest error in each span.
+    """The nearest spline: its knots and control points as complex numbers, and the maximum error in each span.
 
-    errors : (spans,) greatest distance along the exact normal [mm]
+    errors : (spans,) maximum distance along the exact normal [mm]
     """
 
     knots: Floats

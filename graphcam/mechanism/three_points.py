@@ -19,7 +19,7 @@ def circumradius(before: ArrayLike, middle: ArrayLike, after: ArrayLike) -> Floa
     Against a curve of curvature kappa, at chords of h it errs by kappa'' h^2/12 if they are equally long, and by
     (b - a) kappa'/3 if their lengths a and b differ; rounding leaves 4 eps |p|/(kappa h^2) of the radius.
 
-    Which way three floats turn is told exactly, however nearly they lie on a line.
+    The orientation of three floats is exact, however close they are to a line.
 
     >>> import graphcam as gc
     >>> gc.circumradius([4, 0], [0, 0], [0, 3]).item()

@@ -36,7 +36,7 @@ def plot(spectrum: ShockSpectrum, on: Axes | Figure | None = None) -> Axes:
         axes.plot(n, values[order], color=colour, marker=marker, linewidth=1.5, label=label)
     axes.set(
         xlabel="n, time of the rise over natural period",
-        ylabel="greatest acceleration, $h/T^2$",
+        ylabel="maximum acceleration, $h/T^2$",
         ylim=(0, ROOM * max(float(spectrum.greatest.max()), spectrum.peak)),
     )
     if n[-1] > 10**DECADES * n[0]:

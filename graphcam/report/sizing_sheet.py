@@ -23,7 +23,7 @@ from graphcam.words import Caption, sequence
 CHARTS = {"A1": 280 + 230j, "A2": 185 + 150j, "A3": 125 + 105j, "A4": 100 + 80j}
 """Width and height of a chart by format [mm of paper]; its axes have scales of their own."""
 MARGIN = 0.05
-"""An axis is at least this part of the greatest radius long, so that a range of one size has an axis too."""
+"""An axis is at least this part of the maximum radius long, so that a range of one size has an axis too."""
 ABOVE = say(
     "Above its line a limit is kept, whatever the others: with the roller that suits it best and with the widest face, "
     "where roller or face are not what the axis shows. Lines that hold the best cam back are drawn in the accent."
@@ -68,7 +68,7 @@ def sizing_sheet(
     paper : "A1" to "A4"; frame : "gost" or "iso"; orientation : "landscape" or "portrait"
     language : such as "en"
     front : cams of :func:`~graphcam.mechanism.sizing.pareto_front`, drawn in a chart of their own
-    adopted : the cam of round sizes, told beside the best;  title : of the table;  block : the title block
+    adopted : the cam of round sizes, shown beside the best;  title : of the table;  block : the title block
 
     Raises
     ------

@@ -124,7 +124,7 @@ class ArcsSolution(ShownSolution):
 
 
 def solve_arcs(task: ArcsTask, pencil: Pencil | None = None, held: Mapping[str, float] = NOTHING_HELD) -> ArcsSolution:
-    """Solve a task: draw its constructions with the pencil (default: a perfect one) and compute the same cam exactly.
+    """Solve a task: draw its constructions with the pencil (by default an ideal one) and compute the cam exactly.
 
     held : scales that views keep, as :class:`~graphcam.drafting.scale.Paper` has them
 

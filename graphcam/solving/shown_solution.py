@@ -48,7 +48,7 @@ class ShownSolution(Shown):
             ``solution.json``
         dxf : "plain" for every program, or "cad" with true dimensions and an editable title block
         working_drawing : whether the cam as a part is drawn too, with the task's table ``[part]``: PDF, SVG and DXF
-        progress : hears what is being done
+        progress : called with what is being done
         returns : the files' names in the folder by kind, None for a kind that there is not
 
         Raises

@@ -30,12 +30,12 @@ from graphcam.tasks.task import CamTable, Task
 FINER = 4
 """Where no round sizes keep the limits they are rounded to tenths, hundredths, ... so often."""
 TRIED = 50
-"""Round radii that are tried, from the least one upwards."""
+"""Round radii that are tried, from the minimum one upwards."""
 
 
 @dataclass(frozen=True, eq=False)
 class Sizing:
-    """The best cam of a task, by exact arithmetic, and a cam of round sizes that keeps the limits too.
+    """The best cam of a task, by exact arithmetic, and a cam of round sizes that also satisfies the limits.
 
     task : with its ranges;  objective : "size" or "stress"
     best : the best cam, unrounded;  adopted : that of round sizes
@@ -103,7 +103,7 @@ class Sizing:
     ) -> dict[str, str]:
         """Write the chart, the front, the results and the sized task into a folder: all of them, or none.
 
-        language : of the chart, by default the task's;  progress : hears what is being done
+        language : of the chart, by default the task's;  progress : called with what is being done
         returns : the files' names in the folder by kind
 
         Raises
@@ -121,7 +121,7 @@ def size_task(task: Task | ArcsTask, objective: Objective | None = None) -> Sizi
 
     Raises
     ------
-    DesignError : the task has no such table, or no cam in its ranges keeps its limits
+    DesignError : the task has no such table, or no cam in its ranges satisfies its limits
 
     >>> import graphcam as gc
     >>> gc.size_task(gc.builtin_task("sizing"))
@@ -192,7 +192,7 @@ def _about(value: float, within: tuple[float, float], step: float) -> list[float
 
 
 def _smallest(problem: SizingProblem, radius: float, offset: float, roller: float, step: float) -> Sizes | None:
-    """The least round radius that keeps the limits with an offset and a roller, and the least round width."""
+    """The minimum round radius that keeps the limits with an offset and a roller, and the minimum round width."""
     low, high = problem.radius
     widest, narrowest = problem.face_width[1], problem.face_width[0]
     first = steps_up(radius, step)
@@ -238,7 +238,7 @@ def _problem(task: Task, table: SizingTable) -> SizingProblem:
 
 
 def _load(cam: Cam, load: SpringLoad, spring: SpringTable) -> SpringLoad:
-    """The load; a preload that is left open is the least one, which is the same on every cam of the motion."""
+    """The load; a preload that is left open is the minimum one, which is the same on every cam of the motion."""
     if spring.preload is not None:
         return load
     return replace(load, preload=max(least_preload(cam, load).preload, 0.0))

@@ -104,7 +104,7 @@ class Solution(ShownSolution):
 
         Raises
         ------
-        DesignError : no profile can be told that could be cut, or its spline takes more control points, or fewer
+        DesignError : there is no profile that can be cut, or its spline takes more control points, or fewer
         """
         part = self.task.part or PartTable()
         degree, count = part.spline_degree, part.spline_control_points
@@ -213,7 +213,7 @@ class Solution(ShownSolution):
 
 
 def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
-    """Solve a task: draw its constructions with the pencil (default: a perfect one) and compute the same cam exactly.
+    """Solve a task: draw its constructions with the pencil (by default an ideal one) and compute the cam exactly.
 
     Raises
     ------

@@ -16,7 +16,7 @@ def solve(task: ArcsTask, pencil: Pencil | None = None) -> ArcsSolution: ...
 @overload
 def solve(task: Task | ArcsTask, pencil: Pencil | None = None) -> AnySolution: ...
 def solve(task: Task | ArcsTask, pencil: Pencil | None = None) -> AnySolution:
-    """Solve a task: draw its constructions with the pencil (default: a perfect one) and compute the same cam exactly.
+    """Solve a task: draw its constructions with the pencil (by default an ideal one) and compute the cam exactly.
 
     Raises
     ------

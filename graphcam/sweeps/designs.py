@@ -29,21 +29,21 @@ OWN = {kind: tuple(size.name for size in fields(follower)) for kind, follower in
 class Designs:
     """Cams with a rise, a high dwell, a return, and a low dwell for the rest of the turn.
 
-    Every field but the follower is one value for all cams or an array of n; what differs in length does not fit.
+    Every field but the follower is one value for all cams or an array of n; arrays of different lengths do not fit.
 
     Parameters
     ----------
     lift, prime_radius, roller_radius : mm; the lift of an arm is an angle [rad]
     rise_angle, dwell_angle, return_angle : rad; a dwell may be 0
     offset : mm, of a translating follower;  arm, distance : mm, an arm's length and centre distance
-    rise_law, return_law : names of :data:`graphcam.LAWS`, or :class:`graphcam.Law` of one's own
+    rise_law, return_law : names of :data:`graphcam.LAWS`, or :class:`graphcam.Law` of your own
     rotation : "ccw" or "cw"
     follower : "translating", "oscillating", or "flat-faced", which has neither offset nor roller
 
     Raises
     ------
     DesignError : the lengths differ, a law, rotation or follower is unknown, a size is given that the follower does not
-        have, or arm or distance is left out.  A number that no cam can have is no error here: that cam's extremes are
+        have, or arm or distance is left out.  A number that no cam can have is not an error: that cam's extremes are
         NaN
 
     >>> import graphcam as gc
@@ -135,7 +135,7 @@ class Designs:
 
         Raises
         ------
-        DesignError : there can be no such cam
+        DesignError : there is no such cam
         """
         sizes = {name: float(self.column(name)[k]) for name in NUMBERS}
         rise_law, return_law, rotation = (self.column(name).item(k) for name in ("rise_law", "return_law", "rotation"))
@@ -158,7 +158,7 @@ def _numbers(name: str, values: ArrayLike) -> Floats:
 
 
 def _choices(name: str, values: Any, known: tuple[str, ...], own: type | tuple[()] = ()) -> NDArray[Any]:
-    """Names that are known, or objects of one's own."""
+    """Names that are known, or objects of your own."""
     array = np.asarray(values)
     for word in dict.fromkeys(array.ravel().tolist()):
         if not isinstance(word, own) and word not in known:

@@ -53,18 +53,18 @@ def sweep(
     Parameters
     ----------
     designs : n cams
-    quantities : what is wanted, of these; nothing else is computed
+    quantities : the quantities to compute, from this list
 
-        - max_pressure_angle_rise, max_pressure_angle_return [rad], the signed value of greatest magnitude
-        - min_pitch_curvature_radius [mm], the least of the convex parts, inf without any; of a flat face the least rho
+        - max_pressure_angle_rise, max_pressure_angle_return [rad], the signed value of maximum magnitude
+        - min_pitch_curvature_radius [mm], the minimum of the convex parts, inf without any; of a flat face minimum rho
         - max_v [mm/rad] and max_a [mm/rad^2], magnitudes; of an arm [rad/rad] and [rad/rad^2]
         - feasible: within the limits, and the roller smaller than the minimum radius of curvature
         - under a load, and not by default: max_normal_force, min_normal_force [N], max_torque [N mm] on the cam,
-          least_preload [N; N mm of a torsion spring], jamming_margin, the least cos(alpha) - mu sin(alpha)
-        - with errors of making, and not by default: position_band [mm; of an arm rad], the greatest half-width of the
-          band of s to the first order, see :class:`graphcam.MotionBands`
+          least_preload [N; N mm of a torsion spring], jamming_margin, the minimum cos(alpha) - mu sin(alpha)
+        - with manufacturing errors, and not by default: position_band [mm; of an arm rad], the maximum half-width of
+          the band of s to the first order, see :class:`graphcam.MotionBands`
 
-    executor : any of concurrent.futures: threads, processes, or dask's ``Client.get_executor()``; None computes here
+    executor : any of concurrent.futures: threads, processes, or dask's ``Client.get_executor()``; None is this process
     limits : permitted pressure angles; the rest belongs to the rise.  None is the usual one, 30 degrees or an arm's 45,
         and force closure
     load : what presses every follower, a number of N with it but no table; needed for forces
@@ -77,12 +77,12 @@ def sweep(
     -------
     dict : by name (n,), float64 (bool for feasible); NaN (False) where there can be no cam: an offset as large as the
         prime radius, an arm that does not reach, phases longer than the turn; forces are NaN where the follower jams.
-        The bits depend neither on ``chunk`` nor on the executor
+        The results are the same to the last bit for every ``chunk`` and executor
 
     Raises
     ------
     DesignError : an unknown quantity, forces without a load or with one of another follower, bands without errors or
-        with errors of sizes that the followers do not have, or a chunk of none
+        with errors of sizes that the followers do not have, or an empty chunk
 
     >>> import numpy as np
     >>> import graphcam as gc

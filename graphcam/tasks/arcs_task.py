@@ -79,11 +79,11 @@ class ArcsTask:
     """A cam of three circular arcs, as its file says it.
 
     speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
-    part : what the workshop must know; None is a part that follows from the cam
+    part : the data for the workshop; None is a part that follows from the cam
 
     Raises
     ------
-    DesignError : a value that cannot be, alone or together with another
+    DesignError : an impossible value, alone or together with another
 
     >>> import graphcam as gc
     >>> gc.ArcsTask(ArcsTable(D=(51.68, 18.81), G=(22.24, 37.84), rho1=17, A=(0, 40))).arcs().design_case

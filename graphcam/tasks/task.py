@@ -73,7 +73,7 @@ class _FollowerTable:
 class TranslatingTable(_FollowerTable):
     """``[follower]`` of kind "translating".
 
-    offset : mm, to the right of the cam centre; None is open: the least radius decides
+    offset : mm, to the right of the cam centre; None is open: the minimum radius decides
     roller_radius : mm, 0 for a knife edge; None is open: the rule decides
     roller_rule : see :func:`graphcam.given.roller_rule.roller_rule`
     """
@@ -107,7 +107,7 @@ class OscillatingTable(_FollowerTable):
     """``[follower]`` of kind "oscillating".
 
     arm : mm, its length
-    distance : mm, of the centres; None is open: the least radius decides
+    distance : mm, of the centres; None is open: the minimum radius decides
     roller_radius, roller_rule : as for a translating follower
     lift : what the phases' lifts are, "angle" in degrees or "arc" in mm along the path of the trace point
     """
@@ -164,7 +164,7 @@ FollowerTable = Annotated[TranslatingTable | OscillatingTable | FlatFacedTable, 
 
 @dataclass(frozen=True)
 class CamTable:
-    """``[cam]``: the prime radius in mm; None is open: the least one is found, and rounded up."""
+    """``[cam]``: the prime radius in mm; None is open: the minimum one is found, and rounded up."""
 
     prime_radius: float | None = None
 
@@ -179,7 +179,7 @@ class LimitsTable:
     pressure_angle_rise : degrees; None takes the usual one of the follower's kind
     pressure_angle_return : degrees; None is force closure, where the return does not limit the radius
     min_curvature_radius : mm, of a flat-faced follower's profile
-    rest : whether the angle at the low rest must keep the rise's limit too
+    rest : whether the angle at the lower dwell must keep the rise's limit too
     """
 
     pressure_angle_rise: float | None = None
@@ -205,7 +205,7 @@ class DrawingTable(SheetTable):
     """``[drawing]``: how it is drawn.
 
     divisions : equal parts per phase
-    ordinate : mm on paper, the greatest ordinate of the first rise's acceleration; None is the longest of a round
+    ordinate : mm on paper, the maximum ordinate of the first rise's acceleration; None is the longest of a round
         series at which the whole diagram keeps to its room on the sheet
     poles : mm on paper, the pole distances of the integrations a to v and v to s; None is 40 at 1 degree a millimetre,
         in proportion to the axis, or what makes the diagrams neither too high nor too low
@@ -243,14 +243,14 @@ class Task:
 
     rotation : "ccw" or "cw"
     speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
-    material : what the contact stress depends on beside the spring's force; None is no stress
-    tolerances : how far profile and sizes may be off as they are made; None tells nothing of it
-    sizing : ranges in which ``graphcam size`` seeks the best cam; what is solved is the cam of the other tables
-    part : what the workshop must know; None is a part that follows from the cam
+    material : the data for the contact stress besides the spring's force; None is no stress
+    tolerances : how far profile and sizes may be off as they are made; None is no tolerances
+    sizing : ranges in which ``graphcam size`` finds the best cam; ``solve`` solves the cam of the other tables
+    part : the data for the workshop; None is a part that follows from the cam
 
     Raises
     ------
-    DesignError : a value that cannot be, alone or together with another
+    DesignError : an impossible value, alone or together with another
 
     >>> import graphcam as gc
     >>> from graphcam.tasks.motion_tables import ReturnTable, RiseTable

@@ -62,7 +62,7 @@ from graphcam.sweeps.sweep_forces import FORCES
 from graphcam.sweeps.sweep_quantities import QUANTITIES
 
 SMOOTH = ("cycloidal", "3-4-5")
-SECOND_ORDER = ("displacement", "velocity", "greatest acceleration", "pitch curve", "working profile")
+SECOND_ORDER = ("displacement", "velocity", "maximum acceleration", "pitch curve", "working profile")
 TINY = reports.Effort(
     (12, 24, 48), ("cycloidal", "rectangular"), 20, (6, 12, 24),
     TimedSizes((12, 24), (12, 24), (12, 24), (12, 36), (12, 36), (24, 96)), 1000, 1000, 0.0,
@@ -306,7 +306,7 @@ def test_a_goal_that_cannot_be_read_is_no_goal_met(goal):
 
 @pytest.mark.parametrize("width", [60, 80, 120])
 def test_no_word_and_no_number_of_a_table_is_cut_or_leaves_the_window(width):
-    words = ("least radius, translating", "beside SLSQP given the half-planes, 360 stations: off by -5.0e-06")
+    words = ("minimum prime radius, translating", "beside SLSQP given the half-planes, 360 stations: off by -5.0e-06")
     numbers = ("0.864 SC(1000000)", "2.00 ± 0.05", "yes", "3000 µs", "371.7")
     rows = [("what", "of what", "ratio", "goal", "goal met", "here", "eps"), (*words, *numbers), (*words, *numbers)]
     lines = table_lines(rows, 2, width)
@@ -328,7 +328,7 @@ def _check(document) -> None:
     graphical = [m for m in document["error_against_time"] if m["kind"] == "graphical"]
     assert (
         {m["question"] for m in graphical}
-        == {"displacement", "least radius", "profile"}
+        == {"displacement", "minimum prime radius", "profile"}
         == set(document["pencil_bands"])
     )
     for m in graphical:

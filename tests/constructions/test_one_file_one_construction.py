@@ -161,7 +161,7 @@ def test_the_bench_follows_its_error_over_the_number_of_parts():
     }
     found = {series.quantity: series for series in series_of(where, chains)}
     assert found["length of the toy"].construction == "toy"
-    assert found["length of the toy"].errors == pytest.approx(found["greatest velocity"].errors, abs=1e-12)
+    assert found["length of the toy"].errors == pytest.approx(found["maximum velocity"].errors, abs=1e-12)
 
 
 # --- what is said wrongly is named -----------------------------------------------------------------------------------

@@ -345,7 +345,7 @@ def grade_folder(
     """One record for each student who handed in.
 
     kept : the students' answer keys; who has none yet gets one
-    step : hears how many of how many are done
+    step : progress callback (done, total)
     """
     found: dict[str, dict[str, Any]] = {}
     finished = store.finished()

@@ -213,7 +213,7 @@ def simulate(
 ) -> Simulation:
     """Draw variants, and on each of them as many careful students, and as many with every mistake.
 
-    step : hears how many variants of how many are done
+    step : progress callback (done, total)
     workers, cluster : processes here, or the address of a dask scheduler; the figures are the same
 
     Raises

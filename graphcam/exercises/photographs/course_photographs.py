@@ -85,7 +85,7 @@ class ReadCourse:
 def read_course(order: ReadingOrder, step: Step = lambda done, total: None) -> ReadCourse:
     """Read photographs and write what came of them.
 
-    step : hears how many files of how many are done
+    step : progress callback (done, total)
 
     Raises
     ------
