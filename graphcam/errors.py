@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Generator, Iterable
+import unicodedata
+from collections.abc import Generator, Iterable, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -184,8 +185,43 @@ def check_kind(quantity: str, value: object, kinds: type | tuple[type, ...], lim
     raise DesignError(quantity, Unquoted(found), limit or f"{article} {names}", remedy)
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
-    """A remedy for a mistyped word: the known word that it begins or that is nearest to it, or all of them.
+_LOOKALIKES = str.maketrans("АВЕКМНОРСТУХасеорхуі", "ABEKMHOPCTYXaceopxyi")
+"""Cyrillic letters that look like Latin ones."""
+
+
+def meant(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> str:
+    """A remedy for a word that is none of those known: which of them is meant; empty where none is near.
+
+    called : what else a known word is called, as by a textbook or in another language
+
+    >>> meant("Cicloidal", ["cosine", "cycloidal"])
+    "did you mean 'cycloidal'?"
+    >>> meant("simple harmonic", ["cosine", "double-harmonic"], {"cosine": ["simple harmonic"]})
+    "did you mean 'cosine'?"
+    >>> meant("А1", ["A1", "A2"])
+    "its letter 'А' is Cyrillic: type 'A1' in Latin letters"
+    >>> meant("xyz", ["cosine", "cycloidal"])
+    ''
+    """
+    known = list(known)
+    names = {other.casefold(): name for name in known for other in (called or {}).get(name, ())}
+    names |= {name.casefold(): name for name in known}
+    latin = word.translate(_LOOKALIKES)
+    if latin != word and (name := names.get(latin.casefold())):
+        letter = next(letter for letter, other in zip(word, latin, strict=True) if letter != other)
+        return f"its letter '{letter}' is Cyrillic: type '{name}' in Latin letters"
+    begun = [name for name in known if name.startswith(f"{word}_")]
+    if begun:
+        return f"did you mean '{begun[0]}'?"
+    near = difflib.get_close_matches(unicodedata.normalize("NFKC", word).casefold(), names, n=1)
+    close = [names[other] for other in near]
+    return f"did you mean '{close[0]}'?" if close else ""
+
+
+def nearest(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> str:
+    """A remedy for a mistyped word: the known word that is meant, or all of them; ``called`` as in :func:`meant`.
+
+    Where the limit lists them already, :func:`meant` alone is enough.
 
     >>> nearest("cicloidal", ["cosine", "cycloidal"])
     "did you mean 'cycloidal'?"
@@ -195,7 +231,4 @@ def nearest(word: str, known: Iterable[str]) -> str:
     "did you mean 'roller_radius'?"
     """
     known = list(known)
-    alike = [each for each in known if each.lower() == word.lower()]
-    begun = [each for each in known if each.startswith(f"{word}_")]
-    close = alike or begun or difflib.get_close_matches(word, known, n=1)
-    return f"did you mean '{close[0]}'?" if close else "known are " + ", ".join(known)
+    return meant(word, known, called) or "known are " + ", ".join(known)

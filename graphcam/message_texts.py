@@ -56,8 +56,10 @@ NAMED = {"DesignError": 0, "RowError": 0, "TooLargeError": 0, "TaskError": 1, "_
 HELPED = {"Option", "Argument", "Typer"}
 """Calls of typer with a help."""
 RETURN = {
-    *("nearest", "missing", "_broken", "_sentence", "install_advice", "_remedy", "_turn_remedy", "swing_remedy"),
-    *("_told", "_typography", "_comma", "_value"),
+    *("nearest", "meant", "missing", "_broken", "_sentence", "install_advice", "_remedy", "_turn_remedy", "_told"),
+    "swing_remedy",
+    *("_typography", "_comma", "_value"),
+    *("key_remedy", "value_remedy", "missing_remedy", "_radius_remedy", "said"),
 }
 """Functions that return texts; errors that say themselves do so too, and have texts as defaults."""
 

@@ -14,15 +14,22 @@ from functools import cache
 
 from graphcam.language import ENGLISH, Language, language
 from graphcam.message_texts import CONTEXT, is_text
+from graphcam.words import say_in
 
 DEEPEST = 6
 """Messages within messages."""
 SUBJECT = "what"
 """The place in :mod:`graphcam.errors` of what is wrong."""
-OPEN = {"allowed", "message", "sentence", "remedy", "why", "error"}
-"""The places in which a message with its remedy may stand."""
+OPEN = {"allowed", "message", "sentence", "remedy", "why", "error", "shown"}
+"""The places in which a message with its remedy, or a semicolon of somebody's own, may stand."""
 REMEDY = "; "
 """What stands before a remedy."""
+OR = say_in("message", "or")
+"""What stands between two texts of which one is wanted."""
+QUOTED = re.compile("'[^']*'(, '[^']*')*")
+"""Words of a file."""
+AMOUNT = re.compile(r"([-+.\de]+) (\S.*)")
+"""A number and its unit."""
 BETWEEN = (REMEDY, ": ")
 """What stands between what is wrong and what to do, and behind the place where it is."""
 
@@ -85,18 +92,31 @@ def _texts(name: str) -> _Texts:
     for (context, text), (translation, *_) in language(name).catalog.told.items():
         if context not in (CONTEXT, ""):
             continue
-        pieces = [(literal, place) for literal, place, *_ in string.Formatter().parse(text)]
-        names = tuple(place for _, place in pieces if place is not None)
+        literals, names = _pieces(text)
         if not names:
             # What a message says in its own context counts before what a caption says; and a caption of one word may be
             # the name of a field as well.
             if context or (text not in plain and " " in text):
-                plain["".join(literal for literal, _ in pieces)] = translation.replace("{{", "{").replace("}}", "}")
+                plain[literals[0]] = translation.replace("{{", "{").replace("}}", "}")
             continue
-        parts = [literal for literal, _ in pieces] + ([""] if pieces[-1][1] is not None else [])
         if is_text(text) and len({*names}) == len(names):
-            templates.append(_Template(tuple(parts), names, translation))
+            templates.append(_Template(literals, names, translation))
     return _Texts(plain, sorted(templates, key=lambda one: -sum(map(len, one.parts))))
+
+
+def _pieces(template: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The literal parts of a template, and the names of the places between them.
+
+    >>> _pieces("add {{ angle = {off} }}, {or_less}")
+    (('add { angle = ', ' }, ', ''), ('off', 'or_less'))
+    """
+    literals, names = [""], list[str]()
+    for literal, place, *_ in string.Formatter().parse(template):
+        literals[-1] += literal
+        if place is not None:
+            names.append(place)
+            literals.append("")
+    return tuple(literals), tuple(names)
 
 
 def _told(text: str, texts: _Texts, deeper: int) -> str:
@@ -112,6 +132,11 @@ def _told(text: str, texts: _Texts, deeper: int) -> str:
         if between in text:
             first, second = _parted(text, between, texts)
             return _told(first, texts, deeper) + between + _told(second, texts, deeper)
+    if (amount := AMOUNT.fullmatch(text)) and amount[2] in texts.plain:
+        return f"{amount[1]} {texts.plain[amount[2]]}"
+    either = text.split(f" {OR} ")
+    if either[1:] and all(texts.know(piece) or QUOTED.fullmatch(piece) for piece in either):
+        return f" {texts.plain.get(str(OR), OR)} ".join(_told(piece, texts, deeper) for piece in either)
     return text
 
 
@@ -124,8 +149,12 @@ def _parted(text: str, between: str, texts: _Texts) -> tuple[str, str]:
 
 def _inner(place: str, text: str, texts: _Texts, deeper: int) -> str:
     """What stands in a place of a message; one word for what is wrong is the name of a field, and stays."""
-    field = place == SUBJECT and " " not in text.rpartition(": ")[2]
-    return text if field else _told(text, texts, deeper)
+    path, between, what = text.rpartition(": ")
+    if place == SUBJECT and " " not in what:
+        return text
+    if place == SUBJECT and between and what in texts.plain:
+        return _told(path, texts, deeper) + between + texts.plain[what]
+    return _told(text, texts, deeper)
 
 
 def _filled(template: str, values: dict[str, str]) -> str:

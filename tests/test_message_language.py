@@ -117,6 +117,66 @@ def test_what_is_found_in_a_line_of_a_file_is_told_piece_by_piece(tmp_path, monk
     assert done.stderr == f"graphcam: {place}: '−' (minus sign), {wanted}\n"
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        '[drawing]\nlanguage = "ru"\n',
+        "rotation = \n[drawing]\nlanguage = 'ru'\n",
+        'rotation = "cw"\ndrawing = { format = "A1", language = "ru" }\n',
+        '# Задание\nrotation = "cw"\ndrawing.language = "ru"  # language = "en"\n',
+    ],
+    ids=["incomplete", "no TOML", "in braces", "with dots"],
+)
+@pytest.mark.parametrize("command", ["solve", "size", "notebook", "studio"])
+def test_the_language_of_a_task_is_heard_before_the_task_is_found_right(command, text, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "q.toml").write_text(text, encoding="utf-8")
+    done = CliRunner().invoke(app, [command, "q.toml"], env={"LANGUAGE": "en"})
+    assert done.exit_code == 2
+    assert "а должно быть: " in done.stderr
+    asked = CliRunner().invoke(app, [command, "q.toml", "--language", "en"], env={"LANGUAGE": "en"})
+    assert ", but must be " in asked.stderr
+
+
+@pytest.mark.parametrize(
+    "text", ['# language = "ru"\n[drawing]\n', '[drawing]\nlanguage = "xx"\n', "[drawing]\nlanguage = 7\n"]
+)
+def test_a_task_that_names_no_language_is_told_in_that_of_the_machine(text, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "q.toml").write_text(text, encoding="utf-8")
+    assert ", but must be " in CliRunner().invoke(app, ["solve", "q.toml"], env={"LANGUAGE": "en"}).stderr
+    assert "а должно быть: " in CliRunner().invoke(app, ["solve", "q.toml"], env={"LANGUAGE": "ru"}).stderr
+
+
+@pytest.mark.parametrize(
+    ("limit", "said"),
+    [
+        ("'A1', 'A2' or 'A3'", "'A1', 'A2' или 'A3'"),
+        ("a number (without quotes) or text in quotes", "число (без кавычек) или текст в кавычках"),
+        ("400 mm", "400 мм"),
+        ("what nobody translated or a number", "what nobody translated or a number"),
+    ],
+)
+def test_what_is_listed_in_a_message_is_told_piece_by_piece(limit, said):
+    assert told(DesignError("lift", 0, limit), RUSSIAN) == f"lift: 0, а должно быть: {said}"
+
+
+def test_a_semicolon_that_somebody_wrote_is_none_before_a_remedy():
+    said = told(DesignError("law", "a; b", "a number", "check the name"), RUSSIAN)
+    assert said == "law: 'a; b', а должно быть: число; проверьте имя"
+
+
+def test_the_kind_of_a_file_is_told_after_its_name():
+    error = TaskError("cam.toml", "the task file", Unquoted("empty"), "a TOML file")
+    assert told(error, RUSSIAN) == "cam.toml: файл задания: пусто, а должно быть: файл TOML"
+
+
+def test_braces_in_a_message_stay():
+    remedy = '5 deg are missing: add { kind = "dwell", angle = 5 } at the end, or lengthen a dwell'
+    said = 'не хватает 5°: добавьте в конце { kind = "dwell", angle = 5 } или удлините выстой'
+    assert told(remedy, RUSSIAN) == said
+
+
 def every_text() -> list[str]:
     texts = [text for path in PACKAGE.rglob("*.py") for _, text in texts_of_messages(path.read_text(encoding="utf-8"))]
     return sorted(set(texts))

@@ -60,6 +60,27 @@ def test_the_check_of_quotes_can_fail():
     assert faults('DesignError("lift", Unquoted("missing"), "given")') == []
 
 
+def doubled(text: str) -> list[int]:
+    """The lines of errors whose limit and remedy may list the same words."""
+    found: list[int] = []
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in VALUE_OF:
+            said = [ast.unparse(argument) for argument in node.args]
+            if any(".join(" in each for each in said) and any(each.startswith("nearest(") for each in said):
+                found.append(node.lineno)
+    return found
+
+
+def test_limit_and_remedy_do_not_list_the_same_words():
+    found = {path.name: doubled(path.read_text(encoding="utf-8")) for path in FILES}
+    assert {name: lines for name, lines in found.items() if lines} == {}
+    assert doubled('DesignError("kind", kind, "one of " + ", ".join(KINDS), nearest(kind, KINDS))') == [1]
+    with pytest.raises(DesignError) as caught:
+        graphcam.solve(graphcam.builtin_task()).write("out", files=["html"])
+    assert str(caught.value).startswith("files is 'html', but must be a list of kinds among pdf, ")
+    assert str(caught.value).count("pdf") == 1
+
+
 def test_what_somebody_wrote_stands_in_quotes_and_what_is_told_of_it_does_not():
     assert str(DesignError("law", "sine", "known")) == "law is 'sine', but must be known"
     assert (

@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 from typer import Argument, Option
 
-import graphcam
+from graphcam.cli.given_task import errors_name, read_task
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     TaskFile,
@@ -53,14 +53,14 @@ def notebook(
     """
     voice().choose(language)
     with one_message():
-        given = graphcam.builtin_task() if task is None else graphcam.load_task(task)
+        given = read_task(task)
         if language is not None:
             given = replace(given, drawing=replace(given.drawing, language=language))
-        voice().hear(given.drawing.language)
         # Loads nbconvert: only when the input has been found right.
         from graphcam.notebooks.notebook_folder import write_folder
 
-        files = write_folder(given, out, run=run, html=html, pdf=pdf, progress=progress_lines(quiet=False))
+        with errors_name(task):
+            files = write_folder(given, out, run=run, html=html, pdf=pdf, progress=progress_lines(quiet=False))
     typer.echo(f"{out}: " + ", ".join(files))
 
 

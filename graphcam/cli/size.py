@@ -11,6 +11,7 @@ import typer
 from typer import Argument, Option
 
 import graphcam
+from graphcam.cli.given_task import errors_name, read_task
 from graphcam.cli.shared import DEFAULT_FOLDER, echo, named, one_message, print_table, progress_lines, warnings_told
 from graphcam.cli.voice import tell, voice
 from graphcam.language import languages
@@ -61,10 +62,10 @@ def size(
     progress = progress_lines(quiet=as_json)
     folder = FOLDER if out is None and not as_json else out
     with one_message(), warnings_told():
-        given = graphcam.builtin_task("sizing") if task is None else graphcam.load_task(task)
-        voice().hear(given.drawing.language)
+        given = read_task(task, "sizing")
         progress("searching the ranges")
-        sizing = graphcam.size_task(given, None if objective is None else objective.value)
+        with errors_name(task):
+            sizing = graphcam.size_task(given, None if objective is None else objective.value)
         document = sizing.to_dict()
         if folder is not None:
             document["files"] = sizing.write(folder, language, progress)

@@ -15,6 +15,7 @@ from typer import Option
 
 import graphcam
 from graphcam.cli.adopted_sizes import adopted_sizes
+from graphcam.cli.given_task import errors_name, read_task
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     TaskFile,
@@ -94,22 +95,27 @@ def solve(
     with one_message(), warnings_told(), _collecting_later():
         last = _last_step(upto, worksheet=worksheet)
         given = _read(task, divisions, language, small=per_construction)
-        voice().hear(given.drawing.language)
         # Loads the renderers: only when the input has been found right.
         from graphcam.report.output_folder import check_choices
         from graphcam.solving.solve import solve as solved
 
         progress("drawing and computing")
-        solution = solved(given, None if pencil is None else graphcam.Pencil.of(pencil, seed=seed))
-        document = _document(solution, finished=last is None)
-        if folder is None:
-            # A wrong choice is one even where nothing is drawn by it.
-            check_choices(solution, last, dxf=dxf, working_drawing=working_drawing)
-        else:
-            part = working_drawing
-            document["files"] = solution.write(
-                folder, upto=last, per_construction=per_construction, dxf=dxf, working_drawing=part, progress=progress
-            )
+        hand = None if pencil is None else graphcam.Pencil.of(pencil, seed=seed)
+        with errors_name(task):
+            solution = solved(given, hand)
+            document = _document(solution, finished=last is None)
+            if folder is None:
+                # A wrong choice is one even where nothing is drawn by it.
+                check_choices(solution, last, dxf=dxf, working_drawing=working_drawing)
+            else:
+                document["files"] = solution.write(
+                    folder,
+                    upto=last,
+                    per_construction=per_construction,
+                    dxf=dxf,
+                    working_drawing=working_drawing,
+                    progress=progress,
+                )
     # Warnings and sizes tell what somebody with an unfinished sheet is to find.
     _print_solution(document, folder, solution.warnings if last is None else (), as_json=as_json)
     if last is None and not as_json and (sizes := adopted_sizes(solution)):
@@ -128,7 +134,7 @@ def _collecting_later() -> Generator[None]:
 
 def _read(path: Path | None, divisions: int | None, language: str | None, *, small: bool) -> Task | ArcsTask:
     """The task with what the options change; ``small`` sheets are for one construction each."""
-    task = graphcam.builtin_task() if path is None else graphcam.load_task(path)
+    task = read_task(path)
     asked = {"divisions": divisions, "language": language}
     drawing = replace(task.drawing, **{key: value for key, value in asked.items() if value is not None})
     if small and drawing.format in LARGE:

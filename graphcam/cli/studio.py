@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from typer import Option
 
-import graphcam
+from graphcam.cli.given_task import read_task
 from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, echo, named, one_message, warnings_told
 from graphcam.cli.voice import voice
 from graphcam.errors import DesignError, Unquoted
@@ -60,7 +60,6 @@ def studio(
     with one_message(), warnings_told():
         _check(html, site, pyodide)
         given = _read(task, language)
-        voice().hear(given.drawing.language)
         if pyodide is None:
             _serve(given, out, browser=browser)
         else:
@@ -81,7 +80,7 @@ def _check(html: Path | None, site: Path | None, pyodide: Path | None) -> None:
 
 
 def _read(path: Path | None, spoken: str | None) -> Task | ArcsTask:
-    task = graphcam.builtin_task() if path is None else graphcam.load_task(path)
+    task = read_task(path)
     if spoken is None:
         return task
     return replace(task, drawing=replace(task.drawing, language=spoken))

@@ -175,9 +175,11 @@ class PolynomialPart(_Part):
             limit = f"at most {MOST_DEGREE + 1}, for a degree of {MOST_DEGREE}"
             raise DesignError("points", Unquoted(f"{degree + 1} conditions"), limit, "give fewer, or take a spline")
         if self.degree is not None and self.degree != degree:
-            too = "many" if self.degree < degree else "few"
             limit = f"{degree}, one less than the {degree + 1} conditions"
-            raise DesignError("degree", self.degree, limit, f"they are too {too}: leave the degree out, or change them")
+            remedy = "they are too many: leave the degree out, or change them"
+            if self.degree > degree:
+                remedy = "they are too few: leave the degree out, or change them"
+            raise DesignError("degree", self.degree, limit, remedy)
         self._check_sound()
 
     def _solved(

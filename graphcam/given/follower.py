@@ -4,9 +4,17 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, meant
 
 Rotation = Literal["ccw", "cw"]
+SENSES = {
+    "ccw": (
+        *("counter-clockwise", "anticlockwise", "anti-clockwise"),
+        *("против часовой стрелки", "逆时针", "ngược chiều kim đồng hồ"),
+    ),
+    "cw": ("clockwise", "по часовой стрелке", "顺时针", "thuận chiều kim đồng hồ"),
+}
+"""What else the senses are called; a message names the one that is meant."""
 
 
 def sense(rotation: str) -> int:
@@ -18,7 +26,7 @@ def sense(rotation: str) -> int:
     try:
         return {"ccw": 1, "cw": -1}[rotation]
     except (KeyError, TypeError):
-        raise DesignError("rotation", rotation, "'ccw' or 'cw'") from None
+        raise DesignError("rotation", rotation, "'ccw' or 'cw'", meant(f"{rotation}", SENSES, SENSES)) from None
 
 
 def _check_length(quantity: str, value: float, *, zero: bool) -> None:

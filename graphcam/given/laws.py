@@ -20,6 +20,7 @@ import numpy as np
 
 from graphcam.errors import DesignError, nearest
 from graphcam.given.exact_pieces import ExactPiece
+from graphcam.given.law_words import LAW_WORDS
 from graphcam.given.motion_law import Fourth, Law
 from graphcam.given.pieces import Floats, Formula, Side, sine_cosine
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law, leg_law
@@ -351,7 +352,9 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     own = isinstance(name, Law)
     if not own and name not in LAWS:
         known = (*LAWS, CONSTANT_VELOCITY)
-        remedy = "a law of your own is gc.Law(name, formula)" if callable(name) else nearest(f"{name}", known)
+        remedy = nearest(f"{name}", known, LAW_WORDS)
+        if callable(name):
+            remedy = "a law of your own is gc.Law(name, formula)"
         raise DesignError("law", name, "a motion law that graphcam knows", remedy)
     if not 1 / MOST_UNEQUAL <= ratio <= MOST_UNEQUAL:
         limit = f"a finite number greater than 0, from {1 / MOST_UNEQUAL:g} to {MOST_UNEQUAL:g}"

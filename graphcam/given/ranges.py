@@ -14,7 +14,7 @@ NUMBER = Real, np.ndarray
 """What a number may be, one in an array of no axes too."""
 SENSIBLE = {
     "mm": (1e-9, 1e9),
-    "(mm; degrees for an arm)": (1e-9, 1e9),
+    "mm (degrees for an arm)": (1e-9, 1e9),
     "mm on paper": (1e-2, 1e4),
     "mm/rad^2": (0.0, 1e9),
     "degrees": (1e-6, 360.0),

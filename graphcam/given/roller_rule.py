@@ -1,6 +1,7 @@
 """Rules of the schools for the roller radius, such as ``min(0.7 rho, 0.4 r0)``."""
 
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from graphcam.errors import DesignError, nearest
@@ -37,6 +38,9 @@ NAMED_RULES = {
 _NUMBER = r"(\d+(?:\.\d+)?)"
 _FACTOR = re.compile(rf"{_NUMBER}\s*\*?\s*(rho|r0)")
 _MARGIN = re.compile(rf"rho\s*-\s*{_NUMBER}")
+_WRITTEN = ((r"(?:ρ|rho)(?:_?min)?", "rho"), (r"r(?:₀|_0)", "r0"), ("[−–]", "-"), ("[·×]", "*"))
+"""Patterns of what textbooks write, and what it is in a rule."""
+_NO_DECIMAL_COMMA = r"(?<!\d),|,(?!\d)"
 
 
 @dataclass(frozen=True)
@@ -69,6 +73,8 @@ def roller_rule(text: str) -> tuple[Candidate, ...]:
     """The terms of a rule; the smallest of what they propose is taken.
 
     Grammar: ``K rho``, ``K r0``, ``rho - MM`` or ``min(..., ...)`` of these, or a name of :data:`NAMED_RULES`.
+    It may be written as in a textbook: ``ρ``, ``ρmin`` and ``rho_min`` are rho, ``r₀`` is r0, a semicolon parts terms,
+    and a comma between digits is a decimal one where the terms have no meaning otherwise.
 
     Raises
     ------
@@ -78,19 +84,47 @@ def roller_rule(text: str) -> tuple[Candidate, ...]:
     [35.0, 16.0, 46.0]
     >>> [term.text for term in roller_rule("coursework")]
     ['0.65 rho', '0.4 r0']
+    >>> [term.text for term in roller_rule("min(0,7ρmin; 0,4 r₀)")]
+    ['0.7rho', '0.4 r0']
     """
     if text in NAMED_RULES:
         named = NAMED_RULES[text]
         return tuple(replace(term, source=named.source) for term in roller_rule(named.rule))
-    inner = re.fullmatch(r"\s*min\s*\((.*)\)\s*", text)
-    return tuple(_candidate(term.strip(), text) for term in (inner[1].split(",") if inner else [text]))
+    for terms in (readings := list(_readings(text))):
+        found = [_candidate(term) for term in terms]
+        if all(found):
+            return tuple(each for each in found if each)
+    wrong = next(term for term in readings[-1] if _candidate(term) is None)
+    remedy = f"in place of '{wrong}' write a term such as 0.7 rho, 0.4 r0 or rho - 5"
+    if re.fullmatch(r"[a-z-]+", text):
+        remedy = nearest(text, NAMED_RULES)
+    limit = "'K rho', 'K r0', 'rho - MM', min(..., ...) of these or the name of a rule"
+    raise DesignError("roller rule", text, limit, remedy)
 
 
-def _candidate(term: str, rule: str) -> Candidate:
+def _readings(rule: str) -> Iterator[list[str]]:
+    """The terms of a rule, as the commas can be read: between terms, then as decimal ones between digits.
+
+    >>> list(_readings("min(0,7 rho, rho - 5)"))
+    [['0', '7 rho', 'rho - 5'], ['0,7 rho', 'rho - 5']]
+    """
+    inner = re.fullmatch(r"\s*min\s*\((.*)\)\s*", rule)
+    if inner is None:
+        yield [rule.strip()]
+    elif ";" in inner[1]:
+        yield [term.strip() for term in inner[1].split(";")]
+    else:
+        yield [term.strip() for term in inner[1].split(",")]
+        yield [term.strip() for term in re.split(_NO_DECIMAL_COMMA, inner[1])]
+
+
+def _candidate(text: str) -> Candidate | None:
+    """The term that a text is, if it is one; a comma in it is a decimal one."""
+    term = text.replace(",", ".")
+    for written, plain in _WRITTEN:
+        term = re.sub(written, plain, term)
     if match := _FACTOR.fullmatch(term):
         return Candidate(term, match[2], factor=float(match[1]))
     if match := _MARGIN.fullmatch(term):
         return Candidate(term, "rho", margin=float(match[1]))
-    remedy = nearest(rule, NAMED_RULES) if re.fullmatch(r"[a-z-]+", rule) else f"the term '{term}' is none of them"
-    limit = "'K rho', 'K r0', 'rho - MM', min(..., ...) of these or the name of a rule"
-    raise DesignError("roller rule", rule, limit, remedy)
+    return None

@@ -131,10 +131,12 @@ def _source(length: object, amount: float) -> Caption | None:
 
 def _turned_by(instrument: Caption, degrees: Floats) -> Caption | None:
     """A protractor, and the angle that it is set to."""
-    low, high = (float(np.round(bound, 2)) + 0.0 for bound in (np.fmin.reduce(degrees), np.fmax.reduce(degrees)))
-    if max(abs(low), abs(high)) < NOTHING:
+    # A protractor has no angles below zero.
+    low, high = (float(np.round(bound(np.abs(degrees)), 2)) for bound in (np.fmin.reduce, np.fmax.reduce))
+    if high < NOTHING:
         return None
     if high - low > NOTHING:
         return say("{instrument} {low:.2f}° to {high:.2f}°", instrument=instrument, low=low, high=high)
-    turned = say("{instrument} {angle:.2f}° anticlockwise") if high > 0 else say("{instrument} {angle:.2f}° clockwise")
-    return turned.where(instrument=instrument, angle=abs(high))
+    left = float(np.fmax.reduce(degrees)) > 0
+    turned = say("{instrument} {angle:.2f}° anticlockwise") if left else say("{instrument} {angle:.2f}° clockwise")
+    return turned.where(instrument=instrument, angle=high)

@@ -11,7 +11,7 @@ from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphcam.errors import DesignError, LetteringWarning, Unquoted, nearest
+from graphcam.errors import DesignError, LetteringWarning, Unquoted, meant
 from graphcam.files import digest, whole_folder
 from graphcam.report.documents import contents_of, drawing_of, note_of
 from graphcam.report.note import comparison_file
@@ -75,7 +75,7 @@ def _check_names(
         raise DesignError("files", files, "a list of kinds", f"for this one alone write ['{files}']")
     unknown = [kind for kind in files or () if kind not in FILES]
     if unknown:
-        raise DesignError("files", unknown[0], f"a list of kinds among {', '.join(FILES)}", nearest(unknown[0], FILES))
+        raise DesignError("files", unknown[0], f"a list of kinds among {', '.join(FILES)}", meant(unknown[0], FILES))
 
 
 def _checked_part(solution: AnySolution) -> PartContents:

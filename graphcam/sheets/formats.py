@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, meant
 from graphcam.sheets.box import Box
 
 SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0), "A3": (420.0, 297.0), "A4": (297.0, 210.0)}
@@ -48,7 +48,7 @@ class Format:
         known = {"format": SIZES, "frame": MARGINS, "orientation": ORIENTATIONS}
         for (quantity, names), given in zip(known.items(), (self.name, self.frame, self.orientation), strict=True):
             if given is not None and given not in names:
-                raise DesignError(quantity, given, f"one of {', '.join(names)}", nearest(given, names))
+                raise DesignError(quantity, given, f"one of {', '.join(names)}", meant(given, names))
         if self.orientation == "landscape" and self._upright_only:
             limit = "portrait: GOST 2.301 uses A4 in portrait only"
             remedy = 'leave orientation out, or choose another format or frame = "iso"'
@@ -72,7 +72,7 @@ class Format:
         >>> Format("A3", "iso").said, Format("A4", "gost").said
         ('A3 landscape', 'A4 portrait')
         """
-        return f"{self.name} {ORIENTATIONS[self.upright]}"
+        return f"{self.name} portrait" if self.upright else f"{self.name} landscape"
 
     @property
     def _upright_only(self) -> bool:

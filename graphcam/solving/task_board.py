@@ -140,17 +140,17 @@ def check_given_sizes(task: Task, times: float = 1.0) -> None:
     graphcam.errors.DesignError: drawing.ordinate is 2000 mm, but must be at most 149 mm on A1 landscape; take ...
     """
     drawing, board = task.drawing, board_of(task)
-    on, larger = f"on {format_of(drawing).said}", "take a larger format, or leave it out"
+    sheet, larger = format_of(drawing).said, "take a larger format, or leave it out"
     heights = DrawnHeights(board.motion, math.degrees(board.mu_phi.per_mm))
     most = page_room(task, heights, board.follower)
     for k, pole in enumerate(drawing.poles or ()):
         if pole > times * most.pole:
-            limit = f"at most {math.floor(most.pole):g} mm {on}"
+            limit = f"at most {math.floor(most.pole):g} mm on {sheet}"
             raise DesignError(f"drawing.poles[{k}]", Unquoted(f"{pole:g} mm"), limit, larger)
     largest = heights.largest_ordinate(most, board.poles)
     if (given := drawing.ordinate) is not None and given > times * largest:
-        limit = f"at most {math.floor(10 * largest) / 10 or largest:.3g} mm {on}"
-        larger = larger.replace("a larger", "larger poles or a larger") if drawing.poles else larger
+        limit = f"at most {math.floor(10 * largest) / 10 or largest:.3g} mm on {sheet}"
+        larger = "take larger poles or a larger format, or leave it out" if drawing.poles else larger
         raise DesignError("drawing.ordinate", Unquoted(f"{given:g} mm"), limit, larger)
 
 

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, Unquoted, nearest
 from graphcam.given.follower import FOLLOWERS, Follower, swing_remedy
+from graphcam.given.law_words import LAW_WORDS
 from graphcam.given.laws import LAWS, Floats
 from graphcam.given.motion import CLOSURE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
@@ -183,7 +184,7 @@ def _choices(name: str, values: Any, known: tuple[str, ...], own: type | tuple[(
     array = np.asarray(values)
     for word in dict.fromkeys(array.ravel().tolist()):
         if not isinstance(word, own) and word not in known:
-            raise DesignError(name, word, "a name that graphcam knows", nearest(str(word), known))
+            raise DesignError(name, word, "a name that graphcam knows", nearest(str(word), known, LAW_WORDS))
     return _one_axis(name, array)
 
 

@@ -188,7 +188,7 @@ def number_axis(name: str, value: Any) -> NDArray[np.float64]:
         raise DesignError(name, Unquoted("an empty list"), _ALLOWED)
     if not all(isinstance(x, int | float) and not isinstance(x, bool) and abs(x) < math.inf for x in values):
         raise DesignError(name, value, _ALLOWED)
-    unit = "(mm; degrees for an arm)" if name == "lift" else "degrees" if name.endswith("_angle") else "mm"
+    unit = "mm (degrees for an arm)" if name == "lift" else "degrees" if name.endswith("_angle") else "mm"
     for x in values:
         # An offset may be next to nothing; a size that is negative or zero makes no cam, which its row tells.
         (positive if x > 0 and name != "offset" else bounded)(name, x, unit)

@@ -12,7 +12,7 @@ import dataclasses
 import math
 import types
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from typing import Annotated, Any, Literal, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
@@ -59,10 +59,14 @@ class UnknownKind:
 
 @dataclass(frozen=True)
 class WrongType:
-    """A value that is not of the field's type; ``expected`` is what the file must give."""
+    """A value that is not of the field's type; ``expected`` is what the file must give.
+
+    choices : the words that it may be, where these are few
+    """
 
     place: Place
     expected: str
+    choices: tuple[str, ...] = field(default=(), repr=False)
 
 
 @dataclass(frozen=True)
@@ -184,12 +188,13 @@ _PLAIN: dict[Any, Reader] = {float: _number, int: _whole, str: _text, bool: _swi
 def _literal_reader(choices: tuple[Any, ...]) -> Reader:
     *most, last = map(repr, choices)
     expected = f"{', '.join(most)} or {last}" if most else last
+    words = tuple(choice for choice in choices if isinstance(choice, str))
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
         for choice in choices:
             if said == choice and not isinstance(said, bool):
                 return choice
-        return faults.append(WrongType(place, expected))
+        return faults.append(WrongType(place, expected, words))
 
     return read
 

@@ -46,7 +46,7 @@ class _MovingTable:
 
     def __post_init__(self) -> None:
         positive("angle", self.angle, "degrees")
-        positive("lift", self.lift, "(mm; degrees for an arm)")
+        positive("lift", self.lift, "mm (degrees for an arm)")
         if self.blends is not None and self.law != CONSTANT_VELOCITY:
             left_out = f"left out for the law '{getattr(self.law, 'name', self.law)}'"
             raise DesignError("blends", list(self.blends), left_out, f"they are those of '{CONSTANT_VELOCITY}'")
@@ -110,11 +110,11 @@ class MotionTable:
         if self.tolerance is not None and self.table is None:
             left_out = "left out where there is no table"
             raise DesignError("tolerance", self.tolerance, left_out, f"{given[0]} are kept exactly")
-        bounded("tolerance", self.tolerance, "(mm; degrees for an arm)")
+        bounded("tolerance", self.tolerance, "mm (degrees for an arm)")
         if self.phases is not None:
             turn = math.fsum(phase.angle for phase in self.phases)
             if abs(turn - 360) > ANGLE_CLOSURE:
-                raise DesignError("sum of the phase angles", turn, "360 degrees", _remedy(turn))
+                raise DesignError("sum of the phase angles", turn, "360 degrees", _remedy(turn, self.phases))
         self()
 
     def __call__(self) -> Motion:
@@ -126,12 +126,17 @@ class MotionTable:
         return _motion(tuple(self.phases or ()), self.lift_unit)
 
 
-def _remedy(turn: float) -> str:
-    """What to do about angles [degrees] that do not sum to a turn."""
+def _remedy(turn: float, phases: tuple[PhaseTable, ...]) -> str:
+    """What to do about the angles of phases [degrees] that sum to ``turn``, which is none."""
     if abs(turn - FULL_TURN) < NEARLY * FULL_TURN:
         return "about 2 pi: give the angles in degrees, not in radians"
-    off = f"{abs(360 - turn):.10g} deg"
-    return f"{off} are missing: lengthen a dwell" if turn < 360 else f"{off} are too many: shorten a dwell"
+    off, dwells = f"{abs(360 - turn):.10g}", [isinstance(phase, DwellTable) for phase in phases]
+    which = "a dwell" if any(dwells) or not phases else "a phase"
+    if turn > 360:
+        return f"{off} deg are too many: shorten {which}"
+    if dwells and dwells[-1]:
+        return f"{off} deg are missing: lengthen {which}"
+    return f'{off} deg are missing: add {{ kind = "dwell", angle = {off} }} at the end, or lengthen {which}'
 
 
 @lru_cache(maxsize=16)  # because a task asks for its motion in several places

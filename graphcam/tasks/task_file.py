@@ -10,7 +10,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any, TypeVar
 
-from graphcam.errors import DesignError, MissingFileError, TaskError, Unquoted, nearest, unreadable
+from graphcam.errors import DesignError, MissingFileError, TaskError, Unquoted, meant, unreadable
 from graphcam.given.table_file import read_table
 from graphcam.tasks import arcs_task as arcs, motion_tables, parts_tables, spring_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
@@ -28,6 +28,7 @@ from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.task import Task
+from graphcam.tasks.task_remedies import key_remedy, missing_remedy, value_remedy
 from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.tasks.toml_faults import toml_fault
 
@@ -73,8 +74,8 @@ _CLASSES_OF_ARCS: Classes = {
 }
 """The same for a cam of three circular arcs."""
 _KEYS = {
-    "sum of the phase angles": "phases (sum of the angles)",
-    "sum of rises less returns": "phases (sum of rises less returns)",
+    "sum of the phase angles": "phases",
+    "sum of rises less returns": "phases",
     "motion": "phases",
     "roller radius": "roller_radius",
     "roller rule": "roller_rule",
@@ -83,7 +84,7 @@ _KEYS = {
     "permitted pressure angle on the rise": "pressure_angle_rise",
     "permitted pressure angle on the return": "pressure_angle_return",
     "minimum radius of curvature": "min_curvature_radius",
-    "the table's lift": "table (lift)",
+    "the table's lift": "table",
 }
 """What a quantity of a design error is called in the file, where that differs."""
 _LONGEST = 60
@@ -184,7 +185,7 @@ def builtin_task(name: str = "coursework") -> Task:
     """
     known = (*BUILT_IN, SIZING)
     if name not in known:
-        raise DesignError("built-in task", name, "one of " + ", ".join(known), nearest(name, known))
+        raise DesignError("built-in task", name, "one of " + ", ".join(known), meant(name, known))
     task = _parse(f"{name}.toml", builtin_text(name).encode(), _built_in_folder())
     assert isinstance(task, Task)
     return task
@@ -210,7 +211,7 @@ def builtin_text(name: str) -> str:
     """
     known = (*BUILT_IN, SIZING, "arcs")
     if name not in known:
-        raise DesignError("built-in task", name, "one of " + ", ".join(known), nearest(name, known))
+        raise DesignError("built-in task", name, "one of " + ", ".join(known), meant(name, known))
     return (_built_in_folder() / f"{name}.toml").read_text(encoding="utf-8")
 
 
@@ -291,13 +292,17 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
         case Missing(("spring", "mass")) if _swings(data):
             return TaskError(path, "spring.inertia", Unquoted("missing"), "given", "in kg mm^2, about the arm's pivot")
         case Missing():
-            return TaskError(path, place, Unquoted("missing"), "given", EXAMPLE)
+            return TaskError(path, place, Unquoted("missing"), "given", missing_remedy(place, data) or EXAMPLE)
         case UnknownKey(where):
-            return _unknown_key(path, place, value, classes, _table(where[:-1]))
+            return _unknown_key(path, place, value, classes, _table(where[:-1]), data)
         case UnknownKind(table):
             tags = [each[-1] for each in classes if each[:-1] == _table(table)]
             found = value.get("kind", Unquoted("missing"))
-            return TaskError(path, f"{place}.kind", _shown(found), "one of " + ", ".join(tags), EXAMPLE)
+            remedy = value_remedy("kind", found, tags) or EXAMPLE
+            return TaskError(path, f"{place}.kind", _shown(found), "one of " + ", ".join(tags), remedy)
+        case WrongType((*_, key), expected, choices):
+            remedy = value_remedy(f"{key}", value, choices) or EXAMPLE
+            return TaskError(path, place, _shown(value), expected, remedy)
         case WrongType(_, expected):
             return TaskError(path, place, _shown(value), expected, EXAMPLE)
 
@@ -308,7 +313,9 @@ def _swings(data: dict[str, Any]) -> bool:
     return isinstance(follower, dict) and follower.get("kind") == "oscillating"
 
 
-def _unknown_key(path: str, place: str, value: Any, classes: Classes, table: tuple[str, ...]) -> TaskError:
+def _unknown_key(
+    path: str, place: str, value: Any, classes: Classes, table: tuple[str, ...], data: dict[str, Any]
+) -> TaskError:
     """A key that its table does not have, or that only a table of another kind has."""
     key, known = place.split(".")[-1], _keys(classes[table])
     alike = [other for other in classes if table[:-1] and other[:-1] == table[:-1]]
@@ -316,7 +323,8 @@ def _unknown_key(path: str, place: str, value: Any, classes: Classes, table: tup
     if kinds:
         left_out = f"left out where the kind is {table[-1]}"
         return TaskError(path, place, _shown(value), left_out, f"it is for {' and '.join(kinds)}")
-    return TaskError(path, place, Unquoted("an unknown key"), "one that is known", nearest(key, known))
+    remedy = key_remedy(key, value, known, data)
+    return TaskError(path, place, Unquoted("an unknown key"), "one that is known", remedy)
 
 
 def _keys(table: type) -> list[str]:
@@ -328,8 +336,15 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
     """A value that fits its type but no design, named and shown as it stands in the file where it does."""
     key = _KEYS.get(error.quantity, error.quantity)
     field, value = _look_up(data, (*place, *key.split(".")))
-    if not isinstance(value, int | float | str):
+    # What follows from a table is no value that its key has.
+    if not isinstance(value, int | float | str) or error.quantity == "the table's lift":
         value = Unquoted(error.value) if isinstance(error.value, str) else error.value
+    if error.quantity == "sum of the phase angles":
+        field = f"{field} (sum of the angles)"
+    elif error.quantity == "sum of rises less returns":
+        field = f"{field} (sum of rises less returns)"
+    elif error.quantity == "the table's lift":
+        field = f"{field} (lift)"
     return TaskError(path, field, _shown(value), error.limit, error.remedy or EXAMPLE)
 
 

@@ -74,8 +74,8 @@ def _typography(line: str, place: str) -> Told | None:
             continue
         name = unicodedata.name(letter, f"U+{ord(letter):04X}").lower()
         if not plain.strip():
-            wanted, remedy = ("a plain space", "type it anew") if plain else ("left out", "delete it")
-            return f"{place}, column {column}: the character", f"invisible ({name})", wanted, remedy
+            what, found = f"{place}, column {column}: the character", f"invisible ({name})"
+            return (what, found, "a plain space", "type it anew") if plain else (what, found, "left out", "delete it")
         return (
             f"{place}, column {column}: the character",
             f"'{letter}' ({name})",

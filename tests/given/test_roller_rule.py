@@ -53,3 +53,28 @@ def test_a_mistyped_name_is_told():
         roller_rule("gorbenco")
     with pytest.raises(DesignError, match="known are coursework, coursework-prime-radius, gorbenko"):
         roller_rule("xyz")
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "min(0.7rho, 0.4r0)", "min(0.7rho,0.4r0)", "min(0,7ρmin; 0,4 r0)", "min(0,7 ρ_min, 0,4 r₀)",
+        "min(0.7·rho_min; 0.4·r_0)", "min( 0.7ρ ; 0,4r₀ )", "min(0,7 rho,0,4 r0)",
+    ],
+)  # fmt: skip
+def test_a_rule_may_be_written_as_in_a_textbook(written):
+    assert [(term.of, term.factor) for term in roller_rule(written)] == [("rho", 0.7), ("r0", 0.4)]
+
+
+def test_a_comma_parts_terms_where_these_have_a_meaning():
+    assert [str(term.said) for term in roller_rule("min(rho - 5,0.4 r0)")] == ["ρ − 5 mm", "0.4 r₀"]
+    assert [str(term.said) for term in roller_rule("min(rho − 3,5; 0.4 r0)")] == ["ρ − 3.5 mm", "0.4 r₀"]
+
+
+@pytest.mark.parametrize(
+    ("rule", "term"), [("min(0,7р; 0,4 r0)", "0,7р"), ("0.7 roh", "0.7 roh"), ("min(0.7 rho, 0.4)", "0.4")]
+)
+def test_a_term_that_is_none_is_quoted_whole_with_what_to_write(rule, term):
+    with pytest.raises(DesignError) as caught:
+        roller_rule(rule)
+    assert caught.value.remedy == f"in place of '{term}' write a term such as 0.7 rho, 0.4 r0 or rho - 5"

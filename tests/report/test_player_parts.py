@@ -112,7 +112,7 @@ def test_next_draws_part_after_part_and_lights_what_each_is_found_from(page):
     page.keyboard.press("ArrowRight")
     first = state(page)
     assert (first["now"], first["lit"], first["hidden"]) == ("1/0", "0/0 0/0", 4)
-    assert first["announced"] == "The chords. All chords.. Chord 0."
+    assert first["announced"] == "The chords. All chords. Chord 0."
     page.locator("#next").click()
     assert state(page) == SECOND
     page.keyboard.press("ArrowRight")

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from russian import english_words
 from typer.testing import CliRunner
 
 from graphcam.cli import app
 from graphcam.cli.shared import WRONG_INPUT
 from graphcam.errors import TaskError
-from graphcam.tasks.task_file import builtin_text, load_task
+from graphcam.language import language
+from graphcam.messages import told
+from graphcam.tasks.task_file import _CLASSES as CLASSES, _keys as keys_of, builtin_text, load_task
 
 WHOLE = builtin_text("coursework") + "\n[cam]\nprime_radius = 50\n"
 RISE = '{ kind = "rise", angle = 80, lift = 30, law = "rectangular" }'
@@ -94,7 +98,7 @@ FAULTS = {
     ),
     "a bad roller rule": (("0.7 rho", "0.7 roh"), "follower.roller_rule", "'K rho' term '0.7 roh'"),
     "an unknown rotation": (('"cw"', '"clockwise"'), "rotation", "'clockwise' 'ccw' 'cw'"),
-    "no rotation": (('rotation = "cw"', ""), "rotation", "missing graphcam init"),
+    "no rotation": (('rotation = "cw"', ""), "rotation", "missing write ccw offset greater than 0 lowers"),
     "a speed of zero": (("speed_rpm = 120", "speed_rpm = 0"), "speed_rpm", "0 greater than 0 rpm"),
     "a mistyped key of the file": (("speed_rpm", "speed_prm"), "speed_prm", "unknown did you mean 'speed_rpm'"),
     "a mistyped table": (("[limits]", "[limit]"), "limit", "unknown did you mean 'limits'"),
@@ -191,6 +195,23 @@ def test_the_command_line_says_it_once_and_leaves_nothing(fault, tmp_path):
     assert result.stdout == ""
     assert result.stderr == f"graphcam: {error_of(path)}\n"
     assert [entry.name for entry in tmp_path.iterdir()] == ["cam.toml"]
+
+
+NAMES = {
+    *(key for table in CLASSES.values() for key in keys_of(table)), *(step for place in CLASSES for step in place),
+    "cam", "ccw", "cosine", "FILE", "graphcam", "inf", "init", "min", "nan", "rectangular", "rho", "TOML", "true",
+    "True", "false", "lfit", "limit", "motoin", "ofset", "prime_radus", "speed_prm",
+}  # fmt: skip
+"""What a message about the coursework's file may say in Latin letters: keys, values and mistyped ones."""
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_fault_is_told_in_russian_as_a_whole(fault, tmp_path):
+    path = file_with(fault, tmp_path)
+    said = told(error_of(path), language("ru")).replace(str(path), "")
+    # What Unicode calls a letter and what a parser says stands in brackets, what somebody wrote in quotes.
+    said = re.sub(r"(TOML|невидимый|'.') \(.*?\)(?=[,;])", "", said)
+    assert english_words(re.sub(r"'[^']*'", "", said), sorted(NAMES, key=len, reverse=True)) == set(), said
 
 
 def error_of(path: Path) -> str:

@@ -70,7 +70,7 @@
     at("slider").setAttribute("aria-valuetext", `${steps[current].number} ${said(".name")}, ${place}`);
     const news = part === null ? [] : [items[part].querySelector(".done-here").textContent];
     if (part === null || isNew) news.unshift(said(".name"), said(".caption"));
-    at("announcement").textContent = news.join(". ");
+    at("announcement").textContent = sentences(news);
     at("previous").disabled = atStart();
     at("whole-back").disabled = current === 0;
     at("next").disabled = at("whole-on").disabled = atEnd();
@@ -83,6 +83,12 @@
     if (isNew) at("words").scrollTop = 0;
     // The first part leaves the caption in sight.
     if (part !== null && (part || !isNew)) bringIntoSight(items[part]);
+  }
+
+  // Titles have no full stop of their own, most captions have one.
+  function sentences(texts) {
+    const stop = texts.some((text) => text.endsWith("。")) ? "。" : ".";
+    return texts.filter(Boolean).map((text) => (/[.。?？!！:：…]$/.test(text) ? text : text + stop)).join(" ");
   }
 
   // In the player's own boxes alone: in a frame scrollIntoView would move the page around it too.

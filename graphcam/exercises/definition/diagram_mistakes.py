@@ -12,6 +12,7 @@ from graphcam.drafting.ink import Construction, say
 from graphcam.errors import DesignError, nearest
 from graphcam.exercises.definition.catalogue import A_DIAGRAM, A_LAW, A_READING, Change, usual
 from graphcam.exercises.definition.drawn_answers import construction_of, read_as, redrawn, rescaled, with_ordinates
+from graphcam.given.law_words import LAW_WORDS
 from graphcam.given.laws import LAWS
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
 
@@ -28,7 +29,7 @@ Moving = Rise | Return
 def wrong_law(law: str) -> Change:
     """All moving phases by another law."""
     if law not in LAWS:
-        raise DesignError("law", law, "one of the known laws", nearest(law, LAWS))
+        raise DesignError("law", law, "one of the known laws", nearest(law, LAWS, LAW_WORDS))
 
     def by_law(phase: Phase) -> Phase:
         """The phase by that law; a dwell has none."""

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.constructions.chain import Chain
-from graphcam.errors import DesignError, TaskError, Unquoted, nearest
+from graphcam.errors import DesignError, TaskError, Unquoted, meant, nearest
 from graphcam.exercises.definition.blank_axes import empty_axes
 from graphcam.exercises.definition.drawn_answers import ask, board_chain, construction_of
 from graphcam.exercises.definition.exercise import Asked, Exercise, Parameter
@@ -149,7 +149,7 @@ def _check(path: str, exercise: Exercise) -> None:
             ask(chain, asked)
             if asked.place and asked.place not in shown:
                 limit = f"a view of the worksheet: {', '.join(shown) or 'none is shown'}"
-                raise DesignError("place", asked.place, limit, nearest(asked.place, shown) if shown else "")
+                raise DesignError("place", asked.place, limit, meant(asked.place, shown))
         except DesignError as error:
             place = f"answers[{k}].{error.quantity}"
             raise TaskError(path, place, error.value, error.limit, error.remedy or HOW_TO) from None
@@ -197,7 +197,7 @@ def _chosen(path: str, place: str, table: Mapping[str, Any], language: str) -> d
         for name in texts:
             if name not in languages():
                 expected = "a language, one of " + ", ".join(languages())
-                raise TaskError(path, f"{place}{key}", name, expected, nearest(name, languages()))
+                raise TaskError(path, f"{place}{key}", name, expected, meant(name, languages()))
         first = next(iter(texts.values()))
         found[key] = texts.get(language, texts.get(ENGLISH.name, first))
     return found
