@@ -9,6 +9,7 @@ from graphcam.constructions.board import Board, DrawnFollower
 from graphcam.constructions.drawn_arm import ARM_ON_PAPER, DrawnOscillating, positions_extent
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
+from graphcam.constructions.views import PROFILE
 from graphcam.drafting.scale import Scale, coarsest, standard_scale
 from graphcam.errors import DesignError, Unquoted
 from graphcam.given.angular_velocity import omega_of
@@ -18,7 +19,7 @@ from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.solving.diagram_sizes import POLES, DiagramRoom, DrawnHeights, over_the_turn
 from graphcam.solving.sheet_papers import format_of, largest_drawn, papers, profile_paper
 from graphcam.tasks.sheet_tables import SheetTable
-from graphcam.tasks.task import FlatFacedTable, FollowerTable, OscillatingTable, Task, TranslatingTable
+from graphcam.tasks.task import DrawingTable, FlatFacedTable, FollowerTable, OscillatingTable, Task, TranslatingTable
 
 
 def board_of(task: Task) -> Board:
@@ -43,9 +44,14 @@ def board_of(task: Task) -> Board:
         mu_phi=Scale(math.radians(room.degrees_per_mm), "rad"),
         rounding=drawing.rounding,
         omega=None if task.speed_rpm is None else omega_of(task.speed_rpm),
-        paper=profile_paper(drawing),
+        paper=replace(profile_paper(drawing), held=_held(drawing)),
         jerk_pole=heights.jerk_pole(room, ordinate) if drawing.jerk else None,
     )
+
+
+def _held(drawing: DrawingTable) -> dict[str, float]:
+    """The scales that the task gives views."""
+    return {} if drawing.profile_per_mm is None else {PROFILE.name: drawing.profile_per_mm}
 
 
 @singledispatch

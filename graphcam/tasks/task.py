@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from textwrap import shorten
 from typing import Annotated, Any, ClassVar, Literal, Self
 
+from graphcam.drafting.scale import STANDARD_RATIOS, ratio_said, ratio_text
 from graphcam.errors import DesignError, Unquoted
 from graphcam.given.follower import FlatFaced, Oscillating, Rotation, Translating, sense
 from graphcam.given.limits import PERMITTED, Limits
@@ -209,6 +210,8 @@ class DrawingTable(SheetTable):
         series at which the whole diagram keeps to its room on the sheet
     poles : mm on paper, the pole distances of the integrations a to v and v to s; None is 40 at 1 degree a millimetre,
         in proportion to the axis, or what makes the diagrams neither too high nor too low
+    profile_scale : a ratio of the frame's standard, such as "2:1", at which the cam's profile is drawn; None is the
+        largest at which it fits its room on the sheet
     rounding : mm, to which adopted sizes are rounded; None is the largest power of ten below r0/10, at most 1
     jerk : whether the jerk is drawn too, by differentiation of the acceleration diagram
     """
@@ -218,6 +221,7 @@ class DrawingTable(SheetTable):
     poles: tuple[float, float] | None = None
     rounding: float | None = None
     jerk: bool = False
+    profile_scale: str | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -227,14 +231,32 @@ class DrawingTable(SheetTable):
         for k, pole in enumerate(self.poles or ()):
             positive(f"poles[{k}]", pole, "mm on paper")
         positive("rounding", self.rounding, "mm")
+        self._check_profile_scale()
+
+    def _check_profile_scale(self) -> None:
+        ratios, per_mm = STANDARD_RATIOS[self.frame], self.profile_per_mm
+        if self.profile_scale is None or (per_mm and any(math.isclose(per_mm * ratio, 1) for ratio in ratios)):
+            return
+        usual = ", ".join(str(ratio_text(1 / ratio)) for ratio in ratios if 1 / 10 <= ratio <= 10)
+        limit = f"a standard drawing scale, such as {usual}"
+        raise DesignError("profile_scale", self.profile_scale, limit, "or leave it out")
+
+    @property
+    def profile_per_mm(self) -> float | None:
+        """The given scale of the profile [mm/mm]; None where it is left out.
+
+        >>> DrawingTable(profile_scale="2:1").profile_per_mm
+        0.5
+        """
+        return None if self.profile_scale is None else ratio_said(self.profile_scale)
 
     def on(self, format_: Format) -> Self:
-        """The same on another format, with the ordinate and poles that suit it: those given were chosen for this one.
+        """The same on another format, with ordinate, poles and scale that suit it: those given were chosen for this one.
 
         >>> DrawingTable("A1", ordinate=50, poles=(40, 40)).on("A3").ordinate is None
         True
         """
-        return replace(super().on(format_), ordinate=None, poles=None)
+        return replace(super().on(format_), ordinate=None, poles=None, profile_scale=None)
 
 
 @dataclass(frozen=True)
