@@ -347,7 +347,7 @@ def numbers(
 
 
 def clear_numbers(points: Points, stations: Stations, beside: Points) -> NDArray[np.bool_]:
-    """At which stations a number has room even where points crowd: off those of its phase that bear one, and ``beside``.
+    """At which stations a number has room where points crowd: off others of its phase that bear one, and ``beside``.
 
     The ends of a phase come first, then what follows from its beginning.
 

@@ -19,7 +19,7 @@ from graphcam.solving.diagram_sizes import ORDINATES, POLES, USUAL_POLE
 from graphcam.solving.sheet_papers import format_of
 from graphcam.solving.solution import Solution
 from graphcam.solving.task_board import board_of
-from graphcam.tasks.task import DrawingTable
+from graphcam.tasks.task import DrawingTable, Task
 
 CARRIED_OVER = ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name, COMBINED.name
 """The views from one to the other of which lines are drawn across."""
@@ -61,17 +61,17 @@ def fewer_sheets(contents: Contents, pages: int) -> Caption | None:
         return None
     now = _Laid(pages, 1) if drawing.format in ONE_PAGE else _laid(drawing, _part(contents, solution.chain))
     # Where even the smallest is of no use, the others are not laid out.
-    *larger, smallest = _smaller(solution) or [None]
-    if smallest is None or (said := _said(contents, now, smallest)) is None:
+    tables = _smaller(solution)
+    if not tables or (said := _said(contents, solution.task, now, tables[-1])) is None:
         return None
-    return next(filter(None, (_said(contents, now, tried) for tried in larger)), said)
+    return next(filter(None, (_said(contents, solution.task, now, tried) for tried in tables[:-1])), said)
 
 
-def _said(contents: Contents, now: _Laid, tried: DrawingTable) -> Caption | None:
+def _said(contents: Contents, task: Task, now: _Laid, tried: DrawingTable) -> Caption | None:
     """What a table with an ordinate and poles would bring; nothing where it is of no use."""
     # What makes a view too large for the format is no suggestion.
     with suppress(DesignError):
-        part = _part(contents, Chain(board_of(replace(contents.solution.task, drawing=tried))))
+        part = _part(contents, Chain(board_of(replace(task, drawing=tried))))
         if now.spread == 1 and fewest_pages(format_of(tried), part) >= now.pages:
             return None
         found = _laid(tried, part)
@@ -98,8 +98,8 @@ def _smaller(solution: Solution) -> list[DrawingTable]:
 
 
 def _part(contents: Contents, chain: Chain) -> SheetPart:
-    """What stands on the sheets, with the constructions of a chain; what was added to it does not depend on its scales."""
-    drawn = {name: chain[name] if name in chain else each for name, each in contents.drawn.items()}
+    """What stands on the sheets, with the constructions of a chain; what was added does not depend on its scales."""
+    drawn = {name: chain.get(name, each) for name, each in contents.drawn.items()}
     return replace(contents.whole, steps=scaled_steps(drawn)).told(contents.solution.tell)
 
 

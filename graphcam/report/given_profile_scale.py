@@ -11,7 +11,7 @@ from graphcam.sheets.panels import panels
 from graphcam.sheets.runs import GAPS
 from graphcam.solving.sheet_papers import format_of
 from graphcam.solving.solution import Solution, solved_on
-from graphcam.solving.task_board import HOPELESS, board_of
+from graphcam.solving.task_board import HOPELESS, board_of, given_profile_scale
 
 
 def check_profile_size(solution: Solution) -> None:
@@ -30,7 +30,7 @@ def check_profile_size(solution: Solution) -> None:
     graphcam.errors.DesignError: drawing.profile_scale is 5:1, but must be at most 2.5:1 on A1 landscape; take ...
     """
     task = solution.task
-    if (given := task.drawing.profile_per_mm) is None or _fits(solution, given):
+    if (given := given_profile_scale(task.drawing)) is None or _fits(solution, given):
         return
     smaller = (1 / ratio for ratio in solution.chain.board.paper.ratios if 1 / ratio > given)
     largest = next(mu for mu in smaller if _fits(solution, mu))
@@ -45,7 +45,7 @@ def check_profile_hopeful(solution: Solution) -> None:
     ------
     DesignError : it is
     """
-    given = solution.task.drawing.profile_per_mm
+    given = given_profile_scale(solution.task.drawing)
     if given is not None and _hopeless(solution, given):
         check_profile_size(solution)
 

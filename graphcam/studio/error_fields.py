@@ -59,7 +59,6 @@ FIELDS: Mapping[str, str] = {
     "poles[0]": "drawing.poles[0]",
     "poles[1]": "drawing.poles[1]",
     "rounding": "drawing.rounding",
-    "profile_scale": "drawing.profile_scale",
     "format": "drawing.format",
     "frame": "drawing.frame",
     "orientation": "drawing.orientation",

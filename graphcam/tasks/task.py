@@ -12,7 +12,6 @@ from dataclasses import dataclass, field, replace
 from textwrap import shorten
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from graphcam.drafting.scale import STANDARD_RATIOS, ratio_said, ratio_text
 from graphcam.errors import DesignError, Unquoted
 from graphcam.given.follower import FlatFaced, Oscillating, Rotation, Translating, sense
 from graphcam.given.limits import PERMITTED, Limits
@@ -231,27 +230,9 @@ class DrawingTable(SheetTable):
         for k, pole in enumerate(self.poles or ()):
             positive(f"poles[{k}]", pole, "mm on paper")
         positive("rounding", self.rounding, "mm")
-        self._check_profile_scale()
-
-    def _check_profile_scale(self) -> None:
-        ratios, per_mm = STANDARD_RATIOS[self.frame], self.profile_per_mm
-        if self.profile_scale is None or (per_mm and any(math.isclose(per_mm * ratio, 1) for ratio in ratios)):
-            return
-        usual = ", ".join(str(ratio_text(1 / ratio)) for ratio in ratios if 1 / 10 <= ratio <= 10)
-        limit = f"a standard drawing scale, such as {usual}"
-        raise DesignError("profile_scale", self.profile_scale, limit, "or leave it out")
-
-    @property
-    def profile_per_mm(self) -> float | None:
-        """The given scale of the profile [mm/mm]; None where it is left out.
-
-        >>> DrawingTable(profile_scale="2:1").profile_per_mm
-        0.5
-        """
-        return None if self.profile_scale is None else ratio_said(self.profile_scale)
 
     def on(self, format_: Format) -> Self:
-        """The same on another format, with ordinate, poles and scale that suit it: those given were chosen for this one.
+        """The same on another format, with ordinate, poles and scale that suit it: the given ones suit this one.
 
         >>> DrawingTable("A1", ordinate=50, poles=(40, 40)).on("A3").ordinate is None
         True
