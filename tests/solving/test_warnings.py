@@ -179,8 +179,6 @@ def test_a_title_block_that_tells_another_scale_than_the_drawn_one_is_told(said,
 @pytest.mark.parametrize("given", ["3:1", "2", "large", ""])
 def test_only_standard_scales_are_drawn(given):
     task = builtin_task()
-    with pytest.raises(
-        DesignError, match=r"a standard drawing scale, such as 10:1, 5:1, 4:1, 2.5:1, 2:1, 1:1"
-    ) as raised:
+    with pytest.raises(DesignError, match=r"a standard drawing scale, such as 10:1, 5:1, 4:1, 2.5:1") as raised:
         solve(replace(task, drawing=replace(task.drawing, profile_scale=given)))
     assert raised.value.quantity == "drawing.profile_scale"
