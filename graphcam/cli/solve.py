@@ -26,7 +26,7 @@ from graphcam.cli.shared import (
     progress_lines,
     warnings_told,
 )
-from graphcam.cli.telling_files import tell_files
+from graphcam.cli.telling_files import about, tell_files
 from graphcam.cli.voice import tell, voice
 from graphcam.language import languages
 
@@ -120,6 +120,8 @@ def solve(
     _print_solution(document, folder, solution.warnings if last is None else (), as_json=as_json)
     if last is None and not as_json and (sizes := adopted_sizes(solution)):
         echo(sizes)
+    if folder is not None and last is None and not (as_json or per_construction):
+        _print_hint(solution, folder)
 
 
 @contextmanager
@@ -174,6 +176,19 @@ def _print_solution(
         from graphcam.report.output_folder import written_files
 
         tell_files(folder, written_files(folder))
+
+
+def _print_hint(solution: AnySolution, folder: Path) -> None:
+    """With which sizes of the diagrams, where the task leaves them open, fewer sheets would do."""
+    # Loaded already, by what wrote the files.
+    from graphcam.report.documents import contents_of
+    from graphcam.report.fewer_sheets import fewer_sheets
+    from graphcam.report.output_folder import written_files
+
+    pages = sum(about(name) == "sheet" and name.endswith(".svg") for name in written_files(folder))
+    if pages > 1 and (hint := fewer_sheets(contents_of(solution), pages)) is not None:
+        echo("", err=True)
+        echo(hint, err=True)
 
 
 def _print_quantities(quantities: dict[str, dict[str, Any]]) -> None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import numbered, numbers, station_names, turning
+from graphcam.constructions.axes import clear_numbers, numbered, numbers, station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.acts import Drawn
@@ -149,7 +149,7 @@ def _first_here(ends: Drawn, start: Drawn, stations: Stations) -> NDArray[np.boo
     near = np.abs(np.subtract.outer(ends.shown, ends.shown)) < NEAR
     earlier = np.less.outer(stations.moving, stations.moving).T
     named = np.logical_or.reduce(near & earlier, axis=1) | (np.abs(ends.shown - start.place) < NEAR)
-    return np.logical_not(named)
+    return np.logical_not(named) & clear_numbers(ends.shown, stations, np.array([start.place]))
 
 
 def velocities_step(drawn: ArmPositions) -> Step:
@@ -177,7 +177,7 @@ def velocities_step(drawn: ArmPositions) -> Step:
         parts.append(Part(text.where(first=names[piece.start], last=names[piece.stop - 1]), (curve,)))
     marks = (
         *(tips.from_(ends, Role.CURVE), *(curve.line(Role.RESULT) for curve in curves)),
-        *numbers(tips, stations, tips.shown, shown=np.abs(tips.shown - ends.shown) > 1),
+        *numbers(tips, stations, tips.shown, shown=clear_numbers(tips.shown, stations, ends.shown)),
     )
     why = say(
         "Because the end of the arm has the velocity l·ds/dφ square to the arm; turned by 90° in the sense of the "

@@ -346,6 +346,30 @@ def numbers(
     return tuple(points.first[k].label(names[k], complex(ways[k]), small=True) for k in places)
 
 
+def clear_numbers(points: Points, stations: Stations, beside: Points) -> NDArray[np.bool_]:
+    """At which stations a number has room where points crowd: off others of its phase that bear one, and ``beside``.
+
+    The ends of a phase come first, then what follows from its beginning.
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> from graphcam.given.stations import divide
+    >>> halves = divide(gc.Motion([gc.Rise(30, pi), gc.Return(30, pi)]), 5)
+    >>> crowded = np.array([0, 1, 6, 16, 22, 23]) + 0j
+    >>> clear_numbers(np.append(crowded, crowded + 50j), halves, np.array([50 + 0j]))[:6].tolist()
+    [True, False, True, True, False, True]
+    """
+    clear, named = np.zeros(points.shape, dtype=bool), numbered(points, stations)
+    for span in stations.phases:
+        parts = span.stop - span.start - 1
+        taken = list(beside)
+        for k in sorted((k for k in named if span.start <= k < span.stop), key=lambda k: (k - span.start) % parts):
+            if all(abs(points[k] - other) >= NUMBER_ROOM[0] for other in taken):
+                clear[k] = True
+                taken.append(points[k])
+    return clear
+
+
 def height_names(heights: Drawn, names: Sequence[str]) -> tuple[Mark, ...]:
     """Names beside heights on the vertical axis, on the side of the other axis but clear of it, as many as find room.
 

@@ -1,6 +1,7 @@
 """Scale factors: machine units per millimetre of paper."""
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -21,6 +22,10 @@ ISO_5455: Ratios = (
 """With 100:1, by which the standard's series goes on."""
 STANDARD_RATIOS = {"gost": GOST_2_302, "iso": ISO_5455}
 """By the frame of the sheet."""
+
+
+RATIO = re.compile(r"(\d+(?:[.,]\d+)?)\s*[:：]\s*(\d+(?:[.,]\d+)?)")
+"""A drawing scale as people write it, decimals with a point or a comma."""
 
 
 @dataclass(frozen=True)
@@ -102,6 +107,17 @@ UNLIMITED = Paper(math.inf, math.inf, GOST_2_302)
 def coarsest(*scales: Scale) -> Scale:
     """The scale at which things are drawn smallest."""
     return max(scales, key=lambda scale: scale.per_mm)
+
+
+def ratio_said(text: str) -> float | None:
+    """The machine units per millimetre of paper of a drawing scale that a text tells; None if it tells none.
+
+    >>> ratio_said("2:1"), ratio_said("M 1:2,5"), ratio_said("none")
+    (0.5, 2.5, None)
+    """
+    found = RATIO.search(text)
+    paper, machine = (float(number.replace(",", ".")) for number in found.groups()) if found else (0.0, 0.0)
+    return machine / paper if paper and machine else None
 
 
 def ratio_text(per_mm: float) -> Caption:

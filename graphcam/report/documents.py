@@ -1,6 +1,7 @@
 """The documents that a solution gets, whichever kind of task it solves."""
 
 from graphcam.report.arcs_report import arcs_contents, arcs_note
+from graphcam.report.given_profile_scale import check_profile_hopeful, check_profile_size
 from graphcam.report.mechanism_scene import MechanismScene, arcs_scene, cam_scene
 from graphcam.report.note import note
 from graphcam.report.sheet_contents import Contents, motion_contents
@@ -43,6 +44,7 @@ def drawing_of(contents: Contents, upto: int | str | None = None, *, per_constru
     except TooLargeError:
         # What the task gives may be to blame: then it is named.
         if isinstance(contents.solution, Solution):
+            check_profile_size(contents.solution)
             check_given_sizes(contents.solution.task)
         raise
 
@@ -52,10 +54,11 @@ def contents_of(solution: AnySolution) -> Contents:
 
     Raises
     ------
-    DesignError : the ordinate or the poles that the task gives make diagrams far larger than a page
+    DesignError : what the task gives makes diagrams, or the profile, far larger than a page
     """
     if isinstance(solution, ArcsSolution):
         return arcs_contents(solution)
+    check_profile_hopeful(solution)
     return motion_contents(solution)
 
 

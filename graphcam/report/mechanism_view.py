@@ -97,8 +97,8 @@ def _pivot(scene: MechanismScene, unit: float) -> list[dict[str, Any]]:
 
 def _box(scene: MechanismScene, data: dict[str, Any], unit: float) -> list[float]:
     """The box of all that ever shows, y downwards: left, top, width, height [mm]."""
-    # The cam sweeps a whole circle.
-    swept = float(np.abs(scene.profile).max())
+    # The cam sweeps a whole circle, and its pitch curve with it.
+    swept = float(np.abs(scene.profile if data["pitch"] is None else scene.trace).max())
     corners = [complex(-swept, -swept), complex(swept, swept)]
     corners += [complex(*point) for mark in data["ground"] for point in mark["points"]]
     reach = data["sizes"]["reach"] + 4 * unit

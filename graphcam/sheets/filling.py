@@ -100,7 +100,7 @@ def fill(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequenc
 def _best(sheet: Format, views: Sequence[Panel], settings: Sequence[BlockSetting]) -> Filled:
     """The best of all ways, with the narrowest gaps."""
     best: Filled | None = None
-    goal = 0, _fewest(sheet, views), 0
+    goal = 0, fewest(sheet, views), 0
     for way in _ways(sheet, views):
         most = _most(way, best)
         viewed = _with_views(sheet, views, way, GAPS[-1], most)
@@ -130,7 +130,7 @@ def _most(way: Way, best: Filled | None) -> float:
     return most
 
 
-def _fewest(sheet: Format, views: Sequence[Panel]) -> int:
+def fewest(sheet: Format, views: Sequence[Panel]) -> int:
     """As many pages as the boxes of views take if they fill them; fewer are not looked for."""
     room = sheet.content.area - kept(sheet)
     return max(1, math.ceil(sum(panel.box.area for panel in views) / room))
@@ -151,7 +151,7 @@ def _ways_of(sheet: Format, views: Sequence[Panel], parted: Sequence[Runs]) -> I
     by_work = [sorted(runs, key=lambda run: min(rank[panel.view.name] for panel in run)) for runs in parted]
     # The small ones find room between the large ones.
     by_size = [sorted(runs, key=lambda run: -sum(panel.box.area for panel in run)) for runs in parted]
-    if sheet.name in ONE_PAGE and _fewest(sheet, views) == 1:
+    if sheet.name in ONE_PAGE and fewest(sheet, views) == 1:
         # Before views leave the axis on which one is carried over to the other, they stand closely.
         for large_first, closely, preference in product(by_size, (False, True), (None, top_left, high)):
             yield Way(large_first, preference, closely=closely, pages=1)

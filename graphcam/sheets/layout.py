@@ -18,7 +18,7 @@ from dataclasses import dataclass, field, replace
 from graphcam.drafting.ink import Step
 from graphcam.drafting.scale import ratio_text
 from graphcam.sheets.expand import Drawn, Placement, expand
-from graphcam.sheets.filling import fill
+from graphcam.sheets.filling import fewest, fill
 from graphcam.sheets.formats import Format
 from graphcam.sheets.frame import frame as empty_sheet, title_box
 from graphcam.sheets.labels import lettered, shading_parted
@@ -142,6 +142,21 @@ def profile_room(paper: str, frame: str, orientation: str | None = None) -> tupl
     above = inside.width, inside.height - block.height - HEADING
     beside = inside.width - block.width, inside.height - HEADING
     return max(above, beside, key=min)
+
+
+def views_of_pages(sheet: Format, part: SheetPart) -> list[list[str]]:
+    """The names of the views that stand on each page of a part.
+
+    Raises
+    ------
+    DesignError : a view does not fit on a page of its own
+    """
+    return [list(leaf.views) for leaf in _leaves(sheet, part)]
+
+
+def fewest_pages(sheet: Format, part: SheetPart) -> int:
+    """As many pages as the views of a part take if they fill them; how they stand on pages is not looked for."""
+    return fewest(sheet, panels((step for _, _, step in part.steps), sheet.lettering))
 
 
 def _leaves(sheet: Format, part: SheetPart) -> list[Leaf]:

@@ -26,7 +26,7 @@ from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.stress_design import StressDesign
 from graphcam.solving.task_board import board_of
 from graphcam.solving.tolerance_design import ToleranceDesign
-from graphcam.solving.warnings import Caution, less_round, unit_slips, warnings_of
+from graphcam.solving.warnings import Caution, less_round, title_scale, unit_slips, warnings_of
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
 from graphcam.words import Tell
@@ -71,7 +71,8 @@ class Solution(ShownSolution):
         found = warnings_of(self.cam, self.chain.board, self.comparison.least[0])
         spring = self.spring.cautions if self.spring else ()
         stress = self.stress.cautions if self.stress else ()
-        return [*found, *spring, *stress, *unit_slips(self.task), *less_round(self.chain)]
+        scale = title_scale(self.task, self.chain.profile_scale)
+        return [*found, *spring, *stress, *unit_slips(self.task), *less_round(self.chain), *scale]
 
     @property
     def tell(self) -> Tell:

@@ -9,7 +9,8 @@ from graphcam.constructions.board import Board, DrawnFollower
 from graphcam.constructions.drawn_arm import ARM_ON_PAPER, DrawnOscillating, positions_extent
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
-from graphcam.drafting.scale import Scale, coarsest, standard_scale
+from graphcam.constructions.views import PROFILE
+from graphcam.drafting.scale import STANDARD_RATIOS, Scale, coarsest, ratio_said, ratio_text, standard_scale
 from graphcam.errors import DesignError, Unquoted
 from graphcam.given.angular_velocity import omega_of
 from graphcam.given.follower import Oscillating
@@ -18,12 +19,12 @@ from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.solving.diagram_sizes import POLES, DiagramRoom, DrawnHeights, over_the_turn
 from graphcam.solving.sheet_papers import format_of, largest_drawn, papers, profile_paper
 from graphcam.tasks.sheet_tables import SheetTable
-from graphcam.tasks.task import FlatFacedTable, FollowerTable, OscillatingTable, Task, TranslatingTable
+from graphcam.tasks.task import DrawingTable, FlatFacedTable, FollowerTable, OscillatingTable, Task, TranslatingTable
 
 
 def board_of(task: Task) -> Board:
     """What the task puts on the drawing board."""
-    drawing, motion = task.drawing, task.motion()
+    drawing, motion, scale = task.drawing, task.motion(), given_profile_scale(task.drawing)
     follower = drawn_follower(task.follower, task)
     room = diagram_room(drawing, angles="angle_diagram" in follower.constructions)
     room = room.beside_jerk if drawing.jerk else room
@@ -43,9 +44,29 @@ def board_of(task: Task) -> Board:
         mu_phi=Scale(math.radians(room.degrees_per_mm), "rad"),
         rounding=drawing.rounding,
         omega=None if task.speed_rpm is None else omega_of(task.speed_rpm),
-        paper=profile_paper(drawing),
+        paper=profile_paper(drawing) if scale is None else replace(profile_paper(drawing), held={PROFILE.name: scale}),
         jerk_pole=heights.jerk_pole(room, ordinate) if drawing.jerk else None,
     )
+
+
+def given_profile_scale(drawing: DrawingTable) -> float | None:
+    """The scale that the task gives the profile [mm/mm]; None where it is left out.
+
+    Raises
+    ------
+    DesignError : it is none of the frame's standard
+
+    >>> given_profile_scale(DrawingTable(profile_scale="2:1")), given_profile_scale(DrawingTable())
+    (0.5, None)
+    """
+    if drawing.profile_scale is None:
+        return None
+    ratios, said = STANDARD_RATIOS[drawing.frame], ratio_said(drawing.profile_scale)
+    if said is None or not any(math.isclose(said * ratio, 1) for ratio in ratios):
+        usual = ", ".join(str(ratio_text(1 / ratio)) for ratio in ratios if 1 / 10 <= ratio <= 10)
+        limit = f"a standard drawing scale, such as {usual}"
+        raise DesignError("drawing.profile_scale", drawing.profile_scale, limit, "or leave it out")
+    return said
 
 
 @singledispatch

@@ -7,6 +7,7 @@ from typing import Literal
 
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
+from graphcam.drafting.scale import Scale, ratio_said, ratio_text
 from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam, largest_roller
 from graphcam.mechanism.undercut import Undercut
@@ -32,7 +33,7 @@ class Caution:
     """
 
     said: Caption
-    of: Literal["profile", "pressure angle", "prime radius", "contact", "contact stress", "rounding", "unit"]
+    of: Literal["profile", "pressure angle", "prime radius", "contact", "contact stress", "rounding", "unit", "scale"]
     phi: tuple[float, ...] = ()
     alpha: float | None = None
 
@@ -130,6 +131,17 @@ def unit_slips(task: Task) -> Iterator[Caution]:
             "The permitted pressure angle of {angle:g}° looks like radians: if so, give {meant:.3g}, in degrees."
         )
         yield Caution(said.where(angle=slip[1], meant=math.degrees(slip[1])), "unit")
+
+
+def title_scale(task: Task, drawn: Scale) -> Iterator[Caution]:
+    """The sentence on a scale in the title block at which the cam's profile is not drawn."""
+    said = ratio_said(task.title.scale or "")
+    if said is not None and not math.isclose(said, drawn.per_mm):
+        text = say(
+            "The title block says {said}, but the profile is drawn at {drawn}: title.scale only fills the title block; "
+            "drawing.profile_scale draws the profile larger or smaller."
+        )
+        yield Caution(text.where(said=ratio_text(said), drawn=ratio_text(drawn.per_mm)), "scale")
 
 
 def less_round(chain: Chain) -> list[Caution]:

@@ -76,7 +76,7 @@ def held_board(board: Board, task: Task, hold: Hold) -> Board:
     With a fixed ordinate the scale of the acceleration, and with it all others, would go with the greatest
     acceleration: so the ordinate grows with it instead, unless it is the ordinate that is changed.
     """
-    board = replace(board, paper=replace(board.paper, held=hold.scales), station=hold.station)
+    board = replace(board, paper=replace(board.paper, held={**board.paper.held, **hold.scales}), station=hold.station)
     if REGION.name in hold.scales:
         board = replace(board, follower=board.follower.with_positions_at(hold.scales[REGION.name]))
     held = hold.diagrams

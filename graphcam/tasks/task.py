@@ -209,6 +209,8 @@ class DrawingTable(SheetTable):
         series at which the whole diagram keeps to its room on the sheet
     poles : mm on paper, the pole distances of the integrations a to v and v to s; None is 40 at 1 degree a millimetre,
         in proportion to the axis, or what makes the diagrams neither too high nor too low
+    profile_scale : a ratio of the frame's standard, such as "2:1", at which the cam's profile is drawn; None is the
+        largest at which it fits its room on the sheet
     rounding : mm, to which adopted sizes are rounded; None is the largest power of ten below r0/10, at most 1
     jerk : whether the jerk is drawn too, by differentiation of the acceleration diagram
     """
@@ -218,6 +220,7 @@ class DrawingTable(SheetTable):
     poles: tuple[float, float] | None = None
     rounding: float | None = None
     jerk: bool = False
+    profile_scale: str | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -229,12 +232,12 @@ class DrawingTable(SheetTable):
         positive("rounding", self.rounding, "mm")
 
     def on(self, format_: Format) -> Self:
-        """The same on another format, with the ordinate and poles that suit it: those given were chosen for this one.
+        """The same on another format, with ordinate, poles and scale that suit it: the given ones suit this one.
 
         >>> DrawingTable("A1", ordinate=50, poles=(40, 40)).on("A3").ordinate is None
         True
         """
-        return replace(super().on(format_), ordinate=None, poles=None)
+        return replace(super().on(format_), ordinate=None, poles=None, profile_scale=None)
 
 
 @dataclass(frozen=True)

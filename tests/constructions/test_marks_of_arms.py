@@ -900,3 +900,18 @@ def test_a_hands_arms_reach_from_the_pivot_circle_to_their_length():
     assert_allclose(arms.starts, pivots, atol=EXACT)
     length = inverted.givens.arm / inverted.givens.mu_l.per_mm
     assert 0.1 * SIGMA < np.abs(np.abs(arms.ends - arms.starts) - length).max() < MANY * 2 * SIGMA
+
+
+def test_numbers_stand_only_where_their_points_can_be_told_apart():
+    """Where an arm hardly moves its ends and those of its velocities crowd, though they stand far apart elsewhere."""
+    board = arm_board(arm_motion("cycloidal"), FREE, limits=FORM)
+    region = Chain(board)["minimum_radius"]
+    ends, tips = region.acts["ends"].shown, region.acts["tips"].shown
+    for step, points in zip(region.steps()[:2], (ends, tips), strict=True):
+        at = [m.at for m in step.marks if isinstance(m, Label) and str(m.text)[:1].isdigit()]
+        assert 1 < len(at) < len(points)
+        for phase in region.givens.integrated.givens.stations.phases:
+            own = [p for p in at if np.abs(points[phase] - p).min() < EXACT]
+            assert all(abs(p - q) >= 4.5 for p, q in combinations(own, 2))
+        if points is tips:
+            assert all(np.abs(ends - p).min() >= 4.5 for p in at)

@@ -191,6 +191,21 @@ def test_a_given_size_that_fits_no_page_is_named_when_the_sheet_is_drawn(given: 
     check(gc.solve(replace(task, drawing=replace(task.drawing.on("A3"), **fitting))))
 
 
+@pytest.mark.parametrize("given", ["10:1", "100:1"])
+@pytest.mark.parametrize("paper", ["A1", "A3"])
+def test_a_profile_scale_that_fits_no_page_is_refused_with_the_largest_that_does(given: str, paper: str) -> None:
+    task = builtin_task()
+    drawing = replace(task.drawing.on(paper), profile_scale=given)
+    with pytest.raises(gc.DesignError, match=r"a larger format, or leave it out") as raised:
+        gc.solve(replace(task, drawing=drawing)).plot()
+    assert raised.value.quantity == "drawing.profile_scale"
+    largest = re.search(rf"at most (\S+) on {paper} landscape", raised.value.limit)[1]
+    fitting = gc.solve(replace(task, drawing=replace(drawing, profile_scale=largest)))
+    check(fitting)
+    page = next(page for page in drawing_of(contents_of(fitting)).pages if "profile" in page.origins)
+    assert largest in {e.text for group in page.groups for e in group.entities if isinstance(e, Text)}
+
+
 def test_sizes_that_are_beyond_all_measure_are_named_before_anything_is_drawn(tmp_path) -> None:
     """A pole of a hundredth of a millimetre makes a diagram of 50 km, whose strokes alone would fill the memory."""
     task = builtin_task()

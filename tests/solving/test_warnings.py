@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from typer.testing import CliRunner
 
 from graphcam.cli import app
+from graphcam.errors import DesignError
 from graphcam.report.documents import sheet_of
 from graphcam.report.note import note
 from graphcam.sheets.model import Text
@@ -147,3 +150,35 @@ def test_sizes_that_could_not_be_round_are_told(tmp_path):
         said = [text for text in solution.warnings if text.startswith("No combination of multiples of 1 mm")]
         assert bool(said) == told
         assert not told or f"{solution.cam.prime_radius:g} mm with the centre distance 144 mm is adopted" in said[0]
+
+
+@pytest.mark.parametrize(
+    ("said", "given", "told"),
+    [
+        ("5:1", None, True),
+        ("М 5 : 1", None, True),
+        ("2:1", None, False),
+        ("2 : 1", None, False),
+        ("see views", None, False),
+        (None, None, False),
+        ("1:1", "1:1", False),
+        ("2:1", "1:1", True),
+    ],
+)
+def test_a_title_block_that_tells_another_scale_than_the_drawn_one_is_told(said, given, told):
+    """Built in, the profile is drawn at 2:1; ``title.scale`` does not change that, ``drawing.profile_scale`` does."""
+    task = builtin_task()
+    title, drawing = replace(task.title, scale=said), replace(task.drawing, profile_scale=given)
+    solution = solve(replace(task, title=title, drawing=drawing))
+    assert solution.chain.profile_scale.per_mm == (1.0 if given else 0.5)
+    warned = [text for text in solution.warnings if text.startswith("The title block says")]
+    assert bool(warned) == told
+    assert not told or f"drawn at {given or '2:1'}:" in warned[0]
+
+
+@pytest.mark.parametrize("given", ["3:1", "2", "large", ""])
+def test_only_standard_scales_are_drawn(given):
+    task = builtin_task()
+    with pytest.raises(DesignError, match=r"a standard drawing scale, such as 10:1, 5:1, 4:1, 2.5:1") as raised:
+        solve(replace(task, drawing=replace(task.drawing, profile_scale=given)))
+    assert raised.value.quantity == "drawing.profile_scale"

@@ -1,0 +1,108 @@
+"""Smaller diagrams with which a task needs fewer sheets, where it leaves the ordinate and the poles open.
+
+They are chosen as large as their format suits, without a look at what else stands on the sheets: so a sheet may be left
+half empty by a diagram that is a little too high.
+"""
+
+import math
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+from graphcam.constructions.chain import Chain
+from graphcam.constructions.views import ACCELERATION, COMBINED, DISPLACEMENT, VELOCITY
+from graphcam.drafting.ink import Caption, say
+from graphcam.errors import DesignError
+from graphcam.report.sheet_contents import Contents, scaled_steps
+from graphcam.sheets.layout import SheetPart, fewest_pages, views_of_pages
+from graphcam.sheets.runs import ONE_PAGE
+from graphcam.solving.diagram_sizes import ORDINATES, POLES, USUAL_POLE
+from graphcam.solving.sheet_papers import format_of
+from graphcam.solving.solution import Solution
+from graphcam.solving.task_board import board_of
+from graphcam.tasks.task import DrawingTable, Task
+
+CARRIED_OVER = ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name, COMBINED.name
+"""The views from one to the other of which lines are drawn across."""
+SMALLEST = 0.5
+"""So small a part of the chosen ordinate is still suggested."""
+TRIED = 3
+"""So many ordinates are tried at most, for a layout takes its time."""
+FEWER = say(
+    "{before} sheets of format {format}; with ordinate = {ordinate:g} and poles = [{first:g}, {second:g}] in [drawing] "
+    "it would be {after}."
+)
+TOGETHER = say(
+    "The diagrams that are carried over to one another stand on several sheets; with ordinate = {ordinate:g} and "
+    "poles = [{first:g}, {second:g}] in [drawing] they would stand on one."
+)
+
+
+@dataclass(frozen=True)
+class _Laid:
+    """How many pages there are, and how many of them hold views that are carried over to one another."""
+
+    pages: int
+    spread: int
+
+
+def fewer_sheets(contents: Contents, pages: int) -> Caption | None:
+    """What to give so that fewer sheets are needed than these ``pages``, or related diagrams stand on one; or nothing.
+
+    On the largest format these are parted only where a page cannot take them, so there only the pages count.
+
+    >>> import graphcam as gc
+    >>> from graphcam.report.documents import contents_of
+    >>> task = gc.builtin_task("flat")
+    >>> fewer_sheets(contents_of(gc.solve(task)), 1) is None
+    True
+    """
+    solution = contents.solution
+    if pages < 2 or not isinstance(solution, Solution) or not _open(drawing := solution.task.drawing):
+        return None
+    now = _Laid(pages, 1) if drawing.format in ONE_PAGE else _laid(drawing, _part(contents, solution.chain))
+    # Where even the smallest is of no use, the others are not laid out.
+    tables = _smaller(solution)
+    if not tables or (said := _said(contents, solution.task, now, tables[-1])) is None:
+        return None
+    return next(filter(None, (_said(contents, solution.task, now, tried) for tried in tables[:-1])), said)
+
+
+def _said(contents: Contents, task: Task, now: _Laid, tried: DrawingTable) -> Caption | None:
+    """What a table with an ordinate and poles would bring; nothing where it is of no use."""
+    # What makes a view too large for the format is no suggestion.
+    with suppress(DesignError):
+        part = _part(contents, Chain(board_of(replace(task, drawing=tried))))
+        if now.spread == 1 and fewest_pages(format_of(tried), part) >= now.pages:
+            return None
+        found = _laid(tried, part)
+        (first, second), fewer = tried.poles or (0.0, 0.0), found.pages < now.pages
+        if fewer or (found.pages == now.pages and found.spread == 1 < now.spread):
+            sizes = {"ordinate": tried.ordinate, "first": first, "second": second}
+            known = {"before": now.pages, "after": found.pages, "format": tried.format} if fewer else {}
+            return (FEWER if fewer else TOGETHER).where(**known, **sizes)
+    return None
+
+
+def _open(drawing: DrawingTable) -> bool:
+    """Whether the task leaves the sizes of the diagrams open."""
+    return drawing.ordinate is None and drawing.poles is None
+
+
+def _smaller(solution: Solution) -> list[DrawingTable]:
+    """The tables with the next smaller ordinates, the largest first, and the usual poles."""
+    board, drawing = solution.chain.board, solution.task.drawing
+    usual = USUAL_POLE / math.degrees(board.mu_phi.per_mm)
+    pole = min(POLES, key=lambda pole: abs(pole - usual))
+    below = [y for y in ORDINATES if SMALLEST * board.ordinate <= y < board.ordinate]
+    return [replace(drawing, ordinate=y, poles=(pole, pole)) for y in below[:TRIED]]
+
+
+def _part(contents: Contents, chain: Chain) -> SheetPart:
+    """What stands on the sheets, with the constructions of a chain; what was added does not depend on its scales."""
+    drawn = {name: chain.get(name, each) for name, each in contents.drawn.items()}
+    return replace(contents.whole, steps=scaled_steps(drawn)).told(contents.solution.tell)
+
+
+def _laid(drawing: DrawingTable, part: SheetPart) -> _Laid:
+    pages = views_of_pages(format_of(drawing), part)
+    return _Laid(len(pages), sum(any(name in CARRIED_OVER for name in page) for page in pages))

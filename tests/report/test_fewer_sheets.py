@@ -1,0 +1,83 @@
+"""The line after ``graphcam solve`` on sizes of diagrams with which fewer sheets would do: what it says is so."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+import graphcam as gc
+from graphcam.report.documents import contents_of, drawing_of
+from graphcam.report.fewer_sheets import FEWER, TOGETHER, fewer_sheets
+from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
+from graphcam.tasks.spring_tables import SpringTable
+from graphcam.tasks.task import DrawingTable, FlatFacedTable, LimitsTable, Task, TranslatingTable
+
+ROLLER = Task(
+    rotation="ccw",
+    speed_rpm=240,
+    motion=MotionTable(
+        (
+            RiseTable(110, 36, "cosine"),
+            DwellTable(25),
+            ReturnTable(95, 36, "rectangular", ratio=2),
+            DwellTable(130),
+        )
+    ),
+    follower=TranslatingTable(roller_rule="min(0.7 rho, 0.4 r0)"),
+    limits=LimitsTable(pressure_angle_rise=28),
+    drawing=DrawingTable("A1", "gost", language="ru"),
+)
+FLAT = Task(
+    rotation="ccw",
+    speed_rpm=900,
+    motion=MotionTable(
+        (RiseTable(100, 24, "modified-sine"), DwellTable(30), ReturnTable(110, 24, "cycloidal"), DwellTable(120))
+    ),
+    follower=FlatFacedTable(),
+    limits=LimitsTable(min_curvature_radius=6),
+    spring=SpringTable(mass=0.35, stiffness=6),
+    drawing=DrawingTable("A3", "iso", divisions=24),
+)
+
+
+def laid_out(task):
+    contents = contents_of(gc.solve(task))
+    return contents, [set(page.origins) for page in drawing_of(contents).pages]
+
+
+def taken(task, hint):
+    """The task with the sizes that the line suggests."""
+    values = hint.values
+    poles = values["first"], values["second"]
+    return replace(task, drawing=replace(task.drawing, ordinate=values["ordinate"], poles=poles))
+
+
+def test_smaller_diagrams_that_save_a_sheet_are_told():
+    contents, pages = laid_out(ROLLER)
+    assert len(pages) == 2
+    hint = fewer_sheets(contents, 2)
+    assert hint is not None
+    assert (hint.template, hint.values["after"]) == (FEWER.template, 1)
+    suggested = taken(ROLLER, hint)
+    contents, pages = laid_out(suggested)
+    assert len(pages) == 1
+    # Who gives the sizes is not told of others.
+    assert fewer_sheets(contents, 2) is None
+
+
+def test_diagrams_that_belong_together_are_brought_onto_one_sheet():
+    carried = {"acceleration", "velocity", "displacement", "combined"}
+    contents, pages = laid_out(FLAT)
+    assert sum(bool(page & carried) for page in pages) == 2
+    hint = fewer_sheets(contents, len(pages))
+    assert hint is not None
+    assert hint.template == TOGETHER.template
+    _, smaller = laid_out(taken(FLAT, hint))
+    assert len(smaller) == len(pages)
+    assert any(carried <= page for page in smaller)
+
+
+@pytest.mark.parametrize("name", ["coursework", "arm"])
+def test_one_sheet_is_never_too_many(name):
+    assert fewer_sheets(contents_of(gc.solve(gc.builtin_task(name))), 1) is None

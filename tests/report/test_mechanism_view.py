@@ -1,0 +1,25 @@
+"""The box of the turning mechanism holds all that shows in any position."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import graphcam as gc
+from graphcam.report.documents import scene_of
+from graphcam.report.mechanism_view import mechanism_view
+
+
+@pytest.mark.parametrize("name", ["coursework", "arm", "flat", "measured", "arcs"])
+def test_the_pitch_curve_and_the_profile_stay_in_the_box_over_the_turn(name):
+    scene = scene_of(gc.solve(gc.builtin_arcs_task() if name == "arcs" else gc.builtin_task(name)))
+    data = mechanism_view(scene, str)
+    left, top, width, height = data["box"]
+    turn = np.exp(1j * np.linspace(0, 2 * np.pi, 73))
+    curves = [np.array(data[key]) @ (1, 1j) for key in ("profile", "pitch") if data[key]]
+    assert len(curves) == (1 if name == "flat" else 2)
+    for curve in [*(np.multiply.outer(turn, curve) for curve in curves), scene.trace, scene.contact]:
+        assert curve.real.min() > left
+        assert curve.real.max() < left + width
+        assert -curve.imag.max() > top
+        assert -curve.imag.min() < top + height
