@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.constructions.axes import degrees
+from graphcam.constructions.axes import degrees, phase_kind
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.meaning import Meaning
@@ -112,6 +112,13 @@ class SpringDesign:
         CamForces(self.cam, self.given, friction=self.friction).check()
 
     @property
+    def idle(self) -> bool:
+        """Whether nothing presses in the lower dwell, though contact is kept: only preload and load act there."""
+        motion = self.cam.motion
+        low = any(phase_kind(motion, k) == "lower dwell" for k in range(len(motion.phases)))
+        return low and not self.load.preload and not self.load.load and not self.lost
+
+    @property
     def lost(self) -> list[Caption]:
         """Between which cam angles contact is lost."""
         return [say("{start} to {end}", start=degrees(start), end=degrees(end)) for start, end in self.contact.lost()]
@@ -186,7 +193,7 @@ class SpringDesign:
             along,
             contact.motion,
             TurnCurve(curve.phi, curve.force),
-            said.where(formula=contact_formula(self.load)),
+            sequence([said.where(formula=contact_formula(self.load)), *([IDLE] if self.idle else [])], " "),
             marked=((least, with_unit(_clean(least.value), along)),),
             wrong=lost,
         )
@@ -332,6 +339,9 @@ CONTACT_CAPTIONS = {
     ),
 }
 """What is said of the contact function, of a force or a torque, where contact is lost and where it is kept."""
+IDLE = say(
+    "With F₀ = 0 the contact force is zero during the whole lower dwell; in practice choose a preload greater than zero."
+)
 TRANSMITTED = say(
     "τ = cos α − μ sin α, with μ = {friction:g} at the cam, is the part of the normal force that moves the follower, "
     "at {mu:g}/mm. Where it falls to zero the follower jams."
