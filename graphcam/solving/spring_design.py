@@ -184,7 +184,7 @@ class SpringDesign:
         """The contact function xi(phi) of Voloder, Cohodar and Karic, with its least value and where it is negative."""
         contact, along = self.contact, self.units[0]
         curve, least, lost = contact.curve(), contact.least_force(), tuple(contact.lost())
-        said = CONTACT_CAPTIONS[along == "N", bool(lost)]
+        said = CONTACT_CAPTIONS[along == "N", "lost" if lost else "idle" if self.idle else "kept"]
         return TurnDiagram(
             "contact",
             say("The contact function"),
@@ -193,7 +193,7 @@ class SpringDesign:
             along,
             contact.motion,
             TurnCurve(curve.phi, curve.force),
-            sequence([said.where(formula=contact_formula(self.load)), *([IDLE] if self.idle else [])], " "),
+            said.where(formula=contact_formula(self.load)),
             marked=((least, with_unit(_clean(least.value), along)),),
             wrong=lost,
         )
@@ -321,24 +321,33 @@ PLAIN_FORCES = {
 }
 """The columns of the plain data over the turn, and the fields of the forces."""
 CONTACT_CAPTIONS = {
-    (True, True): say(
+    (True, "lost"): say(
         "{formula} is the force with which the cam pushes the follower, at {mu:g} N/mm. Where it is negative, as "
         "marked on the axis, the cam would have to pull: contact is lost."
     ),
-    (True, False): say(
+    (True, "kept"): say(
         "{formula} is the force with which the cam pushes the follower, at {mu:g} N/mm. It is nowhere negative: "
         "contact is kept."
     ),
-    (False, True): say(
+    (False, "lost"): say(
         "{formula} is the torque about the pivot with which the cam pushes the arm, at {mu:g} N·mm/mm. Where it "
         "is negative, as marked on the axis, the cam would have to pull: contact is lost."
     ),
-    (False, False): say(
+    (False, "kept"): say(
         "{formula} is the torque about the pivot with which the cam pushes the arm, at {mu:g} N·mm/mm. It is "
         "nowhere negative: contact is kept."
     ),
+    (True, "idle"): say(
+        "{formula} is the force with which the cam pushes the follower, at {mu:g} N/mm. It is nowhere negative, but with "
+        "F₀ = 0 it is zero during the whole lower dwell: in practice choose a preload greater than zero."
+    ),
+    (False, "idle"): say(
+        "{formula} is the torque about the pivot with which the cam pushes the arm, at {mu:g} N·mm/mm. It is nowhere "
+        "negative, but with F₀ = 0 it is zero during the whole lower dwell: in practice choose a preload greater than "
+        "zero."
+    ),
 }
-"""What is said of the contact function, of a force or a torque, where contact is lost and where it is kept."""
+"""What is said of the contact function, of a force or a torque, where contact is lost, kept, or kept by nothing."""
 IDLE = say(
     "With F₀ = 0 the contact force is zero during the whole lower dwell; in practice choose a preload greater than zero."
 )
