@@ -240,14 +240,16 @@ def _face(solution: Solution) -> list[Caption]:
     (left, right), (needs_left, needs_right) = face.drawn, face.least
     sides = {"left": left, "right": right, "needs_left": needs_left, "needs_right": needs_right}
     said = say(
-        "The contact moves {left} mm to the left and {right} mm to the right of the follower's axis. With {margin:g} mm "
-        "on each side the face must reach {needs_left} mm to the left and {needs_right} mm to the right: its minimum "
-        "width is {width} mm.",
+        "The contact moves {left} mm to the left and {right} mm to the right of the follower's axis. With {margin:g} "
+        "mm on each side the face must reach {needs_left} mm to the left and {needs_right} mm to the right: its "
+        "minimum width is {width} mm.",
         margin=face.margin,
         **numbers(**sides, width=sum(face.least)),
     )
     (left, right), whole = face.adopted, sum(face.adopted)
-    rounded = say("Rounded up, the face is {left:g} + {right:g} mm, {width:g} mm wide.", left=left, right=right, width=whole)
+    rounded = say(
+        "Rounded up, the face is {left:g} + {right:g} mm, {width:g} mm wide.", left=left, right=right, width=whole
+    )
     return [sequence([said, rounded], " ")]
 
 

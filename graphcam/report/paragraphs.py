@@ -189,7 +189,9 @@ def greatest_angles(solution: Solution) -> str:
 
 INSIDE = {
     "rise": say("Inside the rise, at φ = {at}°, the maximum is {alpha}°; the larger one is at an end of the phase."),
-    "return": say("Inside the return, at φ = {at}°, the maximum is {alpha}°; the larger one is at an end of the phase."),
+    "return": say(
+        "Inside the return, at φ = {at}°, the maximum is {alpha}°; the larger one is at an end of the phase."
+    ),
 }
 
 

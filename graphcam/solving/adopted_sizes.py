@@ -1,7 +1,7 @@
 """What the exact side says of adopted sizes: one rounded up from a drawn minimum may be too small all the same.
 
-A drawn minimum is as good as its divisions.  The size that was adopted stays, for the drawing is honest; what is told is
-by how much it misses the exact limit, and a size and a division with which it would not.
+A drawn minimum is as good as its divisions.  The size that was adopted stays, because the drawing is honest; a warning
+says by how much it misses the exact limit, and names a division and a size with which it would not.
 """
 
 import math
@@ -65,8 +65,11 @@ def _radius(chain: Chain, cam: Cam) -> Iterator[Caution]:
             "drawn one, {drawn:.5g} mm, is {short:.3g} mm too small."
         ).where(least=least, drawn=drawn, short=least - drawn)
     else:
-        said = say("The prime radius of {radius:g} mm{there} exceeds an exact limit that it satisfies on the drawing.")
-    told = [said.where(radius=radius, there=_there(chain)), *_sharp(cam, board), _remedy(chain)]
+        said = say("The prime radius of {radius:g} mm{there} does not satisfy the exact limits.")
+    remedies = _remedies(chain)
+    if board.prime_radius is not None and not remedies:  # it is too small at any place, which is told of a given one
+        return
+    told = [said.where(radius=radius, there=_there(chain)), *_sharp(cam, board), _take(remedies)]
     yield Caution(sequence(told, " "), "prime radius")
 
 
@@ -105,10 +108,10 @@ def _sharp(cam: Cam, board: Board) -> list[Caption]:
     return [say("The radius of curvature falls to {rho:.2f} mm; {least:g} mm are required.", rho=rho, least=least)]
 
 
-def _remedy(chain: Chain) -> Caption:
+def _remedies(chain: Chain) -> list[Words]:
     """What satisfies the exact limits: more divisions, or other sizes."""
     finer = _divisions(chain, lambda other: _satisfies(_built(chain, *_sizes(other)), chain.board, EXACTLY))
-    return _take([*finer, *_other_sizes(chain)])
+    return [*finer, *_other_sizes(chain)]
 
 
 def _sizes(chain: Chain) -> tuple[float, float]:
@@ -180,19 +183,19 @@ def _face(chain: Chain, face: FaceDesign | None) -> Iterator[Caution]:
     for adopted, exact, said in zip(face.adopted, face.exact, SIDES, strict=True):
         if (least := exact + face.margin) > adopted + LAST_DIGIT:
             finer = _divisions(chain, lambda other: face_design(other, face.exact, face.margin).wide_enough)
-            wider = say("{width:g} mm", width=multiple(steps_up(least, face.rounding), face.rounding))
+            wider = say("{length:g} mm", length=multiple(steps_up(least, face.rounding), face.rounding))
             remedy = _take([*finer, wider])
             yield Caution(said.where(adopted=adopted, least=least, margin=face.margin, remedy=remedy), "face")
 
 
 SIDES = (
     say(
-        "The adopted face, {adopted:g} mm to the left, is smaller than the exact minimum with its margin of {margin:g} "
-        "mm, {least:.5g} mm. {remedy}"
+        "The adopted face, {adopted:g} mm to the left, is smaller than the exact minimum with its margin of "
+        "{margin:g} mm, {least:.5g} mm. {remedy}"
     ),
     say(
-        "The adopted face, {adopted:g} mm to the right, is smaller than the exact minimum with its margin of {margin:g} "
-        "mm, {least:.5g} mm. {remedy}"
+        "The adopted face, {adopted:g} mm to the right, is smaller than the exact minimum with its margin of "
+        "{margin:g} mm, {least:.5g} mm. {remedy}"
     ),
 )
 
@@ -218,4 +221,4 @@ def _take(remedies: list[Words]) -> Caption:
         case [one]:
             return say("Take {one}.", one=one)
         case _:
-            return say("Take more divisions, or give a larger prime radius.")
+            return say("Take more divisions, or give the size yourself.")

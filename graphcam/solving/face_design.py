@@ -45,8 +45,7 @@ class FaceDesign:
     def wide_enough(self) -> bool:
         """Whether the adopted face has the margin beyond the exact contact too."""
         return all(
-            exact + self.margin <= adopted + LAST_DIGIT
-            for exact, adopted in zip(self.exact, self.adopted, strict=True)
+            exact + self.margin <= adopted + LAST_DIGIT for exact, adopted in zip(self.exact, self.adopted, strict=True)
         )
 
     def to_dict(self) -> dict[str, Any]:

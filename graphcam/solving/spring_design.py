@@ -338,8 +338,8 @@ CONTACT_CAPTIONS = {
         "nowhere negative: contact is kept."
     ),
     (True, "idle"): say(
-        "{formula} is the force with which the cam pushes the follower, at {mu:g} N/mm. It is nowhere negative, but with "
-        "F₀ = 0 it is zero during the whole lower dwell: in practice choose a preload greater than zero."
+        "{formula} is the force with which the cam pushes the follower, at {mu:g} N/mm. It is nowhere negative, but "
+        "with F₀ = 0 it is zero during the whole lower dwell: in practice choose a preload greater than zero."
     ),
     (False, "idle"): say(
         "{formula} is the torque about the pivot with which the cam pushes the arm, at {mu:g} N·mm/mm. It is nowhere "
@@ -349,7 +349,8 @@ CONTACT_CAPTIONS = {
 }
 """What is said of the contact function, of a force or a torque, where contact is lost, kept, or kept by nothing."""
 IDLE = say(
-    "With F₀ = 0 the contact force is zero during the whole lower dwell; in practice choose a preload greater than zero."
+    "With F₀ = 0 the contact force is zero during the whole lower dwell; in practice choose a preload greater than "
+    "zero."
 )
 TRANSMITTED = say(
     "τ = cos α − μ sin α, with μ = {friction:g} at the cam, is the part of the normal force that moves the follower, "

@@ -32,7 +32,9 @@ class Caution:
     """
 
     said: Caption
-    of: Literal["profile", "pressure angle", "prime radius", "roller radius", "face", "contact stress", "rounding", "unit"]
+    of: Literal[
+        "profile", "pressure angle", "prime radius", "roller radius", "face", "contact stress", "rounding", "unit"
+    ]
     phi: tuple[float, ...] = ()
     alpha: float | None = None
 
