@@ -217,7 +217,7 @@ def _take(remedies: list[Words]) -> Caption:
     """The remedies in a sentence, of which there are two at most."""
     match remedies:
         case [first, second]:
-            return say("Take {first} or {second}.", first=first, second=second)
+            return say("Take {first}, or {second}.", first=first, second=second)
         case [one]:
             return say("Take {one}.", one=one)
         case _:
