@@ -157,6 +157,7 @@ _SET_OFF = (
 def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
     limits = plotted.givens.limits
     marks, parts, told = list[Mark](), list[Part](), list[Caption]()
+    inner_marks, inner_parts = list[Mark](), list[Part]()
     for name, said, limit in (("max_rise", _ON_THE_RISE, limits.rise), ("max_return", _ON_THE_RETURN, limits.return_)):
         top, alpha = plotted.acts[name].first, float(np.degrees(plotted.value(name)))
         marks += [
@@ -168,9 +169,10 @@ def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
         parts.append(Part(told[-1], (top,)))
         if other := inside(plotted, name.removeprefix("max_")):
             beside = float(np.degrees(plotted.givens.mu_alpha.per_mm)) * other.place.imag
-            marks += [other.dots(Role.LIMIT), other.label(say("{alpha:.1f}°", alpha=beside), _outward(other))]
+            inner_marks += [other.dots(Role.LIMIT), other.label(say("{alpha:.1f}°", alpha=beside), _outward(other))]
             told.append(_INSIDE.where(y=other.place.imag, alpha=beside))
-            parts.append(Part(told[-1], (other,)))
+            inner_parts.append(Part(told[-1], (other,)))
+    marks, parts = marks + inner_marks, parts + inner_parts
     found = say(
         "Slide the T-square up and down to the curve until it touches, over the rises and over the returns, and read "
         "the point farthest from the axis. {told}"
