@@ -16,6 +16,8 @@ sigma = +1, ``"cw"`` is sigma = -1.  By inversion a point fixed to the frame app
   tan(alpha) = (v - sigma*e)/(s0 + s), positive on an ordinary rise.  A favourable offset has sigma*e > 0.
 - Oscillating follower: pivot at (c, 0), arm l above the line of centres, psi the angle between them;
   cos(psi0) = (c^2 + l^2 - r0^2)/(2 c l), psi = psi0 + s, tan(alpha) = (l (1 + sigma*v) - c cos(psi))/(c sin(psi)).
+  A rise turns the arm clockwise; alpha is positive on an ordinary rise for sigma = +1 (opposite senses), negative for
+  sigma = -1 (the same sense).
 - Flat-faced follower: contact at (sigma*v, r0 + s); the radius of curvature of the profile is r0 + s + a.
 - Curvature kappa of the pitch curve is positive where the cam is convex.
 - The working profile is the inner parallel curve of the pitch curve at the roller radius.

@@ -64,6 +64,10 @@ MEANING = Meaning(
 )
 
 
+PENCIL_LINE = 0.2
+"""What lies no farther apart [mm of paper] is told to be alike."""
+
+
 def angle_diagram(
     measured: MeasuredAngles, mu_alpha: Scale, limits: Limits, pencil: Pencil
 ) -> Construction[AngleDiagramGivens]:
@@ -88,6 +92,23 @@ def angle_diagram(
     for name, read in (places | {f"{phase}_candidates": both for phase, both in ends.items()}).items():
         hand.read(name, between(origin, read, UP), mu_alpha.per_mm, "rad")
     return hand.finished(AngleDiagramGivens(measured, mu_alpha, limits), _draw, {"curve": curve, **places})
+
+
+def inside(plotted: Construction[AngleDiagramGivens], phase: str) -> Drawn | None:
+    """The maximum inside the rises or the returns where the farthest point is at an end of one, on the other side.
+
+    So it is with a large offset: the angle in the dwell is the larger one, and a maximum of the other sign lies inside.
+    None where the farthest point is the only one of interest.
+
+    phase : "rise" or "return"
+    """
+    farthest, both = plotted.acts[f"max_{phase}"].first.place, plotted.acts[f"{phase}_candidates"].first
+    other = both[int(np.argmin(np.abs(both.shown.imag)))]
+    given, stations = plotted.givens.measured.givens.integrated.givens, plotted.acts["curve"].first.shown.real
+    ends = stations[[k for span in given.stations.phases for k in (span.start, span.stop - 1)]]
+    far_at_end, other_at_end = (bool(np.any(np.abs(ends - at.real) < PENCIL_LINE)) for at in (farthest, other.place))
+    across = farthest.imag * other.place.imag < 0 and abs(other.place.imag) > PENCIL_LINE
+    return other if far_at_end and across and not other_at_end else None
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -136,15 +157,22 @@ _SET_OFF = (
 def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
     limits = plotted.givens.limits
     marks, parts, told = list[Mark](), list[Part](), list[Caption]()
+    inner_marks, inner_parts = list[Mark](), list[Part]()
     for name, said, limit in (("max_rise", _ON_THE_RISE, limits.rise), ("max_return", _ON_THE_RETURN, limits.return_)):
         top, alpha = plotted.acts[name].first, float(np.degrees(plotted.value(name)))
         marks += [
             top.dots(Role.LIMIT),
-            top.label(say("{alpha:.1f}°", alpha=alpha), complex(np.sign(top.place.imag) * UP)),
+            top.label(say("{alpha:.1f}°", alpha=alpha), _outward(top)),
         ]
         compared = _NO_LIMIT if limit is None else _compared(abs(alpha), limit, plotted.givens.mu_alpha)
         told.append(said.where(y=top.place.imag, alpha=alpha, compared=compared))
         parts.append(Part(told[-1], (top,)))
+        if other := inside(plotted, name.removeprefix("max_")):
+            beside = float(np.degrees(plotted.givens.mu_alpha.per_mm)) * other.place.imag
+            inner_marks += [other.dots(Role.LIMIT), other.label(say("{alpha:.1f}°", alpha=beside), _outward(other))]
+            told.append(_INSIDE.where(y=other.place.imag, alpha=beside))
+            inner_parts.append(Part(told[-1], (other,)))
+    marks, parts = marks + inner_marks, parts + inner_parts
     found = say(
         "Slide the T-square up and down to the curve until it touches, over the rises and over the returns, and read "
         "the point farthest from the axis. {told}"
@@ -157,8 +185,9 @@ def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
     return Step(title, found, ANGLE, tuple(marks), ("max_rise", "max_return"), why=why, parts=tuple(parts))
 
 
-PENCIL_LINE = 0.2
-"""What lies no farther apart [mm of paper] is told to be alike."""
+def _outward(top: Drawn) -> complex:
+    """Away from the axis."""
+    return complex(np.sign(top.place.imag) * UP)
 
 
 def _compared(size: float, limit: float, mu_alpha: Scale) -> Caption:
@@ -170,6 +199,10 @@ def _compared(size: float, limit: float, mu_alpha: Scale) -> Caption:
 
 _ON_THE_RISE = say("On the rise the farthest point of the curve is at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
 _ON_THE_RETURN = say("On the return the farthest point of the curve is at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
+_INSIDE = say(
+    "That point is at an end of the phase; inside it, on the other side of the axis, the farthest point is at {y:.2f} "
+    "mm, so α = {alpha:.2f}°."
+)
 _KEPT = say("{size:.2f}° < {limit:.4g}°, within the limit")
 _JUST = say("equal to the limit of {limit:.4g}° within drawing accuracy")
 _PASSED = say("{size:.2f}° > {limit:.4g}°, the limit is exceeded")

@@ -161,7 +161,10 @@ class Cam(Shown):
         return self._in_chunks(self._write_profile, phi, side, points=1)[0]
 
     def pressure_angle(self, phi: ArrayLike) -> Floats:
-        """alpha [rad] between the contact normal and the trace point's motion, positive on an ordinary rise."""
+        """alpha [rad] between the contact normal and the trace point's motion.
+
+        It is positive on an ordinary rise; of an arm only on a cam that turns counter-clockwise, else negative.
+        """
         return self._pressure_angle(self.motion(phi))
 
     def pitch_curvature(self, phi: ArrayLike, side: Side = "right") -> Floats:

@@ -15,7 +15,7 @@ from graphcam.given.impact import Jump, acceleration_jumps, velocity_jumps
 from graphcam.given.motion import Moving
 from graphcam.report.budget_table import budget_table
 from graphcam.report.conditions_table import conditions
-from graphcam.report.markdown import blocks, formula, number, printed, table, text
+from graphcam.report.markdown import blocks, formula, number, numbers, printed, table, text
 from graphcam.report.note_tables import at_stations, compared, polar_coordinates
 from graphcam.report.paragraphs import as_drawn, general, warning
 from graphcam.report.sheet_contents import all_drawn, chapter_numbers, chapters_of, steps_of
@@ -230,7 +230,27 @@ def _result(solution: Solution) -> str:
     """The sizes of the cam that is built."""
     built = [say("{name} {value} ({by})", name=name, value=value, by=by) for name, value, by in sizes(solution)]
     said = say("The cam is made with these sizes: {sizes}.", sizes=joined(built))
-    return blocks(said, *map(warning, solution.warnings), tell=solution.tell)
+    return blocks(said, *_face(solution), *map(warning, solution.warnings), tell=solution.tell)
+
+
+def _face(solution: Solution) -> list[Caption]:
+    """How the adopted face follows from the contact that was drawn; nothing without one."""
+    if (face := solution.face) is None:
+        return []
+    (left, right), (needs_left, needs_right) = face.drawn, face.least
+    sides = {"left": left, "right": right, "needs_left": needs_left, "needs_right": needs_right}
+    said = say(
+        "The contact moves {left} mm to the left and {right} mm to the right of the follower's axis. With {margin:g} "
+        "mm on each side the face must reach {needs_left} mm to the left and {needs_right} mm to the right: its "
+        "minimum width is {width} mm.",
+        margin=face.margin,
+        **numbers(**sides, width=sum(face.least)),
+    )
+    (left, right), whole = face.adopted, sum(face.adopted)
+    rounded = say(
+        "Rounded up, the face is {left:g} + {right:g} mm, {width:g} mm wide.", left=left, right=right, width=whole
+    )
+    return [sequence([said, rounded], " ")]
 
 
 def against_exact(solution: AnySolution) -> str:

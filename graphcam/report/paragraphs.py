@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from graphcam.constructions.acceleration import equal_parts, moving_phases
+from graphcam.constructions.angle_diagram import inside
 from graphcam.constructions.axes import degrees, phase_title, station_names
 from graphcam.constructions.law_names import law_title
 from graphcam.drafting.ink import Construction
@@ -183,7 +184,27 @@ def greatest_angles(solution: Solution) -> str:
         **at,
     )
     against = [_against("rise", rise, limits.rise, solution), _against("return", back, limits.return_, solution)]
-    return solution.tell(sequence([greatest, *against], " "))
+    return solution.tell(sequence([greatest, *_inside(solution), *against], " "))
+
+
+INSIDE = {
+    "rise": say("Inside the rise, at φ = {at}°, the maximum is {alpha}°; the larger one is at an end of the phase."),
+    "return": say(
+        "Inside the return, at φ = {at}°, the maximum is {alpha}°; the larger one is at an end of the phase."
+    ),
+}
+
+
+def _inside(solution: Solution) -> list[Caption]:
+    """The maxima of the other sign inside the phases, where the larger ones are at their ends."""
+    plotted, board = solution.drawn["angle_diagram"], solution.chain.board
+    told: list[Caption] = []
+    for phase, said in INSIDE.items():
+        if other := inside(plotted, phase):
+            alpha = math.degrees(other.place.imag * plotted.givens.mu_alpha.per_mm)
+            phi = math.degrees(other.place.real * board.mu_phi.per_mm)
+            told.append(replace(said, values={"at": number(phi, 1), "alpha": number(alpha)}))
+    return told
 
 
 KEPT = {

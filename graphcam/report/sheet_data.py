@@ -11,6 +11,7 @@ from graphcam.given.boundary_motion import BoundaryMotion
 from graphcam.given.measured import MeasuredMotion
 from graphcam.report.markdown import number
 from graphcam.sheets.tables import Table
+from graphcam.solving.face_design import FaceDesign
 from graphcam.solving.solution import Solution
 from graphcam.words import Caption, Words, say, sequence
 
@@ -37,6 +38,19 @@ def sizes(solution: Solution) -> list[Row]:
             for size in follower.sizes(solution.chain.place, cam.roller_radius)
             if size.value is not None
         ),
+        *_face(solution.face),
+    ]
+
+
+def _face(face: FaceDesign | None) -> list[Row]:
+    """The face that is built, beside the margin that the task asks for."""
+    if face is None:
+        return []
+    (left, right), whole = face.adopted, sum(face.adopted)
+    return [
+        (say("face margin on each side"), mm(face.margin), GIVEN),
+        (say("face, left + right"), say("{left:g} + {right:g} mm", left=left, right=right), ADOPTED),
+        (say("width of the face"), mm(whole), ADOPTED),
     ]
 
 

@@ -10,7 +10,7 @@ from graphcam.given.spring_load import SpringLoad
 from graphcam.report.markdown import blocks, number, table
 from graphcam.report.paragraphs import general, warning
 from graphcam.solving.solution import Solution
-from graphcam.solving.spring_design import SpringDesign, with_unit
+from graphcam.solving.spring_design import IDLE, SpringDesign, with_unit
 from graphcam.solving.turn_diagrams import at_side
 from graphcam.words import Caption, Words, joined, say, sequence
 
@@ -59,6 +59,8 @@ def contact(solution: Solution) -> str:
         if isinstance(load, SpringLoad)
         else say("The minimum torque with which the cam pushes the arm is {force} {unit}, {at}.", **least_values),
     ]
+    if spring.idle:
+        said.append(IDLE)
     too_small = say("Contact is lost, φ = {where}: the spring's preload is too small.", where=lost)
     return blocks(_presses(spring), _formula(load), sequence(said, " "), warning(too_small) if lost else "", tell=tell)
 

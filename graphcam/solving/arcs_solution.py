@@ -96,6 +96,7 @@ class ArcsSolution(ShownSolution):
             "scales": self.scales,
             "quantities": plain_quantities(self.comparison.quantities),
             "stations": self._stations(),
+            "warnings": self.warnings,
             "files": dict.fromkeys(FILES),
         }
 

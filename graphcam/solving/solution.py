@@ -21,6 +21,8 @@ from graphcam.given.impact import acceleration_jumps
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.spline import ProfileSpline, profile_spline
+from graphcam.solving.adopted_sizes import adopted_cautions
+from graphcam.solving.face_design import FaceDesign, face_design
 from graphcam.solving.shown_solution import FILES, ShownSolution, plain_number, plain_quantities, plain_stations
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.stress_design import StressDesign
@@ -70,6 +72,7 @@ class Solution(ShownSolution):
         """The same with the places where it is seen."""
         found = warnings_of(self.cam, self.chain.board, self.comparison.least[0])
         spring = self.spring.cautions if self.spring else ()
+        found += adopted_cautions(self.chain, self.cam, self.face)
         stress = self.stress.cautions if self.stress else ()
         scale = title_scale(self.task, self.chain.profile_scale)
         return [*found, *spring, *stress, *unit_slips(self.task), *less_round(self.chain), *scale]
@@ -86,6 +89,15 @@ class Solution(ShownSolution):
         if spring is None or speed is None:
             return None
         return SpringDesign(self.chain, self.cam, spring(speed), spring.preload is None, spring.friction)
+
+    @cached_property
+    def face(self) -> FaceDesign | None:
+        """The face that is built, if the task asks for a margin beside the contact."""
+        margin = getattr(self.task.follower, "face_margin", None)
+        if margin is None:
+            return None
+        exact = self.comparison.exact
+        return face_design(self.chain, (exact["face_left"], exact["face_right"]), margin)
 
     @cached_property
     def stress(self) -> StressDesign | None:
@@ -129,6 +141,8 @@ class Solution(ShownSolution):
             "quantities": plain_quantities(self.comparison.quantities),
             "stations": self._stations(),
             "low_dwells": self._low_dwells(),
+            "warnings": [str(caution.said) for caution in self.cautions],
+            **({"face": self.face.to_dict()} if self.face else {}),
             **({"jerk": self._plain_jerk()} if "jerk" in self.drawn else {}),
             **({"spring": self.spring.to_dict()} if self.spring else {}),
             **({"contact_stress": self.stress.to_dict()} if self.stress else {}),

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.constructions.axes import degrees
+from graphcam.constructions.axes import degrees, phase_kind
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.meaning import Meaning
@@ -113,6 +113,13 @@ class SpringDesign:
         CamForces(self.cam, self.given, friction=self.friction).check()
 
     @property
+    def idle(self) -> bool:
+        """Whether nothing presses in the lower dwell, though contact is kept: only preload and load act there."""
+        motion = self.cam.motion
+        low = any(phase_kind(motion, k) == "lower dwell" for k in range(len(motion.phases)))
+        return low and not self.load.preload and not self.load.load and not self.lost
+
+    @property
     def lost(self) -> list[Caption]:
         """Between which cam angles contact is lost."""
         return [say("{start} to {end}", start=degrees(start), end=degrees(end)) for start, end in self.contact.lost()]
@@ -196,7 +203,7 @@ class SpringDesign:
         """The contact function xi(phi) of Voloder, Cohodar and Karic, with its least value and where it is negative."""
         contact, along = self.contact, self.units[0]
         curve, least, lost = contact.curve(), contact.least_force(), tuple(contact.lost())
-        said = CONTACT_CAPTIONS[along == "N", bool(lost)]
+        said = CONTACT_CAPTIONS[along == "N", "lost" if lost else "idle" if self.idle else "kept"]
         return TurnDiagram(
             "contact",
             say("The contact function"),
@@ -333,24 +340,37 @@ PLAIN_FORCES = {
 }
 """The columns of the plain data over the turn, and the fields of the forces."""
 CONTACT_CAPTIONS = {
-    (True, True): say(
+    (True, "lost"): say(
         "{formula} is the force with which the cam pushes the follower, at {mu:g} N/mm. Where it is negative, as "
         "marked on the axis, the cam would have to pull: contact is lost."
     ),
-    (True, False): say(
+    (True, "kept"): say(
         "{formula} is the force with which the cam pushes the follower, at {mu:g} N/mm. It is nowhere negative: "
         "contact is kept."
     ),
-    (False, True): say(
+    (False, "lost"): say(
         "{formula} is the torque about the pivot with which the cam pushes the arm, at {mu:g} N·mm/mm. Where it "
         "is negative, as marked on the axis, the cam would have to pull: contact is lost."
     ),
-    (False, False): say(
+    (False, "kept"): say(
         "{formula} is the torque about the pivot with which the cam pushes the arm, at {mu:g} N·mm/mm. It is "
         "nowhere negative: contact is kept."
     ),
+    (True, "idle"): say(
+        "{formula} is the force with which the cam pushes the follower, at {mu:g} N/mm. It is nowhere negative, but "
+        "with F₀ = 0 it is zero during the whole lower dwell: in practice choose a preload greater than zero."
+    ),
+    (False, "idle"): say(
+        "{formula} is the torque about the pivot with which the cam pushes the arm, at {mu:g} N·mm/mm. It is nowhere "
+        "negative, but with F₀ = 0 it is zero during the whole lower dwell: in practice choose a preload greater than "
+        "zero."
+    ),
 }
-"""What is said of the contact function, of a force or a torque, where contact is lost and where it is kept."""
+"""What is said of the contact function, of a force or a torque, where contact is lost, kept, or kept by nothing."""
+IDLE = say(
+    "With F₀ = 0 the contact force is zero during the whole lower dwell; in practice choose a preload greater than "
+    "zero."
+)
 TRANSMITTED = say(
     "τ = cos α − μ sin α, with μ = {friction:g} at the cam, is the part of the normal force that moves the follower, "
     "at {mu:g}/mm. Where it falls to zero the follower jams."

@@ -33,7 +33,10 @@ class Caution:
     """
 
     said: Caption
-    of: Literal["profile", "pressure angle", "prime radius", "contact", "contact stress", "rounding", "unit", "scale"]
+    of: Literal[
+        "profile", "pressure angle", "prime radius", "roller radius", "face", "contact", "contact stress", "rounding",
+        "unit", "scale",
+    ]  # fmt: skip
     phi: tuple[float, ...] = ()
     alpha: float | None = None
 
@@ -98,15 +101,24 @@ EXCEEDED = {
 
 
 def _limits(cam: Cam, board: Board) -> Iterator[Caution]:
+    for word, alpha, phi, limit in angles_exceeded(cam, board, LAST_DIGIT):
+        values = {"alpha": abs(math.degrees(alpha)), "phi": _degrees(phi), "limit": math.degrees(limit)}
+        yield Caution(replace(EXCEEDED[word], values=values), "pressure angle", (phi,), alpha)
+
+
+def angles_exceeded(cam: Cam, board: Board, slack: float) -> Iterator[tuple[str, float, float, float]]:
+    """The phases whose pressure angle exceeds its limit by more than ``slack`` [degrees]: their kind, then radians.
+
+    returns : "rise" or "return", the pressure angle, the cam angle there, and the limit
+    """
     extremes, limits = cam.extremes(), board.limits
     for word, (alpha, phi), limit in (
         ("rise", extremes.pressure_angle_rise, limits.rise),
         ("return", extremes.pressure_angle_return, limits.return_),
     ):
         at_rest = word == "rise" and alpha < 0 and not limits.rest  # the angle at the low rest, which is not limited
-        if limit is not None and not at_rest and math.degrees(abs(alpha) - limit) > LAST_DIGIT:
-            values = {"alpha": abs(math.degrees(alpha)), "phi": _degrees(phi), "limit": math.degrees(limit)}
-            yield Caution(replace(EXCEEDED[word], values=values), "pressure angle", (phi,), alpha)
+        if limit is not None and not at_rest and math.degrees(abs(alpha) - limit) > slack:
+            yield word, alpha, phi, limit
 
 
 def _prime_radius(board: Board, least: float) -> Iterator[Caution]:

@@ -146,13 +146,20 @@ class OscillatingTable(_FollowerTable):
 
 @dataclass(frozen=True)
 class FlatFacedTable(_FollowerTable):
-    """``[follower]`` of kind "flat-faced", which has no sizes."""
+    """``[follower]`` of kind "flat-faced".
 
+    face_margin : mm, of the face beyond the contact on each side; None adopts no face
+    """
+
+    face_margin: float | None = None
     kind: Literal["flat-faced"] = "flat-faced"
     roller_radius = 0.0
     roller_rule = DEFAULT_RULE
     made_to = ()
     without: ClassVar = {"pressure_angle_rise": OF_A_ROLLER, "pressure_angle_return": OF_A_ROLLER}
+
+    def __post_init__(self) -> None:
+        positive("face margin", self.face_margin or None, "mm")
 
     def __call__(self) -> FlatFaced:
         """The follower."""

@@ -414,9 +414,16 @@ def test_every_angle_is_set_off_at_its_station_upward_where_it_is_positive(name)
 def test_the_largest_angles_are_compared_with_their_limits(name):
     board, step = ANGLES[name], Chain(ANGLES[name])["angle_diagram"].steps()[1]
     dots, labels = of(step, Dots, Role.LIMIT), of(step, Label)
-    for part, dot, label, limit in zip(
-        step.parts, dots, labels, (board.limits.rise, board.limits.return_), strict=True
-    ):
+    drawn = list(zip(step.parts, dots, labels, strict=True))
+    inner = [each for each in drawn if "inside it" in str(each[0].caption)]
+    for part, dot, label in inner:  # a maximum of the other sign has no limit of its own
+        y, alpha = numbers(part, rf"the farthest point is at {NUMBER} mm, so α = {NUMBER}°")
+        assert (y, alpha) == (pytest.approx(dot.points[0].imag, abs=CENTI), pytest.approx(y, abs=CENTI))
+        assert float(str(label.text).rstrip("°")) == pytest.approx(alpha, abs=DECI)
+    assert bool(inner) == (name == "arm")
+    farthest = [each for each in drawn if "inside it" not in str(each[0].caption)]
+    limits = board.limits.rise, board.limits.return_
+    for (part, dot, label), limit in zip(farthest, limits, strict=True):
         y, alpha = numbers(part, rf"farthest point of the curve is at {NUMBER} mm, so α = {NUMBER}°: ")
         assert y == pytest.approx(dot.points[0].imag, abs=CENTI)
         assert alpha == pytest.approx(y, abs=CENTI)  # a degree is a millimetre

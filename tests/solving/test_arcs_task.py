@@ -139,7 +139,7 @@ def test_a_cam_that_cannot_be_built_is_refused_with_the_reason(name, tmp_path):
 
 
 def test_the_document_has_the_shape_of_every_solution(document):
-    assert document.keys() == {"graphcam", "task", "cam", "scales", "quantities", "stations", "files"}
+    assert document.keys() == {"graphcam", "task", "cam", "scales", "quantities", "stations", "warnings", "files"}
     assert document["task"] == builtin_arcs_task().to_dict()
     assert {"prime_radius", "offset", "roller_radius", "rotation"} <= document["cam"].keys()
     assert document["scales"].keys() == {"phi", "s", "v", "a"}

@@ -14,7 +14,7 @@ from graphcam.solving.solve import solve
 from graphcam.tasks.task import CamTable, LimitsTable, Task, TranslatingTable
 from graphcam.tasks.task_file import builtin_task
 
-TOP = {"graphcam", "task", "cam", "scales", "quantities", "stations", "low_dwells", "files"}
+TOP = {"graphcam", "task", "cam", "scales", "quantities", "stations", "low_dwells", "warnings", "files"}
 QUANTITIES = {
     "max_v": "mm/rad", "max_a": "mm/rad²", "minimum_prime_radius": "mm", "minimum_offset": "mm",
     "max_pressure_angle_rise_deg": "deg", "max_pressure_angle_return_deg": "deg", "min_pitch_curvature_radius": "mm",

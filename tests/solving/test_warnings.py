@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 
 import pytest
@@ -119,7 +120,8 @@ def test_the_command_line_prints_them_on_standard_error(tmp_path):
     result = CliRunner().invoke(app, ["solve", str(path), "--json"])
     assert result.exit_code == 0
     assert result.stderr.count("warning: ") == 3
-    assert "warning" not in result.stdout
+    assert "warning: " not in result.stdout
+    assert [f"warning: {each}" in result.stderr for each in json.loads(result.stdout)["warnings"]] == [True] * 3
 
 
 ARM = """

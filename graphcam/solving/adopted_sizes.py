@@ -1,0 +1,224 @@
+"""What the exact side says of adopted sizes: one rounded up from a drawn minimum may be too small all the same.
+
+A drawn minimum is as good as its divisions.  The size that was adopted stays, because the drawing is honest; a warning
+says by how much it misses the exact limit, and names a division and a size with which it would not.
+"""
+
+import math
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import asdict, replace
+from itertools import product
+from typing import Any
+
+from graphcam.constructions.adoption import multiple, steps_up
+from graphcam.constructions.board import Board
+from graphcam.constructions.chain import Chain
+from graphcam.errors import DesignError
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.least_radius import minimum_radius
+from graphcam.solving.face_design import FaceDesign, face_design
+from graphcam.solving.warnings import LAST_DIGIT, Caution, angles_exceeded
+from graphcam.words import Caption, Words, joined, say, sequence
+
+MORE = (2, 3, 4)
+"""Times as many divisions, of which the first that helps is named."""
+MOST_BY_HAND = 72
+"""Divisions of a phase; nobody draws more."""
+FURTHER = 4
+"""So many multiples of the rounding are tried on from the first radius that may help."""
+BESIDE = (0, 1, -1, 2, -2)
+"""And so many to either side of an adopted offset or centre distance."""
+EXACTLY = 1e-9
+"""mm or degrees: what a size that is named as a remedy may miss a limit by, for the arithmetic."""
+
+
+def adopted_cautions(chain: Chain, cam: Cam, face: FaceDesign | None = None) -> list[Caution]:
+    """What is wrong with the sizes that the drawing proposed; nothing where they satisfy the exact limits.
+
+    chain : whose sizes were adopted;  cam : built with them;  face : of a flat-faced follower, where one is adopted
+    """
+    return [*_radius(chain, cam), *_roller(chain, cam), *_face(chain, face)]
+
+
+def _satisfies(cam: Cam, board: Board, slack: float) -> bool:
+    """Whether a cam satisfies every limit of the task but for ``slack`` [degrees, mm]."""
+    sharpest = board.follower.conditions.get("curvature")
+    if sharpest is not None and cam.extremes().min_convex_radius[0] < sharpest - slack:
+        return False
+    return not any(angles_exceeded(cam, board, slack))
+
+
+# --- prime radius and place ------------------------------------------------------------------------------------------
+
+
+def _radius(chain: Chain, cam: Cam) -> Iterator[Caution]:
+    board = chain.board
+    decided = board.prime_radius is not None and board.follower.place is not None
+    if decided or _satisfies(cam, board, LAST_DIGIT):
+        return
+    radius, least = chain.prime_radius, _least_at(chain)
+    if board.prime_radius is None and least > radius:
+        drawn = chain.adopted().least
+        said = say(
+            "The adopted prime radius of {radius:g} mm is smaller than the exact minimum{there}, {least:.5g} mm: the "
+            "drawn one, {drawn:.5g} mm, is {short:.3g} mm too small."
+        ).where(least=least, drawn=drawn, short=least - drawn)
+    else:
+        said = say("The prime radius of {radius:g} mm{there} does not satisfy the exact limits.")
+    remedies = _remedies(chain)
+    if board.prime_radius is not None and not remedies:  # it is too small at any place, which is told of a given one
+        return
+    told = [said.where(radius=radius, there=_there(chain)), *_sharp(cam, board), _take(remedies)]
+    yield Caution(sequence(told, " "), "prime radius")
+
+
+def _there(chain: Chain) -> Words:
+    """Beside which adopted place a radius is told."""
+    name = chain.board.follower.place_name
+    return PLACES[name].where(place=chain.place) if name in PLACES and "curvature" not in _asked(chain) else ""
+
+
+PLACES = {
+    "offset": say(" at the offset of {place:g} mm"),
+    "distance": say(" at the centre distance of {place:g} mm"),
+}
+
+
+def _asked(chain: Chain) -> dict[str, Any]:
+    """What the exact least radius is asked for at the adopted place."""
+    asked = asdict(chain.board.limits) | dict(chain.board.follower.conditions)
+    return asked | ({"offset": chain.place} if "offset" in asked else {})
+
+
+def _least_at(chain: Chain) -> float:
+    """The exact least prime radius at the adopted place [mm]; NaN where that satisfies no limits."""
+    board = chain.board
+    follower = board.follower.built(chain.place, 0.0)
+    with suppress(DesignError):
+        return minimum_radius(board.motion, follower, board.rotation, **_asked(chain)).prime_radius
+    return math.nan
+
+
+def _sharp(cam: Cam, board: Board) -> list[Caption]:
+    """The sentence on a radius of curvature below the permitted one; the pressure angle has a warning of its own."""
+    least, rho = board.follower.conditions.get("curvature"), cam.extremes().min_convex_radius[0]
+    if not least or rho >= least:
+        return []
+    return [say("The radius of curvature falls to {rho:.2f} mm; {least:g} mm are required.", rho=rho, least=least)]
+
+
+def _remedies(chain: Chain) -> list[Words]:
+    """What satisfies the exact limits: more divisions, or other sizes."""
+    finer = _divisions(chain, lambda other: _satisfies(_built(chain, *_sizes(other)), chain.board, EXACTLY))
+    return [*finer, *_other_sizes(chain)]
+
+
+def _sizes(chain: Chain) -> tuple[float, float]:
+    return chain.prime_radius, chain.place
+
+
+def _built(chain: Chain, radius: float, place: float) -> Cam:
+    """The exact cam of these sizes, on whose pitch curve a roller has no influence."""
+    return Cam(chain.board.motion, chain.board.follower.built(place, 0.0), radius, chain.board.rotation)
+
+
+def _other_sizes(chain: Chain) -> list[Words]:
+    """The next round sizes within the exact limits, none if they are farther."""
+    board, step, least = chain.board, chain.rounding, _least_at(chain)
+    first = max(chain.prime_radius, 0.0 if math.isnan(least) else least)
+    radii = [multiple(steps_up(first, step) + k, step) for k in range(FURTHER)]
+    places = [chain.place + step * k for k in BESIDE]
+    radii = radii if board.prime_radius is None else [chain.prime_radius]
+    places = places if board.follower.place is None else [chain.place]
+    for radius, place in product(radii, places):
+        with suppress(DesignError):
+            if _satisfies(_built(chain, radius, place), board, EXACTLY):
+                return [_named_sizes(chain, radius, place)]
+    return []
+
+
+def _named_sizes(chain: Chain, radius: float, place: float) -> Words:
+    """The keys of a task file that give these sizes."""
+    keys = {"cam.prime_radius": radius} if chain.board.prime_radius is None else {}
+    if chain.board.follower.place is None:
+        keys[f"follower.{chain.board.follower.place_name}"] = place
+    return joined([_key(key, value) for key, value in keys.items()])
+
+
+def _key(name: str, value: float) -> Caption:
+    """A key of the task file with its value."""
+    return say("{key} = {value:g}", key=name, value=value)
+
+
+# --- roller and face -------------------------------------------------------------------------------------------------
+
+
+def _roller(chain: Chain, cam: Cam) -> Iterator[Caution]:
+    board, adopted = chain.board, chain.roller_radius
+    if board.roller_radius is not None or not cam.kinematics.takes_roller:
+        return
+    rho = cam.extremes().min_convex_radius[0]
+    most = _by_rule(board, cam)
+    if not adopted > most + LAST_DIGIT:
+        return
+    said = say(
+        "The adopted roller radius of {radius:g} mm is larger than the rule permits, {most:.5g} mm with the exact "
+        "minimum radius of curvature, {rho:.5g} mm. {remedy}"
+    )
+    smaller = multiple(math.floor(most / chain.rounding + EXACTLY), chain.rounding)
+    takes = [_key("follower.roller_radius", smaller)] if smaller > 0 else []
+    finer = _divisions(chain, lambda other: other.roller_radius <= _by_rule(board, _built(chain, *_sizes(other))))
+    yield Caution(said.where(radius=adopted, most=most, rho=rho, remedy=_take([*finer, *takes])), "roller radius")
+
+
+def _by_rule(board: Board, cam: Cam) -> float:
+    rho = cam.extremes().min_convex_radius[0]
+    return min(term(rho=rho, r0=cam.prime_radius) for term in board.roller_rule)
+
+
+def _face(chain: Chain, face: FaceDesign | None) -> Iterator[Caution]:
+    if face is None:
+        return
+    for adopted, exact, said in zip(face.adopted, face.exact, SIDES, strict=True):
+        if (least := exact + face.margin) > adopted + LAST_DIGIT:
+            finer = _divisions(chain, lambda other: face_design(other, face.exact, face.margin).wide_enough)
+            wider = say("{length:g} mm", length=multiple(steps_up(least, face.rounding), face.rounding))
+            remedy = _take([*finer, wider])
+            yield Caution(said.where(adopted=adopted, least=least, margin=face.margin, remedy=remedy), "face")
+
+
+SIDES = (
+    say(
+        "The adopted face, {adopted:g} mm to the left, is smaller than the exact minimum with its margin of "
+        "{margin:g} mm, {least:.5g} mm. {remedy}"
+    ),
+    say(
+        "The adopted face, {adopted:g} mm to the right, is smaller than the exact minimum with its margin of "
+        "{margin:g} mm, {least:.5g} mm. {remedy}"
+    ),
+)
+
+
+# --- remedies --------------------------------------------------------------------------------------------------------
+
+
+def _divisions(chain: Chain, helps: Callable[[Chain], bool]) -> list[Words]:
+    """The number of divisions with which the drawing proposes sizes that satisfy the limits; none if too many."""
+    given = chain.board.divisions
+    for count in (times * given for times in MORE if times * given <= MOST_BY_HAND):
+        with suppress(DesignError):
+            if helps(Chain(replace(chain.board, divisions=count))):
+                return [_key("drawing.divisions", count)]
+    return []
+
+
+def _take(remedies: list[Words]) -> Caption:
+    """The remedies in a sentence, of which there are two at most."""
+    match remedies:
+        case [first, second]:
+            return say("Take {first}, or {second}.", first=first, second=second)
+        case [one]:
+            return say("Take {one}.", one=one)
+        case _:
+            return say("Take more divisions, or give the size yourself.")
