@@ -39,6 +39,7 @@ MEANING = Meaning(
         "of the pivot the arm is turned by its displacement: the positions of its end give the cam."
     ),
     profile_view.CURVE,
+    "report.arm_paragraphs.inversion",
     scales={"profile": "x"},
 )
 

@@ -32,6 +32,22 @@ def digits(per_mm: float) -> int:
     return max(0, math.ceil(-math.log10(FINEST_READING * per_mm)))
 
 
+STROKES = say("The appendix tells under the same title how it is drawn.")
+"""Where a paragraph calculates what the steps draw."""
+
+
+def polar_point(solution: Solution, station: int, name: Words, worked: Words) -> Caption:
+    """The polar radius at a station as a formula gives it, and as it was drawn."""
+    inverted = solution.drawn["inversion"]
+    radius, angle = (np.atleast_2d(np.asarray(inverted.value(each)))[0][station] for each in ("radius", "polar_angle"))
+    return say(
+        "At station {name} ${polar}$ mm; on the drawing it measures {radius} mm, in the direction of {angle}°.",
+        name=name,
+        polar=worked,
+        **numbers(radius=radius, angle=math.degrees(angle)),
+    )
+
+
 def as_drawn(drawn: Construction) -> Caption:
     """What the steps of a construction say, where no paragraph puts the numbers into formulas."""
     return sequence([step.caption for step in drawn.steps()], " ")
