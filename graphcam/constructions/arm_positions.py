@@ -74,6 +74,8 @@ def directions(givens: ArmGivens) -> NDArray[np.intp]:
 
 BEYOND = 0.03
 """How far an arc is drawn beyond what it is drawn for [rad]."""
+SMALLEST_ANGLE = 0.5
+"""Less cannot be set off with a protractor that is divided into degrees, but with dividers on the arc [degrees]."""
 NEAR = 1.0
 """Arms whose ends are nearer to one another bear one number [mm]."""
 
@@ -124,9 +126,16 @@ def positions_step(drawn: ArmPositions) -> Step:
     )
     down = say("Arm {name}: the displacement is zero, so it lies on CB₀.")
     up = say("Arm {name}: {angle}; set it off at C upwards from CB₀ and draw the arm as far as the arc.")
+    small = say(
+        "Arm {name}: {angle}, too small for the protractor; set it off with dividers on the arc, {chord:.2f} mm upwards "
+        "from B₀, and draw the arm."
+    )
     names, given = station_names(stations), (pivot.dots(), pivot.label("C", 1 + 0j))
     parts = [
-        (up if abs(s[n] * factor) > NOTHING else down).where(name=names[n], angle=angles[n]) for n in range(s.size)
+        (down if abs(turn) <= NOTHING else small if abs(turn) < SMALLEST_ANGLE else up).where(
+            name=names[n], angle=angles[n], chord=abs(ends.shown[n] - start.place)
+        )
+        for n, turn in enumerate((s * factor).tolist())
     ]
     towards = ends.shown * (1 - UP * directions(drawn.givens))
     marks = (

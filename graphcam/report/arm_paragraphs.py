@@ -31,6 +31,11 @@ WORKED = (
     r"<tan>\alpha = \frac{<l>\,(1 <sign> <v>) - <c>\cos(<psi0>^\circ + <s>^\circ)}"
     r"{<c>\,\sin(<psi0>^\circ + <s>^\circ)} = <tangent>, \qquad \alpha = <alpha>^\circ"
 )
+AT_REST = (
+    r"<tan>\alpha = \frac{<l> - <c>\cos <psi>^\circ}{<c>\,\sin <psi>^\circ} = <tangent>, "
+    r"\qquad \alpha = <alpha>^\circ"
+)
+"""The same in a dwell, where v is 0."""
 RADIUS = (
     r"$$r_0 = \sqrt{l^2 + c^2 - 2lc\cos\psi_0} = "
     r"\sqrt{<l>^2 + <c>^2 - 2 \cdot <l> \cdot <c>\cos <psi0>^\circ} = <r0>\ \text{<mm>}.$$"
@@ -71,11 +76,12 @@ class _Centres:
         """The pressure angle at a displacement [rad], with the numbers put into the formula."""
         tangent, along = float(self.tangent(np.asarray(s), np.asarray(v))), self.sigma * v
         return formula(
-            WORKED,
+            WORKED if v else AT_REST,
             tan=TAN,
             sign="-" if along < 0 else "+",
             v=number(abs(along), 4),
             s=number(math.degrees(s), ANGLE_DIGITS),
+            psi=number(math.degrees(self.psi0 + s), ANGLE_DIGITS),
             tangent=number(tangent, 4),
             alpha=number(math.degrees(math.atan(tangent))),
             **self.told,

@@ -14,7 +14,7 @@ from graphcam.given.follower import sense
 from graphcam.report.markdown import blocks, formula, number, numbers
 from graphcam.report.paragraphs import STROKES, general, polar_point, warning
 from graphcam.solving.solution import Solution
-from graphcam.words import say
+from graphcam.words import say, sequence
 
 CONVEX = (
     r"$$\rho = r_0 + s + \frac{d^2 s}{d\varphi^2} \ge [\rho], \qquad "
@@ -47,7 +47,7 @@ def least_radius(solution: Solution) -> str:
         CONVEX,
         say(
             "In the diagram of $s$ over $a = d^2s/d\\varphi^2$ the sum is constant along lines at 45°. The lowest of "
-            "them touches the curve near {name}, at $s = {s}$ mm and $a = {a}$ mm, and meets the axis of $s$ at "
+            "them touches the curve near station {name}, at $s = {s}$ mm and $a = {a}$ mm, and meets the axis of $s$ at "
             "$\\min(s + a) = {paper} \\cdot {mu:.5g} = {sum}$ mm. With $[\\rho] = {rho:g}$ mm",
             name=nearest_station(region),
             s=number(touch.imag),
@@ -83,8 +83,7 @@ def curvature(solution: Solution) -> str:
             rho=number(r0 - need, SUM_DIGITS),
             mm=unit("mm"),
         ),
-        say("On the drawing it measures {drawn} mm.", drawn=number(rho)),
-        kept,
+        sequence([say("On the drawing it measures {drawn} mm.", drawn=number(rho)), kept], " "),
         STROKES,
         tell=solution.tell,
     )

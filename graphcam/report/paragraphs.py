@@ -162,7 +162,18 @@ def integration(solution: Solution) -> str:
             acceleration=formula(r"a_{\max} = <mu_a> \cdot <a> = <max_a>", **values),
             **values,
         ),
+        _in_degrees(solution) if c.givens.unit == "rad" else "",
         tell=solution.tell,
+    )
+
+
+def _in_degrees(solution: Solution) -> Caption:
+    """The lift of an arm and the scale of its displacement, as a protractor has them."""
+    lift, mu = solution.cam.motion.lift, solution.drawn["integration"].readings["s"].per_mm
+    return say(
+        "The displacement $s$ is the angle of the arm: in degrees the lift is {lift}° and $\\mu_s = {mu}$ °/mm.",
+        lift=general(math.degrees(lift)),
+        mu=general(math.degrees(mu), 5),
     )
 
 
