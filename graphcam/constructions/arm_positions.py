@@ -127,7 +127,7 @@ def positions_step(drawn: ArmPositions) -> Step:
     down = say("Arm {name}: the displacement is zero, so it lies on CB₀.")
     up = say("Arm {name}: {angle}; set it off at C upwards from CB₀ and draw the arm as far as the arc.")
     small = say(
-        "Arm {name}: {angle}, too small for the protractor; set it off with dividers on the arc, {chord:.2f} mm upwards "
+        "Arm {name}: {angle}, too small for the protractor; with dividers set off {chord:.2f} mm on the arc upwards "
         "from B₀, and draw the arm."
     )
     names, given = station_names(stations), (pivot.dots(), pivot.label("C", 1 + 0j))

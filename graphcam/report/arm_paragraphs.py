@@ -63,8 +63,8 @@ class _Centres:
 
     def radius(self, s: float) -> float:
         """From the cam centre to the end of the arm [mm], at a displacement [rad]."""
-        l, c = self.arm, self.distance
-        return math.sqrt(l**2 + c**2 - 2 * l * c * math.cos(self.psi0 + s))
+        arm, c = self.arm, self.distance
+        return math.sqrt(arm**2 + c**2 - 2 * arm * c * math.cos(self.psi0 + s))
 
     @property
     def told(self) -> dict[str, Caption]:
@@ -91,12 +91,14 @@ class _Centres:
 def _adopted_centres(solution: Solution) -> _Centres:
     """The triangle of the adopted sizes."""
     givens = solution.drawn["pressure_angle"].givens
-    l, c = givens.arm, givens.distance
+    arm, c = givens.arm, givens.distance
     with np.errstate(invalid="ignore"):
-        psi0 = float(np.arccos((l**2 + c**2 - givens.prime_radius**2) / (2 * l * c)))
-    return _Centres(l, c, psi0, sense(givens.rotation))
+        psi0 = float(np.arccos((arm**2 + c**2 - givens.prime_radius**2) / (2 * arm * c)))
+    return _Centres(arm, c, psi0, sense(givens.rotation))
 
 
+LEAST = {1: r"\le", -1: r"\ge"}
+"""How an angle is limited towards the pivot, and away from it."""
 CONDITIONS = {
     "rise": say("- rise: ${condition}$; the worst station is {station}, where ${worked}$."),
     "return": say("- return: ${condition}$; the worst station is {station}, where ${worked}$."),
@@ -108,8 +110,7 @@ CONDITIONS = {
 def _conditions(region: ArmRegion, centres: _Centres) -> Iterator[Caption]:
     """What is permitted of each family of lines, and how near the cam centre comes to it."""
     integrated, limits, sigma = region.givens.integrated, region.givens.limits, centres.sigma
-    s, v = (np.asarray(integrated.value(name)) for name in "sv")
-    s, v = (np.atleast_2d(each)[0] for each in (s, v))
+    s, v = (integrated.value(name) for name in "sv")
     moving, names = directions(region.givens), station_names(integrated.givens.stations)
     at_rest = np.zeros_like(moving, bool)
     at_rest[[0, int(np.argmax(s))]] = True
@@ -122,7 +123,8 @@ def _conditions(region: ArmRegion, centres: _Centres) -> Iterator[Caption]:
         if f"limits: {name}" in region.acts and angle is not None:
             speed = np.zeros_like(v) if name in DWELLS else v
             k = int(np.argmax(np.where(of, side * centres.tangent(s, speed), -np.inf)))
-            bound = formula(r"\alpha <least> <angle>^\circ", angle=general(side * math.degrees(angle)), least=LEAST[side])
+            limit = general(side * math.degrees(angle))
+            bound = formula(r"\alpha <least> <angle>^\circ", angle=limit, least=LEAST[side])
             station = "B₀" if name in DWELLS and k == 0 else names[k]
             worked = centres.worked(float(s[k]), float(speed[k]))
             yield CONDITIONS[name].where(condition=bound, station=station, worked=worked)
@@ -137,21 +139,17 @@ def _conditions(region: ArmRegion, centres: _Centres) -> Iterator[Caption]:
         )
 
 
-LEAST = {1: r"\le", -1: r"\ge"}
-"""How an angle is limited towards the pivot, and away from it."""
-
-
 def least_radius(solution: Solution) -> str:
     """The conditions at the cam centre that was found, its prime radius, and what is adopted."""
     region, tell = solution.drawn["minimum_radius"], solution.tell
-    centre = complex(np.ravel(region.first("centre"))[0]) * region.givens.mu_l.per_mm
+    centre = complex(region.first("centre")) * region.givens.mu_l.per_mm
     adopted = solution.drawn["pressure_angle"].givens.adopted()
     decided = adoption_step(adopted, "c", region.givens.mu_l.per_mm, REGION).caption if adopted else ""
     if np.isnan(centre):
         return blocks(warning(NO_CENTRE[region.givens.distance is not None]), decided, STROKES, tell=tell)
     rotation = region.givens.rotation
     centres = _Centres(region.givens.arm, abs(centre), float(np.angle(-centre)), sense(rotation))
-    r0 = float(np.ravel(region.value("prime_radius"))[0])
+    r0 = float(region.value("prime_radius"))
     values = centres.told | {"r0": number(centres.radius(0.0)), "mm": unit("mm")}
     return blocks(
         say(
@@ -181,7 +179,7 @@ def pressure_angle(solution: Solution) -> str:
     """The velocity plan at the station of the greatest angle, by numbers and as measured."""
     measured, centres = solution.drawn["pressure_angle"], _adopted_centres(solution)
     name, k, s, v = _at_shown_station(solution)
-    alpha = np.degrees(np.atleast_2d(np.asarray(measured.value("alpha")))[0])
+    alpha = np.degrees(measured.value("alpha"))
     worst = int(np.nanargmax(np.abs(alpha)))
     stations = solution.chain.board.stations
     return blocks(

@@ -2,8 +2,6 @@
 
 import math
 
-import numpy as np
-
 from graphcam.constructions.adoption import adoption_step
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.flat_minimum_radius import nearest_station
@@ -47,8 +45,8 @@ def least_radius(solution: Solution) -> str:
         CONVEX,
         say(
             "In the diagram of $s$ over $a = d^2s/d\\varphi^2$ the sum is constant along lines at 45°. The lowest of "
-            "them touches the curve near station {name}, at $s = {s}$ mm and $a = {a}$ mm, and meets the axis of $s$ at "
-            "$\\min(s + a) = {paper} \\cdot {mu:.5g} = {sum}$ mm. With $[\\rho] = {rho:g}$ mm",
+            "them touches the curve near station {name}, at $s = {s}$ mm and $a = {a}$ mm, and meets the axis of $s$ "
+            "at $\\min(s + a) = {paper} \\cdot {mu:.5g} = {sum}$ mm. With $[\\rho] = {rho:g}$ mm",
             name=nearest_station(region),
             s=number(touch.imag),
             a=number(touch.real),
@@ -97,14 +95,14 @@ def inversion(solution: Solution) -> str:
     inverted, integrated = solution.drawn["inversion"], solution.drawn["integration"]
     stations, r0, sigma = solution.chain.board.stations, inverted.givens.prime_radius, sense(inverted.givens.rotation)
     k = worked_station(stations)
-    s, v = (float(np.atleast_2d(np.asarray(integrated.value(name)))[0][k]) for name in "sv")
+    s, v = (float(integrated.value(name)[k]) for name in "sv")
     left, right = (float(inverted.value(f"face_{side}")) for side in ("left", "right"))
     left_of, right_of = EXTREMES[sigma]
     polar = formula(POLAR, r0=general(r0), **numbers(s=s, v=abs(v), radius=math.hypot(r0 + s, v)))
     return blocks(
         say(
-            "The face lies at $r_0 + s$ from the cam centre and touches the profile $ds/d\\varphi$ beside its ray, so a "
-            "contact point has the polar radius"
+            "The face lies at $r_0 + s$ from the cam centre and touches the profile $ds/d\\varphi$ beside its ray, so "
+            "a contact point has the polar radius"
         ),
         r"$$R = \sqrt{(r_0 + s)^2 + \left(\frac{ds}{d\varphi}\right)^2}.$$",
         polar_point(solution, k, station_names(stations)[k], polar),

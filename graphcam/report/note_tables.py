@@ -42,7 +42,7 @@ Column = tuple[str, Floats, Floats, int]
 
 
 def at_stations(solution: Solution) -> str:
-    """s, v, a, the pressure angle and the transmission angle at the stations, drawn and exact; an arm's s in degrees."""
+    """s, v, a, the pressure angle and the transmission angle at the stations, drawn and exact; an arm's s in °."""
     of_lift, swings = solution.chain.board.follower.unit, solution.chain.board.follower.unit == "rad"
     units = {name: unit(of_lift + per) for name, per in (("s", ""), ("v", "/rad"), ("a", "/rad²"))}
     compared, stations, integrated = solution.comparison, solution.chain.board.stations, solution.drawn["integration"]
@@ -96,7 +96,7 @@ def polar_coordinates(solution: Solution) -> str:
 
 
 def _at_round_angles(solution: Solution) -> list[Words]:
-    """The exact profile in the steps that the task's table ``[part]`` names; nothing without one or without a profile."""
+    """The exact profile in the steps that the task's table ``[part]`` names; without one, nothing."""
     if solution.task.part is None:
         return []
     step = solution.task.part.table_step

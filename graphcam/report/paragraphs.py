@@ -39,7 +39,7 @@ STROKES = say("The appendix tells under the same title how it is drawn.")
 def polar_point(solution: Solution, station: int, name: Words, worked: Words) -> Caption:
     """The polar radius at a station as a formula gives it, and as it was drawn."""
     inverted = solution.drawn["inversion"]
-    radius, angle = (np.atleast_2d(np.asarray(inverted.value(each)))[0][station] for each in ("radius", "polar_angle"))
+    radius, angle = (float(inverted.value(each)[station]) for each in ("radius", "polar_angle"))
     return say(
         "At station {name} ${polar}$ mm; on the drawing it measures {radius} mm, in the direction of {angle}°.",
         name=name,
