@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphcam.constructions import profile_view
-from graphcam.constructions.arm_positions import SMALLEST_ANGLE, arc_through, example
+from graphcam.constructions.arm_positions import arc_through, by_dividers, example
 from graphcam.constructions.axes import numbers, station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
@@ -187,16 +187,10 @@ def _turned(inverted: ArmInverted) -> Step:
     some = say(
         "Arm {name}: from B₀{name} {angle}, clockwise along the arc about C{name}; mark {name} and draw the arm."
     )
-    small = say(
-        "Arm {name}: from B₀{name} {chord:.2f} mm clockwise along the arc about C{name}, with dividers; the angle, "
-        "{turn:.2f}°, is too small for the protractor. Mark {name} and draw the arm."
-    )
     none = say("Arm {name}: the displacement is zero, so {name} lies on the prime circle; draw the arm.")
     texts = [
-        (none if chord <= NOTHING else small if turn < SMALLEST_ANGLE else some).where(
-            name=name, angle=angle, chord=chord, turn=turn
-        )
-        for name, angle, chord, turn in zip(names, angles, chords.tolist(), np.abs(s * factor).tolist(), strict=True)
+        by_dividers((some if chord > NOTHING else none).where(name=name, angle=angle), turn, chord)
+        for name, angle, chord, turn in zip(names, angles, chords.tolist(), (s * factor).tolist(), strict=True)
     ]
     said = say(
         "Turn every arm about its pivot from the prime circle by the displacement, away from A (clockwise on the "

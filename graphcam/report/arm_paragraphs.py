@@ -130,7 +130,7 @@ def _conditions(region: ArmRegion, centres: _Centres) -> Iterator[Caption]:
             yield CONDITIONS[name].where(condition=bound, station=station, worked=worked)
     if "limits: reach" in region.acts:
         yield say(
-            "- the arm stays above the line of centres: $0 < \\psi_0 + s < 180^\\circ$; the greatest is ${psi0}^\\circ "
+            "- the arm stays above the line of centres: $0 < \\psi_0 + s < 180^\\circ$; the maximum is ${psi0}^\\circ "
             "+ {s}^\\circ = {psi}^\\circ$."
         ).where(
             psi0=number(math.degrees(centres.psi0)),

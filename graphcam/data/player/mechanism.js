@@ -85,7 +85,10 @@ function mechanismOf(picture, mechanism) {
     // Beside the end of the normal, on the side away from the motion.
     const [x, y] = along(touch, steep, sizes.roller + reach), side = turn > 0 ? -1 : 1;
     set(alpha, { x: x + side * unit, y: -y, "text-anchor": side > 0 ? "start" : "end" });
-    if (arrays.pressure_angle) alpha.textContent = `α = ${written(arrays.pressure_angle[k], 1, "°")}`;
+    if (arrays.pressure_angle) {
+      const angle = arrays.pressure_angle[k];
+      alpha.textContent = `α = ${written(angle, 1, "°")}`;
+    }
   }
 
   // What is read off there, written.
