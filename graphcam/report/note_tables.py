@@ -81,7 +81,7 @@ def polar_coordinates(solution: Solution) -> str:
     profile = solution.drawn["working_profile"]
     phi, theta, touch = map(np.degrees, (stations.phi, pitch.value("polar_angle"), np.angle(profile.first("touch"))))
     columns, header = (pitch.value("radius"), theta), (say("R pitch curve"), say("θ pitch curve"))
-    if solution.task.follower.kind == "flat-faced":
+    if "pressure_angle" not in solution.drawn:
         columns, header = (), ()
     columns = (phi, *columns, profile.value("radius"), touch)
     rows = zip(station_names(stations), *(map(number, column.tolist()) for column in columns), strict=True)
