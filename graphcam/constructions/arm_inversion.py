@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphcam.constructions import profile_view
-from graphcam.constructions.arm_positions import arc_through, example
+from graphcam.constructions.arm_positions import arc_through, by_dividers, example
 from graphcam.constructions.axes import numbers, station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
@@ -39,6 +39,7 @@ MEANING = Meaning(
         "of the pivot the arm is turned by its displacement: the positions of its end give the cam."
     ),
     profile_view.CURVE,
+    "report.arm_paragraphs.inversion",
     scales={"profile": "x"},
 )
 
@@ -187,7 +188,10 @@ def _turned(inverted: ArmInverted) -> Step:
         "Arm {name}: from B₀{name} {angle}, clockwise along the arc about C{name}; mark {name} and draw the arm."
     )
     none = say("Arm {name}: the displacement is zero, so {name} lies on the prime circle; draw the arm.")
-    texts = [(some if chords[n] > NOTHING else none).where(name=name, angle=angles[n]) for n, name in enumerate(names)]
+    texts = [
+        by_dividers((some if chord > NOTHING else none).where(name=name, angle=angle), turn, chord)
+        for name, angle, chord, turn in zip(names, angles, chords.tolist(), (s * factor).tolist(), strict=True)
+    ]
     said = say(
         "Turn every arm about its pivot from the prime circle by the displacement, away from A (clockwise on the "
         "paper), with the protractor or, with dividers, by the chord of its arc. Station {name}: {angle}. Repeat for "

@@ -72,6 +72,7 @@ MEANING = Meaning(
             say("centre distance c"), "c", "mm", (Compared("minimum_distance", say("its centre distance c")),)
         ),
     },
+    "report.arm_paragraphs.least_radius",
 )
 
 
@@ -210,6 +211,11 @@ BINDING = {
     "reach": say("arm {station}"),
 }
 """How a line that binds is labelled, by the names of the acts."""
+NO_CENTRE = (
+    say("No cam centre satisfies all the limits."),
+    say("At this centre distance no cam centre satisfies all the limits."),
+)
+"""What is said where none is found: wherever the pivot is, and at a given distance."""
 DWELLS = ("rest", "rest after the return")
 """The acts that draw two lines: one from B₀ and one from the end of the highest arm."""
 
@@ -319,7 +325,7 @@ def _at_rest(region: ArmRegion) -> tuple[str, str]:
     return "B₀", highest_arm(region)
 
 
-def _place(region: ArmRegion) -> Caption:
+def found_at(region: ArmRegion) -> Caption:
     """Where in the region the cam centre is found, and on which lines: two at a corner, else one."""
     found = dict[tuple[str, str], Caption]()
     for _, family, k in _bound_by(region):
@@ -340,12 +346,9 @@ def _place(region: ArmRegion) -> Caption:
 def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
     c, acts, length = region.givens.distance, region.acts, region.givens.mu_l.paper
     start, centre, arcs, parts = acts["start"], acts["centre"][0], list[Mark](), list[Part]()
-    said = say("No cam centre satisfies all the limits.")
+    said = NO_CENTRE[c is not None]
     if c is not None:
-        said, circle = (
-            say("At this centre distance no cam centre satisfies all the limits."),
-            acts["circle of the centre"],
-        )
+        circle = acts["circle of the centre"]
         middle = centre.place if found else -length(c) * np.exp(0.2j)
         arcs.append(arc_through(circle, middle * np.exp([-0.15j, 0.15j])))
         parts.append(Part(say("Draw an arc of {paper:.1f} mm about C with the compass.", paper=length(c)), (circle,)))
@@ -358,7 +361,7 @@ def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
     )
     if not found:
         return step
-    place, bind = _place(region), acts["lines that bind"]
+    place, bind = found_at(region), acts["lines that bind"]
     line = showing(region).join("line of centres", acts["pivot"].first, centre.first)
     r0, away = (float(region.value(name)) for name in reads)
     said = say("A₀ is {place}. Join it to B₀ and C and measure: {sizes}.")

@@ -23,6 +23,7 @@ from graphcam.drafting.scale import Scale, ratio_text
 from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.stations import Stations
+from graphcam.words import sequence
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,6 +75,8 @@ def directions(givens: ArmGivens) -> NDArray[np.intp]:
 
 BEYOND = 0.03
 """How far an arc is drawn beyond what it is drawn for [rad]."""
+SMALLEST_ANGLE = 0.5
+"""Less cannot be set off with a protractor that is divided into degrees, but with dividers on the arc [degrees]."""
 NEAR = 1.0
 """Arms whose ends are nearer to one another bear one number [mm]."""
 
@@ -126,7 +129,8 @@ def positions_step(drawn: ArmPositions) -> Step:
     up = say("Arm {name}: {angle}; set it off at C upwards from CB₀ and draw the arm as far as the arc.")
     names, given = station_names(stations), (pivot.dots(), pivot.label("C", 1 + 0j))
     parts = [
-        (up if abs(s[n] * factor) > NOTHING else down).where(name=names[n], angle=angles[n]) for n in range(s.size)
+        by_dividers((up if abs(turn) > NOTHING else down).where(name=names[n], angle=angles[n]), turn, chord)
+        for n, (turn, chord) in enumerate(zip((s * factor).tolist(), np.abs(ends.shown - start.place), strict=True))
     ]
     towards = ends.shown * (1 - UP * directions(drawn.givens))
     marks = (
@@ -142,6 +146,16 @@ def positions_step(drawn: ArmPositions) -> Step:
         why=say("Because the displacement of an arm is the angle through which it turns about its pivot."),
         parts=(Part(base, (level, arc, start)), *(Part(part, (arms[n], ends[n])) for n, part in enumerate(parts))),
     )
+
+
+def by_dividers(said: Caption, turn: float, chord: float) -> Caption:
+    """How an angle [degrees] of an arm is set off, and what is to be done with a small one: its chord [mm of paper]."""
+    if not NOTHING < abs(turn) < SMALLEST_ANGLE:
+        return said
+    small = say(
+        "The angle is too small for the protractor: with dividers set off {chord:.2f} mm along the arc.", chord=chord
+    )
+    return sequence([said, small], " ")
 
 
 def _first_here(ends: Drawn, start: Drawn, stations: Stations) -> NDArray[np.bool_]:

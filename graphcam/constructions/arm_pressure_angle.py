@@ -55,6 +55,7 @@ MEANING = Meaning(
         "a length along the arm, and the angle between normal and motion is found without the profile."
     ),
     {**ANGLES, "psi0": ReadingMeaning(say("angle ψ₀"), "ψ₀", "rad")},
+    "report.arm_paragraphs.pressure_angle",
 )
 
 

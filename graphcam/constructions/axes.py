@@ -213,13 +213,14 @@ def reach(heights: Floats) -> tuple[float, float]:
 
 
 def ordinate(symbol: str, lift_unit: str) -> Caption:
-    """What an ordinate axis is called, with its unit; ``lift_unit`` is that of s.
+    """What an ordinate axis is called, with its unit; ``lift_unit`` is that of s, of which an angle is in degrees.
 
-    >>> str(ordinate("a", "mm")), str(ordinate("α", "mm"))
-    ('a, mm/rad²', 'α, °')
+    >>> str(ordinate("a", "mm")), str(ordinate("α", "mm")), str(ordinate("s", "rad"))
+    ('a, mm/rad²', 'α, °', 's, °')
     """
     per = {"s": "", "v": "/rad", "a": "/rad²", "j": "/rad³"}
-    return say("{symbol}, {unit}", symbol=symbol, unit=unit(lift_unit + per[symbol]) if symbol in per else "°")
+    in_degrees = symbol not in per or (symbol, lift_unit) == ("s", "rad")
+    return say("{symbol}, {unit}", symbol=symbol, unit="°" if in_degrees else unit(lift_unit + per[symbol]))
 
 
 def axes_over_phi(end: float, mu_phi: Scale, heights: Floats, name: Words) -> tuple[Mark, ...]:

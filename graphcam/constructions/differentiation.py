@@ -326,7 +326,7 @@ def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
     s, stations, mu_s = c.acts["s"].first, c.acts["stations"].first, c.givens.mu_s
     k = int(np.argmax(np.abs(s.shown.imag)))
     below = row_numbers(stations, 0, np.full(s.shown.shape, -UP))
-    axes = (*_axes(c, "s"), *graduated(s.shown.imag, mu_s.per_mm))
+    axes = (*_axes(c, "s"), *graduated(s.shown.imag, mu_s.per_mm, lift_unit=mu_s.unit))
     plotted = (*axes, s.dots(Role.CONSTRUCTION), s.from_(stations, Role.CONSTRUCTION), *below)
     plotted_at = say_many(
         "The displacement is plotted at {count} station.",

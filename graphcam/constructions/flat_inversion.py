@@ -32,7 +32,7 @@ FACE_BEYOND = 6.0
 
 MEANING = Meaning(
     "inversion",
-    say("Pitch curve by inversion"),
+    say("Profile by inversion"),
     say(
         "The cam is held still and the frame is turned about it, against the cam's rotation. In each position "
         "the face is moved by its displacement. It touches the cam beside its ray, at a distance equal to the "
@@ -48,6 +48,7 @@ MEANING = Meaning(
         "contact": ReadingMeaning(say("contact beside the ray"), "q", "mm"),
         **profile_view.CURVE,
     },
+    "report.flat_paragraphs.inversion",
     scales={"profile": "x"},
 )
 

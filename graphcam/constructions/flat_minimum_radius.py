@@ -71,6 +71,7 @@ LEAST_RADIUS_MEANING = Meaning(
         "touches it there."
     ),
     {"prime_radius": LEAST_RADIUS, "need": ReadingMeaning(say("maximum of −(s + a)"), "−(s + a)", "mm")},
+    "report.flat_paragraphs.least_radius",
 )
 CURVATURE_MEANING = Meaning(
     "curvature",
@@ -86,6 +87,7 @@ CURVATURE_MEANING = Meaning(
             compared=(Compared("min_pitch_curvature_radius", say("minimum radius of curvature ρ")),),
         )
     },
+    "report.flat_paragraphs.curvature",
 )
 
 
@@ -269,7 +271,7 @@ def _touched(region: FlatRegion) -> Step:
     slide = say(
         "Hold a set square at 45° so that its edge falls to the right, and slide it in from the lower left until the "
         "edge touches the curve and crosses it nowhere: near {name}."
-    ).where(name=_nearest(region, line.place))
+    ).where(name=nearest_station(region))
     read = say(
         "The edge meets the axis of s {height}, so the maximum of −(s + a) is {paper:.2f} mm × {mu:.5g} = "
         "{need:.3f} mm."
@@ -293,9 +295,9 @@ def _touched(region: FlatRegion) -> Step:
     )
 
 
-def _nearest(region: FlatRegion, place: complex) -> str:
-    """The name of the station whose end, or whose dwell, is nearest to a place."""
-    integrated, acts = region.givens.integrated, region.acts
+def nearest_station(region: FlatRegion) -> str:
+    """The name of the station whose end, or whose dwell, is nearest to where the tangent touches."""
+    integrated, acts, place = region.givens.integrated, region.acts, region.acts["touch"].first.place
     stretches = [np.arange(each.start, each.stop) for each in integrated.givens.stations.stretches]
     places, of = np.append(acts["curve"].shown, acts["rests"].shown), np.concatenate([*stretches, _rests(integrated)])
     return station_names(integrated.givens.stations)[of[np.argmin(np.round(np.abs(places - place), 3))]]

@@ -17,16 +17,21 @@ ROUND = (1, 2, 5, 10)
 """Round steps within a power of ten."""
 
 
-def graduated(heights: Floats, per_mm: float, right: float | None = None, of: Origin | None = None) -> tuple[Mark, ...]:
+def graduated(
+    heights: Floats, per_mm: float, right: float | None = None, of: Origin | None = None, lift_unit: str = ""
+) -> tuple[Mark, ...]:
     """The graduation of the ordinate axis of a diagram over ``heights`` [mm of paper], ``per_mm`` units to each.
 
     right : where it stands instead [mm of paper], if rays run to the axis from the left: at the other end of the turn
     of : the reading whose scale it shows, where that is only found by drawing
+    lift_unit : "rad" where the ordinates are angles, which a reader wants in degrees
 
     >>> [str(mark.text) for mark in graduated(np.array([-12.0, 31.0]), 0.5)[1:]]
     ['-5', '5', '10', '15']
     """
     low, high = reach(heights)
+    angles = lift_unit == "rad"
+    per_mm, value = (math.degrees(per_mm), say("{value:.6g}°")) if angles else (per_mm, say("{value:.6g}"))
     every, parts = divisions(max(-low, high), per_mm)
     finest = every / parts / per_mm
     counts = np.arange(math.ceil(low / finest), math.floor(high / finest) + 1)
@@ -38,7 +43,7 @@ def graduated(heights: Floats, per_mm: float, right: float | None = None, of: Or
     named = zip(ends[whole].tolist(), (counts[whole] // parts).tolist(), strict=True)
     return (
         Segments(starts, ends, Role.SCALE, of),
-        *(Label(at, say("{value:.6g}", value=n * every), towards=way[0], small=True, of=of) for at, n in named),
+        *(Label(at, value.where(value=n * every), towards=way[0], small=True, of=of) for at, n in named),
     )
 
 

@@ -448,7 +448,10 @@ def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, ma
     told = told.where(name=station_names(stations)[k], symbol=name, mu=mu, **read)
     # From the pole rays run to the axis on the left.
     heights = np.concatenate([c.first("a"), c.first("a_before")]) if name == "a" else c.acts[f"{name}_curve"].shown.imag
-    divided = graduated(heights, mu, None if name == "s" else float(turn), c.readings[name].act)
+    lift_unit = c.readings[name].unit
+    divided = graduated(heights, mu, None if name == "s" else float(turn), c.readings[name].act, lift_unit)
+    if lift_unit == "rad":
+        told = sequence([told, say("In degrees {mu:.4g}°/mm.", mu=np.degrees(mu))], " ")
     if c.givens.omega is not None and name != "s":
         said_too = scale_said(mu, name, c.givens.omega, c.givens.unit)
         told = sequence([told, said_too], " ")

@@ -22,7 +22,7 @@ ABOUT = {
     "face": say("Cam and flat-faced follower; the normal of the face is its line of motion."),
 }
 LIVE = ("pressure_angle", "displacement", "velocity")
-"""What is read off while the cam turns."""
+"""What is read off while the cam turns; a flat face has no pressure angle."""
 
 
 def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dict[str, Any]:
@@ -38,6 +38,8 @@ def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dic
     stem, face = top + 1.5 * unit - float(scene.trace.imag.min()), (scene.face[0] - 2 * unit, scene.face[1] + 2 * unit)
     sizes = {"unit": unit, "roller": scene.roller, "reach": 0.55 * greatest, "stem": stem}
     live = dict(zip(LIVE, (np.degrees(scene.alpha), degree * scene.s, scene.v), strict=True))
+    if scene.kind == "face":
+        del live["pressure_angle"]
     of_velocity = unit_of("rad/rad" if swings else "mm/rad")
     units = "°", "°" if swings else " " + tell(unit_of("mm")), " " + tell(of_velocity)
     data: dict[str, Any] = {
@@ -57,7 +59,7 @@ def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dic
             **{name: _numbers(np.degrees(np.angle(getattr(scene, name)))) for name in ("motion", "normal")},
             **{name: _numbers(values) for name, values in live.items()},
         },
-        "live": list(LIVE),
+        "live": list(live),
         "units": dict(zip(LIVE, units, strict=True)),
         "digits": dict(zip(LIVE, (2, 2, 3 if swings else 2), strict=True)),
         "decimal": decimal,

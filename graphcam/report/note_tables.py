@@ -7,40 +7,58 @@ from dataclasses import replace
 import numpy as np
 
 from graphcam.comparison.quantities import Quantity, transmission_deg
-from graphcam.constructions.axes import station_names
+from graphcam.constructions.axes import station_names, turning
 from graphcam.drafting.units import unit
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.report.markdown import blocks, number, table
 from graphcam.report.paragraphs import digits
 from graphcam.report.sheet_data import on_paper
 from graphcam.solving.solution import Solution
-from graphcam.words import Caption, Tell, say
+from graphcam.words import Caption, Tell, Words, say
+from graphcam.workshop.outline import of_cam
+from graphcam.workshop.polar_table import PolarCurve
 
 SIDES = (say("{name} drawn"), say("{name} exact"))
 EXACT_DIGITS = 4
 """Decimals of an exact value, at least."""
+ROUND_DIGITS = 3
+"""Decimals of a radius of the exact profile [mm]."""
+TOLD = say(
+    "Displacement s in {s}, velocity v in {v}, acceleration a in {a}, pressure angle α and transmission angle γ = "
+    "90° − |α| in degrees, drawn and exact. The acceleration at both ends of a phase is the one inside the phase."
+)
+TOLD_OF_ARM = say(
+    "Displacement s in degrees, velocity v in {v}, acceleration a in {a}, pressure angle α and transmission angle γ = "
+    "90° − |α| in degrees, drawn and exact. The acceleration at both ends of a phase is the one inside the phase."
+)
+TOLD_OF_FACE = say(
+    "Displacement s in {s}, velocity v in {v} and acceleration a in {a}, drawn and exact. The acceleration at both "
+    "ends of a phase is the one inside the phase."
+)
+"""What stands in the table of the stations."""
 Column = tuple[str, Floats, Floats, int]
 """A quantity at the stations: its symbol, what was drawn, what it is exactly, and decimals of what was drawn."""
 
 
 def at_stations(solution: Solution) -> str:
-    """s, v, a, the pressure angle and the transmission angle at the stations, drawn and exact."""
-    of_lift = solution.chain.board.follower.unit
-    said = say(
-        "Displacement s in {s}, velocity v in {v}, acceleration a in {a}, pressure angle α and transmission angle γ = "
-        "90° − |α| in degrees, drawn and exact. The acceleration at both ends of a phase is the one inside the phase.",
-        **{name: unit(of_lift + per) for name, per in (("s", ""), ("v", "/rad"), ("a", "/rad²"))},
-    )
+    """s, v, a, the pressure angle and the transmission angle at the stations, drawn and exact; an arm's s in °."""
+    of_lift, swings = solution.chain.board.follower.unit, solution.chain.board.follower.unit == "rad"
+    units = {name: unit(of_lift + per) for name, per in (("s", ""), ("v", "/rad"), ("a", "/rad²"))}
     compared, stations, integrated = solution.comparison, solution.chain.board.stations, solution.drawn["integration"]
     drawn, exact = compared.drawn_stations, compared.exact_stations
     columns = [
         (name, drawn[name], values, digits(integrated.readings[name].per_mm))
         for name, values in zip(("s", "v", "a"), exact.values, strict=False)
     ]
-    columns.append(("α", np.degrees(drawn["alpha"]), np.degrees(exact.pressure_angle), 2))
-    columns.append(("γ", transmission_deg(drawn["alpha"]), transmission_deg(exact.pressure_angle), 2))
+    if swings:
+        columns[0] = ("s", np.degrees(drawn["s"]), np.degrees(exact.values[0]), 3)
+    said = TOLD_OF_FACE if "pressure_angle" not in solution.drawn else TOLD_OF_ARM if swings else TOLD
+    if "pressure_angle" in solution.drawn:
+        columns.append(("α", np.degrees(drawn["alpha"]), np.degrees(exact.pressure_angle), 2))
+        columns.append(("γ", transmission_deg(drawn["alpha"]), transmission_deg(exact.pressure_angle), 2))
     told = station_table(station_names(stations), stations.phi, columns, solution.tell)
-    return blocks(said, told, tell=solution.tell)
+    return blocks(said.where(**units), told, tell=solution.tell)
 
 
 def station_table(names: Sequence[str], phi: Floats, columns: Sequence[Column], tell: Tell) -> str:
@@ -55,19 +73,48 @@ def station_table(names: Sequence[str], phi: Floats, columns: Sequence[Column], 
 
 
 def polar_coordinates(solution: Solution) -> str:
-    """The polar coordinates of the pitch curve and of the working profile at the stations, drawn."""
+    """The polar coordinates of the pitch curve and of the working profile at the stations, drawn.
+
+    Under a flat face they are one curve.  Where the task asks for a table of the profile, that follows, exact.
+    """
     stations, pitch = solution.chain.board.stations, solution.drawn["inversion"]
     profile = solution.drawn["working_profile"]
     phi, theta, touch = map(np.degrees, (stations.phi, pitch.value("polar_angle"), np.angle(profile.first("touch"))))
-    columns = (phi, pitch.value("radius"), theta, profile.value("radius"), touch)
+    columns, header = (pitch.value("radius"), theta), (say("R pitch curve"), say("θ pitch curve"))
+    if "pressure_angle" not in solution.drawn:
+        columns, header = (), ()
+    columns = (phi, *columns, profile.value("radius"), touch)
     rows = zip(station_names(stations), *(map(number, column.tolist()) for column in columns), strict=True)
-    header = (say("station"), "φ", say("R pitch curve"), say("θ pitch curve"), say("R profile"), say("θ profile"))
+    header = (say("station"), "φ", *header, say("R profile"), say("θ profile"))
     said = say(
         "Radius R in mm and angle θ in degrees, from the cam centre, as drawn. θ is counted anticlockwise from "
         "the horizontal, on the cam as it stands at φ = 0. A dash marks a station where no point of the profile "
         "is left."
     )
-    return blocks(said, table(header, rows, solution.tell), tell=solution.tell)
+    drawn = table(header, rows, solution.tell)
+    return blocks(said, drawn, *_at_round_angles(solution), tell=solution.tell)
+
+
+def _at_round_angles(solution: Solution) -> list[Words]:
+    """The exact profile in the steps that the task's table ``[part]`` names; without one, nothing."""
+    if solution.task.part is None:
+        return []
+    step = solution.task.part.table_step
+    angles = np.arange(0.0, 360.0, step)
+    try:
+        outline = of_cam(solution.cam)
+        radii = PolarCurve(outline).radius(np.radians(angles))
+    except DesignError:  # a warning of the solution says what is wrong with the profile
+        return []
+    said = say(
+        "The exact working profile every {step}° of the polar angle ϑ, counted {turning} on the cam from the direction "
+        "in which the follower meets it at φ = 0 (θ = {zero}°):",
+        step=step,
+        turning=turning("ccw" if outline.sense > 0 else "cw"),
+        zero=number(math.degrees(outline.zero)),
+    )
+    rows = zip((f"{angle:g}°" for angle in angles), (number(r, ROUND_DIGITS) for r in radii.tolist()), strict=True)
+    return [said, table(("ϑ", say("R profile")), rows, solution.tell)]
 
 
 def compared(quantities: Mapping[str, Quantity], tell: Tell) -> str:

@@ -33,6 +33,22 @@ def digits(per_mm: float) -> int:
     return max(0, math.ceil(-math.log10(FINEST_READING * per_mm)))
 
 
+STROKES = say("The appendix tells under the same title how it is drawn.")
+"""Where a paragraph calculates what the steps draw."""
+
+
+def polar_point(solution: Solution, station: int, name: Words, worked: Words) -> Caption:
+    """The polar radius at a station as a formula gives it, and as it was drawn."""
+    inverted = solution.drawn["inversion"]
+    radius, angle = (float(inverted.value(each)[station]) for each in ("radius", "polar_angle"))
+    return say(
+        "At station {name} ${polar}$ mm; on the drawing it measures {radius} mm, in the direction of {angle}°.",
+        name=name,
+        polar=worked,
+        **numbers(radius=radius, angle=math.degrees(angle)),
+    )
+
+
 def as_drawn(drawn: Construction) -> Caption:
     """What the steps of a construction say, where no paragraph puts the numbers into formulas."""
     return sequence([step.caption for step in drawn.steps()], " ")
@@ -147,7 +163,18 @@ def integration(solution: Solution) -> str:
             acceleration=formula(r"a_{\max} = <mu_a> \cdot <a> = <max_a>", **values),
             **values,
         ),
+        _in_degrees(solution) if c.givens.unit == "rad" else "",
         tell=solution.tell,
+    )
+
+
+def _in_degrees(solution: Solution) -> Caption:
+    """The lift of an arm and the scale of its displacement, as a protractor has them."""
+    lift, mu = solution.cam.motion.lift, solution.drawn["integration"].readings["s"].per_mm
+    return say(
+        "The displacement $s$ is the angle of the arm: in degrees the lift is {lift}° and $\\mu_s = {mu}$ °/mm.",
+        lift=general(math.degrees(lift)),
+        mu=general(math.degrees(mu), 5),
     )
 
 

@@ -28,7 +28,8 @@ class PartTable:
     profile_tolerance : mm, width of the zone of the profile of a line (ISO 1101); None goes by the cam's size
     bore_tolerance : of the bore's diameter, by ISO 286
     cutter_radius : mm, of the cutter whose centre the table follows too; None leaves it out
-    table_step : degrees of the polar angle from row to row of the table
+    table_step : degrees of the polar angle from row to row of the table, which is finer where the profile needs it;
+        with the table ``[part]`` the note too has the exact profile, in just these steps
     feed : mm/min, of the cutter in the program of G-code
     spline_degree, spline_control_points : of the profile's spline in DXF and STEP; None is as many as it takes
 

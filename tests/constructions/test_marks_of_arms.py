@@ -874,6 +874,8 @@ def test_from_every_pivot_the_arm_is_turned_by_the_displacement(name):
         assert factor == pytest.approx(turns.max() / s.max(), rel=1e-3)
         assert f"from B₀{text} " in caption
         assert f"clockwise along the arc about C{text}; mark {text}" in caption
+        small = f"too small for the protractor: with dividers set off {chord:.2f} mm along the arc."
+        assert caption.endswith(small) == (abs(turns[n]) < 0.5)
         if n == k:
             assert numbers(step.caption, TURN_AND_CHORD) == [paper, factor, angle, across]
     # What moves is square to the arm, away from the cam.

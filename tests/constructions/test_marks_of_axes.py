@@ -139,6 +139,13 @@ def test_an_ordinate_axis_has_round_values_away_from_the_rays(low, high, per_mm,
     assert every / per_mm >= (10 if high > 20 else 5)
 
 
+def test_the_ordinates_of_an_arm_are_graduated_in_degrees():
+    """15 degrees are 56.25 mm high: every 5 degrees a number, 18.75 mm apart."""
+    _, *labels = graduated(np.array([0.0, 56.25]), math.radians(15) / 56.25, lift_unit="rad")
+    assert [str(label.text) for label in labels] == ["5°", "10°", "15°"]
+    assert [label.at.imag for label in labels] == pytest.approx([18.75, 37.5, 56.25])
+
+
 def test_stations_are_named_at_their_places_in_their_directions_and_know_the_act_that_left_them():
     stations = divide(MOTION, 6)
     places = np.arange(14) * (10 + 1j)

@@ -79,14 +79,16 @@ function mechanismOf(picture, mechanism) {
     follower(trace, direction);
     set(motion, line(along(trace, direction, -0.3 * reach), along(trace, direction, reach)));
     set(normal, line(touch, along(touch, steep, sizes.roller + reach)));
-    const angle = arrays.pressure_angle[k];
     const from = along(trace, direction, 0.72 * reach), to = along(trace, steep, 0.72 * reach);
     const turn = ((steep - direction + 540) % 360) - 180;
     set(arc, { d: `M${from.join(" ")}A${0.72 * reach} ${0.72 * reach} 0 0 ${turn > 0 ? 1 : 0} ${to.join(" ")}` });
     // Beside the end of the normal, on the side away from the motion.
     const [x, y] = along(touch, steep, sizes.roller + reach), side = turn > 0 ? -1 : 1;
     set(alpha, { x: x + side * unit, y: -y, "text-anchor": side > 0 ? "start" : "end" });
-    alpha.textContent = `α = ${written(angle, 1, "°")}`;
+    if (arrays.pressure_angle) {
+      const angle = arrays.pressure_angle[k];
+      alpha.textContent = `α = ${written(angle, 1, "°")}`;
+    }
   }
 
   // What is read off there, written.

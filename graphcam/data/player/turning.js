@@ -16,7 +16,8 @@
     at("phase").innerHTML = phase.heading;
     document.querySelectorAll("#mechanism .chapters span").forEach((bar, j) => bar.classList.toggle("here", mechanism.phases[j] === phase));
     at("phi").value = k * step;
-    at("phi").setAttribute("aria-valuetext", `φ = ${turned.readPhi(k)}, ${at("scene").querySelector(".alpha").textContent}`);
+    const told = [`φ = ${turned.readPhi(k)}`, at("scene").querySelector(".alpha").textContent];
+    at("phi").setAttribute("aria-valuetext", told.filter(Boolean).join(", "));
   }
 
   // --- time ------------------------------------------------------------------------------------------------------------

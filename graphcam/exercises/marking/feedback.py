@@ -7,6 +7,9 @@ from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.marking.record import Diagnosis, Marked
 
+REDUCED = say("To keep within that, the marks of all answers, also of right ones, are reduced in the same proportion.")
+"""Why a right answer may earn only a part of its marks."""
+
 
 def feedback(
     exercise: Exercise,
@@ -30,7 +33,7 @@ def feedback(
             said = say(
                 "With this mistake a submission earns at most {most:g} of {of:g} marks.", most=most, of=exercise.marks
             )
-            captions.append(said)
+            captions += [said, REDUCED]
     elif any(each.outcome in ("wrong", "partial") for each in marked):
         captions.append(say("No usual mistake explains these answers; go through the wrong steps again."))
     return tuple(map(exercise.tell, captions))
