@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from graphcam.errors import DesignError, Unquoted
 from graphcam.given.fixed_order import summed
 from graphcam.given.laws import Floats
-from graphcam.given.legs import Leg, find_legs
+from graphcam.given.legs import LESS_NOISE, Leg, find_legs
 from graphcam.given.monotone_spline import Fit, fit
 from graphcam.given.motion import FULL_TURN, NEARLY, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.roots import roots
@@ -36,6 +36,8 @@ LEAST_NOISE = 3e-6
 """Of the lift: what the spline itself, whose acceleration cannot jump, may be off."""
 MISFIT = 7.0
 """Stops that are off by more than so many times the noise are not explained by it."""
+SCATTERED = 1.25
+"""Stops that are off by more than so many times the noise scatter by more, where the rows do."""
 WINDOW, ROWS_OF_A_PART = 7, 30
 """Rows through which a polynomial is laid to see the noise, and those of a part of the turn."""
 MEDIAN = 0.6745
@@ -108,7 +110,7 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     next: by a quintic spline, the most likely one (:mod:`graphcam.given.monotone_spline`).
 
     The rows are taken to err each for itself, by Gaussian noise of one standard deviation: what neighbouring rows show,
-    and no more than the tolerance/4.5.  So a tolerance is 4.5 times what the table scatters by, or more; if it is less,
+    and no more than the tolerance/4.5, or what is seen at rests.  So a tolerance is 4.5 times what the table scatters by, or more; if it is less,
     noise becomes motion, if it is more, small motions are not seen.  Where rests are off their level by more than such
     noise explains, as with waves or after an integration, the tolerance/4.5 is taken for it.  Ends of phases are told
     as far as the noise lets them: with the 4-5-6-7 law they are hidden for several degrees.
@@ -137,18 +139,22 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     if tolerance < SMALLEST:
         raise DesignError("tolerance", tolerance, f"at least {SMALLEST:g}", "give what the table was measured to")
     phi, s = check_rows(phi, s, tolerance)
-    least = LEAST_NOISE * float(np.ptp(s))
+    least, scatter = LEAST_NOISE * float(np.ptp(s)), _scatter(phi, s)
     most = max(tolerance / TOLERANCE_OF_NOISE, least)
-    noise = min(max(_scatter(phi, s), least), most)
-    legs, misfit = find_legs(phi, s, tolerance, noise)
+    noise, advice = min(max(scatter, least), most), _advice(tolerance, scatter)
+    legs, misfit = find_legs(phi, s, tolerance, noise, advice)
     if misfit > MISFIT and noise < most:
         # The rows err in other ways than each for itself, so the tolerance must say by how much.
         noise = most
-        legs, _ = find_legs(phi, s, tolerance, noise)
+        legs, _ = find_legs(phi, s, tolerance, noise, advice)
+    elif misfit > SCATTERED and noise < scatter:
+        # A tolerance of less than 4.5 times the scatter: the rests tell the noise, or else noise would move their ends.
+        noise = min(noise * misfit, scatter)
+        legs, _ = find_legs(phi, s, tolerance, noise, advice)
     start = legs[0].start
     shifted = start + (phi - start) % FULL_TURN
     order = np.argsort(shifted)
-    fitted = fit(shifted[order], s[order], legs, tolerance, noise)
+    fitted = fit(shifted[order], s[order], legs, tolerance, noise, advice)
     phases, zero, level = _phases(fitted, legs)
     return MeasuredMotion(phases, zero, phi, s - level, tolerance)
 
@@ -244,6 +250,16 @@ def _turn_remedy(span: float) -> str:
 
 def _degrees(angle: float) -> Unquoted:
     return Unquoted(f"{math.degrees(angle):.10g} degrees")
+
+
+def _advice(tolerance: float, scatter: float) -> str:
+    """What to do about a tolerance that is too small: if the rows scatter by more than it allows, one that allows it."""
+    digits = TOLERANCE_OF_NOISE * scatter
+    if not digits > tolerance:
+        return LESS_NOISE
+    unit = 10.0 ** (math.floor(math.log10(digits)) - 1)
+    enough = f"{math.ceil(digits / unit) * unit:.2g}"
+    return f"give {enough}, {TOLERANCE_OF_NOISE:g} times what the rows scatter by, or a table with less noise"
 
 
 def _scatter(phi: Floats, s: Floats) -> float:

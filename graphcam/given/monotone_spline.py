@@ -64,12 +64,15 @@ class Fit:
     knots: Floats
 
 
-def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float) -> Fit:
+def fit(
+    phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float, advice: str = LESS_NOISE
+) -> Fit:
     """The most likely spline that keeps every row to the tolerance.
 
     phi, s : (n,) cam angles [rad] within the turn that begins with the first leg, in order, and displacements
     legs : from :func:`~graphcam.given.legs.find_legs`
     noise : the standard deviation of the displacements
+    advice : what to do about a tolerance that is too small
 
     Raises
     ------
@@ -84,7 +87,7 @@ def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float)
             return fitted
         counts[off > tolerance] *= PULL
     limit = f"more than {off.max():.3g}, what the best spline leaves at a row"
-    raise DesignError("tolerance", tolerance, limit, LESS_NOISE)
+    raise DesignError("tolerance", tolerance, limit, advice)
 
 
 # --- the coefficients around the turn --------------------------------------------------------------------------------
