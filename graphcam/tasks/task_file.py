@@ -273,7 +273,10 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
         case Misfit(table, error):
             return _misfit(path, data, table, error)
         case Missing(("spring", "mass")) if _swings(data):
-            return TaskError(path, "spring.inertia", Unquoted("missing"), "given", "in kg mm^2, about the arm's pivot")
+            remedy = "in kg mm^2, about the arm's pivot" + _missing_too(data, "spring.inertia")
+            return TaskError(path, "spring.inertia", Unquoted("missing"), "given", remedy)
+        case Missing((("spring" | "material"), *_)) if others := _missing_too(data, place):
+            return TaskError(path, place, Unquoted("missing"), "given", others.removeprefix("; "))
         case Missing():
             return TaskError(path, place, Unquoted("missing"), "given", EXAMPLE)
         case UnknownKey(where):
@@ -284,6 +287,26 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
             return TaskError(path, f"{place}.kind", _shown(found), "one of " + ", ".join(tags), EXAMPLE)
         case WrongType(_, expected):
             return TaskError(path, place, _shown(value), expected, EXAMPLE)
+
+
+def _missing_too(data: dict[str, Any], place: str) -> str:
+    """The other keys that are missing where there is a material, which takes a spring, or a spring, which takes a speed.
+
+    place : the key that is told to be missing, or its table
+    """
+    material, spring = data.get("material"), data.get("spring", {})
+    if not isinstance(spring, dict):
+        return ""
+    mass = "inertia" if _swings(data) else "mass"
+    needed = ["material.width"] if isinstance(material, dict) and "width" not in material else []
+    # A mass for an arm, or an inertia for another follower, is told by itself.
+    needed += [f"spring.{mass}"] if not {"mass", "inertia"} & spring.keys() else []
+    needed += ["spring.stiffness"] if "stiffness" not in spring else []
+    needed += ["speed_rpm"] if "speed_rpm" not in data else []
+    *most, last = [key for key in needed if key != place] or [""]
+    if not last:
+        return ""
+    return f"; {', '.join(most)} and {last} are missing too" if most else f"; {last} is missing too"
 
 
 def _swings(data: dict[str, Any]) -> bool:
@@ -314,7 +337,10 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
     field, value = _look_up(data, (*place, *key.split(".")))
     if not isinstance(value, int | float | str):
         value = Unquoted(error.value) if isinstance(error.value, str) else error.value
-    return TaskError(path, field, _shown(value), error.limit, error.remedy or EXAMPLE)
+    remedy = error.remedy or EXAMPLE
+    if key in ("spring", "speed_rpm") and value == "missing":
+        remedy += _missing_too(data, key)
+    return TaskError(path, field, _shown(value), error.limit, remedy)
 
 
 def _look_up(data: Any, place: Place) -> tuple[str, Any]:
