@@ -20,7 +20,6 @@ DEPTH = 2.0
 """A rise or return of less than this many tolerances is not told from noise."""
 MOST_TURNINGS = 24
 """What turns more often is noise."""
-LESS_NOISE = "give a greater tolerance, or a table with less noise"
 OFF = 6.0
 """The rows of a rest are off their level by less than this [sd of the noise]."""
 SEEN, PART = 100.0, 0.15
@@ -64,7 +63,7 @@ class _Flat:
 
 
 def find_legs(
-    phi: Floats, s: Floats, tolerance: float, noise: float, advice: str = LESS_NOISE
+    phi: Floats, s: Floats, tolerance: float, noise: float, advice: str = ""
 ) -> tuple[list[Leg], float]:
     """The legs of a table over one turn, in order, and how many times more than the noise their stops are off at most.
 

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from graphcam.errors import DesignError, Unquoted
 from graphcam.given.fixed_order import summed
 from graphcam.given.laws import Floats
-from graphcam.given.legs import LESS_NOISE, Leg, find_legs
+from graphcam.given.legs import Leg, find_legs
 from graphcam.given.monotone_spline import Fit, fit
 from graphcam.given.motion import FULL_TURN, NEARLY, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.roots import roots
@@ -141,7 +141,7 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     phi, s = check_rows(phi, s, tolerance)
     least, scatter = LEAST_NOISE * float(np.ptp(s)), _scatter(phi, s)
     most = max(tolerance / TOLERANCE_OF_NOISE, least)
-    noise, advice = min(max(scatter, least), most), _advice(tolerance, scatter)
+    noise, advice = min(max(scatter, least), most), _remedy(tolerance, scatter)
     legs, misfit = find_legs(phi, s, tolerance, noise, advice)
     if misfit > MISFIT and noise < most:
         # The rows err in other ways than each for itself, so the tolerance must say by how much.
@@ -252,14 +252,14 @@ def _degrees(angle: float) -> Unquoted:
     return Unquoted(f"{math.degrees(angle):.10g} degrees")
 
 
-def _advice(tolerance: float, scatter: float) -> str:
-    """What to do about a tolerance that is too small: if the rows scatter by more than it allows, one that allows it."""
-    digits = TOLERANCE_OF_NOISE * scatter
-    if not digits > tolerance:
-        return LESS_NOISE
-    unit = 10.0 ** (math.floor(math.log10(digits)) - 1)
-    enough = f"{math.ceil(digits / unit) * unit:.2g}"
-    return f"give {enough}, {TOLERANCE_OF_NOISE:g} times what the rows scatter by, or a table with less noise"
+def _remedy(tolerance: float, scatter: float) -> str:
+    """What to do about a tolerance that is too small: give one that the scatter of the rows asks for, if that is more."""
+    asked = TOLERANCE_OF_NOISE * scatter
+    if not asked > tolerance:
+        return "give a greater tolerance, or a table with less noise"
+    digit = 10.0 ** (math.floor(math.log10(asked)) - 1)
+    enough = f"{math.ceil(asked / digit) * digit:.2g}"
+    return f"give a greater tolerance, as {enough}, {TOLERANCE_OF_NOISE:g} times what the rows scatter by, or a table with less noise"
 
 
 def _scatter(phi: Floats, s: Floats) -> float:

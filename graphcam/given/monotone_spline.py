@@ -28,7 +28,7 @@ from graphcam.errors import DesignError
 from graphcam.given.b_splines import KnottedSpline, basis_functions, solve_banded
 from graphcam.given.banded_forms import Forms, around
 from graphcam.given.laws import Floats
-from graphcam.given.legs import LESS_NOISE, Leg
+from graphcam.given.legs import Leg
 from graphcam.given.motion import FULL_TURN
 
 DEGREE = 5
@@ -65,7 +65,7 @@ class Fit:
 
 
 def fit(
-    phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float, advice: str = LESS_NOISE
+    phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float, advice: str = ""
 ) -> Fit:
     """The most likely spline that keeps every row to the tolerance.
 

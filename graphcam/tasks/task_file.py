@@ -272,11 +272,8 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
     match fault:
         case Misfit(table, error):
             return _misfit(path, data, table, error)
-        case Missing(("spring", "mass")) if _swings(data):
-            remedy = "in kg mm^2, about the arm's pivot" + _missing_too(data, "spring.inertia")
-            return TaskError(path, "spring.inertia", Unquoted("missing"), "given", remedy)
-        case Missing((("spring" | "material"), *_)) if others := _missing_too(data, place):
-            return TaskError(path, place, Unquoted("missing"), "given", others.removeprefix("; "))
+        case Missing((("spring" | "material"), *_)):
+            return _lacking(path, place, data)
         case Missing():
             return TaskError(path, place, Unquoted("missing"), "given", EXAMPLE)
         case UnknownKey(where):
@@ -289,24 +286,26 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
             return TaskError(path, place, _shown(value), expected, EXAMPLE)
 
 
-def _missing_too(data: dict[str, Any], place: str) -> str:
-    """The other keys that are missing where there is a material, which takes a spring, or a spring, which takes a speed.
+def _lacking(path: str, place: str, data: dict[str, Any]) -> TaskError:
+    """That a key of a spring or a material must be given, with all others that are missing beside it."""
+    remedy = EXAMPLE
+    if place == "spring.mass" and _swings(data):
+        place = "spring.inertia"
+        remedy = "in kg mm^2, about the arm's pivot"
+    others = ", ".join(key for key in _missing(data) if key != place)
+    limit = f"given, and so must {others}" if others else "given"
+    return TaskError(path, place, Unquoted("missing"), limit, remedy)
 
-    place : the key that is told to be missing, or its table
-    """
+
+def _missing(data: dict[str, Any]) -> list[str]:
+    """The keys that a material lacks, which takes a spring, and the spring, which takes a speed."""
     material, spring = data.get("material"), data.get("spring", {})
-    if not isinstance(spring, dict):
-        return ""
-    mass = "inertia" if _swings(data) else "mass"
-    needed = ["material.width"] if isinstance(material, dict) and "width" not in material else []
-    # A mass for an arm, or an inertia for another follower, is told by itself.
-    needed += [f"spring.{mass}"] if not {"mass", "inertia"} & spring.keys() else []
-    needed += ["spring.stiffness"] if "stiffness" not in spring else []
-    needed += ["speed_rpm"] if "speed_rpm" not in data else []
-    *most, last = [key for key in needed if key != place] or [""]
-    if not last:
-        return ""
-    return f"; {', '.join(most)} and {last} are missing too" if most else f"; {last} is missing too"
+    found = ["material.width"] if isinstance(material, dict) and "width" not in material else []
+    if isinstance(spring, dict):
+        # A mass for an arm, or an inertia for another follower, is told by itself.
+        found += [] if {"mass", "inertia"} & spring.keys() else [f"spring.{'inertia' if _swings(data) else 'mass'}"]
+        found += [] if "stiffness" in spring else ["spring.stiffness"]
+    return found if "speed_rpm" in data else [*found, "speed_rpm"]
 
 
 def _swings(data: dict[str, Any]) -> bool:
@@ -337,10 +336,10 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
     field, value = _look_up(data, (*place, *key.split(".")))
     if not isinstance(value, int | float | str):
         value = Unquoted(error.value) if isinstance(error.value, str) else error.value
-    remedy = error.remedy or EXAMPLE
-    if key in ("spring", "speed_rpm") and value == "missing":
-        remedy += _missing_too(data, key)
-    return TaskError(path, field, _shown(value), error.limit, remedy)
+    limit, others = error.limit, ", ".join(_missing(data))
+    if key == "spring" and data.get("spring") is None and others:
+        limit = f"given where there is a material, and so must {others}"
+    return TaskError(path, field, _shown(value), limit, error.remedy or EXAMPLE)
 
 
 def _look_up(data: Any, place: Place) -> tuple[str, Any]:
