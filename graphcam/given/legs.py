@@ -62,9 +62,7 @@ class _Flat:
         return replace(self, first=self.first + rows, last=self.last + rows)
 
 
-def find_legs(
-    phi: Floats, s: Floats, tolerance: float, noise: float, advice: str = ""
-) -> tuple[list[Leg], float]:
+def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float, advice: str = "") -> tuple[list[Leg], float]:
     """The legs of a table over one turn, in order, and how many times more than the noise their stops are off at most.
 
     phi, s : (n,) cam angles [rad] that grow over less than a turn, and the displacements there
@@ -157,7 +155,8 @@ def _with_rests_between(around: Floats, rows: Floats, flats: list[_Flat], noise:
 def _slow(x: Floats, y: Floats, noise: float, depth: float) -> list[_Flat]:
     """Where rows that rise are slow for long, and more than ``depth`` above the first and below the last; in order."""
     found: list[_Flat] = []
-    if y.size < 2 * FEWEST:
+    # With much noise the last of the rows between may be no higher than the first.
+    if y.size < 2 * FEWEST or y[-1] <= y[0]:
         return found
     spread = 2 * OFF * noise
     usual = spread * (x[-1] - x[0]) / (y[-1] - y[0])

@@ -110,10 +110,10 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     next: by a quintic spline, the most likely one (:mod:`graphcam.given.monotone_spline`).
 
     The rows are taken to err each for itself, by Gaussian noise of one standard deviation: what neighbouring rows show,
-    and no more than the tolerance/4.5, or what is seen at rests.  So a tolerance is 4.5 times what the table scatters by, or more; if it is less,
-    noise becomes motion, if it is more, small motions are not seen.  Where rests are off their level by more than such
-    noise explains, as with waves or after an integration, the tolerance/4.5 is taken for it.  Ends of phases are told
-    as far as the noise lets them: with the 4-5-6-7 law they are hidden for several degrees.
+    and no more than the tolerance/4.5, or than rests show.  So a tolerance is 4.5 times what the table scatters by, or
+    more; if it is less, noise becomes motion, if it is more, small motions are not seen.  Where rests are off their
+    level by more than such noise explains, as with waves or after an integration, the tolerance/4.5 is taken for it.
+    Ends of phases are told as far as the noise lets them: with the 4-5-6-7 law they are hidden for several degrees.
 
     Parameters
     ----------
@@ -253,13 +253,16 @@ def _degrees(angle: float) -> Unquoted:
 
 
 def _remedy(tolerance: float, scatter: float) -> str:
-    """What to do about a tolerance that is too small: give one that the scatter of the rows asks for, if that is more."""
+    """What to do about a tolerance that is too small: give what the scatter of the rows asks for, if that is more."""
     asked = TOLERANCE_OF_NOISE * scatter
     if not asked > tolerance:
         return "give a greater tolerance, or a table with less noise"
     digit = 10.0 ** (math.floor(math.log10(asked)) - 1)
     enough = f"{math.ceil(asked / digit) * digit:.2g}"
-    return f"give a greater tolerance, as {enough}, {TOLERANCE_OF_NOISE:g} times what the rows scatter by, or a table with less noise"
+    times = TOLERANCE_OF_NOISE
+    return (
+        f"give a greater tolerance, as {enough}, {times:g} times what the rows scatter by, or a table with less noise"
+    )
 
 
 def _scatter(phi: Floats, s: Floats) -> float:

@@ -64,9 +64,7 @@ class Fit:
     knots: Floats
 
 
-def fit(
-    phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float, advice: str = ""
-) -> Fit:
+def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float, advice: str = "") -> Fit:
     """The most likely spline that keeps every row to the tolerance.
 
     phi, s : (n,) cam angles [rad] within the turn that begins with the first leg, in order, and displacements
