@@ -28,7 +28,7 @@ from graphcam.drafting.units import NOTHING, unit
 from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
-from graphcam.given.motion import FULL_TURN, wrap
+from graphcam.given.motion import FULL_TURN, Motion, wrap
 from graphcam.plane import dot
 from graphcam.words import say_many, sequence
 
@@ -87,7 +87,7 @@ MEANING = Meaning(
 
 
 def measured_differentiation(
-    motion: MeasuredMotion, parts: int, mu_phi: Scale, mu_s: Scale, poles: tuple[float, float], pencil: Pencil
+    motion: Motion, parts: int, mu_phi: Scale, mu_s: Scale, poles: tuple[float, float], pencil: Pencil
 ) -> Construction[DifferentiationGivens]:
     """Differentiate the drawn curve of a measured motion over its turn, in equal parts, by chords.
 
@@ -96,7 +96,9 @@ def measured_differentiation(
     turn = FULL_TURN / mu_phi.per_mm
     x = divided(0j, turn + 0j, parts).real[:-1]
     s = motion(x * mu_phi.per_mm)[0] / mu_s.per_mm
-    rows = wrap(motion.phi - motion.zero) / mu_phi.per_mm + UP * motion.measured / mu_s.per_mm
+    rows = None
+    if isinstance(motion, MeasuredMotion):
+        rows = wrap(motion.phi - motion.zero) / mu_phi.per_mm + UP * motion.measured / mu_s.per_mm
     return differentiation(x, s, mu_phi, mu_s, poles, pencil, turn=turn, rows=rows)
 
 
@@ -142,6 +144,8 @@ def differentiation(
     hand, shown = Hand(pencil, MEANING, mu_s.unit), {} if rows is None else {"rows": rows}
     givens = DifferentiationGivens(x, mu_phi, mu_s, poles, turn, by, **shown)
     origin = hand.given("origin")
+    if rows is not None:
+        hand.given("rows", np.asarray(rows))
     plotted = hand.lay_off("s", hand.lay_off("stations", origin, RIGHT, x), UP, s)
     (start, end), v = _derived(hand, givens, 1, plotted, _going_on(hand, turn, plotted))
     v_on = _going_on(hand, turn, v)
@@ -357,19 +361,22 @@ def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
     why = say("Because the velocity is the slope of the displacement, and only a curve has a slope.")
     if c.givens.rows.size:
         told.append(say("The crosses are rows of the table, which the curve smooths."))
-    marks = (*plotted, *_crosses(c.givens.rows), _curve(c, "s"))
+    marks = (*plotted, *_crosses(c), _curve(c, "s"))
     title, under = say("The displacement"), _degrees(c, "s")
     return Step(title, sequence(told, " "), _view(c, "s"), marks, given=plotted, why=why, under=under)
 
 
-def _crosses(rows: Points) -> tuple[Segments, ...]:
+def _crosses(c: Construction[DifferentiationGivens]) -> tuple[Segments, ...]:
     """The rows of a table, every k-th where they lie too close to one another."""
-    shown = np.sort(rows)[:: _every(rows)]
-    return tuple(Segments(shown - arm, shown + arm, Role.LIMIT) for arm in CROSS * np.array([1 + UP, 1 - UP]))
+    if not c.givens.rows.size:
+        return ()
+    rows = c.acts["rows"].first[np.argsort(c.givens.rows.real)[:: _every(c.givens.rows)]]
+    arms = CROSS * np.array([1 + UP, 1 - UP])
+    return tuple(Segments(rows.shown - a, rows.shown + a, Role.LIMIT, of=rows.act, index=rows.index) for a in arms)
 
 
 def _every(rows: Points) -> int:
-    spacing = float(np.median(np.diff(np.sort(rows.real)))) if rows.size else ROWS_ROOM
+    spacing = float(np.median(np.diff(np.sort(rows.real))))
     return next((k for k in EVERY if k * spacing >= ROWS_ROOM), rows.size)
 
 
