@@ -43,6 +43,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion, Moving
+from graphcam.given.spline_law import MEASURED
 from graphcam.given.stations import Stations
 from graphcam.words import Caption, joined, sequence
 
@@ -178,11 +179,7 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
     laws = [_LawOverPhase(*each) for each in moving]
     curves = [law.drawn(showing(diagram), k) for k, law in enumerate(laws)]
     lines = tuple(curve.line(Role.RESULT) for curve in curves)
-    told = [say("{phase} {law}", phase=law.title, law=law_name(law.phase.normalised)) for law in laws]
-    plotted = say(
-        "Over each moving phase draw the acceleration by its law: {laws}. Ordinates above the axis are positive; "
-        "at a jump the line is vertical."
-    ).where(laws=sequence(told))
+    plotted = _by_their_laws(laws)
     shape = say(
         "Because the law of a phase gives the shape of its acceleration, and its maximum ordinate gives the height."
     )
@@ -193,6 +190,21 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
         Step(say("Acceleration by the law"), plotted, ACCELERATION, lines, why=shape, parts=parts),
         _middle_ordinates(diagram),
     ]
+
+
+def _by_their_laws(laws: Sequence[_LawOverPhase]) -> Caption:
+    """What the curves are drawn by: laws that textbooks give, or the ordinates of a smoothed table."""
+    if all(law.phase.normalised.name == MEASURED for law in laws):
+        table = say(
+            "The motion is a table, which has no law: its acceleration is that of the smoothed table, as under "
+            "“{section}”. Ordinates above the axis are positive."
+        ).where(section=say("Velocity and acceleration by differentiation"))
+        return sequence([table, *(law.told() for law in laws)], " ")
+    told = [say("{phase} {law}", phase=law.title, law=law_name(law.phase.normalised)) for law in laws]
+    return say(
+        "Over each moving phase draw the acceleration by its law: {laws}. Ordinates above the axis are positive; "
+        "at a jump the line is vertical."
+    ).where(laws=sequence(told))
 
 
 def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:

@@ -43,6 +43,11 @@ class ArmPressureAngleGivens(MeasuredGivens):
     distance: float
     mu_l: Scale
 
+    @property
+    def path_per_lift(self) -> float:
+        """The arm's end moves by the arm's length for a radian."""
+        return self.arm
+
 
 ArmAngles = Construction[ArmPressureAngleGivens]
 

@@ -7,13 +7,13 @@ mu_a = mu_v/(mu_phi H2).
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any, Literal
 
 import numpy as np
 
-from graphcam.constructions.axes import SUBSCRIPTS, axes_over_phi, degrees_below, ordinate, pole_marks, reach
+from graphcam.constructions.axes import EVERY, SUBSCRIPTS, axes_over_phi, degrees_below, ordinate, pole_marks, reach
 from graphcam.constructions.graduation import graduated
 from graphcam.constructions.slope_numbers import every_kth, falling_together, ray_numbers, row_numbers
 from graphcam.drafting.acts import Drawn, Setting
@@ -27,7 +27,8 @@ from graphcam.drafting.scale import Scale
 from graphcam.drafting.units import NOTHING, unit
 from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
-from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.given.measured import MeasuredMotion
+from graphcam.given.motion import FULL_TURN, Motion, wrap
 from graphcam.plane import dot
 from graphcam.words import say_many, sequence
 
@@ -36,6 +37,8 @@ FEWEST = 4
 """Stations: with fewer no acceleration has a neighbour."""
 TANGENT = 12.0
 """Half the length of a drawn tangent [mm of paper]."""
+CROSS, ROWS_ROOM = 0.6, 2.5
+"""Half the width of a cross at a row, and how far apart crosses stand at least [mm of paper]."""
 
 VIEWS = {
     "s": View("measured displacement", say("Measured displacement s"), across="measured phi", up="measured s"),
@@ -57,6 +60,7 @@ class DifferentiationGivens:
     poles: tuple[float, float]
     turn: float | None
     by: By
+    rows: Points = field(default_factory=lambda: np.empty(0, dtype=np.complex128))
 
 
 def _cam_angles(at: str, drawn: Construction[DifferentiationGivens]) -> list[Caption]:
@@ -92,7 +96,10 @@ def measured_differentiation(
     turn = FULL_TURN / mu_phi.per_mm
     x = divided(0j, turn + 0j, parts).real[:-1]
     s = motion(x * mu_phi.per_mm)[0] / mu_s.per_mm
-    return differentiation(x, s, mu_phi, mu_s, poles, pencil, turn=turn)
+    rows = None
+    if isinstance(motion, MeasuredMotion):
+        rows = wrap(motion.phi - motion.zero) / mu_phi.per_mm + UP * motion.measured / mu_s.per_mm
+    return differentiation(x, s, mu_phi, mu_s, poles, pencil, turn=turn, rows=rows)
 
 
 def differentiation(
@@ -105,6 +112,7 @@ def differentiation(
     *,
     turn: float | None = None,
     by: By = "chords",
+    rows: Points | None = None,
 ) -> Construction[DifferentiationGivens]:
     """Differentiate a drawn displacement twice.
 
@@ -114,6 +122,7 @@ def differentiation(
     turn : length of one revolution [mm of paper] of a cyclic diagram, which goes on after the last station with the
         first; None for a diagram that ends there
     by : "chords", or "tangents" with a mirror ruler; the intervals may be unequal
+    rows : (m,) places [mm of paper] of a table that the displacement smooths, to be shown beside it
 
     Readings besides those of the meaning: ``v_at`` and ``a_at``, the cam angles that they belong to; ``rise`` and
     ``run`` of every chord or tangent of s.
@@ -132,8 +141,11 @@ def differentiation(
     """
     x, s = np.asarray(x, dtype=np.float64), np.asarray(s, dtype=np.float64)
     _check(x, s, turn)
-    hand, givens = Hand(pencil, MEANING, mu_s.unit), DifferentiationGivens(x, mu_phi, mu_s, poles, turn, by)
+    hand, shown = Hand(pencil, MEANING, mu_s.unit), {} if rows is None else {"rows": rows}
+    givens = DifferentiationGivens(x, mu_phi, mu_s, poles, turn, by, **shown)
     origin = hand.given("origin")
+    if rows is not None:
+        hand.given("rows", np.asarray(rows))
     plotted = hand.lay_off("s", hand.lay_off("stations", origin, RIGHT, x), UP, s)
     (start, end), v = _derived(hand, givens, 1, plotted, _going_on(hand, turn, plotted))
     v_on = _going_on(hand, turn, v)
@@ -228,7 +240,7 @@ READABLE_ANGLE = 0.05
 _TRACED: dict[By, tuple[Caption, Caption, Caption]] = {
     "chords": (
         say("Chords of {source}"),
-        say("With the ruler join each point of {source} to the next one, and number the chords."),
+        say("With the ruler join each point of {source} to the next one. {numbered}"),
         say("Because the mean slope of {source} over a part is very nearly its slope in the middle of the part."),
     ),
     "tangents": (
@@ -243,6 +255,11 @@ _TRACED: dict[By, tuple[Caption, Caption, Caption]] = {
         ),
     ),
 }
+_NUMBERED = {
+    "s": say("A chord has the number of the point at its end."),
+    "v": say("A chord has the number of the point where it begins."),
+}
+"""Which number a chord has: the points of s are counted from 0, those of v from 1."""
 _ONE_TRACE: dict[By, Caption] = {
     "chords": say("Chord {name} runs from {start} to {end}, {run:.2f} mm across and {climb}."),
     "tangents": say("Tangent {name}, square to the mirror at point {name}, {lean}."),
@@ -342,9 +359,25 @@ def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
     if c.givens.turn:
         told.append(say("After the last station the next turn begins with station 0."))
     why = say("Because the velocity is the slope of the displacement, and only a curve has a slope.")
-    marks = (*plotted, _curve(c, "s"))
+    if c.givens.rows.size:
+        told.append(say("The crosses are rows of the table, which the curve smooths."))
+    marks = (*plotted, *_crosses(c), _curve(c, "s"))
     title, under = say("The displacement"), _degrees(c, "s")
     return Step(title, sequence(told, " "), _view(c, "s"), marks, given=plotted, why=why, under=under)
+
+
+def _crosses(c: Construction[DifferentiationGivens]) -> tuple[Segments, ...]:
+    """The rows of a table, every k-th where they lie too close to one another."""
+    if not c.givens.rows.size:
+        return ()
+    rows = c.acts["rows"].first[np.argsort(c.givens.rows.real)[:: _every(c.givens.rows)]]
+    arms = CROSS * np.array([1 + UP, 1 - UP])
+    return tuple(Segments(rows.shown - a, rows.shown + a, Role.LIMIT, of=rows.act, index=rows.index) for a in arms)
+
+
+def _every(rows: Points) -> int:
+    spacing = float(np.median(np.diff(np.sort(rows.real))))
+    return next((k for k in EVERY if k * spacing >= ROWS_ROOM), rows.size)
 
 
 def _traced(run: _Pass) -> Step:
@@ -356,15 +389,15 @@ def _traced(run: _Pass) -> Step:
         # At each corner but the first one a chord ends.
         index = np.append(slopes.index[:1], slopes.index)
         line = Line(np.append(places, places[-1] + along[-1]), Role.LIMIT, of=slopes.act, index=index)
-        # The points of v have their numbers outside.
-        numbers = row_numbers(beside, run.first, outward if run.source == "s" else -outward)
+        # A number here would stand beside that of a point, and be taken for it; the rays have theirs.
+        numbers = ()
     else:
         beside, half = slopes, TANGENT * along / np.abs(along)
         line = Segments(places - half, places + half, Role.LIMIT, of=slopes.act, index=slopes.index)
         # The points of v have theirs already.
         numbers = row_numbers(slopes, run.first, outward) if run.source == "s" else ()
     one, count = _ONE_TRACE[by], places.size
-    title, how, why = (each.where(source=run.source) for each in _TRACED[by])
+    title, how, why = (each.where(source=run.source, numbered=_NUMBERED[run.source]) for each in _TRACED[by])
     said = sequence([how, one.where(**run.said(run.steepest)), _REPEAT.where(count=count)], " ")
     parts = tuple(Part(one.where(**run.said(k)), (slopes[k], beside[k])) for k in range(count))
     return Step(title, said, _view(c, run.source), (line, *numbers), why=why, parts=parts)

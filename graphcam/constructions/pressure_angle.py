@@ -46,6 +46,11 @@ class MeasuredGivens(ToldByChain):
     omega: float | None = field(default=None, kw_only=True)
     station: int | None = field(default=None, kw_only=True)
 
+    @property
+    def path_per_lift(self) -> float:
+        """So many mm the follower moves along its path for a unit of lift: 1, or of an arm its length."""
+        return 1.0
+
 
 MeasuredAngles = Construction[MeasuredGivens]
 
@@ -118,18 +123,33 @@ ARC = 7.0
 """The compass draws so much of the prime circle to either side of the cam centre [mm]."""
 SLOW = 0.25
 """The plan is not drawn where the follower is slower than this part of its greatest velocity."""
+FLAT = 0.14
+"""The plan is drawn elsewhere if v is less than this part of the prime radius: 10 mm of a plan as tall as usual."""
 
 
 def shown_station(measured: MeasuredAngles) -> int:
     """The station at which the plan is drawn: where the angle is greatest while the follower rises at some speed.
 
-    Of one that is asked for it is the nearest at which the follower does.
+    Where the plan would be nearly a line there, as at a large offset, it is drawn where the follower is fastest.  Of a
+    station that is asked for it is the nearest at which the follower rises at some speed.
     """
-    # At rest the plan shrinks to a point, though the angle may be greatest there.
     possible, asked = moving_up(measured), measured.givens.station
     if asked is not None:
         return int(np.argmin(np.where(possible, np.abs(np.arange(possible.size) - asked), possible.size + asked)))
-    return int(np.argmax(np.where(possible, np.abs(measured.first("alpha")), -1.0)))
+    v = np.where(possible, measured.givens.integrated.value("v"), 0.0)
+    return int(np.argmax(v)) if _is_flat(measured) else _steepest(measured)
+
+
+def _steepest(measured: MeasuredAngles) -> int:
+    """The station of the greatest angle while the follower rises at some speed."""
+    # At rest the plan shrinks to a point, though the angle may be greatest there.
+    return int(np.argmax(np.where(moving_up(measured), np.abs(measured.first("alpha")), -1.0)))
+
+
+def _is_flat(measured: MeasuredAngles) -> bool:
+    """Whether the plan would be nearly a line where the angle is greatest."""
+    givens, v = measured.givens, measured.givens.integrated.value("v")[_steepest(measured)]
+    return bool(givens.path_per_lift * v < FLAT * givens.prime_radius)
 
 
 def moving_up(measured: MeasuredAngles) -> NDArray[np.bool_]:
@@ -277,10 +297,16 @@ def _mechanism(shown: _Shown) -> Step:
     taken = say(
         "Take station {name}, where the rays will show the maximum angle of the rise, slow parts of the motion "
         "left aside."
-    ).where(name=shown.name)
+    )
+    if measured.givens.station is None and _is_flat(measured):
+        taken = say(
+            "Take station {name}, where the follower rises fastest; where the angle is at its maximum, the plan would "
+            "be too small to draw."
+        )
     beside = say("Mark A in a new drawing at {ratio}, and draw the guide vertical through A.")
     if offset:
         beside = say("Mark A in a new drawing at {ratio}, and draw the guide vertical, {paper:.2f} mm {side} of A.")
+    taken = taken.where(name=shown.name)
     beside = beside.where(ratio=ratio_text(shown.mu), paper=abs(b.place.real), side=aside(offset))
     s0, s = float(measured.value("s0")), float(measured.givens.integrated.value("s")[k])
     above = say(

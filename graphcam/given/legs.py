@@ -20,7 +20,6 @@ DEPTH = 2.0
 """A rise or return of less than this many tolerances is not told from noise."""
 MOST_TURNINGS = 24
 """What turns more often is noise."""
-LESS_NOISE = "give a greater tolerance, or a table with less noise"
 OFF = 6.0
 """The rows of a rest are off their level by less than this [sd of the noise]."""
 SEEN, PART = 100.0, 0.15
@@ -63,15 +62,17 @@ class _Flat:
         return replace(self, first=self.first + rows, last=self.last + rows)
 
 
-def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float) -> tuple[list[Leg], float]:
+def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float, advice: str = "") -> tuple[list[Leg], float]:
     """The legs of a table over one turn, in order, and how many times more than the noise their stops are off at most.
 
     phi, s : (n,) cam angles [rad] that grow over less than a turn, and the displacements there
     noise : the standard deviation of the displacements
+    advice : what to do about a tolerance that is too small
 
     Raises
     ------
-    DesignError : the displacement moves by no more than the tolerance hides, or turns too often
+    DesignError : the displacement moves by no more than the tolerance hides, turns too often, or turns between two
+        levels that noise does not tell apart
 
     >>> phi = np.radians(np.arange(0, 360, 10))
     >>> legs, _ = find_legs(phi, 10 - 10 * np.cos(phi), tolerance=0.01, noise=0.001)
@@ -83,19 +84,20 @@ def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float) -> tuple[l
         remedy = "give the table of a motion, or a smaller tolerance"
         raise DesignError("the table's lift", Unquoted(f"{np.ptp(s):.4g}"), limit, remedy)
     turnings = _turnings(s, DEPTH * tolerance)
-    if len(turnings) > MOST_TURNINGS:
-        limit = f"greater than the noise that turns the table {len(turnings)} times"
-        raise DesignError("tolerance", tolerance, limit, LESS_NOISE)
     # Three turns of rows, so that nothing begins or ends within the middle one.
     around, rows = np.concatenate([phi - FULL_TURN, phi, phi + FULL_TURN]), np.tile(s, 3)
     flats = [_flat(rows, k + s.size, noise) for k in turnings]
+    apart = all(a.last < b.first for a, b in pairwise([*flats, flats[0].moved(s.size)]))
+    if not apart or len(turnings) > MOST_TURNINGS:
+        limit = f"greater than the noise that turns the table {len(turnings)} times"
+        raise DesignError("tolerance", tolerance, limit, advice)
     flats = _with_rests_between(around, rows, flats, noise, DEPTH * tolerance)
     gap = FULL_TURN / s.size
     neighbours = zip([flats[-1].moved(-s.size), *flats], flats, [*flats[1:], flats[0].moved(s.size)], strict=False)
     found = [_stop(around, rows, near, noise, gap) for near in neighbours]
     # On a leg's way a stop without a rest is none.
     stops = [(flat, stop) for flat, (stop, turns) in zip(flats, found, strict=True) if turns or stop.end > stop.start]
-    ends = [(flat.level, *_ends(stop, gap)) for flat, stop in stops]
+    ends = [(flat.level, *_to_the_turn(*_ends(stop, gap), gap)) for flat, stop in stops]
     first = ends[0]
     legs = [
         Leg(end, start, 1 if above > below else -1, end > begin, finish > start)
@@ -153,7 +155,8 @@ def _with_rests_between(around: Floats, rows: Floats, flats: list[_Flat], noise:
 def _slow(x: Floats, y: Floats, noise: float, depth: float) -> list[_Flat]:
     """Where rows that rise are slow for long, and more than ``depth`` above the first and below the last; in order."""
     found: list[_Flat] = []
-    if y.size < 2 * FEWEST:
+    # With much noise the last of the rows between may be no higher than the first.
+    if y.size < 2 * FEWEST or y[-1] <= y[0]:
         return found
     spread = 2 * OFF * noise
     usual = spread * (x[-1] - x[0]) / (y[-1] - y[0])
@@ -201,4 +204,19 @@ def _ends(stop: Stop, gap: float) -> tuple[float, float]:
     if stop.end == stop.start:
         return stop.start, stop.end
     sooner, later = (gap / 2 if power == 2 else 0.0 for power in stop.powers)
+    if stop.end - stop.start - sooner - later < gap:
+        return stop.start, stop.end
     return stop.start + sooner, stop.end - later
+
+
+def _to_the_turn(start: float, end: float, gap: float) -> tuple[float, float]:
+    """A rest without the part beyond the begin of a turn, if that is shorter than a gap: it would be a phase by itself.
+
+    So the leg beside it begins sooner, or ends later, where the spline may keep to the level all the same.
+    """
+    turn = FULL_TURN * np.ceil(start / FULL_TURN)
+    if not start < turn < end:
+        return start, end
+    if end - turn < gap:
+        end = turn
+    return (turn if turn - start < gap and turn < end else start), end

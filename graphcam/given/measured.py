@@ -36,6 +36,8 @@ LEAST_NOISE = 3e-6
 """Of the lift: what the spline itself, whose acceleration cannot jump, may be off."""
 MISFIT = 7.0
 """Stops that are off by more than so many times the noise are not explained by it."""
+SCATTERED = 1.25
+"""Stops that are off by more than so many times the noise scatter by more, where the rows do."""
 WINDOW, ROWS_OF_A_PART = 7, 30
 """Rows through which a polynomial is laid to see the noise, and those of a part of the turn."""
 MEDIAN = 0.6745
@@ -108,10 +110,11 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     the next, by a quintic spline, the most likely one (:mod:`graphcam.given.monotone_spline`).
 
     The errors of the rows are assumed to be independent, with Gaussian noise of one standard deviation, which is found
-    from neighbouring rows and is at most tolerance/4.5.  So give a tolerance of 4.5 times the scatter of the table, or
-    more: if it is smaller, noise becomes motion; if it is larger, small motions are not seen.  Where dwells are off
-    their level by more than such noise explains, as with waves or after an integration, tolerance/4.5 is used instead.
-    Ends of phases are found as exactly as the noise permits: with the 4-5-6-7 law they are hidden for several degrees.
+    from neighbouring rows and is at most tolerance/4.5, or what the dwells show.  So give a tolerance of 4.5 times the
+    scatter of the table, or more: if it is smaller, noise becomes motion; if it is larger, small motions are not seen.
+    Where dwells are off their level by more than such noise explains, as with waves or after an integration,
+    tolerance/4.5 is used instead.  Ends of phases are found as exactly as the noise permits: with the 4-5-6-7 law they
+    are hidden for several degrees.
 
     Parameters
     ----------
@@ -137,18 +140,22 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     if tolerance < SMALLEST:
         raise DesignError("tolerance", tolerance, f"at least {SMALLEST:g}", "give what the table was measured to")
     phi, s = check_rows(phi, s, tolerance)
-    least = LEAST_NOISE * float(np.ptp(s))
+    least, scatter = LEAST_NOISE * float(np.ptp(s)), _scatter(phi, s)
     most = max(tolerance / TOLERANCE_OF_NOISE, least)
-    noise = min(max(_scatter(phi, s), least), most)
-    legs, misfit = find_legs(phi, s, tolerance, noise)
+    noise, advice = min(max(scatter, least), most), _remedy(tolerance, scatter)
+    legs, misfit = find_legs(phi, s, tolerance, noise, advice)
     if misfit > MISFIT and noise < most:
         # The rows err in other ways than each for itself, so the tolerance must say by how much.
         noise = most
-        legs, _ = find_legs(phi, s, tolerance, noise)
+        legs, _ = find_legs(phi, s, tolerance, noise, advice)
+    elif misfit > SCATTERED and noise < scatter:
+        # A tolerance of less than 4.5 times the scatter: the rests tell the noise, or else noise would move their ends.
+        noise = min(noise * misfit, scatter)
+        legs, _ = find_legs(phi, s, tolerance, noise, advice)
     start = legs[0].start
     shifted = start + (phi - start) % FULL_TURN
     order = np.argsort(shifted)
-    fitted = fit(shifted[order], s[order], legs, tolerance, noise)
+    fitted = fit(shifted[order], s[order], legs, tolerance, noise, advice)
     phases, zero, level = _phases(fitted, legs)
     return MeasuredMotion(phases, zero, phi, s - level, tolerance)
 
@@ -244,6 +251,19 @@ def _turn_remedy(span: float) -> str:
 
 def _degrees(angle: float) -> Unquoted:
     return Unquoted(f"{math.degrees(angle):.10g} degrees")
+
+
+def _remedy(tolerance: float, scatter: float) -> str:
+    """What to do about a tolerance that is too small: give what the scatter of the rows asks for, if that is more."""
+    asked = TOLERANCE_OF_NOISE * scatter
+    if not asked > tolerance:
+        return "give a greater tolerance, or a table with less noise"
+    digit = 10.0 ** (math.floor(math.log10(asked)) - 1)
+    enough = f"{math.ceil(asked / digit) * digit:.2g}"
+    times = TOLERANCE_OF_NOISE
+    return (
+        f"give a greater tolerance, as {enough}, {times:g} times what the rows scatter by, or a table with less noise"
+    )
 
 
 def _scatter(phi: Floats, s: Floats) -> float:

@@ -28,7 +28,7 @@ from graphcam.errors import DesignError
 from graphcam.given.b_splines import KnottedSpline, basis_functions, solve_banded
 from graphcam.given.banded_forms import Forms, around
 from graphcam.given.laws import Floats
-from graphcam.given.legs import LESS_NOISE, Leg
+from graphcam.given.legs import Leg
 from graphcam.given.motion import FULL_TURN
 
 DEGREE = 5
@@ -64,12 +64,13 @@ class Fit:
     knots: Floats
 
 
-def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float) -> Fit:
+def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float, advice: str = "") -> Fit:
     """The most likely spline that keeps every row to the tolerance.
 
     phi, s : (n,) cam angles [rad] within the turn that begins with the first leg, in order, and displacements
     legs : from :func:`~graphcam.given.legs.find_legs`
     noise : the standard deviation of the displacements
+    advice : what to do about a tolerance that is too small
 
     Raises
     ------
@@ -84,7 +85,7 @@ def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float)
             return fitted
         counts[off > tolerance] *= PULL
     limit = f"more than {off.max():.3g}, what the best spline leaves at a row"
-    raise DesignError("tolerance", tolerance, limit, LESS_NOISE)
+    raise DesignError("tolerance", tolerance, limit, advice)
 
 
 # --- the coefficients around the turn --------------------------------------------------------------------------------

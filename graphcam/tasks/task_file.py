@@ -289,8 +289,8 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
     match fault:
         case Misfit(table, error):
             return _misfit(path, data, table, error)
-        case Missing(("spring", "mass")) if _swings(data):
-            return TaskError(path, "spring.inertia", Unquoted("missing"), "given", "in kg mm^2, about the arm's pivot")
+        case Missing((("spring" | "material"), *_)):
+            return _lacking(path, place, data)
         case Missing():
             return TaskError(path, place, Unquoted("missing"), "given", missing_remedy(place, data) or EXAMPLE)
         case UnknownKey(where):
@@ -305,6 +305,28 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
             return TaskError(path, place, _shown(value), expected, remedy)
         case WrongType(_, expected):
             return TaskError(path, place, _shown(value), expected, EXAMPLE)
+
+
+def _lacking(path: str, place: str, data: dict[str, Any]) -> TaskError:
+    """That a key of a spring or a material must be given, with all others that are missing beside it."""
+    remedy = EXAMPLE
+    if place == "spring.mass" and _swings(data):
+        place = "spring.inertia"
+        remedy = "in kg mm^2, about the arm's pivot"
+    others = ", ".join(key for key in _missing(data) if key != place)
+    limit = f"given, and so must {others}" if others else "given"
+    return TaskError(path, place, Unquoted("missing"), limit, remedy)
+
+
+def _missing(data: dict[str, Any]) -> list[str]:
+    """The keys that a material lacks, which takes a spring, and the spring, which takes a speed."""
+    material, spring = data.get("material"), data.get("spring", {})
+    found = ["material.width"] if isinstance(material, dict) and "width" not in material else []
+    if isinstance(spring, dict):
+        # A mass for an arm, or an inertia for another follower, is told by itself.
+        found += [] if {"mass", "inertia"} & spring.keys() else [f"spring.{'inertia' if _swings(data) else 'mass'}"]
+        found += [] if "stiffness" in spring else ["spring.stiffness"]
+    return found if "speed_rpm" in data else [*found, "speed_rpm"]
 
 
 def _swings(data: dict[str, Any]) -> bool:
@@ -345,7 +367,10 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
         field = f"{field} (sum of rises less returns)"
     elif error.quantity == "the table's lift":
         field = f"{field} (lift)"
-    return TaskError(path, field, _shown(value), error.limit, error.remedy or EXAMPLE)
+    limit, others = error.limit, ", ".join(_missing(data))
+    if key == "spring" and data.get("spring") is None and others:
+        limit = f"given where there is a material, and so must {others}"
+    return TaskError(path, field, _shown(value), limit, error.remedy or EXAMPLE)
 
 
 def _look_up(data: Any, place: Place) -> tuple[str, Any]:

@@ -427,7 +427,7 @@ def slope_begins_above(plotted, k: int) -> bool:
 
 
 @EVERY
-def test_numbers_stand_at_the_ends_of_their_rays_the_middles_of_their_chords_and_their_points(kind):
+def test_numbers_stand_at_the_ends_of_their_rays_and_at_their_points(kind):
     for plotted, derived, (traced, rays, _), distance, _ in passes(kind):
         names = named(derived.size, kind)
         at_axis = [mark for mark in rays.own if isinstance(mark, Label) and abs(mark.at.real) < EXACT]
@@ -447,17 +447,13 @@ def test_numbers_stand_at_the_ends_of_their_rays_the_middles_of_their_chords_and
             assert label.at == derived[names.index(str(label.text))]
             assert label.towards.imag * label.at.imag >= 0 == label.towards.real
         numbered = [mark for mark in traced.own if isinstance(mark, Label)]
-        joined = ends_of_chords(kind, plotted)
-        places = (joined[1:] + joined[:-1]) / 2 if by_chords(kind) else plotted
         for label in numbered:
-            assert label.at == pytest.approx(complex(places[names.index(str(label.text))]), abs=EXACT)
-            # Those of the displacement outside of the curve; those of v inside, where its points have none.
-            inside = -1 if traced.view.name == "measured velocity" else 1
-            assert label.towards == inside * (1j if slope_begins_above(plotted, names.index(str(label.text))) else -1j)
+            assert label.at == pytest.approx(complex(plotted[names.index(str(label.text))]), abs=EXACT)
+            assert label.towards == (1j if slope_begins_above(plotted, names.index(str(label.text))) else -1j)
         spacing = np.diff([label.at.real for label in numbered])
         assert spacing.size == 0 or spacing.min() >= 0.7 * NUMBERS_ROOM  # the parts are unequal
-        # The point of v that a tangent touches bears its number already.
-        assert bool(numbered) == (by_chords(kind) or traced.view.name == "measured displacement")
+        # A chord's number would stand beside a point's; the point of v that a tangent touches bears its own already.
+        assert bool(numbered) == (not by_chords(kind) and traced.view.name == "measured displacement")
 
 
 @EVERY

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from graphcam.bench.measured_rows import NOISES, PEAKS, Sampled, best_scatter, sampled_motions
+from graphcam.bench.measured_rows import NOISES, PEAKS, Sampled, best_scatter, random_motion, sampled_motions
 from graphcam.errors import DesignError
 from graphcam.given.banded_forms import Forms
-from graphcam.given.legs import find_legs
+from graphcam.given.legs import _slow, find_legs
 from graphcam.given.measured import measured_motion
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.given.motion_law import Law
@@ -50,6 +50,51 @@ def check(sampled: list[Sampled]) -> None:
 
 def test_random_motions_are_told_from_their_tables():
     check(list(sampled_motions(60)))
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_table_of_any_noise_and_tolerance_gives_a_motion_or_a_message(seed):
+    random = np.random.default_rng([7, seed])
+    motion, rows = random_motion(random), int(random.choice([8, 12, 24, 36, 72]))
+    noise = 10 ** random.uniform(-4, 0.5)
+    tolerance = noise * 10 ** random.uniform(-1, 2)
+    phi = np.arange(rows) * FULL_TURN / rows
+    s = motion(phi)[0] + noise * random.standard_normal(rows)
+    try:
+        measured = measured_motion(phi, s, tolerance)
+    except DesignError:
+        return
+    assert measured.greatest_residual <= tolerance
+    assert min(phase.angle for phase in measured.phases) >= 0.999 * FULL_TURN / rows
+
+
+def test_rows_that_do_not_climb_between_two_flats_are_no_way_on_which_to_rest():
+    assert _slow(np.arange(12.0), np.linspace(1.0, 0.0, 12), 0.01, 0.02) == []
+
+
+NOISY = np.random.default_rng(11).standard_normal(72)
+
+
+@pytest.mark.parametrize("sigmas", [2, 3, 4.5, 20])
+def test_round_phases_come_out_round_though_the_tolerance_is_that_of_few_sigmas(sigmas):
+    """5-degree rows that scatter by 0.009 mm, and what a student may take for the tolerance: 2 or 3 sigma, or more."""
+    parts = [Rise(12, radians(130)), Dwell(radians(50)), Return(12, radians(120)), Dwell(radians(60))]
+    s = Motion(parts)(DEGREES[::5])[0] + 0.009 * NOISY
+    measured = measured_motion(DEGREES[::5], s, sigmas * 0.009)
+    assert [phase.kind for phase in measured.phases] == ["rise", "dwell", "return", "dwell"]
+    assert_allclose(np.degrees(measured.angles), [130, 50, 120, 60], atol=5.01)
+    assert measured.greatest_residual <= measured.tolerance
+
+
+@pytest.mark.parametrize("tolerance", [0.0005, 0.001, 0.002])
+def test_a_tolerance_below_the_noise_is_told_with_one_that_is_enough(tolerance):
+    s = MOTION(DEGREES[::5])[0] + 0.009 * NOISY
+    with pytest.raises(
+        DesignError, match=r"give a greater tolerance, as .*, 4\.5 times what the rows scatter by"
+    ) as caught:
+        measured_motion(DEGREES[::5], s, tolerance)
+    enough = float(caught.value.remedy.split(" as ")[1].split(",")[0])
+    assert measured_motion(DEGREES[::5], s, enough).greatest_residual <= enough
 
 
 @pytest.mark.slow

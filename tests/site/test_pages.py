@@ -20,6 +20,7 @@ from pages import BLOCK, HOW_TO, PAGES, ROOT, blocks, files, paths, rows, text_o
 
 import graphcam as gc
 from graphcam.given import laws
+from graphcam.given.stations import divide
 from graphcam.mechanism.least_radius_translating import steepest_tangent
 from graphcam.sweeps.dataset import parts_of
 
@@ -34,6 +35,7 @@ def test_every_page_is_written_for_somebody_and_says_what_to_do():
         "write-an-exercise",
         "check-my-drawing",
         "make-the-cam",
+        "draw-a-measured-motion",
         "sweep-many-cams",
         "design-in-python",
         "add-a-law",
@@ -73,6 +75,16 @@ def test_the_commands_of_a_page_run_in_order(page, tmp_path):
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert "warning" not in done.stderr
+
+
+def test_the_measured_motion_of_its_page_has_the_phases_that_the_page_tells(tmp_path):
+    for name, text in files("how-to/draw-a-measured-motion.md").items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    task = gc.load_task(tmp_path / "cam.toml")
+    motion = task.motion()
+    assert np.degrees(motion.angles).round(6).tolist() == [130, 50, 120, 60]
+    rise = divide(motion, task.drawing.divisions).phi[: task.drawing.divisions + 1]
+    assert np.isclose(rise[:, None], motion.phi).any(axis=1).all()
 
 
 ON_WINDOWS_TOO = {"graphcam", "jupyter", "mkdir", "npm", "pybabel", "pytest", "python"}
