@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from graphcam.exercises.course.hand_in_times import shown_time
 from graphcam.words import Caption, say
 
 SOURCES = {
@@ -33,7 +34,12 @@ class LateReport:
 
 def late_report(records: Sequence[dict[str, Any]]) -> LateReport | None:
     """What the page of a group tells of deadlines; None where there is none."""
-    timed = [record for record in records if "late" in record]
+    shown = ("submitted", "deadline")
+    timed = [
+        {**record, "late": {**record["late"], **{name: shown_time(record["late"][name]) for name in shown}}}
+        for record in records
+        if "late" in record
+    ]
     if not timed:
         return None
     sources = Counter(record["late"]["time_from"] for record in timed).most_common()

@@ -1,0 +1,67 @@
+"""What the terminal says of a graded course that a teacher should look at, in a line or two."""
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import Any
+
+from graphcam.exercises.marking.copies import AlikePair
+from graphcam.exercises.marking.record import is_handed_in
+from graphcam.exercises.reports.student_rows import is_unanswered
+from graphcam.words import plain
+
+MOST_NAMED = 5
+"""Students that a line names; the page names all."""
+
+
+def not_handed_in(called: Mapping[str, str], graded: Sequence[Mapping[str, Any]], unread: Collection[str]) -> list[str]:
+    """Who of the course has handed nothing in, in a line; none where everybody has.
+
+    called : the students of the course by id
+    graded : the records of those who have;  unread : who has handed in what cannot be read
+
+    >>> not_handed_in({"s1": "", "s2": "Ben"}, [{"student": "s1"}], [])
+    ['not handed in: s2']
+    """
+    there = {record["student"] for record in graded}
+    missing = sorted(student for student in called if student not in there and student not in unread)
+    return [plain(f"not handed in: {', '.join(missing)}")] if missing else []
+
+
+def to_check(
+    records: Sequence[Mapping[str, Any]],
+    unread: Collection[str],
+    pairs: Sequence[AlikePair],
+    awaiting: Sequence[str],
+    page: str,
+) -> list[str]:
+    """What needs a look, in a line; none where nothing does.
+
+    unread : who has handed in what cannot be read
+    pairs : who agrees beyond chance;  awaiting : whose photographs nobody has looked at
+    page : the file that tells all
+
+    >>> to_check([], ["s1"], [], [], "grades.html")
+    ['to check: submissions without readable answers: 1 (s1); see grades.html']
+    """
+    silent = sorted({*unread, *(record["student"] for record in records if is_unanswered(record))})
+    exact = [record["student"] for record in records if is_handed_in(record) and record["too_exact"]]
+    found = list(_parts(silent, pairs, exact, awaiting))
+    return [plain(f"to check: {', '.join(found)}; see {page}")] if found else []
+
+
+def _parts(
+    silent: Sequence[str], pairs: Sequence[AlikePair], exact: Sequence[str], awaiting: Sequence[str]
+) -> Iterator[str]:
+    if silent:
+        yield plain(f"submissions without readable answers: {len(silent)} ({_some(silent)})")
+    if pairs:
+        named = [f"{pair.student} and {pair.other}" for pair in pairs]
+        yield plain(f"pairs that agree too well: {len(pairs)} ({_some(named)})")
+    if exact:
+        yield plain(f"readings as exact as a program's: {len(exact)} ({_some(exact)})")
+    if awaiting:
+        yield plain(f"drawings that await review: {len(awaiting)} ({_some(awaiting)})")
+
+
+def _some(students: Sequence[str]) -> str:
+    """The first ones, and a sign that there are more."""
+    return ", ".join([*students[:MOST_NAMED], *(["..."] if len(students) > MOST_NAMED else [])])
