@@ -15,6 +15,7 @@ from graphcam.exercises.course.roster import Student, folder_name, is_cut, read_
 from graphcam.exercises.definition.exercise_file import library
 from graphcam.files import OutputError
 from graphcam.language import ENGLISH
+from graphcam.words import plain
 
 STUDENTS, TEACHER = "students", "teacher"
 """The two folders that 'exercise make' writes; the first may be handed out as it is."""
@@ -49,14 +50,14 @@ class CourseThereError(OutputError):
         super().__init__(path, "it already holds a course", "choose another folder")
 
     def __str__(self) -> str:
-        said = f"{self.path} already holds a course; {self.remedy}"
         teacher = Path(self.path, TEACHER)
-        if (teacher / SECRET).is_file():
-            said += (
-                f"; to keep the variants: --secret-file {teacher / SECRET}; do not delete {teacher}: without its "
-                "secret nothing can be graded"
-            )
-        return said
+        secret = teacher / SECRET
+        if not secret.is_file():
+            return plain(f"{self.path} already holds a course; choose another folder")
+        return plain(
+            f"{self.path} already holds a course; choose another folder; to keep the variants: --secret-file {secret}; "
+            f"do not delete {teacher}: without its secret nothing can be graded"
+        )
 
     def __reduce__(self) -> tuple[Any, ...]:
         return CourseThereError, (self.path,)

@@ -17,7 +17,6 @@ OVERRIDES = "overrides.csv"
 TOTAL = "total"
 """In place of an answer's name: the marks are for the whole hand-in."""
 COLUMNS = ("student", "answer", "marks", "comment")
-NOT_KNOWN = "check the id"
 ABSENT = "give the marks as the total"
 """What to do about an answer of a student who did not hand in."""
 
@@ -42,7 +41,7 @@ def read_overrides(path: Path, exercise: Exercise, known: Recognition, handed_in
     TaskError : the file cannot be read, or a line of it names a student, an answer or marks that there are not
     """
     possible = {asked.name: asked.marks for asked in exercise.answers} | {TOTAL: exercise.marks}
-    lines = student_lines(path, "the table of overrides", COLUMNS, known, absent=NOT_KNOWN)
+    lines = student_lines(path, "the table of overrides", COLUMNS, known)
     single = once(lines, ("answer",), "give each answer of a student once")
     return [_override(line, possible, absent=line.student not in handed_in) for line in single]
 
