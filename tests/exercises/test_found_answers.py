@@ -6,6 +6,7 @@ import csv
 import io
 import json
 import zipfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -49,14 +50,14 @@ def table(course: Path, name: str = "grades.csv") -> list[dict[str, str]]:
     return list(csv.DictReader((course / "out" / name).read_text(encoding="utf-8").splitlines()))
 
 
-def hand_in(course: Path, files: dict[str, str | bytes]) -> None:
+def hand_in(course: Path, files: Mapping[str, str | bytes]) -> None:
     for name, text in files.items():
         path = course / "in" / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
 
 
-def packed(files: dict[str, str | bytes]) -> bytes:
+def packed(files: Mapping[str, str | bytes]) -> bytes:
     data = io.BytesIO()
     with zipfile.ZipFile(data, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, text in files.items():

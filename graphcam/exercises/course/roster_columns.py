@@ -1,7 +1,7 @@
 """The columns of a roster by their headings, as learning platforms and offices of several countries write them."""
 
 import unicodedata
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 ID = (
@@ -81,7 +81,7 @@ def roster_columns(rows: Sequence[Sequence[str]]) -> RosterColumns:
     return RosterColumns(ids[0], tuple(whole or parts), email, first[ids[0]].strip())
 
 
-def _known(places: dict[str, int], headings: Iterable[str]) -> Iterable[int]:
+def _known(places: dict[str, int], headings: Iterable[str]) -> Iterator[int]:
     return (places[plain] for plain in map(_plain, headings) if plain in places)
 
 

@@ -1,6 +1,6 @@
 """What the terminal says of a graded course that a teacher should look at, in a line or two."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from graphcam.exercises.marking.copies import AlikePair
@@ -33,7 +33,7 @@ def to_check(
     awaiting: Sequence[str],
     page: str,
 ) -> list[str]:
-    """What needs a look, in a line; none where nothing does.
+    """What needs a look, a line each; none where nothing does.
 
     unread : who has handed in what cannot be read
     pairs : who agrees beyond chance;  awaiting : whose photographs nobody has looked at
@@ -44,22 +44,14 @@ def to_check(
     """
     silent = sorted({*unread, *(record["student"] for record in records if is_unanswered(record))})
     exact = [record["student"] for record in records if is_handed_in(record) and record["too_exact"]]
-    found = list(_parts(silent, pairs, exact, awaiting))
-    return [plain(f"to check: {', '.join(found)}; see {page}")] if found else []
-
-
-def _parts(
-    silent: Sequence[str], pairs: Sequence[AlikePair], exact: Sequence[str], awaiting: Sequence[str]
-) -> Iterator[str]:
-    if silent:
-        yield plain(f"submissions without readable answers: {len(silent)} ({_some(silent)})")
-    if pairs:
-        named = [f"{pair.student} and {pair.other}" for pair in pairs]
-        yield plain(f"pairs that agree too well: {len(pairs)} ({_some(named)})")
-    if exact:
-        yield plain(f"readings as exact as a program's: {len(exact)} ({_some(exact)})")
-    if awaiting:
-        yield plain(f"drawings that await review: {len(awaiting)} ({_some(awaiting)})")
+    agree = [f"{pair.student} and {pair.other}" for pair in pairs]
+    lines = (
+        (silent, plain(f"to check: submissions without readable answers: {len(silent)} ({_some(silent)}); see {page}")),
+        (agree, plain(f"to check: pairs that agree too well: {len(agree)} ({_some(agree)}); see {page}")),
+        (exact, plain(f"to check: readings as exact as by a program: {len(exact)} ({_some(exact)}); see {page}")),
+        (awaiting, plain(f"to check: drawings that await review: {len(awaiting)} ({_some(awaiting)}); see {page}")),
+    )
+    return [line for found, line in lines if found]
 
 
 def _some(students: Sequence[str]) -> str:

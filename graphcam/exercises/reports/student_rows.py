@@ -46,8 +46,9 @@ def student_rows(
 def _row(record: Mapping[str, Any], name: str, link: str) -> StudentRow:
     remarks: list[Words] = list(record["notes"])
     if not is_handed_in(record):
-        # Why nothing could be read says more.
-        return StudentRow(record["student"], name, None, record["of"], remarks=(remarks[-1] if remarks else NOTHING,))
+        # The last one says that there is no answer; those before it say why.
+        why = tuple(remarks[:-1]) or (NOTHING,)
+        return StudentRow(record["student"], name, None, record["of"], remarks=why, link=link)
     if record["too_exact"]:
         remarks.append(say("as exact as a program"))
     late = record.get("late", {}).get("hours", 0) > 0
