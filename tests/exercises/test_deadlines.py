@@ -104,7 +104,7 @@ def test_every_day_that_has_begun_costs_its_part_and_a_second_of_the_last_minute
     assert "lateness" not in (course / "pages" / "Anna.html").read_text(encoding="utf-8")
     group = (course / "out" / "grades.html").read_text(encoding="utf-8")
     assert "from the times at which the files were changed: 3" in group
-    assert group.count("2026-12-05 00:59:00+01:00") == 1
+    assert group.count("2026-12-05 00:59") == 1
     assert "Without the late penalty" in group
 
 

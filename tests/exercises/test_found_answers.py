@@ -125,7 +125,15 @@ def test_a_bomb_within_a_zip_takes_neither_room_nor_marks(course: Path, monkeypa
 
 
 def test_the_handouts_given_back_are_no_submission(course: Path):
-    hand_in(course, {"s1/answers.toml": BLANK, "s1/worksheet.pdf": "%PDF", "s2/answers.toml": RIGHT["s2"]})
+    hand_in(
+        course,
+        {
+            "s1/answers.toml": BLANK,
+            "s1/worksheet.pdf": "%PDF",
+            "s1/timestamp.txt": "2026",
+            "s2/answers.toml": RIGHT["s2"],
+        },
+    )
     said, _ = grade(course)
     assert said.startswith("1 submissions, ")
     assert "not handed in: s1, s3" in said

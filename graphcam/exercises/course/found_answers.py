@@ -18,6 +18,8 @@ from graphcam.tasks.task_writer import TASK_FILE
 
 HANDED_OUT = ("worksheet.pdf", "worksheet.dxf", TASK_FILE)
 """What a student has anyway."""
+OF_PROGRAMS = ("timestamp.txt", "Thumbs.db", "desktop.ini")
+"""What nbgrader and desktops put into a folder."""
 TABLES = {".toml": TOML, ".csv": CSV}
 """Endings of tables that are read under another name if there is but one, and the name that they are read by."""
 MOST_LOOKED_INTO = 20
@@ -117,7 +119,7 @@ def _entries(folder: Path) -> list[tuple[str, bool]]:
 
 def _is_other(name: str) -> bool:
     """Whether a file or folder is none that is handed out, nor read anyway."""
-    return not (name.startswith((".", "__MACOSX")) or name in HANDED_OUT or answer_files([name])[0])
+    return not (name.startswith((".", "__MACOSX")) or name in (*HANDED_OUT, *OF_PROGRAMS) or answer_files([name])[0])
 
 
 def _why(others: Sequence[tuple[str, bool]], places: Sequence[str], wrong: Sequence[Caption]) -> Caption:
