@@ -37,7 +37,7 @@ from graphcam.exercises.grading.gradebook import ENTERED, check_gradebook, enter
 from graphcam.exercises.grading.handed_in import unread
 from graphcam.exercises.grading.lateness import NO_PENALTY, LateRules
 from graphcam.exercises.grading.teacher_tables import HandedInCourse, TeacherTables, late_rules
-from graphcam.exercises.grading.to_check import not_handed_in, to_check
+from graphcam.exercises.grading.to_check import closing_lines
 from graphcam.exercises.marking.copies import alike_pairs
 from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.report_files import GroupNotes, write_feedback, write_reports
@@ -260,8 +260,8 @@ def _graded(
         # The store stays free of it, so that a line that is taken back leaves the marks that were found.
         records = tables.settled(records)
         answer_keys = KeysAsNeeded(kept, [record["student"] for record in records])
-        nothing_read = [Refused(one.place, one.notes[-1]) for one in unread(hand_ins, records)]
-        refused = [*refused, *nothing_read]
+        silent = unread(hand_ins, records)
+        refused = [*refused, *(Refused(one.place, one.notes[-1]) for one in silent)]
         called = {student.id: student.name for student in handed_in.students().ids.values()}
         notes = GroupNotes(refused, tables.requests, course.feedback, names, called)
         graded = [record for record in records if is_handed_in(record)]
@@ -274,9 +274,7 @@ def _graded(
         told = [plain(f"not graded: {one.place}: {one.why}") for one in refused]
         if course.gradebook:
             told += enter_scores(course.gradebook, exercise, graded, kept.folder / ENTERED)
-        silent = {one.student for one in unread(hand_ins, records)}
-        told += not_handed_in(called, graded, silent)
-        told += to_check(records, silent, pairs, awaiting, f"{course.out.stem}.html")
+        told += closing_lines(records, called, {one.student for one in silent}, pairs, awaiting, course.out.stem)
         store.clear()
     # Which of the bounds on memory was in force: the kernel's own are seldom given to users.
     level = f"{course.level}"
