@@ -199,6 +199,7 @@ def make(
     """
     from graphcam.exercises.course.course_folder import SECRET as SECRET_FILE, TEACHER
     from graphcam.exercises.course.make import UNMARKED, make as run, usual_paper
+    from graphcam.exercises.course.roster import ids_from
     from graphcam.exercises.exports.studio_link import check_url, write_links
 
     voice().hear(language)
@@ -216,6 +217,7 @@ def make(
             chosen = ""
             progress(f"{name}: worksheets without tags; for such that can be photographed, {install_advice('photo')}")
         papers = {"language": language, "hand": hand, "paper": chosen}
+        told = ids_from(roster)
         count = run(name, roster, secret_file, out, **papers, ink=ink, workers=workers, cluster=cluster, step=step)
         if studio:
             write_links(out, secret_file, studio, checks=studio_checks)
@@ -223,8 +225,11 @@ def make(
     echo(
         say("{out}: {students}, papers for students in 'students', yours in 'teacher'", out=str(out), students=students)
     )
+    echo(told)
     if secret_file is None:
         echo(_keep(out / TEACHER / SECRET_FILE))
+    else:
+        echo(say("{file} is a copy of {given}", file=str(out / TEACHER / SECRET_FILE), given=str(secret_file)))
 
 
 exercise.command()(read)

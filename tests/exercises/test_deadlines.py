@@ -98,13 +98,13 @@ def test_every_day_that_has_begun_costs_its_part_and_a_second_of_the_last_minute
     assert float(table["Clara"]["hours_late"]) == 73
     assert {row["time_from"] for row in table.values()} == {"file"}
     page = unescape((course / "pages" / "Clara.html").read_text(encoding="utf-8"))
-    assert "Handed in late: 2026-12-05 00:59:00+01:00, but the deadline was 2026-12-01 23:59:00+01:00." in page
+    assert "Handed in late: 2026-12-05 00:59, but the deadline was 2026-12-01 23:59." in page
     assert f"Of the {EXERCISE.marks:g} marks earned, 60 % count: {0.6 * EXERCISE.marks:g}." in page
     assert f"{EXERCISE.marks:g} before the late penalty" in page
     assert "lateness" not in (course / "pages" / "Anna.html").read_text(encoding="utf-8")
     group = (course / "out" / "grades.html").read_text(encoding="utf-8")
     assert "from the times at which the files were changed: 3" in group
-    assert group.count("2026-12-05 00:59:00+01:00") == 1
+    assert group.count("2026-12-05 00:59") == 1
     assert "Without the late penalty" in group
 
 
@@ -266,6 +266,7 @@ def test_a_time_that_nothing_tells_is_not_late_and_told_as_not_known(course: Pat
         os.seteuid(user)
         (course / "students" / "Boris").chmod(0o700)
     assert times == [HandInTime(None, "")] * 2
+    teacher(course, "overrides.csv", "student,answer,marks,comment\nAnna,total,1,on paper\n")
     assert late(course)["Anna"]["late"]["hours"] == 0
     assert "time of handing in not known: 1" in (course / "out" / "grades.html").read_text(encoding="utf-8")
 

@@ -187,7 +187,10 @@ def test_the_same_secret_makes_the_same_variants_again(made, tmp_path):
     result = CliRunner().invoke(app, ["exercise", "make", "integration", *arguments])
     assert result.exit_code == 0, result.output
     assert "is new" not in result.stdout
-    assert not (tmp_path / "again" / "teacher" / "secret").exists()
+    copy = tmp_path / "again" / "teacher" / "secret"
+    assert copy.read_bytes() == (out / "teacher" / "secret").read_bytes()
+    assert copy.stat().st_mode & 0o777 == 0o600
+    assert f"{copy} is a copy of" in result.stdout
     first, again = (folder / "teacher" / "certificates" / "s1.json" for folder in (out, tmp_path / "again"))
     assert first.read_bytes() == again.read_bytes()
 
@@ -260,7 +263,8 @@ def test_a_course_is_made_whole(tmp_path):
     assert json.loads((out / "teacher" / "course.json").read_text())["exercise"] == "integration"
     again = CliRunner().invoke(app, ["exercise", "make", "integration", *arguments])
     assert again.exit_code == 2
-    assert "it already exists" in again.output
+    said = f"{out} already holds a course; choose another folder; to keep the variants: --secret-file "
+    assert f"{said}{out}/teacher/secret; do not delete {out}/teacher" in again.output
 
 
 @pytest.mark.slow

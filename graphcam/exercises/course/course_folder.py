@@ -10,9 +10,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import TaskError, Unquoted, unreadable
+from graphcam.errors import MissingFileError, TaskError, Unquoted, unreadable
 from graphcam.exercises.course.roster import Student, folder_name, is_cut, read_roster, student_of
+from graphcam.exercises.definition.exercise_file import library
+from graphcam.files import OutputError
 from graphcam.language import ENGLISH
+from graphcam.words import plain
 
 STUDENTS, TEACHER = "students", "teacher"
 """The two folders that 'exercise make' writes; the first may be handed out as it is."""
@@ -28,8 +31,36 @@ ROSTER = "roster.csv"
 """In the teacher's folder, the roster that the course was made for."""
 SECRET = "secret"
 """In the teacher's folder, the course's secret, if graphcam made it."""
+KEYS = "keys.csv"
+"""In the teacher's folder, all answer keys in a table."""
 HIDDEN = ".graphcam"
 """Where answer keys go in a course that was not made so; no student's folder has a name that begins with a point."""
+
+
+class CourseThereError(OutputError):
+    """A folder that a course is to be made in, and that holds one.
+
+    Whoever removes it loses the secret, so this is not advised.
+
+    >>> print(CourseThereError("week-5"))
+    week-5 already holds a course; choose another folder
+    """
+
+    def __init__(self, path: str | Path) -> None:
+        super().__init__(path, "it already holds a course", "choose another folder")
+
+    def __str__(self) -> str:
+        teacher = Path(self.path, TEACHER)
+        secret = teacher / SECRET
+        if not secret.is_file():
+            return plain(f"{self.path} already holds a course; choose another folder")
+        return plain(
+            f"{self.path} already holds a course; choose another folder; to keep the variants: --secret-file {secret}; "
+            f"do not delete {teacher}: without its secret nothing can be graded"
+        )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return CourseThereError, (self.path,)
 
 
 @dataclass(frozen=True)
@@ -45,6 +76,8 @@ class AnswerKeys:
             # Students may have any name, and hand in what they like.
             if (course / submissions).is_dir() and (course / TEACHER / COURSE).is_file():
                 return course / submissions, AnswerKeys(course / TEACHER)
+        if _alone(course, STUDENTS):
+            return course / STUDENTS, AnswerKeys(course / HIDDEN)
         beside = course.resolve().parent / TEACHER
         # What a learning system packed may have any name.
         if (beside / COURSE).is_file() or (course.resolve().name in (STUDENTS, SUBMITTED) and beside.is_dir()):
@@ -104,9 +137,17 @@ class AnswerKeys:
         (self.folder / COURSE).write_text(json.dumps(said) + "\n", encoding="utf-8", newline="\n")
 
     def exercise(self) -> str:
-        """What the course is about, as ``find_exercise`` takes it; or empty."""
+        """What the course is about, as ``find_exercise`` takes it; or empty.
+
+        Raises
+        ------
+        MissingFileError : it is an exercise of the teacher's own, whose file is gone
+        """
         name = str(self.course().get("exercise", ""))
         copy = self.folder / f"{name}.toml"
+        if name and not copy.is_file() and name not in library():
+            # An exercise of the teacher's own: the library cannot replace it.
+            raise MissingFileError(str(copy), "put the exercise's file back there")
         return str(copy) if copy.is_file() else name
 
     def check_secret(self, secret: bytes, path: str | Path) -> None:
@@ -130,7 +171,12 @@ class AnswerKeys:
         """
         path = self.folder / SECRET if given is None else given
         if given is None and not path.is_file():
+            if self.folder.name == HIDDEN:
+                remedy = "name the file that the course was made with, by --secret-file"
+                raise TaskError(str(self.folder.parent), "the course's secret", Unquoted("missing"), "given", remedy)
             remedy = "name the file that the course was made with, by --secret-file, or put a copy of it there"
+            if (self.folder / KEYS).is_file():
+                remedy += f"; {KEYS} still has the keys for marking by hand"
             raise TaskError(str(path), "the course's secret", Unquoted("missing"), "in the teacher's folder", remedy)
         return path
 
@@ -168,6 +214,15 @@ class AnswerKeys:
 
     def _path(self, student: str) -> Path:
         return Path(f"{self.folder}/{KEPT}/{folder_name(student)}.json")
+
+
+def _alone(course: Path, name: str) -> bool:
+    """Whether a folder of that name is the only one that can be seen in a course's: the teacher's is gone."""
+    try:
+        folders = [path.name for path in course.iterdir() if path.is_dir() and not path.name.startswith(".")]
+    except OSError:
+        return False
+    return folders == [name]
 
 
 def _digest(secret: bytes) -> str:

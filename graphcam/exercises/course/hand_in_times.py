@@ -52,6 +52,15 @@ def moment(text: str) -> datetime | None:
         return None
 
 
+def shown_time(text: str) -> str:
+    """A time as people read it, of one in ISO 8601: to the minute, in the zone that it was written in.
+
+    >>> shown_time("2026-11-25 22:02:07+00:00"), shown_time("")
+    ('2026-11-25 22:02', '')
+    """
+    return text[: len("2026-11-25 22:02")]
+
+
 def read_times(path: Path, known: Recognition) -> dict[tuple[str, str], datetime]:
     """When who handed in, from a CSV file with the columns student, submitted and perhaps attempt.
 

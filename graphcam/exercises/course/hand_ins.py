@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,6 +13,7 @@ from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.course.export_names import ExportName, export_name
 from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.roster import read_roster
+from graphcam.exercises.reading.answered_files import answers_in
 from graphcam.exercises.reading.submission_files import answer_files
 
 MOST_ATTEMPTS = 10
@@ -31,6 +32,7 @@ class HandIn:
     notes : sentences for the teacher
     attempt : its number; 0 where there is but one
     time : when it was handed in, as the learning system wrote it into the name; empty where it did not
+    unread : it has files, and none that can hold answers; the last of the notes says why
     """
 
     student: str
@@ -40,6 +42,7 @@ class HandIn:
     notes: tuple[Caption, ...] = ()
     attempt: int = 0
     time: str = ""
+    unread: bool = False
 
 
 @dataclass(frozen=True)
@@ -107,7 +110,8 @@ def _own(folder: Path, student: str, name: str) -> list[HandIn]:
     numbered = [(int(found[1]), inner) for inner, inside in listed if inside and (found := ATTEMPT.fullmatch(inner))]
     if not numbered:
         return [HandIn(student, name, path)]
-    if answer_files(inner for inner, _ in listed)[0]:
+    # The files that were handed out, left empty, hide nothing.
+    if answer_files(inner for inner, _ in listed)[0] and answers_in(path):
         note = say("the folders of attempts beside the answers are not read")
         return [HandIn(student, name, path, notes=(note,))]
     return _bounded(
@@ -145,6 +149,7 @@ def _assigned(
 ) -> tuple[list[HandIn], list[Refused]]:
     """Each name's student, as far as there is exactly one."""
     refused: list[Refused] = []
+    strays: list[str] = []
     places: dict[str, list[tuple[str, ExportName | None]]] = {}
     for name in names:
         student, said = student_of(name), None
@@ -152,10 +157,16 @@ def _assigned(
             said = export_name(name)
             meant = known.meant([name, *(said.whose if said else ())])
             if len(meant) != 1:
-                refused.append(Refused(name, _why(meant)))
+                if meant:
+                    refused.append(Refused(name, _several(meant)))
+                else:
+                    strays.append(name)
                 continue
             student = meant[0]
         places.setdefault(student, []).append((name, said))
+    # Who has handed in is not looked for.
+    missing = known.ids.keys() - places.keys()
+    refused += [Refused(name, _nobodys(name, known, missing)) for name in strays]
     found: list[HandIn] = []
     for student, listed in places.items():
         if len(listed) == 1 and _is_folder(folder / listed[0][0], listed[0][1]):
@@ -173,10 +184,22 @@ def _is_folder(path: Path, said: ExportName | None) -> bool:
     return said is None or path.is_dir() or not (said.file or said.attempt)
 
 
-def _why(meant: list[str]) -> Caption:
-    if meant:
-        return say("it may belong to several students: {students}", students=", ".join(meant))
-    return say("no student of the course has this id, address or name")
+def _several(meant: list[str]) -> Caption:
+    return say("it may belong to several students: {students}", students=", ".join(meant))
+
+
+def _nobodys(name: str, known: Recognition, missing: Collection[str]) -> Caption:
+    """Why a folder is nobody's, and whose it may have been meant for.
+
+    missing : the students who have handed in nothing
+    """
+    near = known.nearest(name, missing)
+    if near is None:
+        return say("no student of the course has this id, address or name")
+    return say(
+        "no student of the course has this id, address or name; did you mean {student}?",
+        student=f"{near.id} ({near.name})" if near.name else near.id,
+    )
 
 
 def _files(folder: Path, student: str, listed: list[tuple[str, ExportName]]) -> list[HandIn]:

@@ -12,12 +12,14 @@ from typing import get_args
 
 from graphcam.errors import TaskError, Unquoted, installed
 from graphcam.exercises.course.course_folder import (
+    KEYS,
     PRINTED,
     ROSTER,
     SECRET,
     STUDENTS,
     TEACHER,
     AnswerKeys,
+    CourseThereError,
     make_secret,
     read_secret,
     write_secret,
@@ -30,7 +32,7 @@ from graphcam.exercises.definition.exercise_file import exercise_path, find_exer
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.course_variants import course_variants
-from graphcam.files import OutputError, whole_folder
+from graphcam.files import whole_folder
 from graphcam.language import languages
 from graphcam.photo.printed import Ink
 from graphcam.tasks.sheet_tables import one_of
@@ -69,7 +71,7 @@ def make(
 ) -> int:
     """Make every student's handouts; how many students there are.
 
-    secret_file : of the course's secret; None for a new one, which is written into the teacher's folder
+    secret_file : of the course's secret, of which the teacher's folder gets a copy; None for a new one
     language : of all handouts, and noted for the feedback
     hand : of the students, by its name, and noted too; else as the exercise says
     paper : "A1", "A3", "A4" or "A3-tiles", for worksheets that are photographed; else as the task says, without tags
@@ -93,7 +95,7 @@ def make(
     out = Path(out)
     for part in (STUDENTS, TEACHER):
         if (out / part).exists():
-            raise OutputError(out / part, "it already exists", "choose another folder, or remove that one first")
+            raise CourseThereError(out)
     with whole_folder(out) as draft, executor_of(workers, cluster) as executor:
         answer_keys: list[AnswerKey] = []
         variants = course_variants(exercise, (student.id for student in students), secret, executor)
@@ -112,9 +114,9 @@ def make(
         kept.keep_course(exercise_path(name), secret, **said, **({"paper": paper, "print": ink} if paper else {}))
         # Who hands in is told by it, whatever a learning system calls the folders.
         (draft / TEACHER / ROSTER).write_bytes(Path(roster).read_bytes())
-        _write_keys(draft / TEACHER / "keys.csv", exercise, answer_keys)
-        if secret_file is None:
-            write_secret(draft / TEACHER / SECRET, secret)
+        _write_keys(draft / TEACHER / KEYS, exercise, answer_keys)
+        # A copy of one that is given as well: grading looks for it here.
+        write_secret(draft / TEACHER / SECRET, secret)
     return len(students)
 
 

@@ -1,7 +1,9 @@
 """A zip of all submissions, as a learning system gives it: unpacked aside, nothing but what can hold answers."""
 
+import io
 import os
 import stat
+import struct
 import zipfile
 import zlib
 from collections.abc import Generator
@@ -13,6 +15,7 @@ from tempfile import TemporaryDirectory
 from graphcam.drafting.ink import Caption, say
 from graphcam.errors import TaskError, Unquoted
 from graphcam.exercises.course.hand_ins import Refused
+from graphcam.exercises.reading.regular_file import read_regular
 from graphcam.exercises.reading.submission_files import LIMITS
 
 MOST_ENTRIES = 100_000
@@ -20,8 +23,10 @@ MOST_BYTES = 4_000_000_000
 """Of all files together, as they are unpacked; a bomb says less of itself and is stopped all the same."""
 DEEPEST = 4
 """Parts of a path: a student's folder, the assignment in it, the file, and one more."""
-ENDINGS = (*(Path(name).suffix for name in LIMITS), ".txt")
-"""Of files that can hold answers, or tell about an attempt."""
+ENDINGS = (*(Path(name).suffix for name in LIMITS), ".txt", ".zip")
+"""Of files that can hold answers, or tell about an attempt; of others there is no more than the name."""
+MOST_ENTRIES_OF_ONE, MOST_BYTES_OF_ONE = 1_000, 100_000_000
+"""The same of a zip that a single student handed in."""
 
 
 @contextmanager
@@ -38,7 +43,7 @@ def unpacked(place: Path) -> Generator[tuple[Path, list[Refused]]]:
     with TemporaryDirectory(prefix="graphcam-") as scratch:
         try:
             with zipfile.ZipFile(place) as archive:
-                refused = _unpack(archive, place, Path(scratch))
+                refused = _unpack(archive, place, Path(scratch), MOST_ENTRIES, MOST_BYTES)
         except (OSError, zipfile.BadZipFile) as error:
             raise TaskError(
                 str(place), "the zip", Unquoted(f"not readable ({error})"), "a whole zip file", "download it again"
@@ -46,13 +51,35 @@ def unpacked(place: Path) -> Generator[tuple[Path, list[Refused]]]:
         yield Path(scratch), refused
 
 
-def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path) -> list[Refused]:
-    """The entries that are not taken; the others lie in the folder."""
+def unpack_one(path: Path, folder: Path) -> None:
+    """Unpack a zip that a student handed in into a folder; what is not safe is left out.
+
+    Raises
+    ------
+    UnreadableError : it is no file of bounded size
+    TaskError : it is no zip that can be read, or one that grows beyond all bounds
+    """
+    data = read_regular(path, max(LIMITS.values()))
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            _unpack(archive, path, folder, MOST_ENTRIES_OF_ONE, MOST_BYTES_OF_ONE)
+    # What zipfile makes of bytes that somebody chose.
+    except (OSError, zipfile.BadZipFile, NotImplementedError, EOFError, ValueError, struct.error) as error:
+        raise TaskError(
+            str(path), "the zip", Unquoted(f"not readable ({error})"), "a whole zip file", "hand it in again"
+        ) from None
+
+
+def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path, most: int, most_bytes: int) -> list[Refused]:
+    """The entries that are not taken; the others lie in the folder.
+
+    most, most_bytes : entries, and bytes of all that is unpacked
+    """
     entries = archive.infolist()
-    if len(entries) > MOST_ENTRIES:
-        raise TaskError(str(place), "the number of entries", len(entries), f"at most {MOST_ENTRIES}", "unpack it")
+    if len(entries) > most:
+        raise TaskError(str(place), "the number of entries", len(entries), f"at most {most}", "unpack it")
     refused: list[Refused] = []
-    left = MOST_BYTES
+    left = most_bytes
     for entry in entries:
         path = PurePosixPath(entry.filename)
         if why := _unsafe(entry, path):
@@ -62,7 +89,11 @@ def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path) -> list[Refused
             continue
         try:
             (folder / (path if entry.is_dir() else path.parent)).mkdir(parents=True, exist_ok=True)
-            if not entry.is_dir() and path.suffix.strip().lower() in ENDINGS:
+            if entry.is_dir():
+                continue
+            if path.suffix.strip().lower() not in ENDINGS:
+                (folder / path).touch()
+            else:
                 left -= _write(archive, entry, folder / path)
                 _keep_time(entry, folder / path)
         # What zlib and the checks of the archive say; a name that is too long, or twice there.
@@ -73,7 +104,7 @@ def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path) -> list[Refused
                 str(place),
                 "the size",
                 Unquoted("larger"),
-                f"at most {MOST_BYTES} bytes unpacked",
+                f"at most {most_bytes} bytes unpacked",
                 "look into it by hand",
             )
     return refused

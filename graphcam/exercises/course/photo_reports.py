@@ -31,9 +31,22 @@ def with_photo_notes(hand_ins: Sequence[HandIn], submissions: Path) -> list[Hand
 
     submissions : the folder that is graded
     """
-    if not (submissions / HIDDEN).is_dir():
+    if not read_off_photographs(submissions):
         return list(hand_ins)
     return [replace(one, notes=(*one.notes, *(sequence([note]) for note in _notes(one)))) for one in hand_ins]
+
+
+def read_off_photographs(submissions: Path) -> bool:
+    """Whether a folder is one of readings that a teacher's run made."""
+    return (submissions / HIDDEN).is_dir()
+
+
+def await_review(hand_ins: Sequence[HandIn], submissions: Path) -> list[str]:
+    """The students whose photographs have something that is to be looked at, and that nobody has."""
+    if not read_off_photographs(submissions):
+        return []
+    reports = [(one.student, _report(one.path)) for one in hand_ins]
+    return [student for student, said in reports if said.get("to_be_looked_at") is True and not said.get("reviewed")]
 
 
 def _notes(one: HandIn) -> list[str]:

@@ -1,13 +1,17 @@
 """Which student of a roster a text means: by id, by e-mail address, by name."""
 
 import unicodedata
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
+from difflib import get_close_matches
 from itertools import permutations
 
 from graphcam.exercises.course.roster import Student
 
 MOST_PARTS = 4
 """Parts of a name that may stand in any order; of a longer one the order counts."""
+
+LIKE = 0.75
+"""How much of two texts must agree for the one to be a slip of the other."""
 
 
 class Recognition:
@@ -34,6 +38,17 @@ class Recognition:
         for text in texts:
             found |= self._by_text.get(_plain(text), set()) | self._by_name.get(_letters(text), set())
         return sorted(found)
+
+    def nearest(self, text: str, among: Collection[str]) -> Student | None:
+        """The student of some ids whose id or name is most like a text; None where none is like it.
+
+        >>> Recognition([Student("s1", "Eva Müller"), Student("s2", "Ben Berg")]).nearest("Mueller_E", ["s1", "s2"]).id
+        's1'
+        """
+        spelled = {_plain(student): student for student in among}
+        spelled |= {name: one for one in sorted(among) for name in _spellings(self.ids[one].name)}
+        close = get_close_matches(_letters(text), spelled, n=1, cutoff=LIKE)
+        return self.ids[spelled[close[0]]] if close else None
 
 
 def _plain(text: str) -> str:

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from graphcam.errors import TaskError, Unquoted
+from graphcam.exercises.course.roster_columns import at, roster_columns
 from graphcam.exercises.course.spreadsheet import read_table
+from graphcam.words import Caption, say
 
 LONGEST = 180
 """Bytes of a folder's name; file systems take 255, and a suffix may follow."""
@@ -77,42 +79,49 @@ class Student:
 def read_roster(path: str | Path) -> list[Student]:
     """The students of a CSV file with a header: the column "id" and, if there are such, "name" and "email".
 
-    Without these headings every line is a student, the first column the id, the second the name.
+    Other usual headings are known too, see :func:`~graphcam.exercises.course.roster_columns.roster_columns`.  Without
+    any, every line is a student, the first column the id, the second the name.
 
     Raises
     ------
     TaskError : the file cannot be read, is empty, names a student twice, or one by what cannot be printed
     """
-    rows = [row for _, row in read_table(path, "the roster")]
-    students = _students(rows)
+    students = _students(read_table(path, "the roster"))
     if not students:
         raise TaskError(str(path), "the roster", Unquoted("empty"), "one line for each student", "give a column 'id'")
-    seen: dict[str, str] = {}
-    for student in students:
+    seen: dict[str, tuple[int, str]] = {}
+    for line, student in students:
         if not student.id.strip():
             remedy = f"fill in the id of {student.name or 'every student'}"
-            raise TaskError(str(path), "id", student.id, "given", remedy)
+            raise TaskError(str(path), f"line {line}: id", student.id, "given", remedy)
         # Some file systems do not tell capitals from small letters.
         folder = folder_name(student.id).casefold()
         if folder in seen:
-            raise TaskError(str(path), "id", student.id, f"another one than {seen[folder]!r}", "name each student once")
-        seen[folder] = student.id
+            before, same = seen[folder]
+            expected = f"another one than {same!r} in line {before}"
+            raise TaskError(str(path), f"line {line}: id", student.id, expected, "name each student once")
+        seen[folder] = line, student.id
         # It stands in the title block.
         if not (said := student.name or student.id).isprintable():
             raise TaskError(str(path), "the name", said, "printable text on one line", "retype it")
-    return students
+    return [student for _, student in students]
 
 
-def _students(rows: list[list[str]]) -> list[Student]:
-    heading = [cell.strip().lower() for cell in rows[0]] if rows else []
-    if "id" not in heading:
-        return [Student(row[0], row[1] if len(row) > 1 else "") for row in rows]
-    at = heading.index("id")
-    full = [row for row in rows[1:] if len(row) > at]
-    return [Student(row[at], _found(heading, "name", row), _found(heading, "email", row).strip()) for row in full]
+def ids_from(path: str | Path) -> Caption:
+    """Where a roster's ids are taken from, in words.
+
+    Raises
+    ------
+    TaskError : the file cannot be read
+    """
+    heading = roster_columns([row for _, row in read_table(path, "the roster")]).heading
+    if heading:
+        return say("ids from the column '{column}'", column=heading)
+    return say("ids from the first column; no line is a heading")
 
 
-def _found(heading: list[str], name: str, row: list[str]) -> str:
-    """What a row has in the column of that name; empty where there is none."""
-    place = heading.index(name) if name in heading else len(row)
-    return row[place] if place < len(row) else ""
+def _students(rows: list[tuple[int, list[str]]]) -> list[tuple[int, Student]]:
+    """The students, each with the number of its line."""
+    columns = roster_columns([row for _, row in rows])
+    listed = [(line, row) for line, row in rows[bool(columns.heading) :] if len(row) > columns.id]
+    return [(line, Student(row[columns.id], columns.name(row), at(row, columns.email).strip())) for line, row in listed]

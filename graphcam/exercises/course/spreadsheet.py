@@ -11,6 +11,8 @@ from graphcam.errors import TaskError, Unquoted, unreadable
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
 """What makes a spreadsheet calculate a text instead of showing it; the wide forms count as the plain ones do."""
+WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
+"""With what workbooks begin, .xlsx and .xls: no text does."""
 _AFTER_SEPARATOR = re.compile(r"([;\t\r\n][\s\"']*)(?=[=+\-@＝＋－＠])")
 """A formula behind what separates cells or rows where the comma is decimal: there the file opens with other cells."""
 
@@ -74,7 +76,12 @@ def read_table(path: str | Path, what: str) -> list[tuple[int, list[str]]]:
     TaskError : the file cannot be read, or it is no CSV file in UTF-8
     """
     try:
-        text = Path(path).read_bytes().decode("utf-8-sig")
+        data = Path(path).read_bytes()
+        if data.startswith(WORKBOOKS):
+            raise TaskError(
+                str(path), what, Unquoted("an Excel workbook"), "a CSV file in UTF-8", "save it as CSV UTF-8"
+            )
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise TaskError(str(path), what, Unquoted("not in UTF-8"), "a CSV file in UTF-8", "save it as UTF-8") from None
     except (OSError, ValueError) as error:

@@ -9,6 +9,7 @@ from graphcam.drafting.ink import Caption, say
 from graphcam.errors import DesignError
 from graphcam.exercises.course.hand_ins import MOST_ATTEMPTS, HandIn
 from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.marking.record import is_handed_in
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,9 @@ def _counted(exercise: Exercise, made: Sequence[tuple[HandIn, dict[str, Any]]], 
         return made[0][1]
     # A late attempt has to be better than one in time by what it loses.
     totals = [record["total"] * record.get("late", {}).get("part", 1.0) for _, record in made]
-    chosen = rule.counting(totals)
+    # An attempt without any answer is none, whenever it came.
+    answered = [k for k, (_, record) in enumerate(made) if is_handed_in(record)] or list(range(len(made)))
+    chosen = answered[rule.counting([totals[k] for k in answered])]
     one, record = made[chosen]
     listed = [
         {
@@ -83,7 +86,11 @@ def _counted(exercise: Exercise, made: Sequence[tuple[HandIn, dict[str, Any]]], 
         }
         for k, (each, found) in enumerate(made)
     ]
-    note = exercise.tell(_note(len(made), one.attempt, rule))
+    if rule == LAST and chosen != len(made) - 1:
+        said = say("{count} attempts were handed in; the last one with answers counts", count=len(made))
+    else:
+        said = _note(len(made), one.attempt, rule)
+    note = exercise.tell(said)
     return {**record, "notes": [*record["notes"], note], "attempts": listed}
 
 

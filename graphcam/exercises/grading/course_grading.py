@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import graphcam
@@ -20,11 +21,12 @@ from graphcam.drafting.ink import say
 from graphcam.drafts import clear_drafts
 from graphcam.errors import MissingFileError, TaskError, Unquoted, installed
 from graphcam.exercises.course.course_folder import AnswerKeys
+from graphcam.exercises.course.found_answers import Look
 from graphcam.exercises.course.hand_ins import HandIn, Refused, hand_ins_in
 from graphcam.exercises.course.hidden_names import hidden_names
 from graphcam.exercises.course.keys_as_needed import KeysAsNeeded
 from graphcam.exercises.course.packed import unpacked
-from graphcam.exercises.course.photo_reports import with_photo_notes
+from graphcam.exercises.course.photo_reports import await_review, read_off_photographs, with_photo_notes
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
@@ -32,8 +34,12 @@ from graphcam.exercises.grading.attempts import LAST, AttemptRule
 from graphcam.exercises.grading.deadlines import LatePenalty
 from graphcam.exercises.grading.grade_one import Assignment, Submission, grade, read_hand_in, unmarked
 from graphcam.exercises.grading.gradebook import ENTERED, check_gradebook, enter_scores
+from graphcam.exercises.grading.handed_in import unread
 from graphcam.exercises.grading.lateness import NO_PENALTY, LateRules
 from graphcam.exercises.grading.teacher_tables import HandedInCourse, TeacherTables, late_rules
+from graphcam.exercises.grading.to_check import closing_lines
+from graphcam.exercises.marking.copies import alike_pairs
+from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.report_files import GroupNotes, write_feedback, write_reports
 from graphcam.exercises.reports.shown_names import ShownNames
 from graphcam.exercises.running.levels import Level, ResourceLimits
@@ -213,10 +219,16 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     if course.gradebook:
         with installed("--gradebook", "nbgrader", "nbgrader"):
             check_gradebook(course.gradebook)
-    with unpacked(folder) as (submissions, unsafe):
+    with unpacked(folder) as (submissions, unsafe), TemporaryDirectory(prefix="graphcam-") as scratch:
         hand_ins, refused = hand_ins_in(submissions, kept, course.roster)
-        hand_ins = with_photo_notes(hand_ins, submissions)
-        return _graded(course, assignment, kept, hand_ins, [*unsafe, *refused], step)
+        if read_off_photographs(submissions):
+            hand_ins = with_photo_notes(hand_ins, submissions)
+        else:
+            table = str(exercise.task.get("motion", {}).get("table", ""))
+            look = Look(exercise.name, [asked.name for asked in exercise.answers], Path(scratch), Path(table).name)
+            hand_ins = [look.found(one) for one in hand_ins]
+        awaiting = await_review(hand_ins, submissions)
+        return _graded(course, assignment, kept, hand_ins, [*unsafe, *refused], awaiting, step)
 
 
 def _graded(
@@ -225,11 +237,16 @@ def _graded(
     kept: AnswerKeys,
     hand_ins: Sequence[HandIn],
     refused: Sequence[Refused],
+    awaiting: Sequence[str],
     step: Callable[[int, int], None],
 ) -> str:
-    """Grade what was handed in and write all reports; what was done, in a sentence."""
+    """Grade what was handed in and write all reports; what was done, in a sentence.
+
+    awaiting : students whose photographs nobody has looked at who should
+    """
     exercise = assignment.exercise
-    handed_in = HandedInCourse(kept, exercise, hand_ins, course.roster)
+    handed_in = HandedInCourse(kept, exercise, hand_ins, course.roster).with_paper(course.overrides)
+    hand_ins = handed_in.hand_ins
     late = late_rules(handed_in, course.deadline, course.late)
     if course.show_right:
         _check_nobody_waits(late, datetime.now(UTC))
@@ -243,22 +260,28 @@ def _graded(
         # The store stays free of it, so that a line that is taken back leaves the marks that were found.
         records = tables.settled(records)
         answer_keys = KeysAsNeeded(kept, [record["student"] for record in records])
-        notes = GroupNotes(refused, tables.requests, course.feedback, names)
-        files = write_reports(course.out, exercise, records, answer_keys, notes)
+        silent = unread(hand_ins, records)
+        refused = [*refused, *(Refused(one.place, one.notes[-1]) for one in silent)]
+        called = {student.id: student.name for student in handed_in.students().ids.values()}
+        notes = GroupNotes(refused, tables.requests, course.feedback, names, called)
+        graded = [record for record in records if is_handed_in(record)]
+        pairs = alike_pairs(exercise, graded, answer_keys)
+        files = write_reports(course.out, exercise, records, answer_keys, notes, pairs)
         if course.feedback is not None:
             store.note_pages(course.feedback)
             folders = {one.student: one.path for one in hand_ins}
             write_feedback(course.feedback, exercise, records, answer_keys, names, folders, right=course.show_right)
         told = [plain(f"not graded: {one.place}: {one.why}") for one in refused]
         if course.gradebook:
-            told += enter_scores(course.gradebook, exercise, records, kept.folder / ENTERED)
+            told += enter_scores(course.gradebook, exercise, graded, kept.folder / ENTERED)
+        told += closing_lines(records, called, {one.student for one in silent}, pairs, awaiting, course.out.stem)
         store.clear()
     # Which of the bounds on memory was in force: the kernel's own are seldom given to users.
     level = f"{course.level}"
     if assignment.memory:
         level = plain(f"{course.level} (memory watched, {assignment.memory} MiB for all processes)")
     listed = ", ".join(files)
-    done = plain(f"{len(records)} submissions, graded at level {level}, in {course.out.parent}: {listed}")
+    done = plain(f"{len(graded)} submissions, graded at level {level}, in {course.out.parent}: {listed}")
     return "\n".join([done, *map(_line, told)])
 
 
@@ -303,6 +326,8 @@ def _check_places(course: Course) -> None:
             raise MissingFileError(str(course.folder), kind="folder")
         wanted = "one with a folder for every student, or a zip file"
         raise TaskError(str(course.folder), "the folder", Unquoted("a file"), wanted, "check the name")
+    if course.out.suffix.lower() != ".csv" and not course.out.is_dir():
+        raise OutputError(course.out, "the grades are a CSV file", "name a file that ends in .csv")
     if course.out.is_dir():
         raise OutputError(course.out, "it is a folder", "name a file, grades.csv")
     if course.feedback is not None and course.feedback.exists() and not course.feedback.is_dir():

@@ -6,10 +6,11 @@ from datetime import datetime, timedelta
 from typing import Any
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.exercises.course.hand_in_times import HandInTime
+from graphcam.exercises.course.hand_in_times import HandInTime, shown_time
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.grading.deadlines import Deadlines, LatePenalty
 from graphcam.exercises.grading.overrides import TOTAL
+from graphcam.exercises.marking.record import is_handed_in
 
 NO_PENALTY = LatePenalty(0.0)
 """Lateness is told and costs nothing."""
@@ -48,7 +49,8 @@ def penalised(exercise: Exercise, records: Sequence[dict[str, Any]]) -> list[dic
 
     The marks of the answers stay what the drawing earned.  Who was given a total by hand keeps it.
     """
-    return [_penalised(exercise, record) if "late" in record else record for record in records]
+    # Who handed nothing in was not late with it.
+    return [_penalised(exercise, record) if "late" in record and is_handed_in(record) else record for record in records]
 
 
 def _penalised(exercise: Exercise, record: dict[str, Any]) -> dict[str, Any]:
@@ -63,7 +65,9 @@ def _penalised(exercise: Exercise, record: dict[str, Any]) -> dict[str, Any]:
 
 
 def _said(late: dict[str, Any], earned: float, left: float, *, by_hand: bool) -> Caption:
-    times = {"submitted": late["submitted"], "deadline": late["deadline"]}
+    times = {"submitted": shown_time(late["submitted"]), "deadline": shown_time(late["deadline"])}
+    if times["submitted"] == times["deadline"]:
+        times = {"submitted": late["submitted"], "deadline": late["deadline"]}
     if by_hand or late["part"] == 1:
         return say("Handed in late: {submitted}, but the deadline was {deadline}.", **times)
     return say(

@@ -1,7 +1,7 @@
 """Marks that a teacher gives by hand: a table that is read at every grading, so that they last."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,14 +10,15 @@ from graphcam.drafting.ink import Caption, say
 from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.student_table import StudentLine, once, student_lines
 from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.marking.record import is_handed_in
 
 OVERRIDES = "overrides.csv"
 """In the teacher's folder, marks given by hand."""
 TOTAL = "total"
 """In place of an answer's name: the marks are for the whole hand-in."""
 COLUMNS = ("student", "answer", "marks", "comment")
-ABSENT = "check the id; for work on paper make an empty folder of that name"
-"""What to do about a student who did not hand in."""
+ABSENT = "give the marks as the total"
+"""What to do about an answer of a student who did not hand in."""
 
 
 @dataclass(frozen=True)
@@ -30,25 +31,28 @@ class Override:
     comment: str
 
 
-def read_overrides(path: Path, exercise: Exercise, known: Recognition) -> list[Override]:
+def read_overrides(path: Path, exercise: Exercise, known: Recognition, handed_in: Collection[str]) -> list[Override]:
     """The marks given by hand, from a CSV file with the columns student, answer, marks and comment.
 
-    known : who handed in
+    known : the students;  handed_in : the ids of those who did; who worked on paper may have a total all the same
 
     Raises
     ------
     TaskError : the file cannot be read, or a line of it names a student, an answer or marks that there are not
     """
     possible = {asked.name: asked.marks for asked in exercise.answers} | {TOTAL: exercise.marks}
-    lines = student_lines(path, "the table of overrides", COLUMNS, known, "who handed in", ABSENT)
-    return [_override(line, possible) for line in once(lines, ("answer",), "give each answer of a student once")]
+    lines = student_lines(path, "the table of overrides", COLUMNS, known)
+    single = once(lines, ("answer",), "give each answer of a student once")
+    return [_override(line, possible, absent=line.student not in handed_in) for line in single]
 
 
-def _override(line: StudentLine, possible: Mapping[str, float]) -> Override:
+def _override(line: StudentLine, possible: Mapping[str, float], *, absent: bool) -> Override:
     """One line.
 
-    possible : marks by the answer's name
+    possible : marks by the answer's name;  absent : the student has not handed in
     """
+    if absent and line["answer"] != TOTAL:
+        raise line.wrong("answer", f"{TOTAL}: {line.student} has not handed in", ABSENT)
     if line["answer"] not in possible:
         raise line.wrong("answer", f"one of {', '.join(possible)}", "check the name")
     most = possible[line["answer"]]
@@ -76,7 +80,8 @@ def _applied(exercise: Exercise, record: dict[str, Any], overrides: list[Overrid
         return record
     marks = {one.answer: one.marks for one in overrides}
     answers: list[dict[str, Any]] = [
-        {**answer, "marks": marks.get(answer["name"], answer["marks"])} for answer in record["answers"]
+        {**answer, "marks": marks[answer["name"]], "by_hand": True} if answer["name"] in marks else answer
+        for answer in record["answers"]
     ]
     former = {answer["name"]: answer["marks"] for answer in record["answers"]} | {TOTAL: record["total"]}
     most = {answer["name"]: answer["of"] for answer in record["answers"]} | {TOTAL: record["of"]}
@@ -84,12 +89,27 @@ def _applied(exercise: Exercise, record: dict[str, Any], overrides: list[Overrid
     told = [exercise.tell(_told(one, most[one.answer])) for one in overrides]
     kept = [{**vars(one), "found": former[one.answer]} for one in overrides]
     return {
-        **record,
+        **{name: value for name, value in record.items() if name != "handed_in"},
         "answers": answers,
         "total": total,
-        "feedback": [*record["feedback"], *told],
+        "feedback": [*_left(record, answers, total), *told],
+        # Of work on paper nothing is to be said about files.
+        "notes": record["notes"] if is_handed_in(record) else [],
         "overrides": kept,
     }
+
+
+def _left(record: dict[str, Any], answers: Sequence[dict[str, Any]], total: float) -> list[str]:
+    """The sentences that still hold: none on an answer that has its marks by hand, no mistake where nothing is lost."""
+    if not is_handed_in(record):
+        return []
+    by_hand = tuple(f"{answer['name']}: " for answer in answers if answer.get("by_hand"))
+    said = [each for each in record["feedback"] if not (by_hand and each.startswith(by_hand))]
+    if total < record["of"]:
+        return said
+    # Of a submission with full marks, what is right.
+    right = tuple(f"{answer['name']}: " for answer in answers if answer["outcome"] in ("right", "follow-through"))
+    return [each for each in said if right and each.startswith(right)]
 
 
 def _told(one: Override, most: float) -> Caption:

@@ -1,7 +1,7 @@
 """The tables that a teacher keeps beside the answer keys, and what they make of marks that were found."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
 from typing import Any
@@ -12,10 +12,11 @@ from graphcam.exercises.course.hand_in_times import SUBMITTED_TIMES, HandInTime,
 from graphcam.exercises.course.hand_ins import HandIn, course_students
 from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.regrade_requests import REQUESTS, RegradeRequest, read_requests
-from graphcam.exercises.course.roster import Student
+from graphcam.exercises.course.roster import Student, folder_name
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.grading.attempts import AttemptRule, counted
 from graphcam.exercises.grading.deadlines import EXTENSIONS, Deadlines, LatePenalty, read_extensions
+from graphcam.exercises.grading.handed_in import with_absence
 from graphcam.exercises.grading.lateness import NO_PENALTY, LateRules, penalised, timed
 from graphcam.exercises.grading.overrides import OVERRIDES, TOTAL, Override, overridden, read_overrides
 
@@ -43,8 +44,29 @@ class HandedInCourse:
 
     def who_handed_in(self) -> Recognition:
         """The students who handed in."""
-        names = {one.student for one in self.hand_ins}
+        names = self.ids()
         return Recognition(student for student in self.students().ids.values() if student.id in names)
+
+    def with_paper(self, overrides: Path | None) -> "HandedInCourse":
+        """The same with those who have a total by hand for work on paper, and handed in no file.
+
+        overrides : marks by hand, instead of those in the teacher's folder
+
+        Raises
+        ------
+        TaskError : the marks by hand cannot be used
+        """
+        marks = overrides or self.table(OVERRIDES)
+        listed = read_overrides(marks, self.exercise, self.students(), self.ids()) if marks else []
+        absent = sorted({one.student for one in listed} - self.ids())
+        # A folder that is there, of which no file is theirs.
+        paper = [HandIn(student, folder_name(student), self.kept.folder, {}) for student in absent]
+        every = sorted([*self.hand_ins, *paper], key=lambda one: (one.student, one.attempt, one.place))
+        return replace(self, hand_ins=every if paper else self.hand_ins)
+
+    def ids(self) -> set[str]:
+        """Their ids."""
+        return {one.student for one in self.hand_ins}
 
 
 def late_rules(course: HandedInCourse, deadline: datetime | None, penalty: LatePenalty) -> LateRules | None:
@@ -90,7 +112,7 @@ class TeacherTables:
         """
         exercise = course.exercise
         marks, asked = overrides or course.table(OVERRIDES), course.table(REQUESTS)
-        by_hand = read_overrides(marks, exercise, course.who_handed_in()) if marks else []
+        by_hand = read_overrides(marks, exercise, course.students(), course.ids()) if marks else []
         answers = [*(answer.name for answer in exercise.answers), TOTAL]
         requests = read_requests(asked, answers, course.who_handed_in()) if asked else []
         times: list[HandInTime] = []
@@ -106,6 +128,7 @@ class TeacherTables:
         records : one a hand-in, in their order
         """
         exercise = self.course.exercise
+        records = with_absence(exercise, self.course.hand_ins, records)
         if self.late is not None:
             records = [timed(record, time, self.late) for record, time in zip(records, self.times, strict=True)]
         records = counted(exercise, self.course.hand_ins, records, self.attempts)

@@ -88,6 +88,15 @@ class Record:
         return _strict(self)
 
 
+def is_handed_in(record: Mapping[str, Any]) -> bool:
+    """Whether a record, as plain data, is of something that was handed in, or got marks by hand.
+
+    >>> is_handed_in({"total": 0.0}), is_handed_in({"total": 0.0, "handed_in": False})
+    (True, False)
+    """
+    return bool(record.get("handed_in", True))
+
+
 def _strict(value: Any) -> Any:
     if isinstance(value, float):
         return value if math.isfinite(value) else None

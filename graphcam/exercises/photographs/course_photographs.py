@@ -131,7 +131,7 @@ def _course(order: ReadingOrder, kept: AnswerKeys) -> tuple[Exercise, PrintedShe
         raise TaskError(str(order.course), "the course", missing, "a folder of a course", remedy)
     if not (kept.folder / PRINTED).is_dir():
         wanted, remedy = "made to be photographed", "make the course with --paper A3"
-        raise TaskError(str(order.course), "the worksheets", Unquoted("without marks"), wanted, remedy)
+        raise TaskError(str(order.course), "the worksheet", Unquoted("without marks"), wanted, remedy)
     secret = kept.secret(order.secret_file)
     exercise = find_exercise(kept.exercise(), kept.language(), kept.hand(), kept.paper())
     students = [student.id for student in kept.students()]

@@ -25,6 +25,10 @@ ALIKE = re.compile(
     r" *answers *(?:\(\d{1,4}\)|[-_]\d{1,4})? *\.(toml|csv|ipynb|dxf)(?:\.txt)? *", re.ASCII | re.IGNORECASE
 )
 """What systems make of the names: capitals, a number where there was a file, an ending that an editor adds."""
+NO_FILES = say("there is none of {names}", names=", ".join(LIMITS))
+"""What is said of a folder without any of these files."""
+NONE_GIVEN = say("none of the answers is given")
+"""What is said of files without any answer."""
 Reader = Callable[[str, bytes], tuple[Mapping[str, Any], list[Caption]]]
 """Values by name out of a file's bytes, and sentences on it."""
 
@@ -50,7 +54,7 @@ def read_files(
     except OSError:
         return {}, [say("the submission is not a folder")]
     if not found and not errors and not notes:
-        errors.append(say("there is none of {names}", names=", ".join(LIMITS)))
+        errors.append(NO_FILES)
     return found, [*errors, *notes]
 
 
@@ -107,8 +111,7 @@ def from_files(
             continue
         notes += more
         for answer, value in values.items():
-            # "" and None are the gaps of a form that was not filled in.
-            if not (value is None or (isinstance(value, str) and not value)):
+            if not is_gap(value):
                 given.setdefault(answer, []).append(value)
     drawing = None
     if DXF in files:
@@ -117,6 +120,11 @@ def from_files(
         except UnreadableError as error:
             notes.append(error.why)
     return _answers(asked, given, drawing, notes, rooms or {})
+
+
+def is_gap(value: Any) -> bool:
+    """Whether a value is a gap of a form that was not filled in: "" or None."""
+    return value is None or (isinstance(value, str) and not value)
 
 
 def _table(values: Callable[[str, bytes], Mapping[str, Any]]) -> Reader:
@@ -149,7 +157,7 @@ def _answers(
             say("{name} marks no origin by a POINT on the layer ORIGIN; the drawing's own zero is used", name=DXF),
         ]
     if not values and not problems:
-        notes = [*notes, say("none of the answers is given")]
+        notes = [*notes, NONE_GIVEN]
     return Answers(values, problems, (*notes, *_bad_lines(asked, given), *_unknown(asked, given)))
 
 

@@ -22,6 +22,7 @@ from graphcam.exercises.reports.curves import CurvePicture, points_of, worst_pla
 from graphcam.exercises.reports.drawing_over_key import over_key
 from graphcam.exercises.reports.item_statistics import cronbach_alpha, earned_parts, item_statistics, variant_groups
 from graphcam.exercises.reports.late_hand_ins import earned, late_report, part_left
+from graphcam.exercises.reports.student_rows import StudentRow
 from graphcam.exercises.reports.unrolled_drawings import Bundle, bundle, deviations_along
 from graphcam.exercises.reports.web_pages import page
 from graphcam.words import Caption, say, sequence
@@ -176,6 +177,7 @@ def group_page(
     pairs: Sequence[AlikePair] = (),
     refused: Sequence[Refused] = (),
     requests: Sequence[AnsweredRequest] = (),
+    rows: Sequence[StudentRow] = (),
 ) -> str:
     """The report as one HTML page, for the teacher alone: it shows keys.
 
@@ -183,6 +185,7 @@ def group_page(
     pairs : whose numbers agree beyond chance
     refused : what is not graded
     requests : questions of students
+    rows : all students of the course, those who handed nothing in too
     """
     steps, found = step_errors(exercise, records), mistakes(records)
     bounds, drawn = _compared(exercise, records, answer_keys)
@@ -191,6 +194,8 @@ def group_page(
         "group.html",
         exercise,
         records=records,
+        rows=rows,
+        absent=[row for row in rows if row.marks is None],
         refused=[(one.place, exercise.tell(one.why)) for one in refused],
         average=sum(record["total"] for record in records) / len(records) if records else math.nan,
         levels=sorted({record["level"] for record in records}) or ["–"],

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from graphcam.exercises.course.hand_in_times import shown_time
 from graphcam.words import Caption, say
 
 SOURCES = {
@@ -33,7 +34,7 @@ class LateReport:
 
 def late_report(records: Sequence[dict[str, Any]]) -> LateReport | None:
     """What the page of a group tells of deadlines; None where there is none."""
-    timed = [record for record in records if "late" in record]
+    timed = [{**record, "late": _shown(record["late"])} for record in records if "late" in record]
     if not timed:
         return None
     sources = Counter(record["late"]["time_from"] for record in timed).most_common()
@@ -42,6 +43,11 @@ def late_report(records: Sequence[dict[str, Any]]) -> LateReport | None:
         tuple((SOURCES[source], count) for source, count in sources),
         tuple(record for record in timed if record["late"]["hours"] > 0),
     )
+
+
+def _shown(late: dict[str, Any]) -> dict[str, Any]:
+    """The same with its times as people read them."""
+    return {**late, "submitted": shown_time(late["submitted"]), "deadline": shown_time(late["deadline"])}
 
 
 def earned(record: dict[str, Any]) -> float:

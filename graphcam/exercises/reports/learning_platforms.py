@@ -10,6 +10,7 @@ from typing import Any
 
 from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.marking.record import is_handed_in
 
 CANVAS_STUDENT = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 """Canvas's headings before the assignment's; ID is a number of Canvas's own, which is left empty."""
@@ -26,7 +27,7 @@ def moodle_grades(exercise: Exercise, records: Sequence[Mapping[str, Any]]) -> s
     '"7","2.5","v: 1 &lt; 2.<br>Again."'
     """
     head = ("ID number", exercise.title, "Feedback")
-    return table(head, ([one["student"], one["total"], _feedback(one["feedback"])] for one in records))
+    return table(head, ([one["student"], grade_of(one), _said(one)] for one in records))
 
 
 def canvas_grades(exercise: Exercise, records: Sequence[Mapping[str, Any]]) -> str:
@@ -39,8 +40,20 @@ def canvas_grades(exercise: Exercise, records: Sequence[Mapping[str, Any]]) -> s
     '"7","","7","7","","2.5"'
     """
     possible = [POINTS_POSSIBLE, "", "", "", "", exercise.marks]
-    rows = [[one["student"], "", one["student"], one["student"], "", one["total"]] for one in records]
+    rows = [[one["student"], "", one["student"], one["student"], "", grade_of(one)] for one in records]
     return table((*CANVAS_STUDENT, exercise.title), [possible, *rows])
+
+
+def grade_of(record: Mapping[str, Any]) -> float | None:
+    """The marks; of one who has not handed in None, for an empty cell, which changes nothing in a grade book."""
+    return record["total"] if is_handed_in(record) else None
+
+
+def _said(record: Mapping[str, Any]) -> str:
+    """What the student is told, and what must be said of the submission; of one who has not handed in only that."""
+    notes = list(record.get("notes", ()))
+    told = [*record["feedback"], *notes] if is_handed_in(record) else notes
+    return _feedback(list(dict.fromkeys(told)))
 
 
 def _feedback(sentences: Sequence[str]) -> str:

@@ -15,12 +15,14 @@ from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.copies import AlikePair, alike_pairs
+from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.answered_requests import answered, page_links
 from graphcam.exercises.reports.group_page import group_page
 from graphcam.exercises.reports.late_hand_ins import time_cells, time_columns
 from graphcam.exercises.reports.learning_platforms import canvas_grades, moodle_grades
 from graphcam.exercises.reports.shown_names import ShownNames
 from graphcam.exercises.reports.student_page import student_page
+from graphcam.exercises.reports.student_rows import student_rows
 from graphcam.files import whole_folder
 
 LONG = (
@@ -36,19 +38,21 @@ class GroupNotes:
 
     refused : what is not graded;  requests : questions of students
     pages : the folder of the students' pages, None where none are written
-    names : of the students on the pages
+    names : of the students on the pages;  called : the students' own names by id, of all of the course
     """
 
     refused: Sequence[Refused] = ()
     requests: Sequence[RegradeRequest] = ()
     pages: Path | None = None
     names: ShownNames = field(default_factory=ShownNames)
+    called: Mapping[str, str] = field(default_factory=dict[str, str])
 
 
 IDS = ShownNames()
 """The students go by their ids."""
 NO_FOLDERS: Mapping[str, Path] = MappingProxyType({})
 NOTHING_NOTED = GroupNotes()
+NOBODY: Mapping[str, str] = MappingProxyType({})
 
 
 def write_reports(
@@ -57,12 +61,15 @@ def write_reports(
     records: Sequence[dict[str, Any]],
     answer_keys: Mapping[str, AnswerKey],
     notes: GroupNotes = NOTHING_NOTED,
+    pairs: Sequence[AlikePair] | None = None,
 ) -> list[str]:
     """The grades, wide into ``out``; beside it long, for grade books, who agrees, the records, the group's report.
 
     Their names are given back.
 
+    records : also of those who handed in nothing, who have rows without marks and no part in the statistics
     notes : what is not graded has a table of its own where there is any
+    pairs : who agrees beyond chance; they are looked for where they are not given
 
     Raises
     ------
@@ -71,7 +78,9 @@ def write_reports(
     names: list[str] = []
     with whole_folder(out.parent) as draft:
         # One after the other, each gone from memory before the next is made.
-        for name, parts in _texts(out, exercise, records, answer_keys, notes):
+        graded = [record for record in records if is_handed_in(record)]
+        pairs = alike_pairs(exercise, graded, answer_keys) if pairs is None else pairs
+        for name, parts in _texts(out, exercise, records, answer_keys, notes, pairs):
             with (draft / name).open("w", encoding="utf-8", newline="") as file:
                 file.writelines(parts)
             names.append(name)
@@ -84,17 +93,18 @@ def _texts(
     records: Sequence[dict[str, Any]],
     answer_keys: Mapping[str, AnswerKey],
     notes: GroupNotes,
+    pairs: Sequence[AlikePair],
 ) -> Iterator[tuple[str, Iterable[str]]]:
     """The names of the files, each with its text in parts."""
-    yield out.name, [wide_table(records)]
+    graded = [record for record in records if is_handed_in(record)]
+    yield out.name, [wide_table(records, notes.called)]
     for name, text in _by_hand(out, records).items():
         yield name, [text]
     # One row an answer, for statistics.
     yield (
         f"{out.stem}-long.csv",
-        [table(LONG, (_long(record, answer) for record in records for answer in record["answers"]))],
+        [table(LONG, (_long(record, answer) for record in graded for answer in record["answers"]))],
     )
-    pairs = alike_pairs(exercise, records, answer_keys)
     yield f"{out.stem}-copies.csv", [copies_table(pairs)]
     # For grade books.
     yield f"{out.stem}-moodle.csv", [moodle_grades(exercise, records)]
@@ -106,7 +116,10 @@ def _texts(
     requests = list(answered(names.requests(notes.requests), shown, links))
     refused = names.refused(notes.refused, not_graded)
     keys = names.answer_keys(answer_keys)
-    yield f"{out.stem}.html", [group_page(exercise, shown, keys, names.pairs(pairs), refused, requests)]
+    # Their own names would tell what is hidden.
+    rows = student_rows(shown, {} if names.hidden else notes.called, links, exercise.marks)
+    graded = [record for record in shown if is_handed_in(record)]
+    yield f"{out.stem}.html", [group_page(exercise, graded, keys, names.pairs(pairs), refused, requests, rows)]
     if names.hidden:
         rows = sorted([name, one] for one, name in names.hidden.items())
         yield f"{out.stem}-ids.csv", [table(("name", "student"), rows)]
@@ -162,12 +175,18 @@ def _by_hand(out: Path, records: Sequence[dict[str, Any]]) -> dict[str, str]:
     return {name: table(BY_HAND, rows)} if rows or (out.parent / name).exists() else {}
 
 
-def wide_table(records: Sequence[dict[str, Any]]) -> str:
-    """One row a student: total, marks of every answer, diagnosis, advice, level, remarks, and what a deadline made."""
+def wide_table(records: Sequence[dict[str, Any]], called: Mapping[str, str] = NOBODY) -> str:
+    """One row a student: total, marks of every answer, diagnosis, advice, level, remarks, what a deadline made, name.
+
+    called : the students' own names by id
+    """
     names = list(dict.fromkeys(answer["name"] for record in records for answer in record["answers"]))
     times = time_columns(records)
-    head = ["student", "exercise", "total", "of", *names, "diagnosis", "too_exact", "level", "notes", *times]
-    return table(head, ([*_wide(record, names), *time_cells(record, times)] for record in records))
+    head = ["student", "exercise", "total", "of", *names, "diagnosis", "too_exact", "level", "notes", *times, "name"]
+    rows = (
+        [*_wide(record, names), *time_cells(record, times), called.get(record["student"], "")] for record in records
+    )
+    return table(head, rows)
 
 
 def copies_table(pairs: Iterable[AlikePair]) -> str:
@@ -181,10 +200,11 @@ def copies_table(pairs: Iterable[AlikePair]) -> str:
 
 
 def _wide(record: dict[str, Any], names: list[str]) -> list[Any]:
-    marks = {answer["name"]: answer["marks"] for answer in record["answers"]}
+    given = is_handed_in(record)
+    marks = {answer["name"]: answer["marks"] for answer in record["answers"] if given}
     diagnosis = record["diagnosis"]
     found = " or ".join([diagnosis["misconception"], *diagnosis["alike"]]) if diagnosis else ""
-    about = [record[name] for name in ("student", "exercise", "total", "of")]
+    about = [record["student"], record["exercise"], record["total"] if given else None, record["of"]]
     return [*about, *map(marks.get, names), found, record["too_exact"], record["level"], " ".join(record["notes"])]
 
 

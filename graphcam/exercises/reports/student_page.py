@@ -4,9 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from graphcam.exercises.course.hand_in_times import shown_time
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.curves import CurvePicture, picture, points_of, worst_place
 from graphcam.exercises.reports.drawing_over_key import over_key
 from graphcam.exercises.reports.first_step_off import first_step_off
@@ -32,6 +34,7 @@ class AnswerRow:
 
     text : what was asked, with the variant's numbers
     said : what is to be said of the answer, in place of its outcome alone
+    outcome : that of the answer, or "right" where a teacher gives all marks
     right : what would have been right; empty where that is not shown
     """
 
@@ -40,6 +43,7 @@ class AnswerRow:
     text: str
     said: Words
     right: Words
+    outcome: str
 
 
 def student_page(
@@ -65,6 +69,7 @@ def student_page(
             sentence(asked.text, record["parameters"], exercise.tell),
             _about(answer, record),
             _right(asked, shown),
+            "right" if _is_settled(answer, record) else answer["outcome"],
         )
         for asked, answer in marked
     ]
@@ -82,15 +87,40 @@ def student_page(
         pictures=pictures,
         photographs=photographs,
         told=right,
-        step=first_step_off(exercise, record, right=shown is not None),
+        handed_in=is_handed_in(record),
+        attempts=[{**one, "submitted": shown_time(one["submitted"] or "")} for one in record.get("attempts", [])],
+        step=first_step_off(exercise, _unsettled(record), right=shown is not None) if is_handed_in(record) else None,
     )
 
 
 def _about(answer: dict[str, Any], record: dict[str, Any]) -> Words:
     """What is said of an answer: its own sentence of the record, but where the outcome says all."""
+    given = next((one for one in record.get("overrides", []) if one["answer"] == answer["name"]), None)
+    if given is not None:
+        if given["comment"]:
+            return say("by your teacher: {comment}", comment=given["comment"])
+        return say("by your teacher")
+    if answer["outcome"] != "right" and _is_settled(answer, record):
+        return say("by your teacher: all marks")
     begin = _begin(answer)
     said = next((each.removeprefix(begin) for each in record["feedback"] if each.startswith(begin)), "")
     return OUTCOMES[answer["outcome"]] if answer["outcome"] in PLAIN or not said else said[0].upper() + said[1:]
+
+
+def _is_settled(answer: dict[str, Any], record: dict[str, Any]) -> bool:
+    """Whether a teacher gives an answer all of its marks, alone or with all others."""
+    if answer.get("by_hand"):
+        return bool(answer["marks"] == answer["of"])
+    return bool(record["total"] == record["of"]) and "overrides" in record
+
+
+def _unsettled(record: dict[str, Any]) -> dict[str, Any]:
+    """The record without the mistakes for which a teacher gives all marks."""
+    answers: list[dict[str, Any]] = [
+        {**answer, "outcome": "follow-through"} if _is_settled(answer, record) else answer
+        for answer in record["answers"]
+    ]
+    return {**record, "answers": answers}
 
 
 def _remarks(record: dict[str, Any]) -> list[str]:
