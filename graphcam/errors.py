@@ -210,11 +210,8 @@ def meant(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] |
     if latin != word and (name := names.get(latin.casefold())):
         letter = next(letter for letter, other in zip(word, latin, strict=True) if letter != other)
         return f"its letter '{letter}' is Cyrillic: type '{name}' in Latin letters"
-    begun = [name for name in known if name.startswith(f"{word}_")]
-    if begun:
-        return f"did you mean '{begun[0]}'?"
     near = difflib.get_close_matches(unicodedata.normalize("NFKC", word).casefold(), names, n=1)
-    close = [names[other] for other in near]
+    close = [name for name in known if name.startswith(f"{word}_")] or [names[other] for other in near]
     return f"did you mean '{close[0]}'?" if close else ""
 
 
