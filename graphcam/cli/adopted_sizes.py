@@ -1,4 +1,4 @@
-"""The last line of ``graphcam solve``: the sizes of the cam that was drawn, and which of them the task gave."""
+"""What ``graphcam solve`` says of the sizes of the cam that was drawn, and which of them the task gave."""
 
 from __future__ import annotations
 

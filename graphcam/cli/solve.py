@@ -29,6 +29,7 @@ from graphcam.cli.shared import (
 from graphcam.cli.telling_files import about, tell_files
 from graphcam.cli.voice import tell, voice
 from graphcam.language import languages
+from graphcam.words import Caption
 
 if TYPE_CHECKING:
     from graphcam.solving.arcs_solution import AnySolution
@@ -117,10 +118,10 @@ def solve(
                     progress=progress,
                 )
     # Warnings and sizes tell what somebody with an unfinished sheet is to find.
-    _print_solution(document, folder, solution.warnings if last is None else (), as_json=as_json)
-    if last is None and not as_json and (sizes := adopted_sizes(solution)):
-        echo(sizes)
-    if folder is not None and last is None and not (as_json or per_construction):
+    finished = last is None
+    sizes = adopted_sizes(solution) if finished else None
+    _print_solution(document, folder, solution.warnings if finished else (), sizes, as_json=as_json)
+    if folder is not None and finished and not (as_json or per_construction):
         _print_hint(solution, folder)
 
 
@@ -161,14 +162,16 @@ def _document(solution: AnySolution, *, finished: bool) -> dict[str, Any]:
 
 
 def _print_solution(
-    document: dict[str, Any], folder: Path | None, sentences: Iterable[object], *, as_json: bool
+    document: dict[str, Any], folder: Path | None, sentences: Iterable[object], sizes: Caption | None, *, as_json: bool
 ) -> None:
-    """The document as JSON, or the quantities, which an unfinished sheet does not tell; warnings; the files."""
+    """The document as JSON, or quantities and sizes, which an unfinished sheet does not tell; warnings; the files."""
     if as_json:
         typer.echo(json.dumps(document, indent=2, allow_nan=False))
     else:
         if "quantities" in document:
             _print_quantities(document["quantities"])
+        if sizes:
+            echo(f"\n{tell(sizes)}")
     for sentence in sentences:
         echo(f"warning: {sentence}", err=True)
     if folder is not None and not as_json:
