@@ -229,6 +229,10 @@ def make(
         """Tell whose turn it is."""
         progress(f"student {done} of {total}")
 
+    def remark(line: str) -> None:
+        """Tell what is odd about the course, beside its output."""
+        typer.echo(tell(line), err=True)
+
     with one_message():
         if studio:
             check_url(studio)
@@ -247,7 +251,7 @@ def make(
             workers=workers,
             cluster=cluster,
             step=step,
-            tell=progress,
+            tell=remark,
         )
         if studio:
             write_links(out, secret_file, studio, checks=studio_checks)

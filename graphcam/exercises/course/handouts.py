@@ -197,9 +197,7 @@ def write_handouts(variant: Variant, student: Student, folder: Path, marked: She
     write_pdf(marked.printed if marked else sheet, folder / "worksheet.pdf")
     layers = dict.fromkeys(asked.layer for asked in variant.exercise.answers if asked.layer)
     write_dxf(sheet, folder / "worksheet.dxf", origins(variant), list(layers))
-    files = {
-        TOML: answer_file(variant.exercise, answer_file_head(variant, student)),
-        NOTEBOOK: nbformat.writes(notebook(variant)),
-    }
+    answers = answer_file(variant.exercise, answer_file_head(variant, student))
+    files = {TOML: answers, NOTEBOOK: nbformat.writes(notebook(variant))}
     for name, text in (files | task_files(variant.task)).items():
         (folder / name).write_text(text, encoding="utf-8", newline="\n")

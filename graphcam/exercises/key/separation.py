@@ -109,10 +109,10 @@ def passing(
 
 
 def out_of_sight(exercise: Exercise, keys: Sequence[Expected], wrong: Sequence[Expected], bound: float) -> bool:
-    """Whether a mistake bears on no answer, or makes it far too small to be told from nought, whatever is drawn."""
+    """Whether a mistake bears on no answer, or makes it too small to be told from nought."""
     return all(
         np.allclose(np.asarray(value.value), np.asarray(key.value), rtol=1e-9, atol=1e-9)
-        or (asked.kind == "number" and 2 * abs(complex(value.value)) < (bound + BEYOND) * float(value.scatter))
+        or (asked.kind == "number" and abs(complex(value.value)) <= (bound + BEYOND) * float(value.scatter))
         for asked, key, value in zip(exercise.answers, keys, wrong, strict=True)
     )
 
