@@ -66,6 +66,6 @@ def test_a_mistake_that_no_answer_shows_is_named_after_a_few_draws():
     whole = find_exercise("integration")
     answers = tuple(replace(asked, of="paper", unit="mm") for asked in whole.answers if asked.reading == "s")[:1]
     exercise = replace(whole, answers=answers, misconceptions=("degree-for-radian: integration",), alike=())
-    said = r"in 40 draws; in 40 of them 'degree-for-radian: integration' cannot be told from right work; ask for "
+    said = r"in 40 of them 'degree-for-radian: integration' cannot be told from right work; ask for "
     with pytest.raises(DesignError, match=said + r'integration.v \(of = "scale"\)'):
         issue(exercise, "Anna", b"secret")
