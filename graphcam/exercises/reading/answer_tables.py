@@ -100,7 +100,8 @@ def _value(answer: str, rows: list[list[str]]) -> float | str | Points | Unreada
         if len(rows[0]) != 1:
             raise UnreadableError(say("{answer} must have one value, or x and y", answer=shown(answer)))
         text = rows[0][0]
-        return text if mended(f"a = {text}") != f"a = {text}" else decimal(answer, text)
+        # What has a unit is read where it is known which is asked for.
+        return text if not text[-1:].isdigit() and mended(f"a = {text}") != f"a = {text}" else decimal(answer, text)
     except UnreadableError as error:
         return error
 
