@@ -27,7 +27,7 @@ from graphcam.cli.grade_options import (
 )
 from graphcam.cli.shared import DEFAULT_FOLDER, echo, named, one_message, print_table, progress_bar, progress_lines
 from graphcam.cli.voice import tell, voice
-from graphcam.errors import install_advice
+from graphcam.errors import TaskError, Unquoted, install_advice
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.running.levels import Level
 from graphcam.language import languages
@@ -66,6 +66,27 @@ def list_exercises() -> None:
             counts = (len(found.answers), f"{found.marks:g}", len(found.misconceptions))
             rows.append([name, found.title, *map(str, counts)])
     print_table(("name", "title", "answers", "marks", "mistakes told"), rows, words=2)
+
+
+@exercise.command("copy")
+def copy_exercise(
+    name: Annotated[str, Argument(metavar="NAME", help="Name of an exercise that 'graphcam exercise list' names.")],
+    file: Annotated[Path, Argument(parser=named, metavar="FILE.toml", help="A new file.")],
+) -> None:
+    """Write the file of an exercise, as a start for one of your own.
+
+    [bold]Examples[/bold]
+
+    graphcam exercise copy integration mine.toml
+    """
+    from graphcam.exercises.definition.exercise_file import exercise_path
+    from graphcam.files import write_new
+
+    with one_message():
+        if file.suffix != ".toml":
+            raise TaskError(str(file), "the file", Unquoted("none of TOML"), "called NAME.toml")
+        write_new(file, exercise_path(name).read_text(encoding="utf-8"))
+    echo(say("{file}: change it, then try it out with 'graphcam exercise simulate {file}'", file=str(file)))
 
 
 @exercise.command()
@@ -209,6 +230,10 @@ def make(
         """Tell whose turn it is."""
         progress(f"student {done} of {total}")
 
+    def remark(line: str) -> None:
+        """Tell what is odd about the course, beside its output."""
+        typer.echo(tell(line), err=True)
+
     with one_message():
         if studio:
             check_url(studio)
@@ -218,7 +243,18 @@ def make(
             progress(f"{name}: worksheets without tags; for such that can be photographed, {install_advice('photo')}")
         papers = {"language": language, "hand": hand, "paper": chosen}
         told = ids_from(roster)
-        count = run(name, roster, secret_file, out, **papers, ink=ink, workers=workers, cluster=cluster, step=step)
+        count = run(
+            name,
+            roster,
+            secret_file,
+            out,
+            **papers,
+            ink=ink,
+            workers=workers,
+            cluster=cluster,
+            step=step,
+            tell=remark,
+        )
         if studio:
             write_links(out, secret_file, studio, checks=studio_checks)
     students = say_many("{count} student", "{count} students", count)

@@ -142,7 +142,7 @@ DATA: dict[str, Build] = {
     "a huge integer": toml("{0} = " + "9" * 4000),
     "a huger integer": toml("{0} = " + "9" * 60_000),
     "a boolean": toml("{0} = true"),
-    "a text": toml('{0} = "12"'),
+    "a text": toml('{0} = "двенадцать"'),
     "a table": toml("{0} = {{a = 1}}"),
     "a date": toml("{0} = 2020-01-01"),
     "a list": toml("{0} = [1, 2, 3]"),

@@ -7,6 +7,7 @@ import json
 import os
 import re
 import tomllib
+from dataclasses import replace
 
 import ezdxf
 import nbformat
@@ -21,7 +22,15 @@ from graphcam.cli import app
 from graphcam.drafting.marks import Segments
 from graphcam.errors import TaskError
 from graphcam.exercises.course import make as make_module
-from graphcam.exercises.course.handouts import answer_file, instructions, key_sheet, notebook, worksheet
+from graphcam.exercises.course.course_advice import other_scale
+from graphcam.exercises.course.handouts import (
+    answer_file,
+    answer_file_head,
+    instructions,
+    key_sheet,
+    notebook,
+    worksheet,
+)
 from graphcam.exercises.course.make import make
 from graphcam.exercises.course.roster import Student, folder_name, read_roster
 from graphcam.exercises.definition.blank_axes import empty_axes
@@ -329,3 +338,28 @@ def test_a_worksheet_is_true_to_scale_and_its_diagrams_stand_in_order(name, view
     (frame,) = [group for group in page.groups if group.name == "frame"]
     scales = [e.text for e in frame.entities if isinstance(e, Text) and re.fullmatch(r"[\d.]+:[\d.]+", e.text)]
     assert len(scales) == ("profile" in views)
+
+
+def test_the_file_for_the_answers_says_whose_it_is_and_what_the_task_was():
+    variant = drawn(find_exercise("integration"), "s-1", SECRET, 0)
+    head = answer_file_head(variant, Student("s-1", "Anna\nIvanova"))
+    assert head[0] == "# s-1 Anna Ivanova"
+    assert " ".join(line.removeprefix("## ") for line in head[1:]).strip() == instructions(variant)
+    assert tomllib.loads(answer_file(variant.exercise, head)) == {}
+
+
+def test_a_scale_in_the_text_that_is_not_that_of_the_sheet_is_told():
+    variant = drawn(find_exercise("integration"), "s-1", SECRET, 0)
+    assert other_scale(variant) is None
+    stated = replace(variant.exercise, text="Lay off the cam angle at 2° to 1 mm.")
+    said, scale = other_scale(replace(variant, exercise=stated)) or ("", 0.0)
+    assert (said, scale) == ("2° to 1 mm", pytest.approx(1.0))
+
+
+def test_a_copy_of_an_exercise_is_its_file_and_replaces_nothing(tmp_path):
+    path = tmp_path / "mine.toml"
+    command = ["exercise", "copy", "integration", str(path)]
+    assert CliRunner().invoke(app, command).exit_code == 0
+    assert replace(find_exercise(str(path)), name="integration") == find_exercise("integration")
+    assert CliRunner().invoke(app, command).exit_code == 2
+    assert CliRunner().invoke(app, [*command[:-1], str(tmp_path / "mine.txt")]).exit_code == 2

@@ -6,13 +6,14 @@ from dataclasses import replace
 
 import pytest
 
+from graphcam.errors import DesignError
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.hands import HandTable
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.expectation import Expected
-from graphcam.exercises.key.keying import draw_key
+from graphcam.exercises.key.keying import draw_key, issue
 from graphcam.exercises.key.scatter import answers_of
 from graphcam.exercises.key.separation import BEYOND, passing
 from graphcam.exercises.marking.simulate import simulate
@@ -58,3 +59,13 @@ def test_limits_swapped_in_a_region_that_begins_almost_on_the_line_of_motion_are
 def test_every_mistake_of_the_variant_of_a_student_is_named():
     found = simulate(find_exercise("least-radius"), b"the secret of the tests", 3, 60)
     assert found.right_diagnoses >= 0.99
+
+
+def test_a_mistake_that_no_answer_shows_is_named_after_a_few_draws():
+    """Nothing on paper changes by a scale in degrees: no parameter helps."""
+    whole = find_exercise("integration")
+    answers = tuple(replace(asked, of="paper", unit="mm") for asked in whole.answers if asked.reading == "s")[:1]
+    exercise = replace(whole, answers=answers, misconceptions=("degree-for-radian: integration",), alike=())
+    said = r"in 40 of them 'degree-for-radian: integration' cannot be told from right work; ask for "
+    with pytest.raises(DesignError, match=said + r'integration.v \(of = "scale"\)'):
+        issue(exercise, "Anna", b"secret")

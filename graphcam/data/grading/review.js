@@ -305,6 +305,7 @@ class Student {
     this.known = JSON.stringify(kept) !== JSON.stringify({ answers: {}, bars: {}, reviewed: false });
     this.drawn = said.drawn.map((one) => new Drawn(one, kept.answers[one.name]));
     this.selects = new Map();
+    this.counts = new Map();
     for (const section of article.querySelectorAll("[data-answer]")) this.judge(section);
     this.boards = [...article.querySelectorAll("[data-view]")].map(
       (figure) => new Board(figure, said.views[figure.dataset.view], this.drawn, this));
@@ -330,6 +331,7 @@ class Student {
     const answer = this.drawn.find((one) => one.name === section.dataset.answer);
     const select = section.querySelector("[data-verdict]");
     this.selects.set(answer, select);
+    this.counts.set(answer, section.querySelector("[data-number-of-points]"));
     select.addEventListener("change", () => {
       answer.verdict = select.value;
       answer.photo = select.value ? answer.digest : "";
@@ -362,6 +364,10 @@ class Student {
     for (const [answer, select] of this.selects) {
       select.querySelector('[value="corrected"]').disabled = !answer.now;
       select.value = answer.verdict;
+      // As many points as are asked for, or the answer is not marked.
+      const count = answer.points.length, wanted = answer.wanted, counts = this.counts.get(answer);
+      counts.hidden = !wanted || count === wanted || !["confirmed", "corrected"].includes(answer.verdict);
+      counts.textContent = counts.hidden ? "" : said(text.number, { count, wanted });
     }
   }
 

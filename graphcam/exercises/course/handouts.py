@@ -1,7 +1,9 @@
 """What a student gets: notebook, file for the answers, worksheet, task file; and what the teacher gets."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from textwrap import wrap
 
 import nbformat
 import nbformat.v4 as nb
@@ -27,6 +29,8 @@ from graphcam.sheets.tables import Table
 from graphcam.tasks.task_writer import task_files
 from graphcam.words import Caption, Words, say, say_in, say_many
 
+LINE = 96
+"""Letters in a line of the task in ``answers.toml``."""
 KEY_COLUMNS = (say("name"), say("unit"), say("value"), say_in("of an answer", "tolerance"), say("marks"))
 """Of the key's table, as :func:`key_rows` fills them."""
 
@@ -37,14 +41,33 @@ def instructions(variant: Variant) -> str:
     return " ".join(sentence(exercise.text, variant.parameters, exercise.tell).split())
 
 
-def answer_file(exercise: Exercise) -> str:
-    """``answers.toml`` to fill in: every answer as a comment, so that an empty one is missing and not wrong."""
+def answer_file(exercise: Exercise, head: Sequence[str] = ()) -> str:
+    """``answers.toml`` to fill in: every answer as a comment, so that an empty one is missing and not wrong.
+
+    head : lines of comment that come first
+    """
     how = say("Remove the # before an answer and write the number after the = sign, with a decimal point.")
-    lines = [f"# {exercise.title}. {exercise.tell(how)}", ""]
+    lines = [*head, f"# {exercise.title}. {exercise.tell(how)}", ""]
     for asked in exercise.answers:
         blank = "" if asked.kind == "number" else "[[x, y], [x, y]]"
         lines += [f"# {asked.text} {exercise.tell(_how(asked))}", f"# {asked.name} = {blank}", ""]
     return "\n".join(lines)
+
+
+def answer_file_head(variant: Variant, student: Student) -> list[str]:
+    """Whose ``answers.toml`` it is, and the task, as comments.
+
+    The task's lines begin with ##: whatever stands in them, none is taken for an answer whose # was left in.
+
+    >>> from graphcam.exercises.definition.exercise_file import find_exercise
+    >>> from graphcam.exercises.definition.variant import drawn
+    >>> head = answer_file_head(drawn(find_exercise("integration"), "7", b"", 0), Student("7", "Anna"))
+    >>> head[0], head[1][:23]
+    ('# 7 Anna', '## The follower rises b')
+    """
+    # A name is a stranger's, and TOML allows no control characters in comments.
+    whose = "".join(sign if sign.isprintable() else " " for sign in f"{student.id} {student.name}".strip())
+    return [f"# {whose}", *(f"## {line}" for line in wrap(instructions(variant), LINE)), ""]
 
 
 def notebook(variant: Variant) -> NotebookNode:
@@ -174,6 +197,7 @@ def write_handouts(variant: Variant, student: Student, folder: Path, marked: She
     write_pdf(marked.printed if marked else sheet, folder / "worksheet.pdf")
     layers = dict.fromkeys(asked.layer for asked in variant.exercise.answers if asked.layer)
     write_dxf(sheet, folder / "worksheet.dxf", origins(variant), list(layers))
-    files = {TOML: answer_file(variant.exercise), NOTEBOOK: nbformat.writes(notebook(variant))}
+    answers = answer_file(variant.exercise, answer_file_head(variant, student))
+    files = {TOML: answers, NOTEBOOK: nbformat.writes(notebook(variant))}
     for name, text in (files | task_files(variant.task)).items():
         (folder / name).write_text(text, encoding="utf-8", newline="\n")

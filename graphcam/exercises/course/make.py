@@ -11,6 +11,7 @@ from tempfile import TemporaryDirectory
 from typing import get_args
 
 from graphcam.errors import TaskError, Unquoted, installed
+from graphcam.exercises.course.course_advice import other_scale, wide_tolerances
 from graphcam.exercises.course.course_folder import (
     KEYS,
     PRINTED,
@@ -68,6 +69,7 @@ def make(
     workers: int = 1,
     cluster: str = "",
     step: Callable[[int, int], None] = lambda done, total: None,
+    tell: Callable[[str], None] = lambda line: None,
 ) -> int:
     """Make every student's handouts; how many students there are.
 
@@ -76,6 +78,7 @@ def make(
     hand : of the students, by its name, and noted too; else as the exercise says
     paper : "A1", "A3", "A4" or "A3-tiles", for worksheets that are photographed; else as the task says, without tags
     ink : of what is given on these: "colour", or "grey" for a printer of black alone
+    tell : is told what is odd about the course, a line each
     workers, cluster : processes here, or the address of a dask scheduler, whose machines share no files with this one
 
     Raises
@@ -85,11 +88,12 @@ def make(
     """
     one_of("language", language, languages())
     one_of("print", ink, get_args(Ink))
+    # Before the extra: it is of no use for an exercise that is not made for the paper.
+    exercise = find_exercise(name, language, hand, paper)
     if paper:
         # At once, and not in a worker.
         with installed("--paper", "segno", "photo"):
             importlib.import_module("graphcam.sheets.qr")
-    exercise = find_exercise(name, language, hand, paper)
     students = read_roster(roster)
     secret = make_secret() if secret_file is None else _given_secret(secret_file)
     out = Path(out)
@@ -117,6 +121,11 @@ def make(
         _write_keys(draft / TEACHER / KEYS, exercise, answer_keys)
         # A copy of one that is given as well: grading looks for it here.
         write_secret(draft / TEACHER / SECRET, secret)
+    variants_told = (Variant(exercise, key.student, key.draw, key.parameters) for key in answer_keys[:1])
+    for said, scale in filter(None, map(other_scale, variants_told)):
+        tell(f"the text of the exercise says '{said}', but the sheet is drawn at {scale:g}° to 1 mm")
+    for answer, part in wide_tolerances(exercise, answer_keys).items():
+        tell(f"the tolerance of {answer} is {part:.0%} of its value; on a larger sheet it is smaller")
     return len(students)
 
 

@@ -52,6 +52,7 @@ HOW = say(
     "on the black squares or the code. Photograph each page from above, with all its edges."
 )
 
+CROSSES = say("Mark each point with a cross of 3 mm; crosses must not touch.")
 TAPE = say("First lay the two halves edge to edge and tape them together on the back.")
 
 
@@ -192,7 +193,9 @@ class _PageMaker:
         tell = self.variant.exercise.tell
         rooms = [self.column(placed, k).room for k, placed in enumerate(pages, 1)]
         narrow = min(room.width for room in rooms)
-        how = [tell(TAPE), tell(HOW)] if self.paper.seam is not None else [tell(HOW)]
+        taped = [tell(TAPE)] if self.paper.seam is not None else []
+        crosses = any(asked.drawn_as == "cross" for asked in self.variant.exercise.answers)
+        how = [*taped, " ".join([tell(HOW), *([tell(CROSSES)] if crosses else [])])]
         text = paragraphs([instructions(self.variant), *how], self.letters, rooms[0].width)
         table = answer_table(self.variant.exercise).told(tell)
         tall = max(room.height for room in rooms)

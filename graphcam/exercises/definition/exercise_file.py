@@ -108,7 +108,7 @@ def load_exercise(path: str | Path, language: str = ENGLISH.name) -> Exercise:
     with other_file("exercise file", HOW_TO):
         data = parse_toml(str(path), read_content(path))
         if "motion" in data and "task" not in data:
-            remedy = "begin with a copy of one that 'graphcam exercise list' names"
+            remedy = "begin with a copy: 'graphcam exercise copy integration mine.toml'"
             expected = "an exercise, which has the task in its table [task]"
             raise TaskError(str(path), "the file", Unquoted("a task"), expected, remedy)
         for key in NO_KEYS & data.keys():

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.constructions.chain import Chain
+from graphcam.errors import DesignError
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.key.expectation import Expected
@@ -21,6 +22,17 @@ BEYOND = 3.3
 """A mistake is noticed where some answer lies outside the tolerance by so many of its scatters."""
 CAREFUL = "careful"
 """What work without a mistake is called among the mistakes."""
+
+
+class MistakeError(DesignError):
+    """A drawing with a mistake that comes to nothing: the mistake's name, beside what is wrong with it."""
+
+    def __init__(self, mistake: str, error: DesignError) -> None:
+        super().__init__(*error.args)
+        self.mistake = mistake
+
+    def __reduce__(self) -> tuple[type["MistakeError"], tuple[str, DesignError]]:
+        return MistakeError, (self.mistake, DesignError(*self.args))
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,11 +54,18 @@ def perfect_hands(exercise: Exercise, right: Chain) -> PerfectHands:
 
     Raises
     ------
-    DesignError : the drawing, or one with a mistake, comes to nothing
+    DesignError : the drawing comes to nothing
+    MistakeError : one with a mistake does
     """
     answers, lengths = answers_of(exercise, right), lengths_of(exercise, right)
-    wrong = {name: misconception(name).change(right) for name in exercise.misconceptions}
-    wrong_answers = {name: answers_of(exercise, chain) for name, chain in wrong.items()}
+    wrong: dict[str, Chain] = {}
+    wrong_answers: dict[str, Drawn] = {}
+    for name in exercise.misconceptions:
+        try:
+            wrong[name] = misconception(name).change(right)
+            wrong_answers[name] = answers_of(exercise, wrong[name])
+        except DesignError as error:
+            raise MistakeError(name, error) from None
     return PerfectHands(right, wrong, answers, wrong_answers, lengths)
 
 
@@ -73,7 +92,13 @@ def alike(exercise: Exercise, wrong: Mapping[str, Sequence[Expected]]) -> tuple[
 
 def permitted(exercise: Exercise, pairs: Iterable[tuple[str, str]]) -> bool:
     """Whether the exercise lets all these pairs be alike."""
-    return {frozenset(pair) for pair in pairs} <= {frozenset(pair) for pair in exercise.alike}
+    return not forbidden(exercise, pairs)
+
+
+def forbidden(exercise: Exercise, pairs: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
+    """Those of the pairs that the exercise does not let be alike."""
+    let = {frozenset(pair) for pair in exercise.alike}
+    return [pair for pair in pairs if frozenset(pair) not in let]
 
 
 def passing(
@@ -81,6 +106,15 @@ def passing(
 ) -> list[tuple[str, str]]:
     """The mistakes that pass as careful work, or that no answer names, paired with that."""
     return [(name, CAREFUL) for name, values in wrong.items() if not _noticed(exercise, keys, values, bound)]
+
+
+def out_of_sight(exercise: Exercise, keys: Sequence[Expected], wrong: Sequence[Expected], bound: float) -> bool:
+    """Whether a mistake bears on no answer, or makes it too small to be told from nought."""
+    return all(
+        np.allclose(np.asarray(value.value), np.asarray(key.value), rtol=1e-9, atol=1e-9)
+        or (asked.kind == "number" and abs(complex(value.value)) <= (bound + BEYOND) * float(value.scatter))
+        for asked, key, value in zip(exercise.answers, keys, wrong, strict=True)
+    )
 
 
 def _noticed(exercise: Exercise, keys: Sequence[Expected], wrong: Sequence[Expected], bound: float) -> bool:
@@ -114,11 +148,26 @@ def promising(exercise: Exercise, drawn: PerfectHands) -> bool:
 
     It takes no careful hands, so it costs little; nothing that could be told apart is turned away.
     """
+    return not endless(drawn) and permitted(exercise, plainly_alike(exercise, drawn))
+
+
+def endless(drawn: PerfectHands) -> list[str]:
+    """Whose answers have no number, as a slope has none where the run is nought."""
     rows = {CAREFUL: drawn.answers, **drawn.wrong_answers}
-    if not all(np.isfinite(value).all() for row in rows.values() for value in row):
-        return False
+    return [name for name, row in rows.items() if not all(np.isfinite(value).all() for value in row)]
+
+
+def plainly_alike(exercise: Exercise, drawn: PerfectHands) -> tuple[tuple[str, str], ...]:
+    """The pairs of mistakes, work without one among them, that rounding alone does not tell apart."""
+    rows = {CAREFUL: drawn.answers, **drawn.wrong_answers}
     values = {
         name: expected(exercise, row, [np.zeros((1, *value.shape)) for value in row], drawn.lengths)
         for name, row in rows.items()
     }
-    return permitted(exercise, alike(exercise, values))
+    return alike(exercise, values)
+
+
+def the_same(drawn: PerfectHands, a: str, b: str) -> bool:
+    """Whether two of the drawings have the same answers to the last digit."""
+    rows = {CAREFUL: drawn.answers, **drawn.wrong_answers}
+    return all(np.allclose(x, y, rtol=1e-9, atol=1e-9) for x, y in zip(rows[a], rows[b], strict=True))

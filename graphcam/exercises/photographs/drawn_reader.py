@@ -87,7 +87,12 @@ def _marks(asked: Asked, place: str, reading: PointReading, tell: Tell) -> ReadA
 def _points(answer: ReadAnswer, tell: Tell) -> ReadAnswer:
     if answer.points is not None and answer.points.size:
         return answer
-    refusal = say("no points can be seen"), say("mark them more clearly, and photograph the page again")
+    refusal = (
+        say("no points can be seen"),
+        say(
+            "mark them more clearly, with crosses of 3 mm that do not touch one another, and photograph the page again"
+        ),
+    )
     return _refused(replace(answer, points=None, share=0.0, confidence=0.0), refusal, tell)
 
 

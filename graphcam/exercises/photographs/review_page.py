@@ -30,6 +30,7 @@ MOST = 600
 """Points of a right curve that the page shows."""
 TEXTS = {
     "point": say("{answer}: point {number} of {count} at x {x}, y {y} mm"),
+    "number": say("{count} of {wanted} points: until the number is right, the answer earns nothing"),
     "progress": say("{done} of {count} done"),
     "noNumber": say("not a number"),
     "measureAgain": say("no printer scales by so much; measure again: from {low} to {high} mm"),

@@ -8,6 +8,7 @@ from typing import Any
 
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.toml_statements import toml_statements
+from graphcam.exercises.reading.typed import mended
 from graphcam.exercises.reading.values import Points, decimal, shown
 from graphcam.words import say
 
@@ -36,7 +37,7 @@ def toml_values(name: str, data: bytes) -> dict[str, Any]:
     return answers
 
 
-def csv_values(name: str, data: bytes) -> dict[str, float | Points | UnreadableError]:
+def csv_values(name: str, data: bytes) -> dict[str, float | str | Points | UnreadableError]:
     """The values of rows ``name,value`` and ``name,x,y``; rows of one name are the points of a curve.
 
     Semicolons may separate, as spreadsheets write them where the comma is decimal.  A row that cannot be read spoils
@@ -88,7 +89,7 @@ def _of_numbers(text: str) -> dict[str, Any] | None:
     return found
 
 
-def _value(answer: str, rows: list[list[str]]) -> float | Points | UnreadableError:
+def _value(answer: str, rows: list[list[str]]) -> float | str | Points | UnreadableError:
     import numpy as np
 
     try:
@@ -98,7 +99,9 @@ def _value(answer: str, rows: list[list[str]]) -> float | Points | UnreadableErr
             raise UnreadableError(say("{answer} has {count} answers", answer=shown(answer), count=len(rows)))
         if len(rows[0]) != 1:
             raise UnreadableError(say("{answer} must have one value, or x and y", answer=shown(answer)))
-        return decimal(answer, rows[0][0])
+        text = rows[0][0]
+        # What has a unit is read where it is known which is asked for.
+        return text if not text[-1:].isdigit() and mended(f"a = {text}") != f"a = {text}" else decimal(answer, text)
     except UnreadableError as error:
         return error
 

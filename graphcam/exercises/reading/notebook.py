@@ -8,6 +8,7 @@ from typing import Any
 
 from graphcam.exercises.reading.answer_tables import text_of
 from graphcam.exercises.reading.regular_file import UnreadableError
+from graphcam.exercises.reading.typed import mended
 from graphcam.exercises.reading.values import shown
 from graphcam.words import say
 
@@ -69,7 +70,7 @@ def _literals(name: str, sources: list[str]) -> dict[str, Any]:
         # What Python finds strange in it is no news for the teacher's terminal.
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            for key, node in (pair for source in sources for pair in _assignments(ast.parse(source))):
+            for key, node in (pair for source in sources for pair in _assignments(_parsed(source))):
                 if key in found:
                     raise UnreadableError(say("{name}: {answer} is answered twice", name=name, answer=shown(key)))
                 found[key] = ast.literal_eval(node)
@@ -82,6 +83,14 @@ def _literals(name: str, sources: list[str]) -> dict[str, Any]:
             )
         ) from None
     return found
+
+
+def _parsed(source: str) -> ast.Module:
+    """The cell; one that is no Python with its numbers as texts, where they have a unit or the minus of print."""
+    try:
+        return ast.parse(source)
+    except SyntaxError:
+        return ast.parse("\n".join(mended(line) for line in source.split("\n")))
 
 
 def _assignments(tree: ast.Module) -> Generator[tuple[str, ast.expr]]:

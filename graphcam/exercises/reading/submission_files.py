@@ -16,6 +16,7 @@ from graphcam.exercises.reading.dxf import read_dxf
 from graphcam.exercises.reading.notebook import notebook_values
 from graphcam.exercises.reading.paper_area import PaperArea
 from graphcam.exercises.reading.regular_file import UnreadableError, open_folder, read_regular
+from graphcam.exercises.reading.typed import by_meant_names, left_commented, quantity
 from graphcam.exercises.reading.values import number, points, shown
 
 TOML, CSV, NOTEBOOK, DXF = "answers.toml", "answers.csv", "answers.ipynb", "answers.dxf"
@@ -113,6 +114,13 @@ def from_files(
         for answer, value in values.items():
             if not is_gap(value):
                 given.setdefault(answer, []).append(value)
+    given, more = by_meant_names(asked, given)
+    notes += more
+    if TOML in files:
+        # Bytes that are no text have been told already.
+        for answer, text in left_commented(asked, given, files[TOML].decode("utf-8-sig", "ignore")).items():
+            given[answer] = [text]
+            notes.append(say("{answer} is read, though the # was left in before it", answer=answer))
     drawing = None
     if DXF in files:
         try:
@@ -197,6 +205,8 @@ def _agreed(asked: Asked, listed: list[Any]) -> Given:
 
 
 def _value(asked: Asked, value: Any) -> Given:
+    if asked.kind == "number" and isinstance(value, str):
+        return quantity(asked, value)
     if asked.kind == "number":
         return number(asked.name, value)
     return value if isinstance(value, np.ndarray) else points(asked.name, value)

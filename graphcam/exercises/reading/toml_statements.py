@@ -5,6 +5,7 @@ import tomllib
 from typing import Any
 
 from graphcam.exercises.reading.regular_file import UnreadableError
+from graphcam.exercises.reading.typed import mended
 from graphcam.exercises.reading.values import shown
 from graphcam.words import say
 
@@ -21,11 +22,13 @@ HEADER = re.compile(r"[ \t]*\[[ \t]*([A-Za-z_][\w-]*)[ \t]*\][ \t]*(?:#.*)?", re
 def toml_statements(name: str, text: str) -> dict[str, Any]:
     """What a TOML file says; where a line is bad, the others count and its own answer is an UnreadableError.
 
+    A number with a unit behind it is a text; see :mod:`graphcam.exercises.reading.typed`.
+
     Raises
     ------
     UnreadableError : nothing in it can be told apart
 
-    >>> found = toml_statements("answers.toml", "a = 1\\nb = 2 mm\\n# by hand\\nc = [1,\\n2]")
+    >>> found = toml_statements("answers.toml", "a = 1\\nb = 2 4\\n# by hand\\nc = [1,\\n2]")
     >>> found["a"], found["c"], print(found["b"])
     answers.toml: line 2 is not valid TOML; a line such as v_max = 12.5 is, with a decimal point
     (1, [1, 2], None)
@@ -36,8 +39,8 @@ def toml_statements(name: str, text: str) -> dict[str, Any]:
     except (ValueError, RecursionError) as error:
         # The library's own words are English, so only the line is taken from them.
         line = re.search(r"at line (\d+)", str(error))
-    values, errors = _each(name, text)
-    if not errors or not values:
+    values, errors, is_mended = _each(name, text)
+    if not values or not (errors or is_mended):
         raise _bad_line(name, line[1]) if line else UnreadableError(say("{name} is not valid TOML", name=name))
     answers = values.get("answers", values)
     # In a table of answers only its own lines count, and that a line is bad is told wherever it stands.
@@ -60,8 +63,12 @@ def _bad_line(name: str, line: object) -> UnreadableError:
     )
 
 
-def _each(name: str, text: str) -> tuple[dict[str, Any], dict[str, UnreadableError]]:
-    """The values of the statements that can be read, those of tables in a table; and by name what cannot."""
+def _each(name: str, text: str) -> tuple[dict[str, Any], dict[str, UnreadableError], bool]:
+    """The values of the statements that can be read, those of tables in a table; and by name what cannot.
+
+    Last, whether one of them was mended.
+    """
+    is_mended = False
     values: dict[str, Any] = {}
     errors: dict[str, UnreadableError] = {}
     table, counts = values, dict[tuple[int, str], int]()
@@ -73,6 +80,9 @@ def _each(name: str, text: str) -> tuple[dict[str, Any], dict[str, UnreadableErr
                 errors[lines[0].strip()] = _bad_line(name, number)
             continue
         found, rest = _statement(lines)
+        if not found and (plain := mended(lines[0])) != lines[0]:
+            is_mended = True
+            found, rest = _statement([plain, *lines[1:]])
         for key, value in found.items():
             counts[id(table), key] = count = counts.get((id(table), key), 0) + 1
             table[key] = value
@@ -83,7 +93,7 @@ def _each(name: str, text: str) -> tuple[dict[str, Any], dict[str, UnreadableErr
             errors[said] = _bad_line(name, number)
         elif rest:
             errors[rest] = _bad_line(name, number + 1)
-    return values, errors
+    return values, errors, is_mended
 
 
 def _pieces(text: str) -> list[tuple[int, str, list[str]]]:

@@ -14,6 +14,8 @@ Points = NDArray[np.complex128]
 GREATEST = 1e9
 """No reading of a drawing is greater; a number that is cannot be meant."""
 MOST_POINTS = 20_000
+MINUS = "\u2212"
+"""The minus sign of print, which word processors put in place of a hyphen."""
 SHOWN = 40
 """Letters of what a stranger wrote that a sentence repeats."""
 
@@ -69,13 +71,13 @@ def points(name: str, value: object) -> Points:
 
 
 def decimal(name: str, text: str) -> float:
-    """A number as a person writes it: with a point or with a comma.
+    """A number as a person writes it: with a point or with a comma, and with the minus of a word processor.
 
-    >>> decimal("v_max", " 12,5 ")
-    12.5
+    >>> decimal("v_max", " 12,5 "), decimal("v_max", "−12.5")
+    (12.5, -12.5)
     """
     # float() would also take "nan", "1_000" and digits of other scripts.
-    plain = text.strip().replace(",", ".")
+    plain = text.strip().replace(",", ".").replace(MINUS, "-")
     if not plain or not plain.isascii() or "_" in plain:
         raise _no_number(name, text)
     try:
