@@ -51,6 +51,11 @@ class Language:
         """What whoever reads the language should know of the translation; empty where a native speaker has read it."""
         return self.text(UNREAD) if self.catalog.unread else ""
 
+    @cached_property
+    def has_messages(self) -> bool:
+        """Whether the command line can speak it: its catalog has the messages too, or it is that of the code."""
+        return self.name == ENGLISH.name or any(context == "message" for context, _ in self.catalog.told)
+
     def text(self, words: Words) -> str:
         """What somebody who speaks the language writes."""
         if isinstance(words, str):

@@ -21,6 +21,7 @@ from typer.testing import CliRunner
 
 import graphcam as gc
 from graphcam.cli import app
+from graphcam.cli.voice import language_of_machine
 from graphcam.errors import DesignError
 from graphcam.language import ENGLISH, language, languages
 from graphcam.report.documents import contents_of, drawing_of, note_of, sheet_of
@@ -267,6 +268,17 @@ def test_speaking_needs_no_library():
     """Nobody waits for Babel to load: it writes catalogs, and they are read without it."""
     code = "import sys; from graphcam.language import language; language('ru'); sys.exit('babel' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@pytest.mark.parametrize("spoken", UNREAD)
+def test_the_command_line_speaks_no_language_that_has_no_messages(tmp_path, spoken):
+    """Half of each sentence would be English."""
+    out = tmp_path / "out"
+    done = CliRunner().invoke(app, ["solve", "--language", spoken, "--out", str(out)])
+    assert done.exit_code == 0
+    assert "error and estimated bound in mm on paper" in done.output
+    assert language(spoken).remark in (out / "note.md").read_text(encoding="utf-8")
+    assert language_of_machine({"LANG": f"{spoken}_XX.UTF-8"}) == ENGLISH
 
 
 def test_the_command_line_chooses_the_language(tmp_path):

@@ -1,5 +1,7 @@
 """The language in which the command line speaks: what ``--language`` says, else that of the task, else of the machine.
 
+A language whose catalog has no messages is not spoken here: half a sentence of it would be English.
+
 A task that names no language is English, as is one that names English: there the machine's counts, which is found as
 gettext finds it, in the first of LANGUAGE, LC_ALL, LC_MESSAGES and LANG that is set.
 """
@@ -31,7 +33,7 @@ def language_of_machine(variables: Mapping[str, str] = os.environ) -> Language:
     for locale in named.split(":"):
         name = locale.partition(".")[0].partition("@")[0]
         for known in (name, name.partition("_")[0]):
-            if known in languages():
+            if known in languages() and language(known).has_messages:
                 return language(known)
     return ENGLISH
 
@@ -49,11 +51,12 @@ class Voice:
     def choose(self, name: str | None) -> None:
         """Speak the language of that name from now on; of one that is not there the command itself tells."""
         if name in languages():
-            self.chosen, self.language = str(name), language(str(name))
+            self.chosen = str(name)
+            self.language = language(self.chosen) if language(self.chosen).has_messages else ENGLISH
 
     def hear(self, name: str) -> None:
         """Speak the language of a task or course, unless one was asked for or it is English, as where none is named."""
-        if not self.chosen and name in languages() and name != ENGLISH.name:
+        if not self.chosen and name in languages() and name != ENGLISH.name and language(name).has_messages:
             self.language = language(name)
 
     def tell(self, words: object) -> str:

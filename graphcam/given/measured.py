@@ -44,6 +44,8 @@ MEDIAN = 0.6745
 """The median of |x| for a normal distribution of standard deviation 1."""
 ROUNDING = 1e-9
 """Cam angles nearer to one another than this [rad] are the same."""
+SHOWN = 1e-3
+"""A shift of the cam angle that is told [degrees]."""
 
 
 class RowError(DesignError):
@@ -71,7 +73,9 @@ class MeasuredMotion(Motion):
     tolerance: float
 
     def _said(self) -> str:
-        return f"{super()._said()}, through {self.phi.size} rows to {self.tolerance:g}"
+        begins = math.degrees(self.zero)
+        shifted = f", from {begins:.4g}° of the table" if abs(begins) >= SHOWN else ""
+        return f"{super()._said()}, through {self.phi.size} rows to {self.tolerance:g}{shifted}"
 
     @property
     def residuals(self) -> Floats:
@@ -116,6 +120,9 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     tolerance/4.5 is used instead.  Ends of phases are found as exactly as the noise permits: with the 4-5-6-7 law they
     are hidden for several degrees.
 
+    A motion begins where a phase begins, but a table may begin anywhere, and noise moves the end of a dwell: the cam
+    angle 0 of the motion is the angle ``zero`` of the table.  At the row of phi it is ``motion(phi - motion.zero)``.
+
     Parameters
     ----------
     phi : (n,) cam angles [rad], growing, over one turn; the last row may repeat the first one a turn later
@@ -133,6 +140,8 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     >>> [phase.kind for phase in motion.phases], round(motion.lift, 2)
     (['rise', 'return'], 20.0)
     >>> motion.greatest_residual <= motion.tolerance
+    True
+    >>> float(np.max(np.abs(motion(phi - motion.zero)[0] - motion.measured))) == motion.greatest_residual
     True
     """
     if not (math.isfinite(tolerance) and tolerance > 0):

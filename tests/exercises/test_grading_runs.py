@@ -271,6 +271,29 @@ def test_wrong_input_is_told_before_anything_is_graded(
     assert all(path.read_bytes() == before for path, before in kept.items())
 
 
+@pytest.mark.usefixtures("threads")
+@pytest.mark.parametrize(
+    ("was", "now", "field"),
+    [
+        ("lift = { start = 15, stop = 50", "lift = { start = 16, stop = 60", "parameters.lift"),
+        ("version = 3", "version = 4", "version"),
+    ],
+)
+def test_an_exercise_that_draws_other_variants_than_were_handed_out_is_refused(
+    tmp_path: Path, was: str, now: str, field: str
+):
+    place = course_at(tmp_path / "course", ("anna", "boris"))
+    file = place / TEACHER / f"{NAME}.toml"
+    text = file.read_text(encoding="utf-8")
+    assert was in text
+    # The marks of an answer may change.
+    file.write_text(text.replace("marks = 2", "marks = 3", 1), encoding="utf-8")
+    graded(place, tmp_path / "grades.csv")
+    file.write_text(text.replace(was, now), encoding="utf-8")
+    with pytest.raises(GraphcamError, match=rf"{field} is changed, but must be as it was when the handouts were made"):
+        graded(place, tmp_path / "other.csv")
+
+
 def test_a_second_run_into_the_same_grades_waits_for_the_first(tmp_path: Path):
     store = run.Store.beside(tmp_path / "new" / "grades.csv", assignment())
     with store.held(), pytest.raises(OutputError, match=r"grades\.csv.*another run is grading into it"), store.held():

@@ -125,7 +125,7 @@ def make(
     for said, scale in filter(None, map(other_scale, variants_told)):
         tell(f"the text of the exercise says '{said}', but the sheet is drawn at {scale:g}° to 1 mm")
     for answer, part in wide_tolerances(exercise, answer_keys).items():
-        tell(f"the tolerance of {answer} is {part:.0%} of its value; on a larger sheet it is smaller")
+        tell(f"the tolerance of {answer} is {part:.0%} of its value; larger diagrams or --hand careful make it smaller")
     return len(students)
 
 

@@ -31,6 +31,7 @@ from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.grading.attempts import LAST, AttemptRule
+from graphcam.exercises.grading.changed_exercise import check_unchanged
 from graphcam.exercises.grading.deadlines import LatePenalty
 from graphcam.exercises.grading.grade_one import Assignment, Submission, grade, read_hand_in, unmarked
 from graphcam.exercises.grading.gradebook import ENTERED, check_gradebook, enter_scores
@@ -221,6 +222,7 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
             check_gradebook(course.gradebook)
     with unpacked(folder) as (submissions, unsafe), TemporaryDirectory(prefix="graphcam-") as scratch:
         hand_ins, refused = hand_ins_in(submissions, kept, course.roster)
+        check_unchanged(exercise, kept, [one.student for one in hand_ins], secret)
         if read_off_photographs(submissions):
             hand_ins = with_photo_notes(hand_ins, submissions)
         else:
