@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import html
 import io
 import json
 import zipfile
@@ -112,6 +113,15 @@ def test_what_cannot_be_read_is_not_graded_and_told_with_the_reason(course: Path
     assert [row["total"] for row in table(course)] == ["", f"{EXERCISE.marks:g}"]
     assert table(course, "grades-not-graded.csv") == [{"folder": "s1", "why": why}]
     assert why in (course / "out" / "grades-moodle.csv").read_text(encoding="utf-8")
+
+
+def test_the_table_of_students_says_of_whom_no_answer_can_be_read(course: Path):
+    words = "\n".join(f'{asked.name} = "see the drawing"' for asked in EXERCISE.answers)
+    hand_in(course, {"s1/answers.toml": words, "s2/answers.toml": RIGHT["s2"]})
+    said, _ = grade(course)
+    assert "to check: submissions without readable answers: 1 (s1); see grades.html" in said
+    page = html.unescape((course / "out" / "grades.html").read_text(encoding="utf-8"))
+    assert page.count("no answer can be read; the student's page says why") == 1
 
 
 def test_a_bomb_within_a_zip_takes_neither_room_nor_marks(course: Path, monkeypatch: pytest.MonkeyPatch):

@@ -27,6 +27,7 @@ class StudentRow:
 
 
 NOTHING: Caption = say("not handed in")
+UNREAD: Caption = say("no answer can be read; the student's page says why")
 UNANSWERED = ("missing", "unreadable")
 """Outcomes of an answer of which nothing can be marked."""
 
@@ -51,6 +52,8 @@ def _row(record: Mapping[str, Any], name: str, link: str) -> StudentRow:
         return StudentRow(record["student"], name, None, record["of"], remarks=why, link=link)
     if record["too_exact"]:
         remarks.append(say("as exact as a program"))
+    if is_unanswered(record):
+        remarks.insert(0, UNREAD)
     late = record.get("late", {}).get("hours", 0) > 0
     by_hand = "overrides" in record
     return StudentRow(record["student"], name, record["total"], record["of"], late, by_hand, tuple(remarks), link)
