@@ -211,7 +211,8 @@ def meant(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] |
         letter = next(letter for letter, other in zip(word, latin, strict=True) if letter != other)
         return f"its letter '{letter}' is Cyrillic: type '{name}' in Latin letters"
     near = difflib.get_close_matches(unicodedata.normalize("NFKC", word).casefold(), names, n=1)
-    close = [name for name in known if name.startswith(f"{word}_")] or [names[other] for other in near]
+    alike, begun = names.get(word.casefold()), [name for name in known if name.startswith(f"{word}_")]
+    close = [alike] if alike else begun or [names[other] for other in near]
     return f"did you mean '{close[0]}'?" if close else ""
 
 

@@ -127,7 +127,7 @@ def test_options_reach_the_rooms_below(run, asked):
         (["--out", "/dev/null/out"], "the output '/dev/null/out' cannot be written"),
         (["--out", "file"], "the output 'file' cannot be written"),
         (["--out", "file/below"], "the output 'file/below' cannot be written"),
-        (["flat.toml"], "follower is 'flat-faced', but must be translating; the others are not there yet"),
+        (["flat.toml"], "flat.toml: follower is 'flat-faced', but must be translating; the others are not there yet"),
     ],
 )
 def test_wrong_input_ends_with_one_message(run, asked, tmp_path, words, message):

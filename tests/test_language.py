@@ -46,8 +46,8 @@ SIGNS = {
     "zh": ("Φ", "Φₛ", "Φ′", "Φₛ′"),
 }
 """What the angles of rise, upper dwell, return and lower dwell are called in the textbooks of a language."""
-SHARED = "cos", "sin", "arctan", "rad", "min"
-"""Functions and units, which are the same in every language."""
+SHARED = "cos", "sin", "arctan", "rad", "min", "drawing.divisions", "cam.prime_radius"
+"""Functions, units and keys of task files, which are the same in every language."""
 KEYS = "Page", "Down", "Shift", "JavaScript"
 """What stands on keyboards, and a name."""
 KEYWORDS = {"say": (1,), "say_in": ((1, "c"), 2), "say_many": (1, 2)}

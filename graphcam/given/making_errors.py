@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, Unquoted, nearest
+from graphcam.errors import DesignError, Unquoted, meant, nearest
 from graphcam.given.laws import Floats
 
 Distribution = Literal["normal", "uniform"]
@@ -50,7 +50,7 @@ class Deviations:
     def __post_init__(self) -> None:
         for name in self.sizes:
             if name not in MADE:
-                raise DesignError("sizes", name, f"one of {', '.join(MADE)}", nearest(name, MADE))
+                raise DesignError("sizes", name, f"one of {', '.join(MADE)}", meant(name, MADE))
 
     @property
     def shape(self) -> tuple[int, ...]:

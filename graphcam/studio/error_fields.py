@@ -59,6 +59,7 @@ FIELDS: Mapping[str, str] = {
     "poles[0]": "drawing.poles[0]",
     "poles[1]": "drawing.poles[1]",
     "rounding": "drawing.rounding",
+    "face margin": "follower.face_margin",
     "format": "drawing.format",
     "frame": "drawing.frame",
     "orientation": "drawing.orientation",

@@ -178,7 +178,7 @@ def sizes_of(task: Task) -> dict[str, Any]:
 
     >>> import graphcam as gc
     >>> sizes_of(gc.builtin_task("flat"))
-    {'kind': 'flat-faced'}
+    {'face_margin': None, 'kind': 'flat-faced'}
     """
     return {field.name: getattr(task.follower, field.name) for field in fields(task.follower)}
 

@@ -113,7 +113,9 @@ def check_axes(step: Step, name: str, symbol: str, heights) -> None:
     assert (phi.at, str(phi.text), phi.towards) == (across.end, "φ, °", -1j)
     assert (vertical.at, vertical.towards) == (up.end, -1 - 1j)
     lift, per = BOARDS[name].follower.unit, {"a": "/rad²", "v": "/rad", "s": ""}[symbol]
-    assert str(vertical.text) == f"{symbol}, {lift}{per}"
+    # An arm's angle is told in degrees.
+    unit = "°" if (symbol, lift) == ("s", "rad") else f"{lift}{per}"
+    assert str(vertical.text) == f"{symbol}, {unit}"
 
 
 @EVERY

@@ -378,7 +378,10 @@ def test_the_scales_are_divided_as_is_told(name, hand):
         assert float(value) == pytest.approx(float(y) * float(mu), rel=1e-4, abs=CENTI * float(mu))
         assert float(mu) == pytest.approx(read[symbol].per_mm, rel=1e-4)
         divided = [label for label in step.own if isinstance(label, Label)]
-        heights = [float(str(label.text)) / float(mu) for label in divided]
+        # An arm's angle is told in degrees.
+        said = [str(label.text) for label in divided]
+        values = [math.radians(float(text[:-1])) if text.endswith("°") else float(text) for text in said]
+        heights = [value / float(mu) for value in values]
         assert [label.at.imag for label in divided] == pytest.approx(heights, rel=1e-4)
         assert {label.at.real > 0 for label in divided} == {symbol != "s"}  # from the pole rays run to the axis
 

@@ -78,7 +78,7 @@ def in_russian(name):
     return changed(titled, {"drawing.language": "ru"})
 
 
-NAMES = ("graphcam", "None")
+NAMES = ("graphcam", "None", "drawing.divisions", r"cam.prime\_radius")
 
 
 @pytest.mark.parametrize("name", TASKS)

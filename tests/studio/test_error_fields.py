@@ -168,7 +168,7 @@ def test_fields_agree_with_those_of_task_files():
 def test_fields_are_in_the_form():
     """What is shown beside a field must find it."""
     shown = {field["path"] for name in BUILT_IN for field in form_of(solved(name), str)}
-    of_no_field = {"motion.table", "spring", "drawing.rounding", "drawing.orientation"}
+    of_no_field = {"motion.table", "spring", "drawing.rounding", "drawing.orientation", "follower.face_margin"}
     materials = {f"material.{key.name}" for key in fields(MaterialTable)}
     spring = {"mass", "stiffness", "preload", "acceleration", "friction", "load"}
     springs = {f"spring.{name}" for name in (*spring, "inertia", "at.arm", "at.anchor[0]")}

@@ -178,7 +178,8 @@ def test_a_task_without_ranges_is_told_so(name, tmp_path):
     (tmp_path / "cam.toml").write_text(builtin_text(name), encoding="utf-8")
     result = run(tmp_path / "cam.toml")
     assert result.exit_code == 2
-    assert result.stderr.splitlines()[-1].startswith("graphcam: sizing is missing, but must be a table of the task")
+    said = f"graphcam: {tmp_path / 'cam.toml'}: sizing is missing, but must be a table of the task"
+    assert result.stderr.splitlines()[-1].startswith(said)
 
 
 @pytest.mark.parametrize(
@@ -222,7 +223,7 @@ def test_what_cannot_be_met_is_one_message_with_how_near_it_comes(tmp_path, monk
     assert result.stdout == ""
     # The least stress: of the largest base radius and the widest face.
     assert result.stderr.splitlines()[-1] == (
-        "graphcam: stress is 837.86 MPa, but must be at most 700 MPa; no cam in the ranges keeps it, even without "
+        "graphcam: cam.toml: stress is 837.86 MPa, but must be at most 700 MPa; no cam in the ranges keeps it, even without "
         "the other limits: the nearest has base radius 120, offset 20, roller radius 15, face width 30 mm; widen the "
         "ranges or permit more"
     )

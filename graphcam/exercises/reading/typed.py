@@ -9,7 +9,7 @@ from graphcam.exercises.definition.exercise import Asked
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.values import MINUS, decimal, shown
 
-NUMBER = rf"[-+{MINUS}]?\d{{1,15}}(?:[.,]\d{{1,15}})?"
+NUMBER = rf"[-+{MINUS}]?(?:0|[1-9]\d{{0,14}})(?:[.,]\d{{1,15}})?"
 UNIT = r"[^\W\d_][^\s#=\"'\[\]\\,]{0,19}|[°(][^\s#=\"'\[\]\\,]{0,19}"
 LINE = re.compile(rf"([ \t]*[A-Za-z][A-Za-z0-9_-]*[ \t]*=[ \t]*)({NUMBER}(?:[ \t]*(?:{UNIT}))?)[ \t]*(?:#.*)?\r?")
 """A line that is no TOML and no Python, but says a number to a reader."""
