@@ -224,8 +224,8 @@ def test_what_cannot_be_met_is_one_message_with_how_near_it_comes(tmp_path, monk
     # The least stress: of the largest base radius and the widest face.
     assert result.stderr.splitlines()[-1] == (
         "graphcam: cam.toml: stress is 837.86 MPa, but must be at most 700 MPa; no cam in the ranges keeps it, even "
-        "without the other limits: the nearest has base radius 120, offset 20, roller radius 15, face width 30 mm; widen the "
-        "ranges or permit more"
+        "without the other limits: the nearest has base radius 120, offset 20, roller radius 15, face width 30 mm; "
+        "widen the ranges or permit more"
     )
     assert [path.name for path in tmp_path.iterdir()] == ["cam.toml"]
 
