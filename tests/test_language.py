@@ -59,6 +59,7 @@ def catalog(name: str) -> Catalog:
         return read_po(file, locale=name)
 
 
+@cache
 def texts_of_the_code() -> Catalog:
     found = Catalog()
     settings = tomllib.loads((PACKAGE.parent / "pyproject.toml").read_text(encoding="utf-8"))["tool"]["babel"]
