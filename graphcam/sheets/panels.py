@@ -14,7 +14,7 @@ from graphcam.sheets.expand import Placement, expand
 from graphcam.sheets.fonts import width, wrap
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.model import Entity, Text
-from graphcam.sheets.packing import MESH, Room
+from graphcam.sheets.packing import Room
 from graphcam.sheets.sampling import around, box_of_lines, linework, outermost, sampled
 
 AIR = 3.0
@@ -100,8 +100,7 @@ class Panel:
         high = max(text.at.imag + (LEADING - 0.2) * text.height for text in self.heading)
         # Over a diagram whose axis stands at the left, the title begins at the axis, one under the other in a column.
         left = 4.0 if -content.width / 4 < content.left < 0 else content.left
-        # On a grid, which takes whole cells alone: a title of any width finds its place on one that is a cell wider.
-        room = Room(Box(left, content.top - high, left + wide + MESH, content.top + high + 1.0))
+        room = Room(Box(left, content.top - high, left + wide + 1.0, content.top + high + 1.0))
         room.take_points(self.points, TITLE_AIR)
         title = Box(left, content.top, left + wide, content.top + high)
         by = room.find([title], lambda x, y: y + 100 * x)

@@ -370,6 +370,8 @@ def test_what_was_changed_in_the_grade_book_stays_and_is_told(course: Path):
         assert told == [
             f"Anna, {first}: the grade book keeps 0.25, not 0.5",
             f"Anna, {second}: the grade book keeps its comment",
+            # What is handed in here is the answer key itself.
+            f"to check: readings as exact as by a program: 3 ({', '.join(sorted(IDS))}); see grades.html",
         ]
         with Gradebook(order.gradebook, NAME) as book:
             scores = [book.find_grade(name, "answers", NAME, "Anna").manual_score for name in (first, second)]

@@ -105,10 +105,10 @@ def test_the_command_line_tells_no_answers_of_a_worksheet(tmp_path, monkeypatch)
     whole = CliRunner().invoke(app, ["solve", "cam.toml", "--json"])
     assert "warning" in whole.stderr
     told = CliRunner().invoke(app, ["solve", "cam.toml", "--worksheet", "--out", "out"])
-    sheets = [f"worksheet{end}" for end in (".dxf", ".pdf", ".png", ".svg")]
+    sheets = [f"worksheet{end}" for end in (".dxf", ".pdf", ".png", "-2.png", ".svg", "-2.svg")]
     assert told.stdout.splitlines() == [
         "",
-        "out: 5 files",
+        "out: 7 files",
         f"  {', '.join(sheets)}: the sheet to be finished, true to scale",
         "  solution.json: all of it, for programs",
         "Open first: out/worksheet.pdf (print at 100 %)",

@@ -127,14 +127,6 @@ def test_the_title_stands_in_its_box_and_keeps_off_the_drawing(view):
     assert view.box.holds(view.content)
 
 
-def test_a_title_of_any_length_stands_as_low_as_the_drawing_leaves_room():
-    """The diagram is 60 mm high at its right end alone: no title before that may push its box up."""
-    marks = line(0, 200, 200 + 60j)
-    boxes = [panel(marks, title="i" * count, across="phi", up="a").title_box for count in range(1, 60)]
-    assert len({round(box.right, 1) for box in boxes}) == 59
-    assert len({box.bottom for box in boxes}) == 1
-
-
 def test_the_title_begins_over_the_left_end_of_the_drawing_or_at_the_axis_of_a_diagram():
     assert VIEWS["line"].title_box.left == pytest.approx(4.0)
     assert VIEWS["star"].title_box.left == pytest.approx(VIEWS["star"].content.left)
