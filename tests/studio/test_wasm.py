@@ -167,8 +167,7 @@ def served(folder):
 def test_a_site_works_without_a_network_after_the_first_visit(browser, pyodide, tmp_path):
     write_site(tmp_path / "site", pyodide, builtin("arm"))
     sizes = [len(gzip.compress(path.read_bytes())) for path in (tmp_path / "site").iterdir()]
-    # Each language takes 0.1 MB of it; with English and Russian it was 10.
-    assert sum(sizes) <= 10.2 * MEGABYTE
+    assert sum(sizes) <= 10 * MEGABYTE
     with served(tmp_path / "site") as address, opened(browser, address) as page:
         assert [url for url in page.asked if not url.startswith((address, f"blob:{address}"))] == []
         page.evaluate("navigator.serviceWorker.ready.then(() => true)")
