@@ -14,6 +14,7 @@ import graphcam as gc
 from graphcam.mechanism.sizing import pareto_front
 from graphcam.mechanism.sizing_limits import LIMITS
 from graphcam.mechanism.sizing_region import feasible_region
+from graphcam.mechanism.sizing_search import SPARE
 
 DEG = math.pi / 180
 
@@ -118,8 +119,9 @@ def test_where_pressure_angles_alone_bind_the_closed_form_is_met():
     assert set(sized("both angles").binding) == {"pressure angle on the rise", "pressure angle on the return"}
     tran = sized("2015, angle")
     fixed = gc.minimum_radius(CASES["2015, angle"][0], gc.Translating(), "ccw", rise=25 * DEG, offset=tran.offset)
-    # Where angle and stress bind together the corner is found by iteration: to 1.2e-9 on one machine, 1e-11 on another.
-    assert tran.cam.prime_radius == pytest.approx(fixed.prime_radius, rel=1e-8)
+    # Here the stress binds too, and the corner is found by iteration: as exactly as the search spares, never too small.
+    assert tran.cam.prime_radius >= fixed.prime_radius * (1 - 1e-11)
+    assert tran.cam.prime_radius == pytest.approx(fixed.prime_radius, rel=2 * SPARE)
     assert tran.binding[0] == "pressure angle on the rise"
 
 

@@ -109,7 +109,7 @@ def test_the_pages_of_every_sheet_of_a_built_in_task_are_well_used(name: str) ->
 def test_hardly_any_page_of_a_random_task_is_not_well_used() -> None:
     """Where the views of a page fill it badly and no other has room for them."""
     shares = [share for number in range(0, 48, 2) for share in check(solved(number))[:-1]]
-    # Four of 74 pages; it was three before the sheets had more warnings and marks.
+    # Two of 37 pages; it was one before a warning of two lines made another choice of pages for the task 32.
     assert np.mean(np.array(shares) < LEAST_USED) <= 0.055
     assert min(shares) > 0.4
 
