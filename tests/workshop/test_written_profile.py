@@ -50,7 +50,7 @@ def test_own_laws_and_measured_motions_are_written(tmp_path):
     ("kinds", "part", "said"),
     [
         ("stp", {}, "kinds is 'stp', but must be of csv, dxf, xyz, step, gcode; did you mean 'step'"),
-        ("step", {"bor": 20}, "part is given bor, but must be .*; did you mean 'bore'"),
+        ("step", {"bor": 20}, "part is bor = 20, but must be what a table .part. has; did you mean 'bore'"),
         ("step", {"bore": 200.0}, "bore"),
         ("gcode", {"cutter_radius": -1.0}, "cutter_radius"),
     ],
