@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import difflib
+import math
 import unicodedata
 from collections.abc import Generator, Iterable, Mapping
 from contextlib import contextmanager
@@ -183,6 +184,36 @@ def check_kind(quantity: str, value: object, kinds: type | tuple[type, ...], lim
     article = "an" if names[0] in "AEIO" else "a"
     found = f"of the kind {type(value).__name__}"
     raise DesignError(quantity, Unquoted(found), limit or f"{article} {names}", remedy)
+
+
+def check_number(
+    quantity: str,
+    value: object,
+    limit: str,
+    remedy: str = "",
+    *,
+    least: float = -math.inf,
+    above: float = -math.inf,
+) -> None:
+    """That an argument is a finite number, at least one number and greater than another.
+
+    limit : what is allowed, in words
+
+    Raises
+    ------
+    DesignError : it is not, or it is no number
+
+    >>> check_number("lift", "20", "a finite number greater than 0 mm", above=0)
+    Traceback (most recent call last):
+    graphcam.errors.DesignError: lift is '20', but must be a finite number greater than 0 mm
+    """
+    number: Any = value
+    try:
+        allowed = bool(-math.inf < number < math.inf and number >= least and number > above)
+    except (TypeError, ValueError):  # no number, or many
+        allowed = False
+    if not allowed:
+        raise DesignError(quantity, Unquoted("missing") if value is None else value, limit, remedy)
 
 
 _LOOKALIKES = str.maketrans("АВЕКМНОРСТУХасеорхуі", "ABEKMHOPCTYXaceopxyi")

@@ -40,6 +40,7 @@ TEXTS = {
     "WrongType": (1,),
     "positive": (2,),
     "check_kind": (3, 4),
+    "check_number": (0, 2, 3),
     "progress": (0,),
     "report": (0,),
     "plain": (0,),
@@ -51,7 +52,7 @@ TEXTS = {
 """Which of the arguments of a call are texts."""
 KEYWORDS = {"limit", "expected", "remedy", "kind", "where", "title", "caption", "help"}
 """Arguments by name that are texts."""
-NAMED = {"DesignError": 0, "RowError": 0, "TooLargeError": 0, "TaskError": 1, "_wrong": 0}
+NAMED = {"DesignError": 0, "RowError": 0, "TooLargeError": 0, "TaskError": 1, "_wrong": 0, "check_number": 0}
 """Which of them is a name; one word alone is that of a field, the same in every language."""
 HELPED = {"Option", "Argument", "Typer"}
 """Calls of typer with a help."""

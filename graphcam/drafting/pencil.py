@@ -4,7 +4,6 @@ The default pencil is perfect and deterministic.  A pencil may carry many sample
 has a leading axis of that length, and one run of the arithmetic gives the scatter of all of them.
 """
 
-import math
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -13,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphcam.drafting.acts import Floats, Kind
 from graphcam.drafting.slips import PROTRACTOR, SLIPS
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, check_number
 
 Stream = np.random.Generator | np.random.RandomState
 """Where a hand's errors come from."""
@@ -58,9 +57,7 @@ class Pencil:
 
     def __post_init__(self) -> None:
         for name in ("line", "dividers", "division", "protractor"):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value >= 0):
-                raise DesignError(f"pencil {name}", value, "a finite number of 0 or more")
+            check_number(f"pencil {name}", getattr(self, name), "a finite number of 0 or more", least=0)
         if self.samples is not None and self.samples < 1:
             raise DesignError("pencil samples", self.samples, "1 or more, or None for a single drawing")
         if self.seed < 0:

@@ -5,7 +5,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from graphcam.errors import DesignError
+from graphcam.errors import check_number
 from graphcam.words import Caption, say
 
 Ratios = tuple[float, ...]
@@ -41,8 +41,7 @@ class Scale:
     unit: str
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.per_mm) and self.per_mm > 0):
-            raise DesignError("scale", self.per_mm, f"a finite number of {self.unit} per mm greater than 0")
+        check_number("scale", self.per_mm, f"a finite number of {self.unit} per mm greater than 0", above=0)
 
     def value(self, paper: float) -> float:
         """The machine value of a length on paper: mu times mm."""

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted, check_kind
+from graphcam.errors import DesignError, Unquoted, check_kind, check_number
 from graphcam.given.angular_velocity import MM_PER_M, omega_of
 from graphcam.given.follower_load import Values
 from graphcam.given.laws import Floats
@@ -88,9 +88,7 @@ class ArmLoad:
     def __post_init__(self) -> None:
         per = "N mm/rad" if self.at is None else "N/mm"
         for quantity, unit in (("inertia", "kg mm^2"), ("speed_rpm", "rpm"), ("stiffness", per)):
-            value = getattr(self, quantity)
-            if not (math.isfinite(value) and value >= 0):
-                raise DesignError(quantity, value, f"a finite number of 0 {unit} or more")
+            check_number(quantity, getattr(self, quantity), f"a finite number of 0 {unit} or more", least=0)
         bounded("speed_rpm", self.speed_rpm, "rpm")
         for quantity, unit in (("preload", self.preload_unit), ("acceleration", "rad/s^2")):
             value = getattr(self, quantity)

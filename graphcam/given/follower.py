@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from graphcam.errors import DesignError, meant
+from graphcam.errors import DesignError, check_number, meant
 
 Rotation = Literal["ccw", "cw"]
 SENSES = {
@@ -30,8 +30,10 @@ def sense(rotation: str) -> int:
 
 
 def _check_length(quantity: str, value: float, *, zero: bool) -> None:
-    if not math.isfinite(value) or value < 0 or (value == 0 and not zero):
-        raise DesignError(quantity, value, "a finite length of " + ("0 mm or more" if zero else "more than 0 mm"))
+    if zero:
+        check_number(quantity, value, "a finite length of 0 mm or more", least=0)
+    else:
+        check_number(quantity, value, "a finite length of more than 0 mm", above=0)
 
 
 @dataclass(frozen=True)
@@ -53,8 +55,7 @@ class Translating:
     """The permitted pressure angle on the rise where none is given."""
 
     def __post_init__(self) -> None:
-        if not math.isfinite(self.offset):
-            raise DesignError("offset", self.offset, "a finite length in mm")
+        check_number("offset", self.offset, "a finite length in mm")
         _check_length("roller radius", self.roller_radius, zero=True)
 
 

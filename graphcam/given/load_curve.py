@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_number
 from graphcam.given.laws import Floats
 from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
 
@@ -98,8 +98,8 @@ def check_load(load: Load) -> None:
     ------
     DesignError : it is not
     """
-    if not isinstance(load, LoadCurve) and not math.isfinite(load):
-        raise DesignError("load", load, "a finite number of N, or a table over the turn")
+    if not isinstance(load, LoadCurve):
+        check_number("load", load, "a finite number of N, or a table over the turn")
 
 
 def largest(load: Load) -> float:

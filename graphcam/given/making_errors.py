@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, Unquoted, meant, nearest
+from graphcam.errors import DesignError, Unquoted, check_number, meant, nearest
 from graphcam.given.laws import Floats
 
 Distribution = Literal["normal", "uniform"]
@@ -190,5 +190,5 @@ def _stream(seed: int, name: str) -> np.random.Generator:
 
 
 def _check_tolerance(name: str, value: float) -> None:
-    if not 0 <= value < math.inf:
-        raise DesignError(name, value, "a finite length of 0 mm or more", "a tolerance is the width of a zone")
+    limit = "a finite length of 0 mm or more"
+    check_number(name, value, limit, "a tolerance is the width of a zone", least=0)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_number
 from graphcam.given.fixed_order import summed
 from graphcam.given.laws import Floats
 from graphcam.given.legs import Leg, find_legs
@@ -144,8 +144,7 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     >>> float(np.max(np.abs(motion(phi - motion.zero)[0] - motion.measured))) == motion.greatest_residual
     True
     """
-    if not (math.isfinite(tolerance) and tolerance > 0):
-        raise DesignError("tolerance", tolerance, "a finite number greater than 0")
+    check_number("tolerance", tolerance, "a finite number greater than 0", above=0)
     if tolerance < SMALLEST:
         raise DesignError("tolerance", tolerance, f"at least {SMALLEST:g}", "give what the table was measured to")
     phi, s = check_rows(phi, s, tolerance)

@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_number
 from graphcam.given.laws import Floats, Side, law, law_of_return
 from graphcam.given.motion_law import Law
 from graphcam.given.pieces import Piece, Piecewise, at_rest, chunks, in_phase
@@ -23,14 +23,12 @@ NEARLY = 0.02
 """So much of a turn angles may miss it and still be meant for one, where another unit or argument is looked for."""
 
 
-def _check_positive(quantity: str, value: float, unit: str) -> None:
-    if not (math.isfinite(value) and value > 0):
-        raise DesignError(quantity, value, f"a finite number greater than 0 {unit}")
+def _check_positive(angle: float) -> None:
+    check_number("angle", angle, "a finite number greater than 0 rad", above=0)
 
 
-def _check_angle(angle: float, remedy: str) -> None:
+def _check_turn(angle: float, remedy: str) -> None:
     """That a phase is no longer than a turn: an angle in degrees is told from one in radians by that."""
-    _check_positive("angle", angle, "rad")
     if angle > FULL_TURN + CLOSURE:
         raise DesignError("angle", Unquoted(f"{angle:.6g} rad"), "at most a full turn, 2 pi rad", remedy)
 
@@ -81,7 +79,8 @@ class Dwell:
     direction: ClassVar[int] = 0
 
     def __post_init__(self) -> None:
-        _check_angle(self.angle, f"write math.radians({self.angle:.6g}) if it is in degrees")
+        _check_positive(self.angle)
+        _check_turn(self.angle, f"write math.radians({self.angle:.6g}) if it is in degrees")
 
     @property
     def lift(self) -> float:
@@ -102,11 +101,12 @@ class Moving:
     ratio: float = 1.0
 
     def __post_init__(self) -> None:
-        _check_positive("lift", self.lift, "mm")
+        check_number("lift", self.lift, "a finite number greater than 0 mm", above=0)
+        _check_positive(self.angle)
         in_degrees = f"write math.radians({self.angle:.6g}) if it is in degrees"
         swapped = f"{in_degrees}, or {_swapped(self)} if the two are swapped"
         remedy = swapped if self.lift <= FULL_TURN else in_degrees
-        _check_angle(self.angle, remedy)
+        _check_turn(self.angle, remedy)
         _ = self.normalised  # says at once if there is no such law
 
     @cached_property

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_number
 from graphcam.given.exact_polynomials import PI, shortest
 
 ORDERS = "s", "v", "a", "j"
@@ -40,8 +40,8 @@ class MotionPoint:
     def __post_init__(self) -> None:
         for name in ("angle", *ORDERS):
             number = getattr(self, name)
-            if number is not None and not math.isfinite(number):
-                raise DesignError(name, number, "a finite number")
+            if number is not None:
+                check_number(name, number, "a finite number")
         if not self.given:
             remedy = "give s, v, a or j there, or leave the point out"
             raise DesignError(

@@ -8,7 +8,7 @@ from numbers import Real
 
 import numpy as np
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, check_number
 
 NUMBER = Real, np.ndarray
 """What a number may be, one in an array of no axes too."""
@@ -49,8 +49,7 @@ def positive(quantity: str, value: float | None, unit: str) -> None:
     """
     if value is None:
         return
-    if not 0 < value < math.inf:
-        raise DesignError(quantity, value, f"a finite number greater than 0 {unit}".rstrip())
+    check_number(quantity, value, f"a finite number greater than 0 {unit}".rstrip(), above=0)
     least, most = SENSIBLE.get(unit, (0.0, math.inf))
     if not least <= value <= most:
         raise DesignError(quantity, value, f"from {least:g} to {most:.15g} {unit}", REMEDY)

@@ -1,9 +1,8 @@
 """What cam and follower are made of where they touch: a strip of a certain width, between two elastic bodies."""
 
-import math
 from dataclasses import dataclass
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, check_number
 
 STEEL_YOUNG, STEEL_POISSON = 206000.0, 0.3
 """Young's modulus [MPa] and Poisson's ratio of steel."""
@@ -32,8 +31,7 @@ class RollerContact:
 
     def __post_init__(self) -> None:
         for name, unit in (("width", "mm"), ("young1", "MPa"), ("young2", "MPa")):
-            if not 0 < getattr(self, name) < math.inf:
-                raise DesignError(name, getattr(self, name), f"a finite number greater than 0 {unit}")
+            check_number(name, getattr(self, name), f"a finite number greater than 0 {unit}", above=0)
         for name in ("poisson1", "poisson2"):
             if not 0 <= getattr(self, name) <= 0.5:
                 raise DesignError(name, getattr(self, name), "from 0 to 0.5")

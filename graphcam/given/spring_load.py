@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.errors import DesignError, check_kind
+from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.given.angular_velocity import MM_PER_M, omega_of
 from graphcam.given.follower_load import Values
 from graphcam.given.laws import Floats
@@ -52,9 +52,7 @@ class SpringLoad:
 
     def __post_init__(self) -> None:
         for quantity, unit in (("mass", "kg"), ("speed_rpm", "rpm"), ("stiffness", "N/mm"), ("friction", "N")):
-            value = getattr(self, quantity)
-            if not (math.isfinite(value) and value >= 0):
-                raise DesignError(quantity, value, f"a finite number of 0 {unit} or more")
+            check_number(quantity, getattr(self, quantity), f"a finite number of 0 {unit} or more", least=0)
         bounded("speed_rpm", self.speed_rpm, "rpm")
         for quantity, unit in (("preload", "N"), ("acceleration", "rad/s^2")):
             value = getattr(self, quantity)
@@ -124,8 +122,5 @@ class Guide:
 
     def __post_init__(self) -> None:
         for quantity, unit in (("friction", ""), ("overhang", " mm")):
-            value = getattr(self, quantity)
-            if not (math.isfinite(value) and value >= 0):
-                raise DesignError(quantity, value, f"a finite number of 0{unit} or more")
-        if not (math.isfinite(self.length) and self.length > 0):
-            raise DesignError("length", self.length, "a finite number greater than 0 mm")
+            check_number(quantity, getattr(self, quantity), f"a finite number of 0{unit} or more", least=0)
+        check_number("length", self.length, "a finite number greater than 0 mm", above=0)

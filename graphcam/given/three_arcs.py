@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_number
 from graphcam.given.laws import Floats
 
 Point = Sequence[float] | Floats
@@ -49,8 +49,7 @@ class ThreeArcs:
         for name in ("D", "G", "A", "C1", "C2"):
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, _point(name, getattr(self, name)))
-        if not (math.isfinite(self.rho1) and self.rho1 > 0):
-            raise DesignError("rho1", self.rho1, "a finite radius of more than 0 mm")
+        check_number("rho1", self.rho1, "a finite radius of more than 0 mm", above=0)
         if self.C2 is None and self.A is None:
             raise DesignError("C2", Unquoted("left out"), "given, or A in its place", "give C2, or A to have it found")
         if self.C2 == self.G:

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_number
 from graphcam.given.impact import ROUNDING, Jump
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
@@ -83,8 +83,7 @@ class ArcMotion(Shown):
 
     def __post_init__(self) -> None:
         for quantity, value in (("roller radius", self.roller_radius), ("dwell", self.dwell)):
-            if not (math.isfinite(value) and value >= 0):
-                raise DesignError(quantity, value, "a finite number of 0 or more")
+            check_number(quantity, value, "a finite number of 0 or more", least=0)
         self.cam.check()
         outward = self.cam.outward_normals()
         object.__setattr__(self, "sigma", self.cam.turning())

@@ -14,7 +14,7 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, check_kind
+from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.given.follower import KINDS, Follower, Rotation, sense
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import Motion, wrap
@@ -119,8 +119,7 @@ class Cam(Shown):
     def __post_init__(self) -> None:
         check_kind("motion", self.motion, Motion)
         check_kind("follower", self.follower, KINDS)
-        if not (math.isfinite(self.prime_radius) and self.prime_radius > 0):
-            raise DesignError("prime radius", self.prime_radius, "a finite length of more than 0 mm")
+        check_number("prime radius", self.prime_radius, "a finite length of more than 0 mm", above=0)
         if not self.roller_radius < self.prime_radius:
             limit = f"smaller than the prime radius of {self.prime_radius} mm"
             remedy = "take a smaller roller or enlarge the prime radius"

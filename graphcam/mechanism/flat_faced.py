@@ -3,14 +3,13 @@
 Source: F. Y. Chen, *Mechanics and Design of Cam Mechanisms* (1982), chapter 4.
 """
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal, Self
 
 import numpy as np
 
-from graphcam.errors import DesignError
+from graphcam.errors import check_number
 from graphcam.given.follower import FlatFaced, Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
@@ -181,8 +180,7 @@ def flat_minimum_radius(
     38.0
     """
     least = curvature or 0.0
-    if not (math.isfinite(least) and least >= 0):
-        raise DesignError("minimum radius of curvature", least, "a finite length of 0 mm or more")
+    check_number("minimum radius of curvature", least, "a finite length of 0 mm or more", least=0)
     s, _, a, _ = stationary_places(motion, slope=lambda values: values[1] + values[3]).values
     radius = least - float(np.min(s + a))
     return FlatMinimumRadius(radius, ("curvature",)) if radius > 0 else FlatMinimumRadius(0.0, ())

@@ -25,7 +25,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, check_number
 from graphcam.given.angular_velocity import MM_PER_M, omega_of
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, wrap
@@ -68,15 +68,12 @@ class FollowerTrain:
 
     def __post_init__(self) -> None:
         for quantity, unit in (("mass", "kg"), ("stiffness", "N/mm")):
-            value = getattr(self, quantity)
-            if not 0 < value < math.inf:
-                remedy = "a rigid follower is gc.Contact" if quantity == "stiffness" else ""
-                raise DesignError(quantity, value, f"a finite number greater than 0 {unit}", remedy)
+            remedy = "a rigid follower is gc.Contact" if quantity == "stiffness" else ""
+            limit = f"a finite number greater than 0 {unit}"
+            check_number(quantity, getattr(self, quantity), limit, remedy, above=0)
         check_damping(self.damping)
-        if not 0 <= self.spring < math.inf:
-            raise DesignError("spring", self.spring, "a finite number of 0 N/mm or more")
-        if not math.isfinite(self.preload):
-            raise DesignError("preload", self.preload, "a finite number of N")
+        check_number("spring", self.spring, "a finite number of 0 N/mm or more", least=0)
+        check_number("preload", self.preload, "a finite number of N")
 
     @property
     def angular_frequency(self) -> float:
@@ -105,8 +102,7 @@ class FollowerTrain:
         ------
         DesignError : angle or speed is not positive
         """
-        if not 0 < angle < math.inf:
-            raise DesignError("angle", angle, "a finite number greater than 0 rad")
+        check_number("angle", angle, "a finite number greater than 0 rad", above=0)
         return angle / omega_of(_turning(speed_rpm)) * self.natural_frequency
 
 
@@ -296,6 +292,5 @@ class VibratingFollower(Shown):
 
 
 def _turning(speed_rpm: float) -> float:
-    if not 0 < speed_rpm < math.inf:
-        raise DesignError("speed_rpm", speed_rpm, "a finite number greater than 0 rpm")
+    check_number("speed_rpm", speed_rpm, "a finite number greater than 0 rpm", above=0)
     return speed_rpm

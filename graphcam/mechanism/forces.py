@@ -145,7 +145,23 @@ class CamForces:
     load: SpringLoad | ArmLoad
     guide: Guide = field(default=NO_GUIDE)
     friction: float = 0.0
-    __repr__ = by_parts
+
+    def __repr__(self) -> str:
+        """The parts, and whether the follower keeps to the cam.
+
+        >>> import graphcam as gc
+        >>> print(gc.CamForces(gc.solve(gc.builtin_task()).cam, gc.SpringLoad(0.5, 600, 2, preload=5)))
+        CamForces
+        ...
+          minimum normal force: ... N at ... degrees: contact is lost there; gc.least_preload(cam, load) keeps it
+        """
+        try:
+            least = self.least_normal()
+        except DesignError as error:
+            return f"{by_parts(self)}\n  {error}"
+        said = f"{by_parts(self)}\n  minimum normal force: {least.value:.4g} N at {math.degrees(least.phi):.4g} degrees"
+        lost = ": contact is lost there; gc.least_preload(cam, load) keeps it"
+        return said + (lost if least.value < 0 else "")
 
     def __post_init__(self) -> None:
         check_kind("cam", self.cam, Cam)

@@ -13,7 +13,7 @@ from typing import NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted, check_kind
+from graphcam.errors import DesignError, Unquoted, check_kind, check_number
 from graphcam.given.laws import Floats, Side
 from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG, RollerContact
 from graphcam.mechanism.forces import CamForces
@@ -57,8 +57,7 @@ def hertz_line_contact(
     >>> round(gc.hertz_line_contact(1000, 20, radius1=-20, radius2=15).peak_pressure, 6)
     173.273583
     """
-    if not (math.isfinite(force) and force >= 0):
-        raise DesignError("force", force, "a finite number of 0 N or more")
+    check_number("force", force, "a finite number of 0 N or more", least=0)
     stiffness = RollerContact(width, young1, young2, poisson1, poisson2).modulus
     bend = _relative_curvature(radius1, radius2)
     load = force / width / math.pi
@@ -122,7 +121,14 @@ class ContactStress:
 
     forces: CamForces
     contact: RollerContact
-    __repr__ = by_parts
+
+    def __repr__(self) -> str:
+        """The parts, and the maximum."""
+        try:
+            most = self.greatest()
+        except DesignError as error:
+            return f"{by_parts(self)}\n  {error}"
+        return f"{by_parts(self)}\n  maximum pressure: {most.value:.4g} MPa at {math.degrees(most.phi):.4g} degrees"
 
     def __post_init__(self) -> None:
         check_kind("forces", self.forces, CamForces, remedy="CamForces(cam, load) has them")
@@ -183,8 +189,7 @@ class ContactStress:
 
     def least_width(self, permitted: float) -> float:
         """The width [mm] at which the maximum peak pressure is the permitted one [MPa]; p^2 falls as 1/width."""
-        if not (math.isfinite(permitted) and permitted > 0):
-            raise DesignError("permitted stress", permitted, "a finite number greater than 0 MPa")
+        check_number("permitted stress", permitted, "a finite number greater than 0 MPa", above=0)
         return self.contact.width * (self.greatest().value / permitted) ** 2
 
     def slope(self, places: Places) -> Floats:

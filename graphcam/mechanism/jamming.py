@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.errors import DesignError
+from graphcam.errors import check_number
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
@@ -77,8 +77,7 @@ def check_friction(friction: float) -> None:
     ------
     DesignError : it is negative or not finite
     """
-    if not (math.isfinite(friction) and friction >= 0):
-        raise DesignError("friction", friction, "a finite number of 0 or more")
+    check_number("friction", friction, "a finite number of 0 or more", least=0)
 
 
 def contact_angle(kin: Kinematics, values: Values) -> tuple[Floats, Floats, Floats]:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.errors import DesignError
+from graphcam.errors import check_number
 from graphcam.given.follower import Translating
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
@@ -66,8 +66,7 @@ def translating_minimum_radius(
     if offset is None:
         across, s0, active = _nearest(slope, height, lines)
         return MinimumRadius(math.hypot(across, s0), sigma * across, active)
-    if not math.isfinite(offset):
-        raise DesignError("offset", offset, "a finite length in mm", "leave it out to let it be found")
+    check_number("offset", offset, "a finite length in mm", "leave it out to let it be found")
     place = sigma * offset
     heights: dict[Line, float] = {"rise": (height - place) / slope}
     heights |= {name: (height + place) / slope for name, slope, height in lines}

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_number
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.limits import PERMITTED
@@ -57,8 +57,7 @@ class SizingLimits:
     friction: float = 0.0
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.stress) and self.stress > 0):
-            raise DesignError("permitted stress", self.stress, "a finite number greater than 0 MPa")
+        check_number("permitted stress", self.stress, "a finite number greater than 0 MPa", above=0)
         for name, angle in (("rise", self.rise), ("return", self.return_)):
             if angle is not None and not 0 < angle < math.pi / 2:
                 quantity, limit = PERMITTED[name], "between 0 and 90 degrees, both excluded"

@@ -1,10 +1,9 @@
 """The table ``[sizing]`` of a task file: between what sizes the best cam is sought, and what best means."""
 
-import math
 from dataclasses import dataclass
 from typing import Literal
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_number
 from graphcam.given.ranges import bounded, positive
 
 RangeTable = float | tuple[float, float]
@@ -62,5 +61,4 @@ RANGES = "prime_radius", "base_radius", "offset", "roller_radius", "width"
 
 
 def _finite(name: str, value: float) -> None:
-    if not math.isfinite(value):
-        raise DesignError(name, value, "a finite number of mm")
+    check_number(name, value, "a finite number of mm")

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, check_number
 from graphcam.given.arm_load import ArmLoad, ArmSpring
 from graphcam.given.load_curve import Load, LoadCurve
 from graphcam.given.ranges import bounded, positive
@@ -30,8 +30,8 @@ def load_of(said: LoadTable) -> Load:
 
 def _check_common(stiffness: float, stiffness_unit: str, preload: float | None, preload_unit: str) -> None:
     positive("stiffness", stiffness, stiffness_unit)
-    if preload is not None and not (math.isfinite(preload) and preload >= 0):
-        raise DesignError("preload", preload, f"a finite number of 0 {preload_unit} or more")
+    if preload is not None:
+        check_number("preload", preload, f"a finite number of 0 {preload_unit} or more", least=0)
     bounded("preload", preload, preload_unit)
 
 

@@ -145,10 +145,10 @@ def test_the_handouts_given_back_are_no_submission(course: Path):
         },
     )
     said, _ = grade(course)
-    assert said.startswith("1 submissions, ")
+    assert said.startswith("submissions graded: 1, ")
     assert "not handed in: s1, s3" in said
     page = (course / "out" / "grades.html").read_text(encoding="utf-8")
-    assert f"1 submissions, {EXERCISE.marks:.1f} of" in page
+    assert f"Submissions: 1. Marks on average: {EXERCISE.marks:.1f} of" in page
     rows = {row["student"]: row for row in table(course)}
     assert (rows["s1"]["total"], rows["s1"][EXERCISE.answers[0].name], rows["s1"]["name"]) == ("", "", "Anna Berg")
     assert list(rows["s2"])[-1] == "name"

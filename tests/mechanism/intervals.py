@@ -21,7 +21,7 @@ from graphcam.given.follower import FlatFaced, Oscillating, Translating
 from graphcam.given.motion import Dwell
 from graphcam.mechanism.cam import Cam
 
-iv.dps = mp.dps = 30
+iv.dps, mp.dps = 30, 50
 SLACK = mpf(10) ** -15
 """Where all derivatives vanish at an end, the bound exceeds what is reached by no more than this part of it."""
 TOO_NARROW = mpf(10) ** -25

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import radians
+from math import inf, nan, radians
 
 import numpy as np
 import pytest
@@ -71,3 +71,29 @@ def test_an_arm_with_a_lift_in_another_unit_is_told_the_unit():
         gc.Cam(motion, gc.Oscillating(120, 130, 12), 50)
     with pytest.raises(gc.DesignError, match=said):
         gc.minimum_radius(motion, gc.Oscillating(120))
+
+
+NUMBERS = {
+    "lift": lambda x: gc.Rise(x, 1.0),
+    "angle": lambda x: gc.Return(10, x),
+    "prime radius": lambda x: gc.Cam(MOTION, gc.Translating(0, 10), x),
+    "offset": lambda x: gc.Translating(offset=x),
+    "roller radius": lambda x: gc.Translating(roller_radius=x),
+    "arm": lambda x: gc.Oscillating(arm=x, distance=100),
+    "mass": lambda x: gc.SpringLoad(x, 600, 5),
+    "stiffness": lambda x: gc.ArmLoad(2000, 300, x),
+    "overhang": lambda x: gc.Guide(0.1, x, 40),
+    "friction": lambda x: gc.CamForces(CAM, LOAD, friction=x),
+    "width": gc.RollerContact,
+    "permitted stress": lambda x: gc.ContactStress(FORCES, CONTACT).least_width(x),
+    "pencil line": lambda x: gc.Pencil(line=x),
+    "tolerance": lambda x: gc.measured_motion(np.linspace(0, 6, 60), np.zeros(60), x),
+}
+
+
+@pytest.mark.parametrize("value", ["20", [1, 2], np.array([1.0, 2.0]), 1j, nan, inf], ids=repr)
+@pytest.mark.parametrize("quantity", NUMBERS)
+def test_what_is_no_finite_number_is_told_by_name(quantity, value):
+    with pytest.raises(gc.DesignError, match=f"^{quantity} is ") as told:
+        NUMBERS[quantity](value)
+    assert str(value) in str(told.value)

@@ -90,7 +90,7 @@ def solved(number: int) -> AnySolution:
     raise AssertionError("five tasks in a row without a cam")
 
 
-CROWDED = {59: "r₀ мин = 35,69"}
+CROWDED = {47: "центральный (e = 0)", 59: "r₀ мин = 35,69"}
 """Texts for which there is no place off every line: among the lines of a region of a few centimetres."""
 
 

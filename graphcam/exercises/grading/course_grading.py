@@ -283,7 +283,7 @@ def _graded(
     if assignment.memory:
         level = plain(f"{course.level} (memory watched, {assignment.memory} MiB for all processes)")
     listed = ", ".join(files)
-    done = plain(f"{len(graded)} submissions, graded at level {level}, in {course.out.parent}: {listed}")
+    done = plain(f"submissions graded: {len(graded)}, at level {level}; in {course.out.parent}: {listed}")
     return "\n".join([done, *map(_line, told)])
 
 
