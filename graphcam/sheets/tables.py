@@ -121,7 +121,8 @@ def _columns(table: Table, height: float) -> list[_Column]:
         # A header is as wide as what stands below it, but in no more than two or three lines.
         lines = wrap(cells[0], height, max(below, 0.6 * width(cells[0], height)))
         wanted = max(below, _widest(lines, height))
-        least = max((width(word, height) for cell in cells for _, word in words_of(cell)), default=0.0)
+        # A cell of spaces alone is room to write in.
+        least = max(width(word, height) for cell in cells for word in ([w for _, w in words_of(cell)] or [cell]))
         found.append(_Column(cells, max(wanted, least) + MARGIN * height, least + MARGIN * height))
     return found
 

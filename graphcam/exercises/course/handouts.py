@@ -1,5 +1,6 @@
 """What a student gets: notebook, file for the answers, worksheet, task file; and what the teacher gets."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -36,9 +37,10 @@ KEY_COLUMNS = (say("name"), say("unit"), say("value"), say_in("of an answer", "t
 
 
 def instructions(variant: Variant) -> str:
-    """The exercise's text with the variant's numbers, its lines joined."""
+    """The exercise's text with the variant's numbers, its lines joined; no space follows a Chinese sign."""
     exercise = variant.exercise
-    return " ".join(sentence(exercise.text, variant.parameters, exercise.tell).split())
+    joined = " ".join(sentence(exercise.text, variant.parameters, exercise.tell).split())
+    return re.sub("(?<=[，。；：？！]) ", "", joined)
 
 
 def answer_file(exercise: Exercise, head: Sequence[str] = ()) -> str:
@@ -96,7 +98,7 @@ def worksheet(variant: Variant, student: Student) -> Drawing:
 
 def answer_table(exercise: Exercise) -> Table:
     """The table for the answers, to be filled in."""
-    blanks = [say("see the drawing") if asked.layer else " " * 16 for asked in exercise.answers]
+    blanks = [say("see the drawing") if asked.layer else " " * 12 for asked in exercise.answers]
     rows = tuple((a.text, a.name, a.unit_said, blank) for a, blank in zip(exercise.answers, blanks, strict=True))
     return Table(say("Answers"), (say("question"), say("name"), say("unit"), say("answer")), rows)
 
