@@ -68,7 +68,7 @@ def box(page: Page, selector: str) -> dict[str, float]:
     return found
 
 
-@each_window
+@pytest.mark.parametrize("window", [*WINDOWS.values(), (736, 736), (360, 640), (320, 568)])
 @pytest.mark.parametrize("tab", ["construction", "mechanism"])
 def test_the_drawing_keeps_half_of_the_window_and_nothing_covers_another(solved, opened, window, tab):
     page = opened(solved("pages").file, *window)
@@ -89,6 +89,9 @@ def test_the_drawing_keeps_half_of_the_window_and_nothing_covers_another(solved,
     if tab == "construction":
         counter, tools = box(page, "#place"), box(page, "#follow")
         assert counter["x"] + counter["width"] <= tools["x"] or counter["y"] >= tools["y"] + tools["height"]
+        row = box(page, "#construction .zoom")
+        assert row["y"] <= tools["y"]
+        assert tools["y"] + tools["height"] <= row["y"] + row["height"], "the buttons are cut off"
 
 
 LETTERS = """() => [...document.querySelectorAll("#stage .page:not(.away) :is(.step, .titles) text")]
