@@ -173,7 +173,7 @@ def instead(node: ast.AST) -> Iterator[ast.AST]:
         case ast.Constant(value=bool(value)):
             yield ast.Constant(not value)
         case ast.Constant(value=complex(imag=value)):
-            yield ast.Constant(-1j * value if value else 1j)
+            yield ast.Constant(complex(0.0, -value) if value else 1j)
         case ast.Constant(value=int(value) | float(value)):
             yield ast.Constant(value + 1)
         case ast.Name(id=name) if any(name in pair for pair in FUNCTIONS):

@@ -101,4 +101,5 @@ class ArcFlank:
 
 
 def _shown(point: Point) -> Unquoted:
-    return Unquoted(f"({point[0]:.6g}, {point[1]:.6g})")
+    x, y = point
+    return Unquoted(f"({x + 0.0:.6g}, {y + 0.0:.6g})")  # with no sign at 0

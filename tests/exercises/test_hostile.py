@@ -105,6 +105,7 @@ FORMATS = {
     "SPLINE",
     "INSUNITS",
     "nan",
+    "inf",
     "href",
     "cmd",
     "calc",

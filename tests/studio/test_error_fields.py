@@ -18,7 +18,7 @@ from graphcam.tasks.material_table import MaterialTable
 PACKAGE = Path(gc.__file__).parent
 ROOMS = "comparison", "constructions", "drafting", "given", "mechanism", "solving", "tasks"
 """What a task that is drawn and computed goes through."""
-CHECKS = "DesignError", "RowError", "positive", "bounded", "one_of", "_check_length", "_check_positive", "check_kind"
+CHECKS = "DesignError", "RowError", "positive", "bounded", "one_of", "_check_length", "check_number", "check_kind"
 """What raises, and which argument names the quantity."""
 NOT_REACHED = {
     "exact counterpart": "a construction of the package itself names its counterpart",
@@ -134,7 +134,8 @@ def of_variables():
 
 
 def raises_of_variables(function):
-    calls = [node for node in ast.walk(function) if getattr(getattr(node, "func", None), "id", "") == "DesignError"]
+    called = "DesignError", "check_number"
+    calls = [node for node in ast.walk(function) if getattr(getattr(node, "func", None), "id", "") in called]
     return any(isinstance(call.args[0], ast.Name) for call in calls)
 
 

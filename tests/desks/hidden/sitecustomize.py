@@ -4,6 +4,7 @@ What Python itself is made of here stays Unix: the modules of the standard libra
 first, and the few names that they look up when they are called are not hidden.
 """
 
+import asyncio  # noqa: F401
 import multiprocessing.context
 import multiprocessing.popen_spawn_posix
 import multiprocessing.process
@@ -39,6 +40,7 @@ for module, names in ((os, OF_OS), (signal, OF_SIGNAL)):
             delattr(module, name)
 os.supports_dir_fd, os.supports_fd, os.supports_follow_symlinks = set(), set(), set()
 shutil._use_fd_functions = False
+shutil._rmtree_impl = shutil._rmtree_unsafe  # Python 3.14 has chosen by now
 opened, listed = os.open, os.listdir
 
 
