@@ -194,8 +194,9 @@ def check_number(
     *,
     least: float = -math.inf,
     above: float = -math.inf,
+    most: float = math.inf,
 ) -> None:
-    """That an argument is a finite number, at least one number and greater than another.
+    """That an argument is a finite number, at least one number, greater than another and at most a third.
 
     limit : what is allowed, in words
 
@@ -209,7 +210,7 @@ def check_number(
     """
     number: Any = value
     try:
-        allowed = bool(-math.inf < number < math.inf and number >= least and number > above)
+        allowed = bool(-math.inf < number < math.inf and least <= number <= most and number > above)
     except (TypeError, ValueError):  # no number, or many
         allowed = False
     if not allowed:

@@ -2,8 +2,9 @@
 
 import math
 from dataclasses import dataclass
+from numbers import Real
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError, Unquoted, check_kind
 from graphcam.given.follower import Translating
 
 QUARTER_TURN = math.pi / 2
@@ -40,6 +41,8 @@ class Limits:
 
     def __post_init__(self) -> None:
         back = self.return_
+        for name, angle in (("rise", self.rise), ("return", 0.0 if back is None else back)):
+            check_kind(PERMITTED[name], angle, Real, "an angle in rad", "30 degrees are math.radians(30)")
         if not (0 < self.rise < QUARTER_TURN and (back is None or 0 < back < QUARTER_TURN)):
             name, value = ("return", back) if 0 < self.rise < QUARTER_TURN else ("rise", self.rise)
             given, limit = math.degrees(value or 0.0), "between 0 and 90 degrees, both excluded"

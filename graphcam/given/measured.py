@@ -208,7 +208,10 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
     ------
     RowError : a row that cannot be, the first there is
     """
-    phi, values = np.asarray(phi, dtype=np.float64), np.asarray(values, dtype=np.float64)
+    try:
+        phi, values = np.asarray(phi, dtype=np.float64), np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise DesignError("table", Unquoted("not of numbers"), "a list of cam angles and one of values") from None
     if phi.ndim != 1 or phi.shape != values.shape:
         shapes = f"{phi.shape} and {values.shape}"
         raise DesignError(

@@ -1,7 +1,7 @@
 """The follower's motion over one revolution: phases one after another, and the values at any cam angle."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -10,7 +10,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError, Unquoted, check_number
+from graphcam.errors import DesignError, Unquoted, check_kind, check_number
 from graphcam.given.laws import Floats, Side, law, law_of_return
 from graphcam.given.motion_law import Law
 from graphcam.given.pieces import Piece, Piecewise, at_rest, chunks, in_phase
@@ -200,7 +200,10 @@ class Motion(Shown):
     """s and its derivatives over the turn: the pieces of the laws, and the dwells"""
 
     def __post_init__(self) -> None:
+        check_kind("phases", self.phases, Iterable, "a list of rises, dwells and returns")
         phases = tuple(self.phases)
+        for phase in phases:
+            check_kind("phase", phase, (Rise, Dwell, Return))
         angles = [phase.angle for phase in phases]
         steps = [phase.direction * phase.lift for phase in phases]
         for direction, found, remedy in (

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from graphcam.errors import DesignError, check_number
+from graphcam.errors import check_number
 
 STEEL_YOUNG, STEEL_POISSON = 206000.0, 0.3
 """Young's modulus [MPa] and Poisson's ratio of steel."""
@@ -33,8 +33,7 @@ class RollerContact:
         for name, unit in (("width", "mm"), ("young1", "MPa"), ("young2", "MPa")):
             check_number(name, getattr(self, name), f"a finite number greater than 0 {unit}", above=0)
         for name in ("poisson1", "poisson2"):
-            if not 0 <= getattr(self, name) <= 0.5:
-                raise DesignError(name, getattr(self, name), "from 0 to 0.5")
+            check_number(name, getattr(self, name), "from 0 to 0.5", least=0, most=0.5)
 
     @property
     def modulus(self) -> float:

@@ -30,7 +30,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError
+from graphcam.errors import check_number
 from graphcam.given.laws import Floats
 from graphcam.given.pieces import CHUNK
 
@@ -72,9 +72,8 @@ def check_damping(damping: float) -> None:
     ------
     DesignError : it is negative, not a number, or more than :data:`MOST_DAMPING`
     """
-    if not 0 <= damping <= MOST_DAMPING:
-        limit = f"a ratio to the critical damping from 0 to {MOST_DAMPING:g}"
-        raise DesignError("damping", damping, limit, "2 % is 0.02")
+    limit = f"a ratio to the critical damping from 0 to {MOST_DAMPING:g}"
+    check_number("damping", damping, limit, "2 % is 0.02", least=0, most=MOST_DAMPING)
 
 
 @dataclass(frozen=True, eq=False)

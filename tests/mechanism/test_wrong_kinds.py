@@ -21,6 +21,10 @@ POINTS = [gc.MotionPoint(0, s=0, v=0, a=0), gc.MotionPoint(1, s=1, v=0, a=0)]
 NONE = np.zeros(0)
 WRONG = {
     "follower is of the kind int, but must be a Translating, Oscillating or FlatFaced": lambda: gc.Cam(MOTION, 40, 10),
+    "the rise is of the kind str, but must be an angle in rad; 30 degrees are": lambda: gc.Limits("30"),
+    "phase is of the kind int, but must be a Rise, Dwell or Return": lambda: gc.Motion([1, 2]),
+    "phases is of the kind Dwell, but must be a list of rises, dwells and returns": lambda: gc.Motion(gc.Dwell(1)),
+    "table is not of numbers, but must be a list of cam angles": lambda: gc.measured_motion("a", "b", 0.1),
     "motion is of the kind Cam, but must be a Motion": lambda: gc.Cam(CAM, gc.Translating(), 40),
     "cam is of the kind Motion, but must be a Cam": lambda: gc.CamForces(MOTION, LOAD),
     "guide is of the kind float, but must be a Guide; friction": lambda: gc.CamForces(CAM, LOAD, 0.1),
@@ -87,6 +91,8 @@ NUMBERS = {
     "width": gc.RollerContact,
     "permitted stress": lambda x: gc.ContactStress(FORCES, CONTACT).least_width(x),
     "pencil line": lambda x: gc.Pencil(line=x),
+    "damping": lambda x: gc.FollowerTrain(1, 1000, damping=x),
+    "poisson1": lambda x: gc.RollerContact(10, poisson1=x),
     "tolerance": lambda x: gc.measured_motion(np.linspace(0, 6, 60), np.zeros(60), x),
 }
 

@@ -45,7 +45,7 @@ NOT_REACHED = {
     "range of the *": "sizing stands in Python and in exercises only",
     "sizes": "deviations stand in Python only",
     **dict.fromkeys(
-        ("motion", "follower", "cam", "guide", "forces", "contact", "deviations", "task", "parts[*]"),
+        ("motion", "phase", "follower", "cam", "guide", "forces", "contact", "deviations", "task", "parts[*]"),
         "kinds of arguments are checked in Python only",
     ),
     "damping": "elastic followers stand in Python only",
