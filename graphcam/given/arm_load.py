@@ -92,9 +92,9 @@ class ArmLoad:
         bounded("speed_rpm", self.speed_rpm, "rpm")
         for quantity, unit in (("preload", self.preload_unit), ("acceleration", "rad/s^2")):
             value = getattr(self, quantity)
-            check_kind(quantity, value, NUMBER, f"a number of {unit}", "write spring_preload(...).preload")
-            if not math.isfinite(value):
-                raise DesignError(quantity, value, f"a finite number of {unit}")
+            if isinstance(value, tuple):  # all that is said of the preload, in place of the number alone
+                check_kind(quantity, value, NUMBER, f"a number of {unit}", "write spring_preload(...).preload")
+            check_number(quantity, value, f"a finite number of {unit}")
         check_load(self.load)
 
     @property

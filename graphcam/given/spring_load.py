@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.errors import DesignError, check_kind, check_number
+from graphcam.errors import check_kind, check_number
 from graphcam.given.angular_velocity import MM_PER_M, omega_of
 from graphcam.given.follower_load import Values
 from graphcam.given.laws import Floats
@@ -56,9 +56,9 @@ class SpringLoad:
         bounded("speed_rpm", self.speed_rpm, "rpm")
         for quantity, unit in (("preload", "N"), ("acceleration", "rad/s^2")):
             value = getattr(self, quantity)
-            check_kind(quantity, value, NUMBER, f"a number of {unit}", "write spring_preload(...).preload")
-            if not math.isfinite(value):
-                raise DesignError(quantity, value, f"a finite number of {unit}")
+            if isinstance(value, tuple):  # all that is said of the preload, in place of the number alone
+                check_kind(quantity, value, NUMBER, f"a number of {unit}", "write spring_preload(...).preload")
+            check_number(quantity, value, f"a finite number of {unit}")
         check_load(self.load)
 
     @property

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import check_kind
+from graphcam.errors import DesignError, Unquoted, check_kind
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats, Side
@@ -144,6 +144,12 @@ class Contact:
     motion: Motion
     load: FollowerLoad
     __repr__ = by_parts
+
+    def __post_init__(self) -> None:
+        check_kind("motion", self.motion, Motion, remedy="of a cam take cam.motion")
+        if isinstance(self.load, ArmLoad):
+            remedy = "take CamForces(cam, load).pressing"
+            raise DesignError("load", Unquoted("an ArmLoad"), "that load in its place beside the cam", remedy)
 
     def least_force(self) -> ValueAt:
         """The minimum xi over the turn [N], both sides of every jump included; of equal ones the first."""

@@ -142,7 +142,11 @@ class ContactStress:
     @overload
     def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Stresses: ...
     def at(self, phase: ArrayLike, u: ArrayLike | None = None, side: Side = "right") -> Stresses:
-        """The contact at cam angles phi [rad], or at fractions of phases, as :meth:`CamForces.at` takes them."""
+        """The contact at cam angles phi [rad], or at fractions of phases, as :meth:`CamForces.at` takes them.
+
+        The fields of what it returns, each an array of that shape: phi [rad], force [N], profile_radius [mm],
+        peak_pressure [MPa], half_width [mm].
+        """
         return self.of(places_told(self.forces.cam.motion, phase, u, side))
 
     def of(self, places: Places) -> Stresses:

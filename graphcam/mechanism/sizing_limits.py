@@ -191,7 +191,7 @@ def margins(limits: SizingLimits, places: TurnPlaces, sizes: Sizes, sigma: int) 
         """What is left (..., n) of what a term of the rule permits."""
         if term.of == "rho":
             return 1 - (sizes.roller + term.margin) * at.kappa / term.factor
-        return np.broadcast_to(1 - sizes.roller / (term.factor * sizes.radius), at.kappa.shape)
+        return 1 - sizes.roller / (term.factor * sizes.radius) + np.zeros_like(at.kappa)
 
     def rule(of: str) -> Floats:
         """What is left (..., n) of all terms of a kind."""

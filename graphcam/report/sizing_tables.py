@@ -46,13 +46,16 @@ def front_table(front: Sequence[SizedCam]) -> Table:
     """The cams of a front: sizes, stress with the widest face, and the least width for the permitted stress."""
     measure = front[0].problem.measure
     header = (
-        *(say("{size}, mm", size=SIZES[name]) for name in (measure, "offset", "roller radius")),
+        *(say("{size}, mm", size=SIZES[name]) for name in (measure, "offset", "roller radius", "face width")),
         say("stress, MPa"),
         say("minimum width, mm"),
     )
     rows = tuple(
         (
-            *(say("{value:.2f}", value=round(x, 2) + 0.0) for x in (cam.radius, cam.offset, cam.cam.roller_radius)),
+            *(
+                say("{value:.2f}", value=round(x, 2) + 0.0)
+                for x in (cam.radius, cam.offset, cam.cam.roller_radius, cam.face_width)
+            ),
             say("{value:.1f}", value=cam.stress),
             say("{value:.2f}", value=cam.least_width),
         )

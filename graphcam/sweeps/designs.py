@@ -131,11 +131,11 @@ class Designs:
         return (lift > 0) & (lift < np.inf) & (rise > 0) & (back > 0) & (dwell >= 0) & (self.low_dwell >= 0)
 
     def check_units(self) -> None:
-        """That angles are no degrees: beyond a turn, in every design, they were meant to be.
+        """That angles are no degrees: beyond a turn, in every design, they were meant to be; that sizes are positive.
 
         Raises
         ------
-        DesignError : no angle of one kind is within a turn, or no lift of the arms is
+        DesignError : no angle of one kind is within a turn, no lift of the arms is, or no size of one kind is positive
 
         >>> import graphcam as gc
         >>> gc.Designs(lift=30, rise_angle=120, return_angle=90, prime_radius=[40, 50]).check_units()
@@ -147,6 +147,16 @@ class Designs:
             if FULL_TURN + CLOSURE < angle < np.inf:
                 remedy = f"write math.radians({angle:.6g}) if it is in degrees"
                 raise DesignError(name, Unquoted(f"{angle:.6g} rad"), "at most a full turn, 2 pi rad", remedy)
+        radians, lengths = "a finite number greater than 0 rad", "a finite number greater than 0 mm"
+        for name, limit in (
+            ("lift", "a finite number greater than 0"),
+            ("rise_angle", radians),
+            ("return_angle", radians),
+            ("prime_radius", lengths),
+        ):
+            most = float(np.max(getattr(self, name), initial=-np.inf))
+            if -np.inf < most <= 0:
+                raise DesignError(name, most, limit)
         lift = float(np.min(self.lift, initial=np.inf))
         if "arm" in OWN[self.follower] and FULL_TURN < lift < np.inf:
             remedy = swing_remedy(lift, "swing the arm less")

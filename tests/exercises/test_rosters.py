@@ -16,9 +16,18 @@ ROSTERS = {
     "a Chinese office": ("姓名,学号\nEva Müller,214500\n", "学号"),
     "a Vietnamese office": ("STT,MSSV,Họ,Tên\n1,214500,Eva,Müller\n", "MSSV"),
     "English": ("Student number,Name\n214500,Eva Müller\n", "Student number"),
+    "Moodle in German": ("Vorname;Nachname;ID-Nummer;E-Mail-Adresse\nEva;Müller;214500;e@uni.example\n", "ID-Nummer"),
     "one column": ("Matrikelnummer\n214500\n", "Matrikelnummer"),
     "a heading of no system": ("Kennung;Name\n214500;Eva Müller\n", "Kennung"),
 }
+
+
+@pytest.mark.parametrize("heading", ["First name,Last name", "name,group", "ФИО;Группа"])
+def test_a_heading_of_names_alone_is_no_student(tmp_path: Path, heading: str):
+    path = tmp_path / "roster.csv"
+    path.write_text(f"{heading}\nAnna,Berg\nBoris,Petrov\n", encoding="utf-8")
+    with pytest.raises(TaskError, match="the column of ids is missing, but must be given; add a column 'id'"):
+        read_roster(path)
 
 
 @pytest.mark.parametrize("system", ROSTERS)

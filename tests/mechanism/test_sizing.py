@@ -151,6 +151,16 @@ def test_the_cam_that_was_found_is_the_lowest_point_of_the_region():
             assert np.all((region.least >= border - 1e-6) | np.isnan(region.least) | np.isnan(border))
 
 
+def test_a_region_over_the_offset_takes_a_rule_with_the_prime_radius():
+    """The usual rule, min(0.7 rho, 0.4 r0), where offset and roller both have ranges."""
+    motion, load, asked = CASES["angle and stress"]
+    found = gc.size_cam(motion, load, **asked, roller_rule="min(0.7 rho, 0.4 r0)")
+    region = feasible_region(found.problem, parts=40)
+    assert found.cam.roller_radius <= 0.4 * found.cam.prime_radius * (1 + 1e-12)
+    assert np.nanmin(region.least) == pytest.approx(found.cam.prime_radius, abs=np.diff(region.values)[0])
+    assert len(gc.sizing_sheet(found).pages) == 1
+
+
 def test_the_sheet_of_the_region_is_drawn(tmp_path):
     from graphcam.sheets.matplotlib_renderer import write_pdf, write_png
     from graphcam.sheets.model import Text

@@ -13,7 +13,7 @@ from overlaps import overlaps
 from scene import SHEETS, TITLE
 
 from graphcam.errors import DesignError
-from graphcam.language import language
+from graphcam.language import language, languages
 from graphcam.sheets.box import Box
 from graphcam.sheets.fonts import width, wrap
 from graphcam.sheets.formats import MARGINS, Format
@@ -427,7 +427,7 @@ def test_what_fits_its_field_in_no_standard_letters_is_refused_by_its_name_and_l
         assert title_block(frame_name, 0j, TitleBlock(**{field: ("long " * 400)[:fits]}), 1, 1)
 
 
-@pytest.mark.parametrize("tell", [str, language("ru").text], ids=["en", "ru"])
+@pytest.mark.parametrize("tell", [language(name).text for name in languages()], ids=languages())
 @pytest.mark.parametrize("paper", EVERY, ids=repr)
 def test_an_empty_sheet_is_lettered_in_standard_heights(paper, tell):
     heights = {e.height for e in frame(paper, NAMED, 1, 1, tell).entities if isinstance(e, Text)}

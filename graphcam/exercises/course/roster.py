@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from graphcam.errors import TaskError, Unquoted
-from graphcam.exercises.course.roster_columns import at, roster_columns
+from graphcam.exercises.course.roster_columns import at, names_alone, roster_columns
 from graphcam.exercises.course.spreadsheet import read_table
 from graphcam.words import Caption, say
 
@@ -86,7 +86,11 @@ def read_roster(path: str | Path) -> list[Student]:
     ------
     TaskError : the file cannot be read, is empty, names a student twice, or one by what cannot be printed
     """
-    students = _students(read_table(path, "the roster"))
+    rows = read_table(path, "the roster")
+    if rows and names_alone(rows[0][1]) and not roster_columns([row for _, row in rows]).heading:
+        found, advice = Unquoted("missing"), "add a column 'id', or one of the addresses, 'email'"
+        raise TaskError(str(path), "the column of ids", found, "given", advice)
+    students = _students(rows)
     if not students:
         raise TaskError(str(path), "the roster", Unquoted("empty"), "one line for each student", "give a column 'id'")
     seen: dict[str, tuple[int, str]] = {}

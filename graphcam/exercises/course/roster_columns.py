@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 ID = (
     *("id", "ID number", "Student ID", "Student number", "Student no", "Student code", "Matriculation number"),
-    *("Matrikelnummer", "Matrikelnr", "Matrikel", "Mat-Nr", "Matrikel-Nr.", "SIS User ID"),
+    *("Matrikelnummer", "Matrikelnr", "Matrikel", "Mat-Nr", "Matrikel-Nr.", "ID-Nummer"),
+    "SIS User ID",
     *("Номер зачётной книжки", "Номер зачетной книжки", "Зачётная книжка", "Зачетная книжка", "№ зачётной книжки"),
     *("Студенческий билет", "Номер студенческого билета", "Табельный номер", "学号", "MSSV", "Mã số sinh viên"),
     *("Mã SV", "Mã sinh viên", "Номер", "№"),
@@ -79,6 +80,18 @@ def roster_columns(rows: Sequence[Sequence[str]]) -> RosterColumns:
     whole = list(_known(places, NAME))[:1]
     parts = next((pair for said in PARTS if len(pair := list(_known(places, said))) == 2), [])
     return RosterColumns(ids[0], tuple(whole or parts), email, first[ids[0]].strip())
+
+
+def names_alone(first: Sequence[str]) -> bool:
+    """Whether a row is a heading of names, with none of ids or addresses.
+
+    >>> names_alone(["First name", "Last name"]), names_alone(["7", "Anna"])
+    (True, False)
+    """
+    plain = {_plain(heading) for heading in first}
+    return not plain.isdisjoint(map(_plain, (*NAME, *(part for pair in PARTS for part in pair)))) and plain.isdisjoint(
+        map(_plain, (*ID, *EMAIL))
+    )
 
 
 def _known(places: dict[str, int], headings: Iterable[str]) -> Iterator[int]:

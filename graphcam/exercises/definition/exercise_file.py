@@ -1,8 +1,10 @@
 """Exercise files: TOML in, an exercise out, or one error that says which field is wrong."""
 
 import dataclasses
+import re
 from collections.abc import Mapping
 from importlib import resources
+from keyword import iskeyword
 from pathlib import Path
 from typing import Any
 
@@ -141,10 +143,22 @@ def _check(path: str, exercise: Exercise) -> None:
             misconception(name)
         except DesignError as error:
             raise TaskError(path, "misconceptions", name, error.limit, error.remedy) from None
-    task = fill_in(exercise, {name: parameter.values[0] for name, parameter in exercise.parameters.items()}, path)
+    _check_text(path, exercise)
+    first = {name: parameter.values[0] for name, parameter in exercise.parameters.items()}
+    task = fill_in(exercise, first, path)
+    for name, parameter in exercise.parameters.items():
+        for k, value in enumerate(parameter.choices or ()):
+            try:
+                fill_in(exercise, {**first, name: value}, path)
+            except TaskError as error:
+                place, shown = f"parameters.{name}.choices[{k}]", error.value
+                raise TaskError(path, place, shown, error.expected, error.remedy) from None
     chain = board_chain(task)
     shown = worksheet_views(exercise, chain)
     for k, asked in enumerate(exercise.answers):
+        if not (asked.name.isascii() and asked.name.isidentifier()) or iskeyword(asked.name):
+            limit = "a name of Latin letters, digits and _, as students write it before their answer"
+            raise TaskError(path, f"answers[{k}].name", asked.name, limit, 'write "v_max"')
         try:
             ask(chain, asked)
             if asked.place and asked.place not in shown:
@@ -153,6 +167,17 @@ def _check(path: str, exercise: Exercise) -> None:
         except DesignError as error:
             place = f"answers[{k}].{error.quantity}"
             raise TaskError(path, place, error.value, error.limit, error.remedy or HOW_TO) from None
+
+
+def _check_text(path: str, exercise: Exercise) -> None:
+    """That the text tells every parameter, and nothing in braces that is none."""
+    for said in re.findall(r"\{[^{}]*\}", exercise.text):
+        if (name := said[1:-1]) not in exercise.parameters:
+            raise TaskError(path, "text", said, "the name of a parameter in braces", meant(name, exercise.parameters))
+    for name in exercise.parameters:
+        if f"{{{name}}}" not in exercise.text:
+            found, limit = Unquoted(f"without {{{name}}}"), "one that tells students every parameter"
+            raise TaskError(path, "text", found, limit, f"write {{{name}}} where its value stands")
 
 
 def worksheet_views(exercise: Exercise, chain: Chain) -> list[str]:
