@@ -22,6 +22,15 @@ NONE = np.zeros(0)
 WRONG = {
     "follower is of the kind int, but must be a Translating, Oscillating or FlatFaced": lambda: gc.Cam(MOTION, 40, 10),
     "the rise is of the kind str, but must be an angle in rad; 30 degrees are": lambda: gc.Limits("30"),
+    "load is an ArmLoad, but must be that load in its place beside the cam; take": lambda: gc.Contact(
+        MOTION, gc.ArmLoad(2000, 300, 5000)
+    ),
+    "lift is -25.0, but must be a finite number greater than 0": lambda: gc.sweep(
+        gc.Designs(lift=-25, rise_angle=1.0, return_angle=1.0, prime_radius=[50, 60])
+    ),
+    "prime_radius is -5.0, but must be a finite number greater than 0 mm": lambda: gc.sweep(
+        gc.Designs(lift=12, rise_angle=1.0, return_angle=1.0, prime_radius=[-50, -5])
+    ),
     "phase is of the kind int, but must be a Rise, Dwell or Return": lambda: gc.Motion([1, 2]),
     "phases is of the kind Dwell, but must be a list of rises, dwells and returns": lambda: gc.Motion(gc.Dwell(1)),
     "table is not of numbers, but must be a list of cam angles": lambda: gc.measured_motion("a", "b", 0.1),
