@@ -384,4 +384,4 @@ def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
         ),
         Dimension(centre.place, 0j, say("c = {c:.2f}", c=away), -8.0, region.readings["distance"].act),
     )
-    return replace(step, caption=said.where(place=place, sizes=sizes), marks=marks, parts=tuple(parts))
+    return replace(step, said=said.where(place=place, sizes=sizes), marks=marks, parts=tuple(parts))
