@@ -95,7 +95,7 @@ WORDS: Mapping[str, Caption] = {
 SCRIPTS = ("gestures.js", "camera.js", "board.js", "lights.js", "player.js")
 """What shows the steps; later ones use the functions of earlier ones."""
 MARGIN = 8.0
-"""Around what a step shows when it is looked at closely [mm]."""
+"""The margin around what a step shows when it is looked at closely [mm]."""
 
 
 Pieces = list[list[Any]]
@@ -274,7 +274,7 @@ def _by_view(group: Group) -> list[tuple[str, Group]]:
 
 
 def _places(drawing: Drawing, slides: Sequence[Slide]) -> tuple[list[dict[str, Any]], dict[str, dict[str, Any]]]:
-    """For each step its group and its parts, and where it stands; for each view its page and the box there.
+    """The group and the parts of each step, and where it stands; for each view its page and the box there.
 
     A box is x, y from the upper left corner, width and height [mm].
     """

@@ -11,11 +11,11 @@ from graphcam.given.laws import Floats
 from graphcam.showing import WIDTH, Shown, from_above, in_lines
 
 USUAL = ("pdf", "svg", "png", "dxf", "csv", "md", "note", "player", "profile_dxf", "profile_csv", "profile_xyz")
-"""The kinds of files that a solution is written to if nothing else is said ..."""
+"""The kinds of files that a solution is written to if nothing else is said."""
 CUTTING = "profile_step", "profile_gcode"
-"""... those by which a machine cuts the cam ..."""
+"""The kinds of files by which a machine cuts the cam."""
 FILES = (*USUAL, *CUTTING)
-"""... and all that there are."""
+"""All kinds of files that there are."""
 GIVEN = "graphcam", "task", "files"
 """What ``solution.json`` says of an unfinished sheet: no answers."""
 

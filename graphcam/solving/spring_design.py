@@ -104,7 +104,7 @@ class SpringDesign:
         return self.chain.board.follower.force_plan(self.chain, self.load, self.chain.pencil, self.friction)
 
     def check(self) -> None:
-        """That there is such a design.
+        """Check that there is such a design.
 
         Raises
         ------
@@ -121,7 +121,7 @@ class SpringDesign:
 
     @property
     def lost(self) -> list[Caption]:
-        """Between which cam angles contact is lost."""
+        """The intervals of the cam angle in which contact is lost, as captions."""
         return [say("{start} to {end}", start=degrees(start), end=degrees(end)) for start, end in self.contact.lost()]
 
     @property
@@ -144,7 +144,7 @@ class SpringDesign:
 
     @property
     def units(self) -> tuple[str, str, str]:
-        """Of what presses along the motion, of the preload, and of the stiffness."""
+        """The units of what presses along the motion, of the preload, and of the stiffness."""
         if isinstance(self.load, SpringLoad):
             return "N", "N", "N/mm"
         return ("N·mm", "N·mm", "N·mm/rad") if self.load.at is None else ("N·mm", "N", "N/mm")
@@ -408,7 +408,7 @@ def with_unit(value: float, of: str) -> Caption:
 
 
 def _rounded_up(force: float) -> float:
-    """To four digits, and no less: with less preload contact is lost."""
+    """The value rounded up to four digits, and no less: with less preload contact is lost."""
     unit_of_last = 10.0 ** (math.floor(math.log10(force)) - 3) if force > 0 else 1.0
     return math.ceil(force / unit_of_last) * unit_of_last
 

@@ -64,7 +64,7 @@ WITHOUT = {
     "undercut": say("the profile is undercut, and ends in an edge there"),
     "no force": say("nothing presses the follower onto the cam"),
 }
-"""Why there is no greatest stress that is finite."""
+"""Reasons why there is no greatest stress that is finite."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +81,7 @@ class StressDesign:
 
     @cached_property
     def without(self) -> Literal["knife edge", "undercut", "no force"] | None:
-        """Why there is no greatest stress, if there is none."""
+        """The reason why there is no greatest stress, if there is none."""
         cam = self.forces.cam
         if cam.kinematics.takes_roller and not cam.roller_radius > 0:
             return "knife edge"
@@ -91,7 +91,7 @@ class StressDesign:
 
     @cached_property
     def stress(self) -> ContactStress:
-        """Over the turn; only where the follower has no knife edge."""
+        """The stress over the turn; only where the follower has no knife edge."""
         return ContactStress(self.forces, self.material())
 
     @cached_property
@@ -120,7 +120,7 @@ class StressDesign:
 
     @property
     def shape(self) -> Literal["convex", "concave", "flat"]:
-        """Of the profile where the stress is greatest."""
+        """The shape of the profile where the stress is greatest."""
         assert self.contact is not None
         radius, roller = float(self.contact.profile_radius), self.forces.cam.roller_radius
         if roller and abs(radius) > FLAT * roller:
@@ -244,7 +244,7 @@ class StressDesign:
 
 
 def rounded_up(width: float) -> float:
-    """To hundredths of a millimetre: what is less would not keep to the limit.
+    """The size rounded up to hundredths of a millimetre: what is less would not keep to the limit.
 
     >>> rounded_up(13.741)
     13.75

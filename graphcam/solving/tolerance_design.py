@@ -86,7 +86,7 @@ class ToleranceDesign:
 
     @cached_property
     def bands(self) -> MotionBands:
-        """Of s, v and a."""
+        """The bands of s, v and a."""
         return motion_bands(self.cam, self.given(), coverage=self.given.coverage)
 
     @cached_property
@@ -95,7 +95,7 @@ class ToleranceDesign:
         return not self.cam.roller_radius < self.cam.extremes().min_convex_radius[0]
 
     def check(self) -> None:
-        """That the follower can follow the waves.
+        """Check that the follower can follow the waves.
 
         Raises
         ------
@@ -175,7 +175,7 @@ class ToleranceDesign:
         }
 
     def table(self) -> Table:
-        """Which tolerance matters most, for the sheet and for the working drawing."""
+        """A table of which tolerance matters most, for the sheet and for the working drawing."""
         title = say("Tolerances and what they do")
         if self.undercut:
             return Table(title, ("", ""), ((say("the profile is undercut"), "–"),))

@@ -134,7 +134,7 @@ def diagram_step(diagram: TurnDiagram) -> Step:
 
 
 def at_side(found: ValueAt, motion: Motion) -> Caption:
-    """At which cam angle, and on which side of it where the motion has a break."""
+    """The cam angle at which a value stands, and the side of it where the motion has a break."""
     phi = degrees(found.phi)
     if np.abs(np.append(motion.breaks, FULL_TURN) - found.phi).min() > BREAK:
         return say("at {phi}", phi=phi)

@@ -23,7 +23,7 @@ from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 
 TALLEST = 2000.0
-"""Of the diagrams and of every view [mm of paper]; no sheet takes a fifth of it."""
+"""The maximum height of the diagrams and of every view [mm of paper]; no sheet takes a fifth of it."""
 
 
 def solved(
@@ -55,7 +55,7 @@ def _solved(task: str, spoken: str, kept: str, station: int | None) -> AnySoluti
 
 
 def check_heights(board: Board) -> None:
-    """That no diagram is so high that its divisions and labels could not be drawn in reasonable time.
+    """Check that no diagram is so high that its divisions and labels could not be drawn in reasonable time.
 
     Raises
     ------

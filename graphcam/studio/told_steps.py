@@ -1,4 +1,4 @@
-"""What is said of the steps of a view: captions, parts that light what they are found from, and readings."""
+"""The steps of a view as plain data: captions, parts that light what they are found from, and readings."""
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import asdict, dataclass, field

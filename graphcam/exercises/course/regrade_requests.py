@@ -8,7 +8,7 @@ from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.student_table import student_lines
 
 REQUESTS = "regrade-requests.csv"
-"""In the teacher's folder, the questions."""
+"""The teacher's table of the questions."""
 
 
 @dataclass(frozen=True)

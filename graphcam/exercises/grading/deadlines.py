@@ -13,7 +13,7 @@ from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.student_table import once, student_lines
 
 EXTENSIONS = "extensions.csv"
-"""In the teacher's folder, deadlines of single students."""
+"""The teacher's table of deadlines of single students."""
 PERIODS = {"day": timedelta(days=1), "hour": timedelta(hours=1)}
 PENALTY_FORM = (
     "the part lost per started day or hour, and perhaps the minimum part left, such as 0.1/day or 0.1/day:0.5"
@@ -22,7 +22,7 @@ PENALTY_FORM = (
 
 @dataclass(frozen=True)
 class Deadlines:
-    """Until when a hand-in is in time; seconds do not count.
+    """The deadlines of a course; seconds do not count.
 
     usual : for all but those who are named in ``extended``, by their ids
     """

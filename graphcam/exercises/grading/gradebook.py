@@ -13,7 +13,7 @@ from graphcam.exercises.grading.overrides import TOTAL
 from graphcam.words import plain
 
 ENTERED = "gradebook.json"
-"""In the teacher's folder, what was entered into grade books."""
+"""The teacher's file of what was entered into grade books."""
 Entered = dict[str, dict[str, list[Any]]]
 """By student and answer the score and the comment that were entered last."""
 NOTEBOOK = "answers"

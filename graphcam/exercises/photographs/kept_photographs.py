@@ -15,7 +15,7 @@ from graphcam.locks import locked_folder
 
 READINGS = "readings.json"
 DIGITS = 32
-"""Of the digest of a file: no two files of a course share so many."""
+"""Digits of the digest of a file: no two files of a course share so many."""
 
 
 @dataclass(frozen=True)
