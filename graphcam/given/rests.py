@@ -61,7 +61,7 @@ class Surroundings:
     noise: float
 
     def leaving(self, side: int, places: Floats, since: Floats, powers: Floats) -> _Squares:
-        """Powers of the rows from ``since`` on, of a motion that leaves at those places; backwards before the stop."""
+        """The least squares of rows from ``since`` on, for a motion that leaves at the places; backwards before 0."""
         x, y = (self.x, self.y) if side else (-self.x[::-1], self.y[::-1])
         way = np.maximum(x[-1] - places, NO_WAY)[:, None]
         z = np.maximum(x - places[:, None], 0.0) / way
