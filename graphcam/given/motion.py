@@ -373,7 +373,7 @@ def _check_lengths(phases: Sequence[Phase], starts: Floats) -> None:
     for phase, length in zip(phases, np.diff(starts, append=FULL_TURN), strict=True):
         if not length >= SHORTEST_PHASE:
             limit = f"long enough to be told from rounding, {SHORTEST_PHASE:g} rad"
-            raise DesignError("angle", Unquoted(f"{phase.angle:.6g} rad"), limit, f"leave the {phase.kind} out")
+            raise DesignError("angle", Unquoted(f"{phase.angle:.6g} rad"), limit, "leave the phase out")
 
 
 def _remedy(phases: Sequence[Phase], turn: float) -> str:

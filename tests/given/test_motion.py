@@ -162,7 +162,7 @@ def test_tiny_phases_keep_their_values():
 def test_a_phase_that_rounding_swallows_is_refused(tiny, place):
     phases = [Rise(30, math.pi / 2), Return(30, FULL_TURN - math.pi / 2)]
     phases.insert(place, Dwell(tiny))
-    told = r"angle is .* rad, but must be long enough to be told from rounding, 1e-10 rad; leave the dwell out"
+    told = r"angle is .* rad, but must be long enough to be told from rounding, 1e-10 rad; leave the phase out"
     with pytest.raises(DesignError, match=told):
         Motion(phases)
 
