@@ -19,12 +19,6 @@ MUCH = 200 << 20
 """Bytes that may gather before they are given back."""
 
 
-def pytest_addoption(parser: pytest.Parser) -> None:
-    """Offer to collect the messages of errors."""
-    told = "write every message of an error that the tests make into this folder, a file for each process"
-    parser.addoption("--messages", metavar="FOLDER", type=Path, help=told)
-
-
 def pytest_configure(config: pytest.Config) -> None:
     """Let a worker that is killed, mostly for want of memory, fail the run at once.
 
@@ -33,9 +27,10 @@ def pytest_configure(config: pytest.Config) -> None:
     """
     if config.pluginmanager.hasplugin("xdist") and config.option.maxworkerrestart is None:
         config.option.maxworkerrestart = "0"
-    if folder := config.getoption("--messages"):
-        folder.mkdir(parents=True, exist_ok=True)
-        config.pluginmanager.register(Messages(folder / f"{os.getpid()}.txt"))
+    # A variable, for a worker reads its options before it knows this file.
+    if folder := os.environ.get("GRAPHCAM_MESSAGES"):
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        config.pluginmanager.register(Messages(Path(folder, f"{os.getpid()}.txt")))
 
 
 class Messages:
