@@ -52,6 +52,7 @@ class ToldSteps:
             "why": slide.reason,
             "opens": slide.why,
             "parts": [_part(part) for part in slide.parts],
+            "runs": [{**asdict(run), "widest": run.widest} for run in slide.runs],
             "readings": [_reading(step.construction, reading) for reading in slide.readings],
         }
 

@@ -79,7 +79,9 @@ def numbers_in(words: Words) -> tuple[str, list[Told]]:
                 write(value, of_value=True)
             else:
                 said = format(value, spec or "")
-                found.append(Told(float(value), _unit_of(said, spec or "", value) / 2, len(text), len(text) + len(said)))
+                found.append(
+                    Told(float(value), _unit_of(said, spec or "", value) / 2, len(text), len(text) + len(said))
+                )
                 text += said
 
     def _written(literal: str, *, of_value: bool) -> None:
@@ -130,7 +132,12 @@ class Known:
 
     def joined(self, *others: Known) -> Known:
         every = (self, *others)
-        return Known(*([x for each in every for x in getattr(each, name)] for name in ("lengths", "angles", "others", "counts", "spans")))
+        return Known(
+            *(
+                [x for each in every for x in getattr(each, name)]
+                for name in ("lengths", "angles", "others", "counts", "spans")
+            )
+        )
 
     def of(self, unit: str) -> np.ndarray:
         """Those that a number with this unit behind it may be."""
