@@ -2,8 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import groupby
-from os.path import commonprefix
+from itertools import groupby, takewhile
 from typing import Any, Protocol
 
 from graphcam.constructions.readings import ReadingRow, rows
@@ -99,14 +98,22 @@ def _views(steps: Iterable[Step]) -> dict[Act, str]:
     return found
 
 
+def run_text(caption: str, first: int, rows: Sequence[tuple[str, str]]) -> RunText:
+    """A run as it is shown: what is said of all its places, and its table of names and settings."""
+    head = _head([name for name, _ in rows])
+    alike = len({setting for _, setting in rows}) == 1
+    shown = tuple((name[len(head) :], "" if alike else setting) for name, setting in rows)
+    return RunText(caption, first, head.strip(), shown, ())
+
+
 def _head(names: Sequence[str]) -> str:
     """The words with which names begin, all of them, if they go on behind.
 
     >>> _head(["Station 0", "Station 12′"]), _head(["Ray 3", "Rays 4, 9"])
     ('Station ', '')
     """
-    common = commonprefix(list(names))
-    return common[: common.rfind(" ") + 1]
+    alike = takewhile(lambda words: len({*words}) == 1, zip(*(name.split(" ")[:-1] for name in names), strict=False))
+    return "".join(f"{words[0]} " for words in alike)
 
 
 def _of_all(parts: Iterable[PartText]) -> tuple[str, ...]:
@@ -158,10 +165,7 @@ class _Telling:
                 said.append(self.tell(part.caption))
                 continue
             rows = [(self.tell(row.name), self.tell(row.setting)) for row in part.rows]
-            head = _head([name for name, _ in rows])
-            alike = len({setting for _, setting in rows}) == 1
-            shown = tuple((name[len(head) :], "" if alike else setting) for name, setting in rows)
-            runs.append(RunText(self.tell(part.caption), len(said), head.strip(), shown, ()))
+            runs.append(run_text(self.tell(part.caption), len(said), rows))
             said += [self.tell(Row(name, setting, ()).caption) for name, setting in rows]
         return said, runs
 

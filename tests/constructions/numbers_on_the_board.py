@@ -10,11 +10,9 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
-import sys
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from itertools import combinations, pairwise, product
-from pathlib import Path
 from string import Formatter
 from typing import Any
 
@@ -24,13 +22,12 @@ import graphcam as gc
 from graphcam.constructions.curvature import CAREFUL
 from graphcam.drafting.acts import Act, Drawn, Kind, Setting
 from graphcam.drafting.hand import COMPASS
-from graphcam.drafting.marks import Dots, Line, Mark, Segments
 from graphcam.drafting.ink import Construction, Part, Reading, Step
+from graphcam.drafting.marks import Dots, Line, Mark, Segments
 from graphcam.drafting.moves import ActPlaces, FollowedBoard, sources, visible_in
 from graphcam.drafting.scale import Scale
 from graphcam.given.motion import Moving
 from graphcam.report.sheet_contents import all_drawn, chapter_numbers, steps_of
-from graphcam.tasks.task_file import BUILT_IN
 from graphcam.words import Caption, Words
 
 CHOSEN = 0.0, 1.0, 2.0, 0.5, COMPASS, CAREFUL
@@ -43,7 +40,7 @@ FEW = 14
 """Of so many places the distances of all pairs are measured, and of so few the directions."""
 
 
-# --- what a text tells --------------------------------------------------------------------------------------------------
+# --- what a text tells ------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
@@ -113,7 +110,7 @@ def _unit_of(said: str, spec: str, value: Any) -> float:
     return 10.0 ** (math.floor(math.log10(abs(value))) + 1 - digits) if value else 0.0
 
 
-# --- what is known ------------------------------------------------------------------------------------------------------
+# --- what is known ----------------------------------------------------------------------------------------------------
 
 
 @dataclass
@@ -356,7 +353,7 @@ def _places_of(mark: Mark) -> Iterable[complex]:
             return ()
 
 
-# --- what a sentence reckons ---------------------------------------------------------------------------------------------
+# --- what a sentence reckons ------------------------------------------------------------------------------------------
 
 SENTENCE = re.compile(r"(?<=[.!?])\s+(?=[A-ZΑ-Ω])")
 SYMBOL = re.compile(r"([^\W\d_][^\s()=:,;]*) = (?:[^=;:]* = )?$")
@@ -370,7 +367,11 @@ def unknown(words: Words, known: Known, symbols: dict[str, list[float]]) -> list
 
     symbols : what letters in the sentences stand for, to which those are added that the text tells
     """
-    text, every = numbers_in(words)
+    return stray(*numbers_in(words), known, symbols)
+
+
+def stray(text: str, every: list[Told], known: Known, symbols: dict[str, list[float]]) -> list[str]:
+    """The same of a text and its numbers."""
     bounds = [0, *(match.end() for match in SENTENCE.finditer(text)), len(text)]
     found = list[str]()
     for start, end in pairwise(bounds):
@@ -423,7 +424,7 @@ def _is_known(told: Told, text: str, known: Known) -> bool:
 
 
 def _reckoned(told: Told, operands: list[float], sentence: str) -> bool:
-    """Whether a sentence with so many signs makes a number as a product, a quotient, a sum, or an angle by its tangent."""
+    """Whether a sentence makes a number as a product, a quotient, a sum, or as the angle of a tangent."""
     values = [abs(x) for x in dict.fromkeys(operands) if x]
     slack, wanted = told.tolerance + 1e-9 * abs(told.value), abs(told.value)
     if not wanted:
@@ -443,7 +444,9 @@ def _reckoned(told: Told, operands: list[float], sentence: str) -> bool:
     return False
 
 
-# --- the walk -----------------------------------------------------------------------------------------------------------
+Judged = Callable[[Words, Known, dict[str, list[float]]], list[str]]
+
+# --- the walk ---------------------------------------------------------------------------------------------------------
 
 
 def places_of(step: Step) -> list[tuple[Words, list[Part]]]:
@@ -458,8 +461,11 @@ def places_of(step: Step) -> list[tuple[Words, list[Part]]]:
     return found
 
 
-def not_on_the_board(solution: Any) -> Iterator[tuple[str, str, str]]:
-    """Every number of a solution's steps that is told though it does not stand on the board: step, name, number."""
+def not_on_the_board(solution: Any, judged: Judged = unknown) -> Iterator[tuple[str, str, str]]:
+    """Every number of a solution's steps that is told though it does not stand on the board: step, name, number.
+
+    judged : says it of a text
+    """
     drawn = all_drawn(solution)
     steps = steps_of(drawn)
     numbers, data = chapter_numbers(steps), given(solution)
@@ -497,7 +503,7 @@ def not_on_the_board(solution: Any) -> Iterator[tuple[str, str, str]]:
             if len(places) == 1:
                 before += [ActPlaces(each.act, (*each.index.tolist(),)) for each in places[0].draws]
             if name != "scheme":
-                for found in unknown(words, data.joined(board.read, own), symbols):
+                for found in judged(words, data.joined(board.read, own), symbols):
                     yield numbers[number], name, found
 
 
@@ -551,19 +557,19 @@ def _pieces_of(place: Part, of_place: Mapping[Any, Any]) -> Iterator[ActPlaces]:
         yield from (*moves.done, *moves.lit, *moves.closing)
 
 
-def tasks() -> dict[str, Any]:
-    """The six built-in tasks."""
-    names = (*BUILT_IN, "sizing")
-    return {"arcs": gc.builtin_arcs_task()} | {name: gc.builtin_task(name) for name in names}
+def share_found(solution: Any, times: float) -> float:
+    """Of the numbers that are told so many times as great as they are, the share that is found."""
+    tried = [*not_on_the_board(solution, lambda words, known, symbols: tried_off(words, known, symbols, times))]
+    return sum(found == "found" for *_, found in tried) / len(tried)
 
 
-def main(*files: str) -> None:
-    """Print the numbers of the built-in tasks, and of task files."""
-    every = tasks() | {Path(file).stem: gc.load_task(file) for file in files}
-    for name, task in every.items():
-        for where, construction, found in dict.fromkeys(not_on_the_board(gc.solve(task))):
-            print(f"{name} {where} [{construction}]: {found}", flush=True)
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])
+def tried_off(words: Words, known: Known, symbols: dict[str, list[float]], times: float) -> list[str]:
+    """For every number of a text, whether it is found when told so many times as great, if that is seen at all."""
+    text, every = numbers_in(words)
+    before, results = {*stray(text, every, known, dict(symbols))}, list[str]()
+    for k, told in enumerate(every):
+        if not told.literal and told.tolerance and abs(told.value * (times - 1)) > 2 * told.tolerance:
+            moved = [replace(each, value=each.value * times) if j == k else each for j, each in enumerate(every)]
+            results.append("found" if {*stray(text, moved, known, dict(symbols))} - before else "missed")
+    stray(text, every, known, symbols)
+    return results
