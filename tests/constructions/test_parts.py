@@ -52,8 +52,10 @@ def sentences(text: str) -> list[str]:
 
 @EVERY
 def test_every_step_has_a_reason_of_one_sentence_and_a_caption(name):
-    for where, _, step in steps(name):
+    for where, construction, step in steps(name):
         why, caption = str(step.why), str(step.caption)
+        if not why and not construction.acts and not converted(construction):
+            continue
         assert why, where
         assert len(sentences(why)) == 1, (where, why)
         for said in (why, caption):
