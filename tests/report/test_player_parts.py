@@ -235,11 +235,11 @@ def test_a_run_is_told_once_and_its_rows_are_gone_through(run_page):
 
 def test_an_address_opens_a_row_and_a_row_is_chosen_with_the_pointer(run_page):
     run_page.evaluate("location.hash = '2.1/4'")
-    run_page.wait_for_function("document.querySelector('.rows [aria-current]') !== null")
+    run_page.wait_for_function("document.querySelector('.row-table [aria-current]') !== null")
     assert state(run_page)["listed"] == "Chord 2: 4.00 mm.\n2\n4.00 mm"
-    run_page.locator("article:visible .rows button").nth(1).click()
+    run_page.locator("article:visible .row-table button").nth(1).click()
     assert state(run_page)["address"] == "2.1/3"
-    assert run_page.locator(".rows .later").count() == 1
+    assert run_page.locator(".row-table .later").count() == 1
     assert run_page.locator("article:visible .run .tools-set").inner_text() == "ruler"
     assert run_page.locator("article:visible .head").inner_text() == "Chord"
 
@@ -248,7 +248,7 @@ def test_an_address_opens_a_row_and_a_row_is_chosen_with_the_pointer(run_page):
 def test_the_rows_of_a_run_stand_beside_each_other_where_there_is_room(run_page, wide, columns):
     run_page.set_viewport_size({"width": wide, "height": 844})
     run_page.keyboard.press("ArrowRight")
-    boxes = [each.bounding_box() for each in run_page.locator("article:visible .rows button").all()]
+    boxes = [each.bounding_box() for each in run_page.locator("article:visible .row-table button").all()]
     assert len({round(each["x"]) for each in boxes}) >= columns
     words = run_page.locator("#words").bounding_box()
     assert all(each["x"] >= words["x"] and each["x"] + each["width"] <= words["x"] + words["width"] for each in boxes)

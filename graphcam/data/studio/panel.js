@@ -29,7 +29,7 @@ function stepPanelOf(element, words, go) {
     return make("li", { class: "run" },
       make("p", { class: "sentences" }, make("span", { class: "said", text: caption }), toolsOf({ tools })),
       head && make("p", { class: "head", "aria-hidden": "true", text: head }),
-      make("ol", { class: "rows", style: `--row: ${widest}` }, rows.map(([name, setting], k) => make("li", {}, partButton(first + k,
+      make("ol", { class: "row-table", style: `--row: ${widest}` }, rows.map(([name, setting], k) => make("li", {}, partButton(first + k,
         make("span", { class: "unseen done-here", text: parts[first + k].caption }),
         make("b", { "aria-hidden": "true", text: name }), setting && [" ", make("span", { "aria-hidden": "true", text: setting })])))));
   }
