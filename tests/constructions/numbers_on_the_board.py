@@ -564,11 +564,16 @@ def share_found(solution: Any, times: float) -> float:
 
 
 def tried_off(words: Words, known: Known, symbols: dict[str, list[float]], times: float) -> list[str]:
-    """For every number of a text, whether it is found when told so many times as great, if that is seen at all."""
+    """For every fifth number, whether it is found when told so many times as great, if that is seen at all."""
     text, every = numbers_in(words)
     before, results = {*stray(text, every, known, dict(symbols))}, list[str]()
     for k, told in enumerate(every):
-        if not told.literal and told.tolerance and abs(told.value * (times - 1)) > 2 * told.tolerance:
+        if (
+            k % 5 == len(text) % 5
+            and not told.literal
+            and told.tolerance
+            and abs(told.value * (times - 1)) > 2 * told.tolerance
+        ):
             moved = [replace(each, value=each.value * times) if j == k else each for j, each in enumerate(every)]
             results.append("found" if {*stray(text, moved, known, dict(symbols))} - before else "missed")
     stray(text, every, known, symbols)
