@@ -15,7 +15,14 @@ import numpy as np
 
 from graphcam.constructions.axes import EVERY, SUBSCRIPTS, axes_over_phi, degrees_below, ordinate, pole_marks, reach
 from graphcam.constructions.graduation import graduated
-from graphcam.constructions.slope_numbers import every_kth, falling_together, ray_numbers, row_numbers
+from graphcam.constructions.slope_numbers import (
+    every_kth,
+    falling_together,
+    raised,
+    ray_numbers,
+    row_numbers,
+    run_of_chord,
+)
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP, divided
@@ -25,7 +32,7 @@ from graphcam.drafting.marks import Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.drafting.units import NOTHING, unit
+from graphcam.drafting.units import unit
 from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
@@ -266,7 +273,7 @@ class _Pass:
         """How a chord or a tangent runs."""
         way = complex(self.drawn("slopes").directions[k])
         if self.first:
-            return say("{run:.2f} mm across, {climb}", run=way.real, climb=_raised(way.imag, say("level")))
+            return run_of_chord(way)
         angle = math.degrees(np.angle(way))
         if abs(angle) < READABLE_ANGLE:
             return say("is level")
@@ -274,7 +281,7 @@ class _Pass:
 
     def height(self, k: int) -> Caption:
         """Where a ray ends on the vertical axis."""
-        return _raised(float(self.drawn("heights").shown[k].imag), say("at the origin"))
+        return raised(float(self.drawn("heights").shown[k].imag), say("at the origin"))
 
     def told(self, *sentences: Caption) -> Caption:
         """Sentences with what is said of the pass, and of the steepest slope, which is worked for all."""
@@ -283,13 +290,6 @@ class _Pass:
         values |= {"name": names[k], "count": len(names), "pole": self.c.givens.poles[self.number - 1]}
         values |= {"slope": self.slope(k), "height": self.height(k), "start": self.number - 1}
         return sequence([each.where(**values) for each in sentences], " ")
-
-
-def _raised(mm: float, nothing: Caption) -> Caption:
-    """How far up or down."""
-    if abs(mm) < NOTHING:
-        return nothing
-    return say("{mm:.2f} mm up", mm=mm) if mm > 0 else say("{mm:.2f} mm down", mm=-mm)
 
 
 def _draw(c: Construction[DifferentiationGivens]) -> list[Step]:
@@ -422,7 +422,7 @@ def _joined(run: _Pass) -> Step:
     near, longest = int(np.argmax(heights if up >= down else -heights)), float(c.first(f"max_{target}"))
     said = say(
         "Join the points by a smooth curve with the French curve. Its longest ordinate, {height}, is near point {name}."
-    ).where(height=_raised(longest if up >= down else -longest, say("at the origin")), name=run.first + near)
+    ).where(height=raised(longest if up >= down else -longest, say("at the origin")), name=run.first + near)
     why = say("The values of {target} are wanted between the points too, above all the maximum.")
     title, curve = run.told(say("Curve of {target}")), _curve(c, target)
     return Step(title, (Part(said, (curve,)),), _view(c, target), (curve.line(Role.RESULT),), why=run.told(why))
