@@ -216,7 +216,7 @@ def _joined(c: DrawnJerk) -> Step:
     for piece, stretch in zip(curve_pieces(givens.stations), givens.stations.stretches, strict=True):
         faired = hand.fair("curve of j", curve, [piece])
         marks.append(faired.line(Role.RESULT))
-        called = say("From {start} to {end}", start=names[stretch.start], end=names[stretch.stop - 1])
+        called = telling.from_to(names[stretch.start], names[stretch.stop - 1])
         rows.append(Row(called, "", (faired,)))
     said = [
         say(
