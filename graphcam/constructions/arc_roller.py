@@ -13,7 +13,7 @@ import numpy as np
 
 from graphcam.constructions.arc_outline import unreadable
 from graphcam.constructions.arc_plan import UNREAD, plans, worked
-from graphcam.constructions.arc_profile import SENSE, ArcOutline, cam, middle_of_dwell, outline, run
+from graphcam.constructions.arc_profile import SENSE, ArcOutline, cam, middle_of_dwell, mirror_line, outline, run
 from graphcam.constructions.arc_stations import ARCS, CENTRES, ROLLER, ArcRollerGivens, ArcStations, RollerOnArcs
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
@@ -223,7 +223,7 @@ def _arcs(rolled: RollerOnArcs, circles: list[Drawn]) -> Part:
     rows = [Row(ARCS[k], about.where(centre=CENTRES[k], radius=radii[k]), (circles[k],)) for k in range(3)]
     if rolled.givens.arcs.givens.dwell:
         rows.append(Row(say("Upper dwell"), about.where(centre="O", radius=radii[3]), (circles[3],)))
-    mirrored = say("the three arcs, mirrored in the middle line of the dwell")
+    mirrored = say("the three arcs, mirrored in {line}", line=mirror_line(rolled.givens.arcs))
     rows.append(Row(say("Return"), mirrored, tuple(circles[-4:-1])))
     said = say(
         "Open the compass from each centre to the points set off and draw the arcs, {arc} about {centre} with "
@@ -302,7 +302,7 @@ def _stations(rolled: RollerOnArcs) -> Step:
         sense=SENSE[run(arcs)],
         mu=mu_l,
     )
-    back = Part(say("Return: mirror the points B in the middle line of the dwell."), (returning,))
+    back = Part(say("Return: mirror the points B in {line}.", line=mirror_line(arcs)), (returning,))
     why = say(
         "Turning the follower about a fixed cam is the same relative motion as turning the cam under the follower."
     )

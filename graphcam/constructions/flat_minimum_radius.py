@@ -269,8 +269,12 @@ def _touched(region: FlatRegion) -> Step:
     read = say(
         "The edge meets the axis of s {height}, so the maximum of −(s + a) is {paper:.2f} mm × {mu:.5g} = "
         "{need:.3f} mm."
-    ).where(height=_raised(zero.place.imag), mu=region.readings["need"].per_mm, need=need)
-    read = read.where(paper=float(region.first("need")) + 0.0)
+    )
+    paper = float(region.first("need")) + 0.0
+    if abs(paper) < NOTHING:
+        read = say("The edge meets the axis of s {height}, so the maximum of −(s + a) is zero.")
+    values = {"mu": region.readings["need"].per_mm, "paper": paper, "need": need}
+    read = read.where(height=_raised(zero.place.imag), **values)
     lean = say(
         "If a had kept its own scale, the edge would have to fall by arctan(μₐ/μₛ) = {angle:.1f}°.",
         angle=np.degrees(np.arctan(_factor(region))),

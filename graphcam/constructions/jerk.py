@@ -251,9 +251,9 @@ def _scale(c: DrawnJerk) -> Step:
     givens, read = c.givens.integrated.givens, c.readings["j"]
     mu, lift, mu_a = read.per_mm, unit(givens.unit), c.givens.integrated.readings["a"].per_mm
     values = {"mu_a": mu_a, "mu_phi": givens.mu_phi.per_mm, "pole": c.givens.pole, "mu": mu, "unit": lift}
-    values |= {"mm": float(c.first("max_j")), "value": float(c.value("max_j"))}
+    values |= {"mm": (greatest := float(c.first("max_j"))), "value": float(c.value("max_j"))}
     found = say("The maximum finite jerk is {mm:.2f} mm × {mu:.5g} = {value:.5g} {unit}/rad³.")
-    if values["mm"] < NOTHING:
+    if greatest < NOTHING:
         found = say("Between its jumps the acceleration is constant, so the finite jerk is zero.")
     gives = say("The pole gives μⱼ = μₐ/(μᵩ·H₃) = {mu_a:.5g}/({mu_phi:.5g}·{pole:g}) = {mu:.5g} ({unit}/rad³)/mm.")
     told = [gives.where(**values), found.where(**values)]
