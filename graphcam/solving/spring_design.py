@@ -229,7 +229,7 @@ class SpringDesign:
             "",
             curve=self._curve(lambda places: forces.of(places).transmission),
             caption=(TRANSMITTED_BY_ARM if self.units[0] != "N" else TRANSMITTED).where(friction=self.friction),
-            why=say("Because the normal makes the angle α with the motion, and friction acts along the profile."),
+            why=say("The normal makes the angle α with the motion, and friction acts along the profile."),
             marked=((margin, say("{value:.3f}", value=margin.value)),),
         )
         normal = make(
@@ -244,7 +244,7 @@ class SpringDesign:
                 formula=normal_formula(self.load, self.friction),
                 greatest=with_unit(self.greatest_normal.value, "N"),
             ),
-            why=say("Because along the motion only a part of the normal force acts."),
+            why=say("Along the motion only a part of the normal force acts."),
             marked=((self.greatest_normal, with_unit(self.greatest_normal.value, "N")),),
         )
         mean, peak = self.torques[0], max(most_torque, least_torque, key=lambda found: abs(found.value))
@@ -261,7 +261,7 @@ class SpringDesign:
                 peak=with_unit(peak.value, "N·mm"),
                 mean=with_unit(_clean(mean), "N·mm"),
             ),
-            why=say("Because the power of the shaft equals that of the follower and of friction."),
+            why=say("The power of the shaft equals that of the follower and of friction."),
             marked=((peak, with_unit(peak.value, "N·mm")),),
         )
         return [normal, torque] if flat else [sliding, normal, torque]

@@ -166,7 +166,7 @@ class StressDesign:
             self.forces.cam.motion,
             curve,
             self._said,
-            why=say("Because surfaces suffer pitting where they are pressed too hard too often."),
+            why=say("Surfaces suffer pitting where they are pressed too hard too often."),
             marked=((self.greatest, with_unit(self.greatest.value, "MPa")),),
             limit=None if limit is None or self._far else (limit, with_unit(limit, "MPa")),
             wrong=() if limit is None else tuple(_above(curve, limit)),

@@ -62,9 +62,9 @@ HEADINGS = (
     say("Band of a, μ = {mu:g} {unit}/mm"),
 )
 WHYS = (
-    say("Because on a steep flank an error of the profile lifts the follower by more than itself."),
-    say("Because every wave of the profile counts as often as it occurs in a turn."),
-    say("Because the force of inertia grows with the square of the number of waves."),
+    say("On a steep flank an error of the profile lifts the follower by more than itself."),
+    say("Every wave of the profile counts as often as it occurs in a turn."),
+    say("The force of inertia grows with the square of the number of waves."),
 )
 SAID = say(
     "{coverage:g} of 100 mechanisms stay so near to the nominal value, above or below it, at {mu:g} {unit}/mm. The "

@@ -58,7 +58,7 @@ def empty_axes(exercise: Exercise, chain: Chain, name: Diagram) -> Step:
     named = ordinate(symbol, chain.board.follower.unit)
     axes = phi_axes(chain.board.motion, chain.board.mu_phi, np.array([low, high]), named)
     pole = () if name == "displacement" else (Line(np.array([-BEFORE, 0]) + 0j, Role.CONSTRUCTION),)
-    return Step(view.title, view.title, view, (*axes, *pole))
+    return Step(view.title, (), view, (*axes, *pole))
 
 
 def marked_axes(exercise: Exercise, chain: Chain, name: Diagram) -> tuple[View, tuple[Mark, ...], float]:
