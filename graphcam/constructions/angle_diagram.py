@@ -129,8 +129,8 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
         *times_below(phase_ends(motion, mu_phi)[-1], mu_phi, reach(heights)[0], givens.omega),
         *numbers(axis, stations, np.where(heights < 0, UP, -UP)),
     )
-    met = say("At {first}, where the acceleration jumps, it has a corner.")
-    drawn, lines, faired = curve_over_phi(givens, showing(plotted), "α", curve, met)
+    met = say("at {first}, where the acceleration jumps, it has a corner")
+    lines, faired = curve_over_phi(givens, showing(plotted), "α", curve, met)
     degrees, names = np.degrees(plotted.givens.measured.first("alpha")), station_names(stations)
     set_off = [
         Part(_SET_OFF[0 if alpha >= 0 else 1].where(name=names[k], alpha=alpha, y=abs(y)), (curve.first[[k]],))
@@ -141,7 +141,7 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
         "At its station set off each angle from the axis with the dividers, {scale:.4g}° a millimetre, positive ones "
         "upward: {alpha:.2f}° at station {name} are {y:.2f} mm. {drawn}"
     ).where(scale=np.degrees(plotted.givens.mu_alpha.per_mm), name=names[k], alpha=degrees[k])
-    said = said.where(y=curve.shown.imag[k], drawn=drawn)
+    said = said.where(y=curve.shown.imag[k], drawn=sequence([part.caption for part in faired], " "))
     why = say("Because the maximum usually lies between two stations, it is read off the curve through all of them.")
     marks = (*axes, curve.from_(axis, Role.CONSTRUCTION), curve.dots(Role.CONSTRUCTION), *lines)
     title = say("The pressure angle over the cam angle")

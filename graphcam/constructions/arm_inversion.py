@@ -1,6 +1,6 @@
 """The profile of an oscillating follower by inversion: the pivot goes round the cam, against the cam's rotation."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,9 +15,11 @@ from graphcam.drafting.ink import Construction, Part, Step, say
 from graphcam.drafting.marks import Role
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.scale import Scale
+from graphcam.drafting.telling import circle_drawn
 from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation
+from graphcam.words import say_in
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,19 +94,12 @@ def _draw(inverted: ArmInverted) -> list[Step]:
 
 def _circles(inverted: ArmInverted) -> Step:
     """The prime circle and the circle of the pivot."""
-    mu_l, c, r0 = inverted.givens.mu_l, inverted.givens.distance, inverted.givens.prime_radius
+    mu_l, c = inverted.givens.mu_l.per_mm, inverted.givens.distance
     start, circle = profile_view.start_of_turn(inverted), inverted.acts["pivot circle"]
-    sizes = {"r0": r0, "c": c, "ratio": ratio_text(mu_l.per_mm), "r0_paper": mu_l.paper(r0), "c_paper": mu_l.paper(c)}
-    said = say(
-        "About the cam centre A draw with the compass, at {ratio}, the prime circle of {r0_paper:.1f} mm, r₀ = {r0:g} "
-        "mm, and the circle of the pivot of {c_paper:.1f} mm, c = {c:g} mm."
-    ).where(**sizes)
-    pivots = say("Draw the circle of the pivot, {c_paper:.1f} mm, about A.").where(**sizes)
-    step = profile_view.prime_step(
-        inverted, say("Prime circle and pivot circle"), said, start, (circle.drawn_circle(Role.CONSTRUCTION),)
-    )
-    why = say("Because the pivot stays at the centre distance from A, and the lift starts at the prime circle.")
-    return replace(step, why=why, parts=(*step.parts, Part(pivots, (circle,))))
+    pivots = circle_drawn(say_in("drawn", "the circle of the pivot about A"), "c", c, mu_l)
+    title, circles = say("Prime circle and pivot circle"), (circle.drawn_circle(Role.CONSTRUCTION),)
+    why = say("The pivot stays at the centre distance from A, and the lift starts at the prime circle.")
+    return profile_view.prime_step(inverted, title, start, circles, why=why, parts=(Part(pivots, (circle,)),))
 
 
 def _pivots(inverted: ArmInverted) -> Step:

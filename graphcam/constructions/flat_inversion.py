@@ -21,7 +21,7 @@ from graphcam.drafting.ink import Caption, Part, Step, say
 from graphcam.drafting.marks import Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.scale import Scale
 from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.words import sequence
@@ -120,14 +120,8 @@ def _on_profile(inverted: profile_view.Inverted, name: str, k: int) -> dict[str,
 
 def _circle(inverted: profile_view.Inverted) -> Step:
     """The prime circle."""
-    r0, mu_l = inverted.givens.prime_radius, inverted.givens.mu_l.per_mm
-    said = say(
-        "Set the compass to {r0:g}/{mu_l:g} = {paper:.1f} mm, for r₀ = {r0:g} mm at {ratio}, and draw the prime circle "
-        "about the cam centre A."
-    ).where(r0=r0, mu_l=mu_l, paper=r0 / mu_l, ratio=ratio_text(mu_l))
-    why = say("Because the face is r₀ from the cam centre before the follower rises.")
-    step = profile_view.prime_step(inverted, say("Prime circle"), said, profile_view.start_of_turn(inverted))
-    return replace(step, why=why)
+    why = say("The face is r₀ from the cam centre before the follower rises.")
+    return profile_view.prime_step(inverted, say("Prime circle"), profile_view.start_of_turn(inverted), why=why)
 
 
 def _rays(inverted: profile_view.Inverted) -> Step:
