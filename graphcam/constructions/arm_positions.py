@@ -20,7 +20,7 @@ from graphcam.drafting.hand import Hand, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, Words, say
 from graphcam.drafting.marks import Arc, Line, Points, Role
 from graphcam.drafting.scale import Scale, ratio_text
-from graphcam.drafting.telling import run, setting
+from graphcam.drafting.telling import STATION, from_to, run, setting
 from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.stations import Stations
@@ -143,7 +143,7 @@ def positions_step(drawn: ArmPositions) -> Step:
         *(arms.ways(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION)),
         *numbers(ends, stations, towards, shown=_first_here(ends, start, stations)),
     )
-    swings = run(said, say("Station {name}"), names, arms, ends, settings=swung)
+    swings = run(said, STATION, names, arms, ends, settings=swung)
     return Step(
         say("Arm positions"),
         (Part(base, (level, arc, start)), swings),
@@ -188,11 +188,11 @@ def velocities_step(drawn: ArmPositions) -> Step:
     hand, pieces = showing(drawn), stations.pieces
     curves = [hand.fair(f"curve of the tips {n}", tips.first, [piece]) for n, piece in enumerate(pieces)]
     through = tuple(
-        Row(say("D{first} to D{last}", first=names[piece.start], last=names[piece.stop - 1]), "", (curve,))
+        Row(from_to(f"D{names[piece.start]}", f"D{names[piece.stop - 1]}"), "", (curve,))
         for curve, piece in zip(curves, pieces, strict=True)
     )
     smooth = say("Join the ends D by smooth curves with the French curve, from jump to jump of the acceleration.")
-    laid = run(said.where(length=setting(tips.first[[k]])), say("Station {name}"), names, tips, settings=laid_off)
+    laid = run(said.where(length=setting(tips.first[[k]])), STATION, names, tips, settings=laid_off)
     marks = (
         *(tips.from_(ends, Role.CURVE), *(curve.line(Role.RESULT) for curve in curves)),
         *numbers(tips, stations, tips.shown, shown=clear_numbers(tips.shown, stations, ends.shown)),

@@ -31,7 +31,7 @@ from graphcam.drafting.marks import Points, Role, Segments, angle_at
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
-from graphcam.drafting.telling import run
+from graphcam.drafting.telling import STATION, run
 from graphcam.given.follower import Rotation, sense
 from graphcam.words import sequence
 
@@ -331,9 +331,7 @@ def _everywhere(measured: ArmAngles, k: int) -> Step:
     tips, centre = measured.acts["tips"], measured.acts["centre"]
     places = (tips.dots(Role.CONSTRUCTION), centre.dots(Role.RESULT), centre.label("A", -UP))
     named = numbers(tips, measured.givens.integrated.givens.stations, UP)
-    every = run(
-        said, say("Station {name}"), names, normals, rays, settings=lambda n: say("{alpha:z.2f}°", alpha=alpha[n])
-    )
+    every = run(said, STATION, names, normals, rays, settings=lambda n: say("{alpha:z.2f}°", alpha=alpha[n]))
     marks = (strokes, rays.ways(Role.CONSTRUCTION), *places, *named, angle)
     title, view = say("The pressure angle at every station"), at_scale(ARM_ANGLES, measured.givens.mu_l)
     why = say("What holds at one station holds at all: only D and the arm differ; A is the same.")

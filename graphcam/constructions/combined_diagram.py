@@ -18,7 +18,7 @@ from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Reading, Row, Step, say
 from graphcam.drafting.marks import Line, Role
-from graphcam.drafting.telling import run, setting
+from graphcam.drafting.telling import STATION, from_to, run, setting
 from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.words import say_in, sequence
@@ -84,9 +84,7 @@ def laid_off(region: Construction[Any], bottom: float) -> Step:
         v_there = say("v = 0") if abs(x[k]) < NOTHING else say("v {set} {side}", set=setting(at), side=aside(x[k]))
         return sequence([up, v_there])
 
-    stationed = run(
-        _laying_off(region), say("Station {name}"), station_names(stations), heights, ends, settings=set_off
-    )
+    stationed = run(_laying_off(region), STATION, station_names(stations), heights, ends, settings=set_off)
     why = say(
         "Seen from a cam centre, the end of v lies at the pressure angle to the line of motion, as the velocity plan "
         "will show."
@@ -123,27 +121,22 @@ def joined_up(region: Construction[Any]) -> Step:
     hand, ends, stations = showing(region), region.acts["ends"], region.givens.integrated.givens.stations
     names, pieces = station_names(stations), stations.pieces
     curves = [hand.fair("curve", ends.first, [piece]) for piece in pieces]
-    through = [
-        say_in("stations", "{first} to {last}", first=names[piece.start], last=names[piece.stop - 1])
-        for piece in pieces
+    # Two ends have no curve.
+    tools = [
+        say("with the ruler") if piece.stop - piece.start == 2 else say("with the French curve") for piece in pieces
     ]
-    met = [names[a.stop - 1] for a, b in pairwise(pieces) if a.stop - 1 == b.start]
+    through = tuple(
+        Row(from_to(names[piece.start], names[piece.stop - 1]), tool, (curve,))
+        for piece, tool, curve in zip(pieces, tools, curves, strict=True)
+    )
     said = [say("Join the ends of v in their order, from jump to jump of the acceleration.")]
-    if met:
+    if met := [names[a.stop - 1] for a, b in pairwise(pieces) if a.stop - 1 == b.start]:
         said.append(say("There is a corner at {names}, where the acceleration jumps.", names=sequence(met)))
     said.append(say("In a dwell v is zero, so the curves start and end on the line of motion."))
-    # Two of them have no curve.
-    with_ = (
-        say("with the ruler") if piece.stop - piece.start == 2 else say("with the French curve") for piece in pieces
-    )
-    faired = tuple(
-        Row(say("Ends {ends}", ends=ends), tool, (curve,))
-        for ends, tool, curve in zip(through, with_, curves, strict=True)
-    )
     why = say("The limits must be satisfied between the stations too.")
     marks = tuple(curve.line(Role.RESULT) for curve in curves)
     title = say("Curves of rise and return")
-    return Step(title, (Part(sequence(said, " "), rows=faired),), COMBINED, marks, why=why)
+    return Step(title, (Part(sequence(said, " "), rows=through),), COMBINED, marks, why=why)
 
 
 def offset_caption(offset: float, mu: float) -> Caption:
