@@ -40,6 +40,7 @@ from graphcam.drafting.marks import Dimension, Role, Segments
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
+from graphcam.drafting.telling import led_by
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion, Moving
 from graphcam.given.spline_law import MEASURED
@@ -199,9 +200,7 @@ def _by_their_laws(laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> tu
             "The motion is a table, which has no law: its acceleration is that of the smoothed table, as under "
             "“{section}”. Ordinates above the axis are positive."
         ).where(section=say("Velocity and acceleration by differentiation"))
-    first, *others = (law.told() for law in laws)
-    said = [sequence([told, first], " "), *others]
-    return tuple(Part(caption, (curve,)) for caption, curve in zip(said, curves, strict=True))
+    return led_by(told, [Part(law.told(), (curve,)) for law, curve in zip(laws, curves, strict=True)])
 
 
 def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
@@ -242,17 +241,16 @@ def _ordinates(diagram: AccelerationDiagram, laws: Sequence[_LawOverPhase], curv
         "of its law, here {numbers}."
     ).where(numbers=sequence(numbers))
     marks = tuple(_dimension(diagram, k, law, curve) for k, (law, curve) in enumerate(zip(laws, curves, strict=True)))
-    order = [chosen, *(k for k in range(len(laws)) if k != chosen)]
-    said = [choice.where(phase=laws[chosen].title, y=laws[chosen].greatest)]
-    said += [laws[k].reckoned(laws[chosen]) for k in order[1:]]
-    said[1:2] = [sequence([others, caption], " ") for caption in said[1:2]]
     ends = diagram.acts["greatest"].first
-    parts = tuple(Part(caption, (ends[[k]],)) for caption, k in zip(said, order, strict=True))
+    first = Part(choice.where(phase=laws[chosen].title, y=laws[chosen].greatest), (ends[[chosen]],))
+    reckoned = [Part(laws[k].reckoned(laws[chosen]), (ends[[k]],)) for k in range(len(laws)) if k != chosen]
     why = say(
         "The lift of a phase is proportional to y·φ²/C, so the displacement returns to the axis only if the "
         "ordinates are in this ratio."
     )
-    return Step(say("Ordinates of the phases"), parts, ACCELERATION, marks, ("greatest",), why=why)
+    return Step(
+        say("Ordinates of the phases"), (first, *led_by(others, reckoned)), ACCELERATION, marks, ("greatest",), why=why
+    )
 
 
 @dataclass(frozen=True)
@@ -331,8 +329,7 @@ def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
         "Divide the moving phases into parts, {equal}, and number the cuts; each part has the number of the cut at its "
         "end."
     ).where(equal=equal_parts(stations))
-    first, *others = (part for k in range(len(stations.phases)) for part in _divided_phase(diagram, k))
-    parts = Part(sequence([divided, first.caption], " "), first.draws), *others
+    parts = led_by(divided, [part for k in range(len(stations.phases)) for part in _divided_phase(diagram, k)])
     return Step(say("Middle ordinates"), parts, ACCELERATION, marks, ("middles",), given=marks, why=why)
 
 

@@ -40,6 +40,7 @@ from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, View, 
 from graphcam.drafting.marks import Dimension, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.telling import led_by
 from graphcam.drafting.units import NOTHING, unit
 from graphcam.errors import DesignError, Unquoted
 from graphcam.given.laws import Floats
@@ -352,10 +353,8 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
         "add up the area under {source}."
     ).where(source=source)
     chords = Part(said, rows=tuple(row for k in range(len(stations.phases)) for row in _chord_rows(c, run, k)))
-    checks = list(_ordinates(c, run))
-    if left > NOTHING:
-        closed = sequence([run.closing.where(left=left), checks[0].caption], " ")
-        checks[0] = Part(closed, checks[0].draws)
+    checks = tuple(_ordinates(c, run))
+    checks = led_by(run.closing.where(left=left), checks) if left > NOTHING else checks
     title = say("Chords parallel to the rays: {target}", target=target)
     return Step(title, (chords, *checks), run.target, (*axes, *marks), given=axes, why=why, under=under)
 

@@ -139,10 +139,10 @@ class PiecewiseCurve:
     rows: tuple[Row, ...]
     rests: bool
 
-    def told(self, *said: Caption) -> Part:
-        """The run of its pieces, of which this is ``said`` between the dwells."""
+    def told(self, said: Caption, *more: Caption) -> Part:
+        """The run of its pieces: how they are said to be drawn between the dwells, the arcs, and what more there is."""
         arcs = (say("In the dwells swing arcs about A with the compass."),) if self.rests else ()
-        return Part(sequence([*said, *arcs], " "), rows=self.rows)
+        return Part(sequence([said, *arcs, *more], " "), rows=self.rows)
 
 
 def piecewise_curve(name: str, inverted: Inverted, points: Drawn) -> PiecewiseCurve:

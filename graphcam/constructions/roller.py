@@ -14,6 +14,7 @@ from graphcam.drafting.ink import Caption, Construction, Part, Step, View, Words
 from graphcam.drafting.marks import Mark, Role
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.telling import led_by
 from graphcam.given.laws import Floats
 from graphcam.given.roller_rule import Candidate
 from graphcam.words import sequence
@@ -109,12 +110,12 @@ def _draw(rolled: Rolled) -> list[Step]:
     else:
         caption = say("The task gives a knife edge, which has no roller; the rule is not applied.")
     why = say(
-        "Because where the pitch curve has the radius ρ the working profile has ρ − r: a roller larger than ρ would "
+        "Where the pitch curve has the radius ρ the working profile has ρ − r: a roller larger than ρ would "
         "cut the cam away."
     )
     names = [term.said for term in rule] if given is None else ["r"]
     view, marks, parts = laid_off_on_ob(rolled, names, candidates)
-    return [Step(say("Roller radius"), caption, view, marks, ("candidates", "roller_radius"), why=why, parts=parts)]
+    return [Step(say("Roller radius"), led_by(caption, parts), view, marks, ("candidates", "roller_radius"), why=why)]
 
 
 def _proposal(term: Candidate, radius: float) -> Caption:

@@ -1,6 +1,7 @@
 """What acts tell of themselves: to what an instrument is set at every place, and runs of like moves as tables."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -8,7 +9,7 @@ from graphcam.drafting.acts import Drawn, Kind, Setting
 from graphcam.drafting.ink import Part, Row
 from graphcam.drafting.scale import ratio_text
 from graphcam.drafting.units import NOTHING
-from graphcam.words import Caption, Words, say
+from graphcam.words import Caption, Words, say, sequence
 
 SET = {Kind.LAY_OFF: "length", Kind.CIRCLE: "radius"}
 """The lengths to which dividers or a compass are set, by what the act calls them."""
@@ -65,6 +66,18 @@ def circle_drawn(circle: Caption, symbol: Words, radius: float, per_mm: float) -
     said = say("Set the compass to {paper:.1f} mm ({symbol} = {radius:g} mm at {ratio}) and draw {circle}.")
     values = {"symbol": symbol, "radius": radius, "paper": radius / per_mm, "ratio": ratio_text(per_mm)}
     return said.where(circle=circle, **values)
+
+
+def led_by(said: Caption, parts: Sequence[Part]) -> tuple[Part, ...]:
+    """Parts of which the first begins with what is said of all; where there are none, that alone."""
+    if not parts:
+        return (Part(said),)
+    return replace(parts[0], caption=sequence([said, parts[0].caption], " ")), *parts[1:]
+
+
+def alike(_: int) -> Words:
+    """The setting of places of which no one differs from another."""
+    return ""
 
 
 def run(
