@@ -263,7 +263,7 @@ def _velocities(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) 
     sizes |= {"turn": turning(rotation), "back": turning("cw" if rotation == "ccw" else "ccw")}
     first = say(
         "All velocities are divided by ω, so v₁ = ω·AB is drawn as long as AB. From a pole p draw with the set squares "
-        "v₁ = {across:.1f} mm, square to AB: the direction of AB turned by 90° {turn}."
+        "v₁ = AB = {across:.1f} mm, square to AB: the direction of AB turned by 90° {turn}."
     )
     second = say(
         "From p draw v₂ = BD = {along:.1f} mm, square to the arm: the direction of BD turned by 90° {back}."

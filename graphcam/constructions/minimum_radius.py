@@ -39,6 +39,7 @@ from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import AngleMark, Dimension, Line, Mark, Region, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.telling import led_by
 from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.limits import Limits
@@ -280,18 +281,17 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
     ]
     hatch = say("Hatch the region below the lines that none of them cuts off.")
     marks: list[Mark] = [Region(permitted.points).left_by(permitted)]
-    parts = [Part(sequence([*sides, hatch], " "), (permitted,))]
+    crosses = list[Part]()
     for name, place in others.items():
         strokes = hand.erect(f"cross at {place.act.name}", place.first, np.array([1, UP]))
         starts, tips = (strokes.points + side * 1.5 * strokes.directions for side in (-1, 1))
         marks.append(Segments(starts, tips, Role.CONSTRUCTION).left_by(strokes))
         marks.append(place.first.label(PLACES[name], _outside(lines, place.place), small=True))
-        found = FOUND[name].where(distance=abs(place.place))
-        if len(parts) == 1:
-            found = sequence([say("Thin crosses mark the points that textbooks choose."), found], " ")
-        parts.append(Part(found, (place.first, strokes)))
+        crosses.append(Part(FOUND[name].where(distance=abs(place.place)), (place.first, strokes)))
+    chosen = say("Thin crosses mark the points that textbooks choose.")
+    parts = Part(sequence([*sides, hatch], " "), (permitted,)), *led_by(chosen, crosses)
     why = say("The cam centre must satisfy all limits at once.")
-    return Step(say("The region of the cam centre"), tuple(parts), COMBINED, tuple(marks), why=why)
+    return Step(say("The region of the cam centre"), parts, COMBINED, tuple(marks), why=why)
 
 
 def _outside(lines: list[Boundary], place: complex) -> complex:
