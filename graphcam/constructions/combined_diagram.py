@@ -82,7 +82,7 @@ def laid_off(region: Construction[Any], bottom: float) -> Step:
         up = say("at B₀") if abs(s[k]) < NOTHING else say("{s:.2f} mm up", s=s[k])
         at = ends.first[[k]]
         v_there = say("v = 0") if abs(x[k]) < NOTHING else say("v {set} {side}", set=setting(at), side=aside(x[k]))
-        return sequence([up, v_there])
+        return say("{up}, {v_there}", up=up, v_there=v_there)
 
     stationed = run(_laying_off(region), STATION, station_names(stations), heights, ends, settings=set_off)
     why = say(
