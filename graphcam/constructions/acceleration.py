@@ -40,7 +40,7 @@ from graphcam.drafting.marks import Dimension, Role, Segments
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.drafting.telling import led_by
+from graphcam.drafting.telling import FRENCH_CURVE, RULER, led_by
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion, Moving
 from graphcam.given.spline_law import MEASURED
@@ -248,9 +248,8 @@ def _ordinates(diagram: AccelerationDiagram, laws: Sequence[_LawOverPhase], curv
         "The lift of a phase is proportional to y·φ²/C, so the displacement returns to the axis only if the "
         "ordinates are in this ratio."
     )
-    return Step(
-        say("Ordinates of the phases"), (first, *led_by(others, reckoned)), ACCELERATION, marks, ("greatest",), why=why
-    )
+    title, parts = say("Ordinates of the phases"), (first, *led_by(others, reckoned))
+    return Step(title, parts, ACCELERATION, marks, ("greatest",), why=why)
 
 
 @dataclass(frozen=True)
@@ -287,11 +286,8 @@ class _LawOverPhase:
         ends = [(a, b + 0.0) for x, y in branches for a, b in zip(x, np.round(y, 1), strict=True)]
         ends = [end for end, before in zip(ends, (None, *ends), strict=False) if end != before]
         places = [say("{y:.1f} at {x:.1f}", x=a, y=b) for a, b in ends]
-        if curved:
-            said = say("Over {phase} set off the ordinates {places} mm and join them with the French curve.")
-        else:
-            said = say("Over {phase} set off the ordinates {places} mm and join them with the ruler.")
-        return said.where(phase=self.title, places=sequence(places))
+        said = say("Over {phase} set off the ordinates {places} mm and join them {tool}.")
+        return said.where(phase=self.title, places=sequence(places), tool=FRENCH_CURVE if curved else RULER)
 
     def reckoned(self, first: _LawOverPhase) -> Caption:
         """How the largest ordinate follows from the chosen one; what both phases have alike is left out."""

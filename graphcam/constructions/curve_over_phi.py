@@ -10,7 +10,7 @@ from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import Caption, Part, Row, say
 from graphcam.drafting.marks import Line, Points, Role
-from graphcam.drafting.telling import from_to
+from graphcam.drafting.telling import FRENCH_CURVE, RULER, from_to
 from graphcam.given.motion import FULL_TURN
 from graphcam.plane import dot
 from graphcam.words import sequence
@@ -20,8 +20,6 @@ STRAIGHT = 0.05
 REST = 1e-9
 """A dwell is longer [rad]."""
 
-_STRAIGHT = say("with the ruler")
-_BENT = say("with the French curve")
 _ALL_STRAIGHT = say(
     "From jump to jump of the acceleration the points lie on one line: join them with the ruler, because the "
     "chords are the curve."
@@ -46,7 +44,7 @@ def curve_over_phi(
     straight, lines, rows = list[bool](), list[Line](), list[Row]()
     for piece in stations.pieces:
         straight.append(_on_one_line(curve.shown[piece]))
-        ends, tool = from_to(names[piece.start], names[piece.stop - 1]), _STRAIGHT if straight[-1] else _BENT
+        ends, tool = from_to(names[piece.start], names[piece.stop - 1]), RULER if straight[-1] else FRENCH_CURVE
         faired = hand.fair(name, curve.first, [piece])
         setting = tool if piece.start in begins else sequence([tool, met.where(first=names[piece.start])], "; ")
         rows.append(Row(ends, setting, (faired,)))

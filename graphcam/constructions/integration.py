@@ -275,30 +275,22 @@ def _draw_rays(c: Integrated, run: _Integrating) -> Step:
         *height_names(projected, names),
     )
     marked = say("Mark the pole P{index} on the axis, H{index} = {distance:.1f} mm to the left of 0.")
-    told, which = height[kept].tolist(), min(2, len(kept) - 1)
-    cut = _SHARED_CUT if len(same[which]) > 1 else _CUT
-    said = [run.carried.where(source=source), cut.where(name=names[which], y=told[which])]
+    marked = marked.where(index=run.subscript, distance=distance)
     rows = tuple(
         Row(
-            (_SHARED_RAY if len(own) > 1 else _RAY).where(name=name),
-            say("{source} = {y:z.2f} mm", source=source, y=y),
+            (say("Rays {name}") if len(own) > 1 else say("Ray {name}")).where(name=name),
+            say("{source} = {y:z.2f} mm", source=source, y=height[k]),
             (*(places.first[own] for places in halves), levelled.first[[k]], rays.first[[k]]),
         )
-        for k, own, name, y in zip(kept, same, names, told, strict=True)
+        for k, own, name in zip(kept, same, names, strict=True)
     )
+    said = sequence([run.carried.where(source=source), rows[min(2, len(rows) - 1)].caption], " ")
     why = say(
         "A ray rises by the ordinate y over the distance H, so its slope y/H is the slope that {target} has there."
     ).where(target=target)
-    pole_marked = Part(marked.where(index=run.subscript, distance=distance), (pole.first,))
-    parts, titled = (pole_marked, Part(sequence(said, " "), rows=rows)), say("Pole and rays, {source} to {target}")
-    return Step(
-        titled.where(source=source, target=target), parts, run.source, (*laid_out, *marks), given=laid_out, why=why
-    )
-
-
-_CUT = say("Ray {name} cuts the vertical axis at {y:.2f} mm.")
-_SHARED_CUT = say("Rays {name} coincide and cut the vertical axis at {y:.2f} mm.")
-_RAY, _SHARED_RAY = say("Ray {name}"), say("Rays {name}")
+    title = say("Pole and rays, {source} to {target}", source=source, target=target)
+    parts = Part(marked, (pole.first,)), Part(said, rows=rows)
+    return Step(title, parts, run.source, (*laid_out, *marks), given=laid_out, why=why)
 
 
 def _draw_chords(c: Integrated, run: _Integrating) -> Step:
@@ -308,23 +300,13 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
     y, left = polygon.shown.imag, float(np.max(np.abs(c.first(f"closing_{target}"))))
     motion, mu_phi, heights, far = c.givens.motion, c.givens.mu_phi, curve.shown.imag, np.abs(y) >= 0
     axes = phi_axes(motion, mu_phi, heights, ordinate(target, c.givens.unit))
+    end, low, omega = float(phase_ends(motion, mu_phi)[-1]), reach(heights)[0], c.givens.omega
+    under = (*degrees_below(end, mu_phi, low), *times_below(end, mu_phi, low, omega, phases=False))
     if run.index == 2:
         # What is near the numbers of the axis needs none of its own.
         axes, far = (*axes, *numbers(c.acts["acceleration: axis"], stations, -UP)), np.abs(y) > NEAR
         if c.givens.lowest:
-            low = reach(heights)[0]
-            axes += phases_below(motion, mu_phi, low)
-            axes += times_below(phase_ends(motion, mu_phi)[-1], mu_phi, low, c.givens.omega)
-    numbered = run.index == 2 and c.givens.lowest
-    end, low, omega = float(phase_ends(motion, mu_phi)[-1]), reach(heights)[0], c.givens.omega
-    under = (
-        ()
-        if numbered
-        else (
-            *degrees_below(end, mu_phi, low),
-            *times_below(end, mu_phi, low, omega, phases=False),
-        )
-    )
+            axes, under = (*axes, *phases_below(motion, mu_phi, low), *times_below(end, mu_phi, low, omega)), ()
     marks = (
         *(polygon.first[span].line(Role.CONSTRUCTION) for span in stations.phases),
         curve.from_(curve.shown.real + 0j, Role.CONSTRUCTION),
@@ -335,13 +317,8 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
     part = int(climbing[min(np.searchsorted(climbing, 3), climbing.size - 1)]) if climbing.size else 0
     k, names = int(stations.left[part]) + 1, station_names(stations)
     width = polygon.shown.real[k] - polygon.shown.real[k - 1]
-    values = {
-        "width": width,
-        "distance": c.givens.poles[run.index - 1],
-        "rise": y[k] - y[k - 1],
-        "before": names[k - 1],
-    }
-    values |= {"name": names[k], "height": c.acts[f"heights for {target}"].shown.imag[part]}
+    values = {"name": names[k], "before": names[k - 1], "width": width, "distance": c.givens.poles[run.index - 1]}
+    values |= {"rise": y[k] - y[k - 1], "height": c.acts[f"heights for {target}"].shown.imag[part]}
     said = say(
         "In each part draw a chord parallel to its ray with two set squares, from the end of the previous chord "
         "to the next vertical, and number its end. Chord {name}: slide the set square from ray {name} to point "
@@ -459,8 +436,7 @@ def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, ma
     if lift_unit == "rad":
         told = sequence([told, say("In degrees {mu:.4g}°/mm.", mu=np.degrees(mu))], " ")
     if c.givens.omega is not None and name != "s":
-        said_too = scale_said(mu, name, c.givens.omega, c.givens.unit)
-        told = sequence([told, said_too], " ")
+        told = sequence([told, scale_said(mu, name, c.givens.omega, c.givens.unit)], " ")
         divided += graduated_at_speed(
             heights, mu, name, c.givens.omega, c.givens.unit, float(turn), c.readings[name].act
         )

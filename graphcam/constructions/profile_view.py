@@ -17,7 +17,7 @@ from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, Words,
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Converges, ReadingMeaning
 from graphcam.drafting.scale import Scale
-from graphcam.drafting.telling import circle_drawn, from_to
+from graphcam.drafting.telling import FRENCH_CURVE, circle_drawn, from_to
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.stations import Stations
@@ -192,7 +192,7 @@ def _piece_row(inverted: Inverted, k: int, piece: Drawn, drawn: Drawn) -> Row:
     phase = phase_title(motion, k)
     if piece.act.kind is Kind.FAIR:
         names, at = station_names(stations), piece.act.takes["points"].index
-        return Row(sequence([from_to(names[at[0]], names[at[-1]]), phase]), say("with the French curve"), (drawn,))
+        return Row(sequence([from_to(names[at[0]], names[at[-1]]), phase]), FRENCH_CURVE, (drawn,))
     arc = say("compass {radius:.1f} mm, an arc of {angle} about A")
     arc = arc.where(radius=abs(piece.shown[0]), angle=degrees(motion.phases[k].angle))
     return Row(say("In the {phase}", phase=phase), arc, (drawn,))

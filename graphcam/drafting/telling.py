@@ -13,6 +13,7 @@ from graphcam.words import Caption, Words, say, sequence
 
 SET = {Kind.LAY_OFF: "length", Kind.CIRCLE: "radius"}
 """The lengths to which dividers or a compass are set, by what the act calls them."""
+RULER, FRENCH_CURVE = say("with the ruler"), say("with the French curve")
 STATION = say("Station {name}")
 """What a place of most runs is called."""
 
