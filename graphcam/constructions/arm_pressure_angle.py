@@ -249,7 +249,7 @@ def _mechanism(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -
     draws = ((a, c), (cb[k], b[k]), (ab[k],), (bd[k], d[k]))
     parts = tuple(Part(text.where(**sizes), drawn) for text, drawn in zip(texts, draws, strict=True))
     why = say(
-        "l·ds/dφ, the velocity of B turned by 90°, is a length along the arm, so it can be drawn in the mechanism."
+        "The velocity of B turned by 90°, l·ds/dφ, is a length along the arm, so it can be drawn in the mechanism."
     )
     return Step(say("The mechanism at station {name}", name=names[k]), parts, scales.view(names[k]), marks, why=why)
 

@@ -363,8 +363,8 @@ def _normal(shown: _Shown) -> Step:
         *(c.dots(), c.label("C", -1j + shown.sigma)),
     )
     why = say(
-        "v₂₁ lies along the profile and the normal is square to it, so the sides of ABC are square to those of the "
-        "plan, and AC = v₂/ω = ds/dφ."
+        "The velocity v₂₁ lies along the profile and the normal is square to it, so the sides of ABC are square to "
+        "those of the plan, and AC = v₂/ω = ds/dφ."
     )
     return Step(say("The normal and the triangle ABC"), parts, shown.view, marks, why=why)
 

@@ -173,7 +173,7 @@ def test_every_step_has_a_reason_and_its_parts_draw_all_its_marks(name, pencil):
     for construction in ("minimum_radius", "pressure_angle", "inversion"):
         for step in steps_of(name, construction, pencil)[1]:
             why = str(step.why)
-            assert re.fullmatch(r"(?!Because)[A-Zl][^.]*(\.\d[^.]*)*\.", why), (str(step.title), why)
+            assert re.fullmatch(r"(?!Because)[A-Z][^.]*(\.\d[^.]*)*\.", why), (str(step.title), why)
             assert construction == "pressure_angle" or step.parts, str(step.title)
             assert undrawn(step) == [], str(step.title)
             for part in (*step.parts, *step.places):
