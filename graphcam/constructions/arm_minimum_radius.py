@@ -7,7 +7,7 @@ is drawn, and A may lie where no line cuts it off.  Between the positions the li
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -41,7 +41,7 @@ from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.plane import dot
-from graphcam.words import joined
+from graphcam.words import joined, sequence
 
 
 @dataclass(frozen=True, eq=False)
@@ -269,18 +269,15 @@ def _shaded(region: ArmRegion, picture: RegionPicture, hatched: Points) -> Step:
     edges = showing(region).given("edges of the picture", corners, np.diff([*corners, corners[0]]))
     bounds = showing(region).take("bounds", region.acts["lines"].first, edges)
     said = say(
-        "Hatch the region on the permitted side of all lines; between the stations its edge is the curve that "
-        "the lines touch."
+        "Hatch the region on the permitted side of all lines; between the stations its edge is the curve that the "
+        "lines touch."
     )
     if region.givens.limits.return_ is None:
-        said = say(
-            "Hatch the region on the permitted side of all lines; between the stations its edge is the curve "
-            "that the lines touch. A spring drives the return, which therefore has no lines."
-        )
+        said = sequence([said, say("A spring drives the return, which therefore has no lines.")], " ")
     return Step(
-        *(say("The permitted region"), said, at_scale(REGION, region.givens.mu_l)),
+        *(say("The permitted region"), (Part(said, (bounds,)),), at_scale(REGION, region.givens.mu_l)),
         *((Region(hatched, of=bounds.act),),),
-        why=say("Because with a cam centre in the hatched region no position of the arm exceeds its permitted angle."),
+        why=say("With a cam centre in the hatched region no position of the arm exceeds its permitted angle."),
     )
 
 
@@ -346,35 +343,27 @@ def found_at(region: ArmRegion) -> Caption:
 def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
     c, acts, length = region.givens.distance, region.acts, region.givens.mu_l.paper
     start, centre, arcs, parts = acts["start"], acts["centre"][0], list[Mark](), list[Part]()
-    said = NO_CENTRE[c is not None]
     if c is not None:
         circle = acts["circle of the centre"]
         middle = centre.place if found else -length(c) * np.exp(0.2j)
         arcs.append(arc_through(circle, middle * np.exp([-0.15j, 0.15j])))
-        parts.append(Part(say("Draw an arc of {paper:.1f} mm about C with the compass.", paper=length(c)), (circle,)))
-    reads = ("prime_radius", "distance") if found else ()
-    step = Step(
-        *(say("The minimum prime radius"), said, at_scale(REGION, region.givens.mu_l), tuple(arcs), reads),
-        why=say(
-            "Because the prime circle goes through B₀, so the nearest permitted cam centre gives the smallest cam."
-        ),
-    )
+        about = say("Draw an arc of {paper:.1f} mm about C with the compass, for c = {c:g} mm.", paper=length(c), c=c)
+        parts.append(Part(about, (circle,)))
+    title, view = say("The minimum prime radius"), at_scale(REGION, region.givens.mu_l)
+    why = say("The prime circle goes through B₀, so the nearest permitted cam centre gives the smallest cam.")
     if not found:
-        return step
-    place, bind = found_at(region), acts["lines that bind"]
-    line = showing(region).join("line of centres", acts["pivot"].first, centre.first)
-    r0, away = (float(region.value(name)) for name in reads)
-    said = say("A₀ is {place}. Join it to B₀ and C and measure: {sizes}.")
-    if c is not None:
-        said = say(
-            "Draw an arc of {paper:.1f} mm about C with the compass, for c = {c:g} mm. A₀ is {place}. Join it to "
-            "B₀ and C and measure: {sizes}."
-        ).where(paper=length(c), c=c)
-    sizes = say("A₀B₀ = {paper:.2f} mm, so r₀ = {r0:.3f} mm, and A₀C = {away:.2f} mm, so c = {c:.3f} mm").where(
-        paper=abs(centre.place - start.place), r0=r0, away=abs(centre.place), c=away
+        return Step(title, (*parts, Part(NO_CENTRE[c is not None])), view, tuple(arcs), why=why)
+    line, reads = (
+        showing(region).join("line of centres", acts["pivot"].first, centre.first),
+        ("prime_radius", "distance"),
     )
-    parts.append(Part(say("Mark A₀, {place}.", place=place), (bind, centre)))
-    parts.append(Part(say("Join A₀ to B₀ and C and measure: {sizes}.", sizes=sizes), (acts["prime radius"], line)))
+    r0, away = (float(region.value(name)) for name in reads)
+    joining = say(
+        "Join A₀ to B₀ and C and measure: A₀B₀ = {paper:.2f} mm, so r₀ = {r0:.3f} mm, and A₀C = {away:.2f} mm, so c = "
+        "{c:.3f} mm."
+    ).where(paper=abs(centre.place - start.place), r0=r0, away=abs(centre.place), c=away)
+    parts.append(Part(say("Mark A₀, {place}.", place=found_at(region)), (acts["lines that bind"], centre)))
+    parts.append(Part(joining, (acts["prime radius"], line)))
     marks = (
         *(*arcs, *_binding_marks(region, hatched)),
         *(acts["prime radius"].way(Role.LIMIT), line.way(Role.AXIS)),
@@ -384,4 +373,4 @@ def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
         ),
         Dimension(centre.place, 0j, say("c = {c:.2f}", c=away), -8.0, of=region.readings["distance"].act),
     )
-    return replace(step, said=said.where(place=place, sizes=sizes), marks=marks, parts=tuple(parts))
+    return Step(title, tuple(parts), view, marks, reads, why=why)

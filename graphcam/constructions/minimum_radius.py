@@ -39,6 +39,7 @@ from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import AngleMark, Dimension, Line, Mark, Region, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.telling import led_by
 from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.limits import Limits
@@ -188,17 +189,16 @@ def _touching(region: LeastRadius, picture: RegionPicture) -> Step:
     """The lines that bound the region, each at its permitted angle."""
     hand, limits = showing(region), region.givens.limits
     lines = [_limit_line(region, hand, line, picture) for line in _shown(region)]
-    parts = tuple(part for part, _ in lines)
-    further = [_at_zero_lift(region)]
+    parts = [part for part, _ in lines]
     if not limits.return_:
-        further.append(say("A spring drives the return (force closure), so no line is drawn for the return."))
-    said = sequence([*(part.caption for part in parts), *further], " ")
+        none = say("A spring drives the return (force closure), so no line is drawn for the return.")
+        parts[-1] = Part(sequence([parts[-1].caption, none], " "), parts[-1].draws)
     why = say(
-        "Because from a point on a tangent the end of v that it touches is seen at exactly the permitted angle "
-        "to the motion, and from points below the tangent at less."
+        "From a point on a tangent the end of v that it touches is seen at exactly the permitted angle to the motion, "
+        "and from points below the tangent at less."
     )
     marks = tuple(mark for _, drawn in lines for mark in drawn)
-    return Step(say("Tangents at the permitted angles"), said, COMBINED, marks, why=why, parts=parts)
+    return Step(say("Tangents at the permitted angles"), tuple(parts), COMBINED, marks, why=why)
 
 
 def _limit_line(
@@ -242,6 +242,8 @@ def _limit_line(
             curve=CURVES[line.name],
             where=_touch(region, line.name, drawn.place),
         )
+    if line.name == "rise":
+        said = sequence([said, _at_zero_lift(region)], " ")
     return Part(said, (drawn, upright) if limit is drawn else (limit, drawn, upright)), marks
 
 
@@ -267,7 +269,6 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
     """The region, and the places that textbooks take."""
     hand, lines, others = showing(region), _shown(region), _alternatives(region)
     permitted = hand.given("permitted places", picture.permitted(lines))
-    hatch = say("Hatch the region below the lines that none of them cuts off.")
     sides = [
         say(
             "A cam centre {side} of {line} would give more than {angle} {limited}.",
@@ -278,20 +279,19 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
         )
         for line in lines
     ]
-    further = say("Thin crosses mark the points that textbooks choose: {names}.")
-    said = [*sides, hatch, further.where(names=sequence([PLACES[name] for name in others]))]
+    hatch = say("Hatch the region below the lines that none of them cuts off.")
     marks: list[Mark] = [Region(permitted.points).left_by(permitted)]
-    parts = [Part(hatch, (permitted,))]
+    crosses = list[Part]()
     for name, place in others.items():
         strokes = hand.erect(f"cross at {place.act.name}", place.first, np.array([1, UP]))
         starts, tips = (strokes.points + side * 1.5 * strokes.directions for side in (-1, 1))
         marks.append(Segments(starts, tips, Role.CONSTRUCTION).left_by(strokes))
         marks.append(place.first.label(PLACES[name], _outside(lines, place.place), small=True))
-        found = FOUND[name].where(distance=abs(place.place))
-        parts.append(Part(found, (place.first, strokes)))
-    why = say("Because the cam centre must satisfy all limits at once.")
-    title = say("The region of the cam centre")
-    return Step(title, sequence(said, " "), COMBINED, tuple(marks), why=why, parts=tuple(parts))
+        crosses.append(Part(FOUND[name].where(distance=abs(place.place)), (place.first, strokes)))
+    chosen = say("Thin crosses mark the points that textbooks choose.")
+    parts = Part(sequence([*sides, hatch], " "), (permitted,)), *led_by(chosen, crosses)
+    why = say("The cam centre must satisfy all limits at once.")
+    return Step(say("The region of the cam centre"), parts, COMBINED, tuple(marks), why=why)
 
 
 def _outside(lines: list[Boundary], place: complex) -> complex:
@@ -305,8 +305,8 @@ def _unreadable() -> Step:
         "No cam centre can be read: the lines that bound the region cross one another, or the line of the offset, "
         "at less than a degree."
     )
-    why = say("Because lines at so flat an angle do not show where they cross.")
-    return Step(say("The minimum prime radius"), said, COMBINED, (), why=why)
+    why = say("Lines at so flat an angle do not show where they cross.")
+    return Step(say("The minimum prime radius"), (Part(said),), COMBINED, (), why=why)
 
 
 def _result(region: LeastRadius) -> Step:
@@ -339,11 +339,9 @@ def _result(region: LeastRadius) -> Step:
         *_centre_lines(region, level),
     )
     why = say(
-        "Because the nearer the cam centre is to B₀, the smaller the cam, and points of the hatched region "
-        "satisfy all limits."
+        "The nearer the cam centre is to B₀, the smaller the cam, and points of the hatched region satisfy all limits."
     )
-    title, said = say("The minimum prime radius"), sequence([part.caption for part in parts], " ")
-    return Step(title, said, COMBINED, marks, reads, why=why, parts=tuple(parts))
+    return Step(say("The minimum prime radius"), tuple(parts), COMBINED, marks, reads, why=why)
 
 
 def _height(paper: float, mu: float, s0: float) -> Caption:

@@ -407,10 +407,10 @@ def test_every_angle_is_set_off_at_its_station_upward_where_it_is_positive(name)
     step = chain["angle_diagram"].steps()[0]
     alpha = np.degrees(chain["pressure_angle"].readings["alpha"].paper)
     plotted = of(step, Dots)[0].points
-    own = [part for part in step.parts if str(part.caption).startswith("Station ")]
+    own = [place for place in step.places if str(place.caption).startswith("Station ")]
     for k, (part, at, angle) in enumerate(zip(own, plotted, alpha, strict=True)):
         way = "upward" if angle >= 0 else "downward"
-        y, told = numbers(part, rf"set off {NUMBER} mm {way} for {NUMBER}°")
+        told, y = numbers(part, rf": {NUMBER}°, {NUMBER} mm {way}\.")
         assert (y, told) == (pytest.approx(abs(at.imag), abs=CENTI), pytest.approx(angle, abs=CENTI))
         assert pieces_of(part.draws)[0].at == (k,)
         assert np.sign(at.imag) == np.sign(angle)
