@@ -9,7 +9,7 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from graphcam.constructions.readings import ReadingRow, rows
-from graphcam.drafting.ink import Caption, Construction, Part, Step
+from graphcam.drafting.ink import Construction, Part, Step
 from graphcam.errors import DesignError
 from graphcam.indices import in_html
 from graphcam.notebooks.picture import Picture
@@ -69,7 +69,7 @@ class Stage:
         found: list[Picture] = []
         for k, page in self.strip.items():
             told = {"part": k + 1, "count": len(places), "caption": places[k].caption}
-            below = bare if self._listed and not _is_row(self.step, k) else said
+            below = said if _is_row(self.step, k) else bare
             found.append(Picture(svg(page), self.tell(alt.where(**told)), self.tell(below.where(**told))))
         return found
 
@@ -77,27 +77,14 @@ class Stage:
     def html(self) -> str:
         """Title, what is done part by part, and the reason; some parts side by side; the whole step; readings."""
         title, why = (in_html(escape(self.tell(said))) for said in (self.step.title, self.step.why))
-        words = f"<h4>{self.number} {title}</h4>"
-        if self._listed:
-            words += f"<ol>{''.join(f'<li>{self._told(part)}</li>' for part in self.step.parts)}</ol>"
-        else:
-            words += f"<p>{in_html(escape(self.tell(self.step.caption)))}</p>"
-        words += f'<p class="why">{why}</p>' if why else ""
+        parts = "".join(f"<li>{self._told(part)}</li>" for part in self.step.parts)
+        words = f"<h4>{self.number} {title}</h4><ol>{parts}</ol>" + (f'<p class="why">{why}</p>' if why else "")
         if len(self.step.places) > 1:
             words += f'<div class="stills">{"".join(picture.html for picture in self.pictures)}</div>'
-        if len(self.step.places) > 1 and not self._listed:
-            parts = "".join(f"<li>{self._told(part)}</li>" for part in self.step.parts)
-            summary = escape(self.tell(say("All parts in words")))
-            words += f"<details><summary>{summary}</summary><ol>{parts}</ol></details>"
         shown = self.picture.html if self.picture else ""
         read = "".join(f"<li>{_reading(row, self.tell)}</li>" for row in self.reads)
         readings = f'<ul class="readings">{read}</ul>' if read else ""
         return f'<section class="step">{words}{shown}{readings}</section>'
-
-    @property
-    def _listed(self) -> bool:
-        """Whether the step is told by a list of its parts."""
-        return not isinstance(self.step.said, Caption) and len(self.step.places) > 1
 
     def _told(self, part: Part) -> str:
         """A part in words, a run with its table."""

@@ -7,7 +7,7 @@ from typing import Any, Protocol
 
 from graphcam.constructions.readings import ReadingRow, rows
 from graphcam.drafting.acts import Act
-from graphcam.drafting.ink import Caption, Construction, Reading, Row, Step, say
+from graphcam.drafting.ink import Construction, Reading, Row, Step, say
 from graphcam.drafting.moves import ActPlaces, FollowedBoard, Moves, all_of, visible_in
 from graphcam.drafting.written_acts import WrittenActs
 from graphcam.language import language
@@ -139,7 +139,6 @@ class _Telling:
         """What is said of a step; that which opens a chapter says why the construction is drawn."""
         tell, read = self.tell, {name: construction.readings[name] for name in step.reads}
         moves = self.board.followed(step, read.values())
-        listed = not isinstance(step.said, Caption) and len(step.places) > 1
         captions, runs = self._said(step) if step.parts else ([""], [])
         parts = tuple(self._part(*part, step) for part in zip(captions, moves, strict=True))
         title, why = (tell(said) for said in (construction.meaning.title, construction.meaning.why))
@@ -147,7 +146,7 @@ class _Telling:
             title,
             step.view.name,
             tell(step.title),
-            "" if listed else tell(step.caption),
+            "" if len(step.places) > 1 else tell(step.caption),
             tuple(text for row in rows(construction, step) for text in self._reading(row, read[row.name])),
             why if opens else "",
             number=number,

@@ -451,9 +451,6 @@ Judged = Callable[[Words, Known, dict[str, list[float]]], list[str]]
 
 def places_of(step: Step) -> list[tuple[Words, list[Part]]]:
     """What is told in a step, each with the places that it tells of."""
-    if isinstance(step.said, Caption):
-        own = [(part.caption, [part]) for part in step.parts]
-        return [(step.caption, list(step.parts)), *own]
     found = list[tuple[Words, list[Part]]]()
     for part in step.parts:
         rows = [Part(row.caption, row.draws) for row in part.rows]

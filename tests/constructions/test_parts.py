@@ -16,7 +16,7 @@ from test_acts import own_marks
 
 import graphcam as gc
 from graphcam.drafting.acts import Act, Kind
-from graphcam.drafting.ink import Caption, Construction, Part, Step
+from graphcam.drafting.ink import Construction, Part, Step
 from graphcam.errors import DesignError
 from graphcam.report.sheet_contents import all_drawn
 
@@ -26,12 +26,6 @@ OF_FILES = {file.stem: gc.load_task(file) for file in sorted(FILES.glob("*.toml"
 TASKS = {"arcs": gc.builtin_arcs_task()} | BUILT_IN | OF_FILES | RANDOM
 Place = tuple[Act, int]
 EVERY = pytest.mark.parametrize("name", TASKS)
-NOT_CONVERTED = frozenset({
-    "acceleration", "angle_diagram", "arc_diagrams", "arc_roller", "contact", "contact_stress", "curvature",
-    "differentiation", "force_plan", "integration", "inversion", "jerk", "minimum_radius", "pressure_angle", "roller",
-    "scheme", "three_arcs", "tolerances", "turn_forces", "working_profile",
-})  # fmt: skip
-"""The constructions that are still told as before: with fragments as reasons, and captions that repeat parts."""
 
 
 @cache
@@ -52,10 +46,8 @@ def sentences(text: str) -> list[str]:
 
 @EVERY
 def test_every_step_has_a_reason_of_one_sentence_and_a_caption(name):
-    for where, construction, step in steps(name):
+    for where, _, step in steps(name):
         why, caption = str(step.why), str(step.caption)
-        if not why and not construction.acts and not converted(construction):
-            continue
         assert why, where
         assert len(sentences(why)) == 1, (where, why)
         for said in (why, caption):
@@ -65,13 +57,9 @@ def test_every_step_has_a_reason_of_one_sentence_and_a_caption(name):
             assert not re.search(r"\b(nan|inf)\b|\{|\}|-0\.0+\b", said), (where, said)
 
 
-def converted(construction: Construction) -> bool:
-    return construction.name not in NOT_CONVERTED
-
-
 @EVERY
 def test_a_reason_stands_alone_as_a_sentence(name):
-    found = [(where, str(step.why)) for where, each, step in steps(name) if converted(each)]
+    found = [(where, str(step.why)) for where, _, step in steps(name)]
     assert [(where, why) for where, why in found if why.startswith("Because")] == []
 
 
@@ -87,22 +75,14 @@ def test_the_captions_of_places_are_sentences_and_all_different(name):
 
 def told_twice(step: Step) -> list[str]:
     """The sentences of a step that are told more than once."""
-    said = [step.caption] if isinstance(step.said, Caption) else []
-    every = [
-        sentence for caption in (*said, *(part.caption for part in step.parts)) for sentence in sentences(str(caption))
-    ]
+    every = [sentence for part in step.parts for sentence in sentences(str(part.caption))]
     return [sentence for sentence, n in Counter(every).items() if n > 1]
 
 
 @EVERY
 def test_no_sentence_of_a_step_is_told_twice(name):
-    found = [(where, told) for where, each, step in steps(name) if converted(each) for told in told_twice(step)]
+    found = [(where, told) for where, each, step in steps(name) for told in told_twice(step)]
     assert found == []
-
-
-@EVERY
-def test_a_converted_step_is_told_by_its_parts(name):
-    assert [where for where, each, step in steps(name) if converted(each) and isinstance(step.said, Caption)] == []
 
 
 def drawn_by(step: Step) -> list[list[Place]]:
@@ -162,8 +142,8 @@ def test_a_part_that_is_missing_or_said_twice_would_be_found():
     _, _, found = next(each for each in steps("arcs") if str(each[2].title) == "Stations")
     step = replace(found, said=tuple(Part(part.caption, part.draws) for part in found.places))
     assert left_out(step) == []
-    assert left_out(replace(step, said=step.parts[1:])) != []
-    twice = replace(step, said=(*step.parts, step.parts[0]))
+    assert left_out(replace(step, parts=step.parts[1:])) != []
+    twice = replace(step, parts=(*step.parts, step.parts[0]))
     assert max(Counter(place for part in drawn_by(twice) for place in set(part)).values()) == 2
     assert told_twice(twice) == sentences(str(step.parts[0].caption))
     assert len(sentences("It is so. And so.")) == 2
@@ -176,13 +156,12 @@ WATCHED = [*(set(TASKS) - set(RANDOM)), *list(RANDOM)[::5]]
 
 @cache
 def strays(name: str) -> list[tuple[str, str]]:
-    """The numbers that steps of a task tell though they do not stand on the board, by step, of converted modules."""
+    """The numbers that steps of a task tell though they do not stand on the board, by step."""
     try:
         solution = gc.solve(TASKS[name])
-        drawn = all_drawn(solution)
     except DesignError:
         return []
-    return [(where, found) for where, key, found in not_on_the_board(solution) if converted(drawn[key])]
+    return [(where, found) for where, _, found in not_on_the_board(solution)]
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphcam.drafting.ink import Step, View, say
+from graphcam.drafting.ink import Part, Step, View, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dimension, Dots, Label, Line, Region, Role, Segments
 from graphcam.sheets.formats import MARGINS, ORIENTATIONS, SIZES, UPRIGHT_ONLY
 from graphcam.sheets.layout import compose
@@ -71,7 +71,7 @@ def steps(ordinate: float = 50.0, size: float = 1.0) -> list[tuple[str, Step]]:
     )  # fmt: skip
     scenes = ((ACCELERATION, acceleration), (DISPLACEMENT, displacement), (COMBINED, combined), (PROFILE, profile))
     return [
-        (view.name, Step(say("{n}", n=n), say("."), view, marks[n::2])) for view, marks in scenes for n in range(2)
+        (view.name, Step(say("{n}", n=n), (Part(say(".")),), view, marks[n::2])) for view, marks in scenes for n in range(2)
     ]  # fmt: skip
 
 
