@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from math import isclose
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +35,7 @@ from graphcam.constructions.time_axis import axis_said, times_below
 from graphcam.constructions.views import ACCELERATION
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import LIFT, MU_PHI, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Construction, Part, Step, say
 from graphcam.drafting.marks import Dimension, Role, Segments
@@ -63,6 +65,50 @@ class AccelerationGivens:
 AccelerationDiagram = Construction[AccelerationGivens]
 
 
+def _scale_of_angle(diagram: AccelerationDiagram) -> Values:
+    """Of the axis."""
+    yield {"base": float(diagram.first("base")), "mu": diagram.givens.mu_phi.per_mm}
+
+
+def _ordinate_values(diagram: AccelerationDiagram) -> Values:
+    """Those that follow from the one that is chosen, by the numbers of their phases."""
+    stations, greatest = diagram.givens.stations, diagram.first("greatest").tolist()
+    phases, index = moving_phases(diagram.givens.motion, stations), stations.phase[stations.last].tolist()
+    first = next(k for k, phase in enumerate(phases) if phase.direction > 0)
+
+    def terms(k: int, of: str) -> dict[str, Any]:
+        """What the lift of a phase is proportional to."""
+        phase = phases[k]
+        law = {f"C{of}": phase.normalised.peak_acceleration, f"h{of}": phase.lift}
+        return {**law, f"k{of}": index[k] + 1, f"angle{of}": float(np.degrees(phase.angle)), f"y{of}": greatest[k]}
+
+    yield from (terms(k, "") | terms(first, "1") for k in range(len(phases)) if k != first)
+
+
+FORMULAS = (
+    Formula(
+        r"\mu_\varphi = \frac{2\pi}{b}",
+        r"\mu_\varphi = \frac{2\pi}{<base:.2f>} = <mu:.6f>\ \text{<rad_per_mm>}",
+        _scale_of_angle,
+        (MU_PHI, Symbol("b", say("the length of the axis"), "mm of paper")),
+        of="base",
+    ),
+    Formula(
+        r"y_k = y_1\,\frac{C_k h_k/\varphi_k^2}{C_1 h_1/\varphi_1^2}, \qquad C = \frac{a_{\max}\varphi^2}{h}",
+        r"y_{<k>} = <y1:.2f> \cdot \frac{<C:.6g> \cdot <h:.6g>/<angle:.6g>^2}"
+        r"{<C1:.6g> \cdot <h1:.6g>/<angle1:.6g>^2} = <y:.2f>\ \text{<mm>}",
+        _ordinate_values,
+        (
+            Symbol("y", say("the maximum ordinate of a phase, y₁ that of the first rise"), "mm of paper"),
+            Symbol("C", say("the factor of its law")),
+            LIFT,
+            Symbol(r"\varphi_k", say("the angle of a phase"), "°"),
+        ),
+        of="greatest",
+    ),
+)
+
+
 MEANING = Meaning(
     "acceleration",
     say("Acceleration diagram"),
@@ -75,7 +121,7 @@ MEANING = Meaning(
         "middles": ReadingMeaning(say("middle ordinates"), "yₘ", "mm of paper", over=part_titles),
         "base": ReadingMeaning(say("length of the axis"), "b", "rad"),
     },
-    "report.paragraphs.acceleration",
+    FORMULAS,
 )
 
 

@@ -59,7 +59,6 @@ MEANING = Meaning(
             (Compared("max_pressure_angle_return_deg", say("pressure angle, return"), sides="return_candidates"),),
         ),
     },
-    "report.paragraphs.greatest_angles",
     scales={"angle": "max_rise"},
 )
 

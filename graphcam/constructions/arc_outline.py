@@ -14,6 +14,7 @@ import numpy as np
 from graphcam.constructions.arc_profile import SENSE, ArcOutline, ThreeArcsGivens, arc, cam, middle_of_dwell, run
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP, unit
+from graphcam.drafting.formulas import Formula, Symbol
 from graphcam.drafting.hand import COMPASS, Hand, between
 from graphcam.drafting.ink import Caption, Part, Step, View, say
 from graphcam.drafting.marks import Dimension, Label, Line, Mark, Role
@@ -55,6 +56,13 @@ MEANING = Meaning(
             for axis in "xy"
         },
     },
+    (
+        Formula(
+            r"C_3C_1 = \rho_3 - \rho_1, \qquad C_3G = \rho_3",
+            symbols=(Symbol(r"\rho_1, \rho_3", say("the radii of the arcs about C1 and C3"), "mm"),),
+            of="rho3",
+        ),
+    ),
     scales={"arcs": "base"},
 )
 

@@ -18,6 +18,7 @@ from graphcam.constructions.arc_stations import ARCS, CENTRES, ROLLER, ArcRoller
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP, unit
+from graphcam.drafting.formulas import A, Formula, Symbol, V
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Label, Line, Mark, Role, Segments
@@ -36,6 +37,27 @@ ENDS = {
     "a_D": say("a in {point}", point="D"),
 }
 """The accelerations at the first and the last station of every arc, in order."""
+FORMULAS = (
+    Formula(
+        r"v = \mu_l \cdot OK",
+        symbols=(
+            V,
+            Symbol(r"\mu_l", say("the scale of the drawing"), "mm/mm"),
+            Symbol("OK", say("what the rod cuts off the line through O square to the ray"), "mm of paper"),
+        ),
+        of="v",
+    ),
+    Formula(
+        r"CN = \frac{CK^2}{CB}, \qquad |a| = \mu_l \cdot OM",
+        symbols=(
+            A,
+            Symbol("C", say("the centre of the arc on which the roller runs")),
+            Symbol("CB", say("the rod"), "mm of paper"),
+            Symbol("OM", say("what the line through N square to the rod cuts off the ray"), "mm of paper"),
+        ),
+        of="a",
+    ),
+)
 MEANING = Meaning(
     "arc_roller",
     say("The roller on the arcs"),
@@ -71,6 +93,7 @@ MEANING = Meaning(
         },
         **{name: ReadingMeaning(title, "a", "mm/rad²", (Compared(name),)) for name, title in ENDS.items()},
     },
+    FORMULAS,
     scales={"roller": "x"},
 )
 

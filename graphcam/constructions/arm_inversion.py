@@ -1,15 +1,17 @@
 """The profile of an oscillating follower by inversion: the pivot goes round the cam, against the cam's rotation."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from graphcam.constructions import profile_view
-from graphcam.constructions.arm_positions import arc_through, example, turning_angle
+from graphcam.constructions.arm_positions import arc_through, cam_centre, example, turning_angle
 from graphcam.constructions.axes import numbers, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import RIGHT, UP, circles_meet, unit
+from graphcam.drafting.formulas import ARM, DISTANCE, PSI0, RADIUS, Formula, S, Values
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import Construction, Part, Step, Words, say
 from graphcam.drafting.marks import Role
@@ -33,6 +35,28 @@ class ArmInversionGivens(profile_view.InvertedGivens):
 ArmInverted = Construction[ArmInversionGivens]
 
 
+def _worked(inverted: ArmInverted) -> Values:
+    """The polar radius at the station that the captions work."""
+    givens, stations = inverted.givens, inverted.givens.integrated.givens.stations
+    k, arm, c = profile_view.worked_station(stations), givens.arm, givens.distance
+    s, psi0 = float(givens.integrated.value("s")[k]), float(np.angle(-cam_centre(arm, c, givens.prime_radius)))
+    radius = math.sqrt(arm**2 + c**2 - 2 * arm * c * math.cos(psi0 + s))
+    angles = {"psi0": math.degrees(psi0), "s": math.degrees(s)}
+    yield {"k": station_names(stations)[k], "l": arm, "c": c, **angles, "radius": radius}
+
+
+FORMULAS = (
+    Formula(
+        r"R = \sqrt{l^2 + c^2 - 2lc\cos(\psi_0 + s)}",
+        r"R_{<k>} = \sqrt{<l:.6g>^2 + <c:.6g>^2 - 2 \cdot <l:.6g> \cdot <c:.6g>\cos(<psi0:.3f>^\circ + <s:.3f>^\circ)}"
+        r" = <radius:.2f>\ \text{<mm>}",
+        _worked,
+        (RADIUS, ARM, DISTANCE, PSI0, S),
+        of="radius",
+    ),
+)
+
+
 MEANING = Meaning(
     "inversion",
     say("Pitch curve by inversion"),
@@ -41,7 +65,7 @@ MEANING = Meaning(
         "of the pivot the arm is turned by its displacement: the positions of its end give the cam."
     ),
     profile_view.CURVE,
-    "report.arm_paragraphs.inversion",
+    FORMULAS,
     scales={"profile": "x"},
 )
 

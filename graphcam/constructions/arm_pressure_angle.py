@@ -6,6 +6,7 @@ senses on the rise, towards the pivot when in the same sense.  The angle of D A 
 angle.
 """
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,6 +26,7 @@ from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import ARM_ANGLES, PLAN, REGION, at_scale
 from graphcam.drafting.acts import Floats, Setting
 from graphcam.drafting.euclid import RIGHT, UP, unit
+from graphcam.drafting.formulas import ALPHA, ARM, DISTANCE, PSI0, R0, SIGMA, Formula, S, Symbol, V, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Points, Role, Segments, angle_at
@@ -53,6 +55,42 @@ class ArmPressureAngleGivens(MeasuredGivens):
 ArmAngles = Construction[ArmPressureAngleGivens]
 
 
+def _at_start(measured: ArmAngles) -> Values:
+    """The triangle of the adopted sizes."""
+    arm, c, r0 = measured.givens.arm, measured.givens.distance, measured.givens.prime_radius
+    yield {"l": arm, "c": c, "r0": r0, "psi0": math.degrees(np.angle(-cam_centre(arm, c, r0)))}
+
+
+def _worked(measured: ArmAngles) -> Values:
+    """The station of the velocity plan."""
+    givens, k, (at_start,) = measured.givens, shown_station(measured), _at_start(measured)
+    s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
+    along, psi = sense(givens.rotation) * v, math.radians(at_start["psi0"]) + s
+    tangent = (givens.arm * (1 + along) - givens.distance * math.cos(psi)) / (givens.distance * math.sin(psi))
+    found = {"tangent": tangent, "alpha": math.degrees(math.atan(tangent))}
+    yield {**at_start, "v": abs(along), "sign": "-" if along < 0 else "+", "s": math.degrees(s), **found}
+
+
+FORMULAS = (
+    Formula(
+        r"\psi_0 = \arccos\frac{l^2 + c^2 - r_0^2}{2lc}",
+        r"\psi_0 = \arccos\frac{<l:.6g>^2 + <c:.6g>^2 - <r0:.6g>^2}{2 \cdot <l:.6g> \cdot <c:.6g>} = <psi0:.3f>^\circ",
+        _at_start,
+        (PSI0, ARM, DISTANCE, R0),
+        of="psi0",
+    ),
+    Formula(
+        r"\tan\alpha = \frac{l\,(1 + \sigma v) - c\cos(\psi_0 + s)}{c\,\sin(\psi_0 + s)}, \qquad "
+        r"\gamma = 90^\circ - |\alpha|",
+        r"\tan\alpha = \frac{<l:.6g>\,(1 <sign> <v:.4f>) - <c:.6g>\cos(<psi0:.3f>^\circ + <s:.3f>^\circ)}"
+        r"{<c:.6g>\,\sin(<psi0:.3f>^\circ + <s:.3f>^\circ)} = <tangent:.4f>, \qquad \alpha = <alpha:.2f>^\circ",
+        _worked,
+        (ALPHA, SIGMA, V, S, Symbol(r"\gamma", say("the transmission angle"), "°")),
+        of="alpha",
+    ),
+)
+
+
 MEANING = Meaning(
     "pressure_angle",
     say("Pressure angle"),
@@ -61,7 +99,7 @@ MEANING = Meaning(
         "a length along the arm, and the angle between normal and motion is found without the profile."
     ),
     {**ANGLES, "psi0": ReadingMeaning(say("angle ψ₀"), "ψ₀", "rad")},
-    "report.arm_paragraphs.pressure_angle",
+    FORMULAS,
 )
 
 

@@ -18,6 +18,7 @@ from graphcam.constructions.sharpest_bend import centres_of, neighbours, resting
 from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import RHO, Formula, Symbol, Values
 from graphcam.drafting.hand import COMPASS, Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Role
@@ -64,6 +65,24 @@ def _three_points(_: object) -> tuple[Words, ...]:
     return say("before B"), "B", say("after B")
 
 
+def _radius_values(curved: Curved) -> Values:
+    """What OB measures, where a bend is readable."""
+    rho, mu = float(curved.value("rho")), curved.readings["rho"].per_mm
+    if math.isfinite(rho):
+        yield {"mu": mu, "ob": rho / mu, "rho": rho}
+
+
+FORMULAS = (
+    Formula(
+        r"\rho = \mu_l \cdot OB",
+        r"\rho = <mu:g> \cdot <ob:.2f> = <rho:.2f>\ \text{<mm>}",
+        _radius_values,
+        (RHO, Symbol(r"\mu_l", say("the scale of the drawing"), "mm/mm")),
+        of="rho",
+    ),
+)
+
+
 MEANING = Meaning(
     "curvature",
     say("Minimum radius of curvature"),
@@ -72,7 +91,7 @@ MEANING = Meaning(
         "limits the roller."
     ),
     {**LEAST_CURVATURE, "phi": ReadingMeaning(say("cam angles φ"), "φ", "rad", over=_three_points)},
-    "report.paragraphs.curvature",
+    FORMULAS,
 )
 
 

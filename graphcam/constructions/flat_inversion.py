@@ -4,6 +4,8 @@ On the ray of every inverted position r0 + s is laid off and the perpendicular, 
 it ds/dphi to the side of the ray: to the right of a cam that turns counter-clockwise while the follower rises.
 """
 
+import math
+
 import numpy as np
 
 from graphcam.constructions import profile_view
@@ -12,6 +14,7 @@ from graphcam.constructions.axes import numbers, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, unit
+from graphcam.drafting.formulas import R0, RADIUS, Formula, S, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned
 from graphcam.drafting.ink import Caption, Part, Step, Words, say
 from graphcam.drafting.marks import Role, Segments
@@ -24,6 +27,50 @@ from graphcam.given.stations import Stations
 
 FACE_BEYOND = 6.0
 """How far a face is drawn beyond the place where it is touched, and to the other side of its ray [mm]."""
+
+
+EXTREMES = {
+    1: (r"-\min\frac{ds}{d\varphi}", r"\max\frac{ds}{d\varphi}"),
+    -1: (r"\max\frac{ds}{d\varphi}", r"-\min\frac{ds}{d\varphi}"),
+}
+"""What the face must reach to, left and right, by the sense in which the cam turns."""
+
+
+def _worked_values(inverted: profile_view.Inverted) -> Values:
+    """The polar radius at the station that the captions work."""
+    givens, stations, r0 = inverted.givens, inverted.givens.integrated.givens.stations, inverted.givens.prime_radius
+    k = profile_view.worked_station(stations)
+    s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
+    yield {"k": station_names(stations)[k], "r0": r0, "s": s, "v": abs(v), "radius": math.hypot(r0 + s, v)}
+
+
+def _widths(inverted: profile_view.Inverted) -> Values:
+    """What the face needs on either side, and in all."""
+    left, right = (float(inverted.value(f"face_{side}")) for side in ("left", "right"))
+    left_of, right_of = EXTREMES[sense(inverted.givens.rotation)]
+    yield {"left": left, "right": right, "width": left + right, "left_of": left_of, "right_of": right_of}
+
+
+FORMULAS = (
+    Formula(
+        r"R = \sqrt{(r_0 + s)^2 + \left(\frac{ds}{d\varphi}\right)^2}",
+        r"R_{<k>} = \sqrt{(<r0:.6g> + <s:.2f>)^2 + <v:.2f>^2} = <radius:.2f>\ \text{<mm>}",
+        _worked_values,
+        (RADIUS, R0, S),
+        of="radius",
+    ),
+    Formula(
+        r"b_l = <left_of>, \qquad b_r = <right_of>, \qquad b = b_l + b_r",
+        r"b = <left:.2f> + <right:.2f> = <width:.2f>\ \text{<mm>}",
+        _widths,
+        (
+            Symbol("b_l", say("what the face needs to the left of the line of motion"), "mm"),
+            Symbol("b_r", say("what it needs to the right"), "mm"),
+            Symbol("b", say("its minimum width"), "mm"),
+        ),
+        of="face_left",
+    ),
+)
 
 
 MEANING = Meaning(
@@ -44,7 +91,7 @@ MEANING = Meaning(
         "contact": ReadingMeaning(say("contact beside the ray"), "q", "mm"),
         **profile_view.CURVE,
     },
-    "report.flat_paragraphs.inversion",
+    FORMULAS,
     scales={"profile": "x"},
 )
 

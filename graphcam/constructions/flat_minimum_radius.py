@@ -9,6 +9,7 @@ arctan(mu_a/mu_s) in place of 45 degrees.
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from operator import itemgetter
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +22,7 @@ from graphcam.constructions.region import LEAST_RADIUS
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import R0, RHO, A, Formula, S, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Label, Line, Mark, Points, Role
@@ -63,6 +65,46 @@ class FlatCurvatureGivens:
 FlatCurved = Construction[FlatCurvatureGivens]
 
 
+def _sharpest(region: FlatRegion, r0: float) -> dict[str, Any]:
+    """The least sum of displacement and acceleration, with a radius to which it is added."""
+    least = -float(region.value("need"))
+    return {"rho": region.givens.least_curvature, "sum": abs(least), "sign": "-" if least < 0 else "+", "r0": r0}
+
+
+def _enough_radius(region: FlatRegion) -> Values:
+    """The least prime radius; not positive where any will do."""
+    r0 = region.givens.least_curvature + float(region.value("need"))
+    values = _sharpest(region, r0)
+    yield {**values, "sign": "+" if values["sign"] == "-" else "-"}
+
+
+def _least_bend(curved: FlatCurved) -> Values:
+    """The least radius of curvature at the adopted prime radius."""
+    r0 = curved.givens.prime_radius
+    yield {**_sharpest(curved.givens.region, r0), "least": r0 - float(curved.givens.region.value("need"))}
+
+
+SUM = Symbol(r"\min(s + a)", say("the minimum of the sum of displacement and acceleration"), "mm")
+FORMULAS = (
+    Formula(
+        r"\rho = r_0 + s + \frac{d^2 s}{d\varphi^2} \ge [\rho], \qquad r_0 \ge [\rho] - \min(s + a)",
+        r"r_0 \ge <rho:g> <sign> <sum:.3f> = <r0:.3f>\ \text{<mm>}",
+        _enough_radius,
+        (RHO, R0, S, A, Symbol(r"[\rho]", say("the permitted radius of curvature"), "mm"), SUM),
+        of="prime_radius",
+    ),
+)
+CURVATURE_FORMULAS = (
+    Formula(
+        r"\rho_{\min} = r_0 + \min(s + a)",
+        r"\rho_{\min} = <r0:g> <sign> <sum:.3f> = <least:.3f>\ \text{<mm>}",
+        _least_bend,
+        (Symbol(r"\rho_{\min}", say("the minimum radius of curvature"), "mm"),),
+        of="rho",
+    ),
+)
+
+
 LEAST_RADIUS_MEANING = Meaning(
     "minimum_radius",
     say("Minimum prime radius"),
@@ -72,7 +114,7 @@ LEAST_RADIUS_MEANING = Meaning(
         "touches it there."
     ),
     {"prime_radius": LEAST_RADIUS, "need": ReadingMeaning(say("maximum of −(s + a)"), "−(s + a)", "mm")},
-    "report.flat_paragraphs.least_radius",
+    FORMULAS,
 )
 CURVATURE_MEANING = Meaning(
     "curvature",
@@ -88,7 +130,7 @@ CURVATURE_MEANING = Meaning(
             compared=(Compared("min_pitch_curvature_radius", say("minimum radius of curvature ρ")),),
         )
     },
-    "report.flat_paragraphs.curvature",
+    CURVATURE_FORMULAS,
 )
 
 

@@ -35,6 +35,7 @@ from graphcam.constructions.time_axis import graduated_at_speed, scale_said, tim
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import LIFT, Formula, Symbol, Values, per_mm
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, View, say
 from graphcam.drafting.marks import Dimension, Mark, Points, Role, Segments
@@ -69,6 +70,64 @@ class IntegrationGivens(AccelerationGivens):
 Integrated = Construction[IntegrationGivens]
 
 
+def _values(drawn: Integrated) -> Values:
+    """The scales, and the greatest ordinates with what they stand for."""
+    scales = {f"mu_{name}": drawn.readings[name].per_mm for name in "sva"}
+    units = {f"of_{name}": per_mm(drawn.readings[name].unit) for name in "sva"}
+    tops = {f"max_{name}": float(drawn.value(f"max_{name}")) for name in "va"}
+    papers = {name: float(drawn.first(f"max_{name}")) for name in "va"}
+    of_tops = {f"unit_{name}": unit(drawn.readings[name].unit) for name in "va"}
+    (h1, h2), lift, mu = drawn.givens.poles, drawn.givens.motion.lift, drawn.givens.mu_phi.per_mm
+    named = {"h1": h1, "h2": h2, "mu_phi": mu, "lift": lift, "paper": lift / scales["mu_s"]}
+    yield {**scales, **units, **tops, **papers, **of_tops, **named}
+
+
+FORMULAS = (
+    Formula(
+        r"\Delta y = \frac{y\,\Delta x}{H}",
+        symbols=(
+            Symbol(r"\Delta y", say("what a chord climbs"), "mm of paper"),
+            Symbol("y", say("the middle ordinate of its part"), "mm of paper"),
+            Symbol(r"\Delta x", say("the width of the part"), "mm of paper"),
+            Symbol("H", say("the pole distance: H₁ of the first integration, H₂ of the second"), "mm of paper"),
+        ),
+    ),
+    Formula(
+        r"\mu_s = \frac{h}{y_s}",
+        r"\mu_s = \frac{<lift:.6g>}{<paper:.2f>} = <mu_s:.5g>\ \text{<of_s>}",
+        _values,
+        (
+            Symbol(r"\mu_s", say("the scale of the displacement"), "lift/mm"),
+            LIFT,
+            Symbol("y_s", say("the maximum ordinate of s"), "mm of paper"),
+        ),
+        of="s",
+    ),
+    Formula(
+        r"\mu_v = \frac{\mu_s}{\mu_\varphi H_2}, \qquad v_{\max} = \mu_v\,y_v",
+        r"\mu_v = \frac{<mu_s:.5g>}{<mu_phi:.6f> \cdot <h2:g>} = <mu_v:.5g>\ \text{<of_v>}, \qquad "
+        r"v_{\max} = <mu_v:.5g> \cdot <v:.2f> = <max_v:.5g>\ \text{<unit_v>}",
+        _values,
+        (
+            Symbol(r"\mu_v", say("the scale of the velocity"), "(lift/rad)/mm"),
+            Symbol("y_v", say("the maximum ordinate of v"), "mm of paper"),
+        ),
+        of="v",
+    ),
+    Formula(
+        r"\mu_a = \frac{\mu_v}{\mu_\varphi H_1}, \qquad a_{\max} = \mu_a\,y_a",
+        r"\mu_a = \frac{<mu_v:.5g>}{<mu_phi:.6f> \cdot <h1:g>} = <mu_a:.5g>\ \text{<of_a>}, \qquad "
+        r"a_{\max} = <mu_a:.5g> \cdot <a:.2f> = <max_a:.5g>\ \text{<unit_a>}",
+        _values,
+        (
+            Symbol(r"\mu_a", say("the scale of the acceleration"), "(lift/rad²)/mm"),
+            Symbol("y_a", say("the maximum ordinate of a"), "mm of paper"),
+        ),
+        of="a",
+    ),
+)
+
+
 MEANING = Meaning(
     "integration",
     say("Velocity, displacement and the scales"),
@@ -92,7 +151,7 @@ MEANING = Meaning(
         "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad", over=phase_names),
         "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),
     },
-    "report.paragraphs.integration",
+    FORMULAS,
     scales={"acceleration": "a", "velocity": "v", "displacement": "s", "combined": "s"},
     scales_found_by="integration",
 )

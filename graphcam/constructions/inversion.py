@@ -1,5 +1,6 @@
 """The profile by inversion: the cam stands still and the frame turns about it, against the cam's rotation."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ from graphcam.constructions.axes import numbers, station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import RIGHT, UP, unit
+from graphcam.drafting.formulas import OFFSET, RADIUS, S0, Formula, S, Values
 from graphcam.drafting.hand import Hand, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Line, Mark, Role, Segments
@@ -32,6 +34,25 @@ class InversionGivens(profile_view.InvertedGivens):
 OffsetInverted = Construction[InversionGivens]
 
 
+def _worked(inverted: OffsetInverted) -> Values:
+    """The polar radius at the station that the captions work."""
+    givens, stations = inverted.givens, inverted.givens.integrated.givens.stations
+    k, e, r0 = profile_view.worked_station(stations), abs(givens.offset), givens.prime_radius
+    s0, s = math.sqrt(r0**2 - e**2), float(givens.integrated.value("s")[k])
+    yield {"k": station_names(stations)[k], "e": e, "s0": s0, "s": s, "radius": math.hypot(e, s0 + s)}
+
+
+FORMULAS = (
+    Formula(
+        r"R = \sqrt{e^2 + (s_0 + s)^2}",
+        r"R_{<k>} = \sqrt{<e:.2f>^2 + (<s0:.2f> + <s:.2f>)^2} = <radius:.2f>\ \text{<mm>}",
+        _worked,
+        (RADIUS, OFFSET, S0, S),
+        of="radius",
+    ),
+)
+
+
 MEANING = Meaning(
     "inversion",
     say("Pitch curve by inversion"),
@@ -40,7 +61,7 @@ MEANING = Meaning(
         "the follower is moved by its displacement: its positions give the cam."
     ),
     profile_view.CURVE,
-    "report.translating_paragraphs.inversion",
+    FORMULAS,
     scales={"profile": "x"},
 )
 

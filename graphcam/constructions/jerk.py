@@ -33,6 +33,7 @@ from graphcam.constructions.views import ACCELERATION, JERK
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import Formula, Symbol, Values, per_mm
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import Arrow, Label, Mark, Role, Segments
@@ -67,6 +68,27 @@ def _parts(drawn: DrawnJerk) -> list[Caption]:
     return part_titles(drawn.givens.integrated)
 
 
+def _scale_values(drawn: DrawnJerk) -> Values:
+    """How the scale follows from that of the acceleration."""
+    integrated, read = drawn.givens.integrated, drawn.readings["j"]
+    mu = {"mu_a": integrated.readings["a"].per_mm, "mu_phi": integrated.givens.mu_phi.per_mm, "mu": read.per_mm}
+    yield {**mu, "h3": drawn.givens.pole, "of_j": per_mm(read.unit)}
+
+
+FORMULAS = (
+    Formula(
+        r"\mu_j = \frac{\mu_a}{\mu_\varphi H_3}",
+        r"\mu_j = \frac{<mu_a:.5g>}{<mu_phi:.6f> \cdot <h3:g>} = <mu:.5g>\ \text{<of_j>}",
+        _scale_values,
+        (
+            Symbol(r"\mu_j", say("the scale of the jerk"), "(lift/rad³)/mm"),
+            Symbol("H_3", say("the pole distance of the differentiation"), "mm of paper"),
+        ),
+        of="j",
+    ),
+)
+
+
 MEANING = Meaning(
     "jerk",
     say("Jerk"),
@@ -80,7 +102,7 @@ MEANING = Meaning(
             say("maximum j"), "max j", "lift/rad³", (Compared("max_j"),), Converges("maximum jerk", "max_j")
         ),
     },
-    "report.jerk_paragraphs.jerk",
+    FORMULAS,
     scales={JERK.name: "j"},
     scales_found_by="integration",
 )

@@ -5,7 +5,9 @@ motion is the pressure angle; so the tangents to the curve of the D_i at the per
 A may lie.
 """
 
+import math
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -34,6 +36,7 @@ from graphcam.constructions.touched_station import touched
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import OFFSET, R0, S0, SIGMA, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import AngleMark, Dimension, Line, Mark, Region, Role, Segments
@@ -62,6 +65,68 @@ class LeastRadiusGivens(ToldByChain):
 LeastRadius = Construction[LeastRadiusGivens]
 
 
+def _touched(side: str, drawn: LeastRadius) -> Values:
+    """Where the tangent of the rise or of the return touches, and what the cam centre must keep to."""
+    limits = drawn.givens.limits
+    angle = limits.rise if side == "rise" else limits.return_
+    if side in drawn.points and angle is not None:
+        touch = complex(drawn.first(side)) * drawn.readings["s0"].per_mm
+        s, v = touch.imag, abs(touch.real)
+        yield {"angle": math.degrees(angle), "s": s, "v": v, "least": v - s * math.tan(angle)}
+
+
+def _rests(drawn: LeastRadius) -> Values:
+    """Whether the rest line is drawn."""
+    if "rest" in drawn.points:
+        yield {"angle": math.degrees(drawn.givens.limits.rise)}
+
+
+def _radius(drawn: LeastRadius) -> Values:
+    """What the place of the cam centre measures, where one is found."""
+    s0, e = (float(drawn.value(name)) for name in ("s0", "offset"))
+    if not math.isnan(s0):
+        yield {"s0": s0, "e": abs(e), "r0": math.hypot(s0, e)}
+
+
+FORMULAS = (
+    Formula(
+        r"s_0\tan[\alpha_1] + \sigma e \ge v_1 - s_1\tan[\alpha_1]",
+        r"s_0\tan <angle:g>^\circ + \sigma e \ge <v:.2f> - <s:.2f>\tan <angle:g>^\circ = <least:.2f>\ \text{<mm>}",
+        partial(_touched, "rise"),
+        (
+            S0,
+            Symbol(r"[\alpha_1]", say("the pressure angle permitted on the rise"), "°"),
+            SIGMA,
+            OFFSET,
+            Symbol("v_1", say("the velocity where the rise line touches the curve"), "mm/rad"),
+            Symbol("s_1", say("the displacement there"), "mm"),
+        ),
+        of="prime_radius",
+    ),
+    Formula(
+        r"s_0\tan[\alpha_2] - \sigma e \ge |v_2| - s_2\tan[\alpha_2]",
+        r"s_0\tan <angle:g>^\circ - \sigma e \ge <v:.2f> - <s:.2f>\tan <angle:g>^\circ = <least:.2f>\ \text{<mm>}",
+        partial(_touched, "return"),
+        (
+            Symbol(r"[\alpha_2]", say("the pressure angle permitted on the return"), "°"),
+            Symbol("v_2", say("the velocity where the return line touches the curve"), "mm/rad"),
+            Symbol("s_2", say("the displacement there"), "mm"),
+        ),
+        of="prime_radius",
+    ),
+    Formula(
+        r"s_0\tan[\alpha_1] - \sigma e \ge 0", r"s_0\tan <angle:g>^\circ - \sigma e \ge 0", _rests, of="prime_radius"
+    ),
+    Formula(
+        r"r_0 = \sqrt{s_0^2 + e^2}",
+        r"r_0 = \sqrt{<s0:.2f>^2 + <e:.2f>^2} = <r0:.2f>\ \text{<mm>}",
+        _radius,
+        (R0,),
+        of="prime_radius",
+    ),
+)
+
+
 MEANING = Meaning(
     "minimum_radius",
     say("Minimum prime radius"),
@@ -74,7 +139,7 @@ MEANING = Meaning(
         "offset": ReadingMeaning(say("offset e"), "e", "mm", (Compared("minimum_offset", say("its offset e")),)),
         "s0": ReadingMeaning(say("distance s₀"), "s₀", "mm"),
     },
-    "report.translating_paragraphs.least_radius",
+    FORMULAS,
 )
 
 

@@ -6,6 +6,7 @@ sense of the cam's rotation, it ends in D; the angle of D A with the motion is t
 needed.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
@@ -21,6 +22,7 @@ from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import COMBINED, PLAN
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import ALPHA, OFFSET, R0, S0, SIGMA, Formula, S, Symbol, V, Values
 from graphcam.drafting.hand import Direction, Hand, between, reckoned, showing
 from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arc, Line, Mark, Role, angle_at
@@ -70,6 +72,42 @@ ANGLES = {
     "transmission": ReadingMeaning(say("transmission angle"), "γ", "rad", judged="least"),
 }
 """The angles at the stations, of any follower."""
+
+
+def _centre_height(measured: Construction[PressureAngleGivens]) -> Values:
+    """Where the cam centre lies at the adopted sizes."""
+    r0, e = measured.givens.prime_radius, abs(measured.givens.offset)
+    yield {"r0": r0, "e": e, "s0": math.sqrt(r0**2 - e**2)}
+
+
+def _worked(measured: Construction[PressureAngleGivens]) -> Values:
+    """The station of the velocity plan."""
+    givens, k = measured.givens, shown_station(measured)
+    s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
+    across = sense(givens.rotation) * givens.offset
+    s0 = float(measured.value("s0"))
+    alpha = math.degrees(math.atan2(v - across, s0 + s))
+    yield {"v": v, "less": "-" if across >= 0 else "+", "e": abs(across), "s0": s0, "s": s, "alpha": alpha}
+
+
+FORMULAS = (
+    Formula(
+        r"s_0 = \sqrt{r_0^2 - e^2}",
+        r"s_0 = \sqrt{<r0:g>^2 - <e:g>^2} = <s0:.2f>\ \text{<mm>}",
+        _centre_height,
+        (S0, R0, OFFSET),
+        of="s0",
+    ),
+    Formula(
+        r"\tan\alpha = \frac{v - \sigma e}{s_0 + s}, \qquad \gamma = 90^\circ - |\alpha|",
+        r"\tan\alpha = \frac{<v:.2f> <less> <e:.2f>}{<s0:.2f> + <s:.2f>}, \qquad \alpha = <alpha:.2f>^\circ",
+        _worked,
+        (ALPHA, V, SIGMA, S, Symbol(r"\gamma", say("the transmission angle"), "°")),
+        of="alpha",
+    ),
+)
+
+
 MEANING = Meaning(
     "pressure_angle",
     say("Pressure angle"),
@@ -78,7 +116,7 @@ MEANING = Meaning(
         "mechanism, and the angle between normal and motion is found without the profile."
     ),
     {**ANGLES, "s0": ReadingMeaning(say("distance s₀"), "s₀", "mm")},
-    "report.translating_paragraphs.pressure_angle",
+    FORMULAS,
 )
 
 

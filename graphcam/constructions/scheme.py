@@ -29,7 +29,6 @@ MEANING = Meaning(
         "The kinematic diagram shows how the links are joined, and names the points and the sizes. It is a "
         "sketch, not to scale, with a simplified cam, because the profile is only found at the end."
     ),
-    calculation="report.note.task_data",
 )
 WHY = say("Everything that follows is drawn from these data and uses the point names of this diagram.")
 

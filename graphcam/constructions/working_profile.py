@@ -57,7 +57,6 @@ MEANING = Meaning(
             say("polar radius"), "R", "mm", converges=Converges("working profile", "profile", "from the profile")
         )
     },
-    "report.paragraphs.working_profile",
 )
 
 

@@ -35,7 +35,6 @@ CONTACT_MEANING = Meaning(
     "contact",
     say("Contact force"),
     say("A spring presses the follower onto the cam. A cam cannot pull: where it would have to, contact is lost."),
-    calculation="report.spring_paragraphs.contact",
 )
 FORCES_MEANING = Meaning(
     "turn_forces",
@@ -44,7 +43,6 @@ FORCES_MEANING = Meaning(
         "The cam pushes along the normal, so the contact force is larger than the force that moves the follower; "
         "its lever arm about the cam centre makes the torque on the shaft."
     ),
-    calculation="report.spring_paragraphs.forces",
 )
 Row = tuple[Words, Words, Words]
 PLAIN_PARTS = 12

@@ -31,7 +31,6 @@ STRESS_MEANING = Meaning(
     "contact_stress",
     say("Contact stress"),
     say("Cam and follower touch in a narrow strip. The pressure in its middle decides how long the surfaces last."),
-    calculation="report.stress_paragraphs.contact_stress",
 )
 STRESS = say(
     "p₀ is the pressure in the middle of the contact by Hertz, from the force along the normal and the curvatures of "

@@ -27,7 +27,6 @@ TOLERANCE_MEANING = Meaning(
     "tolerances",
     say("Errors of making"),
     say("No cam is made exactly. What is permitted decides how far the follower may be off, and how much it shakes."),
-    calculation="report.tolerance_paragraphs.errors_of_making",
 )
 ERRORS = {
     "roller_diameter": say("roller diameter"),

@@ -116,7 +116,7 @@ def test_the_player_tells_it_with_its_reading(solution):
 
 def test_the_note_has_a_chapter_on_it(solution):
     before, _, chapter = note_of(solution).partition(
-        f". The toy's chapter\n\n{MEANING.why}\n\nThe dividers are set to "
+        f". The toy's chapter\n\n{MEANING.why}\n\n**{len(solution.drawn)}.1. The toy's step.** The dividers are set to "
     )
     assert before.rstrip("0123456789").endswith("## ")
     assert "length of the toy" in chapter

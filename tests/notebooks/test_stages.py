@@ -142,7 +142,7 @@ def fan_steps(drawn):
     parts = tuple(Part(one.where(k=k + 1), (rays[k], ends[k])) for k in range(6))
     why = say("Because this is a toy.")
     view = View("fan", say("Fan"), "fan x", "fan y")
-    return [Step(say("Rays"), (Part(say("All rays are drawn.")),), view, marks, given=given, why=why, parts=parts)]
+    return [Step(say("Rays"), parts, view, marks, given=given, why=why)]
 
 
 def lines_of(page, stage):
