@@ -19,6 +19,7 @@ from graphcam.report.documents import sheet_of
 from graphcam.report.output_folder import unheard
 from graphcam.solving.solve import solve
 from graphcam.tasks.task_file import builtin_task
+from graphcam.words import say
 
 NONE = "–"
 Cell = str | int | float | None
@@ -216,7 +217,7 @@ def bench(effort: Effort, directory: Path | str, progress: Callable[[str], None]
     progress = progress or unheard
     with whole_folder(directory) as folder:
         report = measure(effort, _rendering, progress)
-        progress("drawing the figures")
+        progress(say("drawing the figures"))
         (folder / "bench.md").write_text(markdown(report), encoding="utf-8", newline="\n")
         with (folder / "bench.csv").open("w", newline="", encoding="utf-8") as file:
             csv.writer(file).writerows(numbers(report))

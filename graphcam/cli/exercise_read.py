@@ -12,6 +12,7 @@ from typer import Argument, Option
 from graphcam.cli.grade_options import SecretFile
 from graphcam.cli.shared import named, one_message, progress_bar
 from graphcam.cli.voice import tell
+from graphcam.words import say
 
 
 def read(
@@ -52,7 +53,7 @@ def read(
     """
     from graphcam.exercises.photographs.course_photographs import ReadingOrder, read_course, summary
 
-    with one_message(), progress_bar("photographs") as step:
+    with one_message(), progress_bar(say("photographs")) as step:
         order = ReadingOrder(photographs or [], course, secret_file, out, review, corrections, workers)
         lines = list(summary(read_course(order, step)))
     for line in map(tell, lines):

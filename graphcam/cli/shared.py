@@ -17,6 +17,7 @@ import typer
 
 from graphcam.cli.voice import tell, voice
 from graphcam.errors import GraphcamError, LetteringWarning
+from graphcam.words import say
 
 WRONG_INPUT = 2
 """Exit status when the input is wrong."""
@@ -31,7 +32,7 @@ DEFAULT_FOLDER = Path("graphcam-out")
 def said(place: str) -> str:
     """A place that is said: an empty one would be taken for the folder in which one is."""
     if not place:
-        raise typer.BadParameter(tell("'' names no place; '.' is the current folder"))
+        raise typer.BadParameter(tell(say("'' names no place; '.' is the current folder")))
     return place
 
 
@@ -84,7 +85,7 @@ def warnings_told() -> Generator[None]:
         def told(message: Warning | str, category: type[Warning], *where: Any) -> None:
             """In one line, as every other warning; what else warns is shown as before."""
             if issubclass(category, LetteringWarning):
-                echo(f"warning: {message}", err=True)
+                echo(say("warning: {message}", message=message), err=True)
             else:
                 otherwise(message, category, *where)
 

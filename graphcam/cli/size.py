@@ -63,7 +63,7 @@ def size(
     folder = FOLDER if out is None and not as_json else out
     with one_message(), warnings_told():
         given = read_task(task, "sizing")
-        progress("searching the ranges")
+        progress(say("searching the ranges"))
         with errors_name(task):
             sizing = graphcam.size_task(given, None if objective is None else objective.value)
         document = sizing.to_dict()

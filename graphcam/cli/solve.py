@@ -29,7 +29,7 @@ from graphcam.cli.shared import (
 from graphcam.cli.telling_files import about, tell_files
 from graphcam.cli.voice import tell, voice
 from graphcam.language import languages
-from graphcam.words import Caption
+from graphcam.words import Caption, say
 
 if TYPE_CHECKING:
     from graphcam.solving.arcs_solution import AnySolution
@@ -100,7 +100,7 @@ def solve(
         from graphcam.report.output_folder import check_choices
         from graphcam.solving.solve import solve as solved
 
-        progress("drawing and computing")
+        progress(say("drawing and computing"))
         hand = None if pencil is None else graphcam.Pencil.of(pencil, seed=seed)
         with errors_name(task):
             solution = solved(given, hand)
@@ -148,7 +148,8 @@ def _read(path: Path | None, divisions: int | None, language: str | None, *, sma
 def _last_step(upto: str | None, *, worksheet: bool) -> int | str | None:
     """The last step that is drawn."""
     if worksheet and upto is not None:
-        raise graphcam.DesignError("upto", upto, "left out with --worksheet", "a worksheet is the sheet up to step 0")
+        limit = say("left out with --worksheet")
+        raise graphcam.DesignError("upto", upto, limit, say("a worksheet is the sheet up to step 0"))
     if worksheet:
         return 0
     return int(upto) if upto is not None and upto.isdecimal() else upto
@@ -173,7 +174,7 @@ def _print_solution(
         if sizes:
             echo(f"\n{tell(sizes)}")
     for sentence in sentences:
-        echo(f"warning: {sentence}", err=True)
+        echo(say("warning: {sentence}", sentence=sentence), err=True)
     if folder is not None and not as_json:
         # Loaded already, by what wrote the files.
         from graphcam.report.output_folder import written_files
@@ -209,5 +210,5 @@ def _print_quantities(quantities: dict[str, dict[str, Any]]) -> None:
                 *("-" if x is None else f"{round(x, 3) + 0:.3f}" for x in numbers),
             ]
         )
-    columns = ("quantity", "unit", "drawn", "exact", "error", "bound")
-    print_table(columns, rows, words=2, caption="error and estimated bound in mm on paper")
+    columns = (say("quantity"), say("unit"), say("drawn"), say("exact"), say("error"), say("bound"))
+    print_table(columns, rows, words=2, caption=say("error and estimated bound in mm on paper"))

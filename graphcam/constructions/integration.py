@@ -42,7 +42,7 @@ from graphcam.drafting.marks import Dimension, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import NOTHING, unit
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.stations import Stations
@@ -195,8 +195,9 @@ def _measurable(top: Floats, full: Floats, pencil: Pencil) -> Floats:
     """
     risen = top > FLAT * full
     if pencil.samples is None and not risen:
-        remedy = "divide into more parts, or draw longer ordinates"
-        raise DesignError("maximum displacement on paper", Unquoted(f"{float(top):.3g} mm"), "above the axis", remedy)
+        remedy = say("divide into more parts, or draw longer ordinates")
+        quantity = say("maximum displacement on paper")
+        raise DesignError(quantity, say("{top:.3g} mm", top=float(top)), say("above the axis"), remedy)
     return np.where(risen, top, np.nan)
 
 

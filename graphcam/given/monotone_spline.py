@@ -30,6 +30,7 @@ from graphcam.given.banded_forms import Forms, around
 from graphcam.given.laws import Floats
 from graphcam.given.legs import Leg
 from graphcam.given.motion import FULL_TURN
+from graphcam.words import say
 
 DEGREE = 5
 FEWEST, MOST, PARTS_OF_ROWS = 12, 180, 3.0
@@ -84,7 +85,7 @@ def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float,
         if off.max() <= tolerance:
             return fitted
         counts[off > tolerance] *= PULL
-    limit = f"more than {off.max():.3g}, what the best spline leaves at a row"
+    limit = say("more than {max:.3g}, what the best spline leaves at a row", max=off.max())
     raise DesignError("tolerance", tolerance, limit, advice)
 
 

@@ -9,6 +9,7 @@ from numbers import Real
 import numpy as np
 
 from graphcam.errors import DesignError, check_number
+from graphcam.words import say
 
 NUMBER = Real, np.ndarray
 """What a number may be, one in an array of no axes too."""
@@ -33,7 +34,7 @@ SENSIBLE = {
     "rad/s^2": (0.0, 1e9),
 }
 """The least and the greatest size by its unit; zero is none."""
-REMEDY = "check its unit and its digits"
+REMEDY = say("check its unit and its digits")
 
 
 def positive(quantity: str, value: float | None, unit: str) -> None:
@@ -52,7 +53,8 @@ def positive(quantity: str, value: float | None, unit: str) -> None:
     check_number(quantity, value, f"a finite number greater than 0 {unit}".rstrip(), above=0)
     least, most = SENSIBLE.get(unit, (0.0, math.inf))
     if not least <= value <= most:
-        raise DesignError(quantity, value, f"from {least:g} to {most:.15g} {unit}", REMEDY)
+        limit = say("from {least:g} to {most:.15g} {unit}", least=least, most=most, unit=unit)
+        raise DesignError(quantity, value, limit, REMEDY)
 
 
 def bounded(quantity: str, value: float | None, unit: str) -> None:
@@ -66,4 +68,4 @@ def bounded(quantity: str, value: float | None, unit: str) -> None:
     """
     _, most = SENSIBLE[unit]
     if value is not None and not abs(value) <= most:
-        raise DesignError(quantity, value, f"at most {most:.15g} {unit} in magnitude", REMEDY)
+        raise DesignError(quantity, value, say("at most {most:.15g} {unit} in magnitude", most=most, unit=unit), REMEDY)

@@ -9,6 +9,7 @@ from types import ModuleType
 from nbformat import NotebookNode
 
 from graphcam.errors import GraphcamError, install_advice
+from graphcam.words import say
 
 PYTHON = {"kernelspec": {"name": "python3", "display_name": "Python 3"}, "language_info": {"name": "python"}}
 """Metadata of a notebook whose code is Python."""
@@ -28,7 +29,12 @@ class MissingExtraError(GraphcamError):
     library: str
 
     def __str__(self) -> str:
-        return f"{self.what} needs {self.library}, which is not installed; {install_advice('notebooks')}"
+        return say(
+            "{what} needs {library}, which is not installed; {install_advice}",
+            what=self.what,
+            library=self.library,
+            install_advice=install_advice("notebooks"),
+        )
 
 
 def needed(library: str, what: str) -> ModuleType:
@@ -58,7 +64,7 @@ class NotebookError(GraphcamError):
     said: str
 
     def __str__(self) -> str:
-        return f"{self.said}\nin the cell\n{self.cell}"
+        return say("{said}\nin the cell\n{cell}", said=self.said, cell=self.cell)
 
 
 def execute(notebook: NotebookNode, folder: Path | str = ".") -> NotebookNode:

@@ -12,6 +12,7 @@ from graphcam.sheets.runs import GAPS
 from graphcam.solving.sheet_papers import format_of
 from graphcam.solving.solution import Solution, solved_on
 from graphcam.solving.task_board import HOPELESS, board_of, given_profile_scale
+from graphcam.words import say
 
 
 def check_profile_size(solution: Solution) -> None:
@@ -34,8 +35,9 @@ def check_profile_size(solution: Solution) -> None:
         return
     smaller = (1 / ratio for ratio in solution.chain.board.paper.ratios if 1 / ratio > given)
     largest = next(mu for mu in smaller if _fits(solution, mu))
-    value, limit = Unquoted(str(ratio_text(given))), f"at most {ratio_text(largest)} on {format_of(task.drawing).said}"
-    raise DesignError("drawing.profile_scale", value, limit, "take a larger format, or leave it out")
+    value = Unquoted(str(ratio_text(given)))
+    limit = say("at most {ratio_text} on {said}", ratio_text=ratio_text(largest), said=format_of(task.drawing).said)
+    raise DesignError("drawing.profile_scale", value, limit, say("take a larger format, or leave it out"))
 
 
 def check_profile_hopeful(solution: Solution) -> None:

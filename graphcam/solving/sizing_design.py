@@ -12,7 +12,7 @@ from typing import Any
 
 from graphcam import __version__
 from graphcam.constructions.adoption import multiple, steps_up, usual_rounding
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
 from graphcam.given.roller_rule import roller_rule
 from graphcam.given.spring_load import SpringLoad
@@ -26,6 +26,7 @@ from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import SpringTable
 from graphcam.tasks.task import CamTable, Task
+from graphcam.words import say
 
 FINER = 4
 """Where no round sizes keep the limits they are rounded to tenths, hundredths, ... so often."""
@@ -132,8 +133,8 @@ def size_task(task: Task | ArcsTask, objective: Objective | None = None) -> Sizi
     .best, .front, .sized_task, .to_dict(); .write(folder) writes the files
     """
     if isinstance(task, ArcsTask) or task.sizing is None:
-        remedy = "give the ranges of the sizes; the task 'sizing' that comes with graphcam is an example"
-        raise DesignError("sizing", Unquoted("missing"), "a table of the task", remedy)
+        remedy = say("give the ranges of the sizes; the task 'sizing' that comes with graphcam is an example")
+        raise DesignError("sizing", say("missing"), say("a table of the task"), remedy)
     problem, goal = _problem(task, task.sizing), objective or task.sizing.objective
     best = best_cam(problem, goal)
     rounding = task.drawing.rounding or usual_rounding(best.cam.prime_radius)

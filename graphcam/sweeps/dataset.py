@@ -23,7 +23,7 @@ from graphcam.sweeps.shared_folder import Sealed, SharedFolder
 from graphcam.sweeps.space import Space
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, Columns
 from graphcam.sweeps.sweep_file import parquet_rows
-from graphcam.words import plain
+from graphcam.words import plain, say
 from graphcam.workers import WorkerPool, results
 
 MANIFEST = "_manifest.json"
@@ -62,10 +62,20 @@ class Summary:
     front: Columns | None = None
 
     def __str__(self) -> str:
-        spent = plain(f"{self.parts} parts, {self.bytes} bytes, {self.seconds:.1f} s of processor time")
+        spent = plain(
+            say(
+                "{parts} parts, {bytes} bytes, {seconds:.1f} s of processor time",
+                parts=self.parts,
+                bytes=self.bytes,
+                seconds=self.seconds,
+            )
+        )
         if self.feasible is None:
-            return plain(f"{self.designs} designs") + f"; {spent}"
-        return plain(f"{self.designs} designs, {self.feasible} feasible") + f"; {spent}"
+            return plain(say("{designs} designs", designs=self.designs)) + f"; {spent}"
+        return (
+            plain(say("{designs} designs, {feasible} feasible", designs=self.designs, feasible=self.feasible))
+            + f"; {spent}"
+        )
 
     def rows(self) -> list[list[str]]:
         """The ranges as texts."""
@@ -95,8 +105,10 @@ def sweep_to_folder(
     finally:
         save()
     if lost := sum(not part["whole"] for part in parts):
-        why = f"{lost} of {len(parts)} parts are missing: their workers died or have no graphcam"
-        raise OutputError(folder, why, "start again to go on")
+        why = say(
+            "{lost} of {parts} parts are missing: their workers died or have no graphcam", lost=lost, parts=len(parts)
+        )
+        raise OutputError(folder, why, say("start again to go on"))
     place.clear_drafts()
     size, seconds = (sum(part[key] for part in parts) for key in ("bytes", "seconds"))
     summary = Summary(len(space), len(parts), size, seconds, **joined(parts))
@@ -125,7 +137,7 @@ def _compute_missing(
             if record is None:
                 continue
             if isinstance(record, str):
-                raise OutputError(place.url, record, "correct that and start again: finished parts are kept")
+                raise OutputError(place.url, record, say("correct that and start again: finished parts are kept"))
             front = record.pop("front", None)
             if front and "front" in manifest:
                 fronts = [known for known in (manifest["front"], front) if known]
@@ -195,14 +207,17 @@ def _manifest(place: SharedFolder, space: Space) -> Record:
     wanted = json.loads(json.dumps({"graphcam": __version__, "space": asdict(space)}))
     if MANIFEST not in sizes:
         if others := sorted(name for name in sizes if not name.startswith(".")):
-            raise OutputError(place.url, f"it holds other files, such as {others[0]}", "choose an empty folder")
+            why = say("it holds other files, such as {others}", others=others[0])
+            raise OutputError(place.url, why, say("choose an empty folder"))
         return wanted | {"designs": len(space), "whole": False, "front": None, "parts": parts_of(len(space))}
     try:
         found = json.loads(place.read(MANIFEST))
     except ValueError:
-        raise OutputError(place.url, f"its {MANIFEST} is no JSON", "choose an empty folder") from None
+        why = say("its {manifest} is no JSON", manifest=MANIFEST)
+        raise OutputError(place.url, why, say("choose an empty folder")) from None
     if different := _difference(found, wanted):
-        raise OutputError(place.url, f"it is of another sweep: {different} differs", "choose an empty folder")
+        why = say("it is of another sweep: {different} differs", different=different)
+        raise OutputError(place.url, why, say("choose an empty folder"))
     for part in found["parts"]:
         part["whole"] = part["whole"] and sizes.get(part["file"]) == part["bytes"]
     return found | {"whole": False}

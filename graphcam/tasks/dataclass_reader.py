@@ -17,10 +17,11 @@ from functools import cache
 from typing import Annotated, Any, Literal, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
 from graphcam.errors import DesignError
+from graphcam.words import say
 
 Place = tuple[int | str, ...]
 """Where in a file: keys, numbers of list entries, and the choices among classes by their kind."""
-A_TABLE = "a table"
+A_TABLE = say("a table")
 _Read = TypeVar("_Read")
 
 
@@ -157,25 +158,25 @@ def _reader(hint: Any) -> Reader:
 def _number(said: Any, place: Place, faults: list[Fault]) -> Any:
     """A finite number; a whole one becomes one with decimals, as of every field that is measured."""
     if isinstance(said, bool) or not isinstance(said, int | float):
-        return faults.append(WrongType(place, "a number (without quotes)"))
+        return faults.append(WrongType(place, say("a number (without quotes)")))
     try:
         number = float(said)
     except OverflowError:
         number = math.inf
-    return number if math.isfinite(number) else faults.append(WrongType(place, "a finite number"))
+    return number if math.isfinite(number) else faults.append(WrongType(place, say("a finite number")))
 
 
 def _whole(said: Any, place: Place, faults: list[Fault]) -> Any:
     whole = isinstance(said, int) and not isinstance(said, bool)
-    return said if whole else faults.append(WrongType(place, "a whole number (without quotes)"))
+    return said if whole else faults.append(WrongType(place, say("a whole number (without quotes)")))
 
 
 def _text(said: Any, place: Place, faults: list[Fault]) -> Any:
-    return said if isinstance(said, str) else faults.append(WrongType(place, "text in quotes"))
+    return said if isinstance(said, str) else faults.append(WrongType(place, say("text in quotes")))
 
 
 def _switch(said: Any, place: Place, faults: list[Fault]) -> Any:
-    return said if isinstance(said, bool) else faults.append(WrongType(place, "true or false"))
+    return said if isinstance(said, bool) else faults.append(WrongType(place, say("true or false")))
 
 
 def _anything(said: Any, _place: Place, _faults: list[Fault]) -> Any:
@@ -263,7 +264,7 @@ def _list_reader(hint: Any) -> Reader:
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
         if not isinstance(said, list | tuple):
-            return faults.append(WrongType(place, "a list"))
+            return faults.append(WrongType(place, say("a list")))
         items = cast(list[Any], said)
         return tuple(reader(item, (*place, number), faults) for number, item in enumerate(items))
 
@@ -276,10 +277,10 @@ def _tuple_reader(hints: tuple[Any, ...]) -> Reader:
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
         if not isinstance(said, list | tuple):
-            return faults.append(WrongType(place, "a list"))
+            return faults.append(WrongType(place, say("a list")))
         items = cast(list[Any], said)
         if len(items) > len(readers):
-            return faults.append(WrongType(place, f"a list of {len(readers)}"))
+            return faults.append(WrongType(place, say("a list of {readers}", readers=len(readers))))
         # Of a list that is too short the places that lack are read no further.
         values = tuple(
             reader(item, (*place, number), faults)

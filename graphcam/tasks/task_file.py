@@ -10,7 +10,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any, TypeVar
 
-from graphcam.errors import DesignError, MissingFileError, TaskError, Unquoted, meant, unreadable
+from graphcam.errors import DesignError, MissingFileError, TaskError, Unquoted, one_of, unreadable
 from graphcam.given.table_file import read_table
 from graphcam.tasks import arcs_task as arcs, motion_tables, parts_tables, spring_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
@@ -31,12 +31,13 @@ from graphcam.tasks.task import Task
 from graphcam.tasks.task_remedies import key_remedy, missing_remedy, value_remedy
 from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.tasks.toml_faults import toml_fault
+from graphcam.words import say
 
 BUILT_IN = ("coursework", "arm", "flat", "measured")
 """Names of the task files that come with graphcam; "arcs" is one more, of a cam of three circular arcs."""
 SIZING = "sizing"
 """The name of the task with a table ``[sizing]`` that comes with graphcam."""
-EXAMPLE = "'graphcam init FILE' writes a commented example"
+EXAMPLE = say("'graphcam init FILE' writes a commented example")
 Classes = dict[tuple[str, ...], type]
 _Checked = TypeVar("_Checked")
 _CLASSES: Classes = {
@@ -128,7 +129,8 @@ def read_content(path: str | Path) -> bytes:
     try:
         return Path(path).read_bytes()
     except (OSError, ValueError) as error:
-        raise unreadable(path, "the task file", "a TOML file", error, f"check the name; {EXAMPLE}") from None
+        remedy = say("check the name; {example}", example=EXAMPLE)
+        raise unreadable(path, say("the task file"), say("a TOML file"), error, remedy) from None
 
 
 @contextmanager
@@ -139,7 +141,7 @@ def other_file(kind: str, example: str) -> Generator[None]:
     except TaskError as error:
         remedy = example if error.remedy.endswith(EXAMPLE) else error.remedy
         if isinstance(error, MissingFileError):
-            raise MissingFileError(error.path, f"check the name; {example}") from None
+            raise MissingFileError(error.path, say("check the name; {example}", example=example)) from None
         field, remedy = (text.replace("task file", kind) for text in (error.field, remedy))
         raise TaskError(error.path, field, error.value, error.expected, remedy) from None
 
@@ -153,7 +155,7 @@ def task_of(path: str, data: dict[str, Any]) -> Task:
     """
     task = _task(path, data, data)
     if not isinstance(task, Task):
-        raise TaskError(path, "arcs", Unquoted("a table"), "left out", "this takes a task with phases of motion")
+        raise TaskError(path, "arcs", say("a table"), say("left out"), say("this takes a task with phases of motion"))
     return task
 
 
@@ -171,8 +173,8 @@ def task_from(data: dict[str, Any], name: str = "task") -> Task | ArcsTask:
     True
     """
     if isinstance(motion := data.get("motion"), dict) and isinstance(table := motion.get("table"), str):
-        remedy = "no file is read here: give the rows of the table"
-        raise TaskError(name, "motion.table", table, "a table with file, column and rows", remedy)
+        remedy = say("no file is read here: give the rows of the table")
+        raise TaskError(name, "motion.table", table, say("a table with file, column and rows"), remedy)
     return _task(name, data, data)
 
 
@@ -185,7 +187,7 @@ def builtin_task(name: str = "coursework") -> Task:
     """
     known = (*BUILT_IN, SIZING)
     if name not in known:
-        raise DesignError("built-in task", name, "one of " + ", ".join(known), meant(name, known))
+        raise DesignError(say("built-in task"), name, *one_of(name, known))
     task = _parse(f"{name}.toml", builtin_text(name).encode(), _built_in_folder())
     assert isinstance(task, Task)
     return task
@@ -211,7 +213,7 @@ def builtin_text(name: str) -> str:
     """
     known = (*BUILT_IN, SIZING, "arcs")
     if name not in known:
-        raise DesignError("built-in task", name, "one of " + ", ".join(known), meant(name, known))
+        raise DesignError(say("built-in task"), name, *one_of(name, known))
     return (_built_in_folder() / f"{name}.toml").read_text(encoding="utf-8")
 
 
@@ -235,13 +237,14 @@ def parse_toml(path: str, content: bytes) -> dict[str, Any]:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line, wrong = content.count(b"\n", 0, error.start) + 1, content[error.start : error.start + 1]
-        raise TaskError(path, f"line {line}", wrong, "text in UTF-8", "save the file as UTF-8") from None
+        what = say("line {line}", line=line)
+        raise TaskError(path, what, wrong, say("text in UTF-8"), say("save the file as UTF-8")) from None
     try:
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise toml_fault(path, text, error, EXAMPLE) from None
     if not data:
-        raise TaskError(path, "the task file", Unquoted("empty"), "a TOML file", EXAMPLE)
+        raise TaskError(path, say("the task file"), say("empty"), say("a TOML file"), EXAMPLE)
     return data
 
 
@@ -252,11 +255,12 @@ def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]
         return data
     name, tolerance = motion["table"], motion.get("tolerance")
     if not isinstance(name, str):
-        raise TaskError(path, "motion.table", _shown(name), "text in quotes", "name the CSV file of the table")
+        expected = say("text in quotes")
+        raise TaskError(path, "motion.table", _shown(name), expected, say("name the CSV file of the table"))
     try:
         table = read_table(folder / name, name, tolerance if isinstance(tolerance, int | float) else None)
     except MissingFileError:
-        raise MissingFileError(name, "check motion.table", where=f"beside {path}") from None
+        raise MissingFileError(name, say("check motion.table"), where=say("beside {path}", path=path)) from None
     return {**data, "motion": {**motion, "table": dataclasses.asdict(table)}}
 
 
@@ -292,14 +296,14 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
         case Missing((("spring" | "material"), *_)):
             return _lacking(path, place, data)
         case Missing():
-            return TaskError(path, place, Unquoted("missing"), "given", missing_remedy(place, data) or EXAMPLE)
+            return TaskError(path, place, say("missing"), say("given"), missing_remedy(place, data) or EXAMPLE)
         case UnknownKey(where):
             return _unknown_key(path, place, value, classes, _table(where[:-1]), data)
         case UnknownKind(table):
             tags = [each[-1] for each in classes if each[:-1] == _table(table)]
-            found = value.get("kind", Unquoted("missing"))
+            found = value.get("kind", say("missing"))
             remedy = value_remedy("kind", found, tags) or EXAMPLE
-            return TaskError(path, f"{place}.kind", _shown(found), "one of " + ", ".join(tags), remedy)
+            return TaskError(path, f"{place}.kind", _shown(found), say("one of {names}", names=", ".join(tags)), remedy)
         case WrongType((*_, key), expected, choices):
             remedy = value_remedy(f"{key}", value, choices) or EXAMPLE
             return TaskError(path, place, _shown(value), expected, remedy)
@@ -312,10 +316,10 @@ def _lacking(path: str, place: str, data: dict[str, Any]) -> TaskError:
     remedy = EXAMPLE
     if place == "spring.mass" and _swings(data):
         place = "spring.inertia"
-        remedy = "in kg mm^2, about the arm's pivot"
+        remedy = say("in kg mm^2, about the arm's pivot")
     others = ", ".join(key for key in _missing(data) if key != place)
-    limit = f"given, and so must {others}" if others else "given"
-    return TaskError(path, place, Unquoted("missing"), limit, remedy)
+    limit = say("given, and so must {others}", others=others) if others else say("given")
+    return TaskError(path, place, say("missing"), limit, remedy)
 
 
 def _missing(data: dict[str, Any]) -> list[str]:
@@ -343,10 +347,10 @@ def _unknown_key(
     alike = [other for other in classes if table[:-1] and other[:-1] == table[:-1]]
     kinds = [other[-1] for other in alike if key in _keys(classes[other])]
     if kinds:
-        left_out = f"left out where the kind is {table[-1]}"
-        return TaskError(path, place, _shown(value), left_out, f"it is for {' and '.join(kinds)}")
+        left_out = say("left out where the kind is {table}", table=table[-1])
+        return TaskError(path, place, _shown(value), left_out, say("it is for {names}", names=" and ".join(kinds)))
     remedy = key_remedy(key, value, known, data)
-    return TaskError(path, place, Unquoted("an unknown key"), "one that is known", remedy)
+    return TaskError(path, place, say("an unknown key"), say("one that is known"), remedy)
 
 
 def _keys(table: type) -> list[str]:
@@ -362,14 +366,14 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
     if not isinstance(value, int | float | str) or error.quantity == "the table's lift":
         value = Unquoted(error.value) if isinstance(error.value, str) else error.value
     if error.quantity == "sum of the phase angles":
-        field = f"{field} (sum of the angles)"
+        field = say("{field} (sum of the angles)", field=field)
     elif error.quantity == "sum of rises less returns":
-        field = f"{field} (sum of rises less returns)"
+        field = say("{field} (sum of rises less returns)", field=field)
     elif error.quantity == "the table's lift":
-        field = f"{field} (lift)"
+        field = say("{field} (lift)", field=field)
     limit, others = error.limit, ", ".join(_missing(data))
     if key == "spring" and data.get("spring") is None and others:
-        limit = f"given where there is a material, and so must {others}"
+        limit = say("given where there is a material, and so must {others}", others=others)
     return TaskError(path, field, _shown(value), limit, error.remedy or EXAMPLE)
 
 
@@ -397,6 +401,6 @@ def _shown(value: Any) -> Any:
     if isinstance(value, bool):
         return Unquoted(str(value).lower())
     if isinstance(value, dict | list):
-        return Unquoted("a table" if isinstance(value, dict) else f"a list of {len(value)}")
+        return Unquoted(say("a table") if isinstance(value, dict) else say("a list of {value}", value=len(value)))
     text = repr(value)
-    return Unquoted(text[:_LONGEST] + "...") if len(text) > _LONGEST else value
+    return Unquoted(say("{text}...", text=text[:_LONGEST])) if len(text) > _LONGEST else value

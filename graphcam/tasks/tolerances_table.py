@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from graphcam.errors import DesignError
 from graphcam.given.making_errors import SIZES, Distribution, MakingErrors, deviations_within
 from graphcam.given.ranges import positive
+from graphcam.words import say
 
 
 @dataclass(frozen=True)
@@ -35,9 +36,9 @@ class TolerancesTable:
 
     def __post_init__(self) -> None:
         for k, amplitude in enumerate(self.waviness):
-            positive(f"waviness[{k}]", amplitude, "mm")
+            positive(f"waviness[{k}]", amplitude, say("mm"))
         for name in SIZES:
-            positive(name, getattr(self, name), "mm")
+            positive(name, getattr(self, name), say("mm"))
         self()
         deviations_within(self.coverage)
 
@@ -55,6 +56,10 @@ class TolerancesTable:
         """
         for name in SIZES:
             if (tolerance := getattr(self, name)) is not None and name not in own:
-                left_out = f"left out for a follower of kind {kind}"
-                remedy = f"it has {', '.join(own)}" if own else "of its sizes none is to be made: waviness is left"
+                left_out = say("left out for a follower of kind {kind}", kind=kind)
+                remedy = (
+                    say("it has {names}", names=", ".join(own))
+                    if own
+                    else say("of its sizes none is to be made: waviness is left")
+                )
                 raise DesignError(f"tolerances.{name}", tolerance, left_out, remedy)

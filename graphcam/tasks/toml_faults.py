@@ -9,7 +9,8 @@ from __future__ import annotations
 import re
 import unicodedata
 
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
+from graphcam.words import say
 
 _PLACE = re.compile(r" \(at (?:line (\d+), column \d+|end of document)\)$")
 _STRING_OR_COMMENT = re.compile(r"\"(?:[^\"\\]|\\.)*\"|'[^']*'|#.*")
@@ -47,7 +48,7 @@ def toml_fault(path: str, text: str, error: Exception, example: str) -> TaskErro
     place = _PLACE.search(str(error))
     why = _PLACE.sub("", str(error))
     if place is None or (place[1] is None and not text.strip()):
-        return TaskError(path, "the text", Unquoted(f"not TOML ({why})"), "a TOML file", example)
+        return TaskError(path, say("the text"), say("not TOML ({why})", why=why), say("a TOML file"), example)
     lines = text.splitlines() or [""]
     number = min(int(place[1]), len(lines)) if place[1] else len(lines)
     line = lines[number - 1]
@@ -55,10 +56,11 @@ def toml_fault(path: str, text: str, error: Exception, example: str) -> TaskErro
     told = _typography(line, place_of) or _comma(line, place_of) or _value(line, place_of)
     if told is not None:
         what, found, wanted, remedy = told
-        return TaskError(path, what, Unquoted(found), wanted, remedy)
+        return TaskError(path, what, found, wanted, remedy)
     shown = line.strip()
     shown = shown if len(shown) <= _LONGEST else shown[:_LONGEST] + "..."
-    return TaskError(path, f"line {number}", shown, f"TOML ({why[:1].lower()}{why[1:]})", example)
+    expected = say("TOML ({lower}{why})", lower=why[:1].lower(), why=why[1:])
+    return TaskError(path, say("line {number}", number=number), shown, expected, example)
 
 
 Told = tuple[str, str, str, str]
@@ -74,13 +76,18 @@ def _typography(line: str, place: str) -> Told | None:
             continue
         name = unicodedata.name(letter, f"U+{ord(letter):04X}").lower()
         if not plain.strip():
-            what, found = f"{place}, column {column}: the character", f"invisible ({name})"
-            return (what, found, "a plain space", "type it anew") if plain else (what, found, "left out", "delete it")
+            what = say("{place}, column {column}: the character", place=place, column=column)
+            found = say("invisible ({name})", name=name)
+            return (
+                (what, found, say("a plain space"), say("type it anew"))
+                if plain
+                else (what, found, say("left out"), say("delete it"))
+            )
         return (
-            f"{place}, column {column}: the character",
+            say("{place}, column {column}: the character", place=place, column=column),
             f"'{letter}' ({name})",
-            f"a plain {plain!r}",
-            "type it in a text editor",
+            say("a plain {plain!r}", plain=plain),
+            say("type it in a text editor"),
         )
     return None
 
@@ -102,8 +109,13 @@ def _plain(letter: str) -> str | None:
 def _comma(line: str, place: str) -> Told | None:
     """A number with a decimal comma."""
     if comma := _COMMA.search(line):
-        remedy = f"write {comma[1]}.{comma[2]}"
-        return f"{place}: the number", f"{comma[1]},{comma[2]}", "written with a decimal point", remedy
+        remedy = say("write {comma}.{comma2}", comma=comma[1], comma2=comma[2])
+        return (
+            say("{place}: the number", place=place),
+            f"{comma[1]},{comma[2]}",
+            say("written with a decimal point"),
+            remedy,
+        )
     return None
 
 
@@ -114,11 +126,21 @@ def _value(line: str, place: str) -> Told | None:
         if word.startswith("''") or _is_value(word):
             continue
         if word in _SWITCHES:
-            return f"{place}: the switch", word, "true or false", f"write {_SWITCHES[word]}"
+            return (
+                say("{place}: the switch", place=place),
+                word,
+                say("true or false"),
+                say("write {switches}", switches=_SWITCHES[word]),
+            )
         if number := _WITH_UNIT.fullmatch(word):
-            return f"{place}: the number", word, "written without its unit", f"write {number[1]}"
+            return (
+                say("{place}: the number", place=place),
+                word,
+                say("written without its unit"),
+                say("write {number}", number=number[1]),
+            )
         if "'" not in word and '"' not in word:
-            return f"{place}: the text", word, "in quotes", f'write "{word}"'
+            return say("{place}: the text", place=place), word, say("in quotes"), say('write "{word}"', word=word)
     return None
 
 

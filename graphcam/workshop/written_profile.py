@@ -7,11 +7,12 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import DesignError, Unquoted, check_kind, meant, nearest
+from graphcam.errors import DesignError, check_kind, meant, nearest
 from graphcam.files import whole_folder
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.spline import ProfileSpline, profile_spline
 from graphcam.tasks.part_table import PartTable
+from graphcam.words import say
 from graphcam.workshop import cutting_files, profile_files
 from graphcam.workshop.cam_part import cam_part
 from graphcam.workshop.outline import of_cam
@@ -80,9 +81,8 @@ def _part_table(part: dict[str, Any]) -> PartTable:
     known = [field.name for field in fields(PartTable)]
     for key in part:
         if key not in known:
-            raise DesignError(
-                "part", Unquoted(f"{key} = {part[key]!r}"), "what a table [part] has", nearest(key, known)
-            )
+            found = say("{key} = {part!r}", key=key, part=part[key])
+            raise DesignError("part", found, say("what a table [part] has"), nearest(key, known))
     return PartTable(**part)
 
 

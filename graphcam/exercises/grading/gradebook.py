@@ -7,10 +7,10 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.grading.overrides import TOTAL
-from graphcam.words import plain
+from graphcam.words import plain, say
 
 ENTERED = "gradebook.json"
 """In the teacher's folder, what was entered into grade books."""
@@ -36,11 +36,12 @@ def check_gradebook(database: str) -> None:
     try:
         create_engine(database).connect().close()
     except SQLAlchemyError as error:
-        why = f"{database} ({getattr(error, 'orig', None) or 'no address of a database'})"
-        remedy = "sqlite:///gradebook.db is the file gradebook.db in this folder"
-        raise TaskError(
-            "--gradebook", "the grade book", Unquoted(why), "a database that can be opened", remedy
-        ) from None
+        why = say(
+            "{database} ({value})", database=database, value=getattr(error, "orig", None) or "no address of a database"
+        )
+        remedy = say("sqlite:///gradebook.db is the file gradebook.db in this folder")
+        what = say("the grade book")
+        raise TaskError("--gradebook", what, why, say("a database that can be opened"), remedy) from None
 
 
 def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, Any]], entered: Path) -> list[str]:
@@ -82,7 +83,12 @@ def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, 
                 handed_in.late_submission_penalty = max(record["late"]["earned"] - record["total"], 0.0)
             if any(one["answer"] == TOTAL for one in record.get("overrides", [])):
                 told.append(
-                    plain(f"{student}: the total given by hand is not in the grade book, which adds up the answers")
+                    plain(
+                        say(
+                            "{student}: the total given by hand is not in the grade book, which adds up the answers",
+                            student=student,
+                        )
+                    )
                 )
         book.db.commit()
     entered.parent.mkdir(parents=True, exist_ok=True)
@@ -115,10 +121,19 @@ def _enter(
         grade.manual_score, grade.needs_manual_grade = answer["marks"], False
         marks = answer["marks"]
     else:
-        told.append(plain(f"{place}: the grade book keeps {grade.manual_score:g}, not {answer['marks']:g}"))
+        told.append(
+            plain(
+                say(
+                    "{place}: the grade book keeps {manual_score:g}, not {answer:g}",
+                    place=place,
+                    manual_score=grade.manual_score,
+                    answer=answer["marks"],
+                )
+            )
+        )
     if comment.manual_comment in (None, "", words, said):
         comment.manual_comment = words = said
     else:
-        told.append(plain(f"{place}: the grade book keeps its comment"))
+        told.append(plain(say("{place}: the grade book keeps its comment", place=place)))
     former[answer["name"]] = [marks, words]
     return told

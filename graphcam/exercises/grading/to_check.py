@@ -6,7 +6,7 @@ from typing import Any
 from graphcam.exercises.marking.copies import AlikePair
 from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.student_rows import is_unanswered
-from graphcam.words import plain
+from graphcam.words import plain, say
 
 MOST_NAMED = 5
 """Students that a line names; the page names all."""
@@ -39,7 +39,7 @@ def not_handed_in(called: Mapping[str, str], graded: Sequence[Mapping[str, Any]]
     """
     there = {record["student"] for record in graded}
     missing = sorted(student for student in called if student not in there and student not in unread)
-    return [plain(f"not handed in: {', '.join(missing)}")] if missing else []
+    return [plain(say("not handed in: {names}", names=", ".join(missing)))] if missing else []
 
 
 def to_check(
@@ -62,10 +62,50 @@ def to_check(
     exact = [record["student"] for record in records if is_handed_in(record) and record["too_exact"]]
     agree = [f"{pair.student} and {pair.other}" for pair in pairs]
     lines = (
-        (silent, plain(f"to check: submissions without readable answers: {len(silent)} ({_some(silent)}); see {page}")),
-        (agree, plain(f"to check: pairs that agree too well: {len(agree)} ({_some(agree)}); see {page}")),
-        (exact, plain(f"to check: readings as exact as by a program: {len(exact)} ({_some(exact)}); see {page}")),
-        (awaiting, plain(f"to check: drawings that await review: {len(awaiting)} ({_some(awaiting)}); see {page}")),
+        (
+            silent,
+            plain(
+                say(
+                    "to check: submissions without readable answers: {silent} ({some}); see {page}",
+                    silent=len(silent),
+                    some=_some(silent),
+                    page=page,
+                )
+            ),
+        ),
+        (
+            agree,
+            plain(
+                say(
+                    "to check: pairs that agree too well: {agree} ({some}); see {page}",
+                    agree=len(agree),
+                    some=_some(agree),
+                    page=page,
+                )
+            ),
+        ),
+        (
+            exact,
+            plain(
+                say(
+                    "to check: readings as exact as by a program: {exact} ({some}); see {page}",
+                    exact=len(exact),
+                    some=_some(exact),
+                    page=page,
+                )
+            ),
+        ),
+        (
+            awaiting,
+            plain(
+                say(
+                    "to check: drawings that await review: {awaiting} ({some}); see {page}",
+                    awaiting=len(awaiting),
+                    some=_some(awaiting),
+                    page=page,
+                )
+            ),
+        ),
     )
     return [line for found, line in lines if found]
 
