@@ -21,14 +21,15 @@ class GraphcamError(Exception):
 
     Its ``args`` are what it was given, captions among them; ``str`` says it in English.
 
-    Attributes
-    ----------
-    fault : what is wrong
     advice : what to do about it; may be empty
     """
 
-    fault: Words
     advice: Words = ""
+
+    @property
+    def fault(self) -> Words:
+        """What is wrong."""
+        raise NotImplementedError
 
     @property
     def remedy(self) -> str:
@@ -279,12 +280,12 @@ def meant(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] |
     return say("did you mean '{close}'?", close=close[0]) if close else ""
 
 
-def one_of(
+def among(
     word: object, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None
 ) -> tuple[Caption, Words]:
     """The limit and the remedy of a word that is none of those known; ``called`` as in :func:`meant`.
 
-    >>> print(DesignError("law", "cicloidal", *one_of("cicloidal", ["cosine", "cycloidal"])))
+    >>> print(DesignError("law", "cicloidal", *among("cicloidal", ["cosine", "cycloidal"])))
     law is 'cicloidal', but must be one of cosine, cycloidal; did you mean 'cycloidal'?
     """
     known = list(known)

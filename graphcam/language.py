@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.catalog import Catalog, read_catalog
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, among
 from graphcam.words import Caption, Message, Words, message, say, say_in
 
 MINUS = "−"
@@ -130,5 +130,5 @@ def language(name: str) -> Language:
     if name == ENGLISH.name:
         return ENGLISH
     if name not in languages():
-        raise DesignError("language", name, *one_of(name, languages()))
+        raise DesignError("language", name, *among(name, languages()))
     return Language(name, read_catalog((_folder() / f"{name}.po").read_text(encoding="utf-8")))

@@ -20,7 +20,7 @@ from graphcam.bench.studio_rows import STUDIO
 from graphcam.bench.sweep_curve import CURVE, SIZES as SWEPT
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import LAW, Method, TimedSizes, tradeoff
-from graphcam.words import say
+from graphcam.words import Words, say
 
 SECTIONS: tuple[Section, ...] = (EXACT, LOADS, BOUNDS, MEASURED, WAITING, STUDIO, CURVE)
 """The tables of measured figures and goals, in order."""
@@ -128,7 +128,7 @@ class Report:
 
 
 def measure(
-    effort: Effort, rendering: Callable[[Timer], Mapping[str, float]], progress: Callable[[str], None]
+    effort: Effort, rendering: Callable[[Timer], Mapping[str, float]], progress: Callable[[Words], None]
 ) -> Report:
     """Measure everything; ``rendering`` gives the times of the sheet [s], which this side knows nothing of."""
     timer = Timer(effort.budget)

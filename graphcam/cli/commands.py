@@ -136,7 +136,7 @@ def sweep(
                 found = dataset.sweep_to_folder(designs, out, pool, lambda done: step(done, len(designs)))
     if isinstance(found, dataset.Summary):
         print_table((say("quantity"), say("minimum"), say("maximum")), found.rows())
-        echo(f"{out}: {found}")
+        echo(say("{out}: {found}", out=str(out), found=found.caption))
     tell_sweep(designs, found)
     with one_message():
         write_front(designs, out, found.front)

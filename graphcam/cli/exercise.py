@@ -25,13 +25,22 @@ from graphcam.cli.grade_options import (
     SecretFile,
     ShowRight,
 )
-from graphcam.cli.shared import DEFAULT_FOLDER, echo, named, one_message, print_table, progress_bar, progress_lines
+from graphcam.cli.shared import (
+    DEFAULT_FOLDER,
+    echo,
+    echo_line,
+    named,
+    one_message,
+    print_table,
+    progress_bar,
+    progress_lines,
+)
 from graphcam.cli.voice import tell, voice
 from graphcam.errors import TaskError, install_advice
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.running.levels import Level
 from graphcam.language import languages
-from graphcam.words import Caption, plain, say, say_many
+from graphcam.words import Caption, Words, say, say_many
 
 if TYPE_CHECKING:
     from graphcam.exercises.marking.simulate import Simulation
@@ -143,28 +152,20 @@ def _print_matrix(found: Simulation) -> None:
         rows.append([name, named, str(row.hands), str(row.accepted), f"{row.right(name):.1%}"])
     columns = (say("mistake made"), say("named"), say("submissions"), say("full marks"), say("named rightly"))
     print_table(columns, rows, words=2, title=say("{exercise}: what was named", exercise=found.exercise))
+    draws, copies = say("{draws:.2f}, at most {most}", draws=found.draws, most=len(found.issued)), found.copies
     for counted, value in (
-        (
-            plain(say("right work that loses any point, of {careful}", careful=found.careful)),
-            f"{found.false_rejections:.2%}",
-        ),
+        (say("right work that loses any point, of {count}", count=found.careful), f"{found.false_rejections:.2%}"),
         *(
-            (plain(say("of it with {name} hands, of {hands}", name=name, hands=tally.hands)), f"{tally.rate:.2%}")
+            (say("of it with {name} hands, of {hands}", name=name, hands=tally.hands), f"{tally.rate:.2%}")
             for name, tally in found.populations.items()
         ),
-        (plain(say("right work remarked on as exact as a program")), str(found.too_exact)),
-        (plain(say("wrong work that earns full marks")), f"{found.false_acceptances:.2%}"),
-        (plain(say("mistakes named rightly")), f"{found.right_diagnoses:.2%}"),
-        (plain(say("mistakes that are not looked for, taken for another")), f"{found.outside_named:.2%}"),
-        (
-            plain(say("marks earned at most by a copy of another variant, of {pairs}", pairs=found.copies.pairs)),
-            f"{found.copies.best:.0%}",
-        ),
-        (plain(say("copies of another variant that earn more than half")), f"{found.copies.part_above_half:.1%}"),
-        (
-            plain(say("draws a variant, all {variants} separable", variants=found.variants)),
-            plain(say("{draws:.2f}, at most {issued}", draws=found.draws, issued=len(found.issued))),
-        ),
+        (say("right work remarked on as exact as a program"), str(found.too_exact)),
+        (say("wrong work that earns full marks"), f"{found.false_acceptances:.2%}"),
+        (say("mistakes named rightly"), f"{found.right_diagnoses:.2%}"),
+        (say("mistakes that are not looked for, taken for another"), f"{found.outside_named:.2%}"),
+        (say("marks earned at most by a copy of another variant, of {n}", n=copies.pairs), f"{copies.best:.0%}"),
+        (say("copies of another variant that earn more than half"), f"{copies.part_above_half:.1%}"),
+        (say("draws a variant, all {variants} separable", variants=found.variants), draws),
     ):
         typer.echo(f"{tell(counted)}: {tell(value)}")
 
@@ -233,7 +234,7 @@ def make(
         """Tell whose turn it is."""
         progress(say("student {done} of {total}", done=done, total=total))
 
-    def remark(line: str) -> None:
+    def remark(line: Words) -> None:
         """Tell what is odd about the course, beside its output."""
         typer.echo(tell(line), err=True)
 
@@ -243,13 +244,8 @@ def make(
         chosen = usual_paper(name) if not paper else "" if paper == UNMARKED else paper
         if not paper and chosen and find_spec("segno") is None:
             chosen = ""
-            progress(
-                say(
-                    "{name}: worksheets without tags; for such that can be photographed, {install_advice}",
-                    name=name,
-                    install_advice=install_advice("photo"),
-                )
-            )
+            untagged = say("{name}: worksheets without tags; for such that can be photographed, {advice}")
+            progress(untagged.where(name=name, advice=install_advice("photo")))
         papers = {"language": language, "hand": hand, "paper": chosen}
         told = ids_from(roster)
         count = run(
@@ -348,7 +344,8 @@ def grade(
             show_right=show_right,
         )
         said = grade_course(course, step)
-    echo(said)
+    for line in said:
+        echo_line(line)
 
 
 @exercise.command()
@@ -433,11 +430,5 @@ def speed(
             found, course = marking_speed(find_exercise(name), timer), course_speed(name)
             rates = (found.careful, found.wrong, course.graded)
             rows.append([found.exercise, *(f"{rate:.0f}" for rate in rates), f"{course.papers:.2f}"])
-    heads = (
-        say("submissions a second, one core"),
-        say("careful"),
-        say("with a mistake"),
-        say("with files"),
-        say("papers, s"),
-    )
-    print_table(heads, rows)
+    heads = say("careful"), say("with a mistake"), say("with files"), say("papers, s")
+    print_table((say("submissions a second, one core"), *heads), rows)

@@ -17,7 +17,7 @@ import typer
 
 from graphcam.cli.voice import tell, voice
 from graphcam.errors import GraphcamError, LetteringWarning
-from graphcam.words import say
+from graphcam.words import Words, say
 
 WRONG_INPUT = 2
 """Exit status when the input is wrong."""
@@ -53,6 +53,12 @@ def quoted(path: Path) -> str:
 def echo(words: object, *, err: bool = False) -> None:
     """Print a text in the language of the command that is run."""
     typer.echo(tell(words), err=err)
+
+
+def echo_line(words: Words) -> None:
+    """Print it as one line: a name may hold what is no line, and what a terminal obeys."""
+    line = tell(words)
+    typer.echo(line if line.isprintable() else ascii(line))
 
 
 TaskFile = Annotated[
@@ -93,14 +99,14 @@ def warnings_told() -> Generator[None]:
         yield
 
 
-def progress_lines(*, quiet: bool) -> Callable[[str], None]:
+def progress_lines(*, quiet: bool) -> Callable[[Words], None]:
     """Lines on standard error; with ``quiet`` only for somebody who sits before it."""
     silent = quiet and not sys.stderr.isatty()
     return lambda line: None if silent else typer.echo(f"{tell(line)} ...", err=True)
 
 
 def print_table(
-    columns: Sequence[str], rows: Iterable[Sequence[str]], words: int = 1, *, title: str = "", caption: str = ""
+    columns: Sequence[Words], rows: Iterable[Sequence[str]], words: int = 1, *, title: Words = "", caption: Words = ""
 ) -> None:
     """Print a table: the first columns are words, the others numbers, which stand to the right."""
     width = shutil.get_terminal_size().columns
@@ -157,7 +163,7 @@ def _aligned(rows: Sequence[Sequence[str]], words: int) -> list[str]:
 
 
 @contextmanager
-def progress_bar(things: str) -> Generator[Callable[[int, int], None]]:
+def progress_bar(things: Words) -> Generator[Callable[[int, int], None]]:
     """A bar on standard error if it is a terminal; call what it yields with (done, total)."""
     if not sys.stderr.isatty():
         yield lambda done, total: None
@@ -178,5 +184,5 @@ def progress_bar(things: str) -> Generator[Callable[[int, int], None]]:
     columns = (TextColumn(tell(things)), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     # Without a thread that refreshes: a process with threads is better not forked.
     with Progress(*columns, console=Console(stderr=True), transient=True, auto_refresh=False) as progress:
-        bar = progress.add_task(things, total=None)
+        bar = progress.add_task(str(things), total=None)
         yield step

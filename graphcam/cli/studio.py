@@ -13,7 +13,7 @@ from typer import Option
 
 from graphcam.cli.given_task import read_task
 from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, echo, named, one_message, warnings_told
-from graphcam.cli.voice import voice
+from graphcam.cli.voice import helped, voice
 from graphcam.errors import DesignError
 from graphcam.language import languages
 from graphcam.words import say
@@ -22,8 +22,10 @@ if TYPE_CHECKING:
     from graphcam.tasks.arcs_task import ArcsTask
     from graphcam.tasks.task import Task
 
-FOLDER = f"Folder for the files that the page writes; the default is {DEFAULT_FOLDER}."
-LANGUAGE = f"Language of the page and of what it writes, instead of the task's: {', '.join(languages())}."
+FOLDER = helped(say("Folder for the files that the page writes; the default is {folder}.", folder=str(DEFAULT_FOLDER)))
+LANGUAGE = helped(
+    say("Language of the page and of what it writes, instead of the task's: {names}.", names=", ".join(languages()))
+)
 ONE_FILE = "Write the studio as one file that needs no server, and exit."
 STATIC = "Write the studio as a folder for a web server, and exit."
 PYODIDE = "Folder with Pyodide and NumPy for browsers, which --html and --site include."

@@ -312,7 +312,7 @@ class Chain(Drawings):
         if not proposed > 0:
             remedy = say("give follower.roller_radius or another rule")
             quantity = say("roller radius by the rule")
-            raise DesignError(quantity, say("{proposed:.4g} mm", proposed=proposed), say("greater than 0 mm"), remedy)
+            raise DesignError(quantity, say("{length:.4g} mm", length=proposed), say("greater than 0 mm"), remedy)
         # A roller smaller than the rounding is kept as proposed: rounding it down would leave none.
         return multiple(math.floor(proposed / self.rounding + ROUNDING_SLACK), self.rounding) or proposed
 
@@ -369,5 +369,5 @@ class Chain(Drawings):
         if name == "prime_radius" and not value > 0:
             remedy = say("any radius keeps the limits: give cam.prime_radius, or stricter limits")
             quantity = say("minimum prime radius")
-            raise DesignError(quantity, say("{value:g} mm", value=value), say("greater than 0 mm"), remedy)
+            raise DesignError(quantity, say("{length:g} mm", length=value), say("greater than 0 mm"), remedy)
         return value

@@ -197,7 +197,7 @@ def _measurable(top: Floats, full: Floats, pencil: Pencil) -> Floats:
     if pencil.samples is None and not risen:
         remedy = say("divide into more parts, or draw longer ordinates")
         quantity = say("maximum displacement on paper")
-        raise DesignError(quantity, say("{top:.3g} mm", top=float(top)), say("above the axis"), remedy)
+        raise DesignError(quantity, say("{length:.3g} mm", length=float(top)), say("above the axis"), remedy)
     return np.where(risen, top, np.nan)
 
 

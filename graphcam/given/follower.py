@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from graphcam.errors import DesignError, check_number, meant
-from graphcam.words import say
+from graphcam.words import Words, say
 
 Rotation = Literal["ccw", "cw"]
 SENSES = {
@@ -107,7 +107,7 @@ class FlatFaced:
     roller_radius = 0.0
 
 
-def swing_remedy(lift: float, otherwise: str) -> str:
+def swing_remedy(lift: float, otherwise: Words) -> Words:
     """What to do about the lift of an arm [rad] that is too large: beyond a turn it was meant in another unit.
 
     >>> swing_remedy(15, "swing the arm less")

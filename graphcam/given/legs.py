@@ -15,7 +15,7 @@ from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.rests import Stop, Surroundings, find_stop
-from graphcam.words import say
+from graphcam.words import Words, say
 
 DEPTH = 2.0
 """A rise or return of less than this many tolerances is not told from noise."""
@@ -63,7 +63,7 @@ class _Flat:
         return replace(self, first=self.first + rows, last=self.last + rows)
 
 
-def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float, advice: str = "") -> tuple[list[Leg], float]:
+def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float, advice: Words = "") -> tuple[list[Leg], float]:
     """The legs of a table over one turn, in order, and how many times more than the noise their stops are off at most.
 
     phi, s : (n,) cam angles [rad] that grow over less than a turn, and the displacements there

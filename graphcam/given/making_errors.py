@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, check_number, nearest, one_of
+from graphcam.errors import DesignError, among, check_number, nearest
 from graphcam.given.laws import Floats
 from graphcam.words import say
 
@@ -51,7 +51,7 @@ class Deviations:
     def __post_init__(self) -> None:
         for name in self.sizes:
             if name not in MADE:
-                raise DesignError("sizes", name, *one_of(name, MADE))
+                raise DesignError("sizes", name, *among(name, MADE))
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted, check_number
+from graphcam.errors import DesignError, check_number
 from graphcam.given.fixed_order import summed
 from graphcam.given.laws import Floats
 from graphcam.given.legs import Leg, find_legs
@@ -18,7 +18,7 @@ from graphcam.given.monotone_spline import Fit, fit
 from graphcam.given.motion import FULL_TURN, NEARLY, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.roots import roots
 from graphcam.given.spline_law import AT_REST, TURNING, spline_law
-from graphcam.words import say
+from graphcam.words import Caption, Words, say
 
 DEFAULT_TOLERANCE = 0.01
 """How far the motion may pass a row of its table [mm]."""
@@ -52,7 +52,7 @@ SHOWN = 1e-3
 class RowError(DesignError):
     """A row of a table that cannot be; ``row`` counts from 0."""
 
-    def __init__(self, row: int, quantity: str, value: object, limit: str, remedy: str) -> None:
+    def __init__(self, row: int, quantity: Words, value: object, limit: Words, remedy: Words) -> None:
         super().__init__(quantity, value, limit, remedy)
         self.row = row
 
@@ -224,11 +224,12 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
         raise RowError(max(phi.size - 1, 0), say("number of rows"), phi.size, limit, remedy)
     for k, number in enumerate(np.isfinite(phi) & np.isfinite(values)):
         if not number:
-            limit = say("{phi:g}, {values:g}", phi=phi[k], values=values[k])
-            raise RowError(k, say("row"), limit, say("finite numbers"), "measure it")
+            found = say("{phi:g}, {values:g}", phi=phi[k], values=values[k])
+            raise RowError(k, say("row"), found, say("finite numbers"), say("measure it"))
     for k in np.flatnonzero(np.abs(values) > LARGEST)[:1]:
-        limit = say("{phi:g}, {values:g}", phi=phi[k], values=values[k])
-        raise RowError(int(k), say("row"), limit, say("numbers up to {most:g}", most=LARGEST), "measure again")
+        found = say("{phi:g}, {values:g}", phi=phi[k], values=values[k])
+        limit = say("numbers up to {most:g}", most=LARGEST)
+        raise RowError(int(k), say("row"), found, limit, say("measure again"))
     for k, step in enumerate(np.diff(phi), 1):
         if step <= ROUNDING:
             remedy = say("give every cam angle once") if step >= -ROUNDING else say("sort the rows by the cam angle")
@@ -248,7 +249,7 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
     return phi[:-1], values[:-1]
 
 
-def _turn_remedy(span: float) -> str:
+def _turn_remedy(span: float) -> Words:
     """What to do about rows that do not cover a turn: perhaps their angles are in the other unit."""
     for turn, remedy in (
         (360.0, say("angles are in radians here: convert them by numpy.radians")),
@@ -259,11 +260,11 @@ def _turn_remedy(span: float) -> str:
     return say("give one revolution of the cam")
 
 
-def _degrees(angle: float) -> Unquoted:
+def _degrees(angle: float) -> Caption:
     return say("{degrees:.10g} degrees", degrees=math.degrees(angle))
 
 
-def _remedy(tolerance: float, scatter: float) -> str:
+def _remedy(tolerance: float, scatter: float) -> Words:
     """What to do about a tolerance that is too small: give what the scatter of the rows asks for, if that is more."""
     asked = TOLERANCE_OF_NOISE * scatter
     if not asked > tolerance:

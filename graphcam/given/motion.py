@@ -15,7 +15,7 @@ from graphcam.given.laws import Floats, Side, law, law_of_return
 from graphcam.given.motion_law import Law
 from graphcam.given.pieces import Piece, Piecewise, at_rest, chunks, in_phase
 from graphcam.showing import Shown, in_lines
-from graphcam.words import say
+from graphcam.words import Words, say
 
 CLOSURE = 1e-9
 """How far the angles may miss a full turn (rad), and the lifts zero (relative to the maximum)."""
@@ -28,7 +28,7 @@ def _check_positive(angle: float) -> None:
     check_number("angle", angle, say("a finite number greater than 0 rad"), above=0)
 
 
-def _check_turn(angle: float, remedy: str) -> None:
+def _check_turn(angle: float, remedy: Words) -> None:
     """That a phase is no longer than a turn: an angle in degrees is told from one in radians by that."""
     if angle > FULL_TURN + CLOSURE:
         raise DesignError("angle", say("{angle:.6g} rad", angle=angle), say("at most a full turn, 2 pi rad"), remedy)
@@ -224,7 +224,7 @@ class Motion(Shown):
         if abs(closing) > CLOSURE * max(1.0, max(map(abs, steps))):
             remedy = say("make the lifts of rises and returns equal")
             quantity = say("sum of rises less returns")
-            raise DesignError(quantity, say("{closing:.10g} mm", closing=closing), say("0 mm"), remedy)
+            raise DesignError(quantity, say("{length:.10g} mm", length=closing), say("0 mm"), remedy)
         heights = [math.fsum(steps[:k]) for k in range(len(phases))]
         heights.append(heights[0])  # closed by definition: what the sum misses is rounding
         object.__setattr__(self, "phases", phases)
@@ -366,7 +366,7 @@ class Motion(Shown):
         return np.array([piece.length < 0 for piece in self._piecewise.pieces])
 
 
-def _remedy(phases: Sequence[Phase], turn: float) -> str:
+def _remedy(phases: Sequence[Phase], turn: float) -> Words:
     """What to do about phases that do not sum to a turn."""
     moving = next(phase for phase in phases if isinstance(phase, Moving))
     lifts = math.fsum(phase.angle if isinstance(phase, Dwell) else phase.lift for phase in phases)

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
 from graphcam.given.pieces import Floats, Formula, Piece, Piecewise, Side, chunks, in_phase
-from graphcam.words import say
+from graphcam.words import Words, bare, say
 
 Fourth = Callable[[Floats], tuple[Floats, float]]
 """f'''' of the distance x from an end of a phase, and a bound on |f'''''| over the piece."""
@@ -249,8 +249,8 @@ class Law:
         places = np.linspace(ends[:-1], ends[1:], PARTS + 1)
         return places[:-1].T.ravel(), places[1:].T.ravel()
 
-    def _wrong(self, what: str, value: object, limit: str, remedy: str = "") -> DesignError:
-        shown = value if isinstance(value, str) else value
+    def _wrong(self, what: Words, value: object, limit: Words, remedy: Words = "") -> DesignError:
+        shown = bare(value) if isinstance(value, str) else value
         return DesignError(say("{what} of the law '{name}'", what=what, name=self.name), shown, limit, remedy)
 
     def _check(self) -> None:

@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from graphcam.errors import DesignError, Unquoted, check_number
+from graphcam.errors import DesignError, check_number
 from graphcam.given.exact_polynomials import PI, shortest
-from graphcam.words import say
+from graphcam.words import Caption, say
 
 ORDERS = "s", "v", "a", "j"
 
@@ -75,10 +75,10 @@ def exact_angle(angle: float) -> Fraction:
     return plain
 
 
-def told(angle: float) -> Unquoted:
+def told(angle: float) -> Caption:
     """A cam angle in the words of a message.
 
-    >>> told(math.pi)
+    >>> print(told(math.pi))
     180 degrees
     """
     return say("{degrees:.10g} degrees", degrees=math.degrees(angle))

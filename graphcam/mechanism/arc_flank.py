@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.mechanism.kinematics import Complexes
-from graphcam.words import Caption, say
+from graphcam.words import Caption, bare, say
 
 FIT = 1e-3
 """How far given points may miss the arcs, as a part of their distance from the cam centre: printed data are rounded."""
@@ -105,6 +105,6 @@ class ArcFlank:
         return sigma
 
 
-def _shown(point: Point) -> Unquoted:
+def _shown(point: Point) -> Caption:
     x, y = point
-    return say("({value:.6g}, {value2:.6g})", value=x + 0.0, value2=y + 0.0)  # with no sign at 0
+    return bare(f"({x + 0.0:.6g}, {y + 0.0:.6g})")  # with no sign at 0

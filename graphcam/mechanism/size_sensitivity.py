@@ -143,7 +143,7 @@ def radius_sensitivity(
     least = minimum_radius(motion, follower, rotation, rise, return_, offset, rest, curvature)
     if not least.active:
         remedy = say("without one the radius is where the follower only just reaches the cam")
-        shown = say("{prime_radius:g} mm", prime_radius=least.prime_radius)
+        shown = say("{length:g} mm", length=least.prime_radius)
         raise DesignError(say("minimum prime radius"), shown, say("held by a limit"), remedy)
     if least.place_name is None:
         return {"curvature": 1.0, "lift": (least.prime_radius - (curvature or 0.0)) / motion.lift}

@@ -9,7 +9,7 @@ from graphcam.errors import DesignError
 from graphcam.mechanism.sizing_limits import CURVATURE, NO_UNDERCUT, RETURN, RISE, SHARE, STRESS, Sizes
 from graphcam.mechanism.sizing_problem import BINDS, SizingProblem
 from graphcam.mechanism.sizing_search import nearest
-from graphcam.words import say
+from graphcam.words import Words, say
 
 ALIKE = 1e-3
 """Limits that the nearest cam exceeds by parts that differ by less stand in each other's way."""
@@ -34,7 +34,7 @@ def refuse(problem: SizingProblem) -> NoReturn:
     raise _error(problem, near, together, say("no cam in the ranges keeps both") if len(together) == 2 else MANY)
 
 
-def _error(problem: SizingProblem, near: Sizes, names: list[str], why: str) -> DesignError:
+def _error(problem: SizingProblem, near: Sizes, names: list[str], why: Words) -> DesignError:
     said = [_told(problem, near, name) for name in names]
     found, limit = (" and ".join(texts) for texts in zip(*said, strict=True))
     sizes = zip(problem.ranges, problem.values(near), strict=True)

@@ -206,7 +206,7 @@ def _near(stretch: _Stretch, deviation: float) -> _Fit:
         more = np.maximum(missed ** (1 / (stretch.degree + 1)), LEAST_GROWTH)
         counts = np.where(poor, np.ceil(counts) * more, counts)
     remedy = say("state a larger one, or take a smaller roller")
-    raise DesignError("deviation", say("{deviation:g} mm", deviation=deviation), say("larger for this profile"), remedy)
+    raise DesignError("deviation", say("{length:g} mm", length=deviation), say("larger for this profile"), remedy)
 
 
 def _with(stretches: list[_Stretch], control_points: int, smooth: list[bool], deviation: float) -> list[_Fit]:

@@ -22,7 +22,7 @@ from graphcam.notebooks.running import execute, needed
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_writer import task_files
-from graphcam.words import say
+from graphcam.words import Words, say
 
 TEMPLATES = Path(__file__).parent / "templates"
 SHOWN = ["text/html", "text/markdown", "image/svg+xml", "image/png", "text/plain"]
@@ -131,7 +131,7 @@ def write_folder(
     run: bool = False,
     html: bool = False,
     pdf: bool = False,
-    progress: Callable[[str], None] = lambda _: None,
+    progress: Callable[[Words], None] = lambda _: None,
 ) -> list[str]:
     """Write the notebook of a task into a folder: all of it, or nothing.
 

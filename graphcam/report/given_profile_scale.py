@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.scale import ratio_text
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.report.sheet_contents import all_drawn, scaled_steps
 from graphcam.sheets.leaves import fits
 from graphcam.sheets.panels import panels
@@ -35,7 +35,7 @@ def check_profile_size(solution: Solution) -> None:
         return
     smaller = (1 / ratio for ratio in solution.chain.board.paper.ratios if 1 / ratio > given)
     largest = next(mu for mu in smaller if _fits(solution, mu))
-    value = Unquoted(str(ratio_text(given)))
+    value = ratio_text(given)
     limit = say("at most {ratio_text} on {said}", ratio_text=ratio_text(largest), said=format_of(task.drawing).said)
     raise DesignError("drawing.profile_scale", value, limit, say("take a larger format, or leave it out"))
 

@@ -22,7 +22,7 @@ from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.shown_solution import CUTTING, FILES, USUAL, without_answers
 from graphcam.solving.solution import Solution
 from graphcam.tasks.sheet_tables import one_of
-from graphcam.words import say
+from graphcam.words import Words, say
 from graphcam.workshop.profile_files import NAMES, write_curves
 
 if TYPE_CHECKING:
@@ -100,7 +100,7 @@ def write(
     per_construction: bool = False,
     dxf: str = "plain",
     working_drawing: bool = False,
-    progress: Callable[[str], None] | None = None,
+    progress: Callable[[Words], None] | None = None,
 ) -> dict[str, str | None]:
     """Write a solution into a folder, as :meth:`~graphcam.solving.shown_solution.ShownSolution.write` says."""
     _check_names(solution, upto, dxf, files, working_drawing=working_drawing)
@@ -191,7 +191,7 @@ def _warn_of_boxes(drawing: Drawing) -> None:
         warnings.warn(said, LetteringWarning, stacklevel=3)
 
 
-def unheard(_: str) -> None:
+def unheard(_: Words) -> None:
     """What hears of the progress where nobody asks for it."""
 
 
@@ -228,7 +228,7 @@ def _write_cutting(
 
 
 def write_sheet(
-    drawing: Drawing, folder: Path, stem: str, kinds: Collection[str], dxf: str, report: Callable[[str], None]
+    drawing: Drawing, folder: Path, stem: str, kinds: Collection[str], dxf: str, report: Callable[[Words], None]
 ) -> dict[str, str]:
     """The drawing in every format that is wanted, its files named after the stem."""
     # The renderers take long to load, so they come when there is something to render.
@@ -259,7 +259,7 @@ def write_sheet(
     return {kind: f"{stem}.{kind}" for kind in kinds}
 
 
-def _write_part(part: PartContents, folder: Path, report: Callable[[str], None]) -> dict[str, str]:
+def _write_part(part: PartContents, folder: Path, report: Callable[[Words], None]) -> dict[str, str]:
     """The working drawing of the cam; its DXF has true dimensions and attributes."""
     from graphcam.workshop.working_drawing import working_drawing_of
 

@@ -164,7 +164,7 @@ def _check_drawable(cam: Cam) -> None:
             most=MOST_LIFTS,
             travel=travel,
         )
-        found = say("{prime_radius:g} mm", prime_radius=cam.prime_radius)
+        found = say("{length:g} mm", length=cam.prime_radius)
         raise DesignError(say("prime radius"), found, limit, say("check the units of both"))
 
 

@@ -17,7 +17,7 @@ from graphcam.report.sizing_sheet import sizing_sheet
 from graphcam.report.sizing_tables import TITLES
 from graphcam.solving.sizing_design import plain_cam
 from graphcam.tasks.task_writer import TASK_FILE, task_files
-from graphcam.words import say
+from graphcam.words import Words, say
 
 if TYPE_CHECKING:
     from graphcam.sheets.model import Drawing
@@ -32,7 +32,7 @@ STEM = "sizing"
 
 
 def write(
-    sizing: Sizing, folder: Path | str, language: str | None = None, progress: Callable[[str], None] | None = None
+    sizing: Sizing, folder: Path | str, language: str | None = None, progress: Callable[[Words], None] | None = None
 ) -> dict[str, str]:
     """Write a sizing into a folder, as :meth:`~graphcam.solving.sizing_design.Sizing.write` says."""
     report = progress or unheard

@@ -9,6 +9,7 @@ from typing import Any
 from graphcam.comparison.quantities import Quantity
 from graphcam.given.laws import Floats
 from graphcam.showing import WIDTH, Shown, from_above, in_lines
+from graphcam.words import Words
 
 USUAL = ("pdf", "svg", "png", "dxf", "csv", "md", "note", "player", "profile_dxf", "profile_csv", "profile_xyz")
 """The kinds of files that a solution is written to if nothing else is said ..."""
@@ -34,7 +35,7 @@ class ShownSolution(Shown):
         per_construction: bool = False,
         dxf: str = "plain",
         working_drawing: bool = False,
-        progress: Callable[[str], None] | None = None,
+        progress: Callable[[Words], None] | None = None,
     ) -> dict[str, str | None]:
         """Write the sheet, the step player, the tables, the note and the profile into a folder: all of them, or none.
 

@@ -26,7 +26,7 @@ from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import SpringTable
 from graphcam.tasks.task import CamTable, Task
-from graphcam.words import say
+from graphcam.words import Words, say
 
 FINER = 4
 """Where no round sizes keep the limits they are rounded to tenths, hundredths, ... so often."""
@@ -100,7 +100,7 @@ class Sizing:
         }
 
     def write(
-        self, folder: Path | str, language: str | None = None, progress: Callable[[str], None] | None = None
+        self, folder: Path | str, language: str | None = None, progress: Callable[[Words], None] | None = None
     ) -> dict[str, str]:
         """Write the chart, the front, the results and the sized task into a folder: all of them, or none.
 

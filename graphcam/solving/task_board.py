@@ -168,12 +168,12 @@ def check_given_sizes(task: Task, times: float = 1.0) -> None:
     for k, pole in enumerate(drawing.poles or ()):
         if pole > times * most.pole:
             limit = say("at most {floor:g} mm on {sheet}", floor=math.floor(most.pole), sheet=sheet)
-            raise DesignError(f"drawing.poles[{k}]", say("{pole:g} mm", pole=pole), limit, larger)
+            raise DesignError(f"drawing.poles[{k}]", say("{length:g} mm", length=pole), limit, larger)
     largest = heights.largest_ordinate(most, board.poles)
     if (given := drawing.ordinate) is not None and given > times * largest:
         limit = say("at most {value:.3g} mm on {sheet}", value=math.floor(10 * largest) / 10 or largest, sheet=sheet)
         larger = say("take larger poles or a larger format, or leave it out") if drawing.poles else larger
-        raise DesignError("drawing.ordinate", say("{given:g} mm", given=given), limit, larger)
+        raise DesignError("drawing.ordinate", say("{length:g} mm", length=given), limit, larger)
 
 
 AROUND_ARM = complex(40.0, 62.0)

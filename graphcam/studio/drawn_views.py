@@ -133,7 +133,7 @@ def _room(drawn: Iterable[Drawn]) -> Box:
     room = (box_of(lines) or EMPTY).grown(ROOM_FOR_LABELS)
     if (largest := max(room.width, room.height)) > TALLEST:
         remedy = say("take sizes of which none is so much greater than the others")
-        found = say("{largest:.3g} mm", largest=largest)
+        found = say("{length:.3g} mm", length=largest)
         raise DesignError("drawing", found, say("at most {most:g} mm wide and high", most=TALLEST), remedy)
     return room
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
-from graphcam.errors import DesignError, GraphcamError, TaskError, one_of
+from graphcam.errors import DesignError, GraphcamError, TaskError, among
 from graphcam.studio.error_fields import field_of
 from graphcam.studio.task_paths import PATH
 from graphcam.tasks.task_file import EXAMPLE
@@ -50,7 +50,7 @@ def _field(error: GraphcamError, request: Mapping[str, Any]) -> str:
 
 def _function(ask: Any) -> Callable[[Mapping[str, Any]], Plain]:
     if not isinstance(ask, str) or ask not in ASKS:
-        raise DesignError("ask", str(ask), *one_of(ask, ASKS))
+        raise DesignError("ask", str(ask), *among(ask, ASKS))
     module, _, name = ASKS[ask].rpartition(".")
     return getattr(import_module(module), name)
 

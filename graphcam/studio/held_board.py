@@ -70,7 +70,7 @@ def check_heights(board: Board) -> None:
             "at most {largest:.3g} mm, so that no diagram is higher than {most:g} mm", largest=largest, most=TALLEST
         )
         remedy = say("take a smaller one or leave it out, or lengthen the shortest phase")
-        raise DesignError("drawing.ordinate", say("{ordinate:.3g} mm", ordinate=board.ordinate), limit, remedy)
+        raise DesignError("drawing.ordinate", say("{length:.3g} mm", length=board.ordinate), limit, remedy)
 
 
 def held_board(board: Board, task: Task, hold: Hold) -> Board:

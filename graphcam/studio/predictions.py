@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from graphcam.constructions.chain import Chain
-from graphcam.errors import DesignError, one_of
+from graphcam.errors import DesignError, among
 from graphcam.language import language
 from graphcam.solving.solution import Solution, solve_motion
 from graphcam.studio.angle_predictions import angle_foretold, steepest_foretold
@@ -67,7 +67,7 @@ def predicted(request: Mapping[str, Any]) -> dict[str, Any]:
     kinds = kinds_of(solution.chain)
     kind = request.get("kind") or kinds[0]
     if kind not in kinds:
-        raise DesignError("kind", kind, *one_of(kind, kinds))
+        raise DesignError("kind", kind, *among(kind, kinds))
     asked = KINDS[kind][1](solution)
     said = {
         "kind": kind,

@@ -14,9 +14,9 @@ import tarfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from graphcam.errors import MissingFileError, TaskError, Unquoted
+from graphcam.errors import MissingFileError, TaskError
 from graphcam.studio.wasm_archives import numpy_archive
-from graphcam.words import say
+from graphcam.words import bare, say
 
 LOADER, GLUE, BINARY = "pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm"
 STANDARD_LIBRARY, LOCK = "python_stdlib.zip", "pyodide-lock.json"
@@ -122,7 +122,7 @@ def _numpy_for(folder: Path, names: list[str], python: str) -> str:
             where=say("for Python {python} in {folder}", python=python, folder=folder),
         )
     if len(fitting) > 1:
-        several = Unquoted(", ".join(fitting))
+        several = bare(", ".join(fitting))
         raise TaskError(str(folder), "NumPy", several, say("one of them alone"), say("remove the others"))
     return fitting[0]
 

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphcam.drafting.pencil import Pencil
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.language import language
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import task_from
-from graphcam.words import say
+from graphcam.words import bare, say
 
 MOST_DIVISIONS, MOST_PHASES, MOST_ROWS, MOST_POINTS = 200, 36, 2000, 60
 """Of a task in the studio: more take too long to be drawn while a size is moved."""
@@ -107,7 +107,7 @@ def task_data(data: Data) -> dict[str, Any]:
     """
     if not isinstance(task := data.get("task"), dict) or not task:
         limit = say("a table with a task")
-        raise DesignError("task", Unquoted(say("missing") if task is None else type(task).__name__), limit)
+        raise DesignError("task", say("missing") if task is None else bare(type(task).__name__), limit)
     return task
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import DesignError, GraphcamError, one_of
+from graphcam.errors import DesignError, GraphcamError, among
 from graphcam.showing import from_above
 from graphcam.solving.shown_solution import CUTTING, USUAL
 from graphcam.solving.solve import solve
@@ -79,7 +79,7 @@ class WrittenFiles:
 def _kind(request: Mapping[str, Any]) -> str:
     kind = request.get("kind")
     if not isinstance(kind, str) or kind not in KINDS:
-        raise DesignError("kind", kind, *one_of(kind, KINDS))
+        raise DesignError("kind", kind, *among(kind, KINDS))
     return kind
 
 

@@ -23,7 +23,7 @@ from graphcam.sweeps.shared_folder import Sealed, SharedFolder
 from graphcam.sweeps.space import Space
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, Columns
 from graphcam.sweeps.sweep_file import parquet_rows
-from graphcam.words import plain, say
+from graphcam.words import Caption, say, sequence
 from graphcam.workers import WorkerPool, results
 
 MANIFEST = "_manifest.json"
@@ -61,21 +61,15 @@ class Summary:
     ranges: dict[str, list[float] | None]
     front: Columns | None = None
 
+    @property
+    def caption(self) -> Caption:
+        """How many designs there are, and what they took."""
+        designs = say("{designs} designs") if self.feasible is None else say("{designs} designs, {feasible} feasible")
+        spent = say("{parts} parts, {bytes} bytes, {seconds:.1f} s of processor time")
+        return sequence([each.where(**vars(self)) for each in (designs, spent)], "; ")
+
     def __str__(self) -> str:
-        spent = plain(
-            say(
-                "{parts} parts, {bytes} bytes, {seconds:.1f} s of processor time",
-                parts=self.parts,
-                bytes=self.bytes,
-                seconds=self.seconds,
-            )
-        )
-        if self.feasible is None:
-            return plain(say("{designs} designs", designs=self.designs)) + f"; {spent}"
-        return (
-            plain(say("{designs} designs, {feasible} feasible", designs=self.designs, feasible=self.feasible))
-            + f"; {spent}"
-        )
+        return str(self.caption)
 
     def rows(self) -> list[list[str]]:
         """The ranges as texts."""

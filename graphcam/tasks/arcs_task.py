@@ -37,7 +37,7 @@ class ArcsTable:
         if not (math.isfinite(self.dwell) and 0 <= self.dwell < 360):
             raise DesignError("dwell", self.dwell, say("at least 0 and less than 360 degrees"))
         self()
-        positive("rho1", self.rho1, say("mm"))
+        positive("rho1", self.rho1, "mm")
         for name in ("D", "G", "A", "C1", "C2"):
             for coordinate in getattr(self, name) or ():
                 bounded(name, coordinate, "mm")
@@ -56,7 +56,7 @@ class RollerTable:
 
     def __post_init__(self) -> None:
         self()
-        positive("roller radius", self.roller_radius or None, say("mm"))
+        positive(say("roller radius"), self.roller_radius or None, "mm")
 
     def __call__(self) -> Translating:
         """The follower."""
@@ -100,7 +100,7 @@ class ArcsTask:
     __repr__ = by_parts
 
     def __post_init__(self) -> None:
-        positive("speed_rpm", self.speed_rpm, say("rpm"))
+        positive("speed_rpm", self.speed_rpm, "rpm")
 
     def to_dict(self) -> dict[str, Any]:
         """The task with the keys of its file, as plain lists, numbers and text; what is open is left out.

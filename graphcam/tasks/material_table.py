@@ -33,9 +33,9 @@ class MaterialTable:
     permitted_stress: float | None = None
 
     def __post_init__(self) -> None:
-        positive("width", self.width, say("mm"))
+        positive("width", self.width, "mm")
         for name in ("young_cam", "young_follower", "permitted_stress"):
-            positive(name, getattr(self, name), say("MPa"))
+            positive(name, getattr(self, name), "MPa")
         for name in ("poisson_cam", "poisson_follower"):
             if not 0 <= getattr(self, name) <= 0.5:
                 raise DesignError(name, getattr(self, name), say("from 0 to 0.5"), say("metals have about 0.3"))

@@ -14,7 +14,7 @@ from graphcam.given.ranges import bounded, positive
 from graphcam.given.table_file import CurveTable
 from graphcam.tasks.dataclass_reader import ByKind, ByName
 from graphcam.tasks.parts_tables import PartOfMotion
-from graphcam.words import say
+from graphcam.words import Words, say
 
 ANGLE_CLOSURE = 1e-9
 """How far the phase angles of a file may miss 360 degrees."""
@@ -28,7 +28,7 @@ class DwellTable:
     kind: Literal["dwell"] = "dwell"
 
     def __post_init__(self) -> None:
-        positive("angle", self.angle, say("degrees"))
+        positive("angle", self.angle, "degrees")
 
     def __call__(self, unit: float = 1.0) -> Dwell:
         """The phase in radians; ``unit`` is there because every phase is called alike."""
@@ -46,8 +46,8 @@ class _MovingTable:
     moves: ClassVar[type[Rise] | type[Return]]
 
     def __post_init__(self) -> None:
-        positive("angle", self.angle, say("degrees"))
-        positive("lift", self.lift, say("mm (degrees for an arm)"))
+        positive("angle", self.angle, "degrees")
+        positive("lift", self.lift, "mm (degrees for an arm)")
         if self.blends is not None and self.law != CONSTANT_VELOCITY:
             left_out = say("left out for the law '{getattr}'", getattr=getattr(self.law, "name", self.law))
             remedy = say("they are those of '{constant_velocity}'", constant_velocity=CONSTANT_VELOCITY)
@@ -132,7 +132,7 @@ class MotionTable:
         return _motion(tuple(self.phases or ()), self.lift_unit)
 
 
-def _remedy(turn: float, phases: tuple[PhaseTable, ...]) -> str:
+def _remedy(turn: float, phases: tuple[PhaseTable, ...]) -> Words:
     """What to do about the angles of phases [degrees] that sum to ``turn``, which is none."""
     if abs(turn - FULL_TURN) < NEARLY * FULL_TURN:
         return say("about 2 pi: give the angles in degrees, not in radians")

@@ -64,11 +64,11 @@ class PartTable:
 
     def __post_init__(self) -> None:
         for name in ("bore", "width", "hub_diameter", "hub_length", "profile_tolerance", "cutter_radius"):
-            positive(name, getattr(self, name), say("mm"))
+            positive(name, getattr(self, name), "mm")
         for name in ("profile_roughness", "bore_roughness", "roughness"):
-            positive(name, getattr(self, name), say("micrometres"))
-        positive("density", self.density, say("kg/m^3"))
-        positive("feed", self.feed, say("mm/min"))
+            positive(name, getattr(self, name), "micrometres")
+        positive("density", self.density, "kg/m^3")
+        positive("feed", self.feed, "mm/min")
         self._check_words()
         self._check_hub()
 

@@ -4,7 +4,7 @@ import dataclasses
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, Self, get_args
 
-from graphcam.errors import DesignError, one_of
+from graphcam.errors import DesignError, among
 from graphcam.given.motion_law import Law
 from graphcam.language import ENGLISH, language, languages
 from graphcam.words import Tell, say
@@ -32,7 +32,7 @@ NAMES = {
 def one_of(quantity: str, value: str, known: tuple[str, ...]) -> None:
     """Check a word."""
     if value not in known:
-        raise DesignError(quantity, value, *one_of(value, known))
+        raise DesignError(quantity, value, *among(value, known))
 
 
 @dataclass(frozen=True)

@@ -45,7 +45,7 @@ class SizingTable:
                     _finite(name, end)
                     bounded(name, end, "mm")
                 else:
-                    positive(name, end, say("mm"))
+                    positive(name, end, "mm")
         if (self.prime_radius is None) == (self.base_radius is None):
             either = say("either prime_radius or base_radius")
             if self.prime_radius is None:

@@ -72,7 +72,7 @@ class SpringTable:
     swings = False
 
     def __post_init__(self) -> None:
-        positive("mass", self.mass, say("kg"))
+        positive("mass", self.mass, "kg")
         _check_common(self.stiffness, "N/mm", self.preload, "N")
         _check_turning(self.acceleration, self.friction, self.load)
 
@@ -130,7 +130,7 @@ class ArmSpringTable:
     swings = True
 
     def __post_init__(self) -> None:
-        positive("inertia", self.inertia, say("kg mm^2"))
+        positive("inertia", self.inertia, "kg mm^2")
         units = ("N mm/rad", "N mm") if self.at is None else ("N/mm", "N")
         _check_common(self.stiffness, units[0], self.preload, units[1])
         _check_turning(self.acceleration, self.friction, self.load)

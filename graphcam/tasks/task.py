@@ -89,7 +89,7 @@ class TranslatingTable(_FollowerTable):
     def __post_init__(self) -> None:
         self()
         bounded("offset", self.offset, "mm")
-        positive("roller radius", self.roller_radius or None, say("mm"))
+        positive(say("roller radius"), self.roller_radius or None, "mm")
         roller_rule(self.roller_rule)
 
     def __call__(self) -> Translating:
@@ -126,9 +126,9 @@ class OscillatingTable(_FollowerTable):
 
     def __post_init__(self) -> None:
         self()
-        positive("arm", self.arm, say("mm"))
-        positive("centre distance", self.distance, say("mm"))
-        positive("roller radius", self.roller_radius or None, say("mm"))
+        positive("arm", self.arm, "mm")
+        positive(say("centre distance"), self.distance, "mm")
+        positive(say("roller radius"), self.roller_radius or None, "mm")
         roller_rule(self.roller_rule)
         one_of("lift", self.lift, ("angle", "arc"))
 
@@ -162,7 +162,7 @@ class FlatFacedTable(_FollowerTable):
     without: ClassVar = {"pressure_angle_rise": OF_A_ROLLER, "pressure_angle_return": OF_A_ROLLER}
 
     def __post_init__(self) -> None:
-        positive("face margin", self.face_margin or None, say("mm"))
+        positive(say("face margin"), self.face_margin or None, "mm")
 
     def __call__(self) -> FlatFaced:
         """The follower."""
@@ -179,7 +179,7 @@ class CamTable:
     prime_radius: float | None = None
 
     def __post_init__(self) -> None:
-        positive("prime radius", self.prime_radius, say("mm"))
+        positive(say("prime radius"), self.prime_radius, "mm")
 
 
 @dataclass(frozen=True)
@@ -198,10 +198,10 @@ class LimitsTable:
     rest: bool = True
 
     def __post_init__(self) -> None:
-        positive("minimum radius of curvature", self.min_curvature_radius, say("mm"))
+        positive(say("minimum radius of curvature"), self.min_curvature_radius, "mm")
         self()
         for name, permitted in (("rise", self.pressure_angle_rise), ("return", self.pressure_angle_return)):
-            positive(PERMITTED[name], permitted, say("degrees permitted"))
+            positive(PERMITTED[name], permitted, "degrees permitted")
 
     def __call__(self) -> Limits:
         """The permitted pressure angles in radians."""
@@ -236,10 +236,10 @@ class DrawingTable(SheetTable):
         super().__post_init__()
         if not 1 <= self.divisions <= MOST_DIVISIONS:
             raise DesignError("divisions", self.divisions, say("from 1 to {most} parts per phase", most=MOST_DIVISIONS))
-        positive("ordinate", self.ordinate, say("mm on paper"))
+        positive("ordinate", self.ordinate, "mm on paper")
         for k, pole in enumerate(self.poles or ()):
-            positive(f"poles[{k}]", pole, say("mm on paper"))
-        positive("rounding", self.rounding, say("mm"))
+            positive(f"poles[{k}]", pole, "mm on paper")
+        positive("rounding", self.rounding, "mm")
 
     def on(self, format_: Format) -> Self:
         """The same on another format, with ordinate, poles and scale that suit it: the given ones suit this one.
@@ -297,7 +297,7 @@ class Task:
 
     def __post_init__(self) -> None:
         sense(self.rotation)
-        positive("speed_rpm", self.speed_rpm, say("rpm"))
+        positive("speed_rpm", self.speed_rpm, "rpm")
         self._tell_the_tables()
         self._check_limits()
         if self.cam.prime_radius is not None:

@@ -10,7 +10,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any, TypeVar
 
-from graphcam.errors import DesignError, MissingFileError, TaskError, Unquoted, one_of, unreadable
+from graphcam.errors import DesignError, MissingFileError, TaskError, among, unreadable
 from graphcam.given.table_file import read_table
 from graphcam.tasks import arcs_task as arcs, motion_tables, parts_tables, spring_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
@@ -31,12 +31,13 @@ from graphcam.tasks.task import Task
 from graphcam.tasks.task_remedies import key_remedy, missing_remedy, value_remedy
 from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.tasks.toml_faults import toml_fault
-from graphcam.words import say
+from graphcam.words import Caption, Words, bare, say
 
 BUILT_IN = ("coursework", "arm", "flat", "measured")
 """Names of the task files that come with graphcam; "arcs" is one more, of a cam of three circular arcs."""
 SIZING = "sizing"
 """The name of the task with a table ``[sizing]`` that comes with graphcam."""
+THE_FILE = say("the task file")
 EXAMPLE = say("'graphcam init FILE' writes a commented example")
 Classes = dict[tuple[str, ...], type]
 _Checked = TypeVar("_Checked")
@@ -130,20 +131,21 @@ def read_content(path: str | Path) -> bytes:
         return Path(path).read_bytes()
     except (OSError, ValueError) as error:
         remedy = say("check the name; {example}", example=EXAMPLE)
-        raise unreadable(path, say("the task file"), say("a TOML file"), error, remedy) from None
+        raise unreadable(path, THE_FILE, say("a TOML file"), error, remedy) from None
 
 
 @contextmanager
-def other_file(kind: str, example: str) -> Generator[None]:
+def other_file(kind: Words, example: Words) -> Generator[None]:
     """Errors of a file that is no task file, told of that kind of file: a task's example is of no use there."""
     try:
         yield
+    except MissingFileError as error:
+        raise MissingFileError(error.path, say("check the name; {example}", example=example)) from None
     except TaskError as error:
-        remedy = example if error.remedy.endswith(EXAMPLE) else error.remedy
-        if isinstance(error, MissingFileError):
-            raise MissingFileError(error.path, say("check the name; {example}", example=example)) from None
-        field, remedy = (text.replace("task file", kind) for text in (error.field, remedy))
-        raise TaskError(error.path, field, error.value, error.expected, remedy) from None
+        _, field, value, expected, remedy = error.args
+        field = say("the {kind}", kind=kind) if field == THE_FILE else field
+        remedy = example if error.remedy.endswith(str(EXAMPLE)) else remedy
+        raise TaskError(error.path, field, value, expected, remedy) from None
 
 
 def task_of(path: str, data: dict[str, Any]) -> Task:
@@ -187,7 +189,7 @@ def builtin_task(name: str = "coursework") -> Task:
     """
     known = (*BUILT_IN, SIZING)
     if name not in known:
-        raise DesignError(say("built-in task"), name, *one_of(name, known))
+        raise DesignError(say("built-in task"), name, *among(name, known))
     task = _parse(f"{name}.toml", builtin_text(name).encode(), _built_in_folder())
     assert isinstance(task, Task)
     return task
@@ -213,7 +215,7 @@ def builtin_text(name: str) -> str:
     """
     known = (*BUILT_IN, SIZING, "arcs")
     if name not in known:
-        raise DesignError(say("built-in task"), name, *one_of(name, known))
+        raise DesignError(say("built-in task"), name, *among(name, known))
     return (_built_in_folder() / f"{name}.toml").read_text(encoding="utf-8")
 
 
@@ -244,7 +246,7 @@ def parse_toml(path: str, content: bytes) -> dict[str, Any]:
     except (ValueError, RecursionError) as error:
         raise toml_fault(path, text, error, EXAMPLE) from None
     if not data:
-        raise TaskError(path, say("the task file"), say("empty"), say("a TOML file"), EXAMPLE)
+        raise TaskError(path, THE_FILE, say("empty"), say("a TOML file"), EXAMPLE)
     return data
 
 
@@ -364,17 +366,17 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
     field, value = _look_up(data, (*place, *key.split(".")))
     # What follows from a table is no value that its key has.
     if not isinstance(value, int | float | str) or error.quantity == "the table's lift":
-        value = Unquoted(error.value) if isinstance(error.value, str) else error.value
+        value = bare(error.value) if isinstance(error.value, str) else error.value
     if error.quantity == "sum of the phase angles":
         field = say("{field} (sum of the angles)", field=field)
     elif error.quantity == "sum of rises less returns":
         field = say("{field} (sum of rises less returns)", field=field)
     elif error.quantity == "the table's lift":
         field = say("{field} (lift)", field=field)
-    limit, others = error.limit, ", ".join(_missing(data))
+    limit, others = error.args[2], ", ".join(_missing(data))
     if key == "spring" and data.get("spring") is None and others:
         limit = say("given where there is a material, and so must {others}", others=others)
-    return TaskError(path, field, _shown(value), limit, error.remedy or EXAMPLE)
+    return TaskError(path, field, _shown(value), limit, error.advice or EXAMPLE)
 
 
 def _look_up(data: Any, place: Place) -> tuple[str, Any]:
@@ -398,9 +400,13 @@ def _table(place: Place) -> tuple[str, ...]:
 
 def _shown(value: Any) -> Any:
     """A value as TOML writes it, as far as that differs from Python; tables and lists by name, long ones cut."""
+    if isinstance(value, Caption):
+        return value
     if isinstance(value, bool):
-        return Unquoted(str(value).lower())
-    if isinstance(value, dict | list):
-        return Unquoted(say("a table") if isinstance(value, dict) else say("a list of {value}", value=len(value)))
+        return bare(str(value).lower())
+    if isinstance(value, dict):
+        return say("a table")
+    if isinstance(value, list):
+        return say("a list of {count}", count=len(value))  # pyright: ignore[reportUnknownArgumentType]
     text = repr(value)
-    return Unquoted(say("{text}...", text=text[:_LONGEST])) if len(text) > _LONGEST else value
+    return bare(text[:_LONGEST] + "...") if len(text) > _LONGEST else value

@@ -9,7 +9,7 @@ from typing import Any
 from graphcam.errors import meant, nearest
 from graphcam.given.follower import SENSES
 from graphcam.given.law_words import LAW_WORDS
-from graphcam.words import say
+from graphcam.words import Words, say
 
 FOUND = ("offset", "prime_radius", "roller_radius", "distance")
 """Keys that may be left out, because graphcam finds what they say."""
@@ -19,7 +19,7 @@ CALLED = {**SENSES, **LAW_WORDS, "gost": ("ГОСТ",), "iso": ("ИСО",)}
 """What else words of a task file are called."""
 
 
-def key_remedy(key: str, value: Any, known: Iterable[str], data: Mapping[str, Any]) -> str:
+def key_remedy(key: str, value: Any, known: Iterable[str], data: Mapping[str, Any]) -> Words:
     """The remedy for a key that its table does not have.
 
     known : the keys that it has;  data : the whole file
@@ -34,7 +34,7 @@ def key_remedy(key: str, value: Any, known: Iterable[str], data: Mapping[str, An
     return nearest(key, known, CALLED)
 
 
-def _radius_remedy(key: str, value: Any, follower: Any) -> str:
+def _radius_remedy(key: str, value: Any, follower: Any) -> Words:
     """How the prime radius follows from the radius of the base circle."""
     said: Mapping[str, Any] = follower if isinstance(follower, dict) else {}
     roller = 0 if said.get("kind") == "flat-faced" else said.get("roller_radius")
@@ -46,7 +46,7 @@ def _radius_remedy(key: str, value: Any, follower: Any) -> str:
     return say("{radius} + roller_radius = {value:g}", radius=radius, value=value + roller)
 
 
-def value_remedy(key: str, value: Any, choices: Iterable[str]) -> str:
+def value_remedy(key: str, value: Any, choices: Iterable[str]) -> Words:
     """The remedy for a value of another type than its key's.
 
     choices : the words that it may be
@@ -59,7 +59,7 @@ def value_remedy(key: str, value: Any, choices: Iterable[str]) -> str:
     return say("or leave it out to let it be found") if key in FOUND else meant(value, choices, CALLED)
 
 
-def missing_remedy(key: str, data: Mapping[str, Any]) -> str:
+def missing_remedy(key: str, data: Mapping[str, Any]) -> Words:
     """The remedy for a key of the file that must be there.
 
     >>> missing_remedy("rotation", {"follower": {"kind": "flat-faced"}})

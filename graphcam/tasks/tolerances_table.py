@@ -36,9 +36,9 @@ class TolerancesTable:
 
     def __post_init__(self) -> None:
         for k, amplitude in enumerate(self.waviness):
-            positive(f"waviness[{k}]", amplitude, say("mm"))
+            positive(f"waviness[{k}]", amplitude, "mm")
         for name in SIZES:
-            positive(name, getattr(self, name), say("mm"))
+            positive(name, getattr(self, name), "mm")
         self()
         deviations_within(self.coverage)
 

@@ -15,7 +15,7 @@ from graphcam.exercises.course.roster import Student, folder_name, is_cut, read_
 from graphcam.exercises.definition.exercise_file import library
 from graphcam.files import OutputError
 from graphcam.language import ENGLISH
-from graphcam.words import plain, say
+from graphcam.words import Caption, say, sequence
 
 STUDENTS, TEACHER = "students", "teacher"
 """The two folders that 'exercise make' writes; the first may be handed out as it is."""
@@ -37,6 +37,12 @@ HIDDEN = ".graphcam"
 """Where answer keys go in a course that was not made so; no student's folder has a name that begins with a point."""
 
 
+KEEP = say(
+    "choose another folder; to keep the variants: --secret-file {secret}; do not delete {teacher}: without its secret "
+    "nothing can be graded"
+)
+
+
 class CourseThereError(OutputError):
     """A folder that a course is to be made in, and that holds one.
 
@@ -47,26 +53,16 @@ class CourseThereError(OutputError):
     """
 
     def __init__(self, path: str | Path) -> None:
-        super().__init__(path, "it already holds a course", "choose another folder")
-
-    def __str__(self) -> str:
-        teacher = Path(self.path, TEACHER)
+        teacher, remedy = Path(path, TEACHER), say("choose another folder")
         secret = teacher / SECRET
-        if not secret.is_file():
-            return plain(say("{path} already holds a course; choose another folder", path=self.path))
-        return plain(
-            say(
-                "{path} already holds a course; choose another folder; to keep the variants: "
-                "--secret-file {secret}; do not delete {teacher}: without its secret nothing can be "
-                "graded",
-                path=self.path,
-                secret=secret,
-                teacher=teacher,
-            )
-        )
+        if secret.is_file():
+            remedy = KEEP.where(secret=str(secret), teacher=str(teacher))
+        super().__init__(path, say("it already holds a course"), remedy)
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return CourseThereError, (self.path,)
+    @property
+    def fault(self) -> Caption:
+        """What lies in the folder."""
+        return say("{path} already holds a course", path=str(self.path))
 
 
 @dataclass(frozen=True)
@@ -183,7 +179,8 @@ class AnswerKeys:
                 raise TaskError(str(self.folder.parent), what, say("missing"), say("given"), remedy)
             remedy = say("name the file that the course was made with, by --secret-file, or put a copy of it there")
             if (self.folder / KEYS).is_file():
-                remedy += f"; {KEYS} still has the keys for marking by hand"
+                keys = say("{file} still has the keys for marking by hand", file=KEYS)
+                remedy = sequence([remedy, keys], "; ")
             what = say("the course's secret")
             raise TaskError(str(path), what, say("missing"), say("in the teacher's folder"), remedy)
         return path

@@ -37,7 +37,7 @@ from graphcam.files import whole_folder
 from graphcam.language import languages
 from graphcam.photo.printed import Ink
 from graphcam.tasks.sheet_tables import one_of
-from graphcam.words import say
+from graphcam.words import Words, say
 from graphcam.workers import executor_of, in_order
 
 UNMARKED = "unmarked"
@@ -70,7 +70,7 @@ def make(
     workers: int = 1,
     cluster: str = "",
     step: Callable[[int, int], None] = lambda done, total: None,
-    tell: Callable[[str], None] = lambda line: None,
+    tell: Callable[[Words], None] = lambda line: None,
 ) -> int:
     """Make every student's handouts; how many students there are.
 
@@ -124,22 +124,13 @@ def make(
         write_secret(draft / TEACHER / SECRET, secret)
     variants_told = (Variant(exercise, key.student, key.draw, key.parameters) for key in answer_keys[:1])
     for said, scale in filter(None, map(other_scale, variants_told)):
-        tell(
-            say(
-                "the text of the exercise says '{said}', but the sheet is drawn at {scale:g}° to 1 mm",
-                said=said,
-                scale=scale,
-            )
-        )
+        other = say("the text of the exercise says '{said}', but the sheet is drawn at {scale:g}° to 1 mm")
+        tell(other.where(said=said, scale=scale))
     for answer, part in wide_tolerances(exercise, answer_keys).items():
-        tell(
-            say(
-                "the tolerance of {answer} is {part:.0%} of its value; larger diagrams or --hand careful "
-                "make it smaller",
-                answer=answer,
-                part=part,
-            )
+        wide = say(
+            "the tolerance of {answer} is {part:.0%} of its value; larger diagrams or --hand careful make it smaller"
         )
+        tell(wide.where(answer=answer, part=part))
     return len(students)
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from urllib.parse import quote, unquote
 
 from graphcam.errors import TaskError
-from graphcam.words import say
+from graphcam.words import Words, say
 
 KIND = "GC1"
 """What every code begins with: the program and how the fields stand."""
@@ -78,7 +78,7 @@ class SheetCode:
         return SheetCode(exercise or unquote(name), int(version), of, int(draw), int(page))
 
 
-def _refused(found: str, wanted: str, remedy: str) -> TaskError:
+def _refused(found: Words, wanted: Words, remedy: Words) -> TaskError:
     return TaskError("photograph", say("the code of the sheet"), found, wanted, remedy)
 
 

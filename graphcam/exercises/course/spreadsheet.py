@@ -8,7 +8,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from graphcam.errors import TaskError, unreadable
-from graphcam.words import say
+from graphcam.words import Words, say
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
 """What makes a spreadsheet calculate a text instead of showing it; the wide forms count as the plain ones do."""
@@ -65,7 +65,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     return text.getvalue()
 
 
-def read_table(path: str | Path, what: str) -> list[tuple[int, list[str]]]:
+def read_table(path: str | Path, what: Words) -> list[tuple[int, list[str]]]:
     """The rows of a CSV file that hold anything, each with the number of its line.
 
     The cells stand apart by commas or semicolons, whichever the first line has more of.

@@ -7,7 +7,7 @@ from pathlib import Path
 from graphcam.errors import TaskError
 from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.spreadsheet import cell, read_table
-from graphcam.words import say
+from graphcam.words import Words, say
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class StudentLine:
         """What stands in a column, without spaces around it; empty where the line has no such cell."""
         return self.cells.get(column, "").strip()
 
-    def wrong(self, column: str, expected: str, remedy: str) -> TaskError:
+    def wrong(self, column: str, expected: Words, remedy: Words) -> TaskError:
         """The error to raise about a cell of this line."""
         what = say("line {number}: {column}", number=self.number, column=column)
         return TaskError(self.path, what, self[column], expected, remedy)
@@ -31,10 +31,10 @@ class StudentLine:
 
 def student_lines(
     path: Path,
-    what: str,
+    what: Words,
     columns: Sequence[str],
     known: Recognition,
-    who: str = "of the course",
+    who: Words = "of the course",
     absent: str = "check the id",
 ) -> Iterator[StudentLine]:
     """The lines of a CSV file about students, whom it names by id, e-mail address or name.
@@ -73,7 +73,7 @@ def _meant(said: str, known: Recognition) -> list[str]:
     return exact or known.meant([said])
 
 
-def once(lines: Iterable[StudentLine], keys: Sequence[str], remedy: str) -> Iterator[StudentLine]:
+def once(lines: Iterable[StudentLine], keys: Sequence[str], remedy: Words) -> Iterator[StudentLine]:
     """The lines, if none of them is about the same student and the same other cells as one before.
 
     Raises

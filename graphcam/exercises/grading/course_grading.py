@@ -47,7 +47,7 @@ from graphcam.exercises.running.levels import Level, ResourceLimits
 from graphcam.exercises.running.probe import LevelError, require
 from graphcam.files import OutputError
 from graphcam.locks import locked_folder
-from graphcam.words import plain
+from graphcam.words import Caption, Words
 from graphcam.workers import BATCH, WorkerPool, results, worker_pool
 
 Records = list[dict[str, Any]]
@@ -199,8 +199,8 @@ class Course:
     show_right: bool = False
 
 
-def grade_course(course: Course, step: Callable[[int, int], None] = lambda done, total: None) -> str:
-    """Grade a course and write its reports; what was done, in a sentence.
+def grade_course(course: Course, step: Callable[[int, int], None] = lambda done, total: None) -> list[Caption]:
+    """Grade a course and write its reports; what was done, in lines.
 
     Raises
     ------
@@ -273,30 +273,19 @@ def _graded(
             store.note_pages(course.feedback)
             folders = {one.student: one.path for one in hand_ins}
             write_feedback(course.feedback, exercise, records, answer_keys, names, folders, right=course.show_right)
-        told = [plain(say("not graded: {place}: {why}", place=one.place, why=one.why)) for one in refused]
+        told = [say("not graded: {place}: {why}", place=one.place, why=one.why) for one in refused]
         if course.gradebook:
             told += enter_scores(course.gradebook, exercise, graded, kept.folder / ENTERED)
         told += closing_lines(records, called, {one.student for one in silent}, pairs, awaiting, course.out.stem)
         store.clear()
     # Which of the bounds on memory was in force: the kernel's own are seldom given to users.
-    level = f"{course.level}"
+    level: Words = f"{course.level}"
     if assignment.memory:
-        level = plain(
-            say(
-                "{level} (memory watched, {memory} MiB for all processes)", level=course.level, memory=assignment.memory
-            )
-        )
-    listed = ", ".join(files)
-    done = plain(
-        say(
-            "submissions graded: {graded}, at level {level}; in {parent}: {listed}",
-            graded=len(graded),
-            level=level,
-            parent=course.out.parent,
-            listed=listed,
-        )
-    )
-    return "\n".join([done, *map(_line, told)])
+        watched = say("{level} (memory watched, {memory} MiB for all processes)")
+        level = watched.where(level=level, memory=assignment.memory)
+    done = say("submissions graded: {count}, at level {level}; in {folder}: {files}")
+    done = done.where(count=len(graded), level=level, folder=str(course.out.parent), files=", ".join(files))
+    return [done, *told]
 
 
 def _check_nobody_waits(late: LateRules | None, now: datetime) -> None:
@@ -326,11 +315,6 @@ def _shown_names(course: Course, assignment: Assignment, hand_ins: Sequence[Hand
     if course.feedback and any(page.exists() for page in pages):
         raise OutputError(course.feedback, say("it has pages under the students' ids"), say("name another folder"))
     return ShownNames(hidden_names(assignment.secret, assignment.exercise.name, students))
-
-
-def _line(text: str) -> str:
-    """A line for the terminal: a name may hold what is no line, and what a terminal obeys."""
-    return text if text.isprintable() else ascii(text)
 
 
 def _check_places(course: Course) -> None:

@@ -17,7 +17,7 @@ from graphcam.exercises.photographs.read_photo import pairs
 from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
 from graphcam.exercises.reading.values import Points, number, points
 from graphcam.files import whole_file
-from graphcam.words import say
+from graphcam.words import Words, bare, say
 
 FORMAT = 1
 KEPT = "photo-corrections.json"
@@ -124,12 +124,12 @@ def read_corrections(path: Path, exercise: Exercise, students: Collection[str]) 
         text = read_regular(path, LARGEST).decode("utf-8")
         said = json.loads(text)
     except UnreadableError as error:
-        what, found = say("the file"), say("not readable ({error})", error=error)
+        what, found = say("the file"), say("not readable ({error})", error=error.why)
         raise TaskError(str(path), what, found, say("a file of corrections"), say("check the name")) from None
     except (ValueError, RecursionError):
         raise TaskError(str(path), say("the file"), say("not JSON"), say("a file of corrections"), BY_REVIEW) from None
     reader = _Reader(str(path), exercise)
-    table = reader.table("the file", said, {"format", "exercise", "students"})
+    table = reader.table(say("the file"), said, {"format", "exercise", "students"})
     reader.one_of("format", table["format"], (FORMAT,))
     reader.one_of("exercise", table["exercise"], (exercise.name,))
     listed = reader.table("students", table["students"])
@@ -147,22 +147,20 @@ class _Reader:
     path: str
     exercise: Exercise
 
-    def wrong(self, where: str, value: object, allowed: str) -> TaskError:
+    def wrong(self, where: Words, value: object, allowed: Words) -> TaskError:
         """The error about a value."""
         if isinstance(value, str):
             return TaskError(self.path, where, value[:60], allowed, BY_REVIEW)
-        shown = (
-            f"{value}"[:60] if isinstance(value, int | float | None) else say("a {name__}", name__=type(value).__name__)
-        )
-        return TaskError(self.path, where, shown, allowed, BY_REVIEW)
+        shown = f"{value}"[:60] if isinstance(value, int | float | None) else f"a {type(value).__name__}"
+        return TaskError(self.path, where, bare(shown), allowed, BY_REVIEW)
 
-    def table(self, where: str, said: Any, names: set[str] | None = None) -> dict[str, Any]:
+    def table(self, where: Words, said: Any, names: set[str] | None = None) -> dict[str, Any]:
         """A table, with exactly these names if they are given."""
         if not isinstance(said, dict):
             raise self.wrong(where, said, say("a table"))
         if names is not None and said.keys() != names:
-            remedy = say("a table of {names}", names=", ".join(sorted(names)))
-            raise self.wrong(where, ", ".join(map(str, said)), remedy)
+            limit = say("a table of {names}", names=", ".join(sorted(names)))
+            raise self.wrong(where, ", ".join(map(str, said)), limit)
         return said
 
     def one_of(self, where: str, said: Any, allowed: tuple[Any, ...]) -> Any:
@@ -203,8 +201,8 @@ class _Reader:
         except UnreadableError as error:
             raise self.wrong(f"{where}.value", str(error), say("as the answer is asked")) from None
         if isinstance(given, np.ndarray) and np.abs(given).max() > FARTHEST:
-            limit = say("{max:g} mm away", max=np.abs(given).max())
-            raise self.wrong(f"{where}.value", limit, say("within {farthest:g} mm", farthest=FARTHEST))
+            found, limit = f"{np.abs(given).max():g} mm away", say("within {farthest:g} mm", farthest=FARTHEST)
+            raise self.wrong(f"{where}.value", found, limit)
         return Correction(verdict, given, photo)
 
     def lengths(self, where: str, page: str, said: Any) -> tuple[int, tuple[float | None, float | None]]:
@@ -245,7 +243,7 @@ def stretch_of(
         if not (math.isfinite(part) and STRETCH[0] <= part <= STRETCH[1]):
             allowed = say("from {value:.1f} to {value2:.1f} mm", value=STRETCH[0] * length, value2=STRETCH[1] * length)
             what = say("the scale bar {way}", way=way)
-            raise TaskError(where, what, say("{said:g} mm", said=said), allowed, say("measure it again"))
+            raise TaskError(where, what, say("{length:g} mm", length=said), allowed, say("measure it again"))
         found.append(part)
     return found[0], found[1]
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from graphcam.errors import GraphcamError
 from graphcam.exercises.running.levels import MEBIBYTE, Level, ResourceLimits
-from graphcam.words import say
+from graphcam.words import Words, say
 
 FEW = ResourceLimits(seconds=20.0, memory=512 * MEBIBYTE, processes=8)
 ESCAPES = """
@@ -60,7 +60,7 @@ class LevelError(GraphcamError):
 
 
 @functools.cache
-def missing(level: Level) -> str:
+def missing(level: Level) -> Words:
     """Why the level is not available here, in one sentence; empty where it is.
 
     A program that does what must be impossible is run once; that it fails is the evidence.
@@ -111,7 +111,7 @@ def _readable_by_all(program: Path) -> bool:
     return all(folder.stat().st_mode & 0o001 for folder in folders)
 
 
-def _broken(level: Level) -> str:
+def _broken(level: Level) -> Words:
     import socket
 
     # Made of what only Linux has: not to be loaded before it is known to be one.
