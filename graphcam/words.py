@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import reduce
 from typing import Any
 
 
@@ -118,6 +119,15 @@ def either(items: Sequence[Words]) -> Words:
     """
     *first, last = items
     return say("{first} or {last}", first=sequence(first), last=last) if first else last
+
+
+def chained(items: Sequence[Words]) -> Words:
+    """Texts with an "and" between each two.
+
+    >>> str(chained(["a", "b", "c"])), str(chained(["a"]))
+    ('a and b and c', 'a')
+    """
+    return reduce(lambda first, last: say("{first} and {last}", first=first, last=last), items)
 
 
 def joined(items: Sequence[Words]) -> Words:

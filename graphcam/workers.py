@@ -82,13 +82,8 @@ def cluster(address: str) -> WorkerPool:
     try:
         client: Any = Client(address, timeout=ANSWERED_WITHIN)
     except (OSError, ValueError) as error:
-        raise OSError(
-            say(
-                "no dask scheduler answers at {address!r} ({error}); start one, or check the address",
-                address=address,
-                error=error,
-            )
-        ) from None
+        silent = say("no dask scheduler answers at '{address}' ({error}); start one, or check the address")
+        raise OSError(silent.where(address=address, error=str(error))) from None
     return WorkerPool(
         partial(client.get_executor, retries=0), max(sum(client.nthreads().values()), FEWEST_EXPECTED), client.close
     )

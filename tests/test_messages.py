@@ -14,7 +14,8 @@ import typer
 
 import graphcam
 from graphcam.cli.shared import WRONG_INPUT, one_message
-from graphcam.errors import DesignError, MissingFileError, Unquoted, unreadable
+from graphcam.errors import DesignError, MissingFileError, unreadable
+from graphcam.words import say
 
 VALUE_OF = {"DesignError": 1, "TaskError": 2, "RowError": 2}
 """Which argument of an error is the value."""
@@ -57,7 +58,7 @@ def test_words_about_a_value_stand_without_quotes():
 def test_the_check_of_quotes_can_fail():
     assert faults('DesignError("lift", f"{x:g} mm", "less")') == [1]
     assert faults('\nTaskError(path, "the table", error.strerror or "lost", "a file")') == [2]
-    assert faults('DesignError("lift", Unquoted("missing"), "given")') == []
+    assert faults('DesignError("lift", say("missing"), "given")') == []
 
 
 def doubled(text: str) -> list[int]:
@@ -84,7 +85,7 @@ def test_limit_and_remedy_do_not_list_the_same_words():
 def test_what_somebody_wrote_stands_in_quotes_and_what_is_told_of_it_does_not():
     assert str(DesignError("law", "sine", "known")) == "law is 'sine', but must be known"
     assert (
-        str(DesignError("law", Unquoted("missing"), "given", "give it")) == "law is missing, but must be given; give it"
+        str(DesignError("law", say("missing"), "given", "give it")) == "law is missing, but must be given; give it"
     )
 
 

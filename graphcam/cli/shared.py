@@ -17,7 +17,7 @@ import typer
 
 from graphcam.cli.voice import tell, voice
 from graphcam.errors import GraphcamError, LetteringWarning
-from graphcam.words import Words, say
+from graphcam.words import Caption, Words, say
 
 WRONG_INPUT = 2
 """Exit status when the input is wrong."""
@@ -77,8 +77,9 @@ def one_message() -> Generator[None]:
         raise typer.Exit(WRONG_INPUT) from None
     except OSError as error:
         # Without the number that the system gives it.
-        told = f"{error.filename}: {error.strerror}" if error.filename and error.strerror else error
-        typer.echo(f"graphcam: {told}", err=True)
+        said = error.args[0] if error.args and isinstance(error.args[0], Caption) else str(error)
+        told = f"{error.filename}: {error.strerror}" if error.filename and error.strerror else said
+        typer.echo(f"graphcam: {tell(told)}", err=True)
         raise typer.Exit(WRONG_INPUT) from None
 
 

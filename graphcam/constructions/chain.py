@@ -36,7 +36,7 @@ from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.limits import PERMITTED
 from graphcam.given.measured import MeasuredMotion
-from graphcam.words import say
+from graphcam.words import chained, say
 
 PHASE_ANGLES = complex(58.0, 44.0)
 """What the phase angles and their texts need beside the profile, and above and below it together [mm of paper]."""
@@ -359,12 +359,12 @@ class Chain(Drawings):
                     "{degrees:.0f} degrees? {angle:g} was given; or give {names}",
                     degrees=math.degrees(angle),
                     angle=angle,
-                    names=" and ".join(missing),
+                    names=chained(missing),
                 )
                 found = say("{angle:g} degrees", angle=angle)
                 raise DesignError(PERMITTED[way], found, limit, remedy)
             limit = say("a place within all limits, where lines cross at a degree or more")
-            remedy = say("give {names}, or permit larger pressure angles", names=" and ".join(missing))
+            remedy = say("give {names}, or permit larger pressure angles", names=chained(missing))
             raise DesignError(say("minimum prime radius"), say("unreadable"), limit, remedy)
         if name == "prime_radius" and not value > 0:
             remedy = say("any radius keeps the limits: give cam.prime_radius, or stricter limits")

@@ -292,7 +292,9 @@ class Law:
                 count = len(values)
                 np.broadcast_arrays(np.empty(2), *values)
             except (TypeError, ValueError) as error:
-                raise self._wrong("formula", say("one with the error: {error}", error=error), limit, remedy) from error
+                raise self._wrong(
+                    "formula", say("one with the error: {error}", error=str(error)), limit, remedy
+                ) from error
             if count != len(DERIVATIVES):
                 raise self._wrong("formula", say("one that returns {count} values", count=count), limit)
         if self.peaks is not None and len(self.peaks) != 2:

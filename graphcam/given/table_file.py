@@ -101,8 +101,8 @@ def table_in(text: str, name: str, path: str, tolerance: float | None = None) ->
         closes_to = math.inf if column == "a" else DEFAULT_TOLERANCE if tolerance is None else tolerance
         check_rows(np.radians(phi), values, closes_to)
     except RowError as error:
-        line = say("line {value}: {quantity}", value=error.row + _FIRST_ROW, quantity=error.quantity)
-        raise TaskError(path, line, error.value, error.limit, error.remedy) from None
+        line = say("line {number}: {quantity}", number=error.row + _FIRST_ROW, quantity=error.args[0])
+        raise TaskError(path, line, *error.args[1:]) from None
     return CurveTable(name, column, rows)
 
 

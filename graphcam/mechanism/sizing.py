@@ -29,7 +29,7 @@ from graphcam.mechanism.sizing_problem import BINDS, Measure, Range, SizingProbl
 from graphcam.mechanism.sizing_refusal import refuse
 from graphcam.mechanism.sizing_search import Watched, best, exchange, polished
 from graphcam.showing import in_lines
-from graphcam.words import say
+from graphcam.words import either, say
 
 Objective = Literal["size", "stress"]
 OBJECTIVES: tuple[Objective, ...] = ("size", "stress")
@@ -180,7 +180,7 @@ def _range(name: str, size: Range | float) -> Range:
 def best_cam(problem: SizingProblem, objective: Objective) -> SizedCam:
     """The best cam of a problem, as :func:`size_cam` says."""
     if objective not in OBJECTIVES:
-        raise DesignError("objective", objective, " or ".join(map(repr, OBJECTIVES)))
+        raise DesignError("objective", objective, either([repr(each) for each in OBJECTIVES]))
     problem.check_contact()
     found = best(problem, "radius" if objective == "size" else "width")
     if found is None:

@@ -9,7 +9,7 @@ from graphcam.errors import DesignError
 from graphcam.mechanism.sizing_limits import CURVATURE, NO_UNDERCUT, RETURN, RISE, SHARE, STRESS, Sizes
 from graphcam.mechanism.sizing_problem import BINDS, SizingProblem
 from graphcam.mechanism.sizing_search import nearest
-from graphcam.words import Words, say
+from graphcam.words import Caption, Words, chained, say
 
 ALIKE = 1e-3
 """Limits that the nearest cam exceeds by parts that differ by less stand in each other's way."""
@@ -36,14 +36,14 @@ def refuse(problem: SizingProblem) -> NoReturn:
 
 def _error(problem: SizingProblem, near: Sizes, names: list[str], why: Words) -> DesignError:
     said = [_told(problem, near, name) for name in names]
-    found, limit = (" and ".join(texts) for texts in zip(*said, strict=True))
+    found, limit = map(chained, zip(*said, strict=True))
     sizes = zip(problem.ranges, problem.values(near), strict=True)
     at = ", ".join(f"{name} {value:.6g}" for name, value in sizes)
     remedy = say("{why}: the nearest has {at} mm; widen the ranges or permit more", why=why, at=at)
-    return DesignError(" and ".join(names), found, limit, remedy)
+    return DesignError(chained(names), found, limit, remedy)
 
 
-def _told(problem: SizingProblem, near: Sizes, name: str) -> tuple[str, str]:
+def _told(problem: SizingProblem, near: Sizes, name: str) -> tuple[Caption, Caption]:
     """What the cam has of a limit, and what is permitted."""
     limits = problem.limits
     if name in (RISE, RETURN):

@@ -30,7 +30,7 @@ from graphcam.mechanism.kinematics import Complexes
 from graphcam.mechanism.spline_fit import Conditions, at_ends, basis, fitted
 from graphcam.mechanism.stretches import Span, stretches
 from graphcam.mechanism.undercut import lost_parts
-from graphcam.words import say
+from graphcam.words import chained, either, say
 
 Degree = Literal[2, 3, 4, 5]
 DEVIATION = 0.0005
@@ -127,14 +127,15 @@ def profile_spline(
     True
     """
     if degree not in get_args(Degree):
-        raise DesignError("degree", degree, say("2, 3, 4 or 5"))
+        raise DesignError("degree", degree, either("2345"))
     least = max(LEAST_DEVIATION, LEAST_PART * (cam.prime_radius + cam.motion.lift))
     if not deviation >= least:
         raise DesignError("deviation", deviation, say("{least:g} mm or more", least=least))
     envelope = cam.envelope
     lost = lost_parts(envelope)
     if lost and not trimmed:
-        where = " and ".join(f"from {math.degrees(part.begin):.2f} to {math.degrees(part.end):.2f}" for part in lost)
+        ends = [(math.degrees(part.begin), math.degrees(part.end)) for part in lost]
+        where = chained([say("from {begin:.2f} to {end:.2f}", begin=begin, end=end) for begin, end in ends])
         remedy = say(
             "take a smaller roller or a larger cam; trimmed=True gives what can be cut, as trimmed_profile(n) does"
         )

@@ -9,7 +9,7 @@ from types import ModuleType
 from nbformat import NotebookNode
 
 from graphcam.errors import GraphcamError, install_advice
-from graphcam.words import say
+from graphcam.words import Caption, say
 
 PYTHON = {"kernelspec": {"name": "python3", "display_name": "Python 3"}, "language_info": {"name": "python"}}
 """Metadata of a notebook whose code is Python."""
@@ -28,13 +28,15 @@ class MissingExtraError(GraphcamError):
     what: str
     library: str
 
-    def __str__(self) -> str:
-        return say(
-            "{what} needs {library}, which is not installed; {install_advice}",
-            what=self.what,
-            library=self.library,
-            install_advice=install_advice("notebooks"),
-        )
+    @property
+    def fault(self) -> Caption:
+        """What needs it."""
+        return say("{what} needs {library}, which is not installed", what=self.what, library=self.library)
+
+    @property
+    def advice(self) -> Caption:
+        """How to install it."""
+        return install_advice("notebooks")
 
 
 def needed(library: str, what: str) -> ModuleType:
@@ -63,7 +65,9 @@ class NotebookError(GraphcamError):
     cell: str
     said: str
 
-    def __str__(self) -> str:
+    @property
+    def fault(self) -> Caption:
+        """What it said, and the cell."""
         return say("{said}\nin the cell\n{cell}", said=self.said, cell=self.cell)
 
 

@@ -22,7 +22,7 @@ from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.shown_solution import CUTTING, FILES, USUAL, without_answers
 from graphcam.solving.solution import Solution
 from graphcam.tasks.sheet_tables import one_of
-from graphcam.words import Words, say
+from graphcam.words import Words, chained, say
 from graphcam.workshop.profile_files import NAMES, write_curves
 
 if TYPE_CHECKING:
@@ -243,14 +243,8 @@ def write_sheet(
     for k, page in enumerate(drawing.pages, 1):
         name = stem if k == 1 else f"{stem}-{k}"
         if pictures:
-            report(
-                say(
-                    "writing {names}, page {k} of {pages}",
-                    names=" and ".join(map(str.upper, pictures)),
-                    k=k,
-                    pages=len(drawing.pages),
-                )
-            )
+            names = chained([kind.upper() for kind in pictures])
+            report(say("writing {names}, page {k} of {pages}", names=names, k=k, pages=len(drawing.pages)))
         for kind, write_page in pictures.items():
             write_page(page, folder / f"{name}.{kind}")
     if "dxf" in kinds:

@@ -127,7 +127,7 @@ class Solution(ShownSolution):
         except DesignError as error:
             if error.quantity != "control_points":
                 raise
-            raise DesignError("part.spline_control_points", count, error.limit, say("or leave it out")) from None
+            raise DesignError("part.spline_control_points", count, error.args[2], say("or leave it out")) from None
 
     def to_dict(self) -> dict[str, Any]:
         """The solution as plain data for strict JSON: angles in degrees, None where a value does not apply."""

@@ -138,7 +138,7 @@ def checked(request: Mapping[str, Any]) -> dict[str, Any]:
         checks = {str(asked["name"]): asked["check"] for asked in exercise["answers"] if "check" in asked}
         found = {name: _found(name, given[name], checks[name], salt, iterations) for name in given if name in checks}
     except (KeyError, TypeError, ValueError, OverflowError, ZeroDivisionError) as error:
-        shown = say("not readable ({error})", error=error)
+        shown = say("not readable ({error})", error=str(error))
         raise DesignError("exercise", shown, say("an exercise as a link of graphcam has it")) from None
     return {"checked": found}
 

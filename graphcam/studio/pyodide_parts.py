@@ -16,7 +16,7 @@ from pathlib import Path
 
 from graphcam.errors import MissingFileError, TaskError
 from graphcam.studio.wasm_archives import numpy_archive
-from graphcam.words import bare, say
+from graphcam.words import bare, either, say
 
 LOADER, GLUE, BINARY = "pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm"
 STANDARD_LIBRARY, LOCK = "python_stdlib.zip", "pyodide-lock.json"
@@ -74,7 +74,7 @@ def _contents(folder: Path) -> Iterator[tuple[str, bytes]]:
             elif _matters(path.name):
                 yield path.name, path.read_bytes()
     except (OSError, tarfile.TarError, EOFError) as error:
-        broken = say("not readable ({error})", error=error)
+        broken = say("not readable ({error})", error=str(error))
         what = say("a file there")
         raise TaskError(str(folder), what, broken, say("whole"), say("run there: {packing}", packing=PACKING)) from None
 
@@ -102,7 +102,8 @@ def _check(folder: Path, name: str, content: bytes, known: set[str | None]) -> N
     """That a file is one that is known."""
     found = hashlib.sha256(content).hexdigest()
     if found not in known:
-        sums = " or ".join(sorted(each for each in known if each)) or say("one that is known")
+        trusted = sorted(each for each in known if each)
+        sums = either(trusted) if trusted else say("one that is known")
         remedy = say(
             "take the files of '{packing}', or state the sums that you trust in a file {sums} there",
             packing=PACKING,

@@ -23,7 +23,7 @@ from graphcam.sweeps.shared_folder import Sealed, SharedFolder
 from graphcam.sweeps.space import Space
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, Columns
 from graphcam.sweeps.sweep_file import parquet_rows
-from graphcam.words import Caption, say, sequence
+from graphcam.words import Caption, Words, say, sequence
 from graphcam.workers import WorkerPool, results
 
 MANIFEST = "_manifest.json"
@@ -130,7 +130,7 @@ def _compute_missing(
         for (k, _, first, stop), record in found:
             if record is None:
                 continue
-            if isinstance(record, str):
+            if isinstance(record, str | Caption):
                 raise OutputError(place.url, record, say("correct that and start again: finished parts are kept"))
             front = record.pop("front", None)
             if front and "front" in manifest:
@@ -143,15 +143,19 @@ def _compute_missing(
                 due = time.monotonic() + max(SAVED_EVERY, SHARE_OF_SAVING * save())
 
 
-def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, str, int, int]) -> Record | str:
+def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, str, int, int]) -> Record | Words:
     """On a worker: compute the designs of one part and write them; what the part holds, or what went wrong."""
     _, file, first, stop = job
     if version != __version__:
-        return f"the worker on {socket.gethostname()} has graphcam {__version__}, not {version}"
+        host = socket.gethostname()
+        return say(
+            "the worker on {host} has graphcam {own}, not {version}", host=host, own=__version__, version=version
+        )
     start, blocks, seen = time.thread_time(), list[Record](), FoundBest(0)
     try:
         if MANIFEST not in place.sizes():
-            return f"the worker on {socket.gethostname()} does not see it; all workers must share it"
+            unseen = say("the worker on {host} does not see it; all workers must share it")
+            return unseen.where(host=socket.gethostname())
         with place.whole(file) as opened:
             sealed = Sealed(opened)
             with parquet_rows(place.url, sealed) as write:
@@ -161,7 +165,7 @@ def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, 
                     blocks.append(_seen(columns, len(space.varied)))
                     seen = seen.with_block(space, columns)
     except OutputError as error:
-        return f"{error.why}; {error.remedy}"
+        return sequence([error.why, error.advice], "; ")
     except Exception as error:  # noqa: BLE001  every kind of storage fails in its own way, and what is raised is not told
         return f"{type(error).__name__} on {socket.gethostname()}: {error}"
     found = {"front": seen.front, "seconds": time.thread_time() - start}

@@ -14,7 +14,7 @@ from graphcam.given.laws import LAWS, Floats
 from graphcam.given.motion import CLOSURE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.cam import Cam
-from graphcam.words import say
+from graphcam.words import bare, chained, say
 
 Part = slice | NDArray[np.integer[Any]] | NDArray[np.bool_]
 _SIZES = "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius"
@@ -76,7 +76,10 @@ class Designs:
         _choices("follower", self.follower, tuple(OWN))
         sizes = {array.size for array in self._columns.values() if array.ndim}
         if len(sizes) > 1:
-            found, remedy = " and ".join(map(str, sorted(sizes))), say("give one number for all cams, or one for each")
+            found, remedy = (
+                chained([bare(str(size)) for size in sorted(sizes)]),
+                say("give one number for all cams, or one for each"),
+            )
             raise DesignError(say("number of designs"), found, say("the same in every array"), remedy)
         self._check_follower()
 

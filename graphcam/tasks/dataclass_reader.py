@@ -13,11 +13,11 @@ import math
 import types
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, reduce
 from typing import Annotated, Any, Literal, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
 from graphcam.errors import DesignError
-from graphcam.words import say
+from graphcam.words import Words, either, say
 
 Place = tuple[int | str, ...]
 """Where in a file: keys, numbers of list entries, and the choices among classes by their kind."""
@@ -66,7 +66,7 @@ class WrongType:
     """
 
     place: Place
-    expected: str
+    expected: Words
     choices: tuple[str, ...] = field(default=(), repr=False)
 
 
@@ -94,8 +94,9 @@ def read_dataclass(kind: type[_Read], said: Mapping[str, Any]) -> _Read | list[F
     ...     material: Literal["steel", "bronze"] = "steel"
     >>> read_dataclass(Roller, {"radius": 17})
     Roller(radius=17.0, material='steel')
-    >>> read_dataclass(Roller, {"radius": "17", "bore": 3})
-    [WrongType(place=('radius',), expected='a number (without quotes)'), UnknownKey(place=('bore',))]
+    >>> wrong, unknown = read_dataclass(Roller, {"radius": "17", "bore": 3})
+    >>> print(wrong.place, wrong.expected, unknown)
+    ('radius',) a number (without quotes) UnknownKey(place=('bore',))
     """
     faults: list[Fault] = []
     made = _dataclass_reader(kind)(said, (), faults)
@@ -187,8 +188,7 @@ _PLAIN: dict[Any, Reader] = {float: _number, int: _whole, str: _text, bool: _swi
 
 
 def _literal_reader(choices: tuple[Any, ...]) -> Reader:
-    *most, last = map(repr, choices)
-    expected = f"{', '.join(most)} or {last}" if most else last
+    expected = either([repr(choice) for choice in choices])
     words = tuple(choice for choice in choices if isinstance(choice, str))
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
@@ -228,7 +228,7 @@ def _furthest(found: list[list[Fault]], place: Place) -> list[Fault]:
     if len(found) == 1 or best[0].place != place:
         return best
     expected = (fault.expected for faults in found if isinstance(fault := faults[0], WrongType))
-    return [WrongType(place, " or ".join(expected))]
+    return [WrongType(place, reduce(lambda first, last: either([first, last]), expected))]
 
 
 def _kind_reader(classes: tuple[type, ...]) -> Reader:

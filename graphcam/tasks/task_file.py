@@ -31,7 +31,7 @@ from graphcam.tasks.task import Task
 from graphcam.tasks.task_remedies import key_remedy, missing_remedy, value_remedy
 from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.tasks.toml_faults import toml_fault
-from graphcam.words import Caption, Words, bare, say
+from graphcam.words import Caption, Words, bare, chained, say
 
 BUILT_IN = ("coursework", "arm", "flat", "measured")
 """Names of the task files that come with graphcam; "arcs" is one more, of a cam of three circular arcs."""
@@ -350,7 +350,7 @@ def _unknown_key(
     kinds = [other[-1] for other in alike if key in _keys(classes[other])]
     if kinds:
         left_out = say("left out where the kind is {table}", table=table[-1])
-        return TaskError(path, place, _shown(value), left_out, say("it is for {names}", names=" and ".join(kinds)))
+        return TaskError(path, place, _shown(value), left_out, say("it is for {names}", names=chained(kinds)))
     remedy = key_remedy(key, value, known, data)
     return TaskError(path, place, say("an unknown key"), say("one that is known"), remedy)
 

@@ -45,7 +45,7 @@ def unpacked(place: Path) -> Generator[tuple[Path, list[Refused]]]:
             with zipfile.ZipFile(place) as archive:
                 refused = _unpack(archive, place, Path(scratch), MOST_ENTRIES, MOST_BYTES)
         except (OSError, zipfile.BadZipFile) as error:
-            what, found = say("the zip"), say("not readable ({error})", error=error)
+            what, found = say("the zip"), say("not readable ({error})", error=str(error))
             raise TaskError(str(place), what, found, say("a whole zip file"), say("download it again")) from None
         yield Path(scratch), refused
 
@@ -64,7 +64,7 @@ def unpack_one(path: Path, folder: Path) -> None:
             _unpack(archive, path, folder, MOST_ENTRIES_OF_ONE, MOST_BYTES_OF_ONE)
     # What zipfile makes of bytes that somebody chose.
     except (OSError, zipfile.BadZipFile, NotImplementedError, EOFError, ValueError, struct.error) as error:
-        found = say("not readable ({error})", error=error)
+        found = say("not readable ({error})", error=str(error))
         raise TaskError(str(path), say("the zip"), found, say("a whole zip file"), say("hand it in again")) from None
 
 

@@ -93,5 +93,5 @@ def read_table(path: str | Path, what: Words) -> list[tuple[int, list[str]]]:
         return [(reader.line_num, row) for row in reader if any(value.strip() for value in row)]
     except csv.Error as error:
         remedy = say("save it again from the spreadsheet")
-        found = say("not readable ({error})", error=error)
+        found = say("not readable ({error})", error=str(error))
         raise TaskError(str(path), what, found, say("a CSV file"), remedy) from None

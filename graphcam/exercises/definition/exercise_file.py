@@ -143,7 +143,7 @@ def _check(path: str, exercise: Exercise) -> None:
         try:
             misconception(name)
         except DesignError as error:
-            raise TaskError(path, "misconceptions", name, error.limit, error.remedy) from None
+            raise TaskError(path, "misconceptions", name, *error.args[2:]) from None
     _check_text(path, exercise)
     first = {name: parameter.values[0] for name, parameter in exercise.parameters.items()}
     task = fill_in(exercise, first, path)
@@ -152,8 +152,7 @@ def _check(path: str, exercise: Exercise) -> None:
             try:
                 fill_in(exercise, {**first, name: value}, path)
             except TaskError as error:
-                place, shown = f"parameters.{name}.choices[{k}]", error.value
-                raise TaskError(path, place, shown, error.expected, error.remedy) from None
+                raise TaskError(path, f"parameters.{name}.choices[{k}]", *error.args[2:]) from None
     chain = board_chain(task)
     shown = worksheet_views(exercise, chain)
     for k, asked in enumerate(exercise.answers):
@@ -163,11 +162,11 @@ def _check(path: str, exercise: Exercise) -> None:
         try:
             ask(chain, asked)
             if asked.place and asked.place not in shown:
-                limit = say("a view of the worksheet: {value}", value=", ".join(shown) or "none is shown")
+                limit = say("a view of the worksheet: {value}", value=", ".join(shown) or say("none is shown"))
                 raise DesignError("place", asked.place, limit, meant(asked.place, shown))
         except DesignError as error:
             place = f"answers[{k}].{error.quantity}"
-            raise TaskError(path, place, error.value, error.limit, error.remedy or HOW_TO) from None
+            raise TaskError(path, place, *error.args[1:3], error.advice or HOW_TO) from None
 
 
 def _check_text(path: str, exercise: Exercise) -> None:

@@ -155,7 +155,7 @@ class AnswerKey:
         try:
             return _read(json.loads(text))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            found = say("not readable ({error})", error=error)
+            found = say("not readable ({error})", error=str(error))
             wanted = say("an answer key of format {format}", format=FORMAT)
             remedy = say("make it again with 'graphcam exercise make'")
             raise TaskError(path, say("the answer key"), found, wanted, remedy) from None

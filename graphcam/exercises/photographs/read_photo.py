@@ -122,7 +122,7 @@ def from_json(text: str, path: str = "readings") -> tuple[list[ReadPhoto], str]:
             raise ValueError(f"format {said['format']}")
         return [_photo(each) for each in said["photos"]], str(said["basis"])
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        found = say("not readable ({error})", error=error)
+        found = say("not readable ({error})", error=str(error))
         raise TaskError(path, say("the reading"), found, say("one of format {format}", format=FORMAT), REMEDY) from None
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from graphcam.errors import GraphcamError
 from graphcam.exercises.running.levels import MEBIBYTE, Level, ResourceLimits
-from graphcam.words import Words, say
+from graphcam.words import Caption, Words, chained, say
 
 FEW = ResourceLimits(seconds=20.0, memory=512 * MEBIBYTE, processes=8)
 ESCAPES = """
@@ -55,8 +55,10 @@ class LevelError(GraphcamError):
     level: Level
     why: str
 
-    def __str__(self) -> str:
-        return say("level {level} is not available: {why}", level=self.level, why=self.why)
+    @property
+    def fault(self) -> Caption:
+        """What is not available, and why."""
+        return say("level {level} is not available: {why}", level=str(self.level), why=self.why)
 
 
 @functools.cache
@@ -130,4 +132,4 @@ def _broken(level: Level) -> Words:
     except (ValueError, KeyError):
         last = ended.text.strip().splitlines()[-1:] or [f"status {ended.status}"]
         return say("a program in it does not run ({last})", last=last[0])
-    return say("code in it reaches {names}", names=" and ".join(broken)) if broken else ""
+    return say("code in it reaches {names}", names=chained(broken)) if broken else ""
