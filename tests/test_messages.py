@@ -45,7 +45,12 @@ def faults(text: str) -> list[int]:
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
             words = [node.args[k] for k in WORDS_OF.get(node.func.id, ()) if k < len(node.args)]
-            if any(isinstance(each, ast.JoinedStr | ast.BinOp) or " " in constant(each) for each in words):
+            if any(
+                isinstance(each, ast.JoinedStr)
+                or isinstance(getattr(each, "op", None), ast.Add)
+                or " " in constant(each)
+                for each in words
+            ):
                 found.append(node.lineno)
     return found
 

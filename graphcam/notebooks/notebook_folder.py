@@ -22,7 +22,7 @@ from graphcam.notebooks.running import execute, needed
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_writer import task_files
-from graphcam.words import Words, say
+from graphcam.words import Words, bare, say
 
 TEMPLATES = Path(__file__).parent / "templates"
 SHOWN = ["text/html", "text/markdown", "image/svg+xml", "image/png", "text/plain"]
@@ -117,7 +117,7 @@ def print_pdf(page: Path, pdf: Path) -> None:
         try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, check=False)
         except (OSError, subprocess.TimeoutExpired) as error:
-            raise OutputError(pdf, f"{Path(program).name}: {error}") from error
+            raise OutputError(pdf, bare(f"{Path(program).name}: {error}")) from error
     if done.returncode or not pdf.exists():
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]
         why = say("{name} says: {last}", name=Path(program).name, last=last)

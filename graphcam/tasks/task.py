@@ -67,8 +67,8 @@ class _FollowerTable:
         """That the sizes leave room on a given prime radius, whatever the motion."""
         if (self.roller_radius or 0.0) >= prime_radius:
             limit = say("less than the prime radius of {prime_radius:g} mm", prime_radius=prime_radius)
-            remedy = say("take a smaller roller")
-            raise DesignError("follower.roller_radius", self.roller_radius, limit, f"{remedy} {OR_LARGER}")
+            remedy = say("take a smaller roller {or_larger}", or_larger=OR_LARGER)
+            raise DesignError("follower.roller_radius", self.roller_radius, limit, remedy)
 
 
 @dataclass(frozen=True)

@@ -66,7 +66,7 @@ def write_profile(
     wanted = [kinds] if isinstance(kinds, str) else list(kinds)
     for kind in wanted:
         if kind not in KINDS:
-            raise DesignError("kinds", kind, f"of {', '.join(KINDS)}", meant(kind, KINDS))
+            raise DesignError("kinds", kind, say("of {names}", names=", ".join(KINDS)), meant(kind, KINDS))
     table, names = _part_table(part), {f"profile_{kind}" for kind in wanted}
     spline = _spline(cam, table) if any(kind in OF_SPLINE for kind in wanted) else None
     with whole_folder(folder) as draft:
