@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import ctypes
 import gc
-import os
-import re
 import sys
 from pathlib import Path
 
 import pytest
-
-from graphcam.errors import GraphcamError
 
 PAGE = 4096
 MUCH = 200 << 20
@@ -26,38 +22,6 @@ def pytest_configure(config: pytest.Config) -> None:
     """
     if config.pluginmanager.hasplugin("xdist") and config.option.maxworkerrestart is None:
         config.option.maxworkerrestart = "0"
-    if folder := os.environ.get("GRAPHCAM_MESSAGES"):
-        Path(folder).mkdir(parents=True, exist_ok=True)
-        config.pluginmanager.register(_Messages(Path(folder, f"{os.getpid()}.txt")), "messages")
-
-
-class _Messages:
-    """Every ``str(error)`` that the tests make, without the folders of a run: before and after a change the same set."""
-
-    FOLDER = re.compile(r"/tmp/[^ ;:,'\"]*/(?=[^/])|0x[0-9a-f]{6,}")
-
-    def __init__(self, file: Path) -> None:
-        self.file, self.made = file, list[GraphcamError]()
-        made = self.made
-
-        def remember(kind: type[GraphcamError], /, *args: object, **kwargs: object) -> GraphcamError:
-            error = Exception.__new__(kind, *args)
-            made.append(error)
-            return error
-
-        GraphcamError.__new__ = staticmethod(remember)  # type: ignore[method-assign]
-
-    @pytest.hookimpl(trylast=True)
-    def pytest_runtest_teardown(self) -> None:
-        """Write what the test has made."""
-        with self.file.open("a", encoding="utf-8") as file:
-            for error in self.made:
-                try:
-                    message = str(error)
-                except Exception:
-                    continue  # one that was not made whole
-                file.write(type(error).__name__ + "\t" + self.FOLDER.sub("", message).replace("\n", "\\n") + "\n")
-        self.made.clear()
 
 
 kept = sys.maxsize
