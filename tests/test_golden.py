@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import copy
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
@@ -60,7 +60,7 @@ def test_constructions_quantities_and_groups_of_the_sheet_come_in_the_order_in_w
 def test_what_a_mark_belongs_to_is_no_part_of_how_it_looks():
     @dataclass(frozen=True, eq=False)
     class Line(marks.Line):
-        of: str = "a ray"
+        of: str = field(default="a ray", kw_only=True)
 
     points = np.array([0j, 1 + 2j])
     assert summary(Line(points, marks.Role.CURVE)) == summary(marks.Line(points, marks.Role.CURVE))

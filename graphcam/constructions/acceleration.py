@@ -326,7 +326,7 @@ def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
     marks = (
         middles.from_(diagram.acts["middles of the parts"], Role.CONSTRUCTION),
         middles.dots(Role.CONSTRUCTION),
-        Segments(x - UP, x + UP, Role.SCALE, of=axis.act, index=axis.index),
+        Segments(x - UP, x + UP, Role.SCALE).left_by(axis),
         # On the side of the axis where no ordinates stand.
         *numbers(axis, stations, np.where(diagram.first("before") + diagram.first("stations") < 0, UP, -UP)),
     )
@@ -395,7 +395,7 @@ def _dimension(diagram: AccelerationDiagram, k: int, law: _LawOverPhase, curve: 
     by = crossing + min(BESIDE, (float(line.real[-1]) - crossing) / 2) - top.real
     # To the right of an ordinate that points up is on the negative side of its dimension.
     aside, text = -by if top.imag > 0 else by, say("{y:.1f}", y=law.greatest)
-    return Dimension(complex(top.real), top, text, aside, of.act, of.index[[k]])
+    return Dimension(complex(top.real), top, text, aside, of=of.act, index=of.index[[k]])
 
 
 PLOTTED = 8

@@ -223,9 +223,7 @@ def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
     limits = hand.erect("limits", ends[1:])
     marks: list[Mark] = [
         *axes,
-        Segments(
-            limits.points + low * UP, limits.points + high * UP, Role.CONSTRUCTION, of=limits.act, index=limits.index
-        ),
+        Segments(limits.points + low * UP, limits.points + high * UP, Role.CONSTRUCTION).left_by(limits),
         dots.from_(feet, Role.CONSTRUCTION),
         *(dots.dots(Role.CONSTRUCTION), curve.line(Role.RESULT)),
         *(_phases(ends, mu_phi, low - PHASES_BELOW) if name == "alpha" else ()),
@@ -360,7 +358,7 @@ def _phases(ends: Drawn, mu_phi: Scale, height: float) -> list[Mark]:
     angles = np.degrees(np.diff(bounds.real) * mu_phi.per_mm).round(2)
     angles[-1] = 360 - angles[:-1].sum()
     return [
-        Dimension(a, b, said.where(angle=angle), of=ends.act, index=ends.index[3:4])
+        Dimension(a, b, said.where(angle=angle)).left_by(ends[3:4])
         for (a, b), said, angle in zip(pairwise(bounds), SPANS, angles, strict=True)
         if abs(b - a) > 0
     ]

@@ -328,14 +328,12 @@ def _profile(arcs: ArcOutline) -> Step:
     parts.insert(-4, Part(middle, (axis,)))
     dimensions = (
         Dimension(
-            *(acts[centre].place, acts[end].place, say("{name} = {rho:.2f}", name=name, rho=radii[name])),
-            of=acts[f"circle about {centre}"].act,
-            index=acts[f"circle about {centre}"].index,
-        )
+            *(acts[centre].place, acts[end].place, say("{name} = {rho:.2f}", name=name, rho=radii[name]))
+        ).left_by(acts[f"circle about {centre}"])
         for _, centre, end, name in flank
     )
     ends = np.array([axis.place, axis.place + complex(unit(axis.directions)) * (outer / mu_l + OVERHANG)])
-    line = Line(ends, Role.AXIS, of=axis.act, index=axis.index.repeat(2))
+    line = Line(ends, Role.AXIS).left_by(axis)
     why = say(
         "The arcs touch, so the profile has no corner, and the same flank, mirrored, lets the follower down again."
     )
@@ -361,7 +359,7 @@ def _line(arcs: ArcOutline, name: str, *ends: complex | str, role: Role = Role.C
     """The part of a line between those two of its points that lie farthest apart."""
     places = [arcs.acts[end].place if isinstance(end, str) else end for end in ends]
     pair = max(combinations(places, 2), key=lambda pair: abs(pair[0] - pair[1]))
-    return Line(np.array(pair), role, of=arcs.acts[name].act, index=arcs.acts[name].index.repeat(2))
+    return Line(np.array(pair), role).left_by(arcs.acts[name])
 
 
 def _bisector(arcs: ArcOutline, a: str, b: str, to: str, role: Role = Role.CONSTRUCTION) -> tuple[Mark, ...]:

@@ -109,7 +109,7 @@ def _segment(hand: Hand, line: str, start: str, end: str, role: Role = Role.CONS
     """The part of a line between two places on it."""
     drawn = hand.acts[line]
     ends = np.array([hand.acts[name].place for name in (start, end)])
-    return Line(ends, role, of=drawn.act, index=drawn.index.repeat(2))
+    return Line(ends, role).left_by(drawn)
 
 
 def _far(hand: Hand, start: str, end: str) -> float:
@@ -148,7 +148,7 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -
     speed = () if scale.omega is None else (Label(acts["K"].place / 2, scale.named("v", ok), -UP, of=acts["OK"].act),)
     names = (("O", "O", -side - 1j), ("B", "B", side + 0j), ("C", centre, -side - 1j), ("K", "K", side + 0j))
     marks: tuple[Mark, ...] = (
-        Line(axis, Role.AXIS, of=acts["follower"].act, index=acts["follower"].index.repeat(2)),
+        Line(axis, Role.AXIS).left_by(acts["follower"]),
         *(acts["rod"].way(Role.CURVE), acts["OK"].way(Role.RESULT), _segment(hand, "rod", "B", "K", Role.CURVE)),
         *(acts[name].dots() for name in "OBCK"),
         *(acts[name].label(text, towards) for name, text, towards in names),
@@ -241,8 +241,8 @@ def _velocities(rolled: RollerOnArcs) -> Step:
     named = [j for j, *_ in stations.places.values() if not np.isnan(paper[j])]
     out = across.directions * -run(rolled.givens.arcs)
     marks: tuple[Mark, ...] = (
-        Segments(rolled.acts["B"].shown, k.shown, Role.CONSTRUCTION, of=rods.act, index=rods.index),
-        Segments(np.zeros_like(k.shown), k.shown, Role.CURVE, of=across.act, index=across.index),
+        Segments(rolled.acts["B"].shown, k.shown, Role.CONSTRUCTION).left_by(rods),
+        Segments(np.zeros_like(k.shown), k.shown, Role.CURVE).left_by(across),
         k.dots(),
         *(k[j].label(stations.names[j], complex(unit(out)[j]), small=True) for j in named),
     )
@@ -290,8 +290,8 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
     named = [j for j in range(stations.u.size) if not np.isnan(om[j])]
     marks: tuple[Mark, ...] = (
         rays.ways(Role.CONSTRUCTION),
-        Segments(np.zeros_like(m.shown), m.shown, Role.CURVE, of=rays.act, index=rays.index),
-        Segments(n.shown, m.shown, Role.CONSTRUCTION, of=across.act, index=across.index),
+        Segments(np.zeros_like(m.shown), m.shown, Role.CURVE).left_by(rays),
+        Segments(n.shown, m.shown, Role.CONSTRUCTION).left_by(across),
         *(b.dots(Role.CONSTRUCTION), m.dots(), n.dots(Role.CONSTRUCTION)),
         *(m[j].label(stations.names[j], complex(unit(m.shown)[j]), small=True) for j in named),
     )

@@ -75,7 +75,7 @@ def arc(circle: Drawn, start: complex, turn: float, role: Role, overhang: float 
     radius, first = float(np.asarray(circle.first.radius).item()), float(np.angle(start - circle.place))
     low, high = sorted((first, first + turn))
     more = overhang / radius
-    return Arc(circle.place, radius, low - more, high + more, role, of=circle.act, index=circle.index)
+    return Arc(circle.place, radius, low - more, high + more, role).left_by(circle)
 
 
 def cam(arcs: ArcOutline, axis: Drawn) -> list[tuple[Arc, Drawn]]:

@@ -177,7 +177,7 @@ def _paths(rolled: RollerOnArcs) -> Step:
     moves: list[Move] = [(copied, *(circle for _, circle in profile), *joints, o, *centres.values())]
     marks: list[Mark] = [
         *(mark for mark, _ in profile),
-        Segments(trace.shown[1:], starts, Role.AXIS, of=lines.act, index=lines.index[1:]),
+        Segments(trace.shown[1:], starts, Role.AXIS).left_by(lines[1:]),
         *(joint.label(name, -at) for joint, name, at in zip(joints, "AGFD", trace.shown.tolist(), strict=True)),
         *(o.dots(), o.label("O", -1 - 1j), prime.drawn_circle(Role.CONSTRUCTION)),
         *(mark for name, at in centres.items() for mark in (at.dots(), at.label(name, -UP))),
@@ -247,7 +247,7 @@ def _joints(rolled: RollerOnArcs) -> Step:
     for k, name in enumerate(reads, 1):
         low, high = sorted((base, base - sigma * float(angles[k])))
         shown_as = say("{angle:.2f}°", angle=float(np.degrees(angles[k])))
-        marks.append(AngleMark(0j, (0.15 + 0.15 * k) * size, low, high, shown_as, rolled.readings[name].act))
+        marks.append(AngleMark(0j, (0.15 + 0.15 * k) * size, low, high, shown_as, of=rolled.readings[name].act))
     why = say("These are the angles by which the cam turns while the roller runs over one arc after another.")
     parts = in_parts(moves, values)
     return Step(say("The angles of the arcs"), said.where(**values), ROLLER, tuple(marks), reads, why=why, parts=parts)
@@ -268,14 +268,12 @@ def _stations(rolled: RollerOnArcs) -> Step:
         for name, (k, *_) in stations.places.items()
     )
     marks: tuple[Mark, ...] = (
-        Segments(rays.shown, ends, Role.CONSTRUCTION, of=rays.act, index=rays.index),
-        Segments(feet.shown, b.shown, Role.RESULT, of=rays.act, index=rays.index),
+        Segments(rays.shown, ends, Role.CONSTRUCTION).left_by(rays),
+        Segments(feet.shown, b.shown, Role.RESULT).left_by(rays),
         *(each.dots(Role.CONSTRUCTION) for each in (b, returning)),
         *(each.drawn_circle(Role.CONSTRUCTION) for each in rollers.values()),
         *named,
-        Line(
-            np.array([0j, complex(unit(axis.directions)) * reach]), Role.AXIS, of=axis.act, index=axis.index.repeat(2)
-        ),
+        Line(np.array([0j, complex(unit(axis.directions)) * reach]), Role.AXIS).left_by(axis),
     )
     one = say(
         "Ray {name}: {phi:.3f}° from OA, {sense}; it meets the arc about {centre} in B{name}, {s:.2f} mm outside the "

@@ -188,8 +188,8 @@ def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
         "C: {terms}. Reduced to the arm's end it is Q = M/l = {torque:.0f}/{arm:g} = {load:.1f} N. At μF = {mu:g} N/mm "
         "set the dividers to {paper:.1f} mm, and lay Q off from its tail square to the arm of this station, {way}."
     )
-    label = Label(foot.place / 2, "Q", towards=-_beside(plan), of=foot.act, index=foot.index)
-    ends = Dots(np.array([0j, foot.place]), of=foot.act, index=foot.index.repeat(2))
+    label = Label(foot.place / 2, "Q", towards=-_beside(plan)).left_by(foot)
+    ends = Dots(np.array([0j, foot.place])).left_by(foot)
     return Step(
         say("Force plan at station {name}: the load", name=_name(plan)),
         *(said.where(**values), view, (foot.arrow(0j, Role.CURVE), label, ends)),
@@ -219,7 +219,7 @@ def _line_of_force(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     )
     start = cmath.phase(up)
     marks = (
-        Line(np.array([foot, foot + reach * along]), Role.CONSTRUCTION, of=normal.act, index=normal.index.repeat(2)),
+        Line(np.array([foot, foot + reach * along]), Role.CONSTRUCTION).left_by(normal),
         Line(np.array([foot, foot + (radius + BEYOND) * up]), Role.AXIS),
         angle_at(
             foot,
@@ -248,7 +248,7 @@ def _line_of_reaction(plan: Construction[ArmForcePlanGivens], view: View) -> Ste
     why = say(
         "Because F and Q act at B and are in equilibrium about C, so the reaction to both passes through B and C."
     )
-    mark = Line(ends, Role.CONSTRUCTION, of=line.act, index=line.index.repeat(2))
+    mark = Line(ends, Role.CONSTRUCTION).left_by(line)
     return Step(say("The line of the pivot's reaction"), said, view, (mark,), why=why)
 
 
@@ -279,11 +279,11 @@ def _closed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     )
     parts = tuple(Part(said.where(**values), (left,)) for said, left in told)
     marks: tuple[Mark, ...] = (
-        Arrow(foot.place, corner.place, Role.RESULT, of=force.act, index=force.index),
-        Arrow(corner.place, 0j, Role.RESULT, of=reaction.act, index=reaction.index),
+        Arrow(foot.place, corner.place, Role.RESULT).left_by(force),
+        Arrow(corner.place, 0j, Role.RESULT).left_by(reaction),
         corner.dots(),
-        Label((foot.place + corner.place) / 2, "F", towards=side + down / 2, of=force.act, index=force.index),
-        Label(corner.place / 2, "R", towards=-down, of=reaction.act, index=reaction.index),
+        Label((foot.place + corner.place) / 2, "F", towards=side + down / 2).left_by(force),
+        Label(corner.place / 2, "R", towards=-down).left_by(reaction),
     )
     return Step(
         say("The triangle of forces"),

@@ -47,7 +47,7 @@ def _downwards(lines: Drawn, hatched: Points) -> Segments:
     """The lines at a limit as far as they matter: from the ends down along the region."""
     down = _down(lines)
     ends = [touch + way * bounding_length(touch, way, hatched) for touch, way in zip(lines.shown, down, strict=True)]
-    return Segments(lines.shown, np.array(ends), Role.CONSTRUCTION, of=lines.act, index=lines.index)
+    return Segments(lines.shown, np.array(ends), Role.CONSTRUCTION).left_by(lines)
 
 
 def _down(lines: Drawn) -> Points:
@@ -110,7 +110,7 @@ def _normal(drawn: ArmPositions, station: int, line: Drawn, so: _AtLimit) -> tup
     normal = hand.perpendicular("normal to the arm", drawn.acts["arms"].first[station], tip)
     begin = float(np.angle(normal.directions))
     start, end = sorted((begin, begin + so.side * so.limit))
-    angle = AngleMark(tip.place, 0.25 * length, start, end, degrees(so.limit), line.act, line.index)
+    angle = AngleMark(tip.place, 0.25 * length, start, end, degrees(so.limit)).left_by(line)
     return normal, stroke(normal, 0.4 * length), angle
 
 
@@ -150,7 +150,7 @@ def reach_step(drawn: ArmPositions) -> Step:
     """The lines of the lowest and of the highest arm, which the cam centre lies below."""
     lines, top = drawn.acts["limits: reach"], highest_arm(drawn)
     out = lines.shown - PRODUCED * abs(drawn.acts["start"].place) * unit(lines.first.directions)
-    produced = Segments(lines.shown, out, Role.CONSTRUCTION, of=lines.act, index=lines.index)
+    produced = Segments(lines.shown, out, Role.CONSTRUCTION).left_by(lines)
     lowest, highest = say("Extend CB₀ with the ruler; A must lie below it."), say("Extend arm {top} with the ruler.")
     return Step(
         say("The arm extended"),

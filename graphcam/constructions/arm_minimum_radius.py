@@ -380,8 +380,8 @@ def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
         *(acts["prime radius"].way(Role.LIMIT), line.way(Role.AXIS)),
         *(centre.dots(Role.RESULT), centre.label("A₀", -UP)),
         Dimension(
-            start.place, centre.place, say("min r₀ = {r0:.2f}", r0=r0), -8.0, region.readings["prime_radius"].act
+            start.place, centre.place, say("min r₀ = {r0:.2f}", r0=r0), -8.0, of=region.readings["prime_radius"].act
         ),
-        Dimension(centre.place, 0j, say("c = {c:.2f}", c=away), -8.0, region.readings["distance"].act),
+        Dimension(centre.place, 0j, say("c = {c:.2f}", c=away), -8.0, of=region.readings["distance"].act),
     )
-    return replace(step, caption=said.where(place=place, sizes=sizes), marks=marks, parts=tuple(parts))
+    return replace(step, said=said.where(place=place, sizes=sizes), marks=marks, parts=tuple(parts))

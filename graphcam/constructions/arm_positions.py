@@ -92,13 +92,13 @@ def arc_through(circle: Drawn, places: Points, beyond: float = BEYOND) -> Arc:
     ways = places - circle.place
     turns = np.angle(ways[0]) + np.angle(ways / ways[0])
     radius, role = float(np.asarray(circle.first.radius).item()), Role.CONSTRUCTION
-    return Arc(circle.place, radius, turns.min() - beyond, turns.max() + beyond, role, "", circle.act, circle.index)
+    return Arc(circle.place, radius, turns.min() - beyond, turns.max() + beyond, role, "").left_by(circle)
 
 
 def stroke(line: Drawn, length: float) -> Line:
     """So much of one line, from its place on [mm]."""
     ends = line.place + np.array([0, length]) * complex(unit(line.first.directions))
-    return Line(ends, Role.CONSTRUCTION, of=line.act, index=line.index.repeat(2))
+    return Line(ends, Role.CONSTRUCTION).left_by(line)
 
 
 def along_the_arm(way: float) -> Caption:

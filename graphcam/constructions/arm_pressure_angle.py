@@ -331,7 +331,7 @@ def _everywhere(measured: ArmAngles, k: int) -> Step:
     # At the shown station as far as the arc of its angle, at the others only their direction.
     lengths = np.where(np.arange(len(names)) == k, 4.4 * NORMAL, NORMAL)
     down = normals.shown + lengths * unit(normals.first.directions)
-    strokes = Segments(normals.shown, down, Role.CONSTRUCTION, of=normals.act, index=normals.index)
+    strokes = Segments(normals.shown, down, Role.CONSTRUCTION).left_by(normals)
     begin, end = (float(np.angle(line.first[k].directions)) for line in (normals, rays))
     shown = say("α = {alpha:.1f}°", alpha=alpha[k])
     angle = angle_at(rays.first[k].place, begin, end, 4 * NORMAL, shown, rays.act)

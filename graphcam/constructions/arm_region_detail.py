@@ -58,7 +58,7 @@ def region_enlarged(
     enlarged = [Boundary("", (line.touch - start.place) * times, line.inward) for line in lines]
     permitted = hand.given("permitted places", picture.permitted(enlarged))
     marks: list[Mark] = [
-        Region(permitted.points, permitted.act, permitted.index),
+        Region(permitted.points).left_by(permitted),
         *(b.dots(Role.CONSTRUCTION), b.label("B₀", UP)),
     ]
     through = list[Drawn]()
@@ -68,8 +68,8 @@ def region_enlarged(
         way = complex(unit(np.asarray(a.place - drawn.place)))
         above, below = min(abs(a.place - drawn.place), abs(a.place)), (a.place.imag - bottom) / max(-way.imag, 0.5)
         ends = a.place + way * np.array([-above, below])
-        marks.append(Line(ends, Role.LIMIT, of=drawn.act, index=drawn.index.repeat(2)))
-        marks.append(Label(complex(ends[1]), name, way, small=True, of=drawn.act, index=drawn.index))
+        marks.append(Line(ends, Role.LIMIT).left_by(drawn))
+        marks.append(Label(complex(ends[1]), name, way, small=True).left_by(drawn))
     marks += [a.dots(Role.RESULT), a.label("A₀", 1 + 0j if a.place.real > 0 else -1 + 0j)]
     first = say("Draw B₀ and A₀ again at {ratio}, {paper:.1f} mm from one another.")
     first = first.where(ratio=ratio_text(scale.per_mm), paper=abs(a.place))

@@ -247,7 +247,7 @@ def pole_marks(pole: Drawn, distance: float, index: str, heights: Floats) -> tup
     named, below = say("H{index} = {pole:.6g}", index=index, pole=distance), -5.0 + reach(heights)[0]
     return (
         *(Line(np.array([pole.place, 0j]), Role.SCALE, of=pole.act), pole.dots(), pole.label(f"P{index}", -1 + 1j)),
-        Dimension(pole.place, 0j, named, below, pole.act),
+        Dimension(pole.place, 0j, named, below, of=pole.act),
     )
 
 

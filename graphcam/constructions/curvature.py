@@ -323,7 +323,7 @@ def _on_profile(curved: Curved) -> Step:
     ).where(paper=abs(b.place - o.place))
     why = say("Because it shows how much of the cam is left between the roller and O.")
     marks = (
-        Line(np.array([o.place, b.place]), Role.LIMIT, of=ob.act, index=ob.index.repeat(2)),
+        Line(np.array([o.place, b.place]), Role.LIMIT).left_by(ob),
         *(o.dots(Role.LIMIT), o.label("O", o.place - b.place), b.label("B", b.place - o.place)),
     )
     return Step(say("Centre of curvature on the profile"), said, PROFILE, marks, reads=("rho",), why=why)
@@ -389,10 +389,10 @@ def _bisectors(curved: Curved, detail: Detail) -> tuple[list[Bisected], list[flo
         ends = np.array([middle - (hub - middle) * 0.12, hub + (hub - middle) * 0.06])
         setting = reckoned(partial(np.multiply, COMPASS), between(a, b))
         arcs = [hand.circle(f"arcs of {line.act.name}", end, setting) for end in (a, b)]
-        marks: list[Mark] = [Line(ends, Role.CONSTRUCTION, of=line.act, index=line.index.repeat(2))]
+        marks: list[Mark] = [Line(ends, Role.CONSTRUCTION).left_by(line)]
         for meeting, arc in product((hand.cross("left", *arcs), hand.cross("right", *arcs[::-1])), arcs):
             to, radius = float(np.angle(meeting.place - arc.place)), float(np.asarray(arc.radius))
-            marks.append(Arc(arc.place, radius, to - 0.12, to + 0.12, Role.CONSTRUCTION, of=arc.act, index=arc.index))
+            marks.append(Arc(arc.place, radius, to - 0.12, to + 0.12, Role.CONSTRUCTION).left_by(arc))
         found.append((marks, (*arcs, line)))
         settings.append(float(setting.amount))
     return found, settings
@@ -409,8 +409,8 @@ def _radius(curved: Curved, detail: Detail) -> tuple[tuple[Mark, ...], Drawn, Dr
     low, high = turn - 1.6 * wide, turn + 1.6 * wide
     said = say("ρ = {rho:.2f}", rho=float(curved.value("rho")))
     marks = (
-        Line(np.array([hub.place, triple[1].place]), Role.LIMIT, of=ob.act, index=ob.index.repeat(2)),
-        Arc(hub.place, abs(hub.place), low, high, Role.CONSTRUCTION, of=circle.act, index=circle.index),
+        Line(np.array([hub.place, triple[1].place]), Role.LIMIT).left_by(ob),
+        Arc(hub.place, abs(hub.place), low, high, Role.CONSTRUCTION).left_by(circle),
         Label(hub.place / 2, said, hub.place * UP, of=read.act),
     )
     return marks, ob, circle

@@ -77,4 +77,6 @@ def _rests(givens: AccelerationGivens, hand: Hand, curve: Drawn) -> tuple[Drawn,
     # At the start of the turn the follower rests where it does at its end.
     before = np.arange(-1, len(ends), 2)[resting] % len(level.points)
     lines = zip(bounds[resting], before, strict=True)
-    return level[before], tuple(Line(pair, Role.RESULT, False, level.act, np.array([k, k])) for pair, k in lines)
+    return level[before], tuple(
+        Line(pair, Role.RESULT, False, of=level.act, index=np.array([k, k])) for pair, k in lines
+    )

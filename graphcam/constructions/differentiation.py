@@ -373,7 +373,7 @@ def _crosses(c: Construction[DifferentiationGivens]) -> tuple[Segments, ...]:
         return ()
     rows = c.acts["rows"].first[np.argsort(c.givens.rows.real)[:: _every(c.givens.rows)]]
     arms = CROSS * np.array([1 + UP, 1 - UP])
-    return tuple(Segments(rows.shown - a, rows.shown + a, Role.LIMIT, of=rows.act, index=rows.index) for a in arms)
+    return tuple(Segments(rows.shown - a, rows.shown + a, Role.LIMIT).left_by(rows) for a in arms)
 
 
 def _every(rows: Points) -> int:
@@ -394,7 +394,7 @@ def _traced(run: _Pass) -> Step:
         numbers = ()
     else:
         beside, half = slopes, TANGENT * along / np.abs(along)
-        line = Segments(places - half, places + half, Role.LIMIT, of=slopes.act, index=slopes.index)
+        line = Segments(places - half, places + half, Role.LIMIT).left_by(slopes)
         # The points of v have theirs already.
         numbers = row_numbers(slopes, run.first, outward) if run.source == "s" else ()
     one, count = _ONE_TRACE[by], places.size

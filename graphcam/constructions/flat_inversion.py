@@ -148,7 +148,7 @@ def _rays(inverted: profile_view.Inverted) -> Step:
     )
     parts = [Part(caption, (rays[k], starts[k])) for k, caption in enumerate(captions)]
     marks = (
-        Segments(rays.shown, starts.shown, Role.CONSTRUCTION, of=rays.act, index=rays.index),
+        Segments(rays.shown, starts.shown, Role.CONSTRUCTION).left_by(rays),
         *numbers(starts, stations, -unit(starts.shown)),
         *phases,
     )
@@ -188,7 +188,7 @@ def _faces(inverted: profile_view.Inverted) -> Step:
     ).where(one=captions[_worked(inverted)], **_on_profile(inverted, "s", 0))
     marks = (
         *(feet.from_(starts, Role.CONSTRUCTION), feet.dots(Role.CONSTRUCTION)),
-        Segments(left, right, Role.CONSTRUCTION, of=faces.act, index=faces.index),
+        Segments(left, right, Role.CONSTRUCTION).left_by(faces),
     )
     why = say("Because the face is r₀ + s from the cam centre, square to the motion.")
     parts = tuple(Part(caption, (feet[k], faces[k])) for k, caption in enumerate(captions))

@@ -283,9 +283,9 @@ def _touched(region: FlatRegion) -> Step:
     )
     places = np.array([line.place + 12 * (UP - RIGHT), zero.place + 16 * (RIGHT - UP)])
     marks = (
-        Line(places, Role.LIMIT, of=line.act, index=line.index.repeat(2)),
+        Line(places, Role.LIMIT).left_by(line),
         *(line.dots(Role.LIMIT), zero.dots(Role.LIMIT)),
-        AngleMark(zero.place, 12.0, -np.pi / 2, -np.pi / 4, "45°", of=line.act, index=line.index),
+        AngleMark(zero.place, 12.0, -np.pi / 2, -np.pi / 4, "45°").left_by(line),
     )
     return Step(
         say("The tangent at 45 degrees"),
@@ -321,7 +321,7 @@ def _found(region: FlatRegion) -> Step:
     radius = say("min r₀ = {r0:.2f}", r0=r0)
     marks = (
         *(centre.dots(Role.RESULT), centre.label("A₀", 1 - 1j)),
-        Dimension(0j, centre.place, radius, -10.0, region.readings["prime_radius"].act),
+        Dimension(0j, centre.place, radius, -10.0, of=region.readings["prime_radius"].act),
     )
     why = say(
         "Because the minimum of ρ = r₀ + s + a is r₀ minus the maximum of −(s + a), and must equal the permitted ρ."
@@ -365,7 +365,7 @@ def _draw_curvature(curved: FlatCurved) -> list[Step]:
     ).where(paper=abs(float(curved.first("rho"))), mu=mu, rho=value)
     named = say("ρ = {rho:.2f}", rho=value)
     label = centre.label(say("A (r₀ = {r0:g})", r0=r0), -1 - 1j)
-    marks = (centre.dots(Role.RESULT), label, Dimension(centre.place, zero, named, -14.0, rho.act))
+    marks = (centre.dots(Role.RESULT), label, Dimension(centre.place, zero, named, -14.0, of=rho.act))
     return [
         Step(
             say("The minimum radius of curvature"),

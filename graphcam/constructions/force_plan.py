@@ -226,8 +226,8 @@ def load_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
         "At μF = {mu:g} N/mm set the dividers to {size:.1f}/{mu:g} = {paper:.1f} mm, and lay Q off from its tail "
         "straight {way}."
     ).where(name=name, s=s, a=a, load=load, terms=told, mu=mu, size=abs(load), paper=abs(load) / mu)
-    label = Label(foot.place / 2, "Q", towards=-side_of(plan) + 0j, of=foot.act, index=foot.index)
-    tail_and_head = Dots(np.array([0j, foot.place]), of=foot.act, index=foot.index.repeat(2))
+    label = Label(foot.place / 2, "Q", towards=-side_of(plan) + 0j).left_by(foot)
+    tail_and_head = Dots(np.array([0j, foot.place])).left_by(foot)
     return Step(
         say("Force plan at station {name}: the load", name=name),
         *(said.where(way=say("down") if load > 0 else say("up")), view),
@@ -251,9 +251,7 @@ def _line_of_force(plan: Construction[ForcePlanGivens], view: View) -> Step:
     radius, foot, direction = 0.4 * min(reach, LOAD_LENGTH), normal.place, complex(normal.directions)
     named = say("α = {alpha:.1f}°", alpha=math.degrees(alpha))
     marks = (
-        Line(
-            np.array([foot, foot + reach * direction]), Role.CONSTRUCTION, of=normal.act, index=normal.index.repeat(2)
-        ),
+        Line(np.array([foot, foot + reach * direction]), Role.CONSTRUCTION).left_by(normal),
         Line(np.array([foot, foot + (radius + BEYOND) * UP]), Role.AXIS),
         angle_at(foot, math.pi / 2, cmath.phase(direction), radius, named, normal.act),
     )
@@ -270,7 +268,7 @@ def reaction_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
         say("The line of the guide's reaction"),
     )
     end = BASE * side + 0j if guide is None else plan.acts["incline"].first.place
-    across = Line(line.place + end * np.array([-0.3, 1.0]), Role.CONSTRUCTION, of=line.act, index=line.index.repeat(2))
+    across = Line(line.place + end * np.array([-0.3, 1.0]), Role.CONSTRUCTION).left_by(line)
     if guide is None or not guide.friction:
         said = say(
             "With the T-square draw the horizontal line through the tail of Q: on it lies the reaction R of the guide."
@@ -341,11 +339,11 @@ def _closed(plan: Construction[ForcePlanGivens], view: View) -> Step:
         last = parts[-1]
         parts[-1] = replace(last, caption=sequence([last.caption, borne.where(**values)], " "))
     marks: tuple[Mark, ...] = (
-        Arrow(foot.place, corner.place, Role.RESULT, of=force.act, index=force.index),
-        Arrow(corner.place, 0j, Role.RESULT, of=reaction.act, index=reaction.index),
+        Arrow(foot.place, corner.place, Role.RESULT).left_by(force),
+        Arrow(corner.place, 0j, Role.RESULT).left_by(reaction),
         *(level.line_from(corner, Role.CONSTRUCTION), corner.dots()),
-        Label((foot.place + corner.place) / 2, "F", towards=side - 0.5j, of=force.act, index=force.index),
-        Label(corner.place / 2, "R", towards=UP, of=reaction.act, index=reaction.index),
+        Label((foot.place + corner.place) / 2, "F", towards=side - 0.5j).left_by(force),
+        Label(corner.place / 2, "R", towards=UP).left_by(reaction),
     )
     return Step(
         say("The triangle of forces"),

@@ -152,9 +152,7 @@ def _normal(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     reach = max(BASE, 2 * LOAD_LENGTH if math.isnan(length) else length) + BEYOND
     radius = 0.4 * min(reach, LOAD_LENGTH)
     named = say("α = {alpha:.1f}°", alpha=math.degrees(alpha))
-    way = Line(
-        np.array([foot, foot + reach * direction]), Role.CONSTRUCTION, of=normal.act, index=normal.index.repeat(2)
-    )
+    way = Line(np.array([foot, foot + reach * direction]), Role.CONSTRUCTION).left_by(normal)
     marks = (
         way,
         Line(np.array([foot, foot + (radius + BEYOND) * UP]), Role.AXIS),
@@ -177,9 +175,7 @@ def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     captions = [each.where(**values) for each in told]
     along = complex(line.directions) / abs(complex(line.directions))
     reach = max(abs(complex(line.directions)), 2 * LOAD_LENGTH if math.isnan(length) else length) + BEYOND
-    run = Line(
-        np.array([line.place, line.place + reach * along]), Role.CONSTRUCTION, of=line.act, index=line.index.repeat(2)
-    )
+    run = Line(np.array([line.place, line.place + reach * along]), Role.CONSTRUCTION).left_by(line)
     marks = (run, incline.line_from(base, Role.CONSTRUCTION), base.dots(Role.CONSTRUCTION))
     why = say(
         "Because the cam slides past the follower in its own sense and drags it along the profile with μN, so F "
@@ -226,15 +222,15 @@ def _closed(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     )
     parts = tuple(Part(said.where(**values), left) for said, left in told)
     marks: tuple[Mark, ...] = (
-        Arrow(foot.place, corner.place, Role.RESULT, of=force.act, index=force.index),
-        Arrow(corner.place, 0j, Role.RESULT, of=reaction.act, index=reaction.index),
-        Arrow(foot.place, tip.place, Role.CURVE, of=normal.act, index=normal.index),
-        Arrow(tip.place, corner.place, Role.CURVE, of=friction.act, index=friction.index),
+        Arrow(foot.place, corner.place, Role.RESULT).left_by(force),
+        Arrow(corner.place, 0j, Role.RESULT).left_by(reaction),
+        Arrow(foot.place, tip.place, Role.CURVE).left_by(normal),
+        Arrow(tip.place, corner.place, Role.CURVE).left_by(friction),
         *(level.line_from(tip, Role.CONSTRUCTION), corner.dots(), tip.dots()),
-        Label((foot.place + corner.place) / 2, "F", towards=side - 0.5j, of=force.act, index=force.index),
-        Label(corner.place / 2, "R", towards=UP, of=reaction.act, index=reaction.index),
-        Label((foot.place + tip.place) / 2, "N", towards=-side + 0j, of=normal.act, index=normal.index),
-        Label((tip.place + corner.place) / 2, "T", towards=UP, of=friction.act, index=friction.index),
+        Label((foot.place + corner.place) / 2, "F", towards=side - 0.5j).left_by(force),
+        Label(corner.place / 2, "R", towards=UP).left_by(reaction),
+        Label((foot.place + tip.place) / 2, "N", towards=-side + 0j).left_by(normal),
+        Label((tip.place + corner.place) / 2, "T", towards=UP).left_by(friction),
     )
     return Step(
         say("The triangle of forces"),

@@ -42,7 +42,7 @@ def graduated(
     ends = starts + np.where(whole, LONG_TICK, TICK) * way[0]
     named = zip(ends[whole].tolist(), (counts[whole] // parts).tolist(), strict=True)
     return (
-        Segments(starts, ends, Role.SCALE, of),
+        Segments(starts, ends, Role.SCALE, of=of),
         *(Label(at, value.where(value=n * every), towards=way[0], small=True, of=of) for at, n in named),
     )
 

@@ -264,7 +264,7 @@ def _draw_rays(c: Integrated, run: _Integrating) -> Step:
     halves = [c.acts["middles of v"]] if run.index == 2 else []
     marks = (
         *(places.dots(Role.CONSTRUCTION) for places in halves),
-        Segments(projected.points, reach + projected.points, Role.CONSTRUCTION, projected.act, projected.index),
+        Segments(projected.points, reach + projected.points, Role.CONSTRUCTION).left_by(projected),
         rays.first[kept].ways(Role.CONSTRUCTION),
         *height_names(projected, names),
     )
@@ -425,7 +425,7 @@ def _draw_scales(c: Integrated) -> Iterator[Step]:
     top, mu = c.acts["s_curve"].first[[at]], {name: c.readings[name].per_mm for name in "sva"}
     values = {"unit": unit(c.givens.unit), "paper": top.place.imag, "lift": lift, "mu_phi": c.givens.mu_phi.per_mm}
     values |= {"mu_s": mu["s"], "mu_v": mu["v"], "mu_a": mu["a"], "h1": h1, "h2": h2}
-    height = Dimension(top.place.real + 0j, top.place, say("{y:.1f}", y=top.place.imag), -6.0, top.act, top.index)
+    height = Dimension(top.place.real + 0j, top.place, say("{y:.1f}", y=top.place.imag), -6.0).left_by(top)
     known = say(
         "The maximum of s measures {paper:.2f} mm and stands for the known lift of {lift:.6g} {unit}, so μₛ = "
         "{lift:.6g} {unit}/{paper:.2f} mm = {mu_s:.5g} {unit}/mm."

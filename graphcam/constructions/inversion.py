@@ -98,7 +98,7 @@ def _circles(inverted: OffsetInverted) -> Step:
     foot = hand.lay_off("foot of the line", hand.given("cam centre"), RIGHT, e / mu_l)
     line = hand.erect("follower's line", foot)
     top = hand.cross("top of the line", line, inverted.acts["prime circle"].first)
-    drawn = Line(np.array([foot.place, top.place]), Role.CURVE, of=line.act, index=line.index.repeat(2))
+    drawn = Line(np.array([foot.place, top.place]), Role.CURVE).left_by(line)
     values = {"r0": r0, "paper": r0 / mu_l, "ratio": ratio_text(mu_l), "line": _first_line(inverted)}
     if not e:
         said = say(
@@ -143,7 +143,7 @@ def _positions(inverted: OffsetInverted) -> Step:
     """The follower's line in its inverted positions, numbered."""
     stations, e = inverted.givens.integrated.givens.stations, inverted.givens.offset
     motion, starts, feet = (inverted.acts[name] for name in ("motion", "starts", "feet"))
-    lines = Segments(motion.shown, starts.shown, Role.CONSTRUCTION, of=motion.act, index=motion.index)
+    lines = Segments(motion.shown, starts.shown, Role.CONSTRUCTION).left_by(motion)
     numbered = feet if abs(e) / inverted.givens.mu_l.per_mm >= NUMBERED else starts
     phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
     marks = (

@@ -163,7 +163,7 @@ def _steepest(c: DrawnJerk) -> int:
 def _chords(c: DrawnJerk) -> Step:
     chords, names = c.acts["chords"].first, part_names(c.givens.integrated.givens.stations)
     ends = chords.shown + chords.directions
-    line = Segments(chords.shown, ends, Role.LIMIT, of=chords.act, index=chords.index)
+    line = Segments(chords.shown, ends, Role.LIMIT).left_by(chords)
     k = _steepest(c)
     said = say(
         "In the acceleration diagram join with the ruler the ends of the ordinates at neighbouring stations, on the "

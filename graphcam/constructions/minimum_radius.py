@@ -221,9 +221,9 @@ def _limit_line(
     upright, angle = hand.erect(f"upright at {line.name}", at), _limit(line, region.givens.limits)
     first, last = sorted((float(np.angle(way)), float(np.angle(-line.along if way == UP else line.along))))
     marks = (
-        Line(np.array([above, below]), Role.LIMIT, of=drawn.act, index=drawn.index.repeat(2)),
-        Segments(at.shown, at.shown + way * ANGLE_RADIUS * 1.2, Role.CONSTRUCTION, of=upright.act, index=upright.index),
-        AngleMark(at.place, ANGLE_RADIUS, first, last, angle, of=limit.act, index=limit.index),
+        Line(np.array([above, below]), Role.LIMIT).left_by(drawn),
+        Segments(at.shown, at.shown + way * ANGLE_RADIUS * 1.2, Role.CONSTRUCTION).left_by(upright),
+        AngleMark(at.place, ANGLE_RADIUS, first, last, angle).left_by(limit),
     )
     lean = float(line.along.real)
     if line.name == "rest":
@@ -280,12 +280,12 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
     ]
     further = say("Thin crosses mark the points that textbooks choose: {names}.")
     said = [*sides, hatch, further.where(names=sequence([PLACES[name] for name in others]))]
-    marks: list[Mark] = [Region(permitted.points, permitted.act, permitted.index)]
+    marks: list[Mark] = [Region(permitted.points).left_by(permitted)]
     parts = [Part(hatch, (permitted,))]
     for name, place in others.items():
         strokes = hand.erect(f"cross at {place.act.name}", place.first, np.array([1, UP]))
         starts, tips = (strokes.points + side * 1.5 * strokes.directions for side in (-1, 1))
-        marks.append(Segments(starts, tips, Role.CONSTRUCTION, of=strokes.act, index=strokes.index))
+        marks.append(Segments(starts, tips, Role.CONSTRUCTION).left_by(strokes))
         marks.append(place.first.label(PLACES[name], _outside(lines, place.place), small=True))
         found = FOUND[name].where(distance=abs(place.place))
         parts.append(Part(found, (place.first, strokes)))

@@ -258,7 +258,7 @@ def _told(
 
 def _stroke(drawn: Drawn, start: complex, end: complex, role: Role) -> Line:
     """So much of a line as is drawn out."""
-    return Line(np.array([start, end]), role, of=drawn.act, index=drawn.index.repeat(2))
+    return Line(np.array([start, end]), role).left_by(drawn)
 
 
 def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
@@ -269,7 +269,7 @@ def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
     radius, towards = float(np.asarray(prime.radius)), float(np.angle(centre.place - prime.place))
     span = towards - ARC / radius, towards + ARC / radius
     marks: list[Mark] = [
-        Arc(prime.place, radius, *span, Role.CONSTRUCTION, of=prime.act, index=prime.index),
+        Arc(prime.place, radius, *span, Role.CONSTRUCTION).left_by(prime),
         *(laid_off.dots(Role.CONSTRUCTION) for laid_off in (displacements, ends)),
         centre.dots(Role.RESULT),
         centre.label(say("A (r₀ = {r0:g}, e = {e:g})", r0=r0, e=offset + 0.0), -1j - np.sign(centre.place.real)),

@@ -223,7 +223,7 @@ def radius_arrow(
     ray = hand.erect(f"radius {symbol}", circle.first, towards)
     tip = hand.cross(f"tip of {symbol}", ray, circle.first)
     named, text = hand.divide(symbol, ray, tip, 0.6), say("{symbol} = {radius:g}", symbol=symbol, radius=radius)
-    arrow = Arrow(ray.place, tip.place, Role.DIMENSION, of=ray.act, index=ray.index)
+    arrow = Arrow(ray.place, tip.place, Role.DIMENSION).left_by(ray)
     return (arrow, named.label(text, tip.place * UP)), (ray, named)
 
 
@@ -252,11 +252,11 @@ def phase_angles(inverted: Inverted, start: complex) -> tuple[list[Mark], Part]:
     rays = hand.erect("limits of the phases", hand.given("cam centre", 0j * limits[:-1]), np.exp(1j * limits[:-1]))
     of, index, ends = rays.act, rays.index, (radius + BEYOND / 2) * rays.directions
     angles = [
-        AngleMark(0j, radius, min(a, b), max(a, b), phase_angle(motion, k), of, index[k : k + 1])
+        AngleMark(0j, radius, min(a, b), max(a, b), phase_angle(motion, k), of=of, index=index[k : k + 1])
         for k, (a, b) in enumerate(pairwise(limits))
     ]
     said = say("Mark the angles of the phases outside, {against}: {angles}.").where(**divided_by(inverted))
-    return [Segments(0.0 * ends, ends, Role.AXIS, of, index), *angles], Part(said, (rays,))
+    return [Segments(0.0 * ends, ends, Role.AXIS, of=of, index=index), *angles], Part(said, (rays,))
 
 
 def _outer_radius(inverted: Inverted) -> float:

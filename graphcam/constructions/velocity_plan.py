@@ -73,9 +73,9 @@ def velocity_plan(pole: Drawn, v1: Drawn, v2: Drawn, v21: Drawn, scale: Velocity
     start, one, other = pole.place, v1.place, v2.place
     sides = (("v₁", start, one, other, v1), ("v₂", start, other, one, v2), ("v₂₁", one, other, start, v21))
     return (
-        *(v1.arrow(pole, Role.CURVE), v2.arrow(pole, Role.CURVE), Arrow(one, other, Role.CURVE, v21.act, v21.index)),
+        *(v1.arrow(pole, Role.CURVE), v2.arrow(pole, Role.CURVE), Arrow(one, other, Role.CURVE).left_by(v21)),
         *(
-            Label((a + b) / 2, scale.named(symbol, b - a), _outwards(a, b, opposite), of=side.act, index=side.index)
+            Label((a + b) / 2, scale.named(symbol, b - a), _outwards(a, b, opposite)).left_by(side)
             for symbol, a, b, opposite, side in sides
         ),
         pole.label("p", -1 - 1j),

@@ -334,8 +334,8 @@ def _arcs_of_dwells(profile: Profile) -> Iterator[Step]:
         said = say("{symbol} = {angle:.1f}°", symbol=symbol, angle=degrees)
         radius = DIMENSION * abs(touch[start].place)
         marks += [
-            Segments(0 * places.shown, places.shown, Role.AXIS, of=places.act, index=places.index),
-            AngleMark(0j, radius, low, high, said, places.act, places.index[:1]),
+            Segments(0 * places.shown, places.shown, Role.AXIS).left_by(places),
+            AngleMark(0j, radius, low, high, said, of=places.act, index=places.index[:1]),
         ]
         told.append(said)
         names = [_names(profile)[at] for at in (start, end)]
@@ -392,7 +392,7 @@ def _normals(profile: Profile) -> Iterator[ShownAngle]:
         marks = (
             lines[at].line_from(pitch[at], Role.CONSTRUCTION),
             Line(np.array([touch[at].place, beyond[at].place]), Role.LIMIT, of=normals.act, index=index.repeat(2)),
-            AngleMark(pitch[at].place, NORMAL, start, end, said, normals.act, index),
+            AngleMark(pitch[at].place, NORMAL, start, end, said, of=normals.act, index=index),
         )
         yield ShownAngle(at, angle, marks, (normals[at], beyond[at], lines[at]))
 

@@ -157,41 +157,41 @@ class Drawn:
 
     def dots(self, role: Role = Role.CURVE) -> Dots:
         """The places, plotted."""
-        return Dots(self.shown, role, self.act, self.index)
+        return Dots(self.shown, role).left_by(self)
 
     def line(self, role: Role, *, closed: bool = False) -> Line:
         """The places joined one after another."""
-        return Line(self.shown, role, closed, self.act, self.index)
+        return Line(self.shown, role, closed).left_by(self)
 
     def from_(self, start: Drawn | Points | complex, role: Role) -> Segments:
         """A segment to each place from ``start``, one for all or one for each."""
         begin = start.shown if isinstance(start, Drawn) else np.asarray(start)
         ends = self.shown
-        return Segments(np.broadcast_to(begin, ends.shape), ends, role, self.act, self.index)
+        return Segments(np.broadcast_to(begin, ends.shape), ends, role).left_by(self)
 
     def ways(self, role: Role) -> Segments:
         """Of lines that join places: from each to the other."""
         first = self.first
-        return Segments(self.shown, self.shown + np.atleast_1d(first.directions), role, self.act, self.index)
+        return Segments(self.shown, self.shown + np.atleast_1d(first.directions), role).left_by(self)
 
     def way(self, role: Role) -> Line:
         """Of the line that joins two places: from one to the other."""
         ends = self.place + np.array([0j, complex(self.first.directions)])
-        return Line(ends, role, False, self.act, self.index.repeat(2))
+        return Line(ends, role, False).left_by(self)
 
     def line_from(self, start: Drawn | complex, role: Role) -> Line:
         """The line to the one place."""
         ends = np.array([start.place if isinstance(start, Drawn) else start, self.place])
-        return Line(ends, role, False, self.act, self.index.repeat(2))
+        return Line(ends, role, False).left_by(self)
 
     def arrow(self, start: Drawn | complex, role: Role) -> Arrow:
         """An arrow to the place."""
-        return Arrow(start.place if isinstance(start, Drawn) else start, self.place, role, self.act, self.index)
+        return Arrow(start.place if isinstance(start, Drawn) else start, self.place, role).left_by(self)
 
     def drawn_circle(self, role: Role) -> Circle:
         """The circle."""
-        return Circle(self.place, float(np.asarray(self.first.radius).item()), role, self.act, self.index)
+        return Circle(self.place, float(np.asarray(self.first.radius).item()), role).left_by(self)
 
     def label(self, text: Words, towards: complex = 1 + 1j, *, small: bool = False) -> Label:
         """The name of the place."""
-        return Label(self.place, text, towards, small, self.act, self.index)
+        return Label(self.place, text, towards, small).left_by(self)

@@ -17,7 +17,7 @@ from graphcam.drafting.meaning import Meaning
 from graphcam.showing import LINES, WIDTH, Shown, from_above, in_lines
 
 # A construction says what it draws, so both come from here.
-from graphcam.words import Caption as Caption, Tell, Words as Words, say as say
+from graphcam.words import Caption as Caption, Tell, Words as Words, say as say, sequence
 
 if TYPE_CHECKING:
     from graphcam.drafting.pencil import Pencil
@@ -50,24 +50,46 @@ class View:
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
-    """A part of a step: what is done at one place, as a student would do it with the page beside the board.
+class Row:
+    """One place of a run of like moves: what it is called, what is set there, and what is left on the paper.
 
-    caption : what is drawn, from where to where, by which instrument, set to what
+    name : as it stands in the table and before the setting, such as "Station 4" or "Rays 3, 10"
+    setting : what differs from place to place, such as "11.11 mm × 1.2 = 13.33 mm"; empty where nothing does
+    """
+
+    name: Words
+    setting: Words
+    draws: tuple[Drawn, ...]
+
+    @property
+    def caption(self) -> Caption:
+        """The row as a line of its own."""
+        if not self.setting:
+            return say("{name}.", name=self.name)
+        return say("{name}: {setting}.", name=self.name, setting=self.setting)
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A part of a step, told once: what to do, as a student would do it with the page beside the board.
+
+    caption : one or more whole sentences: what is drawn, from where to where, by which instrument, set to what
     draws : what is left on the paper, of what may be many places those of this part; what was drawn in order to find
-        it belongs to it too
+        it belongs to it too; nothing of a part that only says what holds
+    rows : of a run of like moves every place with its setting, in the order of the drawing; the caption tells them all
     """
 
     caption: Caption
-    draws: tuple[Drawn, ...]
+    draws: tuple[Drawn, ...] = ()
+    rows: tuple[Row, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Step(Shown):
     """One move of the draughtsman: what is done, in whole sentences, and the marks it leaves in one view.
 
-    why : the reason, in one sentence
-    parts : the step part by part, in the order of the drawing; none where it is done at one stroke
+    said : the step part by part, in the order of the drawing: its caption is theirs, one after another
+    why : the reason, in one sentence that stands alone
     reads : the construction's readings that are taken, or get their scale, with this move
     given : those of the marks that a worksheet shows before anything is drawn: axes, divisions, what the task gives
     under : further marks of a diagram under which no other stands on its page: the numbers of their common axis
@@ -76,7 +98,7 @@ class Step(Shown):
     _drawn_in = "construction_drawing"
 
     title: Caption
-    caption: Caption
+    said: Caption | tuple[Part, ...]
     view: View
     marks: tuple[Mark, ...]
     reads: tuple[str, ...] = ()
@@ -84,6 +106,24 @@ class Step(Shown):
     why: Caption = field(kw_only=True, default_factory=lambda: Caption(""))
     parts: tuple[Part, ...] = field(kw_only=True, default=())
     under: tuple[Mark, ...] = field(kw_only=True, default=())
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.said, Caption):
+            object.__setattr__(self, "parts", self.said)
+
+    @property
+    def caption(self) -> Caption:
+        """All that is said of the step."""
+        return self.said if isinstance(self.said, Caption) else sequence([part.caption for part in self.said], " ")
+
+    @property
+    def places(self) -> tuple[Part, ...]:
+        """The parts as one goes through them: every row of a run is one."""
+        return tuple(
+            place
+            for part in self.parts
+            for place in ([Part(row.caption, row.draws) for row in part.rows] if part.rows else [part])
+        )
 
     def __repr__(self) -> str:
         said = wrap(str(self.caption), WIDTH, max_lines=LINES - 2, placeholder=" ...")
@@ -109,12 +149,19 @@ class Step(Shown):
         }
         groups = self.marks, self.given, self.under
         marks, given, under = (tuple(told[id(mark)] for mark in group) for group in groups)
-        title, caption, why = (_plain(said, tell) for said in (self.title, self.caption, self.why))
-        parts = tuple(replace(part, caption=_plain(part.caption, tell)) for part in self.parts)
+        parts = tuple(
+            replace(
+                part,
+                caption=_plain(part.caption, tell),
+                rows=tuple(replace(row, name=tell(row.name), setting=tell(row.setting)) for row in part.rows),
+            )
+            for part in self.parts
+        )
+        said = _plain(self.said, tell) if isinstance(self.said, Caption) else parts
         answer = None if self.view.answer is None else _plain(self.view.answer, tell)
         view = replace(self.view, title=_plain(self.view.title, tell), answer=answer)
-        said = replace(self, title=title, caption=caption, why=why, parts=parts, view=view)
-        return replace(said, marks=marks, given=given, under=under)
+        titles = {"title": _plain(self.title, tell), "why": _plain(self.why, tell)}
+        return replace(self, said=said, view=view, marks=marks, given=given, under=under, parts=parts, **titles)
 
 
 def _plain(caption: Caption, tell: Tell) -> Caption:

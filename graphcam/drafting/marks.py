@@ -4,9 +4,9 @@ Points are complex numbers in mm of paper, in the frame of their view (x right, 
 where a label finds room, is the sheet's business.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Any, Protocol
+from typing import Any, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,41 +41,63 @@ class Role(StrEnum):
     RESULT = "result"  # bold: what the construction was drawn for
 
 
+class LeftPlaces(Protocol):
+    """Some of the places that an act left."""
+
+    @property
+    def act(self) -> Origin:
+        """That left them."""
+        ...
+
+    @property
+    def index(self) -> Places:
+        """Their numbers among all that it left."""
+        ...
+
+
+@dataclass(frozen=True, kw_only=True)
+class Left:
+    """What a mark is of: the act that left it, and which of its places the pieces of the mark are."""
+
+    of: Origin | None = field(default=None, compare=False, repr=False)
+    index: Places | None = field(default=None, compare=False, repr=False)
+
+    def left_by(self, drawn: LeftPlaces) -> Self:
+        """The same mark, of those places; of a line or dots at one place every corner is."""
+        index = drawn.index
+        corners = self.points.size if isinstance(self, Line | Dots) and index.size == 1 else 1
+        return replace(self, of=drawn.act, index=index.repeat(corners))
+
+
 @dataclass(frozen=True, eq=False)
-class Line:
+class Line(Left):
     """A line through points (n,), straight from one to the next; ``closed`` joins the last to the first."""
 
     points: Points
     role: Role
     closed: bool = False
-    of: Origin | None = field(default=None, compare=False, repr=False)
-    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
-class Segments:
+class Segments(Left):
     """Many separate segments from ``starts`` (n,) to ``ends`` (n,)."""
 
     starts: Points
     ends: Points
     role: Role
-    of: Origin | None = field(default=None, compare=False, repr=False)
-    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
-class Circle:
+class Circle(Left):
     """A whole circle."""
 
     centre: complex
     radius: float
     role: Role
-    of: Origin | None = field(default=None, compare=False, repr=False)
-    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
-class Arc:
+class Arc(Left):
     """Part of a circle, counter-clockwise from direction ``start`` to ``end`` [rad]; ``arrow`` at 'start' or 'end'."""
 
     centre: complex
@@ -84,57 +106,47 @@ class Arc:
     end: float
     role: Role
     arrow: str = ""
-    of: Origin | None = field(default=None, compare=False, repr=False)
-    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
-class Dots:
+class Dots(Left):
     """Plotted points (n,)."""
 
     points: Points
     role: Role = Role.CURVE
-    of: Origin | None = field(default=None, compare=False, repr=False)
-    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
-class Arrow:
+class Arrow(Left):
     """A vector with its head at ``end``."""
 
     start: complex
     end: complex
     role: Role
-    of: Origin | None = field(default=None, compare=False, repr=False)
-    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
-class Label:
+class Label(Left):
     """A name or a number beside ``at``; the sheet finds it a free place, first in the direction ``towards``."""
 
     at: complex
     text: Words
     towards: complex = 1 + 1j
     small: bool = False
-    of: Origin | None = field(default=None, compare=False, repr=False)
-    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
-class Dimension:
+class Dimension(Left):
     """The length from ``start`` to ``end``, its line moved to the left by ``aside`` mm."""
 
     start: complex
     end: complex
     text: Words
     aside: float = 0.0
-    of: Origin | None = field(default=None, compare=False, repr=False)
-    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
-class AngleMark:
+class AngleMark(Left):
     """An angle at ``centre`` between two directions [rad], drawn as an arc with arrows and its text."""
 
     centre: complex
@@ -142,24 +154,20 @@ class AngleMark:
     start: float
     end: float
     text: Words
-    of: Origin | None = field(default=None, compare=False, repr=False)
-    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, eq=False)
-class Region:
+class Region(Left):
     """A shaded region: a polygon (n,) to be hatched."""
 
     boundary: Points
-    of: Origin | None = field(default=None, compare=False, repr=False)
-    index: Places | None = field(default=None, compare=False, repr=False)
 
 
 def angle_at(place: complex, start: float, end: float, radius: float, text: Words, of: Origin | None) -> AngleMark:
     """The smaller of the two angles between two directions [rad]; ``of`` as of every mark."""
     turn = (end - start + np.pi) % (2 * np.pi) - np.pi
     first, last = sorted((start, start + turn))
-    return AngleMark(place, radius, first, last, text, of)
+    return AngleMark(place, radius, first, last, text, of=of)
 
 
 Mark = Line | Segments | Circle | Arc | Dots | Arrow | Label | Dimension | AngleMark | Region

@@ -157,19 +157,19 @@ class FollowedBoard:
         """The parts of a step as moves; a step that has none is one.  What it reads is read at its end."""
         read = [all_of(each.act) for each in readings if each.act is not None]
         shown = [_shown(mark) for mark in step.marks if isinstance(mark.of, Act)]
-        parts = [pieces_of(part.draws) for part in step.parts] or [[]]
+        parts = [pieces_of(part.draws) for part in step.places] or [[]]
         found: list[Moves] = []
         for k, draws in enumerate(parts):
             # What lies there already was found before.
             new = [piece for piece in draws if _without(piece, self.lies.get(piece.act, frozenset[int]()))]
             done = tuple(self._needed(draws))
             closing = tuple(self._needed([*shown, *read])) if k == len(parts) - 1 else ()
-            found.append(Moves(tuple(draws), done, tuple(self.beside(new if step.parts else shown)), closing))
+            found.append(Moves(tuple(draws), done, tuple(self.beside(new if parts != [[]] else shown)), closing))
         return found
 
     def passed(self, step: Step, readings: Iterable[Reading] = ()) -> None:
         """A step of which nothing is told: afterwards all that it draws and reads lies on the board."""
-        drawn = [piece for part in step.parts for piece in pieces_of(part.draws)]
+        drawn = [piece for part in step.places for piece in pieces_of(part.draws)]
         shown = [_shown(mark) for mark in step.marks if isinstance(mark.of, Act)]
         read = [all_of(each.act) for each in readings if each.act is not None]
         for _ in self._needed([*drawn, *shown, *read]):

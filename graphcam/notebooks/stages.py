@@ -62,10 +62,10 @@ class Stage:
         """The drawing as far as some of its parts, each of them in colour."""
         from graphcam.sheets.matplotlib_renderer import svg
 
-        number, count = self.number.rstrip("."), len(self.step.parts)
+        number, count = self.number.rstrip("."), len(self.step.places)
         alt = say("Drawn up to part {part} of step {number}, which is in colour: {caption}", number=number)
         said = say("Part {part} of {count}: {caption}", count=count)
-        shown = [({"part": k + 1, "caption": self.step.parts[k].caption}, page) for k, page in self.strip.items()]
+        shown = [({"part": k + 1, "caption": self.step.places[k].caption}, page) for k, page in self.strip.items()]
         return [Picture(svg(page), self.tell(alt.where(**part)), self.tell(said.where(**part))) for part, page in shown]
 
     @property
@@ -75,8 +75,8 @@ class Stage:
             in_html(escape(self.tell(said))) for said in (self.step.title, self.step.caption, self.step.why)
         )
         words = f"<h4>{self.number} {title}</h4><p>{caption}</p>" + (f'<p class="why">{why}</p>' if why else "")
-        parts = "".join(f"<li>{in_html(escape(self.tell(part.caption)))}</li>" for part in self.step.parts)
-        if len(self.step.parts) > 1:
+        parts = "".join(f"<li>{in_html(escape(self.tell(part.caption)))}</li>" for part in self.step.places)
+        if len(self.step.places) > 1:
             strip = "".join(picture.html for picture in self.pictures)
             summary = escape(self.tell(say("All parts in words")))
             words += f'<div class="stills">{strip}</div><details><summary>{summary}</summary><ol>{parts}</ol></details>'
@@ -118,7 +118,7 @@ def stages(
         name = step.view.name
         board, k = of_view.get(name), drawn[name]
         drawn[name] += 1
-        strip = {part: board.page(k, part) for part in shown_parts(len(step.parts))} if board else {}
+        strip = {part: board.page(k, part) for part in shown_parts(len(step.places))} if board else {}
         numbered = f"{number}." if chapter is None else f"{chapter}.{number}"
         page = board.page(k) if board else None
         empty = page is None or not any(group.entities for group in page.groups)

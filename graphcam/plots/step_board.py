@@ -121,8 +121,8 @@ def _up_to(step: Step, part: int, entities: Sequence[Entity]) -> list[tuple[str,
 
     What no part draws, such as the number of a reading, comes with the last of them; what is given is there before.
     """
-    last, places = len(step.parts) - 1, dict[Origin, dict[int, int]]()
-    for k, each in enumerate(step.parts):
+    last, places = len(step.places) - 1, dict[Origin, dict[int, int]]()
+    for k, each in enumerate(step.places):
         for piece in pieces_of(each.draws):
             of_act = places.setdefault(piece.act, {})
             of_act |= {at: of_act.get(at, k) for at in piece.at}

@@ -111,7 +111,7 @@ class _Telling:
         """What is said of a step; that which opens a chapter says why the construction is drawn."""
         tell, read = self.tell, {name: construction.readings[name] for name in step.reads}
         moves = self.board.followed(step, read.values())
-        captions = [tell(part.caption) for part in step.parts] or [""]
+        captions = [tell(part.caption) for part in step.places] or [""]
         title, why = (tell(said) for said in (construction.meaning.title, construction.meaning.why))
         return Slide(
             title,

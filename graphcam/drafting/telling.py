@@ -1,0 +1,71 @@
+"""What acts tell of themselves: to what an instrument is set at every place, and runs of like moves as tables."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from graphcam.drafting.acts import Drawn, Kind, Setting
+from graphcam.drafting.ink import Part, Row
+from graphcam.drafting.units import NOTHING
+from graphcam.words import Caption, Words, say
+
+SET = {Kind.LAY_OFF: "length", Kind.CIRCLE: "radius"}
+"""The lengths to which dividers or a compass are set, by what the act calls them."""
+
+
+def setting(drawn: Drawn) -> Words:
+    """To what the instrument is set at the one place of what an act left, and where that comes from.
+
+    Empty where the act sets none; "0" where nothing is to be laid off.
+
+    >>> import graphcam as gc
+    >>> inversion = gc.solve(gc.builtin_task()).drawn["inversion"]
+    >>> str(setting(inversion.acts["pitch"].first[4])), str(setting(inversion.acts["inverted positions"].first[4]))
+    ('11.11 mm × 1.2 = 13.33 mm', '26.67°')
+    """
+    act, k = drawn.act, int(drawn.index[0])
+    if act.kind is Kind.PROTRACTOR:
+        return say("{angle:g}°", angle=round(abs(float(np.degrees(_amount(act.takes["angle"], k)))), 2))
+    if act.kind not in SET:
+        return ""
+    length = act.takes[SET[act.kind]]
+    mm = abs(_amount(length, k))
+    if mm < NOTHING:
+        return "0"
+    if isinstance(length, Setting) and length.reading is not None and length.value is None:
+        factor = abs(float(np.ravel(length.factor)[0]))
+        if factor != 1:
+            said = say("{paper:.2f} mm × {factor:.4g} = {mm:.2f} mm")
+            return said.where(paper=mm / factor, factor=factor, mm=mm)
+    return say("{mm:.2f} mm", mm=mm)
+
+
+def _amount(amount: object, k: int) -> float:
+    """What an instrument is set to at a place, in the first sample [mm, or rad]."""
+    if isinstance(amount, Setting):
+        amount = amount.amount[0] if amount.sampled else amount.amount
+    amounts = np.ravel(np.asarray(amount, dtype=np.float64))
+    return float(amounts[k if amounts.size > 1 else 0])
+
+
+def run(
+    caption: Caption,
+    called: Caption,
+    names: Sequence[Words],
+    *drawn: Drawn,
+    settings: Callable[[int], Words] | None = None,
+) -> Part:
+    """A run of like moves at places of these names: one part, with a row for each.
+
+    caption : tells them all
+    called : what one place is called, with its ``{name}``: "Station {name}"
+    drawn : what is left, of as many places; the instrument's setting is that of the first
+    settings : what differs from place to place, where the act does not tell it
+    """
+
+    def row(k: int) -> Row:
+        there = tuple(each.first[[k]] for each in drawn)
+        return Row(called.where(name=names[k]), settings(k) if settings else setting(there[0]), there)
+
+    rows = tuple(map(row, range(len(names))))
+    return Part(caption, rows=rows)
