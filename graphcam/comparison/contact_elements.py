@@ -128,11 +128,8 @@ def contact_by_elements(
     hertz = hertz_line_contact(force, width, radius1, radius2, young, young, poisson, poisson)
     reach = REACH * min(abs(radius1), abs(radius2))
     if not hertz.half_width < MOST_FLAT * reach / REACH:
-        expected = say(
-            "such that the half-width {half_width:.3g} mm is less than {most:g} of the radius",
-            half_width=hertz.half_width,
-            most=MOST_FLAT,
-        )
+        expected = say("such that the half-width {half_width:.3g} mm is less than {most:g} of the radius")
+        expected = expected.where(half_width=hertz.half_width, most=MOST_FLAT)
         raise DesignError("force", force, expected, say("reduce the force, or widen the contact"))
     x = _graded(ABREAST * hertz.half_width, round(ABREAST * parts), reach)
     depth = _graded(DEEP * hertz.half_width, round(DEEP * parts), reach)

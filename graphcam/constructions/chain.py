@@ -355,12 +355,8 @@ class Chain(Drawings):
             if slip := self.board.limits.slip():
                 way, angle = slip
                 limit = say("large enough for lines that cross at a degree or more")
-                remedy = say(
-                    "{degrees:.0f} degrees? {angle:g} was given; or give {names}",
-                    degrees=math.degrees(angle),
-                    angle=angle,
-                    names=chained(missing),
-                )
+                remedy = say("{degrees:.0f} degrees? {angle:g} was given; or give {names}")
+                remedy = remedy.where(degrees=math.degrees(angle), angle=angle, names=chained(missing))
                 found = say("{angle:g} degrees", angle=angle)
                 raise DesignError(PERMITTED[way], found, limit, remedy)
             limit = say("a place within all limits, where lines cross at a degree or more")

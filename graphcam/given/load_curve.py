@@ -43,11 +43,9 @@ class LoadCurve:
             found = say("a table of {phi} angles and {force} loads", phi=len(phi), force=len(force))
             raise DesignError("load", found, say("rows of finite numbers"))
         if len(phi) < 2 or abs(phi[0]) > CLOSURE or abs(phi[-1] - FULL_TURN) > CLOSURE:
-            covered = (
-                say("from {degrees} to {degrees2}", degrees=_degrees(phi[0]), degrees2=_degrees(phi[-1]))
-                if phi
-                else say("without a row")
-            )
+            covered = say("without a row")
+            if phi:
+                covered = say("from {degrees} to {degrees2}", degrees=_degrees(phi[0]), degrees2=_degrees(phi[-1]))
             remedy = say("begin the table with a row at 0 degrees and end it with one at 360")
             found = say("a table {covered}", covered=covered)
             raise DesignError("load", found, say("a table that covers the turn, from 0 to 360 degrees"), remedy)

@@ -272,11 +272,10 @@ def _remedy(tolerance: float, scatter: float) -> Words:
     digit = 10.0 ** (math.floor(math.log10(asked)) - 1)
     enough = f"{math.ceil(asked / digit) * digit:.2g}"
     times = TOLERANCE_OF_NOISE
-    return say(
-        "give a greater tolerance, as {enough}, {times:g} times what the rows scatter by, or a table with less noise",
-        enough=enough,
-        times=times,
+    told = say(
+        "give a greater tolerance, as {enough}, {times:g} times what the rows scatter by, or a table with less noise"
     )
+    return told.where(enough=enough, times=times)
 
 
 def _scatter(phi: Floats, s: Floats) -> float:

@@ -373,11 +373,9 @@ def _remedy(phases: Sequence[Phase], turn: float) -> Words:
     if abs(lifts - FULL_TURN) < NEARLY * FULL_TURN:
         return say("the lifts make a turn: name the arguments, {swapped}", swapped=_swapped(moving))
     off = f"{abs(math.degrees(turn) - 360):.10g}"
-    return (
-        say("lengthen a dwell by {off} degrees", off=off)
-        if turn < FULL_TURN
-        else say("shorten a dwell by {off} degrees", off=off)
-    )
+    if turn < FULL_TURN:
+        return say("lengthen a dwell by {off} degrees", off=off)
+    return say("shorten a dwell by {off} degrees", off=off)
 
 
 def _swapped(phase: Moving) -> str:

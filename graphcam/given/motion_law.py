@@ -313,12 +313,8 @@ class Law:
             off = np.abs(integrals[order + 1] - change[order])
             if off.max() > SMOOTH * np.abs(inside[order]).max():
                 k, name = int(off.argmax()), DERIVATIVES[order]
-                what = say(
-                    "integral of {derivatives} from u = {low:.3g} to {high:.3g}",
-                    derivatives=DERIVATIVES[order + 1],
-                    low=low[k],
-                    high=high[k],
-                )
+                what = say("integral of {derivatives} from u = {low:.3g} to {high:.3g}")
+                what = what.where(derivatives=DERIVATIVES[order + 1], low=low[k], high=high[k])
                 remedy = say("correct the derivative; if one jumps there, give an edge and a formula for either side")
                 limit = say("{change:.6g}, the change of {name}", change=change[order, k], name=name)
                 raise self._wrong(what, integrals[order + 1, k], limit, remedy)

@@ -346,11 +346,9 @@ def check_errors(cam: Cam, errors: MakingErrors) -> None:
     if sum(waves) >= (room := DEEPEST * float(np.min(room))):
         k = int(np.argmax(waves))
         n = errors.harmonics[k]
-        why = (
-            say("a roller would bridge the hollows of deep ones")
-            if roller
-            else say("a face would bridge the hollows of deep ones")
-        )
+        why = say("a face would bridge the hollows of deep ones")
+        if roller:
+            why = say("a roller would bridge the hollows of deep ones")
         limit = say("less than {value:.3g} mm at {n} waves per turn: {why}", value=room / n**2, n=n, why=why)
         raise DesignError(f"waviness[{k}]", errors.waviness[k], limit, say("take smaller amplitudes or fewer waves"))
 

@@ -52,13 +52,10 @@ class OscillatingKinematics(RollerKinematics):
         nearest, farthest = abs(distance - arm), distance + arm
         if not nearest < r0 < farthest:
             limit = say(
-                "between {nearest:g} and {farthest:g} mm, where the arm of {arm:g} mm meets it from a "
-                "centre distance of {distance:g} mm",
-                nearest=nearest,
-                farthest=farthest,
-                arm=arm,
-                distance=distance,
+                "between {nearest:g} and {farthest:g} mm, where the arm of {arm:g} mm meets it from a centre "
+                "distance of {distance:g} mm"
             )
+            limit = limit.where(nearest=nearest, farthest=farthest, arm=arm, distance=distance)
             quantity = say("prime radius")
             raise DesignError(quantity, r0, limit, say("change the prime radius, the arm or the centre distance"))
         if math.isnan(self.psi0):

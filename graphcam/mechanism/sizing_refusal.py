@@ -57,11 +57,9 @@ def _told(problem: SizingProblem, near: Sizes, name: str) -> tuple[Caption, Capt
         kind = "rho" if name == CURVATURE else "r0"
         terms = [term for term in (*limits.rule, NO_UNDERCUT) if term.of == kind]
         most = min(terms, key=lambda term: term(rho, near.radius))
-        least = (
-            say("{rho:.4g} mm of curvature", rho=rho)
-            if name == CURVATURE
-            else say("{radius:.4g} mm of prime radius", radius=near.radius)
-        )
+        least = say("{radius:.4g} mm of prime radius", radius=near.radius)
+        if name == CURVATURE:
+            least = say("{rho:.4g} mm of curvature", rho=rho)
         return say("a roller of {roller:.4g} mm on {least}", roller=near.roller, least=least), say(
             "a roller of at most {text}", text=most.text
         )

@@ -216,12 +216,8 @@ def _with(stretches: list[_Stretch], control_points: int, smooth: list[bool], de
     fewest = np.repeat([stretch.fewest for stretch in stretches], spans)
     least = _fewest_points(stretches, smooth)
     if not least <= control_points <= MOST_CONTROL_POINTS:
-        limit = say(
-            "{least} to {most} for this profile with degree {degree}",
-            least=least,
-            most=MOST_CONTROL_POINTS,
-            degree=stretches[0].degree,
-        )
+        limit = say("{least} to {most} for this profile with degree {degree}")
+        limit = limit.where(least=least, most=MOST_CONTROL_POINTS, degree=stretches[0].degree)
         raise DesignError("control_points", control_points, limit)
     needs = [_needs(stretch, deviation) for stretch in stretches]
     wants = np.array([need.parts[-1] for parts in needs for need in parts])

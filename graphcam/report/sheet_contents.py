@@ -63,11 +63,8 @@ class Contents:
             return known[upto]
         if isinstance(upto, int) and 0 <= upto <= len(self.steps):
             return upto
-        limit = say(
-            "a number of steps from 0 to {steps}, or one of {names}, or a step such as 2.1",
-            steps=len(self.steps),
-            names=", ".join(last),
-        )
+        limit = say("a number of steps from 0 to {steps}, or one of {names}, or a step such as 2.1")
+        limit = limit.where(steps=len(self.steps), names=", ".join(last))
         raise DesignError("upto", upto, limit)
 
     @property
@@ -159,11 +156,8 @@ def _check_drawable(cam: Cam) -> None:
     low, high = cam.kinematics.point((np.array([0.0, cam.motion.lift]), still, still, still)).tolist()
     travel = abs(high - low)
     if cam.prime_radius > MOST_LIFTS * travel:
-        limit = say(
-            "at most {most} times the lift of {travel:g} mm, to be drawn at one scale with it",
-            most=MOST_LIFTS,
-            travel=travel,
-        )
+        limit = say("at most {most} times the lift of {travel:g} mm, to be drawn at one scale with it")
+        limit = limit.where(most=MOST_LIFTS, travel=travel)
         found = say("{length:g} mm", length=cam.prime_radius)
         raise DesignError(say("prime radius"), found, limit, say("check the units of both"))
 

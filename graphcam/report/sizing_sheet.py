@@ -160,7 +160,7 @@ class _Chart:
         return (
             *([Region(np.concatenate([border, top[::-1]]))] if border.size > 1 else []),
             Dots(np.array([found]), Role.RESULT),
-            Label(found, say("{length:.2f} mm", length=self.sized.radius), towards=1 - 1j),
+            Label(found, say("{radius:.2f} mm", radius=self.sized.radius), towards=1 - 1j),
         )
 
 

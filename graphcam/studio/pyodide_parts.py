@@ -104,11 +104,8 @@ def _check(folder: Path, name: str, content: bytes, known: set[str | None]) -> N
     if found not in known:
         trusted = sorted(each for each in known if each)
         sums = either(trusted) if trusted else say("one that is known")
-        remedy = say(
-            "take the files of '{packing}', or state the sums that you trust in a file {sums} there",
-            packing=PACKING,
-            sums=SUMS,
-        )
+        remedy = say("take the files of '{packing}', or state the sums that you trust in a file {sums} there")
+        remedy = remedy.where(packing=PACKING, sums=SUMS)
         raise TaskError(str(folder), say("the SHA-256 of {name}", name=name), found, sums, remedy)
 
 

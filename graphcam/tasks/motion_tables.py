@@ -49,7 +49,7 @@ class _MovingTable:
         positive("angle", self.angle, "degrees")
         positive("lift", self.lift, "mm (degrees for an arm)")
         if self.blends is not None and self.law != CONSTANT_VELOCITY:
-            left_out = say("left out for the law '{getattr}'", getattr=getattr(self.law, "name", self.law))
+            left_out = say("left out for the law '{law}'", law=getattr(self.law, "name", self.law))
             remedy = say("they are those of '{constant_velocity}'", constant_velocity=CONSTANT_VELOCITY)
             raise DesignError("blends", list(self.blends), left_out, remedy)
         self()
@@ -107,11 +107,9 @@ class MotionTable:
         if not given:
             raise DesignError("phases", say("missing"), say("given"))
         if len(given) > 1:
-            limit = (
-                say("left out where there is a table")
-                if given[0] == "table"
-                else say("left out where there are phases")
-            )
+            limit = say("left out where there are phases")
+            if given[0] == "table":
+                limit = say("left out where there is a table")
             raise DesignError(given[1], ways[given[1]], limit, say("give one of the two"))
         if self.tolerance is not None and self.table is None:
             left_out = say("left out where there is no table")
@@ -142,11 +140,8 @@ def _remedy(turn: float, phases: tuple[PhaseTable, ...]) -> Words:
         return say("{off} deg are too many: shorten {which}", off=off, which=which)
     if dwells and dwells[-1]:
         return say("{off} deg are missing: lengthen {which}", off=off, which=which)
-    return say(
-        '{off} deg are missing: add {{ kind = "dwell", angle = {off} }} at the end, or lengthen {which}',
-        off=off,
-        which=which,
-    )
+    told = say('{off} deg are missing: add {{ kind = "dwell", angle = {off} }} at the end, or lengthen {which}')
+    return told.where(off=off, which=which)
 
 
 @lru_cache(maxsize=16)  # because a task asks for its motion in several places

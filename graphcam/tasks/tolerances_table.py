@@ -57,9 +57,7 @@ class TolerancesTable:
         for name in SIZES:
             if (tolerance := getattr(self, name)) is not None and name not in own:
                 left_out = say("left out for a follower of kind {kind}", kind=kind)
-                remedy = (
-                    say("it has {names}", names=", ".join(own))
-                    if own
-                    else say("of its sizes none is to be made: waviness is left")
-                )
+                remedy = say("of its sizes none is to be made: waviness is left")
+                if own:
+                    remedy = say("it has {names}", names=", ".join(own))
                 raise DesignError(f"tolerances.{name}", tolerance, left_out, remedy)

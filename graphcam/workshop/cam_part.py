@@ -139,11 +139,9 @@ def _keyway(table: PartTable, bore: float) -> KeySection | None:
     section = key_section(bore)
     if section is None and table.keyway is not None:
         limit = say(
-            "none for a bore of {bore:g} mm: the standard has keys from {thinnest_shaft:g} to {thickest_shaft:g} mm",
-            bore=bore,
-            thinnest_shaft=THINNEST_SHAFT,
-            thickest_shaft=THICKEST_SHAFT,
+            "none for a bore of {bore:g} mm: the standard has keys from {thinnest_shaft:g} to {thickest_shaft:g} mm"
         )
+        limit = limit.where(bore=bore, thinnest_shaft=THINNEST_SHAFT, thickest_shaft=THICKEST_SHAFT)
         raise DesignError("part.keyway", table.keyway, limit, say("write 'none' or change part.bore"))
     return section
 
@@ -185,17 +183,11 @@ def _check_walls(part: CamPart, least_radius: float) -> None:
         if not needed <= outer:
             keyway = say(" with its keyway {depth:g} mm deep", depth=part.keyway.depth) if part.keyway else ""
             found = say("{bore:g} mm{keyway}", bore=part.bore, keyway=keyway)
-            limit = say(
-                "small enough to leave a wall of {least:g} of the bore inside {inside} of {outer:.4g} mm",
-                least=LEAST_WALL,
-                inside=inside,
-                outer=outer,
-            )
+            limit = say("small enough to leave a wall of {least:g} of the bore inside {inside} of {outer:.4g} mm")
+            limit = limit.where(least=LEAST_WALL, inside=inside, outer=outer)
             fitting = [d for d in standard_diameters() if _top(part.table, d) + LEAST_WALL * d <= outer]
-            smaller = (
-                say("take a smaller bore, {fitting:g} mm or less,", fitting=max(fitting))
-                if fitting
-                else say("take a smaller bore")
-            )
+            smaller = say("take a smaller bore")
+            if fitting:
+                smaller = say("take a smaller bore, {fitting:g} mm or less,", fitting=max(fitting))
             remedy = say("{smaller} or a larger {larger}", smaller=smaller, larger=larger)
             raise DesignError("part.bore", found, limit, remedy)

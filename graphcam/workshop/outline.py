@@ -227,10 +227,8 @@ class Outline:
             return  # seen from every place of its way a cutter has only one nearest place of a convex cam
         remedy = say("take a smaller cutter, or leave it out")
         if not radius < self.least_hollow:
-            limit = say(
-                "less than {least_hollow:.4g} mm, the minimum radius of the profile's hollows",
-                least_hollow=self.least_hollow,
-            )
+            limit = say("less than {least_hollow:.4g} mm, the minimum radius of the profile's hollows")
+            limit = limit.where(least_hollow=self.least_hollow)
             raise DesignError("part.cutter_radius", radius, limit, remedy)
         from scipy.spatial import KDTree
 
