@@ -1,13 +1,18 @@
-"""What holds for every test: memory is given back, and a process that dies ends the run."""
+"""What holds for every test: memory is given back, a process that dies ends the run, messages can be collected."""
 
 from __future__ import annotations
 
 import ctypes
 import gc
+import os
+import re
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
+
+from graphcam.errors import GraphcamError
 
 PAGE = 4096
 MUCH = 200 << 20
@@ -22,6 +27,40 @@ def pytest_configure(config: pytest.Config) -> None:
     """
     if config.pluginmanager.hasplugin("xdist") and config.option.maxworkerrestart is None:
         config.option.maxworkerrestart = "0"
+    # A variable, for a worker reads its options before it knows this file.
+    if folder := os.environ.get("GRAPHCAM_MESSAGES"):
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        config.pluginmanager.register(Messages(Path(folder, f"{os.getpid()}.txt")))
+
+
+class Messages:
+    """Collects every message of a graphcam error, a line each: before and after a change they are the same set.
+
+    Folders and addresses in memory, which change from run to run, are left out.
+    """
+
+    CHANGING = re.compile(r"/tmp/[^ ;:,'\"]*/(?=[^/])|0x[0-9a-f]{6,}")
+
+    def __init__(self, file: Path) -> None:
+        self.file = file
+        self.made: list[GraphcamError] = []
+
+        def remembered(kind: type[GraphcamError], /, *args: object, **_: object) -> GraphcamError:
+            error = Exception.__new__(kind, *args)
+            self.made.append(error)
+            return error
+
+        GraphcamError.__new__ = staticmethod(remembered)
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_runtest_teardown(self) -> None:
+        """Write down what the test has made; one that was not made whole has no message."""
+        with self.file.open("a", encoding="utf-8") as file:
+            for error in self.made:
+                with suppress(AttributeError, IndexError, KeyError, TypeError):
+                    said = self.CHANGING.sub("", str(error)).replace("\n", "\\n")
+                    file.write(f"{type(error).__name__}\t{said}\n")
+        self.made.clear()
 
 
 kept = sys.maxsize

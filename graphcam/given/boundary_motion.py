@@ -44,12 +44,11 @@ class BoundaryMotion(Motion):
     lowest: float
     joints: Floats
     """(n,) cam angles at which phases begin and polynomials join"""
-    _begin: Floats
     _series: LocalPolynomials
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        object.__setattr__(self, "starts", self._begin)
+    def _told_exactly(self, starts: Floats) -> Floats:
+        # The joints are known from the given angles; sums of the phases' angles are off by their rounding.
+        return self.joints[np.abs(self.joints - starts[:, None]).argmin(axis=1)]
 
     def _said(self) -> str:
         degrees = ", ".join(f"{part.name} of degree {part.highest_power}" for part in self.parts)
@@ -99,18 +98,33 @@ def boundary_motion(parts: Sequence[Part]) -> BoundaryMotion:
         levels.append(leg[0].at(start))
         phases.append((float(start % TURN), _phase(given, leg, sign)))
     ordered, zero_ = from_zero(phases)
-    zero = Fraction(zero_) if abs(zero_) > SAME else Fraction(0)
+    zero = _exactly(zero_, [start for start, _, _ in legs]) if abs(zero_) > SAME else Fraction(0)
     lowest = min(levels)
     if abs(lowest) <= LOWEST * (max(levels) - lowest):
         lowest = Fraction(0)
     turn = between(_around(round_, zero), zero, zero + TURN)
     lowered = [replace(piece, p=(piece.p[0] - lowest, *piece.p[1:])) for piece in turn]
     series = LocalPolynomials([cell for cut in cells(lowered, zero) for cell in cut])
-    begin = {float((start - zero) % TURN) for start, _, _ in legs} | {0.0}
-    begun = np.array(sorted(begin))
-    inner = [place for piece in turn if np.abs(begun - (place := float(piece.start - zero))).min() > SAME]
-    joints = np.array(sorted({*begin, *inner}))
-    return BoundaryMotion(ordered, given, float(zero), float(lowest), joints, begun, series)
+    joints = _apart(
+        [float((start - zero) % TURN) for start, _, _ in legs] + [float(piece.start - zero) for piece in turn]
+    )
+    return BoundaryMotion(ordered, given, float(zero), float(lowest), joints, series)
+
+
+def _exactly(zero: float, starts: Sequence[Fraction]) -> Fraction:
+    """The one of the places, a turn before or behind if need be, that was rounded to ``zero``."""
+    return min(
+        (start % TURN - turns * TURN for start in starts for turns in (0, 1)), key=lambda at: abs(at - Fraction(zero))
+    )
+
+
+def _apart(places: Sequence[float]) -> Floats:
+    """The places from 0 to less than a turn in order; of those that are the same, the first that is given."""
+    kept = [0.0, float(TURN)]
+    for place in places:
+        if min(abs(place - other) for other in kept) > SAME:
+            kept.append(place)
+    return np.array(sorted(kept)[:-1])
 
 
 def _legs(pieces: Sequence[ExactPiece]) -> list[tuple[Fraction, Fraction, int]]:

@@ -20,6 +20,8 @@ from graphcam.words import Words, say
 CLOSURE = 1e-9
 """How far the angles may miss a full turn (rad), and the lifts zero (relative to the maximum)."""
 FULL_TURN = 2 * math.pi
+SHORTEST_PHASE = 1e-10
+"""A phase that leaves less of the turn than this [rad] is lost in the rounding of the places where phases begin."""
 NEARLY = 0.02
 """So much of a turn angles may miss it and still be meant for one, where another unit or argument is looked for."""
 
@@ -228,18 +230,23 @@ class Motion(Shown):
         heights = [math.fsum(steps[:k]) for k in range(len(phases))]
         heights.append(heights[0])  # closed by definition: what the sum misses is rounding
         object.__setattr__(self, "phases", phases)
-        starts = [math.fsum(angles[:k]) for k in range(len(phases))]
+        starts = self._told_exactly(np.array([math.fsum(angles[:k]) for k in range(len(phases))]))
+        _check_lengths(phases, starts)
         levels = np.array(heights) - min(heights)
         parts = [
             _pieces(phase, (start, end), (float(below), float(above)))
             for phase, (start, end), (below, above) in zip(
-                phases, pairwise([*starts, FULL_TURN]), pairwise(levels), strict=True
+                phases, pairwise([*starts.tolist(), FULL_TURN]), pairwise(levels), strict=True
             )
         ]
-        object.__setattr__(self, "starts", np.array(starts))
+        object.__setattr__(self, "starts", starts)
         object.__setattr__(self, "levels", levels)
         object.__setattr__(self, "first_piece", np.cumsum([0, *map(len, parts)]))
         object.__setattr__(self, "_piecewise", Piecewise([piece for part in parts for piece in part]))
+
+    def _told_exactly(self, starts: Floats) -> Floats:
+        """Where the phases begin, from the sums of their angles; to the last digit where it is known."""
+        return starts
 
     @cached_property
     def lift(self) -> float:
@@ -364,6 +371,15 @@ class Motion(Shown):
     def _from_end(self) -> NDArray[np.bool_]:
         """(p,) whether a piece is seen from the end of its phase."""
         return np.array([piece.length < 0 for piece in self._piecewise.pieces])
+
+
+def _check_lengths(phases: Sequence[Phase], starts: Floats) -> None:
+    """That the phases begin one after another, so far apart that the places can be told."""
+    for phase, length in zip(phases, np.diff(starts, append=FULL_TURN), strict=True):
+        if not length >= SHORTEST_PHASE:
+            limit = say("long enough to be told from rounding, {shortest:g} rad", shortest=SHORTEST_PHASE)
+            found = say("{angle:.6g} rad", angle=phase.angle)
+            raise DesignError("angle", found, limit, say("leave the phase out"))
 
 
 def _remedy(phases: Sequence[Phase], turn: float) -> Words:

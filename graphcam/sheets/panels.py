@@ -120,8 +120,10 @@ class Panel:
         shares = np.linspace(0.0, 1.0, 10 * STRIPS)[:, None]
         points = (hull + shares * (np.roll(hull, -1) - hull)).ravel()
         levels = np.linspace(self.box.bottom + AIR, self.box.top - AIR, STRIPS + 1)
-        strips = [points[(points.imag >= low - 0.1) & (points.imag <= high + 0.1)] for low, high in pairwise(levels)]
-        return [around(p).grown(AIR) for p in strips]
+        # The hull is that of some directions: what a long drawing has in its middle may stick out of it.
+        of_hull, drawn = (_in_bands(each, levels) for each in (points, self.points))
+        both = ([*(box.grown(AIR) for box in hull), *own] for hull, own in zip(of_hull, drawn, strict=True))
+        return [around_all(boxes) for boxes in both if boxes]
 
     @cached_property
     def hollow(self) -> Room:
@@ -137,6 +139,12 @@ class Panel:
         if answered or not answer:
             return [*texts]
         return [replace(text, text=text.text.replace(answer, BLANK)) for text in texts]
+
+
+def _in_bands(points: Points, levels: Iterable[float]) -> list[list[Box]]:
+    """The box of the points between every two levels, or none."""
+    bands = (points[(points.imag >= low - 0.1) & (points.imag <= high + 0.1)] for low, high in pairwise(levels))
+    return [[around(band)] if len(band) else [] for band in bands]
 
 
 def _in_lines(note: str, height: float, room: float) -> list[str]:

@@ -9,7 +9,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from mpmath import mp, mpf
-from scipy.interpolate import make_interp_spline
+from scipy.interpolate import BSpline, make_interp_spline
+from scipy.spatial import cKDTree
 
 import graphcam as gc
 from graphcam.given.exact_polynomials import sign_changes, solved
@@ -23,6 +24,12 @@ REST = {"v": 0, "a": 0}
 
 def at(degrees: float, **given: float) -> gc.MotionPoint:
     return P(degrees * DEG, **given)
+
+
+def moving_at_0(v: float, a: float = 0, top: float = 90) -> list[gc.PolynomialPart]:
+    """A turn of one polynomial that moves at 0 degrees, so that a phase reaches over 0."""
+    joint = {"s": 10, "v": v, "a": a}
+    return [Poly([at(0, **joint), at(top, s=20), at(250, s=0), at(360, **joint)])]
 
 
 # --- 40 digits -------------------------------------------------------------------------------------------------------
@@ -518,3 +525,84 @@ def test_a_law_that_cannot_be_is_told(name):
     make, message = LAWS[name]
     with pytest.raises(gc.DesignError, match=message):
         make()
+
+
+# --- a follower that moves at 0 degrees -------------------------------------------------------------------------------
+
+RISING = Poly([at(20, s=0, **REST), at(170, s=20, **REST)])
+AROUND_0 = {
+    # What was seen: a first phase of 2e-16 rad, and a last one that begins at 2 pi.
+    **{f"v = {v}, a = {a}": moving_at_0(v, a) for v in (-19.5, -14, 5, 14, 19.5) for a in (0, 20)},
+    "a return over 0": [RISING, Poly([at(210, s=20, **REST), at(380, s=0, **REST)])],
+    "a dwell over 0": [RISING, Poly([at(210, s=20, **REST), at(310, s=0, **REST)])],
+    "a spline": [
+        Spline(
+            [
+                at(0, s=10, v=8, a=0),
+                *(at(60 * k, s=s) for k, s in enumerate((18, 16, 8, 0, 4), 1)),
+                at(360, s=10, v=8, a=0),
+            ]
+        )
+    ],
+    **{
+        f"a turning with a jump of a at {b} degrees": [
+            Poly([at(b, s=0, v=0, a=5), at(b + 100, s=10, v=0, a=-10)]),
+            Poly([at(b + 100, s=10, v=0, a=-30), at(b + 360, s=0, v=0, a=20)]),
+        ]
+        for b in (7.3, 33.3, 200, 359.999)
+    },
+    **{
+        f"a dwell of {off:g} rad beside 0": [
+            Poly([P(off, s=0, **REST), at(170, s=20, **REST)]),
+            Poly([at(210, s=20, **REST), P(TURN - off, s=0, **REST)]),
+        ]
+        for off in (1e-10, 1e-8, 1e-6)
+    },
+}
+
+
+@pytest.mark.parametrize("name", AROUND_0)
+def test_phases_and_starts_of_what_moves_at_0_are_those_of_the_motion(name):
+    motion = gc.boundary_motion(AROUND_0[name])
+    starts = np.append(motion.starts, TURN)
+    assert starts.size == len(motion.phases) + 1
+    assert starts[0] == 0
+    assert np.diff(starts) == pytest.approx(motion.angles, abs=2e-9)
+    number = np.arange(len(motion.phases))
+    for side, at_ends in (("right", motion.at(number, 0.0)), ("left", motion.at(np.roll(number, 1), 1.0, "left"))):
+        for here, there in zip(motion(motion.starts, side)[:3], at_ends, strict=False):
+            assert here == pytest.approx(there, abs=1e-6 * float(np.abs(motion(starts)).max()))
+    phi = np.linspace(0, TURN, 1009)[1:-1]
+    phase = motion.starts.searchsorted(phi, "right") - 1
+    in_phase = motion.at(phase, (phi - motion.starts[phase]) / motion.angles[phase])
+    for here, there in zip(motion(phi)[:2], in_phase, strict=False):
+        assert here == pytest.approx(there, abs=1e-8 * float(np.abs(here).max()))
+
+
+@pytest.mark.parametrize("name", ["v = -19.5, a = 0", "v = 14, a = 20", "a return over 0", "a spline"])
+def test_the_cam_of_what_moves_at_0_is_written_as_it_is(name, tmp_path):
+    cam = gc.Cam(gc.boundary_motion(AROUND_0[name]), gc.Translating(offset=3, roller_radius=5), prime_radius=60)
+    phi = np.linspace(0, TURN, 40_001)
+    curve, v, alpha = cam.profile(phi), cam.motion(phi)[1], cam.pressure_angle(phi)
+    nearest = cKDTree(curve)
+    spline = gc.profile_spline(cam)
+    drawn = BSpline(spline.knots, np.asarray(spline.control), spline.degree)(np.linspace(0, spline.knots[-1], 9001))
+    for points in (drawn, cam.trimmed_profile(2000)):
+        assert nearest.query(points)[0].max() < 0.008
+    file = gc.write_profile(cam, tmp_path, ["csv"])["csv"]
+    rows = np.loadtxt(file, delimiter=",", skiprows=1)
+    assert rows[:, 1:3] == pytest.approx(cam.profile(np.radians(rows[:, 0])), abs=1e-3)
+    extremes = cam.extremes()
+    assert extremes.pressure_angle_rise[0] == pytest.approx(np.abs(alpha[v > 0]).max(), abs=1e-7)
+    assert abs(extremes.pressure_angle_return[0]) == pytest.approx(np.abs(alpha[v < 0]).max(), abs=1e-7)
+    assert cam.undercuts() == []
+
+
+@pytest.mark.parametrize("v", [-19.5, -14])
+def test_where_the_profile_of_what_moves_at_0_crosses_itself_both_branches_pass(v):
+    cam = gc.Cam(gc.boundary_motion(moving_at_0(v)), gc.Translating(offset=3, roller_radius=25), prime_radius=30)
+    loops = cam.undercuts()
+    assert loops
+    for loop in loops:
+        for phi in loop.crossing[:2]:
+            assert cam.profile(phi) == pytest.approx(np.array(loop.crossing[2:]), abs=1e-6)

@@ -157,6 +157,16 @@ def test_tiny_phases_keep_their_values():
     assert np.all(np.diff(motion(np.linspace(0, tiny, 1001))[0]) >= 0)
 
 
+@pytest.mark.parametrize("tiny", [1e-300, 1e-17, 1e-12])
+@pytest.mark.parametrize("place", [1, 3])
+def test_a_phase_that_rounding_swallows_is_refused(tiny, place):
+    phases = [Rise(30, math.pi / 2), Return(30, FULL_TURN - math.pi / 2)]
+    phases.insert(place, Dwell(tiny))
+    told = r"angle is .* rad, but must be long enough to be told from rounding, 1e-10 rad; leave the phase out"
+    with pytest.raises(DesignError, match=told):
+        Motion(phases)
+
+
 # --- what cannot be --------------------------------------------------------------------------------------------------
 
 

@@ -264,3 +264,14 @@ def test_paper_has_the_size_of_iso_216_and_the_margins_of_its_frame(paper, wide,
 def test_every_point_of_a_view_is_on_what_it_draws():
     drawn = [sampled(*pieces(e), 1.0) for e in VIEWS["star"]._drawn]
     np.testing.assert_array_equal(np.concatenate(drawn), VIEWS["star"].points)
+
+
+@pytest.mark.parametrize("depth", [3.0, 6.0, 8.0])
+@pytest.mark.parametrize("middle", [120.0, 185.0, 250.0])
+def test_the_outline_of_a_long_drawing_covers_what_sticks_out_in_its_middle(depth, middle):
+    """A curve that errors of drawing let sink below the axis: the hull's directions pass it by."""
+    found = panel(line(0j, 370 + 0j), line(370 + 0j, 370 + 40j), line(middle - 40, middle - 1j * depth, middle + 40))
+    for point in found.points:
+        assert any(
+            box.left <= point.real <= box.right and box.bottom <= point.imag <= box.top for box in found.outline
+        ), point

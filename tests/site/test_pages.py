@@ -124,8 +124,8 @@ def test_developers_are_sent_to_tests_that_are_there():
     given = [line.split() for line in commands_for_developers()]
     assert given
     for program, *arguments in given:
-        assert program in ("pytest", "graphcam", "pybabel", "mkdir", "npm")
-        if program == "pytest":
+        assert program in ("pytest", "python", "graphcam", "pybabel", "mkdir", "npm")
+        if program in ("pytest", "python"):
             assert all((ROOT / path).exists() for path in arguments)
 
 
@@ -250,6 +250,7 @@ def test_the_check_of_the_page_names_what_is_not_translated_yet(with_german):
     _, run, (_, check, _) = with_german
     done = run(check)
     assert done.returncode == 1
+    assert re.search(r"^de: \d+ texts lacking, 0 left over$", done.stdout, re.MULTILINE)
     failed = [line.split(" - ")[0] for line in done.stdout.splitlines() if line.startswith("FAILED")]
     assert any("test_language.py" in line for line in failed)
     assert [line for line in failed if not re.search(r"[\[-]de[\]-]", line)] == []

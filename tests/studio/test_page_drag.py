@@ -175,3 +175,96 @@ def test_the_live_region_speaks_once_on_release(opened):
     settled(page)
     (heard,) = page.evaluate("() => heard")
     assert heard.startswith(f"Offset e {str(task_of(page)['follower']['offset']).replace('-', '−')} mm")
+
+
+# --- what ends where it began is let go -------------------------------------------------------------------------------
+
+SLIDER, BORDER = '[data-key="follower.offset/range"]', '[data-border="0"]'
+
+
+def is_held(page) -> bool:
+    return page.evaluate("() => document.body.classList.contains('held')")
+
+
+def begun(page, control: str) -> tuple[float, float]:
+    """Press the pointer where a control stands, and move it away."""
+    knob = page.locator(control)
+    knob.scroll_into_view_if_needed()
+    box = knob.bounding_box()
+    share = 0.5
+    if control == SLIDER:
+        share = knob.evaluate("one => (one.value - one.min) / (one.max - one.min)")
+    inset = 8 if control == SLIDER else 0
+    x, y = box["x"] + inset + (box["width"] - 2 * inset) * share, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 30, y, steps=5)
+    page.wait_for_timeout(100)
+    assert is_held(page)
+    return x, y
+
+
+def still_works(page) -> None:
+    """Whether nothing is held, and a change by the form arrives."""
+    settled(page)
+    assert not is_held(page)
+    past = page.evaluate("() => studio.state.past()")
+    field = page.locator('input[data-key="follower.offset"]')
+    field.fill("-25")
+    field.press("Enter")
+    settled(page)
+    assert task_of(page)["follower"]["offset"] == -25
+    assert page.evaluate("() => studio.state.past()") == past + 1
+
+
+@pytest.mark.parametrize("control", [SLIDER, BORDER])
+def test_what_is_moved_out_and_back_is_let_go(opened, control):
+    page = opened()
+    before = task_of(page)
+    x, y = begun(page, control)
+    page.mouse.move(x, y, steps=5)
+    page.wait_for_timeout(100)
+    page.mouse.up()
+    settled(page)
+    if control == SLIDER:
+        assert task_of(page) == before
+        assert page.evaluate("() => studio.state.past()") == 0
+    still_works(page)
+
+
+def test_a_handle_moved_out_and_back_is_let_go(opened):
+    page = opened()
+    before, start = task_of(page), middle(hand(page, "combined/A"))
+    drag(page, "combined/A", (-30, 40))
+    page.mouse.move(*start)
+    page.mouse.up()
+    # The radius that was found is given now.
+    settled(page)
+    radius = task_of(page)["cam"].pop("prime_radius")
+    assert task_of(page) | {"cam": {}} == before
+    assert radius == pytest.approx(43, abs=0.5)
+    assert page.evaluate("() => studio.state.past()") == 1
+    still_works(page)
+
+
+def test_a_slider_whose_pointer_is_taken_away_is_let_go(opened):
+    page = opened()
+    begun(page, SLIDER)
+    page.evaluate("() => dispatchEvent(new PointerEvent('pointercancel'))")
+    page.wait_for_timeout(50)
+    assert not is_held(page)
+    page.mouse.up()
+    settled(page)
+
+
+def test_a_slider_that_is_moved_is_one_entry(opened):
+    page = opened()
+    before = task_of(page)["follower"]["offset"]
+    x, y = begun(page, SLIDER)
+    # A key that has nothing to do with it does not end the drag.
+    page.keyboard.press("Shift")
+    page.mouse.move(x + 45, y, steps=5)
+    page.mouse.up()
+    settled(page)
+    assert task_of(page)["follower"]["offset"] != before
+    assert page.evaluate("() => studio.state.past()") == 1

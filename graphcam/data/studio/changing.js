@@ -93,9 +93,23 @@ function changingOf(page) {
 
   function slide(changes) {
     if (now().inert || page.hand?.drag) return;
-    if (!page.hand) takeHold();
+    if (!page.hand) {
+      takeHold();
+      letGoWithThePointer();
+    }
     sizes.follow(changes);
     state.set({ task: withChanges(page.hand.before, changes) });
+  }
+
+  // A slider that ends where it began tells of no change, and one that is gone from the page tells nothing.
+  function letGoWithThePointer() {
+    const { hand } = page, ends = ["pointerup", "pointercancel", "blur"];
+    const over = () => {
+      for (const end of ends) removeEventListener(end, over, true);
+      // After what the slider itself still tells.
+      setTimeout(() => page.hand === hand && release());
+    };
+    for (const end of ends) addEventListener(end, over, true);
   }
 
   function release(cancelled = false) {

@@ -158,8 +158,9 @@ function handsOf(at, stage, acts) {
   }
 
   at("hands").addEventListener("pointermove", move);
-  at("hands").addEventListener("pointerup", (event) => up(event));
-  at("hands").addEventListener("pointercancel", (event) => up(event, true));
+  // Anywhere: a knob that is drawn anew while it is held has lost the pointer.
+  addEventListener("pointerup", (event) => up(event));
+  addEventListener("pointercancel", (event) => up(event, true));
 
   // --- keys ---------------------------------------------------------------------------------------------------------
 

@@ -27,6 +27,7 @@ from graphcam.exercises.photographs.corrections import (
 )
 from graphcam.exercises.photographs.kept_photographs import KeptPhotographs
 from graphcam.exercises.photographs.read_photo import FORMAT, ReadPhoto
+from graphcam.exercises.photographs.reading_limits import GIGABYTES, OPENED_WITHIN
 from graphcam.exercises.photographs.review_page import review_page
 from graphcam.exercises.photographs.settling import SettledStudent, settled
 from graphcam.exercises.photographs.student_files import write_student
@@ -183,7 +184,12 @@ def _read(
 
 
 def _crashed(name: str, exercise: Exercise) -> ReadPhoto:
-    why, remedy = say("reading it failed"), say("save it as JPEG again, or photograph the sheet again")
+    why = say(
+        "reading it failed, or took more than {seconds} s or {gigabytes} GB of memory",
+        seconds=round(OPENED_WITHIN),
+        gigabytes=GIGABYTES,
+    )
+    remedy = say("save it as JPEG again, or photograph the sheet again")
     return ReadPhoto(name, "", why=exercise.tell(why), remedy=exercise.tell(remedy))
 
 

@@ -20,6 +20,7 @@ from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.photographs.kept_photographs import DIGITS, KeptPhotographs
 from graphcam.exercises.photographs.photo_reader import read_halves, read_photograph
 from graphcam.exercises.photographs.read_photo import ReadPhoto
+from graphcam.exercises.photographs.reading_limits import OPENED_WITHIN, READ_WITHIN, Allow, limited
 from graphcam.exercises.photographs.whose import PrintedSheets
 from graphcam.files import OutputError
 from graphcam.photo.halves import SIDES, Side
@@ -61,13 +62,15 @@ class PhotoFile:
 def read_file(job: ReadingJob, file: PhotoFile) -> list[ReadPhoto]:
     """Read the photographs in a file and keep what was read; those that are not kept are given back, with the reason.
 
-    It does not raise: one photograph that none foresaw is told like any other that cannot be read.
+    It does not raise: one photograph that none foresaw is told like any other that cannot be read.  Past its limits of
+    time and memory it ends the process, a worker's.
     """
     tell = job.exercise.tell
     try:
         # Other workers have the other cores.
         cv2.setNumThreads(1)
-        return _read(job, file)
+        with limited() as allow:
+            return _read(job, file, allow)
     except OutputError as error:
         why, remedy = say("the reading cannot be saved ({error})", error=error.why), error.advice
     except Exception as error:  # noqa: BLE001  # one photograph never stops the others
@@ -76,7 +79,7 @@ def read_file(job: ReadingJob, file: PhotoFile) -> list[ReadPhoto]:
     return [ReadPhoto(file.name, "", why=tell(why), remedy=tell(remedy))]
 
 
-def _read(job: ReadingJob, file: PhotoFile) -> list[ReadPhoto]:
+def _read(job: ReadingJob, file: PhotoFile, allow: Allow) -> list[ReadPhoto]:
     digest = digest_of(file.path)
     if digest and job.kept.find(digest) is not None:
         return []
@@ -84,7 +87,7 @@ def _read(job: ReadingJob, file: PhotoFile) -> list[ReadPhoto]:
     unread: list[ReadPhoto] = []
     pictures: dict[str, bytes] = {}
     tell = job.exercise.tell
-    for number, found in enumerate(pictures_in([file.path])):
+    for number, found in enumerate(_in_time(pictures_in([file.path]), allow)):
         name = file.name + found.name.removeprefix(file.path.name)
         if isinstance(found, Unopened):
             unread.append(ReadPhoto(name, "", why=tell(found.why), remedy=tell(found.remedy)))
@@ -97,6 +100,15 @@ def _read(job: ReadingJob, file: PhotoFile) -> list[ReadPhoto]:
     if photos:
         job.kept.keep(digest, photos, pictures)
     return unread if file.told else []
+
+
+def _in_time(found: Iterator[Photograph | Unopened], allow: Allow) -> Iterator[Photograph | Unopened]:
+    """The pictures of a file, each unpacked, and then read, within its time."""
+    allow(OPENED_WITHIN)
+    for one in found:
+        allow(READ_WITHIN)
+        yield one
+        allow(OPENED_WITHIN)
 
 
 @dataclass(frozen=True)
@@ -117,9 +129,11 @@ def read_halves_of(job: ReadingJob, halves: Halves) -> list[ReadPhoto]:
     """Read a page off photographs of its two sheets and keep what was read; it does not raise, as :func:`read_file`."""
     try:
         cv2.setNumThreads(1)
-        photographs: dict[Side, Photograph] = {"left": _picture(*halves.left), "right": _picture(*halves.right)}
-        digest = f"{halves.digest}-0"
-        photo, shown = read_halves(job.sheets, job.exercise, photographs, digest, "0-")
+        with limited() as allow:
+            of = {"left": halves.left, "right": halves.right}
+            photographs: dict[Side, Photograph] = {side: _picture(*of[side], allow) for side in SIDES}
+            digest = f"{halves.digest}-0"
+            photo, shown = read_halves(job.sheets, job.exercise, photographs, digest, "0-")
         job.kept.keep(halves.digest, [replace(photo, name=halves.name)], shown)
     except Exception as error:  # noqa: BLE001  # one page never stops the others
         why = say("it cannot be read ({error})", error=f"{type(error).__name__}: {error}"[:200])
@@ -128,8 +142,8 @@ def read_halves_of(job: ReadingJob, halves: Halves) -> list[ReadPhoto]:
     return []
 
 
-def _picture(path: Path, number: int) -> Photograph:
-    found = next(islice(pictures_in([path]), number, None))
+def _picture(path: Path, number: int, allow: Allow) -> Photograph:
+    found = next(islice(_in_time(pictures_in([path]), allow), number, None))
     if isinstance(found, Unopened):
         raise PhotographError(found.why, found.remedy)
     return found
