@@ -94,9 +94,9 @@ class TaskError(GraphcamError):
     cam.toml: motion.phases[0].lift is 0, but must be greater than 0; give the lift in mm
     """
 
-    def __init__(self, path: str, field: Words, value: object, expected: Words, remedy: Words = "") -> None:
+    def __init__(self, path: Words, field: Words, value: object, expected: Words, remedy: Words = "") -> None:
         super().__init__(path, field, value, expected, remedy)
-        self.path = path
+        self.path = str(path)
         self.field = str(field)
         self.value = value
         self.expected = str(expected)
@@ -105,7 +105,7 @@ class TaskError(GraphcamError):
     @property
     def fault(self) -> Caption:
         """What is wrong, and in which file."""
-        return Caption("{path}: {fault}", {"path": self.path, "fault": _sentence(*self.args[1:4])})
+        return Caption("{path}: {fault}", {"path": self.args[0], "fault": _sentence(*self.args[1:4])})
 
 
 class MissingFileError(TaskError):

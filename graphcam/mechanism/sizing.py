@@ -173,7 +173,7 @@ def _range(name: str, size: Range | float) -> Range:
     """A range as it is given; of a number the one that holds nothing else."""
     if isinstance(size, tuple | list | np.ndarray) and len(size) == 2:
         return float(size[0]), float(size[1])
-    check_kind(f"range of the {name}", size, NUMBER, say("two lengths in mm, or one that is fixed"))
+    check_kind(say("range of the {name}", name=name), size, NUMBER, say("two lengths in mm, or one that is fixed"))
     return float(cast(float, size)), float(cast(float, size))
 
 

@@ -82,7 +82,9 @@ def student_by_email(students: Sequence[Student]) -> dict[str, str]:
         for name in filter(None, (_plain(student.id), _plain(student.email))):
             if found.setdefault(name, student.id) != student.id:
                 expected = say("another one than that of {found!r}", found=found[name])
-                raise TaskError("the roster", "email", name, expected, say("give each student an address of their own"))
+                raise TaskError(
+                    say("the roster"), "email", name, expected, say("give each student an address of their own")
+                )
     return found
 
 

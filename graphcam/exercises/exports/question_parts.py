@@ -50,7 +50,9 @@ def check_numbers(exercise: Exercise) -> None:
     """
     if all(asked.kind != "number" for asked in exercise.answers):
         remedy = say("export with --format moodle, which asks for drawings")
-        raise TaskError(f"exercise {exercise.name}", "answers", say("all drawn"), say("one or more numbers"), remedy)
+        raise TaskError(
+            say("exercise {name}", name=exercise.name), "answers", say("all drawn"), say("one or more numbers"), remedy
+        )
 
 
 def asked_text(exercise: Exercise, answer_key: AnswerKey, asked: Asked) -> str:
