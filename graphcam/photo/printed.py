@@ -98,10 +98,8 @@ class PrintedPage:
         try:
             return _read(json.loads(text))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            found, wanted = (
-                say("not readable ({error})", error=str(error)),
-                say("one of format {format}", format=FORMAT),
-            )
+            found = say("not readable ({error})", error=str(error))
+            wanted = say("one of format {format}", format=FORMAT)
             raise TaskError(path, say("the page"), found, wanted, say("make the course again")) from None
 
 

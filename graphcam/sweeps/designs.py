@@ -76,10 +76,8 @@ class Designs:
         _choices("follower", self.follower, tuple(OWN))
         sizes = {array.size for array in self._columns.values() if array.ndim}
         if len(sizes) > 1:
-            found, remedy = (
-                chained([bare(str(size)) for size in sorted(sizes)]),
-                say("give one number for all cams, or one for each"),
-            )
+            found = chained([bare(str(size)) for size in sorted(sizes)])
+            remedy = say("give one number for all cams, or one for each")
             raise DesignError(say("number of designs"), found, say("the same in every array"), remedy)
         self._check_follower()
 
