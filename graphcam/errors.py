@@ -10,9 +10,49 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from graphcam.words import Caption, Message, Words, either, message, say, sequence
+
+CHECK_THE_NAME = say("check the name")
+FILE = say("file")
+
 
 class GraphcamError(Exception):
-    """The base class of every error that graphcam raises on purpose."""
+    """The base class of every error that graphcam raises on purpose.
+
+    Its ``args`` are what it was given, captions among them; ``str`` says it in English.
+
+    advice : what to do about it; may be empty
+    """
+
+    advice: Words = ""
+
+    @property
+    def fault(self) -> Words:
+        """What is wrong."""
+        raise NotImplementedError
+
+    @property
+    def remedy(self) -> str:
+        """What to do about it, in English."""
+        return str(self.advice)
+
+    @property
+    def caption(self) -> Message:
+        """What is wrong and what to do about it, for every language."""
+        return message(say("{fault}; {remedy}", fault=self.fault, remedy=self.advice) if self.advice else self.fault)
+
+    def __str__(self) -> str:
+        return str(self.caption)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (type(self), self.args, self.__dict__)
+
+
+def _again(kind: type[GraphcamError], given: tuple[Any, ...], kept: dict[str, Any]) -> GraphcamError:
+    """The error again, in another process."""
+    error = kind.__new__(kind, *given)
+    error.__dict__ |= kept
+    return error
 
 
 class DesignError(GraphcamError, ValueError):
@@ -20,25 +60,30 @@ class DesignError(GraphcamError, ValueError):
 
     Parameters
     ----------
-    quantity : what is wrong, in the words of the textbook ("prime radius")
-    value : the value it has
-    limit : what is allowed ("greater than 0 mm")
+    quantity : what is wrong, in the words of the textbook ("prime radius"); the English text afterwards
+    value : the value it has; words about it are a caption, which is shown without quotes
+    limit : what is allowed ("greater than 0 mm"); the English text afterwards
     remedy : what to do about it; may be empty
 
     >>> import graphcam as gc
     >>> print(gc.DesignError("lift", -3, "greater than 0 mm", "give the height of the rise"))
     lift is -3, but must be greater than 0 mm; give the height of the rise
+    >>> print(DesignError("arm", say("missing"), "given"), DesignError("arm", "12 mm", "a number"), sep="\\n")
+    arm is missing, but must be given
+    arm is '12 mm', but must be a number
     """
 
-    def __init__(self, quantity: str, value: object, limit: str, remedy: str = "") -> None:
+    def __init__(self, quantity: Words, value: object, limit: Words, remedy: Words = "") -> None:
         super().__init__(quantity, value, limit, remedy)
-        self.quantity = quantity
+        self.quantity = str(quantity)
         self.value = value
-        self.limit = limit
-        self.remedy = remedy
+        self.limit = str(limit)
+        self.advice = remedy
 
-    def __str__(self) -> str:
-        return _sentence(self.quantity, self.value, self.limit, self.remedy)
+    @property
+    def fault(self) -> Caption:
+        """What is wrong."""
+        return _sentence(*self.args[:3])
 
 
 class TaskError(GraphcamError):
@@ -49,16 +94,18 @@ class TaskError(GraphcamError):
     cam.toml: motion.phases[0].lift is 0, but must be greater than 0; give the lift in mm
     """
 
-    def __init__(self, path: str, field: str, value: object, expected: str, remedy: str = "") -> None:
+    def __init__(self, path: Words, field: Words, value: object, expected: Words, remedy: Words = "") -> None:
         super().__init__(path, field, value, expected, remedy)
-        self.path = path
-        self.field = field
+        self.path = str(path)
+        self.field = str(field)
         self.value = value
-        self.expected = expected
-        self.remedy = remedy
+        self.expected = str(expected)
+        self.advice = remedy
 
-    def __str__(self) -> str:
-        return f"{self.path}: {_sentence(self.field, self.value, self.expected, self.remedy)}"
+    @property
+    def fault(self) -> Caption:
+        """What is wrong, and in which file."""
+        return Caption("{path}: {fault}", {"path": self.args[0], "fault": _sentence(*self.args[1:4])})
 
 
 class MissingFileError(TaskError):
@@ -71,47 +118,29 @@ class MissingFileError(TaskError):
     there is no file motion.csv beside cam.toml; check motion.table
     """
 
-    def __init__(self, path: str, remedy: str = "check the name", *, kind: str = "file", where: str = "") -> None:
-        super().__init__(path, f"the {kind}", Unquoted("missing"), f"a {kind} that is there", remedy)
+    def __init__(self, path: str, remedy: Words = CHECK_THE_NAME, *, kind: Words = FILE, where: Words = "") -> None:
+        expected = say("a {kind} that is there", kind=kind)
+        super().__init__(path, say("the {kind}", kind=kind), say("missing"), expected, remedy)
         self.kind = kind
         self.where = where
 
-    def __str__(self) -> str:
-        if self.where:
-            return f"there is no {self.kind} {self.path} {self.where}; {self.remedy}"
-        return f"there is no {self.kind} {self.path}; {self.remedy}"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _missing_file, (self.path, self.remedy, self.kind, self.where)
-
-
-def _missing_file(path: str, remedy: str, kind: str, where: str) -> MissingFileError:
-    """The error again, in another process."""
-    return MissingFileError(path, remedy, kind=kind, where=where)
-
-
-class Unquoted(str):
-    """Words about a value, which a message shows without the quotes of a text that somebody wrote.
-
-    >>> print(DesignError("arm", Unquoted("missing"), "given"), DesignError("arm", "12 mm", "a number"), sep="\\n")
-    arm is missing, but must be given
-    arm is '12 mm', but must be a number
-    """
-
-    __slots__ = ()
-    __repr__ = str.__str__
+    @property
+    def fault(self) -> Caption:
+        """What is missing, and where."""
+        missing = say("there is no {kind} {path}", kind=self.kind, path=self.path)
+        return sequence([missing, self.where], " ") if self.where else missing
 
 
 class LetteringWarning(UserWarning):
     """A drawing has characters that no font on the machine has."""
 
 
-def _sentence(what: str, value: object, allowed: str, remedy: str) -> str:
-    shown = repr(value) if isinstance(value, str) else f"{value}"
-    return f"{what} is {shown}, but must be {allowed}" + (f"; {remedy}" if remedy else "")
+def _sentence(what: Words, value: object, allowed: Words) -> Caption:
+    shown = value if isinstance(value, Caption) else repr(value) if isinstance(value, str) else f"{value}"
+    return say("{what} is {shown}, but must be {allowed}", what=what, shown=shown, allowed=allowed)
 
 
-def install_advice(extra: str) -> str:
+def install_advice(extra: str) -> Caption:
     """How an extra is installed: from the source that graphcam came from, as any index may hold another package.
 
     In double quotes, which every shell takes, and by the interpreter's own pip.
@@ -119,7 +148,7 @@ def install_advice(extra: str) -> str:
     >>> print(install_advice("photo"))
     in the folder of graphcam's source run: python -m pip install ".[photo]"
     """
-    return f'in the folder of graphcam\'s source run: python -m pip install ".[{extra}]"'
+    return say('in the folder of graphcam\'s source run: python -m pip install ".[{extra}]"', extra=extra)
 
 
 @contextmanager
@@ -138,11 +167,13 @@ def installed(option: str, library: str, extra: str) -> Generator[None]:
     try:
         yield
     except ImportError:
-        missing = Unquoted("not installed")
-        raise TaskError(option, library, missing, "installed", install_advice(extra)) from None
+        missing = say("not installed")
+        raise TaskError(option, library, missing, say("installed"), install_advice(extra)) from None
 
 
-def unreadable(path: str | Path, what: str, expected: str, error: OSError | ValueError, remedy: str = "") -> TaskError:
+def unreadable(
+    path: str | Path, what: Words, expected: Words, error: OSError | ValueError, remedy: Words = CHECK_THE_NAME
+) -> TaskError:
     """The error of a file that cannot be read: it is missing, a folder, or what the system says.
 
     what : the file, as a message names it: "the roster"
@@ -155,16 +186,18 @@ def unreadable(path: str | Path, what: str, expected: str, error: OSError | Valu
     a.csv: the roster is not readable (Permission denied), but must be a CSV file; check its permissions
     """
     if isinstance(error, FileNotFoundError):
-        return MissingFileError(str(path), remedy or "check the name")
+        return MissingFileError(str(path), remedy)
     if isinstance(error, IsADirectoryError | PermissionError) and Path(path).is_dir():
-        return TaskError(str(path), what, Unquoted("a folder"), expected, "name the file in it")
+        return TaskError(str(path), what, say("a folder"), expected, say("name the file in it"))
     why = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
     denied = isinstance(error, PermissionError)
-    advice = "check its permissions" if denied else "check the name"
-    return TaskError(str(path), what, Unquoted(f"not readable ({why})"), expected, advice)
+    advice = say("check its permissions") if denied else CHECK_THE_NAME
+    return TaskError(str(path), what, say("not readable ({why})", why=why), expected, advice)
 
 
-def check_kind(quantity: str, value: object, kinds: type | tuple[type, ...], limit: str = "", remedy: str = "") -> None:
+def check_kind(
+    quantity: Words, value: object, kinds: type | tuple[type, ...], limit: Words = "", remedy: Words = ""
+) -> None:
     """That an argument is of a kind that a function can use.
 
     limit : what is allowed, in place of the names of the kinds
@@ -179,18 +212,17 @@ def check_kind(quantity: str, value: object, kinds: type | tuple[type, ...], lim
     """
     if isinstance(value, kinds):
         return
-    *first, last = [kind.__name__ for kind in (kinds if isinstance(kinds, tuple) else (kinds,))]
-    names = f"{', '.join(first)} or {last}" if first else last
-    article = "an" if names[0] in "AEIO" else "a"
-    found = f"of the kind {type(value).__name__}"
-    raise DesignError(quantity, Unquoted(found), limit or f"{article} {names}", remedy)
+    names = [kind.__name__ for kind in (kinds if isinstance(kinds, tuple) else (kinds,))]
+    a = "an" if names[0][0] in "AEIO" else "a"
+    found = say("of the kind {name}", name=type(value).__name__)
+    raise DesignError(quantity, found, limit or say("{a} {names}", a=a, names=either(names)), remedy)
 
 
 def check_number(
-    quantity: str,
+    quantity: Words,
     value: object,
-    limit: str,
-    remedy: str = "",
+    limit: Words,
+    remedy: Words = "",
     *,
     least: float = -math.inf,
     above: float = -math.inf,
@@ -214,23 +246,23 @@ def check_number(
     except (TypeError, ValueError):  # no number, or many
         allowed = False
     if not allowed:
-        raise DesignError(quantity, Unquoted("missing") if value is None else value, limit, remedy)
+        raise DesignError(quantity, say("missing") if value is None else value, limit, remedy)
 
 
 _LOOKALIKES = str.maketrans("АВЕКМНОРСТУХасеорхуі", "ABEKMHOPCTYXaceopxyi")
 """Cyrillic letters that look like Latin ones."""
 
 
-def meant(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> str:
+def meant(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> Words:
     """A remedy for a word that is none of those known: which of them is meant; empty where none is near.
 
     called : what else a known word is called, as by a textbook or in another language
 
-    >>> meant("Cicloidal", ["cosine", "cycloidal"])
+    >>> str(meant("Cicloidal", ["cosine", "cycloidal"]))
     "did you mean 'cycloidal'?"
-    >>> meant("simple harmonic", ["cosine", "double-harmonic"], {"cosine": ["simple harmonic"]})
+    >>> str(meant("simple harmonic", ["cosine", "double-harmonic"], {"cosine": ["simple harmonic"]}))
     "did you mean 'cosine'?"
-    >>> meant("А1", ["A1", "A2"])
+    >>> str(meant("А1", ["A1", "A2"]))
     "its letter 'А' is Cyrillic: type 'A1' in Latin letters"
     >>> meant("xyz", ["cosine", "cycloidal"])
     ''
@@ -241,24 +273,36 @@ def meant(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] |
     latin = word.translate(_LOOKALIKES)
     if latin != word and (name := names.get(latin.casefold())):
         letter = next(letter for letter, other in zip(word, latin, strict=True) if letter != other)
-        return f"its letter '{letter}' is Cyrillic: type '{name}' in Latin letters"
+        return say("its letter '{letter}' is Cyrillic: type '{name}' in Latin letters", letter=letter, name=name)
     near = difflib.get_close_matches(unicodedata.normalize("NFKC", word).casefold(), names, n=1)
     alike, begun = names.get(word.casefold()), [name for name in known if name.startswith(f"{word}_")]
     close = [alike] if alike else begun or [names[other] for other in near]
-    return f"did you mean '{close[0]}'?" if close else ""
+    return say("did you mean '{close}'?", close=close[0]) if close else ""
 
 
-def nearest(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> str:
+def among(
+    word: object, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None
+) -> tuple[Caption, Words]:
+    """The limit and the remedy of a word that is none of those known; ``called`` as in :func:`meant`.
+
+    >>> print(DesignError("law", "cicloidal", *among("cicloidal", ["cosine", "cycloidal"])))
+    law is 'cicloidal', but must be one of cosine, cycloidal; did you mean 'cycloidal'?
+    """
+    known = list(known)
+    return say("one of {names}", names=", ".join(known)), meant(str(word), known, called)
+
+
+def nearest(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> Words:
     """A remedy for a mistyped word: the known word that is meant, or all of them; ``called`` as in :func:`meant`.
 
     Where the limit lists them already, :func:`meant` alone is enough.
 
-    >>> nearest("cicloidal", ["cosine", "cycloidal"])
+    >>> str(nearest("cicloidal", ["cosine", "cycloidal"]))
     "did you mean 'cycloidal'?"
-    >>> nearest("xyz", ["cosine", "cycloidal"])
+    >>> str(nearest("xyz", ["cosine", "cycloidal"]))
     'known are cosine, cycloidal'
-    >>> nearest("roller", ["offset", "roller_radius", "roller_rule"])
+    >>> str(nearest("roller", ["offset", "roller_radius", "roller_rule"]))
     "did you mean 'roller_radius'?"
     """
     known = list(known)
-    return meant(word, known, called) or "known are " + ", ".join(known)
+    return meant(word, known, called) or say("known are {names}", names=", ".join(known))

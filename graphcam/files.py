@@ -12,20 +12,23 @@ from types import MappingProxyType
 
 from graphcam.drafts import draft_folder
 from graphcam.errors import GraphcamError
+from graphcam.words import Caption, Words, say
 
-REMEDIES: Mapping[int | None, str] = {
-    errno.ENOSPC: "make room on the disk, or choose a folder on another one",
-    errno.EDQUOT: "delete some of your files there, or choose a folder on another disk",
-    errno.EROFS: "choose a folder on a disk that can be written to",
-    errno.EACCES: "choose a folder in which you may write, or change its permissions",
-    errno.EPERM: "choose a folder in which you may write, or change its permissions",
-    errno.ENAMETOOLONG: "choose a shorter name",
-    errno.EFBIG: "choose a folder on another disk, or raise the limit on the size of files",
-    errno.EIO: "check the disk, or choose a folder on another one",
+REMEDIES: Mapping[int | None, Words] = {
+    errno.ENOSPC: say("make room on the disk, or choose a folder on another one"),
+    errno.EDQUOT: say("delete some of your files there, or choose a folder on another disk"),
+    errno.EROFS: say("choose a folder on a disk that can be written to"),
+    errno.EACCES: say("choose a folder in which you may write, or change its permissions"),
+    errno.EPERM: say("choose a folder in which you may write, or change its permissions"),
+    errno.ENAMETOOLONG: say("choose a shorter name"),
+    errno.EFBIG: say("choose a folder on another disk, or raise the limit on the size of files"),
+    errno.EIO: say("check the disk, or choose a folder on another one"),
 }
 """What to do about an error of the system, by its number."""
-ELSEWHERE = "choose another place"
+ELSEWHERE = say("choose another place")
 """What to do about any other."""
+THERE = say("it already exists"), say("choose another name, or remove that file first")
+"""What is wrong with a new file that is there, and what to do about it."""
 NOTHING: Mapping[str, str] = MappingProxyType({})
 
 
@@ -36,14 +39,16 @@ class OutputError(GraphcamError):
     the output '/proc/out' cannot be written (No such file or directory); choose another place
     """
 
-    def __init__(self, path: str | Path, why: str, remedy: str = ELSEWHERE) -> None:
+    def __init__(self, path: str | Path, why: Words, remedy: Words = ELSEWHERE) -> None:
         super().__init__(path, why, remedy)
         self.path = path
         self.why = why
-        self.remedy = remedy
+        self.advice = remedy
 
-    def __str__(self) -> str:
-        return f"the output '{self.path}' cannot be written ({self.why}); {self.remedy}"
+    @property
+    def fault(self) -> Caption:
+        """What cannot be written, and why."""
+        return say("the output '{path}' cannot be written ({why})", path=str(self.path), why=self.why)
 
 
 @contextmanager
@@ -68,7 +73,7 @@ def whole_folder(folder: str | Path, former: Mapping[str, str] = NOTHING) -> Gen
     ['a.txt']
     """
     if folder == "":
-        raise OutputError(folder, "it has no name", "name a folder; '.' is the current one")
+        raise OutputError(folder, say("it has no name"), say("name a folder; '.' is the current one"))
     folder = Path(folder)
     # In the folder itself, so that each file moves by a rename within one file system.
     with _draft(folder, folder) as draft:
@@ -112,7 +117,7 @@ def _draft(target: Path, place: Path) -> Generator[Path]:
         with ExitStack() as drafts:
             try:
                 if target != place and target.is_dir():
-                    raise IsADirectoryError("it is a folder")
+                    raise OutputError(target, say("it is a folder"))
                 place.mkdir(parents=True, exist_ok=True)
                 draft = drafts.enter_context(draft_folder(place))
             except (OSError, ValueError) as error:
@@ -143,9 +148,9 @@ def check_new(path: str | Path) -> None:
     OutputError : the file is there already, or its folder is not
     """
     if os.path.lexists(path):
-        raise OutputError(path, "it already exists", "choose another name, or remove that file first")
+        raise OutputError(path, *THERE)
     if not Path(path).parent.is_dir():
-        raise OutputError(path, "its folder does not exist", "make the folder first")
+        raise OutputError(path, say("its folder does not exist"), say("make the folder first"))
 
 
 def write_new(path: str | Path, text: str) -> None:
@@ -162,7 +167,7 @@ def write_new(path: str | Path, text: str) -> None:
             file.flush()
             on_error.pop_all()
     except FileExistsError as error:
-        raise OutputError(path, "it already exists", "choose another name, or remove that file first") from error
+        raise OutputError(path, *THERE) from error
     except (OSError, ValueError) as error:
         raise _output_error(path, error) from error
 
@@ -181,7 +186,7 @@ def _exchange(new: Path, old: Path, folder: Path, former: Mapping[str, str]) -> 
     for name in names:
         # A folder of the same name cannot be replaced by a file: say so before the first file has moved.
         if (folder / name).is_dir():
-            raise IsADirectoryError(errno.EISDIR, f"{name} is a folder there", str(folder / name))
+            raise OutputError(folder, say("{name} is a folder there", name=name))
     replaced = [name for name in names if os.path.lexists(folder / name)]
     replaced += [name for name in former if name not in names and _unchanged(folder, name, former[name])]
     moves = [*((folder / name, old / name) for name in replaced), *((new / name, folder / name) for name in names)]

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.catalog import Catalog, read_catalog
-from graphcam.errors import DesignError, meant
-from graphcam.words import Caption, Words, say, say_in
+from graphcam.errors import DesignError, among
+from graphcam.words import Caption, Message, Words, message, say, say_in
 
 MINUS = "−"
 """As wide as a plus; a hyphen is what a program reads."""
@@ -22,6 +22,8 @@ SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"
 """The digits and the minus of a power of ten."""
 DECIMAL_SIGN = say_in("decimal sign", ".")
 """What stands before the decimals, which a catalog tells as it does every text."""
+SENTENCE = "{what} is {shown}, but must be {allowed}"
+"""That of an error; a language that has it can tell messages."""
 UNREAD = say("This translation has not yet been read by a native speaker.")
 
 
@@ -56,17 +58,19 @@ class Language:
     @cached_property
     def has_messages(self) -> bool:
         """Whether the command line can speak it: its catalog has the messages too, or it is that of the code."""
-        return self.name == ENGLISH.name or any(context == "message" for context, _ in self.catalog.told)
+        return self.name == ENGLISH.name or ("", SENTENCE) in self.catalog.told
 
     def text(self, words: Words) -> str:
-        """What somebody who speaks the language writes."""
+        """What somebody who speaks the language writes; half a message in it would be English, and is so as a whole."""
         if isinstance(words, str):
             return words
-        template = self._template(words)
+        if isinstance(words, Message) and not self.has_messages:
+            return str(words)
+        template, typed = self._template(words), isinstance(words, Message)
         # Texts alone are written in every language as they are.
         if all(isinstance(value, str) for value in words.values.values()):
             return template.format_map(words.values)
-        return template.format_map({name: _Written(value, self) for name, value in words.values.items()})
+        return template.format_map({name: _Written(value, self, typed) for name, value in words.values.items()})
 
     def _template(self, caption: Caption) -> str:
         if caption.plural:
@@ -75,20 +79,28 @@ class Language:
 
 
 class _Written:
-    """A value in a place of a template: a caption in the language, a number with its decimal sign and a true minus."""
+    """A value in a place of a template: a caption in the language, a number with its decimal sign and a true minus.
 
-    __slots__ = ("language", "value")
+    typed : numbers stand as they are typed
+    """
 
-    def __init__(self, value: Any, language: Language) -> None:
-        self.value, self.language = value, language
+    __slots__ = ("language", "typed", "value")
+
+    def __init__(self, value: Any, language: Language, typed: bool) -> None:
+        self.value, self.language, self.typed = value, language, typed
 
     def __getattr__(self, name: str) -> _Written:
-        return _Written(getattr(self.value, name), self.language)
+        return _Written(getattr(self.value, name), self.language, self.typed)
+
+    def __repr__(self) -> str:
+        return repr(self.value)
 
     def __format__(self, format_spec: str) -> str:
         value = self.value
-        if isinstance(value, (str, Caption)):
-            return format(self.language.text(value), format_spec)
+        if isinstance(value, Caption):
+            value = self.language.text(message(value) if self.typed else value)
+        if isinstance(value, str) or self.typed:
+            return format(value, format_spec)
         written = format(value, format_spec).replace(".", self.language.decimal)
         return _power(written).replace("-", MINUS) if isinstance(value, Real) else written
 
@@ -132,5 +144,5 @@ def language(name: str) -> Language:
     if name == ENGLISH.name:
         return ENGLISH
     if name not in languages():
-        raise DesignError("language", name, "one of " + ", ".join(languages()), meant(name, languages()))
+        raise DesignError("language", name, *among(name, languages()))
     return Language(name, read_catalog((_folder() / f"{name}.po").read_text(encoding="utf-8")))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import reduce
 from typing import Any
 
 
@@ -43,6 +44,11 @@ class Caption:
         return Caption(self.template, {**self.values, **values}, self.context, self.plural, self.count)
 
 
+@dataclass(frozen=True)
+class Message(Caption):
+    """A caption on what somebody typed: numbers stand in it as they are typed, in every language."""
+
+
 Words = str | Caption
 """A text: the same in every language, or not."""
 Tell = Callable[[Words], str]
@@ -76,15 +82,6 @@ def say_many(one: str, many: str, count: int, /, **values: Any) -> Caption:
     return Caption(one, {**values, "count": count}, "", many, count)
 
 
-def plain(text: str) -> str:
-    """The text itself, which is put together in English; for the tools of gettext it is that of a message.
-
-    >>> plain("3 hand-ins")
-    '3 hand-ins'
-    """
-    return text
-
-
 def sequence(items: Sequence[Words], separator: str = ", ") -> Caption:
     """Texts one after another.
 
@@ -93,6 +90,44 @@ def sequence(items: Sequence[Words], separator: str = ", ") -> Caption:
     """
     names = [f"item{k}" for k in range(len(items))]
     return Caption(separator.join(f"{{{name}}}" for name in names), dict(zip(names, items, strict=True)))
+
+
+def message(words: Words) -> Message:
+    """The same words as those of a message.
+
+    >>> str(message(say("at most {most:g} mm", most=-0.5)))
+    'at most -0.5 mm'
+    """
+    caption = bare(words) if isinstance(words, str) else words
+    return Message(caption.template, caption.values, caption.context, caption.plural, caption.count)
+
+
+def bare(text: str) -> Caption:
+    """What somebody wrote, where a message is to show it without quotes.
+
+    >>> str(bare("[a, b]"))
+    '[a, b]'
+    """
+    return Caption("{text}", {"text": text})
+
+
+def either(items: Sequence[Words]) -> Words:
+    """Texts of which one is wanted.
+
+    >>> str(either(["a", "b", "c"])), str(either(["a"]))
+    ('a, b or c', 'a')
+    """
+    *first, last = items
+    return say("{first} or {last}", first=sequence(first), last=last) if first else last
+
+
+def chained(items: Sequence[Words]) -> Words:
+    """Texts with an "and" between each two.
+
+    >>> str(chained(["a", "b", "c"])), str(chained(["a"]))
+    ('a and b and c', 'a')
+    """
+    return reduce(lambda first, last: say("{first} and {last}", first=first, last=last), items)
 
 
 def joined(items: Sequence[Words]) -> Words:

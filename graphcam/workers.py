@@ -19,6 +19,7 @@ from itertools import chain, islice
 from typing import Any, TypeVar
 
 from graphcam.errors import installed
+from graphcam.words import say
 
 J = TypeVar("J")
 R = TypeVar("R")
@@ -81,7 +82,8 @@ def cluster(address: str) -> WorkerPool:
     try:
         client: Any = Client(address, timeout=ANSWERED_WITHIN)
     except (OSError, ValueError) as error:
-        raise OSError(f"no dask scheduler answers at {address!r} ({error}); start one, or check the address") from None
+        silent = say("no dask scheduler answers at '{address}' ({error}); start one, or check the address")
+        raise OSError(silent.where(address=address, error=str(error))) from None
     return WorkerPool(
         partial(client.get_executor, retries=0), max(sum(client.nthreads().values()), FEWEST_EXPECTED), client.close
     )

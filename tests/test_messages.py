@@ -1,4 +1,4 @@
-"""What every message keeps to: words about a value stand without quotes, and no error of the system is a value."""
+"""What every message keeps to: its words are captions, those about a value have no quotes, and it goes anywhere."""
 
 from __future__ import annotations
 
@@ -14,10 +14,20 @@ import typer
 
 import graphcam
 from graphcam.cli.shared import WRONG_INPUT, one_message
-from graphcam.errors import DesignError, MissingFileError, Unquoted, unreadable
+from graphcam.errors import DesignError, GraphcamError, MissingFileError, TaskError, unreadable
+from graphcam.exercises.course.course_folder import CourseThereError
+from graphcam.exercises.key.separation import MistakeError
+from graphcam.exercises.running.levels import Level
+from graphcam.exercises.running.probe import LevelError
+from graphcam.files import OutputError
+from graphcam.given.measured import RowError
+from graphcam.notebooks.running import MissingExtraError, NotebookError
+from graphcam.photo.refusal import PhotographError
+from graphcam.sheets.runs import TooLargeError
+from graphcam.words import say
 
-VALUE_OF = {"DesignError": 1, "TaskError": 2, "RowError": 2}
-"""Which argument of an error is the value."""
+WORDS_OF = {"DesignError": (1, 2, 3), "TaskError": (2, 3, 4), "RowError": (2, 3, 4), "OutputError": (1, 2)}
+"""Which arguments of an error are words: its value, if it is told in words, its limit and its remedy."""
 FILES = sorted(Path(graphcam.__file__).parent.rglob("*.py"))
 SPACE = """
 [motion]
@@ -29,42 +39,42 @@ prime_radius = { start = 40, stop = 60, count = 2000 }
 """
 
 
-def values(text: str) -> Iterator[tuple[int, ast.expr]]:
-    """The value of every error that is made in a module, with its line."""
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in VALUE_OF:
-            place = VALUE_OF[node.func.id]
-            if len(node.args) > place:
-                yield node.lineno, node.args[place]
-
-
 def faults(text: str) -> list[int]:
-    """The lines of errors whose value is the program's own words in quotes, or an error of the system."""
-    return [
-        line
-        for line, value in values(text)
-        if isinstance(value, ast.JoinedStr)
-        or (isinstance(value, ast.Constant) and isinstance(value.value, str))
-        or (not isinstance(value, ast.Call) and "strerror" in ast.unparse(value))
-    ]
+    """The lines of errors whose words are put together in English, or are no caption."""
+    found: list[int] = []
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name):
+            words = [node.args[k] for k in WORDS_OF.get(node.func.id, ()) if k < len(node.args)]
+            if any(
+                isinstance(each, ast.JoinedStr)
+                or isinstance(getattr(each, "op", None), ast.Add)
+                or " " in constant(each)
+                for each in words
+            ):
+                found.append(node.lineno)
+    return found
 
 
-def test_words_about_a_value_stand_without_quotes():
+def constant(node: ast.expr) -> str:
+    return node.value if isinstance(node, ast.Constant) and isinstance(node.value, str) else ""
+
+
+def test_the_words_of_an_error_are_captions():
     found = {path.name: faults(path.read_text(encoding="utf-8")) for path in FILES if path.name != "errors.py"}
     assert {name: lines for name, lines in found.items() if lines} == {}
 
 
-def test_the_check_of_quotes_can_fail():
-    assert faults('DesignError("lift", f"{x:g} mm", "less")') == [1]
-    assert faults('\nTaskError(path, "the table", error.strerror or "lost", "a file")') == [2]
-    assert faults('DesignError("lift", Unquoted("missing"), "given")') == []
+def test_the_check_of_words_can_fail():
+    assert faults('DesignError("lift", f"{x:g} mm", say("less"))') == [1]
+    assert faults('\nTaskError(path, "the table", say("missing"), "a file")') == [2]
+    assert faults('DesignError("lift", say("missing"), say("given"))') == []
 
 
 def doubled(text: str) -> list[int]:
     """The lines of errors whose limit and remedy may list the same words."""
     found: list[int] = []
     for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in VALUE_OF:
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in WORDS_OF:
             said = [ast.unparse(argument) for argument in node.args]
             if any(".join(" in each for each in said) and any(each.startswith("nearest(") for each in said):
                 found.append(node.lineno)
@@ -83,9 +93,45 @@ def test_limit_and_remedy_do_not_list_the_same_words():
 
 def test_what_somebody_wrote_stands_in_quotes_and_what_is_told_of_it_does_not():
     assert str(DesignError("law", "sine", "known")) == "law is 'sine', but must be known"
-    assert (
-        str(DesignError("law", Unquoted("missing"), "given", "give it")) == "law is missing, but must be given; give it"
-    )
+    assert str(DesignError("law", say("missing"), "given", "give it")) == "law is missing, but must be given; give it"
+
+
+def kinds(kind: type[GraphcamError] = GraphcamError) -> Iterator[type[GraphcamError]]:
+    for each in kind.__subclasses__():
+        yield each
+        yield from kinds(each)
+
+
+SAID = say("at least {length:g} mm", length=3)
+MADE: dict[str, GraphcamError] = {
+    "DesignError": DesignError(say("prime radius"), say("missing"), SAID, say("enlarge it")),
+    "TaskError": TaskError("cam.toml", "lift", 0, SAID, say("give the lift")),
+    "MissingFileError": MissingFileError("motion.csv", SAID, kind=say("folder"), where=say("beside it")),
+    "OutputError": OutputError("out", SAID),
+    "CourseThereError": CourseThereError("week-5"),
+    "RowError": RowError(3, say("row"), 2.0, SAID, say("measure it")),
+    "TooLargeError": TooLargeError("drawing", 2.0, SAID),
+    "MistakeError": MistakeError("offset-sign", DesignError("offset", 0.0, SAID)),
+    "PhotographError": PhotographError(say("the picture is blurred"), SAID),
+    "LevelError": LevelError(Level.L2, SAID),
+    "MissingExtraError": MissingExtraError(SAID, "nbclient"),
+    "NotebookError": NotebookError("1 / 0", "division by zero"),
+}
+
+
+def test_an_error_of_every_kind_goes_to_another_process_as_it_is():
+    ours = {kind.__name__ for kind in kinds() if kind.__module__.startswith("graphcam")}
+    assert ours == MADE.keys()
+    for error in MADE.values():
+        there = pickle.loads(pickle.dumps(error))
+        assert (type(there), str(there), vars(there)) == (type(error), str(error), vars(error))
+        assert there.caption == error.caption
+
+
+def test_programs_read_the_pieces_of_an_error_in_english():
+    error = MADE["DesignError"]
+    assert isinstance(error, DesignError)
+    assert (error.quantity, error.limit, error.remedy) == ("prime radius", "at least 3 mm", "enlarge it")
 
 
 @pytest.mark.parametrize(

@@ -23,8 +23,6 @@ from graphcam.language import ENGLISH, languages
 
 PACKAGE = Path(gc.__file__).parent
 CATALOGS = [name for name in languages() if name != ENGLISH.name]
-MESSAGES = {"ru"}
-"""In which languages the messages and the help of the command line are told, too."""
 RELEASED = {"ru"}
 """Which languages are whole in a release."""
 MOST_MISSING = 0.05
@@ -65,13 +63,7 @@ def has_words(template: str) -> bool:
 def lacking(name: str) -> list[Message]:
     """The texts of the code that a language tells in English."""
     there = catalog(name)
-    needed = (
-        text
-        for text in texts_of_the_code()
-        if text.id
-        and (text.context or has_words(singular(text.id)))
-        and (text.context != "message" or name in MESSAGES)
-    )
+    needed = (text for text in texts_of_the_code() if text.id and (text.context or has_words(singular(text.id))))
     return [text for text in needed if (old := there.get(text.id, text.context)) is None or not all_told(old)]
 
 

@@ -19,6 +19,7 @@ from graphcam.report.documents import sheet_of
 from graphcam.report.output_folder import unheard
 from graphcam.solving.solve import solve
 from graphcam.tasks.task_file import builtin_task
+from graphcam.words import Words, say
 
 NONE = "–"
 Cell = str | int | float | None
@@ -203,7 +204,7 @@ def _drawing(report: Report) -> TextTable:
     return TextTable("Readings, steps and rendering", note, columns, rows, 2)
 
 
-def bench(effort: Effort, directory: Path | str, progress: Callable[[str], None] | None = None) -> Report:
+def bench(effort: Effort, directory: Path | str, progress: Callable[[Words], None] | None = None) -> Report:
     """Measure drawn, sampled and exact side by side, and write tables, JSON and figures into a folder: all, or none.
 
     Raises
@@ -216,7 +217,7 @@ def bench(effort: Effort, directory: Path | str, progress: Callable[[str], None]
     progress = progress or unheard
     with whole_folder(directory) as folder:
         report = measure(effort, _rendering, progress)
-        progress("drawing the figures")
+        progress(say("drawing the figures"))
         (folder / "bench.md").write_text(markdown(report), encoding="utf-8", newline="\n")
         with (folder / "bench.csv").open("w", newline="", encoding="utf-8") as file:
             csv.writer(file).writerows(numbers(report))

@@ -20,6 +20,7 @@ from graphcam.bench.studio_rows import STUDIO
 from graphcam.bench.sweep_curve import CURVE, SIZES as SWEPT
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import LAW, Method, TimedSizes, tradeoff
+from graphcam.words import Words, say
 
 SECTIONS: tuple[Section, ...] = (EXACT, LOADS, BOUNDS, MEASURED, WAITING, STUDIO, CURVE)
 """The tables of measured figures and goals, in order."""
@@ -127,28 +128,28 @@ class Report:
 
 
 def measure(
-    effort: Effort, rendering: Callable[[Timer], Mapping[str, float]], progress: Callable[[str], None]
+    effort: Effort, rendering: Callable[[Timer], Mapping[str, float]], progress: Callable[[Words], None]
 ) -> Report:
     """Measure everything; ``rendering`` gives the times of the sheet [s], which this side knows nothing of."""
     timer = Timer(effort.budget)
     pair = timer.pairs(PAIR_STATIONS) / PAIR_STATIONS
-    progress("error against the number of parts")
+    progress(say("error against the number of parts"))
     series = tuple(convergence(effort.parts, effort.laws))
-    progress("drawing error")
+    progress(say("drawing error"))
     hands = tuple(by_hand(law, effort.hands, effort.pencil_parts) for law in effort.laws)
     hands_of = bands(LAW, effort.hands), tuple(budgets(LAW))
-    progress("error against time")
+    progress(say("error against time"))
     methods = tuple(tradeoff(effort.sizes, timer, pair))
     gauge = Gauge(timer, effort.law_stations, effort.cam_stations, effort.swept)
     rows: dict[str, tuple[Row, ...]] = {}
     for section in SECTIONS:
         progress(section.title.lower())
         rows[section.key] = tuple(section.measured(gauge))
-    progress("other packages")
+    progress(say("other packages"))
     others = tuple(peers(timer))
-    progress("readings and steps")
+    progress(say("readings and steps"))
     drawing = tuple(drawing_times(timer, pair))
-    progress("rendering")
+    progress(say("rendering"))
     rendered = {name: seconds / pair for name, seconds in rendering(timer).items()}
     return Report(pair, series, hands, *hands_of, methods, rows, others, drawing, rendered)
 

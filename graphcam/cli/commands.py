@@ -124,19 +124,19 @@ def sweep(
     from graphcam.sweeps.sweep_file import is_file, sweep_to_file
     from graphcam.workers import executor_of, worker_pool
 
-    with one_message(), progress_bar("designs") as step:
+    with one_message(), progress_bar(say("designs")) as step:
         designs = load_space(space)
         if is_file(out):
             if cluster:
-                raise OutputError(out, "a cluster writes a folder of parts", "leave out the ending")
+                raise OutputError(out, say("a cluster writes a folder of parts"), say("leave out the ending"))
             with executor_of(workers) as executor:
                 found = sweep_to_file(designs, out, executor, lambda done: step(done, len(designs)))
         else:
             with closing(worker_pool(workers, cluster, dataset.__name__)) as pool:
                 found = dataset.sweep_to_folder(designs, out, pool, lambda done: step(done, len(designs)))
     if isinstance(found, dataset.Summary):
-        print_table(("quantity", "minimum", "maximum"), found.rows())
-        echo(f"{out}: {found}")
+        print_table((say("quantity"), say("minimum"), say("maximum")), found.rows())
+        echo(say("{out}: {found}", out=str(out), found=found.caption))
     tell_sweep(designs, found)
     with one_message():
         write_front(designs, out, found.front)

@@ -25,13 +25,22 @@ from graphcam.cli.grade_options import (
     SecretFile,
     ShowRight,
 )
-from graphcam.cli.shared import DEFAULT_FOLDER, echo, named, one_message, print_table, progress_bar, progress_lines
+from graphcam.cli.shared import (
+    DEFAULT_FOLDER,
+    echo,
+    echo_line,
+    named,
+    one_message,
+    print_table,
+    progress_bar,
+    progress_lines,
+)
 from graphcam.cli.voice import tell, voice
-from graphcam.errors import TaskError, Unquoted, install_advice
+from graphcam.errors import TaskError, install_advice
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.running.levels import Level
 from graphcam.language import languages
-from graphcam.words import Caption, plain, say, say_many
+from graphcam.words import Caption, Words, say, say_many
 
 if TYPE_CHECKING:
     from graphcam.exercises.marking.simulate import Simulation
@@ -65,7 +74,7 @@ def list_exercises() -> None:
             found = find_exercise(name, voice().language.name)
             counts = (len(found.answers), f"{found.marks:g}", len(found.misconceptions))
             rows.append([name, found.title, *map(str, counts)])
-    print_table(("name", "title", "answers", "marks", "mistakes told"), rows, words=2)
+    print_table((say("name"), say("title"), say("answers"), say("marks"), say("mistakes told")), rows, words=2)
 
 
 @exercise.command("copy")
@@ -84,7 +93,7 @@ def copy_exercise(
 
     with one_message():
         if file.suffix != ".toml":
-            raise TaskError(str(file), "the file", Unquoted("none of TOML"), "called NAME.toml")
+            raise TaskError(str(file), say("the file"), say("none of TOML"), say("called NAME.toml"))
         write_new(file, exercise_path(name).read_text(encoding="utf-8"))
     echo(say("{file}: change it, then try it out with 'graphcam exercise simulate {file}'", file=str(file)))
 
@@ -123,7 +132,7 @@ def simulate(
 
         def step(done: int, total: int) -> None:
             """Tell which variant is done."""
-            progress(f"variant {done} of {total}")
+            progress(say("variant {done} of {total}", done=done, total=total))
 
         found = run(find_exercise(name, hand=hand), SECRET, variants, hands, step, workers=workers, cluster=cluster)
         text = json.dumps(found.to_dict(), indent=2, allow_nan=False)
@@ -141,27 +150,22 @@ def _print_matrix(found: Simulation) -> None:
         most = sorted(row.named.items(), key=lambda pair: -pair[1])
         named = ", ".join(f"{other} {count}" for other, count in most)
         rows.append([name, named, str(row.hands), str(row.accepted), f"{row.right(name):.1%}"])
-    columns = ("mistake made", "named", "submissions", "full marks", "named rightly")
-    print_table(columns, rows, words=2, title=f"{found.exercise}: what was named")
+    columns = (say("mistake made"), say("named"), say("submissions"), say("full marks"), say("named rightly"))
+    print_table(columns, rows, words=2, title=say("{exercise}: what was named", exercise=found.exercise))
+    draws, copies = say("{draws:.2f}, at most {most}", draws=found.draws, most=len(found.issued)), found.copies
     for counted, value in (
-        (plain(f"right work that loses any point, of {found.careful}"), f"{found.false_rejections:.2%}"),
+        (say("right work that loses any point, of {count}", count=found.careful), f"{found.false_rejections:.2%}"),
         *(
-            (plain(f"of it with {name} hands, of {tally.hands}"), f"{tally.rate:.2%}")
+            (say("of it with {name} hands, of {hands}", name=name, hands=tally.hands), f"{tally.rate:.2%}")
             for name, tally in found.populations.items()
         ),
-        (plain("right work remarked on as exact as a program"), str(found.too_exact)),
-        (plain("wrong work that earns full marks"), f"{found.false_acceptances:.2%}"),
-        (plain("mistakes named rightly"), f"{found.right_diagnoses:.2%}"),
-        (plain("mistakes that are not looked for, taken for another"), f"{found.outside_named:.2%}"),
-        (
-            plain(f"marks earned at most by a copy of another variant, of {found.copies.pairs}"),
-            f"{found.copies.best:.0%}",
-        ),
-        (plain("copies of another variant that earn more than half"), f"{found.copies.part_above_half:.1%}"),
-        (
-            plain(f"draws a variant, all {found.variants} separable"),
-            plain(f"{found.draws:.2f}, at most {len(found.issued)}"),
-        ),
+        (say("right work remarked on as exact as a program"), str(found.too_exact)),
+        (say("wrong work that earns full marks"), f"{found.false_acceptances:.2%}"),
+        (say("mistakes named rightly"), f"{found.right_diagnoses:.2%}"),
+        (say("mistakes that are not looked for, taken for another"), f"{found.outside_named:.2%}"),
+        (say("marks earned at most by a copy of another variant, of {n}", n=copies.pairs), f"{copies.best:.0%}"),
+        (say("copies of another variant that earn more than half"), f"{copies.part_above_half:.1%}"),
+        (say("draws a variant, all {variants} separable", variants=found.variants), draws),
     ):
         typer.echo(f"{tell(counted)}: {tell(value)}")
 
@@ -228,9 +232,9 @@ def make(
 
     def step(done: int, total: int) -> None:
         """Tell whose turn it is."""
-        progress(f"student {done} of {total}")
+        progress(say("student {done} of {total}", done=done, total=total))
 
-    def remark(line: str) -> None:
+    def remark(line: Words) -> None:
         """Tell what is odd about the course, beside its output."""
         typer.echo(tell(line), err=True)
 
@@ -240,7 +244,8 @@ def make(
         chosen = usual_paper(name) if not paper else "" if paper == UNMARKED else paper
         if not paper and chosen and find_spec("segno") is None:
             chosen = ""
-            progress(f"{name}: worksheets without tags; for such that can be photographed, {install_advice('photo')}")
+            untagged = say("{name}: worksheets without tags; for such that can be photographed, {advice}")
+            progress(untagged.where(name=name, advice=install_advice("photo")))
         papers = {"language": language, "hand": hand, "paper": chosen}
         told = ids_from(roster)
         count = run(
@@ -330,7 +335,7 @@ def grade(
     from graphcam.exercises.grading.deadlines import deadline_of, late_penalty_of
     from graphcam.exercises.grading.lateness import NO_PENALTY
 
-    with one_message(), progress_bar("submissions") as step:
+    with one_message(), progress_bar(say("submissions")) as step:
         marks = policy_changes(follow_through, near, cap or ())
         course = Course(
             *(folder, secret_file, out, exercise, level, seconds, workers, cluster, feedback, gradebook, trusted),
@@ -339,7 +344,8 @@ def grade(
             show_right=show_right,
         )
         said = grade_course(course, step)
-    echo(said)
+    for line in said:
+        echo_line(line)
 
 
 @exercise.command()
@@ -382,7 +388,7 @@ def export(
     from graphcam.exercises.exports.export import export as write
 
     voice().hear(language)
-    with one_message(), progress_bar("variants") as step:
+    with one_message(), progress_bar(say("variants")) as step:
         secret = read_secret(secret_file) if secret_file else None
         students = [Student(f"variant-{k:0{len(str(count))}d}") for k in range(1, count + 1)]
         if roster:
@@ -424,5 +430,5 @@ def speed(
             found, course = marking_speed(find_exercise(name), timer), course_speed(name)
             rates = (found.careful, found.wrong, course.graded)
             rows.append([found.exercise, *(f"{rate:.0f}" for rate in rates), f"{course.papers:.2f}"])
-    heads = ("submissions a second, one core", "careful", "with a mistake", "with files", "papers, s")
-    print_table(heads, rows)
+    heads = say("careful"), say("with a mistake"), say("with files"), say("papers, s")
+    print_table((say("submissions a second, one core"), *heads), rows)

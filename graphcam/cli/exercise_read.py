@@ -6,12 +6,11 @@ import os
 from pathlib import Path
 from typing import Annotated
 
-import typer
 from typer import Argument, Option
 
 from graphcam.cli.grade_options import SecretFile
-from graphcam.cli.shared import named, one_message, progress_bar
-from graphcam.cli.voice import tell
+from graphcam.cli.shared import echo_line, named, one_message, progress_bar
+from graphcam.words import say
 
 
 def read(
@@ -52,9 +51,8 @@ def read(
     """
     from graphcam.exercises.photographs.course_photographs import ReadingOrder, read_course, summary
 
-    with one_message(), progress_bar("photographs") as step:
+    with one_message(), progress_bar(say("photographs")) as step:
         order = ReadingOrder(photographs or [], course, secret_file, out, review, corrections, workers)
         lines = list(summary(read_course(order, step)))
-    for line in map(tell, lines):
-        # A name may hold what is no line, and what a terminal obeys.
-        typer.echo(line if line.isprintable() else ascii(line))
+    for line in lines:
+        echo_line(line)

@@ -52,4 +52,4 @@ def errors_name(path: Path | None) -> Generator[None]:
     except DesignError as error:
         if path is None or error.quantity in OF_COMMAND:
             raise
-        raise TaskError(str(path), error.quantity, error.value, error.limit, error.remedy) from None
+        raise TaskError(str(path), *error.args) from None

@@ -17,6 +17,7 @@ import typer
 
 from graphcam.cli.voice import tell, voice
 from graphcam.errors import GraphcamError, LetteringWarning
+from graphcam.words import Caption, Words, say
 
 WRONG_INPUT = 2
 """Exit status when the input is wrong."""
@@ -31,7 +32,7 @@ DEFAULT_FOLDER = Path("graphcam-out")
 def said(place: str) -> str:
     """A place that is said: an empty one would be taken for the folder in which one is."""
     if not place:
-        raise typer.BadParameter(tell("'' names no place; '.' is the current folder"))
+        raise typer.BadParameter(tell(say("'' names no place; '.' is the current folder")))
     return place
 
 
@@ -54,6 +55,12 @@ def echo(words: object, *, err: bool = False) -> None:
     typer.echo(tell(words), err=err)
 
 
+def echo_line(words: Words) -> None:
+    """Print it as one line: a name may hold what is no line, and what a terminal obeys."""
+    line = tell(words)
+    typer.echo(line if line.isprintable() else ascii(line))
+
+
 TaskFile = Annotated[
     Path | None,
     typer.Argument(parser=named, metavar="TASK.toml", help="Task file; the default is the built-in coursework task."),
@@ -70,8 +77,9 @@ def one_message() -> Generator[None]:
         raise typer.Exit(WRONG_INPUT) from None
     except OSError as error:
         # Without the number that the system gives it.
-        told = f"{error.filename}: {error.strerror}" if error.filename and error.strerror else error
-        typer.echo(f"graphcam: {told}", err=True)
+        said = error.args[0] if error.args and isinstance(error.args[0], Caption) else str(error)
+        told = f"{error.filename}: {error.strerror}" if error.filename and error.strerror else said
+        typer.echo(f"graphcam: {tell(told)}", err=True)
         raise typer.Exit(WRONG_INPUT) from None
 
 
@@ -84,7 +92,7 @@ def warnings_told() -> Generator[None]:
         def told(message: Warning | str, category: type[Warning], *where: Any) -> None:
             """In one line, as every other warning; what else warns is shown as before."""
             if issubclass(category, LetteringWarning):
-                echo(f"warning: {message}", err=True)
+                echo(say("warning: {message}", message=message), err=True)
             else:
                 otherwise(message, category, *where)
 
@@ -92,14 +100,14 @@ def warnings_told() -> Generator[None]:
         yield
 
 
-def progress_lines(*, quiet: bool) -> Callable[[str], None]:
+def progress_lines(*, quiet: bool) -> Callable[[Words], None]:
     """Lines on standard error; with ``quiet`` only for somebody who sits before it."""
     silent = quiet and not sys.stderr.isatty()
     return lambda line: None if silent else typer.echo(f"{tell(line)} ...", err=True)
 
 
 def print_table(
-    columns: Sequence[str], rows: Iterable[Sequence[str]], words: int = 1, *, title: str = "", caption: str = ""
+    columns: Sequence[Words], rows: Iterable[Sequence[str]], words: int = 1, *, title: Words = "", caption: Words = ""
 ) -> None:
     """Print a table: the first columns are words, the others numbers, which stand to the right."""
     width = shutil.get_terminal_size().columns
@@ -156,7 +164,7 @@ def _aligned(rows: Sequence[Sequence[str]], words: int) -> list[str]:
 
 
 @contextmanager
-def progress_bar(things: str) -> Generator[Callable[[int, int], None]]:
+def progress_bar(things: Words) -> Generator[Callable[[int, int], None]]:
     """A bar on standard error if it is a terminal; call what it yields with (done, total)."""
     if not sys.stderr.isatty():
         yield lambda done, total: None
@@ -177,5 +185,5 @@ def progress_bar(things: str) -> Generator[Callable[[int, int], None]]:
     columns = (TextColumn(tell(things)), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     # Without a thread that refreshes: a process with threads is better not forked.
     with Progress(*columns, console=Console(stderr=True), transient=True, auto_refresh=False) as progress:
-        bar = progress.add_task(things, total=None)
+        bar = progress.add_task(str(things), total=None)
         yield step

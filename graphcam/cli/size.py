@@ -13,7 +13,7 @@ from typer import Argument, Option
 import graphcam
 from graphcam.cli.given_task import errors_name, read_task
 from graphcam.cli.shared import DEFAULT_FOLDER, echo, named, one_message, print_table, progress_lines, warnings_told
-from graphcam.cli.voice import tell, voice
+from graphcam.cli.voice import helped, tell, voice
 from graphcam.language import languages
 from graphcam.words import say, sequence
 
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     from graphcam.solving.sizing_design import Sizing
 
 FOLDER = DEFAULT_FOLDER / "size"
-IN_FOLDER = f"Folder for the files; the default is {FOLDER}."
+IN_FOLDER = helped(say("Folder for the files; the default is {folder}.", folder=str(FOLDER)))
 JSON_ALONE = "Print only the result, as JSON; write files only with --out."
 BEST = "size: the smallest cam; stress: the cam with the minimum contact stress.  The default is that of the task."
-OTHER_LANGUAGE = f"Language of the chart, instead of the task's: {', '.join(languages())}."
+OTHER_LANGUAGE = helped(say("Language of the chart, instead of the task's: {names}.", names=", ".join(languages())))
 
 
 class Objective(StrEnum):
@@ -63,7 +63,7 @@ def size(
     folder = FOLDER if out is None and not as_json else out
     with one_message(), warnings_told():
         given = read_task(task, "sizing")
-        progress("searching the ranges")
+        progress(say("searching the ranges"))
         with errors_name(task):
             sizing = graphcam.size_task(given, None if objective is None else objective.value)
         document = sizing.to_dict()

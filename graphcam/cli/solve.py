@@ -27,9 +27,9 @@ from graphcam.cli.shared import (
     warnings_told,
 )
 from graphcam.cli.telling_files import about, tell_files
-from graphcam.cli.voice import tell, voice
+from graphcam.cli.voice import helped, tell, voice
 from graphcam.language import languages
-from graphcam.words import Caption
+from graphcam.words import Caption, say, say_in
 
 if TYPE_CHECKING:
     from graphcam.solving.arcs_solution import AnySolution
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 LARGE = ("A1", "A2")
 """Formats that are too large for one construction."""
-FOLDER = f"Folder for the files; the default is {DEFAULT_FOLDER}."
+FOLDER = helped(say("Folder for the files; the default is {folder}.", folder=str(DEFAULT_FOLDER)))
 JSON_ALONE = "Print only the solution, as JSON; write files only with --out."
 OWN_SHEETS = "Each construction on sheets of its own; A3 if the task has A1 or A2."
 BLANK = "A blank sheet to draw on, without answers: axes, divisions, and the data of the task."
@@ -47,7 +47,9 @@ BY_HAND = "Standard deviation, in mm, of random errors in lines, divider setting
 KINDS = "plain: for any CAD program; cad: with true dimensions and attributes."
 # Brackets are markup here.
 AS_PART = r"Also the cam's working drawing, a solid and G-code for the workshop, from the task's table \[part]."
-OTHER_LANGUAGE = f"Language of sheet and note, instead of the task's: {', '.join(languages())}."
+OTHER_LANGUAGE = helped(
+    say("Language of sheet and note, instead of the task's: {names}.", names=", ".join(languages()))
+)
 
 
 def solve(
@@ -100,7 +102,7 @@ def solve(
         from graphcam.report.output_folder import check_choices
         from graphcam.solving.solve import solve as solved
 
-        progress("drawing and computing")
+        progress(say("drawing and computing"))
         hand = None if pencil is None else graphcam.Pencil.of(pencil, seed=seed)
         with errors_name(task):
             solution = solved(given, hand)
@@ -148,7 +150,8 @@ def _read(path: Path | None, divisions: int | None, language: str | None, *, sma
 def _last_step(upto: str | None, *, worksheet: bool) -> int | str | None:
     """The last step that is drawn."""
     if worksheet and upto is not None:
-        raise graphcam.DesignError("upto", upto, "left out with --worksheet", "a worksheet is the sheet up to step 0")
+        limit = say("left out with --worksheet")
+        raise graphcam.DesignError("upto", upto, limit, say("a worksheet is the sheet up to step 0"))
     if worksheet:
         return 0
     return int(upto) if upto is not None and upto.isdecimal() else upto
@@ -173,7 +176,7 @@ def _print_solution(
         if sizes:
             echo(f"\n{tell(sizes)}")
     for sentence in sentences:
-        echo(f"warning: {sentence}", err=True)
+        echo(say("warning: {sentence}", sentence=sentence), err=True)
     if folder is not None and not as_json:
         # Loaded already, by what wrote the files.
         from graphcam.report.output_folder import written_files
@@ -209,5 +212,7 @@ def _print_quantities(quantities: dict[str, dict[str, Any]]) -> None:
                 *("-" if x is None else f"{round(x, 3) + 0:.3f}" for x in numbers),
             ]
         )
-    columns = ("quantity", "unit", "drawn", "exact", "error", "bound")
-    print_table(columns, rows, words=2, caption="error and estimated bound in mm on paper")
+    columns = say("quantity"), say_in("a column", "unit"), say("drawn"), say("exact"), say("error")
+    print_table(
+        (*columns, say_in("a column", "bound")), rows, words=2, caption=say("error and estimated bound in mm on paper")
+    )

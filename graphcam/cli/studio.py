@@ -13,8 +13,8 @@ from typer import Option
 
 from graphcam.cli.given_task import read_task
 from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, echo, named, one_message, warnings_told
-from graphcam.cli.voice import voice
-from graphcam.errors import DesignError, Unquoted
+from graphcam.cli.voice import helped, voice
+from graphcam.errors import DesignError
 from graphcam.language import languages
 from graphcam.words import say
 
@@ -22,8 +22,10 @@ if TYPE_CHECKING:
     from graphcam.tasks.arcs_task import ArcsTask
     from graphcam.tasks.task import Task
 
-FOLDER = f"Folder for the files that the page writes; the default is {DEFAULT_FOLDER}."
-LANGUAGE = f"Language of the page and of what it writes, instead of the task's: {', '.join(languages())}."
+FOLDER = helped(say("Folder for the files that the page writes; the default is {folder}.", folder=str(DEFAULT_FOLDER)))
+LANGUAGE = helped(
+    say("Language of the page and of what it writes, instead of the task's: {names}.", names=", ".join(languages()))
+)
 ONE_FILE = "Write the studio as one file that needs no server, and exit."
 STATIC = "Write the studio as a folder for a web server, and exit."
 PYODIDE = "Folder with Pyodide and NumPy for browsers, which --html and --site include."
@@ -69,14 +71,14 @@ def studio(
 def _check(html: Path | None, site: Path | None, pyodide: Path | None) -> None:
     """That the options go together."""
     if html is not None and site is not None:
-        raise DesignError("--site", str(site), "left out with --html", "write one after the other")
+        raise DesignError("--site", str(site), say("left out with --html"), say("write one after the other"))
     if (html or site) is not None and pyodide is None:
         asked = "--site" if html is None else "--html"
-        raise DesignError(
-            "--pyodide", Unquoted("missing"), f"given with {asked}", "name the folder with Pyodide and NumPy"
-        )
+        limit = say("given with {asked}", asked=asked)
+        raise DesignError("--pyodide", say("missing"), limit, say("name the folder with Pyodide and NumPy"))
     if (html or site) is None and pyodide is not None:
-        raise DesignError("--pyodide", str(pyodide), "left out without --html and --site", "the server needs none")
+        limit = say("left out without --html and --site")
+        raise DesignError("--pyodide", str(pyodide), limit, say("the server needs none"))
 
 
 def _read(path: Path | None, spoken: str | None) -> Task | ArcsTask:

@@ -14,9 +14,10 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field
 from typing import Any
 
+from graphcam.errors import GraphcamError
+from graphcam.help_texts import help_text
 from graphcam.language import ENGLISH, Language, language, languages
-from graphcam.messages import told
-from graphcam.words import Caption
+from graphcam.words import Caption, Words
 
 VARIABLES = ("LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG")
 
@@ -59,11 +60,9 @@ class Voice:
         if not self.chosen and name in languages() and name != ENGLISH.name and language(name).has_messages:
             self.language = language(name)
 
-    def tell(self, words: object) -> str:
-        """A text in the language: a caption, an error, or a text that stands in the catalogs as one of a message."""
-        if isinstance(words, Caption):
-            return self.language.text(words)
-        return "\n".join(told(line, self.language) for line in str(words).split("\n"))
+    def tell(self, words: Words | GraphcamError) -> str:
+        """A text or an error in the language."""
+        return self.language.text(words.caption if isinstance(words, GraphcamError) else words)
 
 
 _voice: ContextVar[Voice] = ContextVar("voice")
@@ -81,9 +80,18 @@ def voice() -> Voice:
     return _voice.get()
 
 
-def tell(words: object) -> str:
+def tell(words: Words | GraphcamError) -> str:
     """A text in the language of the command that is run; see :meth:`Voice.tell`."""
     return voice().tell(words)
+
+
+_helped: dict[str, Caption] = {}
+
+
+def helped(caption: Caption) -> str:
+    """A text of the help with values in it, which is known again when the help is told."""
+    _helped[str(caption)] = caption
+    return str(caption)
 
 
 def in_language_of_machine(command: Any) -> Any:
@@ -96,9 +104,9 @@ def in_language_of_machine(command: Any) -> Any:
 
 def _tell_help(command: Any, spoken: Language) -> None:
     first, found, rest = (command.help or "").partition("\n\n")
-    command.help = told(" ".join(first.split()), spoken) + found + rest
+    command.help = spoken.text(help_text(first)) + found + rest
     for parameter in command.params:
         if getattr(parameter, "help", None):
-            parameter.help = told(parameter.help, spoken)
+            parameter.help = spoken.text(_helped.get(parameter.help) or help_text(parameter.help))
     for inner in getattr(command, "commands", {}).values():
         _tell_help(inner, spoken)

@@ -22,6 +22,7 @@ from graphcam.errors import DesignError, installed
 from graphcam.given.laws import Floats
 from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG
 from graphcam.mechanism.hertz import LineContact, hertz_line_contact
+from graphcam.words import say
 
 ABREAST, DEEP = 1.5, 2.0
 """Half-widths of the contact, to the side and into the depth, over which the mesh is even."""
@@ -119,16 +120,17 @@ def contact_by_elements(
     1.0
     """
     if not force > 0:
-        raise DesignError("force", force, "a finite number greater than 0 N")
+        raise DesignError("force", force, say("a finite number greater than 0 N"))
     if not poisson < 0.5:
-        raise DesignError("poisson", poisson, "less than 0.5", "what keeps its volume needs another element")
+        raise DesignError("poisson", poisson, say("less than 0.5"), say("what keeps its volume needs another element"))
     if parts < FEWEST:
-        raise DesignError("parts", parts, f"{FEWEST} elements over the half-width or more")
+        raise DesignError("parts", parts, say("{least} elements over the half-width or more", least=FEWEST))
     hertz = hertz_line_contact(force, width, radius1, radius2, young, young, poisson, poisson)
     reach = REACH * min(abs(radius1), abs(radius2))
     if not hertz.half_width < MOST_FLAT * reach / REACH:
-        expected = f"such that the half-width {hertz.half_width:.3g} mm is less than {MOST_FLAT:g} of the radius"
-        raise DesignError("force", force, expected, "reduce the force, or widen the contact")
+        expected = say("such that the half-width {half_width:.3g} mm is less than {most:g} of the radius")
+        expected = expected.where(half_width=hertz.half_width, most=MOST_FLAT)
+        raise DesignError("force", force, expected, say("reduce the force, or widen the contact"))
     x = _graded(ABREAST * hertz.half_width, round(ABREAST * parts), reach)
     depth = _graded(DEEP * hertz.half_width, round(DEEP * parts), reach)
     bodies = [_Body(radius, young, poisson, x, depth) for radius in (radius1, radius2)]

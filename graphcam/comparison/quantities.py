@@ -21,7 +21,7 @@ from graphcam.mechanism.flat_faced import face_width
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.stationary import max_acceleration, max_jerk, max_velocity
 from graphcam.showing import by_parts
-from graphcam.words import Caption, sequence
+from graphcam.words import Caption, say, sequence
 
 
 @dataclass(frozen=True)
@@ -186,7 +186,7 @@ def _quantity(
     """The drawn value beside the exact one."""
     counterpart = said.exact or said.name
     if counterpart not in exact:
-        raise DesignError("exact counterpart", counterpart, f"one of {', '.join(exact)}")
+        raise DesignError(say("exact counterpart"), counterpart, say("one of {names}", names=", ".join(exact)))
     read = construction.readings[said.sides or reading]
     factor, unit = (DEGREES, "deg") if read.unit == "rad" else (1.0, read.unit)
     factor *= said.sign

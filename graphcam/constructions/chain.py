@@ -32,10 +32,11 @@ from graphcam.constructions.working_profile import working_profile
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest, standard_scale
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.limits import PERMITTED
 from graphcam.given.measured import MeasuredMotion
+from graphcam.words import chained, say
 
 PHASE_ANGLES = complex(58.0, 44.0)
 """What the phase angles and their texts need beside the profile, and above and below it together [mm of paper]."""
@@ -311,8 +312,9 @@ class Chain(Drawings):
             return self.board.roller_radius
         proposed = float(self.perfect.roller.readings["roller_radius"].value)
         if not proposed > 0:
-            remedy = "give follower.roller_radius or another rule"
-            raise DesignError("roller radius by the rule", Unquoted(f"{proposed:.4g} mm"), "greater than 0 mm", remedy)
+            remedy = say("give follower.roller_radius or another rule")
+            quantity = say("roller radius by the rule")
+            raise DesignError(quantity, say("{length:.4g} mm", length=proposed), say("greater than 0 mm"), remedy)
         # A roller smaller than the rounding is kept as proposed: rounding it down would leave none.
         return multiple(math.floor(proposed / self.rounding + ROUNDING_SLACK), self.rounding) or proposed
 
@@ -354,14 +356,16 @@ class Chain(Drawings):
             missing += ["cam.prime_radius"] if given is None else []
             if slip := self.board.limits.slip():
                 way, angle = slip
-                limit = "large enough for lines that cross at a degree or more"
-                remedy = f"{math.degrees(angle):.0f} degrees? {angle:g} was given; or give {' and '.join(missing)}"
-                found = Unquoted(f"{angle:g} degrees")
+                limit = say("large enough for lines that cross at a degree or more")
+                remedy = say("{degrees:.0f} degrees? {angle:g} was given; or give {names}")
+                remedy = remedy.where(degrees=math.degrees(angle), angle=angle, names=chained(missing))
+                found = say("{angle:g} degrees", angle=angle)
                 raise DesignError(PERMITTED[way], found, limit, remedy)
-            limit = "a place within all limits, where lines cross at a degree or more"
-            remedy = f"give {' and '.join(missing)}, or permit larger pressure angles"
-            raise DesignError("minimum prime radius", Unquoted("unreadable"), limit, remedy)
+            limit = say("a place within all limits, where lines cross at a degree or more")
+            remedy = say("give {names}, or permit larger pressure angles", names=chained(missing))
+            raise DesignError(say("minimum prime radius"), say("unreadable"), limit, remedy)
         if name == "prime_radius" and not value > 0:
-            remedy = "any radius keeps the limits: give cam.prime_radius, or stricter limits"
-            raise DesignError("minimum prime radius", Unquoted(f"{value:g} mm"), "greater than 0 mm", remedy)
+            remedy = say("any radius keeps the limits: give cam.prime_radius, or stricter limits")
+            quantity = say("minimum prime radius")
+            raise DesignError(quantity, say("{length:g} mm", length=value), say("greater than 0 mm"), remedy)
         return value

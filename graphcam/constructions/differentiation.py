@@ -33,7 +33,7 @@ from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.units import unit
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
 from graphcam.given.motion import FULL_TURN, Motion, wrap
@@ -171,14 +171,15 @@ def differentiation(
 
 
 def _check(x: Floats, s: Floats, turn: float | None) -> None:
-    checked = "stations of the displacement"
+    checked = say("stations of the displacement")
     if x.ndim != 1 or x.shape != s.shape or x.size < FEWEST:
-        raise DesignError(checked, x.size, f"{FEWEST} or more, each with its ordinate")
+        raise DesignError(checked, x.size, say("{least} or more, each with its ordinate", least=FEWEST))
     if not np.all(np.diff(x) > 0):
-        raise DesignError(checked, Unquoted("not in order"), "growing along the axis", "sort them")
+        raise DesignError(checked, say("not in order"), say("growing along the axis"), say("sort them"))
     if turn is not None and not x[-1] - x[0] < turn:
-        remedy = "leave out the last one where it is the first one again"
-        raise DesignError(checked, Unquoted(f"over {x[-1] - x[0]:g} mm"), f"within one turn of {turn:g} mm", remedy)
+        remedy = say("leave out the last one where it is the first one again")
+        found = say("over {value:g} mm", value=x[-1] - x[0])
+        raise DesignError(checked, found, say("within one turn of {turn:g} mm", turn=turn), remedy)
 
 
 def _going_on(hand: Hand, turn: float | None, curve: Drawn) -> Drawn:

@@ -43,7 +43,7 @@ from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeani
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.telling import led_by
 from graphcam.drafting.units import NOTHING, unit
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.stations import Stations
@@ -254,8 +254,9 @@ def _measurable(top: Floats, full: Floats, pencil: Pencil) -> Floats:
     """
     risen = top > FLAT * full
     if pencil.samples is None and not risen:
-        remedy = "divide into more parts, or draw longer ordinates"
-        raise DesignError("maximum displacement on paper", Unquoted(f"{float(top):.3g} mm"), "above the axis", remedy)
+        remedy = say("divide into more parts, or draw longer ordinates")
+        quantity = say("maximum displacement on paper")
+        raise DesignError(quantity, say("{length:.3g} mm", length=float(top)), say("above the axis"), remedy)
     return np.where(risen, top, np.nan)
 
 

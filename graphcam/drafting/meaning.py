@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from graphcam.drafting.formulas import Formula
 from graphcam.errors import DesignError
-from graphcam.words import Caption, Words
+from graphcam.words import Caption, Words, say
 
 Rank = Callable[[NDArray[np.floating[Any]]], NDArray[np.floating[Any]]]
 """Which of several candidates is taken: the one of highest rank.  A rank undoes itself: of a rank it is the value."""
@@ -116,7 +116,8 @@ class Meaning:
         DesignError : it says nothing of that reading
         """
         if name not in self.readings:
-            raise DesignError(f"reading of {self.name}", name, f"told by its meaning: {', '.join(self.readings)}")
+            quantity = say("reading of {name}", name=self.name)
+            raise DesignError(quantity, name, say("told by its meaning: {names}", names=", ".join(self.readings)))
         return self.readings[name]
 
     @property

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from graphcam.drafting.acts import Floats, Kind
 from graphcam.drafting.slips import PROTRACTOR, SLIPS
 from graphcam.errors import DesignError, check_number
+from graphcam.words import say
 
 Stream = np.random.Generator | np.random.RandomState
 """Where a hand's errors come from."""
@@ -57,11 +58,12 @@ class Pencil:
 
     def __post_init__(self) -> None:
         for name in ("line", "dividers", "division", "protractor"):
-            check_number(f"pencil {name}", getattr(self, name), "a finite number of 0 or more", least=0)
+            quantity = say("pencil {name}", name=name)
+            check_number(quantity, getattr(self, name), say("a finite number of 0 or more"), least=0)
         if self.samples is not None and self.samples < 1:
-            raise DesignError("pencil samples", self.samples, "1 or more, or None for a single drawing")
+            raise DesignError(say("pencil samples"), self.samples, say("1 or more, or None for a single drawing"))
         if self.seed < 0:
-            raise DesignError("pencil seed", self.seed, "0 or more")
+            raise DesignError(say("pencil seed"), self.seed, say("0 or more"))
 
     @property
     def perfect(self) -> bool:

@@ -41,7 +41,8 @@ class Scale:
     unit: str
 
     def __post_init__(self) -> None:
-        check_number("scale", self.per_mm, f"a finite number of {self.unit} per mm greater than 0", above=0)
+        limit = say("a finite number of {unit} per mm greater than 0", unit=self.unit)
+        check_number("scale", self.per_mm, limit, above=0)
 
     def value(self, paper: float) -> float:
         """The machine value of a length on paper: mu times mm."""

@@ -17,12 +17,13 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted, check_kind, check_number
+from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.given.angular_velocity import MM_PER_M, omega_of
 from graphcam.given.follower_load import Values
 from graphcam.given.laws import Floats
 from graphcam.given.load_curve import Load, check_load, knots_of, largest, load_at, load_slope
 from graphcam.given.ranges import NUMBER, bounded
+from graphcam.words import say
 
 DEAD = 1e-9
 """A spring that is so near to its dead point [rad] turns nothing."""
@@ -49,11 +50,10 @@ class ArmSpring:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.arm) and self.arm != 0):
-            raise DesignError(
-                "at.arm", self.arm, "a finite length in mm, other than 0", "at the pivot it turns nothing"
-            )
+            limit = say("a finite length in mm, other than 0")
+            raise DesignError("at.arm", self.arm, limit, say("at the pivot it turns nothing"))
         if len(self.anchor) != 2 or not all(map(math.isfinite, self.anchor)):
-            raise DesignError("at.anchor", self.anchor, "two finite coordinates in mm")
+            raise DesignError("at.anchor", self.anchor, say("two finite coordinates in mm"))
 
 
 @dataclass(frozen=True)
@@ -87,14 +87,16 @@ class ArmLoad:
 
     def __post_init__(self) -> None:
         per = "N mm/rad" if self.at is None else "N/mm"
-        for quantity, unit in (("inertia", "kg mm^2"), ("speed_rpm", "rpm"), ("stiffness", per)):
-            check_number(quantity, getattr(self, quantity), f"a finite number of 0 {unit} or more", least=0)
+        for quantity, unit in (("inertia", say("kg mm^2")), ("speed_rpm", "rpm"), ("stiffness", per)):
+            limit = say("a finite number of 0 {unit} or more", unit=unit)
+            check_number(quantity, getattr(self, quantity), limit, least=0)
         bounded("speed_rpm", self.speed_rpm, "rpm")
         for quantity, unit in (("preload", self.preload_unit), ("acceleration", "rad/s^2")):
             value = getattr(self, quantity)
             if isinstance(value, tuple):  # all that is said of the preload, in place of the number alone
-                check_kind(quantity, value, NUMBER, f"a number of {unit}", "write spring_preload(...).preload")
-            check_number(quantity, value, f"a finite number of {unit}")
+                limit = say("a number of {unit}", unit=unit)
+                check_kind(quantity, value, NUMBER, limit, say("write spring_preload(...).preload"))
+            check_number(quantity, value, say("a finite number of {unit}", unit=unit))
         check_load(self.load)
 
     @property
@@ -178,16 +180,14 @@ class PlacedArmLoad:
         if self.given.at is None or self.presses(swing):
             return
         if self._anchor == 0:
-            remedy = "anchor the spring beside the pivot"
-            raise DesignError(
-                "at.anchor", Unquoted("at the pivot"), "elsewhere, for there the spring turns nothing", remedy
-            )
-        limit = (
-            f"beside the line on which the spring passes over the pivot, after {math.degrees(self._left):.4g} degrees"
-        )
-        remedy = "move the anchor round the pivot, or the spring's point to the other side of it"
-        anchor = f"({self.given.at.anchor[0]:g}, {self.given.at.anchor[1]:g})"
-        raise DesignError("at.anchor", Unquoted(anchor), limit, remedy)
+            remedy = say("anchor the spring beside the pivot")
+            found = say("at the pivot")
+            raise DesignError("at.anchor", found, say("elsewhere, for there the spring turns nothing"), remedy)
+        limit = say("beside the line on which the spring passes over the pivot, after {degrees:.4g} degrees")
+        limit = limit.where(degrees=math.degrees(self._left))
+        remedy = say("move the anchor round the pivot, or the spring's point to the other side of it")
+        anchor = say("({anchor:g}, {anchor2:g})", anchor=self.given.at.anchor[0], anchor2=self.given.at.anchor[1])
+        raise DesignError("at.anchor", anchor, limit, remedy)
 
     def presses(self, swing: Any) -> Any:
         """Whether the spring turns the arm towards the cam over the whole swing [rad]."""

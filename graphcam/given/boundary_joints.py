@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from fractions import Fraction
 from itertools import pairwise
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.boundary_parts import Part
 from graphcam.given.exact_pieces import ExactPiece
 from graphcam.given.exact_polynomials import PI
 from graphcam.given.motion_point import told
+from graphcam.words import say
 
 TURN = 2 * PI
 SAME = Fraction(1, 10**9)
@@ -29,35 +30,36 @@ def check_joint(before: Part, after: Part, number: int, size: Fraction) -> None:
     end, start = before.pieces[-1], after.pieces[0]
     where = told(float(start.start))
     if start.start < end.end - SAME:
-        limit = f"{told(float(end.end))} or more, where the part before ends"
-        raise DesignError(f"parts[{number}].points[0].angle", where, limit, "give the parts in order")
+        limit = say("{told} or more, where the part before ends", told=told(float(end.end)))
+        raise DesignError(f"parts[{number}].points[0].angle", where, limit, say("give the parts in order"))
     s, v = ((end.at(end.end, order), start.at(start.start, order)) for order in (0, 1))
     if start.start > end.end + SAME:
         _check_gap(number, f"from {told(float(end.end))} to {where}", s, v, size)
         return
     if abs(s[1] - s[0]) > SAME * size:
-        limit = f"{float(s[0]):.10g}, as the part before ends"
-        raise DesignError(
-            f"parts[{number}] (s where it begins)", Unquoted(f"{float(s[1]):.10g}"), limit, f"give one s at {where}"
-        )
+        limit = say("{s:.10g}, as the part before ends", s=float(s[0]))
+        quantity = say("parts[{number}] (s where it begins)", number=number)
+        raise DesignError(quantity, say("{s:.10g}", s=float(s[1])), limit, say("give one s at {where}", where=where))
     if abs(v[1] - v[0]) > SAME * (size + abs(v[0])):
-        limit, remedy = f"{float(v[0]):.10g}, as the part before ends", f"give v, the same in both, at {where}"
-        raise DesignError(f"parts[{number}] (v where it begins)", Unquoted(f"{float(v[1]):.10g}"), limit, remedy)
+        limit = say("{v:.10g}, as the part before ends", v=float(v[0]))
+        remedy = say("give v, the same in both, at {where}", where=where)
+        quantity = say("parts[{number}] (v where it begins)", number=number)
+        raise DesignError(quantity, say("{v:.10g}", v=float(v[1])), limit, remedy)
 
 
 def _check_gap(
     number: int, where: str, s: tuple[Fraction, Fraction], v: tuple[Fraction, Fraction], size: Fraction
 ) -> None:
     if abs(s[1] - s[0]) > SAME * size:
-        found, limit = f"{float(s[0]):.10g} and {float(s[1]):.10g}", f"equal: the follower dwells {where}"
-        raise DesignError(
-            f"parts[{number}] (s before it)", Unquoted(found), limit, "give a part that leads from one to the other"
-        )
+        found = say("{s:.10g} and {s2:.10g}", s=float(s[0]), s2=float(s[1]))
+        limit = say("equal: the follower dwells {where}", where=where)
+        quantity = say("parts[{number}] (s before it)", number=number)
+        raise DesignError(quantity, found, limit, say("give a part that leads from one to the other"))
     if max(map(abs, v)) > SAME * size:
-        found, limit = f"{float(v[0]):.10g} and {float(v[1]):.10g}", f"0: the follower dwells {where}"
-        raise DesignError(
-            f"parts[{number}] (v before it)", Unquoted(found), limit, "give v = 0 there, or a part that fills the gap"
-        )
+        found = say("{v:.10g} and {v2:.10g}", v=float(v[0]), v2=float(v[1]))
+        limit = say("0: the follower dwells {where}", where=where)
+        quantity = say("parts[{number}] (v before it)", number=number)
+        raise DesignError(quantity, found, limit, say("give v = 0 there, or a part that fills the gap"))
 
 
 def greatest_lift(parts: Sequence[Part]) -> Fraction:
@@ -75,14 +77,15 @@ def joined_turn(parts: Sequence[Part]) -> list[ExactPiece]:
     DesignError : the parts do not join, or do not close the turn
     """
     if not parts:
-        raise DesignError("parts", Unquoted("empty"), "one part or more", "give what leads the follower up and back")
+        found = say("empty")
+        raise DesignError("parts", found, say("one part or more"), say("give what leads the follower up and back"))
     size = greatest_lift(parts)
     for k, (before, after) in enumerate(pairwise(parts), 1):
         check_joint(before, after, k, size)
     begun, ended = parts[0].start, parts[-1].end
     if not 0 <= begun < TURN:
-        limit = "from 0 to less than 360 degrees"
-        raise DesignError("parts[0].points[0].angle", told(float(begun)), limit, "count the cam angle from 0")
+        limit = say("from 0 to less than 360 degrees")
+        raise DesignError("parts[0].points[0].angle", told(float(begun)), limit, say("count the cam angle from 0"))
     _check_closed(parts, size)
     pieces: list[ExactPiece] = []
     for part in parts:
@@ -102,16 +105,16 @@ def _check_closed(parts: Sequence[Part], size: Fraction) -> None:
     first, last = parts[0].pieces[0], parts[-1].pieces[-1]
     turn = last.end - first.start
     if turn > TURN + SAME:
-        remedy = "one turn of the cam is 360 degrees: shorten a part"
-        raise DesignError("parts (turn)", told(float(turn)), "360 degrees or less from first to last", remedy)
+        remedy = say("one turn of the cam is 360 degrees: shorten a part")
+        raise DesignError(say("parts (turn)"), told(float(turn)), say("360 degrees or less from first to last"), remedy)
     s, v = ((last.at(last.end, order), first.at(first.start, order)) for order in (0, 1))
     if abs(s[1] - s[0]) > SAME * size:
-        limit = f"{float(s[1]):.10g}, as the first part begins"
-        remedy = "lead the follower back to where it was a turn before"
-        raise DesignError("parts (s at their end)", Unquoted(f"{float(s[0]):.10g}"), limit, remedy)
+        limit = say("{s:.10g}, as the first part begins", s=float(s[1]))
+        remedy = say("lead the follower back to where it was a turn before")
+        raise DesignError(say("parts (s at their end)"), say("{s:.10g}", s=float(s[0])), limit, remedy)
     gap = turn < TURN - SAME
     off = max(map(abs, v)) if gap else abs(v[1] - v[0])
     if off > SAME * (size + abs(v[0])):
-        found = f"{float(v[0]):.10g}, and {float(v[1]):.10g} where they begin"
-        limit = "0 at both: the follower dwells between them" if gap else "the same at both"
-        raise DesignError("parts (v at their end)", Unquoted(found), limit, "give v at the first and at the last point")
+        found = say("{v:.10g}, and {v2:.10g} where they begin", v=float(v[0]), v2=float(v[1]))
+        limit = say("0 at both: the follower dwells between them") if gap else say("the same at both")
+        raise DesignError(say("parts (v at their end)"), found, limit, say("give v at the first and at the last point"))

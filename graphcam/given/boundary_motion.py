@@ -12,7 +12,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.boundary_joints import SAME, TURN, joined_turn
 from graphcam.given.boundary_parts import Part, SplinePart
 from graphcam.given.exact_pieces import ExactPiece, between
@@ -22,6 +22,7 @@ from graphcam.given.measured import from_zero
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
 from graphcam.given.pieces import Floats, Side
 from graphcam.given.polynomial_law import leg_law
+from graphcam.words import say
 
 LOWEST = Fraction(1, 1 << 60)
 """A lowest displacement nearer to 0 than this part of the lift is 0, and was rounded."""
@@ -86,8 +87,8 @@ def boundary_motion(parts: Sequence[Part]) -> BoundaryMotion:
     pieces = joined_turn(given)
     legs = _legs(pieces)
     if len(legs) < 2:
-        value = f"at rest at {float(pieces[0].p[0]):g} over the whole turn"
-        raise DesignError("motion", Unquoted(value), "one with a rise and a return", "give different s")
+        value = say("at rest at {p:g} over the whole turn", p=float(pieces[0].p[0]))
+        raise DesignError("motion", value, say("one with a rise and a return"), say("give different s"))
     # Twice round, so that a leg over the end of the turn is found whole.
     round_ = [*pieces, *(replace(piece, start=piece.start + TURN) for piece in pieces)]
     phases: list[tuple[float, Phase]] = []

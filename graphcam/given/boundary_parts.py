@@ -14,10 +14,11 @@ from functools import cached_property
 from itertools import pairwise
 from typing import ClassVar
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.exact_pieces import ExactPiece, turning_places
 from graphcam.given.exact_polynomials import Exact, derivative, rounded, shortest, solved, value
 from graphcam.given.motion_point import MotionPoint, exact_angle, told
+from graphcam.words import say
 
 MOST_DEGREE = 31
 """The maximum degree of a polynomial."""
@@ -42,11 +43,12 @@ class _Part:
         points = tuple(self.points)
         object.__setattr__(self, "points", points)
         if not 2 <= len(points) <= MOST_POINTS:
-            raise DesignError("points", len(points), f"2 to {MOST_POINTS} points", "a part leads from one to another")
+            limit = say("2 to {most} points", most=MOST_POINTS)
+            raise DesignError("points", len(points), limit, say("a part leads from one to another"))
         for k, (before, after) in enumerate(pairwise(points), 1):
             if not after.place > before.place:
-                limit = f"greater than {told(before.angle)}, the angle of the point before"
-                remedy = "sort the points by the angle, and give each one once"
+                limit = say("greater than {told}, the angle of the point before", told=told(before.angle))
+                remedy = say("sort the points by the angle, and give each one once")
                 raise DesignError(f"points[{k}].angle", told(after.angle), limit, remedy)
 
     @cached_property
@@ -94,12 +96,12 @@ class _Part:
 
     def _open(self) -> DesignError:
         if all(point.s is None for point in self.points):
-            return DesignError(
-                "points", Unquoted("without any s"), "points of which one gives s", "say how high the motion is"
-            )
-        limit = "conditions that determine the part: some of these leave it open or contradict each other"
-        remedy = "give s where only v, a or j is given"
-        return DesignError("points", Unquoted(f"{self._count} conditions that depend on each other"), limit, remedy)
+            found = say("without any s")
+            return DesignError("points", found, say("points of which one gives s"), say("say how high the motion is"))
+        limit = say("conditions that determine the part: some of these leave it open or contradict each other")
+        remedy = say("give s where only v, a or j is given")
+        found = say("{count} conditions that depend on each other", count=self._count)
+        return DesignError("points", found, limit, remedy)
 
     def _check_sound(self) -> None:
         """Refuse what swings, and what the last digits of the given numbers decide."""
@@ -114,20 +116,20 @@ class _Part:
         for k, (before, after) in enumerate(pairwise(self.points)):
             low, high = before.place, after.place
             between = [(place, piece) for place, piece in turns if low < place < high]
-            where = f"between {told(before.angle)} and {told(after.angle)}"
-            remedy = "give a point there or fewer conditions, take a spline, or part the motion"
+            where = say("between {told} and {told2}", told=told(before.angle), told2=told(after.angle))
+            remedy = say("give a point there or fewer conditions, take a spline, or part the motion")
             if len(between) > MOST_TURNS:
-                value_ = f"{len(between)} {where}"
-                raise DesignError(
-                    f"points[{k}] (turns behind it)", Unquoted(value_), f"at most {MOST_TURNS}; the part swings", remedy
-                )
+                value_ = say("{between} {where}", between=len(between), where=where)
+                quantity = say("points[{k}] (turns behind it)", k=k)
+                raise DesignError(quantity, value_, say("at most {most}; the part swings", most=MOST_TURNS), remedy)
             if before.s is None or after.s is None or not span:
                 continue
             least, most = min(before.s, after.s) - WILD * span, max(before.s, after.s) + WILD * span
             for place, piece in between:
                 if not least <= (s := float(piece.at(place))) <= most:
-                    limit = f"from {least:.6g} to {most:.6g}; the part swings"
-                    raise DesignError(f"points[{k}] (s behind it)", Unquoted(f"{s:.6g} {where}"), limit, remedy)
+                    limit = say("from {least:.6g} to {most:.6g}; the part swings", least=least, most=most)
+                    quantity = say("points[{k}] (s behind it)", k=k)
+                    raise DesignError(quantity, say("{s:.6g} {where}", s=s, where=where), limit, remedy)
 
     def _check_last_digits(self, pieces: Sequence[ExactPiece]) -> None:
         nudged = self._solved([_nudged(k, *condition) for k, condition in enumerate(self._conditions)])
@@ -137,11 +139,10 @@ class _Part:
         both = [(value(piece.p, y), value(p, y)) for piece, (_, p) in zip(pieces, nudged, strict=True) for y in places]
         off = max(abs(here - there) for here, there in both)
         if off > LAST_DIGITS * max(abs(here) for here, _ in both):
-            found = f"decided by the last digits of the numbers: s changes by {float(off):.3g} with them"
-            remedy = "move the points apart, or give fewer conditions"
-            raise DesignError(
-                "points", Unquoted(found), f"conditions that keep s to {LAST_DIGITS:g} of its maximum", remedy
-            )
+            found = say("decided by the last digits of the numbers: s changes by {off:.3g} with them", off=float(off))
+            remedy = say("move the points apart, or give fewer conditions")
+            limit = say("conditions that keep s to {last_digits:g} of its maximum", last_digits=LAST_DIGITS)
+            raise DesignError("points", found, limit, remedy)
 
 
 @dataclass(frozen=True)
@@ -172,13 +173,14 @@ class PolynomialPart(_Part):
         self._check_points()
         degree = self._count - 1
         if degree > MOST_DEGREE:
-            limit = f"at most {MOST_DEGREE + 1}, for a degree of {MOST_DEGREE}"
-            raise DesignError("points", Unquoted(f"{degree + 1} conditions"), limit, "give fewer, or take a spline")
+            limit = say("at most {value}, for a degree of {most}", value=MOST_DEGREE + 1, most=MOST_DEGREE)
+            found = say("{value} conditions", value=degree + 1)
+            raise DesignError("points", found, limit, say("give fewer, or take a spline"))
         if self.degree is not None and self.degree != degree:
-            limit = f"{degree}, one less than the {degree + 1} conditions"
-            remedy = "they are too many: leave the degree out, or change them"
+            limit = say("{degree}, one less than the {value} conditions", degree=degree, value=degree + 1)
+            remedy = say("they are too many: leave the degree out, or change them")
             if self.degree > degree:
-                remedy = "they are too few: leave the degree out, or change them"
+                remedy = say("they are too few: leave the degree out, or change them")
             raise DesignError("degree", self.degree, limit, remedy)
         self._check_sound()
 
@@ -242,12 +244,13 @@ class SplinePart(_Part):
         self._check_points()
         least, most = SPLINE_DEGREES
         if not least <= self.degree <= most:
-            raise DesignError("degree", self.degree, f"from {least} to {most}", "take 5 for a jerk without jumps")
+            limit = say("from {least} to {most}", least=least, most=most)
+            raise DesignError("degree", self.degree, limit, say("take 5 for a jerk without jumps"))
         inner = self._count - self.degree - 1
         if inner < 0:
-            limit = f"{self.degree + 1} or more for a degree of {self.degree}"
-            remedy = "give more points or conditions, or a lower degree"
-            raise DesignError("points", Unquoted(f"{self._count} conditions"), limit, remedy)
+            limit = say("{value} or more for a degree of {degree}", value=self.degree + 1, degree=self.degree)
+            remedy = say("give more points or conditions, or a lower degree")
+            raise DesignError("points", say("{count} conditions", count=self._count), limit, remedy)
         if self.knots is not None:
             self._check_knots(tuple(self.knots), inner)
         self._check_sound()
@@ -255,13 +258,15 @@ class SplinePart(_Part):
     def _check_knots(self, knots: tuple[float, ...], inner: int) -> None:
         object.__setattr__(self, "knots", knots)
         if len(knots) != inner:
-            limit = f"{inner}, one for each of {self._count} conditions but the degree and one"
-            raise DesignError("knots", len(knots), limit, "leave them out to have them chosen")
+            limit = say(
+                "{inner}, one for each of {count} conditions but the degree and one", inner=inner, count=self._count
+            )
+            raise DesignError("knots", len(knots), limit, say("leave them out to have them chosen"))
         ends = self.points[0].angle, *knots, self.points[-1].angle
         for k, (before, after) in enumerate(pairwise(ends)):
             if not after > before:
-                limit = f"greater than {told(before)}, the one before, and inside the part"
-                raise DesignError(f"knots[{min(k, inner - 1)}]", told(after), limit, "sort them by the angle")
+                limit = say("greater than {told}, the one before, and inside the part", told=told(before))
+                raise DesignError(f"knots[{min(k, inner - 1)}]", told(after), limit, say("sort them by the angle"))
 
     def _inner_knots(self, places: Sequence[Fraction]) -> list[Fraction]:
         if self.knots is None:

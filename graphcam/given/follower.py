@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from graphcam.errors import DesignError, check_number, meant
+from graphcam.words import Words, say
 
 Rotation = Literal["ccw", "cw"]
 SENSES = {
@@ -26,14 +27,14 @@ def sense(rotation: str) -> int:
     try:
         return {"ccw": 1, "cw": -1}[rotation]
     except (KeyError, TypeError):
-        raise DesignError("rotation", rotation, "'ccw' or 'cw'", meant(f"{rotation}", SENSES, SENSES)) from None
+        raise DesignError("rotation", rotation, say("'ccw' or 'cw'"), meant(f"{rotation}", SENSES, SENSES)) from None
 
 
 def _check_length(quantity: str, value: float, *, zero: bool) -> None:
     if zero:
-        check_number(quantity, value, "a finite length of 0 mm or more", least=0)
+        check_number(quantity, value, say("a finite length of 0 mm or more"), least=0)
     else:
-        check_number(quantity, value, "a finite length of more than 0 mm", above=0)
+        check_number(quantity, value, say("a finite length of more than 0 mm"), above=0)
 
 
 @dataclass(frozen=True)
@@ -55,7 +56,7 @@ class Translating:
     """The permitted pressure angle on the rise where none is given."""
 
     def __post_init__(self) -> None:
-        check_number("offset", self.offset, "a finite length in mm")
+        check_number("offset", self.offset, say("a finite length in mm"))
         _check_length("roller radius", self.roller_radius, zero=True)
 
 
@@ -106,14 +107,14 @@ class FlatFaced:
     roller_radius = 0.0
 
 
-def swing_remedy(lift: float, otherwise: str) -> str:
+def swing_remedy(lift: float, otherwise: Words) -> Words:
     """What to do about the lift of an arm [rad] that is too large: beyond a turn it was meant in another unit.
 
     >>> swing_remedy(15, "swing the arm less")
     "in Python an arm's lift is an angle in radians: math.radians(15)"
     """
     if lift > 2 * math.pi:
-        return f"in Python an arm's lift is an angle in radians: math.radians({lift:g})"
+        return say("in Python an arm's lift is an angle in radians: math.radians({lift:g})", lift=lift)
     return otherwise
 
 

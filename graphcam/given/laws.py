@@ -24,6 +24,7 @@ from graphcam.given.law_words import LAW_WORDS
 from graphcam.given.motion_law import Fourth, Law
 from graphcam.given.pieces import Floats, Formula, Side, sine_cosine
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law, leg_law
+from graphcam.words import say
 
 __all__ = ["LAWS", "Floats", "Side", "law"]
 
@@ -354,14 +355,17 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
         known = (*LAWS, CONSTANT_VELOCITY)
         remedy = nearest(f"{name}", known, LAW_WORDS)
         if callable(name):
-            remedy = "a law of your own is gc.Law(name, formula)"
-        raise DesignError("law", name, "a motion law that graphcam knows", remedy)
+            remedy = say("a law of your own is gc.Law(name, formula)")
+        raise DesignError("law", name, say("a motion law that graphcam knows"), remedy)
     if not 1 / MOST_UNEQUAL <= ratio <= MOST_UNEQUAL:
-        limit = f"a finite number greater than 0, from {1 / MOST_UNEQUAL:g} to {MOST_UNEQUAL:g}"
-        raise DesignError("ratio", ratio, limit, "leave it out for equal parts")
+        limit = say(
+            "a finite number greater than 0, from {value:g} to {most:g}", value=1 / MOST_UNEQUAL, most=MOST_UNEQUAL
+        )
+        raise DesignError("ratio", ratio, limit, say("leave it out for equal parts"))
     if name != "rectangular" and ratio != 1:
         called = name.name if own else name
-        raise DesignError("ratio", ratio, f"1 for the {called} law", "only the rectangular law has unequal parts")
+        limit = say("1 for the {called} law", called=called)
+        raise DesignError("ratio", ratio, limit, say("only the rectangular law has unequal parts"))
     return name if own else _built(name, ratio)
 
 

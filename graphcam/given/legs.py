@@ -11,10 +11,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.rests import Stop, Surroundings, find_stop
+from graphcam.words import Words, say
 
 DEPTH = 2.0
 """A rise or return of less than this many tolerances is not told from noise."""
@@ -62,7 +63,7 @@ class _Flat:
         return replace(self, first=self.first + rows, last=self.last + rows)
 
 
-def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float, advice: str = "") -> tuple[list[Leg], float]:
+def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float, advice: Words = "") -> tuple[list[Leg], float]:
     """The legs of a table over one turn, in order, and how many times more than the noise their stops are off at most.
 
     phi, s : (n,) cam angles [rad] that grow over less than a turn, and the displacements there
@@ -80,16 +81,16 @@ def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float, advice: st
     [(3.142, 1, False), (3.142, -1, False)]
     """
     if not np.ptp(s) > DEPTH * tolerance:
-        limit = f"more than {DEPTH * tolerance:g}, {DEPTH:g} times the tolerance"
-        remedy = "give the table of a motion, or a smaller tolerance"
-        raise DesignError("the table's lift", Unquoted(f"{np.ptp(s):.4g}"), limit, remedy)
+        limit = say("more than {value:g}, {depth:g} times the tolerance", value=DEPTH * tolerance, depth=DEPTH)
+        remedy = say("give the table of a motion, or a smaller tolerance")
+        raise DesignError(say("the table's lift"), say("{ptp:.4g}", ptp=np.ptp(s)), limit, remedy)
     turnings = _turnings(s, DEPTH * tolerance)
     # Three turns of rows, so that nothing begins or ends within the middle one.
     around, rows = np.concatenate([phi - FULL_TURN, phi, phi + FULL_TURN]), np.tile(s, 3)
     flats = [_flat(rows, k + s.size, noise) for k in turnings]
     apart = all(a.last < b.first for a, b in pairwise([*flats, flats[0].moved(s.size)]))
     if not apart or len(turnings) > MOST_TURNINGS:
-        limit = f"greater than the noise that turns the table {len(turnings)} times"
+        limit = say("greater than the noise that turns the table {turnings} times", turnings=len(turnings))
         raise DesignError("tolerance", tolerance, limit, advice)
     flats = _with_rests_between(around, rows, flats, noise, DEPTH * tolerance)
     gap = FULL_TURN / s.size

@@ -4,13 +4,14 @@ import math
 from dataclasses import dataclass
 from numbers import Real
 
-from graphcam.errors import DesignError, Unquoted, check_kind
+from graphcam.errors import DesignError, check_kind
 from graphcam.given.follower import Translating
+from graphcam.words import say
 
 QUARTER_TURN = math.pi / 2
 PERMITTED = {
-    "rise": "permitted pressure angle on the rise",
-    "return": "permitted pressure angle on the return",
+    "rise": say("permitted pressure angle on the rise"),
+    "return": say("permitted pressure angle on the return"),
 }
 """What an error calls a limit, by its name."""
 
@@ -42,14 +43,14 @@ class Limits:
     def __post_init__(self) -> None:
         back = self.return_
         for name, angle in (("rise", self.rise), ("return", 0.0 if back is None else back)):
-            check_kind(PERMITTED[name], angle, Real, "an angle in rad", "30 degrees are math.radians(30)")
+            check_kind(PERMITTED[name], angle, Real, say("an angle in rad"), say("30 degrees are math.radians(30)"))
         if not (0 < self.rise < QUARTER_TURN and (back is None or 0 < back < QUARTER_TURN)):
             name, value = ("return", back) if 0 < self.rise < QUARTER_TURN else ("rise", self.rise)
-            given, limit = math.degrees(value or 0.0), "between 0 and 90 degrees, both excluded"
-            remedy = "30 degrees is usual for a translating follower"
+            given, limit = math.degrees(value or 0.0), say("between 0 and 90 degrees, both excluded")
+            remedy = say("30 degrees is usual for a translating follower")
             if given > 360:
-                remedy = f"write math.radians({value:g}) if it is in degrees"
-            raise DesignError(PERMITTED[name], Unquoted(f"{given:g} degrees"), limit, remedy)
+                remedy = say("write math.radians({value:g}) if it is in degrees", value=value)
+            raise DesignError(PERMITTED[name], say("{given:g} degrees", given=given), limit, remedy)
 
     def slip(self) -> tuple[str, float] | None:
         """The name and the degrees of a limit so small that radians were given for degrees; None if there is none.

@@ -8,9 +8,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted, check_number
+from graphcam.errors import DesignError, check_number
 from graphcam.given.laws import Floats
 from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
+from graphcam.words import say
 
 
 @dataclass(frozen=True)
@@ -39,23 +40,26 @@ class LoadCurve:
         object.__setattr__(self, "phi", phi)
         object.__setattr__(self, "force", force)
         if len(phi) != len(force) or not all(map(math.isfinite, (*phi, *force))):
-            raise DesignError(
-                "load", Unquoted(f"a table of {len(phi)} angles and {len(force)} loads"), "rows of finite numbers"
-            )
+            found = say("a table of {phi} angles and {force} loads", phi=len(phi), force=len(force))
+            raise DesignError("load", found, say("rows of finite numbers"))
         if len(phi) < 2 or abs(phi[0]) > CLOSURE or abs(phi[-1] - FULL_TURN) > CLOSURE:
-            covered = f"from {_degrees(phi[0])} to {_degrees(phi[-1])}" if phi else "without a row"
-            remedy = "begin the table with a row at 0 degrees and end it with one at 360"
-            raise DesignError(
-                "load", Unquoted(f"a table {covered}"), "a table that covers the turn, from 0 to 360 degrees", remedy
-            )
+            covered = say("without a row")
+            if phi:
+                covered = say("from {degrees} to {degrees2}", degrees=_degrees(phi[0]), degrees2=_degrees(phi[-1]))
+            remedy = say("begin the table with a row at 0 degrees and end it with one at 360")
+            found = say("a table {covered}", covered=covered)
+            raise DesignError("load", found, say("a table that covers the turn, from 0 to 360 degrees"), remedy)
         for before, after in pairwise(phi):
             if not before < after:
-                found = f"a table with {_degrees(after)} after {_degrees(before)}"
-                remedy = "a jump is a steep line between two rows that lie close together"
-                raise DesignError("load", Unquoted(found), "a table whose angles grow from row to row", remedy)
+                found = say(
+                    "a table with {degrees} after {degrees2}", degrees=_degrees(after), degrees2=_degrees(before)
+                )
+                remedy = say("a jump is a steep line between two rows that lie close together")
+                raise DesignError("load", found, say("a table whose angles grow from row to row"), remedy)
         if not math.isclose(force[0], force[-1], rel_tol=CLOSURE, abs_tol=CLOSURE):
-            found, remedy = f"{force[0]:g} N at 0 degrees and {force[-1]:g} N at 360", "a turn ends as the next begins"
-            raise DesignError("load", Unquoted(found), "the same at both", remedy)
+            found = say("{force:g} N at 0 degrees and {force2:g} N at 360", force=force[0], force2=force[-1])
+            remedy = say("a turn ends as the next begins")
+            raise DesignError("load", found, say("the same at both"), remedy)
 
     def __call__(self, phi: Floats | float) -> Floats:
         """The load [N] at cam angles [rad], any real numbers; NaN for NaN."""
@@ -99,7 +103,7 @@ def check_load(load: Load) -> None:
     DesignError : it is not
     """
     if not isinstance(load, LoadCurve):
-        check_number("load", load, "a finite number of N, or a table over the turn")
+        check_number("load", load, say("a finite number of N, or a table over the turn"))
 
 
 def largest(load: Load) -> float:

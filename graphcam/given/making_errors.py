@@ -9,8 +9,9 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, Unquoted, check_number, meant, nearest
+from graphcam.errors import DesignError, among, check_number, nearest
 from graphcam.given.laws import Floats
+from graphcam.words import say
 
 Distribution = Literal["normal", "uniform"]
 SIZES = "roller_diameter", "offset", "distance", "arm"
@@ -50,7 +51,7 @@ class Deviations:
     def __post_init__(self) -> None:
         for name in self.sizes:
             if name not in MADE:
-                raise DesignError("sizes", name, f"one of {', '.join(MADE)}", meant(name, MADE))
+                raise DesignError("sizes", name, *among(name, MADE))
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -112,21 +113,23 @@ class MakingErrors:
         for k, amplitude in enumerate(self.waviness):
             _check_tolerance(f"waviness[{k}]", amplitude)
         if len(self.harmonics) != len(self.waviness):
-            found, wanted = f"a list of {len(self.harmonics)}", f"a list of {len(self.waviness)}, as waviness is"
-            raise DesignError("harmonics", found, wanted, "give every amplitude its number of waves per turn")
+            found = say("a list of {harmonics}", harmonics=len(self.harmonics))
+            wanted = say("a list of {waviness}, as waviness is", waviness=len(self.waviness))
+            raise DesignError("harmonics", found, wanted, say("give every amplitude its number of waves per turn"))
         for k, harmonic in enumerate(self.harmonics):
             if not 1 <= harmonic <= HIGHEST:
-                raise DesignError(f"harmonics[{k}]", harmonic, f"from 1 to {HIGHEST} waves per turn")
+                limit = say("from 1 to {highest} waves per turn", highest=HIGHEST)
+                raise DesignError(f"harmonics[{k}]", harmonic, limit)
             if harmonic in self.harmonics[:k]:
-                raise DesignError(f"harmonics[{k}]", harmonic, "given once", "give one amplitude for it")
+                raise DesignError(f"harmonics[{k}]", harmonic, say("given once"), say("give one amplitude for it"))
         for name in SIZES:
             _check_tolerance(name, getattr(self, name))
         if self.distribution not in PARTS:
-            raise DesignError("distribution", self.distribution, "one that is known", nearest(self.distribution, PARTS))
+            limit = say("one that is known")
+            raise DesignError("distribution", self.distribution, limit, nearest(self.distribution, PARTS))
         if not self.reaches:
-            raise DesignError(
-                "waviness", Unquoted("left out"), "given where no size has a tolerance", "or give a size one"
-            )
+            found = say("left out")
+            raise DesignError("waviness", found, say("given where no size has a tolerance"), say("or give a size one"))
 
     @property
     def reaches(self) -> dict[str, float]:
@@ -150,9 +153,9 @@ class MakingErrors:
         (0.01, 0.005)
         """
         if samples < 2:
-            raise DesignError("samples", samples, "2 or more")
+            raise DesignError("samples", samples, say("2 or more"))
         if seed < 0:
-            raise DesignError("seed", seed, "0 or more")
+            raise DesignError("seed", seed, say("0 or more"))
         waves = [
             a * np.exp(2j * np.pi * _stream(seed, wave_name(n)).random((samples, 1)))
             for n, a in zip(self.harmonics, self.waviness, strict=True)
@@ -181,7 +184,8 @@ def deviations_within(coverage: float) -> float:
     1.96
     """
     if not 0 < coverage < 1:
-        raise DesignError("coverage", coverage, "between 0 and 1", "0.95 is the band that holds 95 of 100 cams")
+        limit = say("between 0 and 1")
+        raise DesignError("coverage", coverage, limit, say("0.95 is the band that holds 95 of 100 cams"))
     return NormalDist().inv_cdf((1 + coverage) / 2)
 
 
@@ -190,5 +194,5 @@ def _stream(seed: int, name: str) -> np.random.Generator:
 
 
 def _check_tolerance(name: str, value: float) -> None:
-    limit = "a finite length of 0 mm or more"
-    check_number(name, value, limit, "a tolerance is the width of a zone", least=0)
+    limit = say("a finite length of 0 mm or more")
+    check_number(name, value, limit, say("a tolerance is the width of a zone"), least=0)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted, check_number
+from graphcam.errors import DesignError, check_number
 from graphcam.given.fixed_order import summed
 from graphcam.given.laws import Floats
 from graphcam.given.legs import Leg, find_legs
@@ -18,6 +18,7 @@ from graphcam.given.monotone_spline import Fit, fit
 from graphcam.given.motion import FULL_TURN, NEARLY, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.roots import roots
 from graphcam.given.spline_law import AT_REST, TURNING, spline_law
+from graphcam.words import Caption, Words, say
 
 DEFAULT_TOLERANCE = 0.01
 """How far the motion may pass a row of its table [mm]."""
@@ -51,7 +52,7 @@ SHOWN = 1e-3
 class RowError(DesignError):
     """A row of a table that cannot be; ``row`` counts from 0."""
 
-    def __init__(self, row: int, quantity: str, value: object, limit: str, remedy: str) -> None:
+    def __init__(self, row: int, quantity: Words, value: object, limit: Words, remedy: Words) -> None:
         super().__init__(quantity, value, limit, remedy)
         self.row = row
 
@@ -144,9 +145,10 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     >>> float(np.max(np.abs(motion(phi - motion.zero)[0] - motion.measured))) == motion.greatest_residual
     True
     """
-    check_number("tolerance", tolerance, "a finite number greater than 0", above=0)
+    check_number("tolerance", tolerance, say("a finite number greater than 0"), above=0)
     if tolerance < SMALLEST:
-        raise DesignError("tolerance", tolerance, f"at least {SMALLEST:g}", "give what the table was measured to")
+        limit = say("at least {smallest:g}", smallest=SMALLEST)
+        raise DesignError("tolerance", tolerance, limit, say("give what the table was measured to"))
     phi, s = check_rows(phi, s, tolerance)
     least, scatter = LEAST_NOISE * float(np.ptp(s)), _scatter(phi, s)
     most = max(tolerance / TOLERANCE_OF_NOISE, least)
@@ -211,70 +213,69 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
     try:
         phi, values = np.asarray(phi, dtype=np.float64), np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
-        raise DesignError("table", Unquoted("not of numbers"), "a list of cam angles and one of values") from None
+        raise DesignError("table", say("not of numbers"), say("a list of cam angles and one of values")) from None
     if phi.ndim != 1 or phi.shape != values.shape:
-        shapes = f"{phi.shape} and {values.shape}"
-        raise DesignError(
-            "shapes of the table's columns", Unquoted(shapes), "one number for each cam angle", "give two lists"
-        )
+        shapes = say("{shape} and {shape2}", shape=phi.shape, shape2=values.shape)
+        quantity = say("shapes of the table's columns")
+        raise DesignError(quantity, shapes, say("one number for each cam angle"), say("give two lists"))
     if not FEWEST_ROWS <= phi.size <= MOST_ROWS:
-        limit = f"from {FEWEST_ROWS} to {MOST_ROWS}"
-        remedy = "measure at more or at fewer cam angles"
-        raise RowError(max(phi.size - 1, 0), "number of rows", phi.size, limit, remedy)
+        limit = say("from {least} to {most}", least=FEWEST_ROWS, most=MOST_ROWS)
+        remedy = say("measure at more or at fewer cam angles")
+        raise RowError(max(phi.size - 1, 0), say("number of rows"), phi.size, limit, remedy)
     for k, number in enumerate(np.isfinite(phi) & np.isfinite(values)):
         if not number:
-            raise RowError(k, "row", Unquoted(f"{phi[k]:g}, {values[k]:g}"), "finite numbers", "measure it")
+            found = say("{phi:g}, {values:g}", phi=phi[k], values=values[k])
+            raise RowError(k, say("row"), found, say("finite numbers"), say("measure it"))
     for k in np.flatnonzero(np.abs(values) > LARGEST)[:1]:
-        raise RowError(
-            int(k), "row", Unquoted(f"{phi[k]:g}, {values[k]:g}"), f"numbers up to {LARGEST:g}", "measure again"
-        )
+        found = say("{phi:g}, {values:g}", phi=phi[k], values=values[k])
+        limit = say("numbers up to {most:g}", most=LARGEST)
+        raise RowError(int(k), say("row"), found, limit, say("measure again"))
     for k, step in enumerate(np.diff(phi), 1):
         if step <= ROUNDING:
-            remedy = "give every cam angle once" if step >= -ROUNDING else "sort the rows by the cam angle"
-            limit = f"greater than the one before, {_degrees(phi[k - 1])}"
-            raise RowError(k, "cam angle", _degrees(phi[k]), limit, remedy)
+            remedy = say("give every cam angle once") if step >= -ROUNDING else say("sort the rows by the cam angle")
+            limit = say("greater than the one before, {degrees}", degrees=_degrees(phi[k - 1]))
+            raise RowError(k, say("cam angle"), _degrees(phi[k]), limit, remedy)
     span, widest = float(phi[-1] - phi[0]), float(np.max(np.diff(phi)))
     last = phi.size - 1
     if span > FULL_TURN + ROUNDING or FULL_TURN - span > WIDEST_GAP * widest:
-        limit, remedy = "360 degrees, or a step less", _turn_remedy(span)
-        raise RowError(last, "turn that the rows cover", _degrees(span), limit, remedy)
+        limit, remedy = say("360 degrees, or a step less"), _turn_remedy(span)
+        raise RowError(last, say("turn that the rows cover"), _degrees(span), limit, remedy)
     if span < FULL_TURN - ROUNDING:
         return phi, values
     if abs(values[-1] - values[0]) > closes_to:
-        limit, remedy = (
-            f"{values[0]:g} as in the first, a turn before",
-            "end where the turn began, or leave the last row out",
-        )
-        raise RowError(last, "last row", Unquoted(f"{values[-1]:g}"), limit, remedy)
+        limit = say("{values:g} as in the first, a turn before", values=values[0])
+        remedy = say("end where the turn began, or leave the last row out")
+        raise RowError(last, say("last row"), say("{values:g}", values=values[-1]), limit, remedy)
     return phi[:-1], values[:-1]
 
 
-def _turn_remedy(span: float) -> str:
+def _turn_remedy(span: float) -> Words:
     """What to do about rows that do not cover a turn: perhaps their angles are in the other unit."""
     for turn, remedy in (
-        (360.0, "angles are in radians here: convert them by numpy.radians"),
-        (math.radians(FULL_TURN), "about 2 pi: give the angles in degrees, not in radians"),
+        (360.0, say("angles are in radians here: convert them by numpy.radians")),
+        (math.radians(FULL_TURN), say("about 2 pi: give the angles in degrees, not in radians")),
     ):
         if SHORTEST_TURN * turn < span < (1 + NEARLY) * turn:
             return remedy
-    return "give one revolution of the cam"
+    return say("give one revolution of the cam")
 
 
-def _degrees(angle: float) -> Unquoted:
-    return Unquoted(f"{math.degrees(angle):.10g} degrees")
+def _degrees(angle: float) -> Caption:
+    return say("{degrees:.10g} degrees", degrees=math.degrees(angle))
 
 
-def _remedy(tolerance: float, scatter: float) -> str:
+def _remedy(tolerance: float, scatter: float) -> Words:
     """What to do about a tolerance that is too small: give what the scatter of the rows asks for, if that is more."""
     asked = TOLERANCE_OF_NOISE * scatter
     if not asked > tolerance:
-        return "give a greater tolerance, or a table with less noise"
+        return say("give a greater tolerance, or a table with less noise")
     digit = 10.0 ** (math.floor(math.log10(asked)) - 1)
     enough = f"{math.ceil(asked / digit) * digit:.2g}"
     times = TOLERANCE_OF_NOISE
-    return (
-        f"give a greater tolerance, as {enough}, {times:g} times what the rows scatter by, or a table with less noise"
+    told = say(
+        "give a greater tolerance, as {enough}, {times:g} times what the rows scatter by, or a table with less noise"
     )
+    return told.where(enough=enough, times=times)
 
 
 def _scatter(phi: Floats, s: Floats) -> float:

@@ -30,6 +30,7 @@ from graphcam.given.banded_forms import Forms, around
 from graphcam.given.laws import Floats
 from graphcam.given.legs import Leg
 from graphcam.given.motion import FULL_TURN
+from graphcam.words import Words, say
 
 DEGREE = 5
 FEWEST, MOST, PARTS_OF_ROWS = 12, 180, 3.0
@@ -64,7 +65,7 @@ class Fit:
     knots: Floats
 
 
-def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float, advice: str = "") -> Fit:
+def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float, advice: Words = "") -> Fit:
     """The most likely spline that keeps every row to the tolerance.
 
     phi, s : (n,) cam angles [rad] within the turn that begins with the first leg, in order, and displacements
@@ -84,7 +85,7 @@ def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float,
         if off.max() <= tolerance:
             return fitted
         counts[off > tolerance] *= PULL
-    limit = f"more than {off.max():.3g}, what the best spline leaves at a row"
+    limit = say("more than {max:.3g}, what the best spline leaves at a row", max=off.max())
     raise DesignError("tolerance", tolerance, limit, advice)
 
 

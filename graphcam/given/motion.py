@@ -10,11 +10,12 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError, Unquoted, check_kind, check_number
+from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.given.laws import Floats, Side, law, law_of_return
 from graphcam.given.motion_law import Law
 from graphcam.given.pieces import Piece, Piecewise, at_rest, chunks, in_phase
 from graphcam.showing import Shown, in_lines
+from graphcam.words import Words, say
 
 CLOSURE = 1e-9
 """How far the angles may miss a full turn (rad), and the lifts zero (relative to the maximum)."""
@@ -26,13 +27,13 @@ NEARLY = 0.02
 
 
 def _check_positive(angle: float) -> None:
-    check_number("angle", angle, "a finite number greater than 0 rad", above=0)
+    check_number("angle", angle, say("a finite number greater than 0 rad"), above=0)
 
 
-def _check_turn(angle: float, remedy: str) -> None:
+def _check_turn(angle: float, remedy: Words) -> None:
     """Check that a phase is no longer than a turn: an angle in degrees is told from one in radians by that."""
     if angle > FULL_TURN + CLOSURE:
-        raise DesignError("angle", Unquoted(f"{angle:.6g} rad"), "at most a full turn, 2 pi rad", remedy)
+        raise DesignError("angle", say("{angle:.6g} rad", angle=angle), say("at most a full turn, 2 pi rad"), remedy)
 
 
 def wrap(phi: ArrayLike) -> Floats:
@@ -64,7 +65,7 @@ def cam_angle(angle: ArrayLike, turn: float = 360.0) -> Floats:
 
 def _check_side(side: str) -> None:
     if side not in ("right", "left"):
-        raise DesignError("side", side, "'right' or 'left'")
+        raise DesignError("side", side, say("'right' or 'left'"))
 
 
 @dataclass(frozen=True)
@@ -103,10 +104,12 @@ class Moving:
     ratio: float = 1.0
 
     def __post_init__(self) -> None:
-        check_number("lift", self.lift, "a finite number greater than 0 mm", above=0)
+        check_number("lift", self.lift, say("a finite number greater than 0 mm"), above=0)
         _check_positive(self.angle)
-        in_degrees = f"write math.radians({self.angle:.6g}) if it is in degrees"
-        swapped = f"{in_degrees}, or {_swapped(self)} if the two are swapped"
+        in_degrees = say("write math.radians({angle:.6g}) if it is in degrees", angle=self.angle)
+        swapped = say(
+            "{in_degrees}, or {swapped} if the two are swapped", in_degrees=in_degrees, swapped=_swapped(self)
+        )
         remedy = swapped if self.lift <= FULL_TURN else in_degrees
         _check_turn(self.angle, remedy)
         _ = self.normalised  # says at once if there is no such law
@@ -202,26 +205,28 @@ class Motion(Shown):
     """s and its derivatives over the turn: the pieces of the laws, and the dwells"""
 
     def __post_init__(self) -> None:
-        check_kind("phases", self.phases, Iterable, "a list of rises, dwells and returns")
+        check_kind("phases", self.phases, Iterable, say("a list of rises, dwells and returns"))
         phases = tuple(self.phases)
         for phase in phases:
             check_kind("phase", phase, (Rise, Dwell, Return))
         angles = [phase.angle for phase in phases]
         steps = [phase.direction * phase.lift for phase in phases]
         for direction, found, remedy in (
-            (1, "without a rise", "add a rise"),
-            (-1, "without a return", "add a return"),
+            (1, say("without a rise"), say("add a rise")),
+            (-1, say("without a return"), say("add a return")),
         ):
             if all(phase.direction != direction for phase in phases):
-                raise DesignError("motion", Unquoted(found), "one with a rise and a return", remedy)
+                raise DesignError("motion", found, say("one with a rise and a return"), remedy)
         turn = math.fsum(angles)
         if abs(turn - FULL_TURN) > CLOSURE:
-            total = Unquoted(f"{turn:.6g} rad ({math.degrees(turn):.10g} degrees)")
-            raise DesignError("sum of the phase angles", total, "2 pi rad (360 degrees)", _remedy(phases, turn))
+            total = say("{turn:.6g} rad ({degrees:.10g} degrees)", turn=turn, degrees=math.degrees(turn))
+            quantity = say("sum of the phase angles")
+            raise DesignError(quantity, total, say("2 pi rad (360 degrees)"), _remedy(phases, turn))
         closing = math.fsum(steps)
         if abs(closing) > CLOSURE * max(1.0, max(map(abs, steps))):
-            remedy = "make the lifts of rises and returns equal"
-            raise DesignError("sum of rises less returns", Unquoted(f"{closing:.10g} mm"), "0 mm", remedy)
+            remedy = say("make the lifts of rises and returns equal")
+            quantity = say("sum of rises less returns")
+            raise DesignError(quantity, say("{length:.10g} mm", length=closing), say("0 mm"), remedy)
         heights = [math.fsum(steps[:k]) for k in range(len(phases))]
         heights.append(heights[0])  # closed by definition: what the sum misses is rounding
         object.__setattr__(self, "phases", phases)
@@ -372,18 +377,21 @@ def _check_lengths(phases: Sequence[Phase], starts: Floats) -> None:
     """That the phases begin one after another, so far apart that the places can be told."""
     for phase, length in zip(phases, np.diff(starts, append=FULL_TURN), strict=True):
         if not length >= SHORTEST_PHASE:
-            limit = f"long enough to be told from rounding, {SHORTEST_PHASE:g} rad"
-            raise DesignError("angle", Unquoted(f"{phase.angle:.6g} rad"), limit, "leave the phase out")
+            limit = say("long enough to be told from rounding, {shortest:g} rad", shortest=SHORTEST_PHASE)
+            found = say("{angle:.6g} rad", angle=phase.angle)
+            raise DesignError("angle", found, limit, say("leave the phase out"))
 
 
-def _remedy(phases: Sequence[Phase], turn: float) -> str:
+def _remedy(phases: Sequence[Phase], turn: float) -> Words:
     """What to do about phases that do not sum to a turn."""
     moving = next(phase for phase in phases if isinstance(phase, Moving))
     lifts = math.fsum(phase.angle if isinstance(phase, Dwell) else phase.lift for phase in phases)
     if abs(lifts - FULL_TURN) < NEARLY * FULL_TURN:
-        return f"the lifts make a turn: name the arguments, {_swapped(moving)}"
+        return say("the lifts make a turn: name the arguments, {swapped}", swapped=_swapped(moving))
     off = f"{abs(math.degrees(turn) - 360):.10g}"
-    return f"lengthen a dwell by {off} degrees" if turn < FULL_TURN else f"shorten a dwell by {off} degrees"
+    if turn < FULL_TURN:
+        return say("lengthen a dwell by {off} degrees", off=off)
+    return say("shorten a dwell by {off} degrees", off=off)
 
 
 def _swapped(phase: Moving) -> str:

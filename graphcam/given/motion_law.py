@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.pieces import Floats, Formula, Piece, Piecewise, Side, chunks, in_phase
+from graphcam.words import Words, bare, say
 
 Fourth = Callable[[Floats], tuple[Floats, float]]
 """f'''' of the distance x from an end of a phase, and a bound on |f'''''| over the piece."""
@@ -95,10 +96,11 @@ class Law:
             formulas, fourths, middle = (*formulas, *formulas[::-1]), (*fourths, *fourths[::-1]), 0.5
             starts = (*starts, middle, *(1.0 - u for u in starts[:0:-1]))
         if not all(a < b for a, b in pairwise((*starts, 1.0))):
-            raise self._wrong("edges", list(starts[1:]), "between 0 and 1, in order")
+            raise self._wrong("edges", list(starts[1:]), say("between 0 and 1, in order"))
         if len(formulas) != len(starts):
-            limit = f"{len(starts)}, one for each piece between 0, the edges and 1"
-            raise self._wrong("number of formulas", len(formulas), limit, "at an edge another formula takes over")
+            limit = say("{starts}, one for each piece between 0, the edges and 1", starts=len(starts))
+            remedy = say("at an edge another formula takes over")
+            raise self._wrong(say("number of formulas"), len(formulas), limit, remedy)
         # Seen from the end the lift is the missing lift and the acceleration its negative.
         pieces = (
             Piece(formula, u, 0.0, 1.0, 0.0, (1, 1, 1, 1))
@@ -247,9 +249,9 @@ class Law:
         places = np.linspace(ends[:-1], ends[1:], PARTS + 1)
         return places[:-1].T.ravel(), places[1:].T.ravel()
 
-    def _wrong(self, what: str, value: object, limit: str, remedy: str = "") -> DesignError:
-        shown = Unquoted(value) if isinstance(value, str) else value
-        return DesignError(f"{what} of the law '{self.name}'", shown, limit, remedy)
+    def _wrong(self, what: Words, value: object, limit: Words, remedy: Words = "") -> DesignError:
+        shown = bare(value) if isinstance(value, str) else value
+        return DesignError(say("{what} of the law '{name}'", what=what, name=self.name), shown, limit, remedy)
 
     def _check(self) -> None:
         """Refuse what is no law.
@@ -262,44 +264,47 @@ class Law:
         first, inside, last = (np.array(x) for x in (self(low), self(u), self(high, side="left")))
         for order, name in enumerate(DERIVATIVES):
             if not np.isfinite(inside[order]).all():
-                raise self._wrong(name, "not finite", "a finite number everywhere")
+                raise self._wrong(name, say("not finite"), say("a finite number everywhere"))
         for name, value, limit in (
             *(("f(0)", first[0, 0], 0), ("f(1)", last[0, -1], 1)),
             *(("f'(0)", first[1, 0], 0), ("f'(1)", last[1, -1], 0)),
         ):
             if not abs(value - limit) <= CLOSE:
-                raise self._wrong(name, value, f"{limit}", "a law leads from rest to rest")
+                raise self._wrong(name, value, f"{limit}", say("a law leads from rest to rest"))
         for order in (0, 1):
             k = int(np.argmax(np.abs(jump := first[order, 1:] - last[order, :-1])))
             if abs(jump[k]) > CLOSE:
-                what = f"jump of {DERIVATIVES[order]} at u = {high[k]:g}"
-                raise self._wrong(what, jump[k], "0", "lift and velocity are continuous")
+                what = say("jump of {derivatives} at u = {high:g}", derivatives=DERIVATIVES[order], high=high[k])
+                raise self._wrong(what, jump[k], "0", say("lift and velocity are continuous"))
         self._check_derivatives(low, high, last - first, inside)
         if inside[1].min() < -CLOSE:
             at = u.ravel()[inside[1].argmin()]
-            remedy = "what falls on its way is a motion of several phases"
-            raise self._wrong(f"f' at u = {at:.3g}", inside[1].min(), "0 or more", remedy)
+            remedy = say("what falls on its way is a motion of several phases")
+            raise self._wrong(say("f' at u = {at:.3g}", at=at), inside[1].min(), say("0 or more"), remedy)
         self._check_closed_forms(inside)
 
     def _check_formulas(self) -> None:
-        limit, remedy = "one that takes an array of u and returns f, f', f'', f''' there", "use numpy's functions"
+        limit = say("one that takes an array of u and returns f, f', f'', f''' there")
+        remedy = say("use numpy's functions")
         for piece in self.pieces:
             try:
                 values = piece.formula(np.full(2, abs(piece.start - piece.origin)))
                 count = len(values)
                 np.broadcast_arrays(np.empty(2), *values)
             except (TypeError, ValueError) as error:
-                raise self._wrong("formula", f"one with the error: {error}", limit, remedy) from error
+                raise self._wrong(
+                    "formula", say("one with the error: {error}", error=str(error)), limit, remedy
+                ) from error
             if count != len(DERIVATIVES):
-                raise self._wrong("formula", f"one that returns {count} values", limit)
+                raise self._wrong("formula", say("one that returns {count} values", count=count), limit)
         if self.peaks is not None and len(self.peaks) != 2:
-            raise self._wrong("peaks", self.peaks, "two numbers, max f' and max |f''|", "leave them out to be found")
+            limit = say("two numbers, max f' and max |f''|")
+            raise self._wrong("peaks", self.peaks, limit, say("leave them out to be found"))
         if len(self.fourths) not in (0, len(self.pieces)):
-            raise self._wrong(
-                "number of fourths", len(self.fourths), f"{len(self.pieces)}, one for each formula, or none"
-            )
+            limit = say("{pieces}, one for each formula, or none", pieces=len(self.pieces))
+            raise self._wrong(say("number of fourths"), len(self.fourths), limit)
         if not self.ratio > 0:
-            raise self._wrong("ratio", self.ratio, "greater than 0")
+            raise self._wrong("ratio", self.ratio, say("greater than 0"))
 
     def _check_derivatives(self, low: Floats, high: Floats, change: Floats, inside: Floats) -> None:
         """Check that over every part of a piece each derivative integrates to what the one before changes by."""
@@ -308,15 +313,16 @@ class Law:
             off = np.abs(integrals[order + 1] - change[order])
             if off.max() > SMOOTH * np.abs(inside[order]).max():
                 k, name = int(off.argmax()), DERIVATIVES[order]
-                what = f"integral of {DERIVATIVES[order + 1]} from u = {low[k]:.3g} to {high[k]:.3g}"
-                remedy = "correct the derivative; if one jumps there, give an edge and a formula for either side"
-                limit = f"{change[order, k]:.6g}, the change of {name}"
+                what = say("integral of {derivatives} from u = {low:.3g} to {high:.3g}")
+                what = what.where(derivatives=DERIVATIVES[order + 1], low=low[k], high=high[k])
+                remedy = say("correct the derivative; if one jumps there, give an edge and a formula for either side")
+                limit = say("{change:.6g}, the change of {name}", change=change[order, k], name=name)
                 raise self._wrong(what, integrals[order + 1, k], limit, remedy)
 
     def _check_closed_forms(self, inside: Floats) -> None:
         for name, peak, order in zip(("max f'", "max |f''|"), self.peaks or (), (1, 2), strict=False):
             if abs(peak - (found := self._greatest(order))) > CLOSE * found:
-                raise self._wrong(f"given {name}", peak, f"{found:.10g}")
+                raise self._wrong(say("given {name}", name=name), peak, f"{found:.10g}")
         for tangent, lift, at_end in zip(self.tangents, (inside[0], 1 - inside[0]), (False, True), strict=True):
             if tangent is None:
                 continue
@@ -326,8 +332,8 @@ class Law:
                 there = f1 - (1 - f if at_end else f) / k
                 best = (inside[1] - lift / k).max()
                 if not (abs(height - there) <= CLOSE * (1 + 1 / k) and height >= best - CLOSE * (1 + 1 / k)):
-                    limit = f"at least {best:.6g}, and f' - f/k at the place"
-                    raise self._wrong(f"tangent for k = {k}", height, limit)
+                    limit = say("at least {best:.6g}, and f' - f/k at the place", best=best)
+                    raise self._wrong(say("tangent for k = {k}", k=k), height, limit)
 
 
 def _of_number(formula: Formula, x: float) -> _OfNumber:

@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from graphcam.errors import DesignError, Unquoted, check_number
+from graphcam.errors import DesignError, check_number
 from graphcam.given.exact_polynomials import PI, shortest
+from graphcam.words import Caption, say
 
 ORDERS = "s", "v", "a", "j"
 
@@ -41,12 +42,11 @@ class MotionPoint:
         for name in ("angle", *ORDERS):
             number = getattr(self, name)
             if number is not None:
-                check_number(name, number, "a finite number")
+                check_number(name, number, say("a finite number"))
         if not self.given:
-            remedy = "give s, v, a or j there, or leave the point out"
-            raise DesignError(
-                "s", Unquoted(f"missing at {told(self.angle)}"), "given with v, a or j, or one of these", remedy
-            )
+            remedy = say("give s, v, a or j there, or leave the point out")
+            found = say("missing at {told}", told=told(self.angle))
+            raise DesignError("s", found, say("given with v, a or j, or one of these"), remedy)
 
     @property
     def place(self) -> Fraction:
@@ -75,10 +75,10 @@ def exact_angle(angle: float) -> Fraction:
     return plain
 
 
-def told(angle: float) -> Unquoted:
+def told(angle: float) -> Caption:
     """A cam angle in the words of a message.
 
-    >>> told(math.pi)
+    >>> print(told(math.pi))
     180 degrees
     """
-    return Unquoted(f"{math.degrees(angle):.10g} degrees")
+    return say("{degrees:.10g} degrees", degrees=math.degrees(angle))

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property, lru_cache
 from itertools import pairwise
 
-from graphcam.errors import DesignError, Unquoted, check_kind
+from graphcam.errors import DesignError, check_kind
 from graphcam.given.boundary_joints import check_joint, greatest_lift
 from graphcam.given.boundary_parts import Part, PolynomialPart, SplinePart
 from graphcam.given.exact_pieces import ExactPiece, between
@@ -17,6 +17,7 @@ from graphcam.given.local_polynomials import LocalPolynomials, cells
 from graphcam.given.motion_law import Fourth, Law
 from graphcam.given.motion_point import MotionPoint
 from graphcam.given.pieces import Floats
+from graphcam.words import say
 
 CONSTANT_VELOCITY = "constant-velocity"
 """The name of the law of constant velocity with blends."""
@@ -120,24 +121,24 @@ def boundary_law(parts: Sequence[Part] | Sequence[MotionPoint], name: str = "by 
     """
     given = tuple(parts)
     for k, part in enumerate(given):
-        remedy = "the points come first, the name behind them"
+        remedy = say("the points come first, the name behind them")
         check_kind(f"parts[{k}]", part, (MotionPoint, PolynomialPart, SplinePart), remedy=remedy)
     points = [part for part in given if isinstance(part, MotionPoint)]
     if points:
         if len(points) < len(given):
-            raise DesignError(
-                "parts", Unquoted("points and parts"), "points of one polynomial, or parts", "give one of the two"
-            )
+            found = say("points and parts")
+            raise DesignError("parts", found, say("points of one polynomial, or parts"), say("give one of the two"))
         given = (PolynomialPart(points),)
     made = tuple(part for part in given if not isinstance(part, MotionPoint))
     if not made:
-        raise DesignError("parts", Unquoted("empty"), "one part or more")
+        raise DesignError("parts", say("empty"), say("one part or more"))
     pieces = [piece for part in made for piece in part.pieces]
     for k, part in enumerate(made[1:], 1):
         check_joint(made[k - 1], part, k, greatest_lift(made))
     if pieces[0].at(pieces[0].start) == pieces[-1].at(pieces[-1].end):
-        limit, remedy = "that of a rise or a return", "what comes back to where it was is a motion: gc.boundary_motion"
-        raise DesignError(f"lift of the law '{name}'", 0, limit, remedy)
+        limit = say("that of a rise or a return")
+        remedy = say("what comes back to where it was is a motion: gc.boundary_motion")
+        raise DesignError(say("lift of the law '{name}'", name=name), 0, limit, remedy)
     return leg_law(name, pieces, trusted=False)[1]
 
 
@@ -165,14 +166,16 @@ def constant_velocity_law(start: float = 0.25, end: float = 0.25, smooth: int = 
     """
     for place, part in enumerate((start, end)):
         if not LEAST_BLEND <= part < 1:
-            remedy = "give the fraction of the phase that the blend takes"
-            raise DesignError(f"blends[{place}]", part, f"from {LEAST_BLEND:g} to less than 1", remedy)
+            remedy = say("give the fraction of the phase that the blend takes")
+            raise DesignError(f"blends[{place}]", part, say("from {least:g} to less than 1", least=LEAST_BLEND), remedy)
     first, last = shortest(float(start)), shortest(float(end))
     if not 1 - first - last >= Fraction(LEAST_BLEND):
-        remedy = "shorten them: the constant velocity takes what they leave"
-        raise DesignError("blends", Unquoted(f"{start:g} and {end:g}"), "less than 1 together", remedy)
+        remedy = say("shorten them: the constant velocity takes what they leave")
+        found = say("{start:g} and {end:g}", start=start, end=end)
+        raise DesignError("blends", found, say("less than 1 together"), remedy)
     if smooth not in range(1, SMOOTHEST + 1):
-        raise DesignError("smooth", smooth, f"1 (velocity), 2 (acceleration) or {SMOOTHEST} (jerk continuous)")
+        limit = say("1 (velocity), 2 (acceleration) or {smoothest} (jerk continuous)", smoothest=SMOOTHEST)
+        raise DesignError("smooth", smooth, limit)
     v = 2 / (2 - first - last)
     # Of the lift of a blend, over its length: the integral of its velocity, 1/2 at the end.
     velocity = {1: (0, 1), 2: (0, 0, 3, -2), 3: (0, 0, 0, 10, -15, 6)}[smooth]

@@ -3,41 +3,44 @@
 The exact side knows no such bounds.  Files do, so that whatever they let pass can be computed, drawn and written.
 """
 
-import math
 from numbers import Real
 
 import numpy as np
 
 from graphcam.errors import DesignError, check_number
+from graphcam.words import Words, say
 
 NUMBER = Real, np.ndarray
 """What a number may be, one in an array of no axes too."""
 SENSIBLE = {
-    "mm": (1e-9, 1e9),
-    "mm (degrees for an arm)": (1e-9, 1e9),
-    "mm on paper": (1e-2, 1e4),
-    "mm/rad^2": (0.0, 1e9),
-    "degrees": (1e-6, 360.0),
-    "degrees permitted": (0.001, 90.0),
-    "rpm": (1e-3, 1e6),
-    "mm/min": (1e-3, 1e6),
-    "micrometres": (1e-3, 1e3),
-    "kg": (1e-6, 1e6),
-    "kg/m^3": (10.0, 30000.0),
-    "N/mm": (1e-6, 1e9),
-    "N": (0.0, 1e9),
-    "MPa": (1e-3, 1e7),
-    "kg mm^2": (1e-6, 1e15),
-    "N mm/rad": (1e-6, 1e15),
-    "N mm": (0.0, 1e15),
-    "rad/s^2": (0.0, 1e9),
+    str(unit): (least, most, unit)
+    for unit, least, most in (
+        (say("mm"), 1e-9, 1e9),
+        (say("mm (degrees for an arm)"), 1e-9, 1e9),
+        (say("mm on paper"), 1e-2, 1e4),
+        (say("mm/rad^2"), 0.0, 1e9),
+        (say("degrees"), 1e-6, 360.0),
+        (say("degrees permitted"), 0.001, 90.0),
+        (say("rpm"), 1e-3, 1e6),
+        (say("mm/min"), 1e-3, 1e6),
+        (say("micrometres"), 1e-3, 1e3),
+        (say("kg"), 1e-6, 1e6),
+        (say("kg/m^3"), 10.0, 30000.0),
+        (say("N/mm"), 1e-6, 1e9),
+        (say("N"), 0.0, 1e9),
+        (say("MPa"), 1e-3, 1e7),
+        (say("kg mm^2"), 1e-6, 1e15),
+        (say("N mm/rad"), 1e-6, 1e15),
+        (say("N mm"), 0.0, 1e15),
+        (say("rad/s^2"), 0.0, 1e9),
+    )
 }
-"""The least and the greatest size by its unit; zero is none."""
-REMEDY = "check its unit and its digits"
+"""The least and the greatest size by its unit, and the unit as it is told; zero is none."""
+REMEDY = say("check its unit and its digits")
 
 
-def positive(quantity: str, value: float | None, unit: str) -> None:
-    """Check a number that may be left out.
+def positive(quantity: Words, value: float | None, unit: str) -> None:
+    """Check a number that may be left out; ``unit`` is one that is listed, or empty.
 
     Raises
     ------
@@ -49,13 +52,17 @@ def positive(quantity: str, value: float | None, unit: str) -> None:
     """
     if value is None:
         return
-    check_number(quantity, value, f"a finite number greater than 0 {unit}".rstrip(), above=0)
-    least, most = SENSIBLE.get(unit, (0.0, math.inf))
+    if not unit:
+        check_number(quantity, value, say("a finite number greater than 0"), above=0)
+        return
+    least, most, told = SENSIBLE[unit]
+    check_number(quantity, value, say("a finite number greater than 0 {unit}", unit=told), above=0)
     if not least <= value <= most:
-        raise DesignError(quantity, value, f"from {least:g} to {most:.15g} {unit}", REMEDY)
+        limit = say("from {least:g} to {most:.15g} {unit}", least=least, most=most, unit=told)
+        raise DesignError(quantity, value, limit, REMEDY)
 
 
-def bounded(quantity: str, value: float | None, unit: str) -> None:
+def bounded(quantity: Words, value: float | None, unit: str) -> None:
     """Check the magnitude of a number that may be left out, zero or negative.
 
     Raises
@@ -64,6 +71,6 @@ def bounded(quantity: str, value: float | None, unit: str) -> None:
 
     >>> bounded("offset", -1e-17, "mm")
     """
-    _, most = SENSIBLE[unit]
+    _, most, told = SENSIBLE[unit]
     if value is not None and not abs(value) <= most:
-        raise DesignError(quantity, value, f"at most {most:.15g} {unit} in magnitude", REMEDY)
+        raise DesignError(quantity, value, say("at most {most:.15g} {unit} in magnitude", most=most, unit=told), REMEDY)

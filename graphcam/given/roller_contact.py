@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from graphcam.errors import check_number
+from graphcam.words import say
 
 STEEL_YOUNG, STEEL_POISSON = 206000.0, 0.3
 """Young's modulus [MPa] and Poisson's ratio of steel."""
@@ -31,9 +32,9 @@ class RollerContact:
 
     def __post_init__(self) -> None:
         for name, unit in (("width", "mm"), ("young1", "MPa"), ("young2", "MPa")):
-            check_number(name, getattr(self, name), f"a finite number greater than 0 {unit}", above=0)
+            check_number(name, getattr(self, name), say("a finite number greater than 0 {unit}", unit=unit), above=0)
         for name in ("poisson1", "poisson2"):
-            check_number(name, getattr(self, name), "from 0 to 0.5", least=0, most=0.5)
+            check_number(name, getattr(self, name), say("from 0 to 0.5"), least=0, most=0.5)
 
     @property
     def modulus(self) -> float:

@@ -95,11 +95,11 @@ def roller_rule(text: str) -> tuple[Candidate, ...]:
         if all(found):
             return tuple(each for each in found if each)
     wrong = next(term for term in readings[-1] if _candidate(term) is None)
-    remedy = f"in place of '{wrong}' write a term such as 0.7 rho, 0.4 r0 or rho - 5"
+    remedy = say("in place of '{wrong}' write a term such as 0.7 rho, 0.4 r0 or rho - 5", wrong=wrong)
     if re.fullmatch(r"[a-z-]+", text):
         remedy = nearest(text, NAMED_RULES)
-    limit = "'K rho', 'K r0', 'rho - MM', min(..., ...) of these or the name of a rule"
-    raise DesignError("roller rule", text, limit, remedy)
+    limit = say("'K rho', 'K r0', 'rho - MM', min(..., ...) of these or the name of a rule")
+    raise DesignError(say("roller rule"), text, limit, remedy)
 
 
 def _readings(rule: str) -> Iterator[list[str]]:

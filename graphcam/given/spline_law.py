@@ -9,12 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.b_splines import PiecewisePolynomial
 from graphcam.given.fixed_order import powers
 from graphcam.given.monotone_spline import DEGREE, Fit
 from graphcam.given.motion_law import Fourth, Law
 from graphcam.given.pieces import Floats
+from graphcam.words import say
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
@@ -93,14 +94,17 @@ def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[floa
 
     u, f = np.asarray(u, dtype=np.float64), np.asarray(f, dtype=np.float64)
     if u.ndim != 1 or u.shape != f.shape or u.size < FEWEST:
-        shapes, limit = f"{u.shape} and {f.shape}", f"one f for every u, {FEWEST} or more"
-        raise DesignError(f"shapes of the samples of the law '{name}'", Unquoted(shapes), limit)
+        shapes = say("{shape} and {shape2}", shape=u.shape, shape2=f.shape)
+        limit = say("one f for every u, {least} or more", least=FEWEST)
+        raise DesignError(say("shapes of the samples of the law '{name}'", name=name), shapes, limit)
     for symbol, values in (("u", u), ("f", f)):
         least, most = np.diff(values).min(), np.abs(values[[0, -1]] - [0.0, 1.0]).max()
         if not (least >= 0 and most <= SAME_KNOT) or (symbol == "u" and least <= SAME_KNOT):
-            found = f"{len(values)} numbers from {values[0]:g} to {values[-1]:g}, the smallest step {least:g}"
-            remedy = "divide by the last one; where the lift falls, begin another phase"
-            raise DesignError(f"samples {symbol} of the law '{name}'", Unquoted(found), "growing from 0 to 1", remedy)
+            found = say("{values} numbers from {values2:g} to {values3:g}, the smallest step {least:g}")
+            found = found.where(values=len(values), values2=values[0], values3=values[-1], least=least)
+            remedy = say("divide by the last one; where the lift falls, begin another phase")
+            quantity = say("samples {symbol} of the law '{name}'", symbol=symbol, name=name)
+            raise DesignError(quantity, found, say("growing from 0 to 1"), remedy)
     ends = tuple([(1, 0.0), (2, acceleration)] for acceleration in accelerations)
     spline = make_interp_spline(u, f, k=DEGREE, bc_type=ends)
     # These coefficients are the ends' f, f' and f''; without their rounding what is small near an end keeps its digits.

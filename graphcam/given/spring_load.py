@@ -15,6 +15,7 @@ from graphcam.given.follower_load import Values
 from graphcam.given.laws import Floats
 from graphcam.given.load_curve import Load, check_load, knots_of, largest, load_at, load_slope
 from graphcam.given.ranges import NUMBER, bounded
+from graphcam.words import say
 
 
 @dataclass(frozen=True)
@@ -52,13 +53,15 @@ class SpringLoad:
 
     def __post_init__(self) -> None:
         for quantity, unit in (("mass", "kg"), ("speed_rpm", "rpm"), ("stiffness", "N/mm"), ("friction", "N")):
-            check_number(quantity, getattr(self, quantity), f"a finite number of 0 {unit} or more", least=0)
+            limit = say("a finite number of 0 {unit} or more", unit=unit)
+            check_number(quantity, getattr(self, quantity), limit, least=0)
         bounded("speed_rpm", self.speed_rpm, "rpm")
         for quantity, unit in (("preload", "N"), ("acceleration", "rad/s^2")):
             value = getattr(self, quantity)
             if isinstance(value, tuple):  # all that is said of the preload, in place of the number alone
-                check_kind(quantity, value, NUMBER, f"a number of {unit}", "write spring_preload(...).preload")
-            check_number(quantity, value, f"a finite number of {unit}")
+                limit = say("a number of {unit}", unit=unit)
+                check_kind(quantity, value, NUMBER, limit, say("write spring_preload(...).preload"))
+            check_number(quantity, value, say("a finite number of {unit}", unit=unit))
         check_load(self.load)
 
     @property
@@ -121,6 +124,7 @@ class Guide:
     length: float
 
     def __post_init__(self) -> None:
-        for quantity, unit in (("friction", ""), ("overhang", " mm")):
-            check_number(quantity, getattr(self, quantity), f"a finite number of 0{unit} or more", least=0)
-        check_number("length", self.length, "a finite number greater than 0 mm", above=0)
+        for quantity, unit in (("friction", ""), ("overhang", say(" mm"))):
+            limit = say("a finite number of 0{unit} or more", unit=unit)
+            check_number(quantity, getattr(self, quantity), limit, least=0)
+        check_number("length", self.length, say("a finite number greater than 0 mm"), above=0)

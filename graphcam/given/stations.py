@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell, Motion
+from graphcam.words import say
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +78,7 @@ def divide(motion: Motion, divisions: int, refine: int = 1, *, at_corners: bool 
     [0.0, 0.125, 0.25, 0.417, 0.583, 0.75, 1.0]
     """
     if divisions < 1:
-        raise DesignError("divisions", divisions, "1 or more parts per phase")
+        raise DesignError("divisions", divisions, say("1 or more parts per phase"))
     phase: list[int] = []
     u: list[float] = []
     phases: list[slice] = []

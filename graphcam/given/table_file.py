@@ -23,6 +23,7 @@ from graphcam.given.measured import (
     measured_motion,
 )
 from graphcam.given.ranges import REMEDY, SENSIBLE
+from graphcam.words import say
 
 Column = Literal["s_mm", "s_deg", "a"]
 ANGLES = "phi_deg"
@@ -100,8 +101,8 @@ def table_in(text: str, name: str, path: str, tolerance: float | None = None) ->
         closes_to = math.inf if column == "a" else DEFAULT_TOLERANCE if tolerance is None else tolerance
         check_rows(np.radians(phi), values, closes_to)
     except RowError as error:
-        line = f"line {error.row + _FIRST_ROW}: {error.quantity}"
-        raise TaskError(path, line, error.value, error.limit, error.remedy) from None
+        line = say("line {number}: {quantity}", number=error.row + _FIRST_ROW, quantity=error.args[0])
+        raise TaskError(path, line, *error.args[1:]) from None
     return CurveTable(name, column, rows)
 
 
@@ -109,12 +110,13 @@ def _text(path: Path) -> str:
     try:
         content = path.read_bytes()
     except (OSError, ValueError) as error:
-        raise unreadable(path, "the table", "a CSV file", error, "check motion.table") from None
+        raise unreadable(path, say("the table"), say("a CSV file"), error, say("check motion.table")) from None
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line, wrong = content.count(b"\n", 0, error.start) + 1, content[error.start : error.start + 1]
-        raise TaskError(str(path), f"line {line}", wrong, "text in UTF-8", "save the file as UTF-8") from None
+        what = say("line {line}", line=line)
+        raise TaskError(str(path), what, wrong, say("text in UTF-8"), say("save the file as UTF-8")) from None
 
 
 def _column(path: str, header: str, between: str) -> Column:
@@ -122,7 +124,8 @@ def _column(path: str, header: str, between: str) -> Column:
     for column in get_args(Column):
         if names == [ANGLES, column]:
             return column
-    raise TaskError(path, "line 1", _short(header), f"one of {_HEADERS}", "name the two columns of the table")
+    expected = say("one of {headers}", headers=_HEADERS)
+    raise TaskError(path, say("line 1"), _short(header), expected, say("name the two columns of the table"))
 
 
 def _cells(line: str, between: str) -> list[str]:
@@ -139,11 +142,12 @@ def _row(path: str, number: int, line: str, column: Column, between: str) -> tup
     except ValueError:
         phi = value = math.nan
     if not (math.isfinite(phi) and math.isfinite(value)):
-        limit = f"two finite numbers, {ANGLES} and {column}"
-        remedy = "write decimals with a point, or separate the columns by semicolons"
-        raise TaskError(path, f"line {number}", _short(line), limit, remedy)
+        limit = say("two finite numbers, {angles} and {column}", angles=ANGLES, column=column)
+        remedy = say("write decimals with a point, or separate the columns by semicolons")
+        raise TaskError(path, say("line {number}", number=number), _short(line), limit, remedy)
     if abs(value) > _MOST[column]:
-        raise TaskError(path, f"line {number}: {column}", value, f"at most {_MOST[column]:.15g}", REMEDY)
+        what = say("line {number}: {column}", number=number, column=column)
+        raise TaskError(path, what, value, say("at most {most:.15g}", most=_MOST[column]), REMEDY)
     return phi, value
 
 

@@ -11,8 +11,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from graphcam.errors import DesignError, Unquoted, check_number
+from graphcam.errors import DesignError, check_number
 from graphcam.given.laws import Floats
+from graphcam.words import say
 
 Point = Sequence[float] | Floats
 """x and y [mm]; an array of two numbers will do."""
@@ -49,14 +50,15 @@ class ThreeArcs:
         for name in ("D", "G", "A", "C1", "C2"):
             if getattr(self, name) is not None:
                 object.__setattr__(self, name, _point(name, getattr(self, name)))
-        check_number("rho1", self.rho1, "a finite radius of more than 0 mm", above=0)
+        check_number("rho1", self.rho1, say("a finite radius of more than 0 mm"), above=0)
         if self.C2 is None and self.A is None:
-            raise DesignError("C2", Unquoted("left out"), "given, or A in its place", "give C2, or A to have it found")
+            found = say("left out")
+            raise DesignError("C2", found, say("given, or A in its place"), say("give C2, or A to have it found"))
         if self.C2 == self.G:
-            raise DesignError("C2", self.C2, "away from G", "the second arc needs a radius")
+            raise DesignError("C2", self.C2, say("away from G"), say("the second arc needs a radius"))
         if self.C1 is None and self.rho1 >= math.hypot(*self.D):
-            limit = f"less than the {math.hypot(*self.D):g} mm from the cam centre to D"
-            raise DesignError("rho1", self.rho1, limit, "take a smaller radius, or give C1")
+            limit = say("less than the {hypot:g} mm from the cam centre to D", hypot=math.hypot(*self.D))
+            raise DesignError("rho1", self.rho1, limit, say("take a smaller radius, or give C1"))
 
     @property
     def design_case(self) -> int:
@@ -68,9 +70,9 @@ def _point(name: str, value: Point) -> tuple[float, float]:
     try:
         x, y = (float(coordinate) for coordinate in value)
     except (TypeError, ValueError):
-        raise DesignError(name, Unquoted(f"{value!r}"), "two numbers, x and y in mm") from None
+        raise DesignError(name, say("{value!r}", value=value), say("two numbers, x and y in mm")) from None
     if not (math.isfinite(x) and math.isfinite(y)):
-        raise DesignError(name, (x, y), "two finite numbers, x and y in mm")
+        raise DesignError(name, (x, y), say("two finite numbers, x and y in mm"))
     if x == y == 0 and name != "C2":
-        raise DesignError(name, (x, y), "away from the cam centre")
+        raise DesignError(name, (x, y), say("away from the cam centre"))
     return x, y

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.mechanism.kinematics import Complexes
-from graphcam.words import Caption
+from graphcam.words import Caption, bare, say
 
 FIT = 1e-3
 """How far given points may miss the arcs, as a part of their distance from the cam centre: printed data are rounded."""
@@ -71,17 +71,21 @@ class ArcFlank:
         DesignError : it is not, or they do not
         """
         if not self.sound:
-            raise DesignError("root", Unquoted("not sound"), "one that can be built", self.why)
+            raise DesignError("root", say("not sound"), say("one that can be built"), self.why)
         if not np.dot(self.A, self.A - self.C2) > 0:
-            raise DesignError("C2", _shown(self.C2), "so that the second arc goes around the cam centre", "move C2")
+            limit = say("so that the second arc goes around the cam centre")
+            raise DesignError("C2", _shown(self.C2), limit, say("move C2"))
         for name, arc, centre in (("A", "second", "C2"), ("D", "first", "C1")):
             found, given = getattr(self, name), getattr(self.given, name)
             if not np.all(np.isfinite(found)):
-                limit = f"on the line from the cam centre to {name}"
-                raise DesignError(centre, _shown((0, 0)), limit, f"move {centre}")
+                limit = say("on the line from the cam centre to {name}", name=name)
+                raise DesignError(centre, _shown((0, 0)), limit, say("move {centre}", centre=centre))
             if given is not None and not math.dist(found, given) <= FIT * math.hypot(*given):
-                where = f"{_shown(found)}, where the {arc} arc touches a circle about the cam centre"
-                raise DesignError(name, _shown(given), where, f"make {name} and {centre} agree, or leave {centre} out")
+                where = say(
+                    "{shown}, where the {arc} arc touches a circle about the cam centre", shown=_shown(found), arc=arc
+                )
+                remedy = say("make {name} and {centre} agree, or leave {centre} out", name=name, centre=centre)
+                raise DesignError(name, _shown(given), where, remedy)
 
     def turning(self) -> int:
         """sigma: +1 where the normal turns clockwise from A to D, -1 where it turns the other way.
@@ -95,11 +99,12 @@ class ArcFlank:
         sigma = -1 if turning.sum() > 0 else 1
         for name, angle in zip(NAMES, -sigma * turning, strict=True):
             if not angle > 0:
-                limit, found = "greater than 0, in the sense from A to D", f"{math.degrees(angle):.4g} degrees"
-                raise DesignError(f"angle of the arc {name}", Unquoted(found), limit, "move G or C1")
+                limit = say("greater than 0, in the sense from A to D")
+                found = say("{degrees:.4g} degrees", degrees=math.degrees(angle))
+                raise DesignError(say("angle of the arc {name}", name=name), found, limit, say("move G or C1"))
         return sigma
 
 
-def _shown(point: Point) -> Unquoted:
+def _shown(point: Point) -> Caption:
     x, y = point
-    return Unquoted(f"({x + 0.0:.6g}, {y + 0.0:.6g})")  # with no sign at 0
+    return bare(f"({x + 0.0:.6g}, {y + 0.0:.6g})")  # with no sign at 0

@@ -20,7 +20,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError, Unquoted, check_number
+from graphcam.errors import DesignError, check_number
 from graphcam.given.impact import ROUNDING, Jump
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
@@ -28,6 +28,7 @@ from graphcam.given.roots import roots
 from graphcam.mechanism.arc_flank import ArcFlank
 from graphcam.mechanism.kinematics import Complexes, Values
 from graphcam.showing import Shown, in_lines
+from graphcam.words import say
 
 SAMPLES = np.sin(np.linspace(0, np.pi / 2, 65)) ** 2
 """Fractions of an arc between which a quantity is taken to have one extreme at most."""
@@ -82,8 +83,8 @@ class ArcMotion(Shown):
     """(8,) cam angles [rad] where the arcs begin: of the rise, the outer circle, the return, the base circle"""
 
     def __post_init__(self) -> None:
-        for quantity, value in (("roller radius", self.roller_radius), ("dwell", self.dwell)):
-            check_number(quantity, value, "a finite number of 0 or more", least=0)
+        for quantity, value in ((say("roller radius"), self.roller_radius), ("dwell", self.dwell)):
+            check_number(quantity, value, say("a finite number of 0 or more"), least=0)
         self.cam.check()
         outward = self.cam.outward_normals()
         object.__setattr__(self, "sigma", self.cam.turning())
@@ -94,8 +95,8 @@ class ArcMotion(Shown):
         # The follower is never pushed across its guide: on an arc it is not, if at neither end of it.
         for name, n, z in zip("AGFD", outward.tolist(), trace.tolist(), strict=True):
             if not (n * z.conjugate()).real > 0:
-                at = f"90 degrees or more at {name}"
-                raise DesignError("pressure angle", Unquoted(at), "less than 90 degrees", "move G or C1")
+                at = say("90 degrees or more at {name}", name=name)
+                raise DesignError(say("pressure angle"), at, say("less than 90 degrees"), say("move G or C1"))
         object.__setattr__(self, "edges", self._edges(self.sigma * np.angle(trace[0] * np.conj(trace))))
 
     def _followed(self, trace: Complexes, inward: Complexes, r0: float, r1: float) -> Arcs:
@@ -114,11 +115,12 @@ class ArcMotion(Shown):
         """The cam angles where the arcs begin, from those of A, G, F and D on the rise."""
         rise, angles = float(turned[3]), np.degrees(turned[1:]).round(4).tolist()
         if not 0 < turned[1] < turned[2] < rise:
-            raise DesignError("rise", Unquoted(f"{angles} degrees at G, F and D"), "growing angles", "move G or C1")
+            found = say("{angles} degrees at G, F and D", angles=angles)
+            raise DesignError("rise", found, say("growing angles"), say("move G or C1"))
         moving = 2 * rise + self.dwell
         if moving > FULL_TURN + CLOSURE:
-            found = f"{math.degrees(moving):.6g} degrees"
-            raise DesignError("rise, dwell and return", Unquoted(found), "at most a turn", "shorten the dwell")
+            found = say("{degrees:.6g} degrees", degrees=math.degrees(moving))
+            raise DesignError(say("rise, dwell and return"), found, say("at most a turn"), say("shorten the dwell"))
         return np.concatenate([turned, moving - turned[::-1]])
 
     @property
@@ -214,7 +216,7 @@ class ArcMotion(Shown):
     def _place(self, phi: ArrayLike, side: Side) -> tuple[NDArray[np.intp], Floats, Floats]:
         """The arc of each cam angle, the angle at which the rise is on the same place of it, and the way it runs."""
         if side not in ("right", "left"):
-            raise DesignError("side", side, "'right' or 'left'")
+            raise DesignError("side", side, say("'right' or 'left'"))
         flat = wrap(phi)
         if side == "left":
             flat = np.where(flat == 0, FULL_TURN, flat)

@@ -101,8 +101,8 @@ def second_centre(given: ThreeArcs) -> complex:
     outward, chord = a / abs(a), a - g
     below = float(dot(outward, chord))  # how far G lies below the base circle's tangent at A
     if abs(below) <= ROUNDING * (abs(a) + abs(g)):
-        remedy = "move G: an arc that is straight has no centre C2"
-        raise DesignError("G", given.G, "off the tangent of the base circle at A", remedy)
+        remedy = say("move G: an arc that is straight has no centre C2")
+        raise DesignError("G", given.G, say("off the tangent of the base circle at A"), remedy)
     # |A - rho2 outward - G| = rho2, the squares of rho2 cancelling.
     return a - outward * abs(chord) ** 2 / (2 * below)
 

@@ -26,6 +26,7 @@ from graphcam.mechanism.kinematics import Kinematics, Pair, Values
 from graphcam.mechanism.stationary import Places, places_told
 from graphcam.mechanism.undercut import Undercut, trimmed_profile, undercuts
 from graphcam.showing import WIDTH, Shown, in_lines
+from graphcam.words import say
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,11 +120,11 @@ class Cam(Shown):
     def __post_init__(self) -> None:
         check_kind("motion", self.motion, Motion)
         check_kind("follower", self.follower, KINDS)
-        check_number("prime radius", self.prime_radius, "a finite length of more than 0 mm", above=0)
+        check_number(say("prime radius"), self.prime_radius, say("a finite length of more than 0 mm"), above=0)
         if not self.roller_radius < self.prime_radius:
-            limit = f"smaller than the prime radius of {self.prime_radius} mm"
-            remedy = "take a smaller roller or enlarge the prime radius"
-            raise DesignError("roller radius", self.roller_radius, limit, remedy)
+            limit = say("smaller than the prime radius of {prime_radius} mm", prime_radius=self.prime_radius)
+            remedy = say("take a smaller roller or enlarge the prime radius")
+            raise DesignError(say("roller radius"), self.roller_radius, limit, remedy)
         object.__setattr__(self, "sigma", sense(self.rotation))
         _ = self.kinematics  # says at once what does not fit
 
@@ -310,7 +311,8 @@ def largest_roller(cam: Cam) -> float:
     DesignError : the follower has no roller
     """
     if not cam.kinematics.takes_roller:
-        raise DesignError("follower", cam.follower.kind, "one with a roller", "enlarge the prime radius instead")
+        limit = say("one with a roller")
+        raise DesignError("follower", cam.follower.kind, limit, say("enlarge the prime radius instead"))
     return cam.envelope.least_radius
 
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted, check_kind
+from graphcam.errors import DesignError, check_kind
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats, Side
@@ -32,6 +32,7 @@ from graphcam.mechanism.stationary import (
 )
 from graphcam.mechanism.turn_curve import over_turn
 from graphcam.showing import by_parts
+from graphcam.words import say
 
 
 class SpringPreload(NamedTuple):
@@ -75,7 +76,7 @@ def spring_preload(
     >>> round(preload, 4), degrees(phi)
     (69.2296, 45.0)
     """
-    check_kind("motion", motion, Motion, remedy="of a cam take cam.motion")
+    check_kind("motion", motion, Motion, remedy=say("of a cam take cam.motion"))
     return _least_preload(motion, SpringLoad(mass, speed_rpm, stiffness, acceleration=acceleration))
 
 
@@ -146,10 +147,10 @@ class Contact:
     __repr__ = by_parts
 
     def __post_init__(self) -> None:
-        check_kind("motion", self.motion, Motion, remedy="of a cam take cam.motion")
+        check_kind("motion", self.motion, Motion, remedy=say("of a cam take cam.motion"))
         if isinstance(self.load, ArmLoad):
-            remedy = "take CamForces(cam, load).pressing"
-            raise DesignError("load", Unquoted("an ArmLoad"), "that load in its place beside the cam", remedy)
+            remedy = say("take CamForces(cam, load).pressing")
+            raise DesignError("load", say("an ArmLoad"), say("that load in its place beside the cam"), remedy)
 
     def least_force(self) -> ValueAt:
         """The minimum xi over the turn [N], both sides of every jump included; of equal ones the first."""

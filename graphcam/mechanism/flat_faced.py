@@ -16,6 +16,7 @@ from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.mechanism.kinematics import Appearance, Complexes, Contour, Kinematics, Pair, Values
 from graphcam.mechanism.stationary import stationary_places, velocity_range
+from graphcam.words import say
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,7 +181,7 @@ def flat_minimum_radius(
     38.0
     """
     least = curvature or 0.0
-    check_number("minimum radius of curvature", least, "a finite length of 0 mm or more", least=0)
+    check_number(say("minimum radius of curvature"), least, say("a finite length of 0 mm or more"), least=0)
     s, _, a, _ = stationary_places(motion, slope=lambda values: values[1] + values[3]).values
     radius = least - float(np.min(s + a))
     return FlatMinimumRadius(radius, ("curvature",)) if radius > 0 else FlatMinimumRadius(0.0, ())

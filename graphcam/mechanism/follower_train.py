@@ -34,6 +34,7 @@ from graphcam.mechanism.oscillator import Drive, Driven, Oscillator, check_dampi
 from graphcam.mechanism.shock_response import AnyMotion, turn_edges
 from graphcam.mechanism.stationary import ROUNDING, ValueAt
 from graphcam.showing import Shown, in_lines
+from graphcam.words import say
 
 MOST_VIBRATIONS = 10_000.0
 """Natural vibrations in a turn; beyond, the follower moves as a rigid one."""
@@ -68,12 +69,12 @@ class FollowerTrain:
 
     def __post_init__(self) -> None:
         for quantity, unit in (("mass", "kg"), ("stiffness", "N/mm")):
-            remedy = "a rigid follower is gc.Contact" if quantity == "stiffness" else ""
-            limit = f"a finite number greater than 0 {unit}"
+            remedy = say("a rigid follower is gc.Contact") if quantity == "stiffness" else ""
+            limit = say("a finite number greater than 0 {unit}", unit=unit)
             check_number(quantity, getattr(self, quantity), limit, remedy, above=0)
         check_damping(self.damping)
-        check_number("spring", self.spring, "a finite number of 0 N/mm or more", least=0)
-        check_number("preload", self.preload, "a finite number of N")
+        check_number("spring", self.spring, say("a finite number of 0 N/mm or more"), least=0)
+        check_number("preload", self.preload, say("a finite number of N"))
 
     @property
     def angular_frequency(self) -> float:
@@ -102,7 +103,7 @@ class FollowerTrain:
         ------
         DesignError : angle or speed is not positive
         """
-        check_number("angle", angle, "a finite number greater than 0 rad", above=0)
+        check_number("angle", angle, say("a finite number greater than 0 rad"), above=0)
         return angle / omega_of(_turning(speed_rpm)) * self.natural_frequency
 
 
@@ -163,8 +164,8 @@ class VibratingFollower(Shown):
     def __post_init__(self) -> None:
         _turning(self.speed_rpm)
         if self.vibrations > MOST_VIBRATIONS:
-            limit = f"so high that at most {MOST_VIBRATIONS:g} natural vibrations fit into a turn"
-            raise DesignError("speed_rpm", self.speed_rpm, limit, "a rigid follower is gc.Contact")
+            limit = say("so high that at most {most:g} natural vibrations fit into a turn", most=MOST_VIBRATIONS)
+            raise DesignError("speed_rpm", self.speed_rpm, limit, say("a rigid follower is gc.Contact"))
         _ = self._solved
 
     @property
@@ -241,8 +242,8 @@ class VibratingFollower(Shown):
         drive = Drive(np.append(turn_edges(self.motion), FULL_TURN), forcing)
         found = steady(Oscillator(np.array([nu]), float(train.damping)), drive)
         if found is None:
-            limit = f"off resonance: {nu:.9g} natural vibrations fit into a turn, a whole number"
-            raise DesignError("speed_rpm", self.speed_rpm, limit, "give the train damping, or change the speed")
+            limit = say("off resonance: {nu:.9g} natural vibrations fit into a turn, a whole number", nu=nu)
+            raise DesignError("speed_rpm", self.speed_rpm, limit, say("give the train damping, or change the speed"))
         return found
 
     @property
@@ -292,5 +293,5 @@ class VibratingFollower(Shown):
 
 
 def _turning(speed_rpm: float) -> float:
-    check_number("speed_rpm", speed_rpm, "a finite number greater than 0 rpm", above=0)
+    check_number("speed_rpm", speed_rpm, say("a finite number greater than 0 rpm"), above=0)
     return speed_rpm

@@ -41,7 +41,7 @@ from typing import overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted, check_kind
+from graphcam.errors import DesignError, check_kind
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats, Side
@@ -58,6 +58,7 @@ from graphcam.mechanism.jamming import (
 from graphcam.mechanism.kinematics import Values
 from graphcam.mechanism.stationary import Places, ValueAt, greatest_of, places_told
 from graphcam.showing import by_parts
+from graphcam.words import say
 
 NO_GUIDE = Guide(friction=0.0, overhang=0.0, length=1.0)
 """A guide without friction."""
@@ -165,18 +166,18 @@ class CamForces:
 
     def __post_init__(self) -> None:
         check_kind("cam", self.cam, Cam)
-        check_kind("guide", self.guide, Guide, remedy="friction between cam and follower is friction=...")
+        check_kind("guide", self.guide, Guide, remedy=say("friction between cam and follower is friction=..."))
         check_friction(self.friction)
         _ = self.pressing  # says at once what does not fit
         if not self.guide.friction:
             return
         if self.cam.kinematics.swings:
-            remedy = "an arm turns in a bearing: leave the guide out"
-            raise DesignError("follower", self.cam.follower.kind, "one that slides in a guide", remedy)
+            remedy = say("an arm turns in a bearing: leave the guide out")
+            raise DesignError("follower", self.cam.follower.kind, say("one that slides in a guide"), remedy)
         overhang, lift = self.guide.overhang, self.cam.motion.lift
         if overhang < lift:
-            remedy = "place the nearer bearing higher: the roller's centre rises towards it"
-            raise DesignError("overhang", overhang, f"the lift of {lift:g} mm or more", remedy)
+            remedy = say("place the nearer bearing higher: the roller's centre rises towards it")
+            raise DesignError("overhang", overhang, say("the lift of {lift:g} mm or more", lift=lift), remedy)
 
     @cached_property
     def pressing(self) -> FollowerLoad:
@@ -313,8 +314,9 @@ class CamForces:
     def _sound(self) -> bool:
         """True: what jams raises an error."""
         if self.friction and (margin := jamming_margin(self.cam, self.friction)).value <= 0:
-            allowed = f"less than the {most_friction(self.cam):.4g} at which the follower jams, {self._where(margin)}"
-            remedy = "lubricate, let a roller turn, or enlarge the prime radius"
+            allowed = say("less than the {most_friction:.4g} at which the follower jams, {where}")
+            allowed = allowed.where(most_friction=most_friction(self.cam), where=self._where(margin))
+            remedy = say("lubricate, let a roller turn, or enlarge the prime radius")
             raise DesignError("friction", self.friction, allowed, remedy)
         if self.guide.friction:
             self._check_guide()
@@ -379,13 +381,14 @@ class CamForces:
         if worst.value > 0:
             return
         if self.friction:
-            allowed = f"so small that the follower does not jam in its guide, {self._where(worst)}"
-            raise DesignError("friction", self.friction, allowed, "lubricate guide and cam, or lengthen the guide")
+            allowed = say("so small that the follower does not jam in its guide, {where}", where=self._where(worst))
+            raise DesignError("friction", self.friction, allowed, say("lubricate guide and cam, or lengthen the guide"))
         alpha, limit = (
             self.cam.pressure_angle(worst.phi),
             jamming_angle(self.guide, self.cam.motion(worst.phi)[0]),
         )
-        found = f"{math.degrees(alpha):.4g} degrees at a cam angle of {math.degrees(worst.phi):.4g}"
-        allowed = f"less than the {math.degrees(limit):.4g} degrees at which the guide jams"
-        remedy = "enlarge the prime radius, lengthen the guide or bring it nearer to the cam"
-        raise DesignError("pressure angle", Unquoted(found), allowed, remedy)
+        found = say("{degrees:.4g} degrees at a cam angle of {degrees2:.4g}")
+        found = found.where(degrees=math.degrees(alpha), degrees2=math.degrees(worst.phi))
+        allowed = say("less than the {degrees:.4g} degrees at which the guide jams", degrees=math.degrees(limit))
+        remedy = say("enlarge the prime radius, lengthen the guide or bring it nearer to the cam")
+        raise DesignError(say("pressure angle"), found, allowed, remedy)

@@ -13,7 +13,7 @@ from typing import NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted, check_kind, check_number
+from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.given.laws import Floats, Side
 from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG, RollerContact
 from graphcam.mechanism.forces import CamForces
@@ -21,6 +21,7 @@ from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.stationary import Places, ValueAt, greatest_of, places_told
 from graphcam.mechanism.turn_curve import TurnCurve, over_turn
 from graphcam.showing import by_parts
+from graphcam.words import say
 
 
 class LineContact(NamedTuple):
@@ -57,7 +58,7 @@ def hertz_line_contact(
     >>> round(gc.hertz_line_contact(1000, 20, radius1=-20, radius2=15).peak_pressure, 6)
     173.273583
     """
-    check_number("force", force, "a finite number of 0 N or more", least=0)
+    check_number("force", force, say("a finite number of 0 N or more"), least=0)
     stiffness = RollerContact(width, young1, young2, poisson1, poisson2).modulus
     bend = _relative_curvature(radius1, radius2)
     load = force / width / math.pi
@@ -68,15 +69,16 @@ def _relative_curvature(radius1: float, radius2: float) -> float:
     """1/R1 + 1/R2 [1/mm]."""
     for quantity, value in (("radius1", radius1), ("radius2", radius2)):
         if math.isnan(value) or value == 0:
-            raise DesignError(quantity, value, "a radius in mm, negative for a hollow, infinite for a plane")
+            raise DesignError(quantity, value, say("a radius in mm, negative for a hollow, infinite for a plane"))
     if math.isinf(radius1) or math.isinf(radius2):
         bend = 1 / radius1 + 1 / radius2
     else:
         # The sum first: of a roller in a hollow that is hardly wider it is exact, the difference of quotients is not.
         bend = (radius1 + radius2) / radius1 / radius2
     if not bend > 0:
-        found, remedy = f"{radius1:g} and {radius2:g} mm", "a hollow must be wider than what lies in it"
-        raise DesignError("pair of radii", Unquoted(found), "such that they touch along one line", remedy)
+        found = say("{radius1:g} and {radius2:g} mm", radius1=radius1, radius2=radius2)
+        remedy = say("a hollow must be wider than what lies in it")
+        raise DesignError(say("pair of radii"), found, say("such that they touch along one line"), remedy)
     return bend
 
 
@@ -131,11 +133,11 @@ class ContactStress:
         return f"{by_parts(self)}\n  maximum pressure: {most.value:.4g} MPa at {math.degrees(most.phi):.4g} degrees"
 
     def __post_init__(self) -> None:
-        check_kind("forces", self.forces, CamForces, remedy="CamForces(cam, load) has them")
-        check_kind("contact", self.contact, RollerContact, remedy="RollerContact(width=...) gives the width in mm")
+        check_kind("forces", self.forces, CamForces, remedy=say("CamForces(cam, load) has them"))
+        check_kind("contact", self.contact, RollerContact, remedy=say("RollerContact(width=...) gives the width in mm"))
         if self._kinematics.takes_roller and not self._roller > 0:
-            reason = "a knife edge has no line contact: the pressure on it is infinite"
-            raise DesignError("roller radius", self._roller, "greater than 0 mm", reason)
+            reason = say("a knife edge has no line contact: the pressure on it is infinite")
+            raise DesignError(say("roller radius"), self._roller, say("greater than 0 mm"), reason)
 
     @overload
     def at(self, phi: ArrayLike, /, *, side: Side = "right") -> Stresses: ...
@@ -175,9 +177,8 @@ class ContactStress:
         if not self._roller < rho:
             raise self._undercut(rho)
         if self.forces.greatest_normal().value <= 0:
-            raise DesignError(
-                "contact force", Unquoted("nowhere positive"), "greater than 0 N somewhere", "preload the spring"
-            )
+            found = say("nowhere positive")
+            raise DesignError(say("contact force"), found, say("greater than 0 N somewhere"), say("preload the spring"))
         squared, phi, side = greatest_of(cam.motion, self.slope, self._squared, knots=self.forces.pressing.knots)
         return ValueAt(math.sqrt(squared), phi, side)
 
@@ -193,7 +194,7 @@ class ContactStress:
 
     def least_width(self, permitted: float) -> float:
         """The width [mm] at which the maximum peak pressure is the permitted one [MPa]; p^2 falls as 1/width."""
-        check_number("permitted stress", permitted, "a finite number greater than 0 MPa", above=0)
+        check_number(say("permitted stress"), permitted, say("a finite number greater than 0 MPa"), above=0)
         return self.contact.width * (self.greatest().value / permitted) ** 2
 
     def slope(self, places: Places) -> Floats:
@@ -219,7 +220,9 @@ class ContactStress:
 
     def _undercut(self, rho: float) -> DesignError:
         if not self._kinematics.takes_roller:
-            limit = f"so large that the minimum radius of curvature, {rho:.6g} mm, is greater than 0 mm"
-            return DesignError("prime radius", self.forces.cam.prime_radius, limit, "enlarge the prime radius")
-        limit = f"less than the minimum radius of curvature of {rho:.6g} mm"
-        return DesignError("roller radius", self._roller, limit, "take a smaller roller or enlarge the prime radius")
+            limit = say("so large that the minimum radius of curvature, {rho:.6g} mm, is greater than 0 mm", rho=rho)
+            quantity = say("prime radius")
+            return DesignError(quantity, self.forces.cam.prime_radius, limit, say("enlarge the prime radius"))
+        limit = say("less than the minimum radius of curvature of {rho:.6g} mm", rho=rho)
+        quantity = say("roller radius")
+        return DesignError(quantity, self._roller, limit, say("take a smaller roller or enlarge the prime radius"))

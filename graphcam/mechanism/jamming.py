@@ -15,6 +15,7 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.mechanism.stationary import Places, ValueAt, greatest_of
+from graphcam.words import say
 
 
 def transmission(cam: Cam, values: Values, friction: float = 0.0) -> tuple[Floats, Floats]:
@@ -77,7 +78,7 @@ def check_friction(friction: float) -> None:
     ------
     DesignError : it is negative or not finite
     """
-    check_number("friction", friction, "a finite number of 0 or more", least=0)
+    check_number("friction", friction, say("a finite number of 0 or more"), least=0)
 
 
 def contact_angle(kin: Kinematics, values: Values) -> tuple[Floats, Floats, Floats]:

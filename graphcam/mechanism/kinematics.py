@@ -23,6 +23,7 @@ from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.spring_load import SpringLoad
+from graphcam.words import say
 
 Complexes = NDArray[np.complexfloating[Any, Any]]
 Pair = tuple[Floats | float, Floats | float]
@@ -134,7 +135,8 @@ class Kinematics(ABC):
         ------
         DesignError : it is a load on another kind of follower, or does not fit
         """
-        check_kind("load", load, SpringLoad, "a SpringLoad, for the follower slides", "an ArmLoad turns an arm")
+        limit = say("a SpringLoad, for the follower slides")
+        check_kind("load", load, SpringLoad, limit, say("an ArmLoad turns an arm"))
         return load
 
     @property

@@ -15,6 +15,7 @@ from graphcam.mechanism.flat_faced import FlatMinimumRadius
 from graphcam.mechanism.followers import EXACT, LeastRadius
 from graphcam.mechanism.least_radius_arm import ArmMinimumRadius
 from graphcam.mechanism.least_radius_translating import MinimumRadius
+from graphcam.words import say
 
 
 @overload
@@ -98,9 +99,10 @@ def minimum_radius(
     check_kind("follower", follower, KINDS)
     sigma, exact = sense(rotation), EXACT[type(follower)]
     if curvature is not None and exact.condition != "curvature":
-        raise DesignError("curvature", curvature, "left out", "only a flat face limits the radius by the curvature")
+        limit = say("left out")
+        raise DesignError("curvature", curvature, limit, say("only a flat face limits the radius by the curvature"))
     if offset is not None and exact.condition != "offset":
-        raise DesignError("offset", offset, "left out", "only a translating follower has an offset")
+        raise DesignError("offset", offset, say("left out"), say("only a translating follower has an offset"))
     limits = Limits(math.radians(follower.usual_limit_deg) if rise is None else rise, return_, rest)
     condition = offset if curvature is None else curvature
     if condition is None:

@@ -21,13 +21,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.follower import Oscillating, swing_remedy
 from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.mechanism.arm_lines import SAME_PLACE, Side, higher
 from graphcam.mechanism.half_planes import LINES, HalfPlane, Kept, Line, nearest
 from graphcam.mechanism.leg_places import sampled_legs
+from graphcam.words import say
 
 ROUNDING = 1e-15
 """How far a point may lie beyond a line and count as on it, relative to the arm and the distance from its start."""
@@ -84,9 +85,10 @@ def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits
         point, lines, beyond = _least(region, arc.point(0.0), arc.first)
         if beyond > KEPT * (arm + abs(point)):
             free = arm_minimum_radius(motion, replace(follower, distance=None), sigma, limits)
-            limit = "one at which the pressure angle can keep its limits over the whole swing"
-            remedy = f"leave it open: the minimum prime radius has a centre distance of {free.distance:.6g} mm"
-            raise DesignError("centre distance", distance, limit, remedy)
+            limit = say("one at which the pressure angle can keep its limits over the whole swing")
+            remedy = say("leave it open: the minimum prime radius has a centre distance of {distance:.6g} mm")
+            remedy = remedy.where(distance=free.distance)
+            raise DesignError(say("centre distance"), distance, limit, remedy)
     names = [line.name for line in lines]
     return ArmMinimumRadius(abs(point), distance, tuple([name for name in LINES if name in names]))
 
@@ -97,9 +99,9 @@ def _check_lift(motion: Motion, limits: Limits) -> None:
     room = 2 * min(limits.rise, back) if limits.rest else limits.rise + back
     if motion.lift >= room:
         lift, limit = (f"{math.degrees(angle):g} degrees" for angle in (motion.lift, room))
-        remedy = "permit larger pressure angles or swing the arm less"
+        remedy = say("permit larger pressure angles or swing the arm less")
         remedy = swing_remedy(motion.lift, remedy)
-        raise DesignError("lift", Unquoted(lift), f"less than {limit} for these limits", remedy)
+        raise DesignError("lift", lift, say("less than {limit} for these limits", limit=limit), remedy)
 
 
 # --- the lines -------------------------------------------------------------------------------------------------------

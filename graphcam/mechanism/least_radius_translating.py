@@ -26,6 +26,7 @@ from graphcam.given.roots import roots
 from graphcam.mechanism.half_planes import Line
 from graphcam.mechanism.leg_places import legs
 from graphcam.mechanism.stationary import SAMPLES
+from graphcam.words import say
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ def translating_minimum_radius(
     if offset is None:
         across, s0, active = _nearest(slope, height, lines)
         return MinimumRadius(math.hypot(across, s0), sigma * across, active)
-    check_number("offset", offset, "a finite length in mm", "leave it out to let it be found")
+    check_number("offset", offset, say("a finite length in mm"), say("leave it out to let it be found"))
     place = sigma * offset
     heights: dict[Line, float] = {"rise": (height - place) / slope}
     heights |= {name: (height + place) / slope for name, slope, height in lines}

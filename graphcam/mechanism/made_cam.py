@@ -26,6 +26,7 @@ from graphcam.given.making_errors import Deviations
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Contour, Values
 from graphcam.mechanism.taylor import Taylor
+from graphcam.words import say
 
 PATIENCE = 20
 """Newton's steps; three or four do where waves are shallow."""
@@ -60,12 +61,12 @@ class MadeCam:
 
     def __post_init__(self) -> None:
         check_kind("cam", self.cam, Cam)
-        check_kind("deviations", self.deviations, Deviations, remedy="MakingErrors.sample(...) draws them")
+        check_kind("deviations", self.deviations, Deviations, remedy=say("MakingErrors.sample(...) draws them"))
         own = [size.name for size in fields(self.cam.follower)]
         for name in self.deviations.sizes:
             if name not in own:
-                limit = f"a size of the {self.cam.follower.kind} follower"
-                raise DesignError("sizes", name, limit, nearest(name, own) if own else "leave it out")
+                limit = say("a size of the {kind} follower", kind=self.cam.follower.kind)
+                raise DesignError("sizes", name, limit, nearest(name, own) if own else say("leave it out"))
 
     def __call__(self, phi: ArrayLike) -> tuple[Floats, Floats, Floats]:
         """(s, v, a) at cam angles phi [rad], counted from the nominal lowest place; shaped like phi and the deviations.

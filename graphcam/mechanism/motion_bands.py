@@ -27,7 +27,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.making_errors import SIZES, MakingErrors, deviations_within, wave_name
 from graphcam.mechanism.cam import Cam
@@ -35,6 +35,7 @@ from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.made_cam import MadeCam, lifted_over
 from graphcam.mechanism.stationary import ValueAt, places_in, smooth_pieces
 from graphcam.showing import Shown, in_lines
+from graphcam.words import say
 
 SAMPLES = 2000
 """Mechanisms of a sample."""
@@ -200,10 +201,9 @@ class MotionBands(Shown):
         for here in _together(self.phi.size, self.samples):
             off = np.array(made(self.phi[here])) - nominal[:, None, here]
             if np.isnan(off).any():
-                remedy = "take smaller tolerances"
-                raise DesignError(
-                    "tolerances", Unquoted("too wide"), "such that every follower reaches its cam", remedy
-                )
+                remedy = say("take smaller tolerances")
+                shown = say("too wide")
+                raise DesignError("tolerances", shown, say("such that every follower reaches its cam"), remedy)
             found.deviation[:, here] = off.std(axis=1)
             found.low[:, here], found.high[:, here] = np.quantile(off, ends, axis=1)
         return found
@@ -250,7 +250,7 @@ def motion_bands(
     places = band_places(cam) if phi is None else np.atleast_1d(np.asarray(phi, dtype=np.float64))
     errors.sample(2, seed)
     if samples < 2:
-        raise DesignError("samples", samples, "2 or more")
+        raise DesignError("samples", samples, say("2 or more"))
     return MotionBands(cam, errors, places, coverage, samples, seed)
 
 
@@ -331,13 +331,13 @@ def check_errors(cam: Cam, errors: MakingErrors) -> None:
     check_sizes(cam.kinematics, errors)
     roller, kin = cam.roller_radius, cam.kinematics
     if errors.roller_diameter and not roller > 0:
-        remedy = "or give the follower a roller"
-        raise DesignError("roller_diameter", errors.roller_diameter, "left out: a knife edge has no roller", remedy)
+        remedy = say("or give the follower a roller")
+        limit = say("left out: a knife edge has no roller")
+        raise DesignError("roller_diameter", errors.roller_diameter, limit, remedy)
     least = cam.extremes().min_convex_radius[0]
     if not least > roller:
-        raise DesignError(
-            "profile", Unquoted("undercut"), "sound where its errors are asked for", "enlarge the prime radius"
-        )
+        limit = say("sound where its errors are asked for")
+        raise DesignError("profile", say("undercut"), limit, say("enlarge the prime radius"))
     waves = [a * n * n for a, n in zip(errors.waviness, errors.harmonics, strict=True)]
     values = cam.motion(band_places(cam))
     room = kin.speed(values, roller)
@@ -346,13 +346,11 @@ def check_errors(cam: Cam, errors: MakingErrors) -> None:
     if sum(waves) >= (room := DEEPEST * float(np.min(room))):
         k = int(np.argmax(waves))
         n = errors.harmonics[k]
-        why = (
-            "a roller would bridge the hollows of deep ones"
-            if roller
-            else "a face would bridge the hollows of deep ones"
-        )
-        limit = f"less than {room / n**2:.3g} mm at {n} waves per turn: {why}"
-        raise DesignError(f"waviness[{k}]", errors.waviness[k], limit, "take smaller amplitudes or fewer waves")
+        why = say("a face would bridge the hollows of deep ones")
+        if roller:
+            why = say("a roller would bridge the hollows of deep ones")
+        limit = say("less than {value:.3g} mm at {n} waves per turn: {why}", value=room / n**2, n=n, why=why)
+        raise DesignError(f"waviness[{k}]", errors.waviness[k], limit, say("take smaller amplitudes or fewer waves"))
 
 
 def check_sizes(kin: Kinematics, errors: MakingErrors) -> None:
@@ -367,7 +365,8 @@ def check_sizes(kin: Kinematics, errors: MakingErrors) -> None:
     for name in SIZES:
         tolerance = getattr(errors, name)
         if tolerance and OFF_BY.get(name, (name, 1.0))[0] not in own:
-            raise DesignError(name, tolerance, "left out: this follower has no such size", "give those that it has")
+            limit = say("left out: this follower has no such size")
+            raise DesignError(name, tolerance, limit, say("give those that it has"))
 
 
 def band_places(cam: Cam) -> Floats:

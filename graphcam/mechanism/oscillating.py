@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted, check_kind
+from graphcam.errors import DesignError, check_kind
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower import Oscillating, swing_remedy
 from graphcam.given.follower_load import FollowerLoad
@@ -21,6 +21,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.pieces import sine_cosine
 from graphcam.mechanism.kinematics import Appearance, Contour, Pair, RollerKinematics, Values
+from graphcam.words import say
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,8 +40,8 @@ class OscillatingKinematics(RollerKinematics):
     def of(cls, sizes: Oscillating, prime_radius: Any, sigma: Any, lift: Any) -> Self:
         """The kinematics of an arm at its centre distance; the lift is an angle."""
         if sizes.distance is None:
-            remedy = "take the one that minimum_radius(...) finds"
-            raise DesignError("centre distance", Unquoted("left open"), "given for a cam", remedy)
+            remedy = say("take the one that minimum_radius(...) finds")
+            raise DesignError(say("centre distance"), say("left open"), say("given for a cam"), remedy)
         made = cls(sigma, prime_radius, sizes.arm, sizes.distance, lift)
         _ = made.psi0  # so that its parts know it
         return made
@@ -50,16 +51,18 @@ class OscillatingKinematics(RollerKinematics):
         arm, distance, r0 = self.arm, self.distance, self.prime_radius
         nearest, farthest = abs(distance - arm), distance + arm
         if not nearest < r0 < farthest:
-            limit = (
-                f"between {nearest:g} and {farthest:g} mm, where the arm of {arm:g} mm meets it "
-                f"from a centre distance of {distance:g} mm"
+            limit = say(
+                "between {nearest:g} and {farthest:g} mm, where the arm of {arm:g} mm meets it from a centre "
+                "distance of {distance:g} mm"
             )
-            raise DesignError("prime radius", r0, limit, "change the prime radius, the arm or the centre distance")
+            limit = limit.where(nearest=nearest, farthest=farthest, arm=arm, distance=distance)
+            quantity = say("prime radius")
+            raise DesignError(quantity, r0, limit, say("change the prime radius, the arm or the centre distance"))
         if math.isnan(self.psi0):
             left = math.degrees(math.pi - angle_between(distance, arm, r0))
-            limit = f"less than the {left:g} degrees from the lower dwell to the stretched arm"
-            remedy = "make the lift or the prime radius smaller, or the centre distance or the arm longer"
-            lift = Unquoted(f"{math.degrees(self.swing):g} degrees")
+            limit = say("less than the {left:g} degrees from the lower dwell to the stretched arm", left=left)
+            remedy = say("make the lift or the prime radius smaller, or the centre distance or the arm longer")
+            lift = say("{degrees:g} degrees", degrees=math.degrees(self.swing))
             raise DesignError("lift", lift, limit, swing_remedy(self.swing, remedy))
 
     @cached_property
@@ -115,7 +118,8 @@ class OscillatingKinematics(RollerKinematics):
 
     def pressed_by(self, load: Any) -> FollowerLoad:
         """A torque about the pivot."""
-        check_kind("load", load, ArmLoad, "an ArmLoad, for the follower swings", "give its inertia about the pivot")
+        limit = say("an ArmLoad, for the follower swings")
+        check_kind("load", load, ArmLoad, limit, say("give its inertia about the pivot"))
         return load.placed(self.arm, self.distance, self.psi0, self.swing)
 
     @property

@@ -33,6 +33,7 @@ from numpy.typing import ArrayLike, NDArray
 from graphcam.errors import check_number
 from graphcam.given.laws import Floats
 from graphcam.given.pieces import CHUNK
+from graphcam.words import say
 
 NODES = 20
 """Places in a cell through which the forcing's series goes."""
@@ -72,8 +73,8 @@ def check_damping(damping: float) -> None:
     ------
     DesignError : it is negative, not a number, or more than :data:`MOST_DAMPING`
     """
-    limit = f"a ratio to the critical damping from 0 to {MOST_DAMPING:g}"
-    check_number("damping", damping, limit, "2 % is 0.02", least=0, most=MOST_DAMPING)
+    limit = say("a ratio to the critical damping from 0 to {most:g}", most=MOST_DAMPING)
+    check_number("damping", damping, limit, say("2 % is 0.02"), least=0, most=MOST_DAMPING)
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,7 +29,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats, law as law_of
 from graphcam.given.motion import FULL_TURN, Motion, Moving
 from graphcam.given.motion_law import Law
@@ -37,6 +37,7 @@ from graphcam.given.roots import roots
 from graphcam.mechanism.arc_motion import ArcMotion
 from graphcam.mechanism.oscillator import ALL, Drive, Driven, Oscillator, Which, check_damping, driven
 from graphcam.showing import Shown, in_lines
+from graphcam.words import say
 
 MOST = 1000.0
 """Natural periods in a rise; a follower still stiffer follows the cam."""
@@ -97,8 +98,8 @@ def _of_motion(motion: AnyMotion) -> Event:
     phases = motion.timing
     first = next((k for k, (kind, *_) in enumerate(phases) if kind == "rise" and phases[k - 1][0] == "dwell"), None)
     if first is None:
-        remedy = "the steady motion of one without dwells is gc.VibratingFollower"
-        raise DesignError("motion", Unquoted("without a dwell before a rise"), "one with such a dwell", remedy)
+        remedy = say("the steady motion of one without dwells is gc.VibratingFollower")
+        raise DesignError("motion", say("without a dwell before a rise"), say("one with such a dwell"), remedy)
     turned = [*phases[first:], *((kind, a + FULL_TURN, b + FULL_TURN) for kind, a, b in phases[:first])]
     count = next(k for k, (kind, *_) in enumerate(turned) if kind == "dwell")
     start, end, stop = turned[0][1], turned[0][2], turned[count][1]
@@ -227,12 +228,13 @@ def follower_response(law: str | Law | AnyMotion, n: float, damping: float = 0.0
 
 def _check_ratios(n: Floats) -> None:
     for value in n[~((n > 0) & (n <= MOST))][:1].tolist():
-        limit, remedy = f"greater than 0 and at most {MOST:g}", "n is the rise time over the natural period"
+        limit = say("greater than 0 and at most {most:g}", most=MOST)
+        remedy = say("n is the rise time over the natural period")
         if value > MOST:
-            remedy = "so stiff a follower follows the cam"
+            remedy = say("so stiff a follower follows the cam")
         raise DesignError("n", value, limit, remedy)
     if not n.size:
-        raise DesignError("n", Unquoted("empty"), "one ratio or more", "leave it out for the usual range")
+        raise DesignError("n", say("empty"), say("one ratio or more"), say("leave it out for the usual range"))
 
 
 # --- over the ratio of times -----------------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.follower import Follower, Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
@@ -27,6 +27,7 @@ from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.made_cam import lifted_over
 from graphcam.showing import by_parts
+from graphcam.words import say
 
 BINDS = 1e-7
 """How far a pressure angle may be off its limit [rad] where the minimum radius is said to be held by it."""
@@ -141,8 +142,9 @@ def radius_sensitivity(
     limits = {"rise": math.radians(follower.usual_limit_deg) if rise is None else rise, "return": return_}
     least = minimum_radius(motion, follower, rotation, rise, return_, offset, rest, curvature)
     if not least.active:
-        remedy = "without one the radius is where the follower only just reaches the cam"
-        raise DesignError("minimum prime radius", Unquoted(f"{least.prime_radius:g} mm"), "held by a limit", remedy)
+        remedy = say("without one the radius is where the follower only just reaches the cam")
+        shown = say("{length:g} mm", length=least.prime_radius)
+        raise DesignError(say("minimum prime radius"), shown, say("held by a limit"), remedy)
     if least.place_name is None:
         return {"curvature": 1.0, "lift": (least.prime_radius - (curvature or 0.0)) / motion.lift}
     fixed = {"offset": offset, "distance": getattr(follower, "distance", None)}[least.place_name] is not None

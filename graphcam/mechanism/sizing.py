@@ -16,7 +16,7 @@ from typing import Literal, cast
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted, check_kind
+from graphcam.errors import DesignError, check_kind
 from graphcam.given.follower import Rotation
 from graphcam.given.motion import Motion
 from graphcam.given.ranges import NUMBER
@@ -29,6 +29,7 @@ from graphcam.mechanism.sizing_problem import BINDS, Measure, Range, SizingProbl
 from graphcam.mechanism.sizing_refusal import refuse
 from graphcam.mechanism.sizing_search import Watched, best, exchange, polished
 from graphcam.showing import in_lines
+from graphcam.words import either, say
 
 Objective = Literal["size", "stress"]
 OBJECTIVES: tuple[Objective, ...] = ("size", "stress")
@@ -144,8 +145,8 @@ def size_cam(
     ('minimum prime radius', 'maximum roller radius')
     """
     if (prime_radius is None) == (base_radius is None):
-        found = "neither given" if prime_radius is None else "both given"
-        raise DesignError("prime_radius and base_radius", Unquoted(found), "one of them, as a range in mm")
+        found = say("neither given") if prime_radius is None else say("both given")
+        raise DesignError(say("prime_radius and base_radius"), found, say("one of them, as a range in mm"))
     measure: Measure = "base radius" if prime_radius is None else "prime radius"
     limits = SizingLimits(
         permitted_stress, rise, return_, terms_of(roller_rule), contact or RollerContact(1.0), friction
@@ -172,14 +173,14 @@ def _range(name: str, size: Range | float) -> Range:
     """A range as it is given; of a number the one that holds nothing else."""
     if isinstance(size, tuple | list | np.ndarray) and len(size) == 2:
         return float(size[0]), float(size[1])
-    check_kind(f"range of the {name}", size, NUMBER, "two lengths in mm, or one that is fixed")
+    check_kind(say("range of the {name}", name=name), size, NUMBER, say("two lengths in mm, or one that is fixed"))
     return float(cast(float, size)), float(cast(float, size))
 
 
 def best_cam(problem: SizingProblem, objective: Objective) -> SizedCam:
     """The best cam of a problem, as :func:`size_cam` says."""
     if objective not in OBJECTIVES:
-        raise DesignError("objective", objective, " or ".join(map(repr, OBJECTIVES)))
+        raise DesignError("objective", objective, either([repr(each) for each in OBJECTIVES]))
     problem.check_contact()
     found = best(problem, "radius" if objective == "size" else "width")
     if found is None:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, Unquoted, check_number
+from graphcam.errors import DesignError, check_number
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.limits import PERMITTED
@@ -26,6 +26,7 @@ from graphcam.mechanism.jamming import check_friction
 from graphcam.mechanism.kinematics import Values
 from graphcam.mechanism.stationary import Places, places_of, smooth_pieces, stationary_places
 from graphcam.mechanism.translating import TranslatingKinematics
+from graphcam.words import say
 
 RISE, RETURN, CURVATURE, SHARE, STRESS = LIMITS = (
     "pressure angle on the rise",
@@ -57,11 +58,11 @@ class SizingLimits:
     friction: float = 0.0
 
     def __post_init__(self) -> None:
-        check_number("permitted stress", self.stress, "a finite number greater than 0 MPa", above=0)
+        check_number(say("permitted stress"), self.stress, say("a finite number greater than 0 MPa"), above=0)
         for name, angle in (("rise", self.rise), ("return", self.return_)):
             if angle is not None and not 0 < angle < math.pi / 2:
-                quantity, limit = PERMITTED[name], "between 0 and 90 degrees, both excluded"
-                raise DesignError(quantity, Unquoted(f"{math.degrees(angle):g} degrees"), limit)
+                quantity, limit = PERMITTED[name], say("between 0 and 90 degrees, both excluded")
+                raise DesignError(quantity, say("{degrees:g} degrees", degrees=math.degrees(angle)), limit)
         check_friction(self.friction)
 
     @property

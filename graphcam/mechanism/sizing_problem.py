@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.follower import Rotation, Translating, sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
@@ -16,6 +16,7 @@ from graphcam.mechanism.contact import Contact
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.hertz import ContactStress
 from graphcam.mechanism.sizing_limits import Bearing, Sizes, SizingLimits, TurnPlaces, margins
+from graphcam.words import say
 
 Range = tuple[float, float]
 Measure = Literal["prime radius", "base radius"]
@@ -46,19 +47,16 @@ class SizingProblem:
         for name, (low, high) in self.ranges.items():
             positive = name == "offset" or low > 0
             if not (math.isfinite(low) and math.isfinite(high) and low <= high and positive):
-                raise DesignError(
-                    f"range of the {name}",
-                    Unquoted(f"{low:g} to {high:g} mm"),
-                    "from a size to one that is not smaller",
-                )
+                found = say("{low:g} to {high:g} mm", low=low, high=high)
+                limit = say("from a size to one that is not smaller")
+                raise DesignError(say("range of the {name}", name=name), found, limit)
         least = self.radius[0] + self._between(self.roller_radius[0])
         roller = 0.0 if self.measure == "base radius" else self.roller_radius[1]
-        for quantity, most in (("offset", max(map(abs, self.offset))), ("roller radius", roller)):
+        for quantity, most in (("offset", max(map(abs, self.offset))), (say("roller radius"), roller)):
             if not most < least:
-                limit = f"less than the minimum prime radius of {least:g} mm"
-                raise DesignError(
-                    f"range of the {quantity}", Unquoted(f"up to {most:g} mm"), limit, "no such cam could be made"
-                )
+                limit = say("less than the minimum prime radius of {least:g} mm", least=least)
+                found, remedy = say("up to {most:g} mm", most=most), say("no such cam could be made")
+                raise DesignError(say("range of the {quantity}", quantity=quantity), found, limit, remedy)
 
     @property
     def ranges(self) -> dict[str, Range]:
@@ -79,9 +77,9 @@ class SizingProblem:
         """
         least = Contact(self.motion, self.load).least_force()
         if least.value < -BINDS * abs(self.load.preload):
-            limit = "0 N or more, so that the follower stays on its cam"
-            remedy = "preload the spring: spring_preload(...) tells the minimum"
-            raise DesignError("minimum contact force", Unquoted(f"{least.value:.4g} N"), limit, remedy)
+            limit = say("0 N or more, so that the follower stays on its cam")
+            remedy = say("preload the spring: spring_preload(...) tells the minimum")
+            raise DesignError(say("minimum contact force"), say("{value:.4g} N", value=least.value), limit, remedy)
 
     def sizes(self, radius: Any, offset: Any, roller: Any, width: Any) -> Sizes:
         """The sizes with a radius [mm] of what is measured."""

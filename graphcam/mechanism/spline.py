@@ -22,7 +22,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.envelope import Envelope, Indices
@@ -30,6 +30,7 @@ from graphcam.mechanism.kinematics import Complexes
 from graphcam.mechanism.spline_fit import Conditions, at_ends, basis, fitted
 from graphcam.mechanism.stretches import Span, stretches
 from graphcam.mechanism.undercut import lost_parts
+from graphcam.words import chained, either, say
 
 Degree = Literal[2, 3, 4, 5]
 DEVIATION = 0.0005
@@ -126,16 +127,19 @@ def profile_spline(
     True
     """
     if degree not in get_args(Degree):
-        raise DesignError("degree", degree, "2, 3, 4 or 5")
+        raise DesignError("degree", degree, either("2345"))
     least = max(LEAST_DEVIATION, LEAST_PART * (cam.prime_radius + cam.motion.lift))
     if not deviation >= least:
-        raise DesignError("deviation", deviation, f"{least:g} mm or more")
+        raise DesignError("deviation", deviation, say("{least:g} mm or more", least=least))
     envelope = cam.envelope
     lost = lost_parts(envelope)
     if lost and not trimmed:
-        where = " and ".join(f"from {math.degrees(part.begin):.2f} to {math.degrees(part.end):.2f}" for part in lost)
-        remedy = "take a smaller roller or a larger cam; trimmed=True gives what can be cut, as trimmed_profile(n) does"
-        raise DesignError("profile", Unquoted(f"undercut {where} degrees"), "without undercut", remedy)
+        ends = [(math.degrees(part.begin), math.degrees(part.end)) for part in lost]
+        where = chained([say("from {begin:.2f} to {end:.2f}", begin=begin, end=end) for begin, end in ends])
+        remedy = say(
+            "take a smaller roller or a larger cam; trimmed=True gives what can be cut, as trimmed_profile(n) does"
+        )
+        raise DesignError("profile", say("undercut {where} degrees", where=where), say("without undercut"), remedy)
     spans, joints = stretches(envelope, lost)
     closed = not joints
     curves = [_Stretch(envelope, stretch, degree, closed) for stretch in spans]
@@ -202,8 +206,8 @@ def _near(stretch: _Stretch, deviation: float) -> _Fit:
         poor = missed > max(1.0, missed.max() / 2)
         more = np.maximum(missed ** (1 / (stretch.degree + 1)), LEAST_GROWTH)
         counts = np.where(poor, np.ceil(counts) * more, counts)
-    remedy = "state a larger one, or take a smaller roller"
-    raise DesignError("deviation", Unquoted(f"{deviation:g} mm"), "larger for this profile", remedy)
+    remedy = say("state a larger one, or take a smaller roller")
+    raise DesignError("deviation", say("{length:g} mm", length=deviation), say("larger for this profile"), remedy)
 
 
 def _with(stretches: list[_Stretch], control_points: int, smooth: list[bool], deviation: float) -> list[_Fit]:
@@ -212,7 +216,8 @@ def _with(stretches: list[_Stretch], control_points: int, smooth: list[bool], de
     fewest = np.repeat([stretch.fewest for stretch in stretches], spans)
     least = _fewest_points(stretches, smooth)
     if not least <= control_points <= MOST_CONTROL_POINTS:
-        limit = f"{least} to {MOST_CONTROL_POINTS} for this profile with degree {stretches[0].degree}"
+        limit = say("{least} to {most} for this profile with degree {degree}")
+        limit = limit.where(least=least, most=MOST_CONTROL_POINTS, degree=stretches[0].degree)
         raise DesignError("control_points", control_points, limit)
     needs = [_needs(stretch, deviation) for stretch in stretches]
     wants = np.array([need.parts[-1] for parts in needs for need in parts])

@@ -13,6 +13,7 @@ import numpy as np
 from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
 from graphcam.mechanism.kinematics import Contour, Pair, RollerKinematics, Values
+from graphcam.words import say
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,8 +30,10 @@ class TranslatingKinematics(RollerKinematics):
     def check(self) -> None:
         """That the follower's line crosses the prime circle."""
         if not abs(self.offset) < self.prime_radius:
-            limit = f"smaller than the prime radius of {self.prime_radius} mm in magnitude"
-            remedy = "bring the follower nearer to the cam centre or enlarge the prime radius"
+            limit = say(
+                "smaller than the prime radius of {prime_radius} mm in magnitude", prime_radius=self.prime_radius
+            )
+            remedy = say("bring the follower nearer to the cam centre or enlarge the prime radius")
             raise DesignError("offset", self.offset, limit, remedy)
 
     @cached_property

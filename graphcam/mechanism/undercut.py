@@ -19,12 +19,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import wrap
 from graphcam.mechanism.envelope import Envelope, Indices
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.plane import cross
+from graphcam.words import say
 
 NEWTON_STEPS = 40
 CLOSED = 1e-12
@@ -113,7 +114,7 @@ def trimmed_profile(envelope: Envelope, n: int) -> CutProfile:
     arcs = kept_arcs(envelope, lost)
     least = len(arcs) + 2
     if n < least:
-        raise DesignError("number of points", n, f"{least} or more for this profile")
+        raise DesignError(say("number of points"), n, say("{least} or more for this profile", least=least))
     # One point where each arc begins, the others shared out by the arcs' angles.
     shares = np.cumsum([0.0, *(end - begin for begin, end in arcs)])
     counts = 1 + np.diff(np.round(shares / shares[-1] * (n - len(arcs))).astype(int))
@@ -154,9 +155,9 @@ def lost_parts(envelope: Envelope) -> list[Lost]:
         if begin[k] >= (lost[-1].end if lost else envelope.edges[0]):
             lost.append(Lost(float(begin[k]), float(end[k]), complex(at[k])))
     if not all(any(part.begin <= b.begin and b.end <= part.end for part in lost) for b in envelope.backward):
-        smaller = f"take a roller well below {envelope.least_radius:g} mm"
-        remedy = smaller if envelope.kinematics.takes_roller else "enlarge the prime radius"
-        raise DesignError("undercut", Unquoted("made of loops that cannot be told apart"), "of separate loops", remedy)
+        smaller = say("take a roller well below {least_radius:g} mm", least_radius=envelope.least_radius)
+        remedy = smaller if envelope.kinematics.takes_roller else say("enlarge the prime radius")
+        raise DesignError("undercut", say("made of loops that cannot be told apart"), say("of separate loops"), remedy)
     return lost
 
 

@@ -23,6 +23,7 @@ from graphcam.report.note_page import mathml
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_writer import task_files
+from graphcam.words import Words, bare, say
 
 TEMPLATES = Path(__file__).parent / "templates"
 SHOWN = ["text/html", "text/markdown", "image/svg+xml", "image/png", "text/plain"]
@@ -36,8 +37,8 @@ BROWSERS = (
 )
 """Programs of Chromium's family, by their names on the path, or where Windows and macOS have them."""
 NO_BROWSER = (
-    "there is no Chromium to print it",
-    "install Chromium or Chrome, or print the page of --html from your browser",
+    say("there is no Chromium to print it"),
+    say("install Chromium or Chrome, or print the page of --html from your browser"),
 )
 """Why there is no PDF, and what to do."""
 LONGEST = 120
@@ -113,10 +114,11 @@ def print_pdf(page: Path, pdf: Path) -> None:
         try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, check=False)
         except (OSError, subprocess.TimeoutExpired) as error:
-            raise OutputError(pdf, f"{Path(program).name}: {error}") from error
+            raise OutputError(pdf, bare(f"{Path(program).name}: {error}")) from error
     if done.returncode or not pdf.exists():
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]
-        raise OutputError(pdf, f"{Path(program).name} says: {last}", "print the page of --html from your browser")
+        why = say("{name} says: {last}", name=Path(program).name, last=last)
+        raise OutputError(pdf, why, say("print the page of --html from your browser"))
 
 
 def write_folder(
@@ -126,7 +128,7 @@ def write_folder(
     run: bool = False,
     html: bool = False,
     pdf: bool = False,
-    progress: Callable[[str], None] = lambda _: None,
+    progress: Callable[[Words], None] = lambda _: None,
 ) -> list[str]:
     """Write the notebook of a task into a folder: all of it, or nothing.
 
@@ -142,21 +144,21 @@ def write_folder(
     """
     if pdf and browser() is None:
         raise OutputError(Path(folder, PRINT), *NO_BROWSER)
-    progress("writing the notebook")
+    progress(say("writing the notebook"))
     notebook, files = write_notebook(task), task_files(task)
     with whole_folder(folder) as draft:
         for name, text in files.items():
             (draft / name).write_text(text, encoding="utf-8", newline="\n")
         if run or html or pdf:
-            progress("executing it")
+            progress(say("executing it"))
             notebook = execute(notebook, draft)
         nbformat.write(notebook, draft / NOTEBOOK)
         if html or pdf:
-            progress("making a page of it")
+            progress(say("making a page of it"))
             page = to_html(notebook, notebook_title(task), task.drawing.language)
             (draft / PAGE).write_text(page, encoding="utf-8", newline="\n")
         if pdf:
-            progress("printing the page")
+            progress(say("printing the page"))
             print_pdf(draft / PAGE, draft / PRINT)
         if not html:
             (draft / PAGE).unlink(missing_ok=True)

@@ -9,6 +9,7 @@ from types import ModuleType
 from nbformat import NotebookNode
 
 from graphcam.errors import GraphcamError, install_advice
+from graphcam.words import Caption, say
 
 PYTHON = {"kernelspec": {"name": "python3", "display_name": "Python 3"}, "language_info": {"name": "python"}}
 """Metadata of a notebook whose code is Python."""
@@ -27,8 +28,15 @@ class MissingExtraError(GraphcamError):
     what: str
     library: str
 
-    def __str__(self) -> str:
-        return f"{self.what} needs {self.library}, which is not installed; {install_advice('notebooks')}"
+    @property
+    def fault(self) -> Caption:
+        """What needs it."""
+        return say("{what} needs {library}, which is not installed", what=self.what, library=self.library)
+
+    @property
+    def advice(self) -> Caption:
+        """How to install it."""
+        return install_advice("notebooks")
 
 
 def needed(library: str, what: str) -> ModuleType:
@@ -57,8 +65,10 @@ class NotebookError(GraphcamError):
     cell: str
     said: str
 
-    def __str__(self) -> str:
-        return f"{self.said}\nin the cell\n{self.cell}"
+    @property
+    def fault(self) -> Caption:
+        """What it said, and the cell."""
+        return say("{said}\nin the cell\n{cell}", said=self.said, cell=self.cell)
 
 
 def execute(notebook: NotebookNode, folder: Path | str = ".") -> NotebookNode:

@@ -167,7 +167,7 @@ def drawing(construction: Construction, view: str | None = None, tell: Tell = st
 
     of_view = board_of(construction, tell).by_view
     if view is not None and view not in of_view:
-        raise DesignError("view", view, f"one of {', '.join(of_view)}")
+        raise DesignError("view", view, say("one of {names}", names=", ".join(of_view)))
     board = of_view[view] if view is not None else next(iter(of_view.values()))
     title = str(board.steps[-1].view.title)
     return Picture(svg(board.page()), f"{title}. {board.steps[-1].caption}", title)

@@ -79,7 +79,7 @@ def _file(path: Path, name: str, named: bool) -> Iterator[Photograph | Unopened]
         file = _opened(path)
     except PhotographError as error:
         if told:
-            yield Unopened(name, error.why, error.remedy)
+            yield Unopened(name, error.why, error.advice)
         return
     except OSError as error:
         if told:
@@ -93,7 +93,7 @@ def _file(path: Path, name: str, named: bool) -> Iterator[Photograph | Unopened]
             except StopIteration:
                 return
             except PhotographError as error:
-                yield Unopened(name, error.why, error.remedy)
+                yield Unopened(name, error.why, error.advice)
                 return
 
 
@@ -125,7 +125,7 @@ def _pictures(file: BinaryIO, name: str, told: bool) -> Iterator[Photograph | Un
             yield from image_pictures(file, name)
         elif b"%PDF-" in head:
             for page in scanned_pages(file, name):
-                yield Unopened(name, page.why, page.remedy) if isinstance(page, PhotographError) else page
+                yield Unopened(name, page.why, page.advice) if isinstance(page, PhotographError) else page
         elif told:
             raise PhotographError(
                 say("it is neither JPEG, PNG, HEIC, TIFF nor PDF"), say("send the photograph as the camera made it")

@@ -14,7 +14,8 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
+from graphcam.words import say
 
 Points = NDArray[np.complex128]
 Edges = tuple[float, float, float, float]
@@ -97,8 +98,9 @@ class PrintedPage:
         try:
             return _read(json.loads(text))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            found, wanted = f"not readable ({error})", f"one of format {FORMAT}"
-            raise TaskError(path, "the page", Unquoted(found), wanted, "make the course again") from None
+            found = say("not readable ({error})", error=str(error))
+            wanted = say("one of format {format}", format=FORMAT)
+            raise TaskError(path, say("the page"), found, wanted, say("make the course again")) from None
 
 
 def _read(said: dict[str, Any]) -> PrintedPage:

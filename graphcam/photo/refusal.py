@@ -19,7 +19,9 @@ class PhotographError(GraphcamError):
     def __init__(self, why: Words, remedy: Words) -> None:
         super().__init__(why, remedy)
         self.why = why
-        self.remedy = remedy
+        self.advice = remedy
 
-    def __str__(self) -> str:
-        return f"{self.why}; {self.remedy}"
+    @property
+    def fault(self) -> Words:
+        """Why it is not read."""
+        return self.why

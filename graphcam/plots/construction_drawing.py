@@ -8,10 +8,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from graphcam.drafting.ink import Construction, Step
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.plots.figures import axes_on
 from graphcam.plots.step_board import StepBoard, board_of
 from graphcam.sheets.matplotlib_renderer import INCH, draw_on
+from graphcam.words import say
 
 AROUND = 1.0
 """What the axes of a new figure need beside the drawing [inches]."""
@@ -37,12 +38,11 @@ def plot(
             board = StepBoard((), tuple(step for construction in drawn.values() for step in construction.steps()))
     count = len(board.steps)
     if not board.views:
-        raise DesignError(
-            "drawing", Unquoted("empty"), "marks in a view", "see the captions of the steps, and the readings"
-        )
+        limit = say("marks in a view")
+        raise DesignError("drawing", say("empty"), limit, say("see the captions of the steps, and the readings"))
     if step is not None and step not in range(count):
-        limit = f"an index of the steps, 0 to {count - 1}, or None for all of them"
-        raise DesignError("step", step, limit, "axes to draw on are given as axes=...")
+        limit = say("an index of the steps, 0 to {value}, or None for all of them", value=count - 1)
+        raise DesignError("step", step, limit, say("axes to draw on are given as axes=..."))
     page = board.page(step)
     axes = axes_on(on, page.width / INCH + AROUND, page.height / INCH + AROUND)
     draw_on(axes, page, board.origin, board.factor)

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.scale import ratio_text
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.report.sheet_contents import all_drawn, scaled_steps
 from graphcam.sheets.leaves import fits
 from graphcam.sheets.panels import panels
@@ -12,6 +12,7 @@ from graphcam.sheets.runs import GAPS
 from graphcam.solving.sheet_papers import format_of
 from graphcam.solving.solution import Solution, solved_on
 from graphcam.solving.task_board import HOPELESS, board_of, given_profile_scale
+from graphcam.words import say
 
 
 def check_profile_size(solution: Solution) -> None:
@@ -34,8 +35,9 @@ def check_profile_size(solution: Solution) -> None:
         return
     smaller = (1 / ratio for ratio in solution.chain.board.paper.ratios if 1 / ratio > given)
     largest = next(mu for mu in smaller if _fits(solution, mu))
-    value, limit = Unquoted(str(ratio_text(given))), f"at most {ratio_text(largest)} on {format_of(task.drawing).said}"
-    raise DesignError("drawing.profile_scale", value, limit, "take a larger format, or leave it out")
+    value = ratio_text(given)
+    limit = say("at most {ratio_text} on {said}", ratio_text=ratio_text(largest), said=format_of(task.drawing).said)
+    raise DesignError("drawing.profile_scale", value, limit, say("take a larger format, or leave it out"))
 
 
 def check_profile_hopeful(solution: Solution) -> None:

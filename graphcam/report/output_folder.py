@@ -11,7 +11,7 @@ from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphcam.errors import DesignError, LetteringWarning, Unquoted, meant
+from graphcam.errors import DesignError, LetteringWarning, meant
 from graphcam.files import digest, whole_folder
 from graphcam.report.documents import contents_of, drawing_of, note_of, note_page_of
 from graphcam.report.note import comparison_file
@@ -22,6 +22,7 @@ from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.shown_solution import CUTTING, FILES, USUAL, without_answers
 from graphcam.solving.solution import Solution
 from graphcam.tasks.sheet_tables import one_of
+from graphcam.words import Words, chained, say
 from graphcam.workshop.profile_files import NAMES, write_curves
 
 if TYPE_CHECKING:
@@ -67,15 +68,17 @@ def _check_names(
     one_of("dxf", dxf, DXF)
     if upto is not None:
         if working_drawing:
-            unfinished = "left out where the sheet is drawn up to a step", "it would give the answers away"
-            raise DesignError("working_drawing", Unquoted("asked for"), *unfinished)
+            unfinished = say("left out where the sheet is drawn up to a step"), say("it would give the answers away")
+            raise DesignError("working_drawing", say("asked for"), *unfinished)
         contents_of(solution).last_step(upto)
     # A text is a collection of letters, none of which is meant.
     if isinstance(files, str):
-        raise DesignError("files", files, "a list of kinds", f"for this one alone write ['{files}']")
+        limit = say("a list of kinds")
+        raise DesignError("files", files, limit, say("for this one alone write ['{files}']", files=files))
     unknown = [kind for kind in files or () if kind not in FILES]
     if unknown:
-        raise DesignError("files", unknown[0], f"a list of kinds among {', '.join(FILES)}", meant(unknown[0], FILES))
+        limit = say("a list of kinds among {names}", names=", ".join(FILES))
+        raise DesignError("files", unknown[0], limit, meant(unknown[0], FILES))
 
 
 def _checked_part(solution: AnySolution) -> PartContents:
@@ -97,7 +100,7 @@ def write(
     per_construction: bool = False,
     dxf: str = "plain",
     working_drawing: bool = False,
-    progress: Callable[[str], None] | None = None,
+    progress: Callable[[Words], None] | None = None,
 ) -> dict[str, str | None]:
     """Write a solution into a folder, as :meth:`~graphcam.solving.shown_solution.ShownSolution.write` says."""
     _check_names(solution, upto, dxf, files, working_drawing=working_drawing)
@@ -110,17 +113,17 @@ def write(
         sheets = [kind for kind in SHEETS if kind in wanted]
         drawing = None
         if sheets:
-            report("laying out the sheet")
+            report(say("laying out the sheet"))
             drawing = drawing_of(contents, upto, per_construction=per_construction)
             _warn_of_boxes(drawing)
             written |= write_sheet(drawing, folder, "sheet" if finished else "worksheet", sheets, dxf, report)
         if "player" in wanted:
-            report("writing the step player")
+            report(say("writing the step player"))
             whole = drawing_of(contents) if drawing is None or per_construction else drawing
             (folder / "player.html").write_text(player_of(contents, whole), encoding="utf-8", newline="\n")
             written["player"] = "player.html"
         if finished:
-            report("writing tables and note")
+            report(say("writing tables and note"))
         written |= _write_texts(solution, folder, wanted)
         if part:
             written |= _write_part(part, folder, report)
@@ -188,7 +191,7 @@ def _warn_of_boxes(drawing: Drawing) -> None:
         warnings.warn(said, LetteringWarning, stacklevel=3)
 
 
-def unheard(_: str) -> None:
+def unheard(_: Words) -> None:
     """What hears of the progress where nobody asks for it."""
 
 
@@ -225,7 +228,7 @@ def _write_cutting(
 
 
 def write_sheet(
-    drawing: Drawing, folder: Path, stem: str, kinds: Collection[str], dxf: str, report: Callable[[str], None]
+    drawing: Drawing, folder: Path, stem: str, kinds: Collection[str], dxf: str, report: Callable[[Words], None]
 ) -> dict[str, str]:
     """The drawing in every format that is wanted, its files named after the stem."""
     # The renderers take long to load, so they come when there is something to render.
@@ -234,26 +237,27 @@ def write_sheet(
     from graphcam.sheets.matplotlib_renderer import write_pdf, write_png, write_svg
 
     if "pdf" in kinds:
-        report("writing PDF")
+        report(say("writing PDF"))
         write_pdf(drawing, folder / f"{stem}.pdf")
     pictures = {kind: write for kind, write in (("svg", write_svg), ("png", write_png)) if kind in kinds}
     for k, page in enumerate(drawing.pages, 1):
         name = stem if k == 1 else f"{stem}-{k}"
         if pictures:
-            report(f"writing {' and '.join(map(str.upper, pictures))}, page {k} of {len(drawing.pages)}")
+            names = chained([kind.upper() for kind in pictures])
+            report(say("writing {names}, page {k} of {pages}", names=names, k=k, pages=len(drawing.pages)))
         for kind, write_page in pictures.items():
             write_page(page, folder / f"{name}.{kind}")
     if "dxf" in kinds:
-        report("writing DXF")
+        report(say("writing DXF"))
         (write_cad if dxf == "cad" else write_dxf)(drawing, folder / f"{stem}.dxf")
     return {kind: f"{stem}.{kind}" for kind in kinds}
 
 
-def _write_part(part: PartContents, folder: Path, report: Callable[[str], None]) -> dict[str, str]:
+def _write_part(part: PartContents, folder: Path, report: Callable[[Words], None]) -> dict[str, str]:
     """The working drawing of the cam; its DXF has true dimensions and attributes."""
     from graphcam.workshop.working_drawing import working_drawing_of
 
-    report("laying out the working drawing")
+    report(say("laying out the working drawing"))
     written = write_sheet(working_drawing_of(part), folder, "working-drawing", PART, "cad", report)
     return {f"working_drawing_{kind}": name for kind, name in written.items()}
 

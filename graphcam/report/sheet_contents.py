@@ -12,7 +12,7 @@ import numpy as np
 from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.scale import ratio_text
 from graphcam.drafting.units import unit
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam
 from graphcam.report.conditions_table import on_sheet
 from graphcam.report.sheet_data import comparison, data, phases_at_speed
@@ -63,7 +63,8 @@ class Contents:
             return known[upto]
         if isinstance(upto, int) and 0 <= upto <= len(self.steps):
             return upto
-        limit = f"a number of steps from 0 to {len(self.steps)}, or one of {', '.join(last)}, or a step such as 2.1"
+        limit = say("a number of steps from 0 to {steps}, or one of {names}, or a step such as 2.1")
+        limit = limit.where(steps=len(self.steps), names=", ".join(last))
         raise DesignError("upto", upto, limit)
 
     @property
@@ -155,8 +156,10 @@ def _check_drawable(cam: Cam) -> None:
     low, high = cam.kinematics.point((np.array([0.0, cam.motion.lift]), still, still, still)).tolist()
     travel = abs(high - low)
     if cam.prime_radius > MOST_LIFTS * travel:
-        limit = f"at most {MOST_LIFTS} times the lift of {travel:g} mm, to be drawn at one scale with it"
-        raise DesignError("prime radius", Unquoted(f"{cam.prime_radius:g} mm"), limit, "check the units of both")
+        limit = say("at most {most} times the lift of {travel:g} mm, to be drawn at one scale with it")
+        limit = limit.where(most=MOST_LIFTS, travel=travel)
+        found = say("{length:g} mm", length=cam.prime_radius)
+        raise DesignError(say("prime radius"), found, limit, say("check the units of both"))
 
 
 def title_block(title: TitleTable, tell: Tell = str, remark: str = "") -> TitleBlock:

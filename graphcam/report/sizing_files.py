@@ -17,6 +17,7 @@ from graphcam.report.sizing_sheet import sizing_sheet
 from graphcam.report.sizing_tables import TITLES
 from graphcam.solving.sizing_design import plain_cam
 from graphcam.tasks.task_writer import TASK_FILE, task_files
+from graphcam.words import Words, say
 
 if TYPE_CHECKING:
     from graphcam.sheets.model import Drawing
@@ -31,12 +32,12 @@ STEM = "sizing"
 
 
 def write(
-    sizing: Sizing, folder: Path | str, language: str | None = None, progress: Callable[[str], None] | None = None
+    sizing: Sizing, folder: Path | str, language: str | None = None, progress: Callable[[Words], None] | None = None
 ) -> dict[str, str]:
     """Write a sizing into a folder, as :meth:`~graphcam.solving.sizing_design.Sizing.write` says."""
     report = progress or unheard
     with whole_folder(folder, written_before(Path(folder), RESULTS)) as draft:
-        report("laying out the chart")
+        report(say("laying out the chart"))
         files = write_sheet(chart(sizing, language), draft, STEM, SHEETS, "plain", report)
         (draft / FRONT).write_text(_csv(sizing), encoding="utf-8", newline="")
         files |= {"csv": FRONT, **write_task(sizing, draft)}

@@ -2,8 +2,9 @@
 
 from dataclasses import dataclass
 
-from graphcam.errors import DesignError, meant
+from graphcam.errors import DesignError, among
 from graphcam.sheets.box import Box
+from graphcam.words import Words, say
 
 SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0), "A3": (420.0, 297.0), "A4": (297.0, 210.0)}
 """Width and height of the sheets in landscape, mm."""
@@ -48,10 +49,10 @@ class Format:
         known = {"format": SIZES, "frame": MARGINS, "orientation": ORIENTATIONS}
         for (quantity, names), given in zip(known.items(), (self.name, self.frame, self.orientation), strict=True):
             if given is not None and given not in names:
-                raise DesignError(quantity, given, f"one of {', '.join(names)}", meant(given, names))
+                raise DesignError(quantity, given, *among(given, names))
         if self.orientation == "landscape" and self._upright_only:
-            limit = "portrait: GOST 2.301 uses A4 in portrait only"
-            remedy = 'leave orientation out, or choose another format or frame = "iso"'
+            limit = say("portrait: GOST 2.301 uses A4 in portrait only")
+            remedy = say('leave orientation out, or choose another format or frame = "iso"')
             raise DesignError("orientation", self.orientation, limit, remedy)
 
     @property
@@ -66,13 +67,13 @@ class Format:
         return self.orientation == "portrait" or self._upright_only
 
     @property
-    def said(self) -> str:
+    def said(self) -> Words:
         """What a message calls the sheet.
 
         >>> Format("A3", "iso").said, Format("A4", "gost").said
         ('A3 landscape', 'A4 portrait')
         """
-        return f"{self.name} portrait" if self.upright else f"{self.name} landscape"
+        return say("{name} portrait", name=self.name) if self.upright else say("{name} landscape", name=self.name)
 
     @property
     def _upright_only(self) -> bool:

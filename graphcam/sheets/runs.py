@@ -8,6 +8,7 @@ from graphcam.errors import DesignError
 from graphcam.sheets.formats import Format
 from graphcam.sheets.leaves import fits, free_rooms
 from graphcam.sheets.panels import Panel, shares, with_lowest
+from graphcam.words import say
 
 GAPS = (24.0, 12.0, 6.0, 2.0, -2.0)
 """Gaps between diagrams that stand together, mm: the widest is taken that needs no further page."""
@@ -47,11 +48,9 @@ def _too_large(sheet: Format, panel: Panel) -> TooLargeError:
     box = panel.box
     best = max(free_rooms(sheet), key=lambda room: min(room[0] / box.width, room[1] / box.height))
     size, most = (f"{wide:.0f} × {high:.0f} mm" for wide, high in ((box.width, box.height), best))
-    limit, remedy = (
-        f"at most about {most} on {sheet.said}",
-        "take a larger format or a smaller scale",
-    )
-    return TooLargeError(f"the view {panel.view.name!r}", size, limit, remedy)
+    limit = say("at most about {most} on {said}", most=most, said=sheet.said)
+    remedy = say("take a larger format or a smaller scale")
+    return TooLargeError(say("the view {name!r}", name=panel.view.name), size, limit, remedy)
 
 
 def _columns_kept(sheet: Format, group: Sequence[Panel]) -> list[Runs]:

@@ -103,8 +103,8 @@ def _leading(height: float) -> float:
 
 def _refused(text: str, field: Ruling, height: float, what: str) -> NoReturn:
     fits = next(count for count in range(len(text) - 1, -1, -1) if _set(text[:count], field, height) is not None)
-    limit = f"at most {fits} letters, for which its field of the title block has room"
-    raise DesignError(f"length of {what}", len(text), limit, "shorten it")
+    limit = say("at most {fits} letters, for which its field of the title block has room", fits=fits)
+    raise DesignError(say("length of {what}", what=what), len(text), limit, say("shorten it"))
 
 
 def entry(title: TitleBlock, name: str, field: Ruling, height: float, align: str = "center") -> list[Text]:

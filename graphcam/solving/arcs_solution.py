@@ -14,7 +14,7 @@ from graphcam.constructions.arc_chain import AROUND_CENTRES, ArcBoard, ArcChain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import NOTHING_HELD, Scale
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.angular_velocity import omega_of
 from graphcam.given.follower import Rotation
 from graphcam.mechanism.arc_motion import ArcMotion
@@ -24,7 +24,7 @@ from graphcam.solving.shown_solution import FILES, ShownSolution, plain_number, 
 from graphcam.solving.solution import Solution
 from graphcam.solving.task_board import diagram_room
 from graphcam.tasks.arcs_task import ArcsTask
-from graphcam.words import Tell
+from graphcam.words import Tell, say
 
 POINTS = ("A", "D", "F", "G", "C1", "C2", "C3")
 SHARE = 0.9
@@ -141,9 +141,8 @@ def solve_arcs(task: ArcsTask, pencil: Pencil | None = None, held: Mapping[str, 
     given, drawing = task.arcs(), task.drawing
     roots = three_arc_cam(given.D, given.G, given.rho1, given.A, given.C1, given.C2)
     if not roots[0].sound:
-        raise DesignError(
-            "three-arc cam", Unquoted("not sound"), "one that can be built", roots[0].why + " Move G or a centre."
-        )
+        remedy = say("{why} Move G or a centre.", why=roots[0].why)
+        raise DesignError(say("three-arc cam"), say("not sound"), say("one that can be built"), remedy)
     diagrams = diagram_room(drawing)
     extent = _extent(roots, math.hypot(*given.D) + 2 * task.follower.roller_radius)
     board = ArcBoard(

@@ -9,6 +9,7 @@ from typing import Any
 from graphcam.comparison.quantities import Quantity
 from graphcam.given.laws import Floats
 from graphcam.showing import WIDTH, Shown, from_above, in_lines
+from graphcam.words import Words
 
 USUAL = (
     *("pdf", "svg", "png", "dxf", "csv", "md", "note", "note_html", "player"),
@@ -37,7 +38,7 @@ class ShownSolution(Shown):
         per_construction: bool = False,
         dxf: str = "plain",
         working_drawing: bool = False,
-        progress: Callable[[str], None] | None = None,
+        progress: Callable[[Words], None] | None = None,
     ) -> dict[str, str | None]:
         """Write the sheet, the step player, the tables, the note and the profile into a folder: all of them, or none.
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from graphcam import __version__
 from graphcam.constructions.adoption import multiple, steps_up, usual_rounding
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
 from graphcam.given.roller_rule import roller_rule
 from graphcam.given.spring_load import SpringLoad
@@ -26,6 +26,7 @@ from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import SpringTable
 from graphcam.tasks.task import CamTable, Task
+from graphcam.words import Words, say
 
 FINER = 4
 """How often sizes are rounded more finely (tenths, hundredths, ...) where no round sizes keep the limits."""
@@ -99,7 +100,7 @@ class Sizing:
         }
 
     def write(
-        self, folder: Path | str, language: str | None = None, progress: Callable[[str], None] | None = None
+        self, folder: Path | str, language: str | None = None, progress: Callable[[Words], None] | None = None
     ) -> dict[str, str]:
         """Write the chart, the front, the results and the sized task into a folder: all of them, or none.
 
@@ -132,8 +133,8 @@ def size_task(task: Task | ArcsTask, objective: Objective | None = None) -> Sizi
     .best, .front, .sized_task, .to_dict(); .write(folder) writes the files
     """
     if isinstance(task, ArcsTask) or task.sizing is None:
-        remedy = "give the ranges of the sizes; the task 'sizing' that comes with graphcam is an example"
-        raise DesignError("sizing", Unquoted("missing"), "a table of the task", remedy)
+        remedy = say("give the ranges of the sizes; the task 'sizing' that comes with graphcam is an example")
+        raise DesignError("sizing", say("missing"), say("a table of the task"), remedy)
     problem, goal = _problem(task, task.sizing), objective or task.sizing.objective
     best = best_cam(problem, goal)
     rounding = task.drawing.rounding or usual_rounding(best.cam.prime_radius)

@@ -31,7 +31,7 @@ from graphcam.solving.tolerance_design import ToleranceDesign
 from graphcam.solving.warnings import Caution, less_round, title_scale, unit_slips, warnings_of
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
-from graphcam.words import Tell
+from graphcam.words import Tell, say
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -127,7 +127,7 @@ class Solution(ShownSolution):
         except DesignError as error:
             if error.quantity != "control_points":
                 raise
-            raise DesignError("part.spline_control_points", count, error.limit, "or leave it out") from None
+            raise DesignError("part.spline_control_points", count, error.args[2], say("or leave it out")) from None
 
     def to_dict(self) -> dict[str, Any]:
         """The solution as plain data for strict JSON: angles in degrees, None where a value does not apply."""

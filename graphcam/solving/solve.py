@@ -8,6 +8,7 @@ from graphcam.solving.arcs_solution import AnySolution, ArcsSolution, solve_arcs
 from graphcam.solving.solution import Solution, solve_motion
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
+from graphcam.words import say
 
 
 @overload
@@ -35,5 +36,5 @@ def solve(task: Task | ArcsTask, pencil: Pencil | None = None) -> AnySolution:
       curvature, roller, working_profile
     .drawn[name], .comparison, .to_dict(); .plot() draws the sheet, .write(folder) writes the files
     """
-    check_kind("task", task, (Task, ArcsTask), remedy="load_task(file) reads one; a Cam is exact already")
+    check_kind("task", task, (Task, ArcsTask), remedy=say("load_task(file) reads one; a Cam is exact already"))
     return solve_arcs(task, pencil) if isinstance(task, ArcsTask) else solve_motion(task, pencil)

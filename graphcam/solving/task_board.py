@@ -11,7 +11,7 @@ from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.scale import STANDARD_RATIOS, Scale, coarsest, ratio_said, ratio_text, standard_scale
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.angular_velocity import omega_of
 from graphcam.given.follower import Oscillating
 from graphcam.given.roller_rule import roller_rule
@@ -20,6 +20,7 @@ from graphcam.solving.diagram_sizes import POLES, DiagramRoom, DrawnHeights, ove
 from graphcam.solving.sheet_papers import format_of, largest_drawn, papers, profile_paper
 from graphcam.tasks.sheet_tables import SheetTable
 from graphcam.tasks.task import DrawingTable, FlatFacedTable, FollowerTable, OscillatingTable, Task, TranslatingTable
+from graphcam.words import say
 
 
 def board_of(task: Task) -> Board:
@@ -64,8 +65,8 @@ def given_profile_scale(drawing: DrawingTable) -> float | None:
     ratios, said = STANDARD_RATIOS[drawing.frame], ratio_said(drawing.profile_scale)
     if said is None or not any(math.isclose(said * ratio, 1) for ratio in ratios):
         usual = ", ".join(str(ratio_text(1 / ratio)) for ratio in ratios if 1 / 10 <= ratio <= 10)
-        limit = f"a standard drawing scale, such as {usual}"
-        raise DesignError("drawing.profile_scale", drawing.profile_scale, limit, "or leave it out")
+        limit = say("a standard drawing scale, such as {usual}", usual=usual)
+        raise DesignError("drawing.profile_scale", drawing.profile_scale, limit, say("or leave it out"))
     return said
 
 
@@ -161,18 +162,18 @@ def check_given_sizes(task: Task, times: float = 1.0) -> None:
     graphcam.errors.DesignError: drawing.ordinate is 2000 mm, but must be at most 149 mm on A1 landscape; take ...
     """
     drawing, board = task.drawing, board_of(task)
-    sheet, larger = format_of(drawing).said, "take a larger format, or leave it out"
+    sheet, larger = format_of(drawing).said, say("take a larger format, or leave it out")
     heights = DrawnHeights(board.motion, math.degrees(board.mu_phi.per_mm))
     most = page_room(task, heights, board.follower)
     for k, pole in enumerate(drawing.poles or ()):
         if pole > times * most.pole:
-            limit = f"at most {math.floor(most.pole):g} mm on {sheet}"
-            raise DesignError(f"drawing.poles[{k}]", Unquoted(f"{pole:g} mm"), limit, larger)
+            limit = say("at most {floor:g} mm on {sheet}", floor=math.floor(most.pole), sheet=sheet)
+            raise DesignError(f"drawing.poles[{k}]", say("{length:g} mm", length=pole), limit, larger)
     largest = heights.largest_ordinate(most, board.poles)
     if (given := drawing.ordinate) is not None and given > times * largest:
-        limit = f"at most {math.floor(10 * largest) / 10 or largest:.3g} mm on {sheet}"
-        larger = "take larger poles or a larger format, or leave it out" if drawing.poles else larger
-        raise DesignError("drawing.ordinate", Unquoted(f"{given:g} mm"), limit, larger)
+        limit = say("at most {value:.3g} mm on {sheet}", value=math.floor(10 * largest) / 10 or largest, sheet=sheet)
+        larger = say("take larger poles or a larger format, or leave it out") if drawing.poles else larger
+        raise DesignError("drawing.ordinate", say("{length:g} mm", length=given), limit, larger)
 
 
 AROUND_ARM = complex(40.0, 62.0)

@@ -105,7 +105,7 @@ class ToleranceDesign:
         try:
             _ = self.bands
         except DesignError as error:
-            raise DesignError(f"tolerances.{error.quantity}", error.value, error.limit, error.remedy) from None
+            raise DesignError(f"tolerances.{error.quantity}", *error.args[1:]) from None
 
     @property
     def quantities(self) -> tuple[Told, Told, Told]:

@@ -17,12 +17,13 @@ from typing import Any
 
 from graphcam.errors import DesignError
 from graphcam.studio.task_paths import changed
+from graphcam.words import say
 
 VERSION = "#1."
 LONGEST = 2000
 """Characters; longer addresses are cut by some mail programs and learning platforms."""
-SAVE = "save the task file and pass that on"
-WHOLE_ADDRESS = "open the address as it was given, from # to the end"
+SAVE = say("save the task file and pass that on")
+WHOLE_ADDRESS = say("open the address as it was given, from # to the end")
 _RAW = -15
 """zlib's number for deflate without a header."""
 
@@ -79,7 +80,8 @@ def address_of(place: StudioPlace, built_in: Mapping[str, Mapping[str, Any]], lo
     packed = packer.compress(said.encode()) + packer.flush()
     address = VERSION + base64.urlsafe_b64encode(packed).decode().rstrip("=")
     if len(address) > longest:
-        raise DesignError("length of the address", len(address), f"at most {longest} characters", SAVE)
+        quantity = say("length of the address")
+        raise DesignError(quantity, len(address), say("at most {longest} characters", longest=longest), SAVE)
     return address
 
 
@@ -109,7 +111,7 @@ it was given, from # to the end
 
 def _no_address(address: str) -> DesignError:
     shown = address if len(address) <= 60 else address[:60] + "..."
-    return DesignError("address", shown, "an address of the studio", WHOLE_ADDRESS)
+    return DesignError("address", shown, say("an address of the studio"), WHOLE_ADDRESS)
 
 
 def _unpacked(address: str) -> dict[str, Any]:

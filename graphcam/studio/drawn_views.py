@@ -9,7 +9,7 @@ from itertools import chain
 
 from graphcam.drafting.ink import Step
 from graphcam.drafting.marks import AngleMark, Dimension, Label
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.sheets.box import Box
 from graphcam.sheets.expand import Drawn, Placement, expand
 from graphcam.sheets.fonts import points_size
@@ -24,7 +24,7 @@ from graphcam.studio.held_board import TALLEST
 from graphcam.studio.hold import HeldView
 from graphcam.studio.request import AskedView
 from graphcam.studio.view_steps import NamedStep
-from graphcam.words import Caption, Tell
+from graphcam.words import Caption, Tell, say
 
 ROOM_FOR_LABELS = 12.0
 """The room for labels around the drawing [mm]."""
@@ -132,8 +132,9 @@ def _room(drawn: Iterable[Drawn]) -> Box:
     lines = [entity for entities, _ in drawn for entity in entities]
     room = (box_of(lines) or EMPTY).grown(ROOM_FOR_LABELS)
     if (largest := max(room.width, room.height)) > TALLEST:
-        remedy = "take sizes of which none is so much greater than the others"
-        raise DesignError("drawing", Unquoted(f"{largest:.3g} mm"), f"at most {TALLEST:g} mm wide and high", remedy)
+        remedy = say("take sizes of which none is so much greater than the others")
+        found = say("{length:.3g} mm", length=largest)
+        raise DesignError("drawing", found, say("at most {most:g} mm wide and high", most=TALLEST), remedy)
     return room
 
 

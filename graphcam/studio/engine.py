@@ -4,10 +4,12 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
-from graphcam.errors import DesignError, GraphcamError, TaskError, meant
+from graphcam.errors import DesignError, GraphcamError, TaskError, among
+from graphcam.language import ENGLISH, Language, language, languages
 from graphcam.studio.error_fields import field_of
 from graphcam.studio.task_paths import PATH
 from graphcam.tasks.task_file import EXAMPLE
+from graphcam.words import message
 
 Plain = dict[str, Any]
 ASKS: Mapping[str, str] = {
@@ -38,7 +40,8 @@ def answer(request: Mapping[str, Any]) -> Plain:
     try:
         return {"seq": seq, "ok": True, **_function(request.get("ask") or "views")(request)}
     except GraphcamError as error:
-        return {"seq": seq, "ok": False, "error": {**told_error(error), "field": _field(error, request)}}
+        told = told_error(error, spoken_in(request))
+        return {"seq": seq, "ok": False, "error": {**told, "field": _field(error, request)}}
 
 
 def _field(error: GraphcamError, request: Mapping[str, Any]) -> str:
@@ -50,16 +53,20 @@ def _field(error: GraphcamError, request: Mapping[str, Any]) -> str:
 
 def _function(ask: Any) -> Callable[[Mapping[str, Any]], Plain]:
     if not isinstance(ask, str) or ask not in ASKS:
-        raise DesignError("ask", str(ask), f"one of {', '.join(ASKS)}", meant(str(ask), ASKS))
+        raise DesignError("ask", str(ask), *among(ask, ASKS))
     module, _, name = ASKS[ask].rpartition(".")
     return getattr(import_module(module), name)
 
 
-def told_error(error: GraphcamError) -> Plain:
+def spoken_in(request: Mapping[str, Any]) -> Language:
+    """The language that a request names; English where there is none of that name."""
+    name = request.get("language")
+    return language(name) if name in languages() else ENGLISH
+
+
+def told_error(error: GraphcamError, spoken: Language) -> Plain:
     """An error as plain data: what is wrong, and apart from it what to do about it."""
-    remedy = getattr(error, "remedy", "")
-    message = str(error).removesuffix(f"; {remedy}")
+    fault, advice = (spoken.text(message(words)) for words in (error.fault, error.advice))
     # The page has no files: what the message says of one is left out.
-    if isinstance(error, TaskError):
-        message = message.removeprefix(f"{error.path}: ").removesuffix(f"; {EXAMPLE}")
-    return {"message": message, "remedy": "" if remedy == EXAMPLE else remedy}
+    path = f"{error.path}: " if isinstance(error, TaskError) else ""
+    return {"message": fault.removeprefix(path), "remedy": "" if error.advice == EXAMPLE else advice}

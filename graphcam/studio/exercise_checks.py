@@ -18,7 +18,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
+from graphcam.words import say
 
 ITERATIONS = 20_000
 """Iterations of PBKDF2 with SHA-256: a course has fifty hashes a student, and no number of them withstands guessing."""
@@ -127,20 +128,18 @@ def checked(request: Mapping[str, Any]) -> dict[str, Any]:
     """
     exercise, given = request.get("exercise"), request.get("given")
     if not isinstance(exercise, Mapping) or not isinstance(given, Mapping) or len(given) > MOST_ANSWERS:
-        raise DesignError(
-            "exercise", Unquoted("not readable"), "a table with the exercise, and one with the answers given"
-        )
+        shown = say("not readable")
+        raise DesignError("exercise", shown, say("a table with the exercise, and one with the answers given"))
     iterations = exercise.get("iterations", ITERATIONS)
     if not isinstance(iterations, int) or not 1 <= iterations <= MOST_ITERATIONS:
-        raise DesignError("exercise.iterations", iterations, f"from 1 to {MOST_ITERATIONS}")
+        raise DesignError("exercise.iterations", iterations, say("from 1 to {most}", most=MOST_ITERATIONS))
     try:
         salt = base64.urlsafe_b64decode(str(exercise["salt"]))
         checks = {str(asked["name"]): asked["check"] for asked in exercise["answers"] if "check" in asked}
         found = {name: _found(name, given[name], checks[name], salt, iterations) for name in given if name in checks}
     except (KeyError, TypeError, ValueError, OverflowError, ZeroDivisionError) as error:
-        raise DesignError(
-            "exercise", Unquoted(f"not readable ({error})"), "an exercise as a link of graphcam has it"
-        ) from None
+        shown = say("not readable ({error})", error=str(error))
+        raise DesignError("exercise", shown, say("an exercise as a link of graphcam has it")) from None
     return {"checked": found}
 
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from graphcam.errors import DesignError
 from graphcam.studio.task_paths import steps_of, value_at
+from graphcam.words import say
 
 GOAL = re.compile(r"\s*([\w.\[\]]+)\s*(<=|>=|==|<|>)\s*(-?\d+(?:\.\d+)?)\s*")
 SAME = 1e-9
@@ -61,7 +62,7 @@ def goal_of(text: str) -> Goal:
     """
     found = GOAL.fullmatch(text)
     if found is None:
-        raise DesignError("goal", text, f"a path, one of {', '.join(OPERATORS)} and a number")
+        raise DesignError("goal", text, say("a path, one of {names} and a number", names=", ".join(OPERATORS)))
     path, operator, value = found.groups()
     steps_of(path)
     return Goal(path, operator, float(value))

@@ -112,7 +112,7 @@ def _handle(solution: AnySolution, drag: Mapping[str, Any], state: HandleState) 
     for handle in _of_view(solution, name.split("/")[0], state):
         if handle.id == name and math.isfinite(abs(handle.at)):
             return handle
-    raise DesignError("drag.handle", name[:40], "one of the view's handles")
+    raise DesignError("drag.handle", name[:40], say("one of the view's handles"))
 
 
 def _place(to: Any) -> complex:
@@ -122,7 +122,7 @@ def _place(to: Any) -> complex:
     except (TypeError, ValueError):
         x = y = math.nan
     if not (abs(x) <= FAR and abs(y) <= FAR):
-        raise DesignError("drag.to", f"{to!r}"[:40], "two numbers, x and y in mm of the view")
+        raise DesignError("drag.to", f"{to!r}"[:40], say("two numbers, x and y in mm of the view"))
     return complex(x, -y)
 
 

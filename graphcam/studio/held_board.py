@@ -11,7 +11,7 @@ from graphcam.constructions.board import Board
 from graphcam.constructions.pressure_angle import shown_station
 from graphcam.constructions.views import REGION
 from graphcam.drafting.ink import Construction
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.motion import Motion, Rise
 from graphcam.solving.arcs_solution import AnySolution, solve_arcs
 from graphcam.solving.diagram_sizes import DrawnHeights
@@ -21,6 +21,7 @@ from graphcam.studio.hold import HeldDiagrams, Hold, hold_of, known
 from graphcam.studio.request import pencil_in, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
+from graphcam.words import say
 
 TALLEST = 2000.0
 """The maximum height of the diagrams and of every view [mm of paper]; no sheet takes a fifth of it."""
@@ -65,9 +66,11 @@ def check_heights(board: Board) -> None:
     a, v, s = (board.ordinate * height for height in DrawnHeights(board.motion, degrees).unit)
     if (highest := max(a, v / first, s / (first * second))) > TALLEST:
         largest = board.ordinate * TALLEST / highest
-        limit = f"at most {largest:.3g} mm, so that no diagram is higher than {TALLEST:g} mm"
-        remedy = "take a smaller one or leave it out, or lengthen the shortest phase"
-        raise DesignError("drawing.ordinate", Unquoted(f"{board.ordinate:.3g} mm"), limit, remedy)
+        limit = say(
+            "at most {largest:.3g} mm, so that no diagram is higher than {most:g} mm", largest=largest, most=TALLEST
+        )
+        remedy = say("take a smaller one or leave it out, or lengthen the shortest phase")
+        raise DesignError("drawing.ordinate", say("{length:.3g} mm", length=board.ordinate), limit, remedy)
 
 
 def held_board(board: Board, task: Task, hold: Hold) -> Board:

@@ -11,9 +11,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.sheets.box import Box
 from graphcam.sheets.held_labels import LabelPlace
+from graphcam.words import say
 
 DIGITS = 3
 """Decimals of places [mm] and of angles [rad]: a thousandth is not seen."""
@@ -113,7 +114,7 @@ def hold_of(data: Mapping[str, Any]) -> Hold:
     try:
         return _hold(data)
     except (TypeError, ValueError, KeyError, AttributeError):
-        raise DesignError("hold", Unquoted("unknown data"), "what an earlier answer left, or left out") from None
+        raise DesignError("hold", say("unknown data"), say("what an earlier answer left, or left out")) from None
 
 
 def _hold(data: Mapping[str, Any]) -> Hold:

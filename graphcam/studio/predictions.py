@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from graphcam.constructions.chain import Chain
-from graphcam.errors import DesignError, Unquoted, meant
+from graphcam.errors import DesignError, among
 from graphcam.language import language
 from graphcam.solving.solution import Solution, solve_motion
 from graphcam.studio.angle_predictions import angle_foretold, steepest_foretold
@@ -67,7 +67,7 @@ def predicted(request: Mapping[str, Any]) -> dict[str, Any]:
     kinds = kinds_of(solution.chain)
     kind = request.get("kind") or kinds[0]
     if kind not in kinds:
-        raise DesignError("kind", kind, "one of " + ", ".join(kinds), meant(str(kind), kinds))
+        raise DesignError("kind", kind, *among(kind, kinds))
     asked = KINDS[kind][1](solution)
     said = {
         "kind": kind,
@@ -83,10 +83,10 @@ def predicted(request: Mapping[str, Any]) -> dict[str, Any]:
 def _place(guess: list[Any]) -> complex:
     """A guess in the view's millimetres as a place of the construction."""
     if len(guess) != 2:
-        raise DesignError("guess", len(guess), "two numbers, x and y [mm of the view]")
+        raise DesignError("guess", len(guess), say("two numbers, x and y [mm of the view]"))
     x, y = (number({"guess": each}, "guess", math.nan, -FARTHEST, FARTHEST) for each in guess)
     if math.isnan(x + y):
-        raise DesignError("guess", Unquoted("missing"), "two numbers, x and y [mm of the view]")
+        raise DesignError("guess", say("missing"), say("two numbers, x and y [mm of the view]"))
     return complex(x, -y)
 
 
@@ -141,7 +141,6 @@ def solution_of(task: dict[str, Any], spoken: str) -> Solution:
     """
     found = task_in(task, spoken)
     if not isinstance(found, Task):
-        raise DesignError(
-            "task", Unquoted("a cam of arcs"), "one with phases of motion", "take another task to predict"
-        )
+        shown = say("a cam of arcs")
+        raise DesignError("task", shown, say("one with phases of motion"), say("take another task to predict"))
     return solve_motion(found)

@@ -14,8 +14,9 @@ import tarfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from graphcam.errors import MissingFileError, TaskError, Unquoted
+from graphcam.errors import MissingFileError, TaskError
 from graphcam.studio.wasm_archives import numpy_archive
+from graphcam.words import bare, either, say
 
 LOADER, GLUE, BINARY = "pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm"
 STANDARD_LIBRARY, LOCK = "python_stdlib.zip", "pyodide-lock.json"
@@ -32,7 +33,7 @@ KNOWN: Mapping[str, str] = {
     "numpy-2.0.1-py312h4e66579_0.tar.gz": "608a8525a002505e620f9264738a9f95710de52d577276b37ccb881d662be6d6",
 }
 """SHA-256 of what graphcam was tested with: npm's pyodide 0.27.7 and @emscripten-forge/numpy 2.0.1."""
-PACKING = "npm pack pyodide@0.27.7 @emscripten-forge/numpy@2.0.1-py312h4e66579-0"
+PACKING = say("npm pack pyodide@0.27.7 @emscripten-forge/numpy@2.0.1-py312h4e66579-0")
 SUMS = "SHA256SUMS"
 """A user's own file of sums, as ``sha256sum`` writes it."""
 _A_NUMPY = re.compile(r"numpy-[^-]+-.*\.(whl|tar\.gz)")
@@ -73,8 +74,9 @@ def _contents(folder: Path) -> Iterator[tuple[str, bytes]]:
             elif _matters(path.name):
                 yield path.name, path.read_bytes()
     except (OSError, tarfile.TarError, EOFError) as error:
-        broken = Unquoted(f"not readable ({error})")
-        raise TaskError(str(folder), "a file there", broken, "whole", f"run there: {PACKING}") from None
+        broken = say("not readable ({error})", error=str(error))
+        what = say("a file there")
+        raise TaskError(str(folder), what, broken, say("whole"), say("run there: {packing}", packing=PACKING)) from None
 
 
 def _packed(package: Path) -> Iterator[tuple[str, bytes]]:
@@ -100,9 +102,11 @@ def _check(folder: Path, name: str, content: bytes, known: set[str | None]) -> N
     """Check that a file is one that is known."""
     found = hashlib.sha256(content).hexdigest()
     if found not in known:
-        sums = " or ".join(sorted(each for each in known if each)) or "one that is known"
-        remedy = f"take the files of '{PACKING}', or state the sums that you trust in a file {SUMS} there"
-        raise TaskError(str(folder), f"the SHA-256 of {name}", found, sums, remedy)
+        trusted = sorted(each for each in known if each)
+        sums = either(trusted) if trusted else say("one that is known")
+        remedy = say("take the files of '{packing}', or state the sums that you trust in a file {sums} there")
+        remedy = remedy.where(packing=PACKING, sums=SUMS)
+        raise TaskError(str(folder), say("the SHA-256 of {name}", name=name), found, sums, remedy)
 
 
 def _numpy_for(folder: Path, names: list[str], python: str) -> str:
@@ -111,13 +115,16 @@ def _numpy_for(folder: Path, names: list[str], python: str) -> str:
     fitting = [name for name in names if _A_NUMPY.fullmatch(name) and re.search(rf"-(cp|py){tag}(?!\d)", name)]
     if not fitting:
         raise MissingFileError(
-            "numpy-*.whl or numpy-*.tar.gz", f"run there: {PACKING}", where=f"for Python {python} in {folder}"
+            "numpy-*.whl or numpy-*.tar.gz",
+            say("run there: {packing}", packing=PACKING),
+            where=say("for Python {python} in {folder}", python=python, folder=folder),
         )
     if len(fitting) > 1:
-        several = Unquoted(", ".join(fitting))
-        raise TaskError(str(folder), "NumPy", several, "one of them alone", "remove the others")
+        several = bare(", ".join(fitting))
+        raise TaskError(str(folder), "NumPy", several, say("one of them alone"), say("remove the others"))
     return fitting[0]
 
 
 def _missing(folder: Path, name: str) -> TaskError:
-    return MissingFileError(name, f"run there: {PACKING}", where=f"in the folder {folder}")
+    remedy = say("run there: {packing}", packing=PACKING)
+    return MissingFileError(name, remedy, where=say("in the folder {folder}", folder=folder))

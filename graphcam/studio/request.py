@@ -5,11 +5,12 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphcam.drafting.pencil import Pencil
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.language import language
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import task_from
+from graphcam.words import bare, say
 
 MOST_DIVISIONS, MOST_PHASES, MOST_ROWS, MOST_POINTS = 200, 36, 2000, 60
 """Maximum sizes of a task in the studio: more take too long to be drawn while a size is moved."""
@@ -81,7 +82,7 @@ def views_request(data: Data) -> ViewsRequest:
     wanted = {name: flag(data, name) for name in ("told", "values", "warnings", "form", "mechanism")}
     views = some(data, "views", list, [])
     if len(views) > MOST_VIEWS:
-        raise DesignError("views", len(views), f"at most {MOST_VIEWS} in a request")
+        raise DesignError("views", len(views), say("at most {most} in a request", most=MOST_VIEWS))
     spoken = some(data, "language", str, "en")
     language(spoken)
     return ViewsRequest(
@@ -105,7 +106,8 @@ def task_data(data: Data) -> dict[str, Any]:
     DesignError : there is none
     """
     if not isinstance(task := data.get("task"), dict) or not task:
-        raise DesignError("task", Unquoted("missing" if task is None else type(task).__name__), "a table with a task")
+        limit = say("a table with a task")
+        raise DesignError("task", say("missing") if task is None else bare(type(task).__name__), limit)
     return task
 
 
@@ -153,7 +155,7 @@ def _check_size(data: Data) -> None:
     }
     for name, (size, most) in sizes.items():
         if size > most:
-            raise DesignError(name, size, f"at most {most} in the studio")
+            raise DesignError(name, size, say("at most {most} in the studio", most=most))
 
 
 def _points(part: Any) -> int:
@@ -167,11 +169,11 @@ def _length(value: Any) -> int:
 
 def _asked_view(view: Any) -> AskedView:
     if not isinstance(view, dict):
-        raise DesignError("views", type(view).__name__, "tables with a name")
+        raise DesignError("views", type(view).__name__, say("tables with a name"))
     have = some(view, "have", dict, {})
     name = some(view, "name", str, None)
     if name is None:
-        raise DesignError("views.name", Unquoted("missing"), "given")
+        raise DesignError("views.name", say("missing"), say("given"))
     return AskedView(name, number(view, "px_per_mm", 2.0, 0.0, FINEST), {str(key): str(have[key]) for key in have})
 
 
@@ -194,7 +196,7 @@ def some(data: Data, name: str, kind: type, otherwise: Any) -> Any:
     if value is None:
         return otherwise
     if not isinstance(value, kind):
-        raise DesignError(name, _shown(value), f"{KINDS[kind]} or left out")
+        raise DesignError(name, _shown(value), say("{kinds} or left out", kinds=KINDS[kind]))
     return value
 
 
@@ -213,9 +215,9 @@ def number(data: Data, name: str, otherwise: float, low: float, high: float) -> 
     if value is None:
         return otherwise
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise DesignError(name, _shown(value), "a number")
+        raise DesignError(name, _shown(value), say("a number"))
     if not low <= value <= high:
-        raise DesignError(name, _shown(value), f"from {low:g} to {high:g}")
+        raise DesignError(name, _shown(value), say("from {low:g} to {high:g}", low=low, high=high))
     return float(value)
 
 
@@ -230,7 +232,7 @@ def whole(data: Data, name: str, otherwise: int | None, low: int, high: int) -> 
         return otherwise
     value = number(data, name, 0.0, low, high)
     if value != int(value):
-        raise DesignError(name, value, "a whole number")
+        raise DesignError(name, value, say("a whole number"))
     return int(value)
 
 

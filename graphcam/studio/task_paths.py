@@ -6,10 +6,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from graphcam.errors import DesignError
+from graphcam.words import say
 
 STEP = re.compile(r"([A-Za-z_]\w*)|\[(\d+)\]")
 PATH = re.compile(r"[A-Za-z_]\w*(\[\d+\])*(\.[A-Za-z_]\w*(\[\d+\])*)*")
-REMEDY = "the paths are those of the task file, such as motion.phases[0].angle"
+REMEDY = say("the paths are those of the task file, such as motion.phases[0].angle")
 
 
 def steps_of(path: str) -> tuple[str | int, ...]:
@@ -23,7 +24,7 @@ def steps_of(path: str) -> tuple[str | int, ...]:
     ('motion', 'phases', 0, 'angle')
     """
     if not PATH.fullmatch(path):
-        raise DesignError("path", path, "keys with points between them, and numbers in brackets", REMEDY)
+        raise DesignError("path", path, say("keys with points between them, and numbers in brackets"), REMEDY)
     return tuple(key or int(number) for key, number in STEP.findall(path))
 
 
@@ -82,4 +83,4 @@ def _check(table: Any, step: str | int, path: str) -> None:
     """Check that a step leads into a table, or to an entry that a list has."""
     fits = isinstance(table, dict) if isinstance(step, str) else isinstance(table, list) and step < len(table)
     if not fits:
-        raise DesignError("path", path, "one that the task has", REMEDY)
+        raise DesignError("path", path, say("one that the task has"), REMEDY)

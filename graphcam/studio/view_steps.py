@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 
 from graphcam.drafting.ink import Construction, Step, View
-from graphcam.errors import DesignError, meant
+from graphcam.errors import DesignError, among
 from graphcam.report.sheet_contents import chapter_numbers, drawn_of, names_of, scaled_steps
 from graphcam.sheets.layout import Numbered
 from graphcam.solving.arcs_solution import AnySolution
@@ -119,7 +119,7 @@ def view_steps(
     names = names_of(solution)
     if upto is not None:
         if upto not in names:
-            raise DesignError("upto", upto, f"one of {', '.join(names)}", meant(upto, names))
+            raise DesignError("upto", upto, *among(upto, names))
         names = names[: names.index(upto) + 1]
     drawn = {name: drawn_of(solution, name) for name in names if only is None or name in only}
     return ViewSteps(drawn, tuple(named(scaled_steps(drawn, silent))))

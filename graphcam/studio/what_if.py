@@ -53,7 +53,7 @@ def sweep_answer(data: Mapping[str, Any]) -> dict[str, Any]:
     sizes = swept_sizes(solution)
     path = some(data, "path", str, next(iter(sizes)))
     if path not in sizes:
-        raise DesignError("path", path, "a size of the task that can be swept")
+        raise DesignError("path", path, say("a size of the task that can be swept"))
     at = _places(data, sizes[path][1], solution)
     designs = [_design(changed(task, with_size(solution, path, value))) for value in at]
     wanted = some(data, "quantities", list, list(CURVES))
@@ -118,7 +118,7 @@ def _of_phases(solution: Solution) -> dict[str, tuple[Caption, SizeRange, str]]:
         sizes[f"motion.phases[{k}].angle"] = name, SizeRange(round(least), round(most), 1.0), "°"
     k, lift = next((k, phase.lift) for k, phase in enumerate(phases) if phase.kind == "rise")
     step = step_for(lift)
-    unit = "mm" if solution.task.motion.lift_unit == 1.0 else "°"
+    unit = say("mm") if solution.task.motion.lift_unit == 1.0 else "°"
     return sizes | {f"motion.phases[{k}].lift": (say("Lift"), SizeRange(step, round_up(1.6 * lift), step), unit)}
 
 

@@ -7,13 +7,15 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import DesignError, GraphcamError, meant
+from graphcam.errors import DesignError, GraphcamError, among
+from graphcam.language import language
 from graphcam.showing import from_above
 from graphcam.solving.shown_solution import CUTTING, USUAL
 from graphcam.solving.solve import solve
 from graphcam.studio.request import task_data, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
+from graphcam.words import message
 
 TABLE = "measured.csv"
 """What the file of a measured table is called, for the page can name no file."""
@@ -48,9 +50,12 @@ class WrittenFiles:
         """
         try:
             folder, names = self._written(_kind(request), self._task(request))
-        except (GraphcamError, OSError) as error:
-            remedy = getattr(error, "remedy", "")
-            return {"error": {"field": "", "message": str(error).removesuffix(f"; {remedy}"), "remedy": remedy}}
+        except GraphcamError as error:
+            tell = language(self.language).text
+            said = {"message": tell(message(error.fault)), "remedy": tell(message(error.advice))}
+            return {"error": {"field": "", **said}}
+        except OSError as error:
+            return {"error": {"field": "", "message": str(error), "remedy": ""}}
         return {"files": names, "folder": str(folder)}
 
     def _task(self, request: Mapping[str, Any]) -> Task | ArcsTask:
@@ -79,7 +84,7 @@ class WrittenFiles:
 def _kind(request: Mapping[str, Any]) -> str:
     kind = request.get("kind")
     if not isinstance(kind, str) or kind not in KINDS:
-        raise DesignError("kind", kind, "one of " + ", ".join(KINDS), meant(str(kind), KINDS))
+        raise DesignError("kind", kind, *among(kind, KINDS))
     return kind
 
 

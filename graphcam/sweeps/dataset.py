@@ -23,7 +23,7 @@ from graphcam.sweeps.shared_folder import Sealed, SharedFolder
 from graphcam.sweeps.space import Space
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, Columns
 from graphcam.sweeps.sweep_file import parquet_rows
-from graphcam.words import plain
+from graphcam.words import Caption, Words, say, sequence
 from graphcam.workers import WorkerPool, results
 
 MANIFEST = "_manifest.json"
@@ -61,11 +61,15 @@ class Summary:
     ranges: dict[str, list[float] | None]
     front: Columns | None = None
 
+    @property
+    def caption(self) -> Caption:
+        """How many designs there are, and what they took."""
+        designs = say("{designs} designs") if self.feasible is None else say("{designs} designs, {feasible} feasible")
+        spent = say("{parts} parts, {bytes} bytes, {seconds:.1f} s of processor time")
+        return sequence([each.where(**vars(self)) for each in (designs, spent)], "; ")
+
     def __str__(self) -> str:
-        spent = plain(f"{self.parts} parts, {self.bytes} bytes, {self.seconds:.1f} s of processor time")
-        if self.feasible is None:
-            return plain(f"{self.designs} designs") + f"; {spent}"
-        return plain(f"{self.designs} designs, {self.feasible} feasible") + f"; {spent}"
+        return str(self.caption)
 
     def rows(self) -> list[list[str]]:
         """The ranges as texts."""
@@ -95,8 +99,10 @@ def sweep_to_folder(
     finally:
         save()
     if lost := sum(not part["whole"] for part in parts):
-        why = f"{lost} of {len(parts)} parts are missing: their workers died or have no graphcam"
-        raise OutputError(folder, why, "start again to go on")
+        why = say(
+            "{lost} of {parts} parts are missing: their workers died or have no graphcam", lost=lost, parts=len(parts)
+        )
+        raise OutputError(folder, why, say("start again to go on"))
     place.clear_drafts()
     size, seconds = (sum(part[key] for part in parts) for key in ("bytes", "seconds"))
     summary = Summary(len(space), len(parts), size, seconds, **joined(parts))
@@ -124,8 +130,8 @@ def _compute_missing(
         for (k, _, first, stop), record in found:
             if record is None:
                 continue
-            if isinstance(record, str):
-                raise OutputError(place.url, record, "correct that and start again: finished parts are kept")
+            if isinstance(record, str | Caption):
+                raise OutputError(place.url, record, say("correct that and start again: finished parts are kept"))
             front = record.pop("front", None)
             if front and "front" in manifest:
                 fronts = [known for known in (manifest["front"], front) if known]
@@ -137,15 +143,19 @@ def _compute_missing(
                 due = time.monotonic() + max(SAVED_EVERY, SHARE_OF_SAVING * save())
 
 
-def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, str, int, int]) -> Record | str:
+def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, str, int, int]) -> Record | Words:
     """Compute the designs of one part on a worker and write them; what the part holds, or what went wrong."""
     _, file, first, stop = job
     if version != __version__:
-        return f"the worker on {socket.gethostname()} has graphcam {__version__}, not {version}"
+        host = socket.gethostname()
+        return say(
+            "the worker on {host} has graphcam {own}, not {version}", host=host, own=__version__, version=version
+        )
     start, blocks, seen = time.thread_time(), list[Record](), FoundBest(0)
     try:
         if MANIFEST not in place.sizes():
-            return f"the worker on {socket.gethostname()} does not see it; all workers must share it"
+            unseen = say("the worker on {host} does not see it; all workers must share it")
+            return unseen.where(host=socket.gethostname())
         with place.whole(file) as opened:
             sealed = Sealed(opened)
             with parquet_rows(place.url, sealed) as write:
@@ -155,7 +165,7 @@ def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, 
                     blocks.append(_seen(columns, len(space.varied)))
                     seen = seen.with_block(space, columns)
     except OutputError as error:
-        return f"{error.why}; {error.remedy}"
+        return sequence([error.why, error.advice], "; ")
     except Exception as error:  # noqa: BLE001  every kind of storage fails in its own way, and what is raised is not told
         return f"{type(error).__name__} on {socket.gethostname()}: {error}"
     found = {"front": seen.front, "seconds": time.thread_time() - start}
@@ -195,14 +205,17 @@ def _manifest(place: SharedFolder, space: Space) -> Record:
     wanted = json.loads(json.dumps({"graphcam": __version__, "space": asdict(space)}))
     if MANIFEST not in sizes:
         if others := sorted(name for name in sizes if not name.startswith(".")):
-            raise OutputError(place.url, f"it holds other files, such as {others[0]}", "choose an empty folder")
+            why = say("it holds other files, such as {others}", others=others[0])
+            raise OutputError(place.url, why, say("choose an empty folder"))
         return wanted | {"designs": len(space), "whole": False, "front": None, "parts": parts_of(len(space))}
     try:
         found = json.loads(place.read(MANIFEST))
     except ValueError:
-        raise OutputError(place.url, f"its {MANIFEST} is no JSON", "choose an empty folder") from None
+        why = say("its {manifest} is no JSON", manifest=MANIFEST)
+        raise OutputError(place.url, why, say("choose an empty folder")) from None
     if different := _difference(found, wanted):
-        raise OutputError(place.url, f"it is of another sweep: {different} differs", "choose an empty folder")
+        why = say("it is of another sweep: {different} differs", different=different)
+        raise OutputError(place.url, why, say("choose an empty folder"))
     for part in found["parts"]:
         part["whole"] = part["whole"] and sizes.get(part["file"]) == part["bytes"]
     return found | {"whole": False}

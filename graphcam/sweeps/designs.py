@@ -7,13 +7,14 @@ from typing import Any, Literal, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError, Unquoted, nearest
+from graphcam.errors import DesignError, nearest
 from graphcam.given.follower import FOLLOWERS, Follower, swing_remedy
 from graphcam.given.law_words import LAW_WORDS
 from graphcam.given.laws import LAWS, Floats
 from graphcam.given.motion import CLOSURE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.cam import Cam
+from graphcam.words import bare, chained, say
 
 Part = slice | NDArray[np.integer[Any]] | NDArray[np.bool_]
 _SIZES = "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius"
@@ -75,8 +76,9 @@ class Designs:
         _choices("follower", self.follower, tuple(OWN))
         sizes = {array.size for array in self._columns.values() if array.ndim}
         if len(sizes) > 1:
-            found, remedy = " and ".join(map(str, sorted(sizes))), "give one number for all cams, or one for each"
-            raise DesignError("number of designs", Unquoted(found), "the same in every array", remedy)
+            found = chained([bare(str(size)) for size in sorted(sizes)])
+            remedy = say("give one number for all cams, or one for each")
+            raise DesignError(say("number of designs"), found, say("the same in every array"), remedy)
         self._check_follower()
 
     def _check_follower(self) -> None:
@@ -84,9 +86,10 @@ class Designs:
         for name in _OF_FOLLOWERS:
             given = bool(np.any(getattr(self, name)))
             if given and name not in own:
-                raise DesignError(name, Unquoted("given"), f"left out for {a} {self.follower} follower")
+                found = say("given")
+                raise DesignError(name, found, say("left out for {a} {follower} follower", a=a, follower=self.follower))
             if not given and name in own and name in ("arm", "distance"):
-                raise DesignError(name, Unquoted("left out"), "a length in mm, or one for each cam")
+                raise DesignError(name, say("left out"), say("a length in mm, or one for each cam"))
 
     @property
     def _columns(self) -> dict[str, NDArray[Any]]:
@@ -145,11 +148,12 @@ class Designs:
         for name in ("rise_angle", "dwell_angle", "return_angle"):
             angle = float(np.min(getattr(self, name), initial=np.inf))
             if FULL_TURN + CLOSURE < angle < np.inf:
-                remedy = f"write math.radians({angle:.6g}) if it is in degrees"
-                raise DesignError(name, Unquoted(f"{angle:.6g} rad"), "at most a full turn, 2 pi rad", remedy)
+                remedy = say("write math.radians({angle:.6g}) if it is in degrees", angle=angle)
+                found = say("{angle:.6g} rad", angle=angle)
+                raise DesignError(name, found, say("at most a full turn, 2 pi rad"), remedy)
         radians, lengths = "a finite number greater than 0 rad", "a finite number greater than 0 mm"
         for name, limit in (
-            ("lift", "a finite number greater than 0"),
+            ("lift", say("a finite number greater than 0")),
             ("rise_angle", radians),
             ("return_angle", radians),
             ("prime_radius", lengths),
@@ -160,7 +164,7 @@ class Designs:
         lift = float(np.min(self.lift, initial=np.inf))
         if "arm" in OWN[self.follower] and FULL_TURN < lift < np.inf:
             remedy = swing_remedy(lift, "swing the arm less")
-            raise DesignError("lift", Unquoted(f"{lift:.6g} rad"), "at most a full turn, 2 pi rad", remedy)
+            raise DesignError("lift", say("{lift:.6g} rad", lift=lift), say("at most a full turn, 2 pi rad"), remedy)
 
     def cam(self, k: int) -> Cam:
         """One of the cams.
@@ -185,7 +189,7 @@ def _numbers(name: str, values: ArrayLike) -> Floats:
     try:
         array = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
-        raise DesignError(name, values, "a number, or one for each cam") from None
+        raise DesignError(name, values, say("a number, or one for each cam")) from None
     return _one_axis(name, array)
 
 
@@ -194,13 +198,12 @@ def _choices(name: str, values: Any, known: tuple[str, ...], own: type | tuple[(
     array = np.asarray(values)
     for word in dict.fromkeys(array.ravel().tolist()):
         if not isinstance(word, own) and word not in known:
-            raise DesignError(name, word, "a name that graphcam knows", nearest(str(word), known, LAW_WORDS))
+            raise DesignError(name, word, say("a name that graphcam knows"), nearest(str(word), known, LAW_WORDS))
     return _one_axis(name, array)
 
 
 def _one_axis(name: str, array: NDArray[Any]) -> NDArray[Any]:
     if array.ndim > 1:
-        raise DesignError(
-            name, Unquoted(f"an array of shape {array.shape}"), "a number, or one for each cam", "ravel() it"
-        )
+        found = say("an array of shape {shape}", shape=array.shape)
+        raise DesignError(name, found, say("a number, or one for each cam"), say("ravel() it"))
     return array

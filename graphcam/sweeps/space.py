@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, Unquoted, nearest
+from graphcam.errors import DesignError, nearest
 from graphcam.given.follower import FOLLOWERS
 from graphcam.given.laws import LAWS
 from graphcam.given.limits import Limits
@@ -21,6 +21,7 @@ from graphcam.sweeps.designs import Designs, Kind
 from graphcam.sweeps.sweep import computed, usual_limit
 from graphcam.sweeps.sweep_quantities import QUANTITIES
 from graphcam.tasks.task_file import Classes, checked, other_file, parse_toml, read_content
+from graphcam.words import say
 
 ANGLES = ("rise_angle", "dwell_angle", "return_angle", "max_pressure_angle_rise", "max_pressure_angle_return")
 """What a file gives and gets in degrees."""
@@ -29,7 +30,7 @@ MOST = 10**12
 MOST_VALUES = 10**6
 """The maximum number of values of one size."""
 _RANGE = ("start", "stop", "count")
-_ALLOWED = "a number, a list of numbers, or { start = 40, stop = 60, count = 21 }"
+_ALLOWED = say("a number, a list of numbers, or {{ start = 40, stop = 60, count = 21 }}")
 Columns = dict[str, NDArray[Any]]
 
 
@@ -111,11 +112,13 @@ class Space:
         word_axis("rotation", self.rotation, ("ccw", "cw"))
         for name in self.quantities:
             if name not in QUANTITIES:
-                raise DesignError("quantities", name, "quantities of a sweep", nearest(name, QUANTITIES))
+                raise DesignError("quantities", name, say("quantities of a sweep"), nearest(name, QUANTITIES))
         if not self.quantities:
-            raise DesignError("quantities", Unquoted("an empty list"), "at least one", "leave it out for all of them")
+            found = say("an empty list")
+            raise DesignError("quantities", found, say("at least one"), say("leave it out for all of them"))
         if len(self) > MOST:
-            raise DesignError("number of designs", len(self), f"at most {MOST}", "give fewer values")
+            quantity = say("number of designs")
+            raise DesignError(quantity, len(self), say("at most {most}", most=MOST), say("give fewer values"))
         self.designs(0, 1)
 
     @cached_property
@@ -185,7 +188,7 @@ def number_axis(name: str, value: Any) -> NDArray[np.float64]:
         return _range(name, value)
     values: list[Any] = value if isinstance(value, list) else [value]
     if not values:
-        raise DesignError(name, Unquoted("an empty list"), _ALLOWED)
+        raise DesignError(name, say("an empty list"), _ALLOWED)
     if not all(isinstance(x, int | float) and not isinstance(x, bool) and abs(x) < math.inf for x in values):
         raise DesignError(name, value, _ALLOWED)
     unit = "mm (degrees for an arm)" if name == "lift" else "degrees" if name.endswith("_angle") else "mm"
@@ -198,13 +201,13 @@ def number_axis(name: str, value: Any) -> NDArray[np.float64]:
 def _range(name: str, value: dict[str, Any]) -> NDArray[np.float64]:
     for key in value:
         if key not in _RANGE:
-            raise DesignError(f"{name}.{key}", Unquoted("an unknown key"), "one that is known", nearest(key, _RANGE))
+            raise DesignError(f"{name}.{key}", say("an unknown key"), say("one that is known"), nearest(key, _RANGE))
     for key in _RANGE:
         if key not in value:
-            raise DesignError(f"{name}.{key}", Unquoted("missing"), "given", "a range has start, stop and count")
+            raise DesignError(f"{name}.{key}", say("missing"), say("given"), say("a range has start, stop and count"))
     count = value["count"]
     if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= MOST_VALUES:
-        raise DesignError(f"{name}.count", count, f"a whole number from 1 to {MOST_VALUES}")
+        raise DesignError(f"{name}.count", count, say("a whole number from 1 to {most}", most=MOST_VALUES))
     ends = number_axis(name, value["start"]), number_axis(name, value["stop"])
     if ends[0].size > 1 or ends[1].size > 1:
         raise DesignError(name, value, _ALLOWED)
@@ -220,13 +223,13 @@ def word_axis(name: str, value: Any, known: tuple[str, ...]) -> None:
     """
     values: list[Any] = value if isinstance(value, list) else [value]
     if not values:
-        raise DesignError(name, Unquoted("an empty list"), "a name or a list of names")
+        raise DesignError(name, say("an empty list"), say("a name or a list of names"))
     for word in values:
         if word not in known:
-            raise DesignError(name, word, "a name or a list of names in quotes", nearest(str(word), known))
+            raise DesignError(name, word, say("a name or a list of names in quotes"), nearest(str(word), known))
 
 
-_REMEDY = "graphcam/data/space.toml in the package is a commented example"
+_REMEDY = say("graphcam/data/space.toml in the package is a commented example")
 _CLASSES: Classes = {(): Space, ("motion",): SpaceMotionTable, ("cam",): SpaceCamTable, ("limits",): SpaceLimitsTable}
 
 
@@ -241,6 +244,6 @@ def load_space(path: str | Path) -> Space:
     >>> len(load_space(files("graphcam") / "data" / "space.toml"))
     34850
     """
-    with other_file("space file", _REMEDY):
+    with other_file(say("space file"), _REMEDY):
         data = parse_toml(str(path), read_content(path))
         return checked(Space, _CLASSES, str(path), data, data)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, Unquoted, check_kind, nearest
+from graphcam.errors import DesignError, check_kind, nearest
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower import FOLLOWERS
 from graphcam.given.limits import Limits
@@ -20,6 +20,7 @@ from graphcam.sweeps.designs import Designs
 from graphcam.sweeps.sweep_bands import BANDS, SweptErrors
 from graphcam.sweeps.sweep_forces import FORCES, SweptLoad
 from graphcam.sweeps.sweep_quantities import QUANTITIES, Chunk
+from graphcam.words import say
 from graphcam.workers import in_order
 
 CHUNK_OF_DESIGNS = 4096
@@ -101,21 +102,23 @@ def sweep(
     """
     check_kind("designs", designs, Designs)
     if limits is not None:
-        check_kind("limits", limits, Limits, remedy="write limits=graphcam.Limits(rise=..., return_=...), in radians")
+        remedy = say("write limits=graphcam.Limits(rise=..., return_=...), in radians")
+        check_kind("limits", limits, Limits, remedy=remedy)
     if errors is not None:
         check_kind("errors", errors, MakingErrors)
     designs.check_units()
     wanted = (quantities,) if isinstance(quantities, str) else tuple(quantities)
     for name in wanted:
         if name not in (known := (*QUANTITIES, *FORCES, *BANDS)):
-            raise DesignError("quantity", name, "one that a sweep can find", nearest(name, known))
+            raise DesignError("quantity", name, say("one that a sweep can find"), nearest(name, known))
         if name in FORCES and load is None:
-            given = f"given where {name} is asked for"
-            raise DesignError("load", Unquoted("left out"), given, "give a SpringLoad or an ArmLoad")
+            given = say("given where {name} is asked for", name=name)
+            raise DesignError("load", say("left out"), given, say("give a SpringLoad or an ArmLoad"))
         if name in BANDS and errors is None:
-            raise DesignError("errors", Unquoted("left out"), f"given where {name} is asked for", "give MakingErrors")
+            limit = say("given where {name} is asked for", name=name)
+            raise DesignError("errors", say("left out"), limit, say("give MakingErrors"))
     if chunk < 1:
-        raise DesignError("chunk", chunk, "at least 1 design")
+        raise DesignError("chunk", chunk, say("at least 1 design"))
     swept = None if load is None else SweptLoad(load, friction)
     if swept:
         swept.check(designs.follower)

@@ -11,6 +11,7 @@ from graphcam.given.making_errors import MakingErrors, deviations_within
 from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.motion_bands import check_sizes, position_band, position_band_slope
 from graphcam.sweeps.greatest import Numbers, Sought
+from graphcam.words import say
 
 BANDS = ("position_band",)
 
@@ -39,7 +40,8 @@ class SweptErrors:
         """Check that the followers have the sizes with a tolerance."""
         check_sizes(kin, self.errors)
         if self.errors.roller_diameter and not np.all(np.asarray(roller) > 0):
-            limit, remedy = "left out where a follower has a knife edge", "or give every follower a roller_radius"
+            limit = say("left out where a follower has a knife edge")
+            remedy = say("or give every follower a roller_radius")
             raise DesignError("roller_diameter", self.errors.roller_diameter, limit, remedy)
 
 

@@ -13,6 +13,7 @@ from graphcam.files import OutputError, whole_file
 from graphcam.sweeps.front import FoundBest
 from graphcam.sweeps.space import Space
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, JOBS_AHEAD, Columns
+from graphcam.words import say
 from graphcam.workers import in_order
 
 Write = Callable[[Columns], None]
@@ -45,7 +46,8 @@ def sweep_to_file(
     """
     path = Path(path)
     if path.suffix not in _WRITERS:
-        raise OutputError(path, "the ending is neither .csv nor .parquet", "give it one of these, or name a folder")
+        why = say("the ending is neither .csv nor .parquet")
+        raise OutputError(path, why, say("give it one of these, or name a folder"))
     with whole_file(path) as draft, _WRITERS[path.suffix](path, draft) as write:
         size, n = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS, len(space)
         blocks = ((k, min(k + size, n)) for k in range(0, n, size))
@@ -90,8 +92,8 @@ def parquet_rows(path: Path | str, draft: Any) -> Generator[Write]:
         import pyarrow as arrow
         from pyarrow import parquet
     except ImportError:
-        remedy = f"write a .csv file, or {install_advice('parquet')}"
-        raise OutputError(path, "there is no pyarrow", remedy) from None
+        remedy = say("write a .csv file, or {install_advice}", install_advice=install_advice("parquet"))
+        raise OutputError(path, say("there is no pyarrow"), remedy) from None
     writer: Any = None
     try:
 

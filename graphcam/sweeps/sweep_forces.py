@@ -5,7 +5,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from graphcam.errors import DesignError, Unquoted, check_kind
+from graphcam.errors import DesignError, check_kind
 from graphcam.given.arm_load import ArmLoad, PlacedArmLoad
 from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
@@ -14,6 +14,7 @@ from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.jamming import check_friction, lever_about_cam, transmitted
 from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.sweeps.greatest import Numbers, Sought
+from graphcam.words import say
 
 
 @dataclass(frozen=True)
@@ -32,16 +33,15 @@ class SweptLoad:
         check_friction(self.friction)
         check_kind("load", self.load, (SpringLoad, ArmLoad))
         if isinstance(self.load.load, LoadCurve):
-            raise DesignError(
-                "load", Unquoted("a table over the turn"), "a number in a sweep", "the cams have other phases"
-            )
+            found = say("a table over the turn")
+            raise DesignError("load", found, say("a number in a sweep"), say("the cams have other phases"))
 
     def check(self, follower: str) -> None:
         """Check that the load fits a kind of follower."""
         if follower == "oscillating":
-            check_kind("load", self.load, ArmLoad, "an ArmLoad, for the followers swing")
+            check_kind("load", self.load, ArmLoad, say("an ArmLoad, for the followers swing"))
         else:
-            check_kind("load", self.load, SpringLoad, "a SpringLoad, for the followers slide")
+            check_kind("load", self.load, SpringLoad, say("a SpringLoad, for the followers slide"))
 
     def beside(self, kin: Kinematics) -> FollowerLoad:
         """The load beside each of many cams."""

@@ -11,6 +11,7 @@ from graphcam.given.three_arcs import ThreeArcs
 from graphcam.showing import by_parts
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain
+from graphcam.words import say
 
 MOST_PARTS = 200
 """Parts of an arc; more cannot be drawn apart."""
@@ -34,7 +35,7 @@ class ArcsTable:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.dwell) and 0 <= self.dwell < 360):
-            raise DesignError("dwell", self.dwell, "at least 0 and less than 360 degrees")
+            raise DesignError("dwell", self.dwell, say("at least 0 and less than 360 degrees"))
         self()
         positive("rho1", self.rho1, "mm")
         for name in ("D", "G", "A", "C1", "C2"):
@@ -55,7 +56,7 @@ class RollerTable:
 
     def __post_init__(self) -> None:
         self()
-        positive("roller radius", self.roller_radius or None, "mm")
+        positive(say("roller radius"), self.roller_radius or None, "mm")
 
     def __call__(self) -> Translating:
         """The follower."""
@@ -71,7 +72,7 @@ class ArcsDrawingTable(SheetTable):
     def __post_init__(self) -> None:
         super().__post_init__()
         if not 2 <= self.divisions <= MOST_PARTS:
-            raise DesignError("divisions", self.divisions, f"from 2 to {MOST_PARTS} parts of each arc")
+            raise DesignError("divisions", self.divisions, say("from 2 to {most} parts of each arc", most=MOST_PARTS))
 
 
 @dataclass(frozen=True)

@@ -13,14 +13,15 @@ import math
 import types
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, reduce
 from typing import Annotated, Any, Literal, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
 from graphcam.errors import DesignError
+from graphcam.words import Words, either, say
 
 Place = tuple[int | str, ...]
 """Where in a file: keys, numbers of list entries, and the choices among classes by their kind."""
-A_TABLE = "a table"
+A_TABLE = say("a table")
 _Read = TypeVar("_Read")
 
 
@@ -65,7 +66,7 @@ class WrongType:
     """
 
     place: Place
-    expected: str
+    expected: Words
     choices: tuple[str, ...] = field(default=(), repr=False)
 
 
@@ -93,8 +94,9 @@ def read_dataclass(kind: type[_Read], said: Mapping[str, Any]) -> _Read | list[F
     ...     material: Literal["steel", "bronze"] = "steel"
     >>> read_dataclass(Roller, {"radius": 17})
     Roller(radius=17.0, material='steel')
-    >>> read_dataclass(Roller, {"radius": "17", "bore": 3})
-    [WrongType(place=('radius',), expected='a number (without quotes)'), UnknownKey(place=('bore',))]
+    >>> wrong, unknown = read_dataclass(Roller, {"radius": "17", "bore": 3})
+    >>> print(wrong.place, wrong.expected, unknown)
+    ('radius',) a number (without quotes) UnknownKey(place=('bore',))
     """
     faults: list[Fault] = []
     made = _dataclass_reader(kind)(said, (), faults)
@@ -157,25 +159,25 @@ def _reader(hint: Any) -> Reader:
 def _number(said: Any, place: Place, faults: list[Fault]) -> Any:
     """A finite number; a whole one becomes one with decimals, as of every field that is measured."""
     if isinstance(said, bool) or not isinstance(said, int | float):
-        return faults.append(WrongType(place, "a number (without quotes)"))
+        return faults.append(WrongType(place, say("a number (without quotes)")))
     try:
         number = float(said)
     except OverflowError:
         number = math.inf
-    return number if math.isfinite(number) else faults.append(WrongType(place, "a finite number"))
+    return number if math.isfinite(number) else faults.append(WrongType(place, say("a finite number")))
 
 
 def _whole(said: Any, place: Place, faults: list[Fault]) -> Any:
     whole = isinstance(said, int) and not isinstance(said, bool)
-    return said if whole else faults.append(WrongType(place, "a whole number (without quotes)"))
+    return said if whole else faults.append(WrongType(place, say("a whole number (without quotes)")))
 
 
 def _text(said: Any, place: Place, faults: list[Fault]) -> Any:
-    return said if isinstance(said, str) else faults.append(WrongType(place, "text in quotes"))
+    return said if isinstance(said, str) else faults.append(WrongType(place, say("text in quotes")))
 
 
 def _switch(said: Any, place: Place, faults: list[Fault]) -> Any:
-    return said if isinstance(said, bool) else faults.append(WrongType(place, "true or false"))
+    return said if isinstance(said, bool) else faults.append(WrongType(place, say("true or false")))
 
 
 def _anything(said: Any, _place: Place, _faults: list[Fault]) -> Any:
@@ -186,8 +188,7 @@ _PLAIN: dict[Any, Reader] = {float: _number, int: _whole, str: _text, bool: _swi
 
 
 def _literal_reader(choices: tuple[Any, ...]) -> Reader:
-    *most, last = map(repr, choices)
-    expected = f"{', '.join(most)} or {last}" if most else last
+    expected = either([repr(choice) for choice in choices])
     words = tuple(choice for choice in choices if isinstance(choice, str))
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
@@ -227,7 +228,7 @@ def _furthest(found: list[list[Fault]], place: Place) -> list[Fault]:
     if len(found) == 1 or best[0].place != place:
         return best
     expected = (fault.expected for faults in found if isinstance(fault := faults[0], WrongType))
-    return [WrongType(place, " or ".join(expected))]
+    return [WrongType(place, reduce(lambda first, last: either([first, last]), expected))]
 
 
 def _kind_reader(classes: tuple[type, ...]) -> Reader:
@@ -263,7 +264,7 @@ def _list_reader(hint: Any) -> Reader:
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
         if not isinstance(said, list | tuple):
-            return faults.append(WrongType(place, "a list"))
+            return faults.append(WrongType(place, say("a list")))
         items = cast(list[Any], said)
         return tuple(reader(item, (*place, number), faults) for number, item in enumerate(items))
 
@@ -276,10 +277,10 @@ def _tuple_reader(hints: tuple[Any, ...]) -> Reader:
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
         if not isinstance(said, list | tuple):
-            return faults.append(WrongType(place, "a list"))
+            return faults.append(WrongType(place, say("a list")))
         items = cast(list[Any], said)
         if len(items) > len(readers):
-            return faults.append(WrongType(place, f"a list of {len(readers)}"))
+            return faults.append(WrongType(place, say("a list of {readers}", readers=len(readers))))
         # Of a list that is too short the places that lack are read no further.
         values = tuple(
             reader(item, (*place, number), faults)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from graphcam.errors import DesignError
 from graphcam.given.ranges import positive
 from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG, RollerContact
+from graphcam.words import say
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,7 @@ class MaterialTable:
             positive(name, getattr(self, name), "MPa")
         for name in ("poisson_cam", "poisson_follower"):
             if not 0 <= getattr(self, name) <= 0.5:
-                raise DesignError(name, getattr(self, name), "from 0 to 0.5", "metals have about 0.3")
+                raise DesignError(name, getattr(self, name), say("from 0 to 0.5"), say("metals have about 0.3"))
 
     def __call__(self) -> RollerContact:
         """The contact."""

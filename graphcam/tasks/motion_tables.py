@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Annotated, ClassVar, Literal
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.boundary_motion import BoundaryMotion, boundary_motion
 from graphcam.given.motion import FULL_TURN, NEARLY, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
@@ -14,6 +14,7 @@ from graphcam.given.ranges import bounded, positive
 from graphcam.given.table_file import CurveTable
 from graphcam.tasks.dataclass_reader import ByKind, ByName
 from graphcam.tasks.parts_tables import PartOfMotion
+from graphcam.words import Words, say
 
 ANGLE_CLOSURE = 1e-9
 """How far the phase angles of a file may miss 360 degrees."""
@@ -48,8 +49,9 @@ class _MovingTable:
         positive("angle", self.angle, "degrees")
         positive("lift", self.lift, "mm (degrees for an arm)")
         if self.blends is not None and self.law != CONSTANT_VELOCITY:
-            left_out = f"left out for the law '{getattr(self.law, 'name', self.law)}'"
-            raise DesignError("blends", list(self.blends), left_out, f"they are those of '{CONSTANT_VELOCITY}'")
+            left_out = say("left out for the law '{law}'", law=getattr(self.law, "name", self.law))
+            remedy = say("they are those of '{constant_velocity}'", constant_velocity=CONSTANT_VELOCITY)
+            raise DesignError("blends", list(self.blends), left_out, remedy)
         self()
 
     def __call__(self, unit: float = 1.0) -> Rise | Return:
@@ -103,18 +105,20 @@ class MotionTable:
         ways = {"phases": self.phases, "table": self.table and self.table.file, "parts": self.parts}
         given = [name for name, value in ways.items() if value is not None]
         if not given:
-            raise DesignError("phases", Unquoted("missing"), "given")
+            raise DesignError("phases", say("missing"), say("given"))
         if len(given) > 1:
-            limit = "left out where there is a table" if given[0] == "table" else "left out where there are phases"
-            raise DesignError(given[1], ways[given[1]], limit, "give one of the two")
+            limit = say("left out where there are phases")
+            if given[0] == "table":
+                limit = say("left out where there is a table")
+            raise DesignError(given[1], ways[given[1]], limit, say("give one of the two"))
         if self.tolerance is not None and self.table is None:
-            left_out = "left out where there is no table"
-            raise DesignError("tolerance", self.tolerance, left_out, f"{given[0]} are kept exactly")
+            left_out = say("left out where there is no table")
+            raise DesignError("tolerance", self.tolerance, left_out, say("{given} are kept exactly", given=given[0]))
         bounded("tolerance", self.tolerance, "mm (degrees for an arm)")
         if self.phases is not None:
             turn = math.fsum(phase.angle for phase in self.phases)
             if abs(turn - 360) > ANGLE_CLOSURE:
-                raise DesignError("sum of the phase angles", turn, "360 degrees", _remedy(turn, self.phases))
+                raise DesignError(say("sum of the phase angles"), turn, say("360 degrees"), _remedy(turn, self.phases))
         self()
 
     def __call__(self) -> Motion:
@@ -126,17 +130,18 @@ class MotionTable:
         return _motion(tuple(self.phases or ()), self.lift_unit)
 
 
-def _remedy(turn: float, phases: tuple[PhaseTable, ...]) -> str:
+def _remedy(turn: float, phases: tuple[PhaseTable, ...]) -> Words:
     """What to do about the angles of phases [degrees] that sum to ``turn``, which is none."""
     if abs(turn - FULL_TURN) < NEARLY * FULL_TURN:
-        return "about 2 pi: give the angles in degrees, not in radians"
+        return say("about 2 pi: give the angles in degrees, not in radians")
     off, dwells = f"{abs(360 - turn):.10g}", [isinstance(phase, DwellTable) for phase in phases]
-    which = "a dwell" if any(dwells) or not phases else "a phase"
+    which = say("a dwell") if any(dwells) or not phases else say("a phase")
     if turn > 360:
-        return f"{off} deg are too many: shorten {which}"
+        return say("{off} deg are too many: shorten {which}", off=off, which=which)
     if dwells and dwells[-1]:
-        return f"{off} deg are missing: lengthen {which}"
-    return f'{off} deg are missing: add {{ kind = "dwell", angle = {off} }} at the end, or lengthen {which}'
+        return say("{off} deg are missing: lengthen {which}", off=off, which=which)
+    told = say('{off} deg are missing: add {{ kind = "dwell", angle = {off} }} at the end, or lengthen {which}')
+    return told.where(off=off, which=which)
 
 
 @lru_cache(maxsize=16)  # because a task asks for its motion in several places

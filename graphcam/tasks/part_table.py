@@ -3,9 +3,10 @@
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.ranges import positive
 from graphcam.tasks.sheet_tables import one_of
+from graphcam.words import say
 
 Keyway = Literal["din6885", "gost23360", "none"]
 BoreTolerance = Literal["H6", "H7", "H8", "H9"]
@@ -75,24 +76,22 @@ class PartTable:
         one_of("keyway", self.keyway or "none", get_args(Keyway))
         one_of("bore_tolerance", self.bore_tolerance, get_args(BoreTolerance))
         if self.table_step not in get_args(TableStep):
-            raise DesignError("table_step", self.table_step, "1, 2, 5 or 10 degrees")
+            raise DesignError("table_step", self.table_step, say("1, 2, 5 or 10 degrees"))
         if self.spline_degree not in get_args(SplineDegree):
-            raise DesignError("spline_degree", self.spline_degree, "2, 3, 4 or 5")
+            raise DesignError("spline_degree", self.spline_degree, say("2, 3, 4 or 5"))
         for name in ("material", "hardness"):
             if not (text := getattr(self, name) or "").isprintable():
-                raise DesignError(name, text, "printable text on one line")
+                raise DesignError(name, text, say("printable text on one line"))
 
     def _check_hub(self) -> None:
         """A hub has both sizes, and both reach beyond what it surrounds."""
         diameter, length = self.hub_diameter, self.hub_length
         if (diameter is None) != (length is None):
             missing, there = ("hub_diameter", "hub_length") if diameter is None else ("hub_length", "hub_diameter")
-            raise DesignError(
-                missing, Unquoted("missing"), f"given where there is {there}", "leave out both for a cam without"
-            )
+            allowed = say("given where there is {there}", there=there)
+            raise DesignError(missing, say("missing"), allowed, say("leave out both for a cam without"))
         for name, outer, inner in (("hub_diameter", diameter, "bore"), ("hub_length", length, "width")):
             limit = getattr(self, inner)
             if outer is not None and limit is not None and outer <= limit:
-                raise DesignError(
-                    name, outer, f"greater than the {inner} of {limit:g} mm", "enlarge it or leave the hub out"
-                )
+                allowed = say("greater than the {inner} of {limit:g} mm", inner=inner, limit=limit)
+                raise DesignError(name, outer, allowed, say("enlarge it or leave the hub out"))

@@ -10,6 +10,7 @@ from graphcam.given.boundary_parts import PolynomialPart, SplinePart
 from graphcam.given.motion_point import ORDERS, MotionPoint
 from graphcam.given.ranges import bounded
 from graphcam.tasks.dataclass_reader import ByKind
+from graphcam.words import say
 
 TWO_TURNS = 720.0
 """A part may lead over the end of the turn."""
@@ -17,7 +18,8 @@ TWO_TURNS = 720.0
 
 def _check_angle(angle: float, name: str = "angle") -> None:
     if not 0 <= angle <= TWO_TURNS:
-        raise DesignError(name, angle, f"from 0 to {TWO_TURNS:g} degrees", "count the cam angle from 0")
+        limit = say("from 0 to {two_turns:g} degrees", two_turns=TWO_TURNS)
+        raise DesignError(name, angle, limit, say("count the cam angle from 0"))
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ import dataclasses
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, Self, get_args
 
-from graphcam.errors import DesignError, meant
+from graphcam.errors import DesignError, among
 from graphcam.given.motion_law import Law
 from graphcam.language import ENGLISH, language, languages
 from graphcam.words import Tell, say
@@ -32,7 +32,7 @@ NAMES = {
 def one_of(quantity: str, value: str, known: tuple[str, ...]) -> None:
     """Check a word."""
     if value not in known:
-        raise DesignError(quantity, value, "one of " + ", ".join(known), meant(value, known))
+        raise DesignError(quantity, value, *among(value, known))
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class TitleTable:
     def __post_init__(self) -> None:
         for key in dataclasses.fields(self):
             if not ((text := getattr(self, key.name)) or "").isprintable():
-                raise DesignError(key.name, text, "printable text on one line")
+                raise DesignError(key.name, text, say("printable text on one line"))
 
     def told_name(self, tell: Tell) -> str:
         """The name as the file says it, that of a built-in task in the language of the sheet."""

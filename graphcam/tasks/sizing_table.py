@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from graphcam.errors import DesignError, Unquoted, check_number
+from graphcam.errors import DesignError, check_number
 from graphcam.given.ranges import bounded, positive
+from graphcam.words import say
 
 RangeTable = float | tuple[float, float]
 """A range [mm], or the one size that is permitted."""
@@ -36,8 +37,9 @@ class SizingTable:
     def __post_init__(self) -> None:
         for name, (low, high) in self.ranges().items():
             if not low <= high:
-                limit = "a range from the smaller size to the larger, in mm"
-                raise DesignError(name, Unquoted(f"from {low:g} to {high:g}"), limit, "exchange the two")
+                limit = say("a range from the smaller size to the larger, in mm")
+                found = say("from {low:g} to {high:g}", low=low, high=high)
+                raise DesignError(name, found, limit, say("exchange the two"))
             for end in (low, high):
                 if name == "offset":
                     _finite(name, end)
@@ -45,10 +47,12 @@ class SizingTable:
                 else:
                     positive(name, end, "mm")
         if (self.prime_radius is None) == (self.base_radius is None):
-            either = "either prime_radius or base_radius"
+            either = say("either prime_radius or base_radius")
             if self.prime_radius is None:
-                raise DesignError("prime_radius", Unquoted("missing"), "given as a range in mm", f"give {either}")
-            raise DesignError("base_radius", Unquoted("given beside prime_radius"), "left out", f"give {either}")
+                limit = say("given as a range in mm")
+                raise DesignError("prime_radius", say("missing"), limit, say("give {either}", either=either))
+            found = say("given beside prime_radius")
+            raise DesignError("base_radius", found, say("left out"), say("give {either}", either=either))
 
     def ranges(self) -> dict[str, tuple[float, float]]:
         """The ranges that are given, by their keys; one size is a range of two equal ends."""
@@ -61,4 +65,4 @@ RANGES = "prime_radius", "base_radius", "offset", "roller_radius", "width"
 
 
 def _finite(name: str, value: float) -> None:
-    check_number(name, value, "a finite number of mm")
+    check_number(name, value, say("a finite number of mm"))

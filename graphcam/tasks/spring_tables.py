@@ -8,6 +8,7 @@ from graphcam.given.arm_load import ArmLoad, ArmSpring
 from graphcam.given.load_curve import Load, LoadCurve
 from graphcam.given.ranges import bounded, positive
 from graphcam.given.spring_load import SpringLoad
+from graphcam.words import say
 
 LoadTable = float | tuple[tuple[float, float], ...]
 """A load in N, or rows of a cam angle in degrees and a load in N, from 0 to 360 degrees."""
@@ -31,15 +32,16 @@ def load_of(said: LoadTable) -> Load:
 def _check_common(stiffness: float, stiffness_unit: str, preload: float | None, preload_unit: str) -> None:
     positive("stiffness", stiffness, stiffness_unit)
     if preload is not None:
-        check_number("preload", preload, f"a finite number of 0 {preload_unit} or more", least=0)
+        limit = say("a finite number of 0 {preload_unit} or more", preload_unit=preload_unit)
+        check_number("preload", preload, limit, least=0)
     bounded("preload", preload, preload_unit)
 
 
 def _check_turning(acceleration: float, friction: float, load: LoadTable) -> None:
     bounded("acceleration", acceleration, "rad/s^2")
     if not 0 <= friction <= MOST_FRICTION:
-        remedy = "it is the coefficient mu between cam and follower"
-        raise DesignError("friction", friction, f"from 0 to {MOST_FRICTION:g}", remedy)
+        remedy = say("it is the coefficient mu between cam and follower")
+        raise DesignError("friction", friction, say("from 0 to {most:g}", most=MOST_FRICTION), remedy)
     for each in [load] if not isinstance(load, tuple) else [force for _, force in load]:
         bounded("load", each, "N")
     load_of(load)
@@ -93,7 +95,8 @@ class ArmSpringPlace:
 
     def __post_init__(self) -> None:
         if self.arm == 0:
-            raise DesignError("arm", self.arm, "a length other than 0 mm", "at the pivot a spring turns nothing")
+            limit = say("a length other than 0 mm")
+            raise DesignError("arm", self.arm, limit, say("at the pivot a spring turns nothing"))
         bounded("arm", self.arm, "mm")
         for coordinate in self.anchor:
             bounded("anchor", coordinate, "mm")

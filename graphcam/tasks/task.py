@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from textwrap import shorten
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Oscillating, Rotation, Translating, sense
 from graphcam.given.limits import PERMITTED, Limits
 from graphcam.given.ranges import bounded, positive
@@ -26,10 +26,11 @@ from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, 
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 from graphcam.tasks.tolerances_table import TolerancesTable
+from graphcam.words import say
 
 MOST_DIVISIONS = 1000
 """Parts of a phase; more cannot be drawn apart."""
-OR_LARGER = "or a larger cam.prime_radius"
+OR_LARGER = say("or a larger cam.prime_radius")
 OF_A_FACE = "only a flat face is limited by it; a roller has its roller_rule"
 OF_A_ROLLER = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
 
@@ -65,8 +66,9 @@ class _FollowerTable:
     def check(self, prime_radius: float) -> None:
         """That the sizes leave room on a given prime radius, whatever the motion."""
         if (self.roller_radius or 0.0) >= prime_radius:
-            limit, remedy = f"less than the prime radius of {prime_radius:g} mm", "take a smaller roller"
-            raise DesignError("follower.roller_radius", self.roller_radius, limit, f"{remedy} {OR_LARGER}")
+            limit = say("less than the prime radius of {prime_radius:g} mm", prime_radius=prime_radius)
+            remedy = say("take a smaller roller {or_larger}", or_larger=OR_LARGER)
+            raise DesignError("follower.roller_radius", self.roller_radius, limit, remedy)
 
 
 @dataclass(frozen=True)
@@ -87,7 +89,7 @@ class TranslatingTable(_FollowerTable):
     def __post_init__(self) -> None:
         self()
         bounded("offset", self.offset, "mm")
-        positive("roller radius", self.roller_radius or None, "mm")
+        positive(say("roller radius"), self.roller_radius or None, "mm")
         roller_rule(self.roller_rule)
 
     def __call__(self) -> Translating:
@@ -97,8 +99,9 @@ class TranslatingTable(_FollowerTable):
     def check(self, prime_radius: float) -> None:
         """That the sizes leave room on a given prime radius, the offset first."""
         if abs(self.offset or 0.0) >= prime_radius:
-            limit = f"less than the prime radius of {prime_radius:g} mm in magnitude"
-            raise DesignError("follower.offset", self.offset, limit, f"take a smaller offset {OR_LARGER}")
+            limit = say("less than the prime radius of {prime_radius:g} mm in magnitude", prime_radius=prime_radius)
+            remedy = say("take a smaller offset {or_larger}", or_larger=OR_LARGER)
+            raise DesignError("follower.offset", self.offset, limit, remedy)
         super().check(prime_radius)
 
 
@@ -124,8 +127,8 @@ class OscillatingTable(_FollowerTable):
     def __post_init__(self) -> None:
         self()
         positive("arm", self.arm, "mm")
-        positive("centre distance", self.distance, "mm")
-        positive("roller radius", self.roller_radius or None, "mm")
+        positive(say("centre distance"), self.distance, "mm")
+        positive(say("roller radius"), self.roller_radius or None, "mm")
         roller_rule(self.roller_rule)
         one_of("lift", self.lift, ("angle", "arc"))
 
@@ -159,7 +162,7 @@ class FlatFacedTable(_FollowerTable):
     without: ClassVar = {"pressure_angle_rise": OF_A_ROLLER, "pressure_angle_return": OF_A_ROLLER}
 
     def __post_init__(self) -> None:
-        positive("face margin", self.face_margin or None, "mm")
+        positive(say("face margin"), self.face_margin or None, "mm")
 
     def __call__(self) -> FlatFaced:
         """The follower."""
@@ -176,7 +179,7 @@ class CamTable:
     prime_radius: float | None = None
 
     def __post_init__(self) -> None:
-        positive("prime radius", self.prime_radius, "mm")
+        positive(say("prime radius"), self.prime_radius, "mm")
 
 
 @dataclass(frozen=True)
@@ -195,7 +198,7 @@ class LimitsTable:
     rest: bool = True
 
     def __post_init__(self) -> None:
-        positive("minimum radius of curvature", self.min_curvature_radius, "mm")
+        positive(say("minimum radius of curvature"), self.min_curvature_radius, "mm")
         self()
         for name, permitted in (("rise", self.pressure_angle_rise), ("return", self.pressure_angle_return)):
             positive(PERMITTED[name], permitted, "degrees permitted")
@@ -232,7 +235,7 @@ class DrawingTable(SheetTable):
     def __post_init__(self) -> None:
         super().__post_init__()
         if not 1 <= self.divisions <= MOST_DIVISIONS:
-            raise DesignError("divisions", self.divisions, f"from 1 to {MOST_DIVISIONS} parts per phase")
+            raise DesignError("divisions", self.divisions, say("from 1 to {most} parts per phase", most=MOST_DIVISIONS))
         positive("ordinate", self.ordinate, "mm on paper")
         for k, pole in enumerate(self.poles or ()):
             positive(f"poles[{k}]", pole, "mm on paper")
@@ -303,8 +306,8 @@ class Task:
         if self.tolerances is not None:
             self.tolerances.check(self.follower.kind, self.follower.made_sizes)
         if self.material is not None and self.spring is None:
-            reason = "without a force there is no contact stress"
-            raise DesignError("spring", Unquoted("missing"), "given where there is a material", reason)
+            reason = say("without a force there is no contact stress")
+            raise DesignError("spring", say("missing"), say("given where there is a material"), reason)
         self._check_sizing()
 
     def _check_sizing(self) -> None:
@@ -312,43 +315,42 @@ class Task:
         if self.sizing is None:
             return
         if not self.follower.sought:
-            left_out = f"left out for a follower of kind {self.follower.kind}"
-            remedy = "sizes are sought for a translating follower with a roller"
-            raise DesignError("sizing", Unquoted("given"), left_out, remedy)
+            left_out = say("left out for a follower of kind {kind}", kind=self.follower.kind)
+            remedy = say("sizes are sought for a translating follower with a roller")
+            raise DesignError("sizing", say("given"), left_out, remedy)
         if self.material is None or self.material.permitted_stress is None:
-            remedy = "give the stress [MPa] that cam and roller last under, and a [spring]"
-            raise DesignError(
-                "material.permitted_stress", Unquoted("missing"), "given where there is a [sizing]", remedy
-            )
+            remedy = say("give the stress [MPa] that cam and roller last under, and a [spring]")
+            found = say("missing")
+            raise DesignError("material.permitted_stress", found, say("given where there is a [sizing]"), remedy)
         for name in self.follower.sought:
             if getattr(self.sizing, name) is None and getattr(self.follower, name) is None:
-                remedy = f"or give follower.{name}"
-                raise DesignError(f"sizing.{name}", Unquoted("missing"), "given as a range in mm", remedy)
+                remedy = say("or give follower.{name}", name=name)
+                raise DesignError(f"sizing.{name}", say("missing"), say("given as a range in mm"), remedy)
         if self.sizing.roller_radius is None and not self.follower.roller_radius:
-            remedy = "a knife edge has no stress that could be kept"
-            raise DesignError("follower.roller_radius", 0.0, "greater than 0 mm where there is a [sizing]", remedy)
+            remedy = say("a knife edge has no stress that could be kept")
+            raise DesignError("follower.roller_radius", 0.0, say("greater than 0 mm where there is a [sizing]"), remedy)
         if not self.limits.rest:
-            remedy = "a range of offsets needs the limit in the lower dwell"
-            raise DesignError("limits.rest", False, "true where there is a [sizing]", remedy)
+            remedy = say("a range of offsets needs the limit in the lower dwell")
+            raise DesignError("limits.rest", False, say("true where there is a [sizing]"), remedy)
 
     def _check_spring(self) -> None:
         if self.spring is None:
             return
         if self.speed_rpm is None:
-            raise DesignError(
-                "speed_rpm", Unquoted("missing"), "given where there is a spring", "inertia grows with the speed"
-            )
+            limit = say("given where there is a spring")
+            raise DesignError("speed_rpm", say("missing"), limit, say("inertia grows with the speed"))
         if self.follower.swings and not self.spring.swings:
-            remedy = "give spring.inertia in kg mm^2, about the pivot"
-            raise DesignError("spring.mass", getattr(self.spring, "mass", None), "left out for an arm", remedy)
+            remedy = say("give spring.inertia in kg mm^2, about the pivot")
+            raise DesignError("spring.mass", getattr(self.spring, "mass", None), say("left out for an arm"), remedy)
         if self.spring.swings and not self.follower.swings:
-            left_out = f"left out for a follower of kind {self.follower.kind}"
-            raise DesignError("spring.inertia", getattr(self.spring, "inertia", None), left_out, "give spring.mass")
+            left_out = say("left out for a follower of kind {kind}", kind=self.follower.kind)
+            remedy = say("give spring.mass")
+            raise DesignError("spring.inertia", getattr(self.spring, "inertia", None), left_out, remedy)
 
     def _check_limits(self) -> None:
         """Limits that the follower does not have are refused: they would be given, and not kept."""
         for key, reason in self.follower.without.items():
-            left_out = f"left out for a follower of kind {self.follower.kind}"
+            left_out = say("left out for a follower of kind {kind}", kind=self.follower.kind)
             if (value := getattr(self.limits, key)) is not None:
                 raise DesignError(f"limits.{key}", value, left_out, reason)
 
@@ -357,8 +359,9 @@ class Task:
         motion, column = dataclasses.replace(self.motion), self.follower.column
         object.__setattr__(motion, "lift_unit", self.follower.lift_unit)
         if motion.table is not None and motion.table.column not in (column, "a"):
-            remedy = "measure what the follower does, and name the column so"
-            raise DesignError("motion.table (column)", motion.table.column, f"{column} for this follower", remedy)
+            remedy = say("measure what the follower does, and name the column so")
+            quantity = say("motion.table (column)")
+            raise DesignError(quantity, motion.table.column, say("{column} for this follower", column=column), remedy)
         object.__setattr__(self, "motion", motion)
         if self.limits.pressure_angle_rise is None and "pressure_angle_rise" not in self.follower.without:
             limits = dataclasses.replace(self.limits, pressure_angle_rise=self.follower().usual_limit_deg)

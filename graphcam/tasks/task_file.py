@@ -10,7 +10,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any, TypeVar
 
-from graphcam.errors import DesignError, MissingFileError, TaskError, Unquoted, meant, unreadable
+from graphcam.errors import DesignError, MissingFileError, TaskError, among, unreadable
 from graphcam.given.table_file import read_table
 from graphcam.tasks import arcs_task as arcs, motion_tables, parts_tables, spring_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
@@ -31,12 +31,14 @@ from graphcam.tasks.task import Task
 from graphcam.tasks.task_remedies import key_remedy, missing_remedy, value_remedy
 from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.tasks.toml_faults import toml_fault
+from graphcam.words import Caption, Words, bare, chained, say
 
 BUILT_IN = ("coursework", "arm", "flat", "measured")
 """Names of the task files that come with graphcam; "arcs" is one more, of a cam of three circular arcs."""
 SIZING = "sizing"
 """The name of the task with a table ``[sizing]`` that comes with graphcam."""
-EXAMPLE = "'graphcam init FILE' writes a commented example"
+THE_FILE = say("the task file")
+EXAMPLE = say("'graphcam init FILE' writes a commented example")
 Classes = dict[tuple[str, ...], type]
 _Checked = TypeVar("_Checked")
 _CLASSES: Classes = {
@@ -128,20 +130,22 @@ def read_content(path: str | Path) -> bytes:
     try:
         return Path(path).read_bytes()
     except (OSError, ValueError) as error:
-        raise unreadable(path, "the task file", "a TOML file", error, f"check the name; {EXAMPLE}") from None
+        remedy = say("check the name; {example}", example=EXAMPLE)
+        raise unreadable(path, THE_FILE, say("a TOML file"), error, remedy) from None
 
 
 @contextmanager
-def other_file(kind: str, example: str) -> Generator[None]:
+def other_file(kind: Words, example: Words) -> Generator[None]:
     """Errors of a file that is no task file, told of that kind of file: a task's example is of no use there."""
     try:
         yield
+    except MissingFileError as error:
+        raise MissingFileError(error.path, say("check the name; {example}", example=example)) from None
     except TaskError as error:
-        remedy = example if error.remedy.endswith(EXAMPLE) else error.remedy
-        if isinstance(error, MissingFileError):
-            raise MissingFileError(error.path, f"check the name; {example}") from None
-        field, remedy = (text.replace("task file", kind) for text in (error.field, remedy))
-        raise TaskError(error.path, field, error.value, error.expected, remedy) from None
+        _, field, value, expected, remedy = error.args
+        field = say("the {kind}", kind=kind) if field == THE_FILE else field
+        remedy = example if error.remedy.endswith(str(EXAMPLE)) else remedy
+        raise TaskError(error.path, field, value, expected, remedy) from None
 
 
 def task_of(path: str, data: dict[str, Any]) -> Task:
@@ -153,7 +157,7 @@ def task_of(path: str, data: dict[str, Any]) -> Task:
     """
     task = _task(path, data, data)
     if not isinstance(task, Task):
-        raise TaskError(path, "arcs", Unquoted("a table"), "left out", "this takes a task with phases of motion")
+        raise TaskError(path, "arcs", say("a table"), say("left out"), say("this takes a task with phases of motion"))
     return task
 
 
@@ -171,8 +175,8 @@ def task_from(data: dict[str, Any], name: str = "task") -> Task | ArcsTask:
     True
     """
     if isinstance(motion := data.get("motion"), dict) and isinstance(table := motion.get("table"), str):
-        remedy = "no file is read here: give the rows of the table"
-        raise TaskError(name, "motion.table", table, "a table with file, column and rows", remedy)
+        remedy = say("no file is read here: give the rows of the table")
+        raise TaskError(name, "motion.table", table, say("a table with file, column and rows"), remedy)
     return _task(name, data, data)
 
 
@@ -185,7 +189,7 @@ def builtin_task(name: str = "coursework") -> Task:
     """
     known = (*BUILT_IN, SIZING)
     if name not in known:
-        raise DesignError("built-in task", name, "one of " + ", ".join(known), meant(name, known))
+        raise DesignError(say("built-in task"), name, *among(name, known))
     task = _parse(f"{name}.toml", builtin_text(name).encode(), _built_in_folder())
     assert isinstance(task, Task)
     return task
@@ -211,7 +215,7 @@ def builtin_text(name: str) -> str:
     """
     known = (*BUILT_IN, SIZING, "arcs")
     if name not in known:
-        raise DesignError("built-in task", name, "one of " + ", ".join(known), meant(name, known))
+        raise DesignError(say("built-in task"), name, *among(name, known))
     return (_built_in_folder() / f"{name}.toml").read_text(encoding="utf-8")
 
 
@@ -235,13 +239,14 @@ def parse_toml(path: str, content: bytes) -> dict[str, Any]:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line, wrong = content.count(b"\n", 0, error.start) + 1, content[error.start : error.start + 1]
-        raise TaskError(path, f"line {line}", wrong, "text in UTF-8", "save the file as UTF-8") from None
+        what = say("line {line}", line=line)
+        raise TaskError(path, what, wrong, say("text in UTF-8"), say("save the file as UTF-8")) from None
     try:
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise toml_fault(path, text, error, EXAMPLE) from None
     if not data:
-        raise TaskError(path, "the task file", Unquoted("empty"), "a TOML file", EXAMPLE)
+        raise TaskError(path, THE_FILE, say("empty"), say("a TOML file"), EXAMPLE)
     return data
 
 
@@ -252,11 +257,12 @@ def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]
         return data
     name, tolerance = motion["table"], motion.get("tolerance")
     if not isinstance(name, str):
-        raise TaskError(path, "motion.table", _shown(name), "text in quotes", "name the CSV file of the table")
+        expected = say("text in quotes")
+        raise TaskError(path, "motion.table", _shown(name), expected, say("name the CSV file of the table"))
     try:
         table = read_table(folder / name, name, tolerance if isinstance(tolerance, int | float) else None)
     except MissingFileError:
-        raise MissingFileError(name, "check motion.table", where=f"beside {path}") from None
+        raise MissingFileError(name, say("check motion.table"), where=say("beside {path}", path=path)) from None
     return {**data, "motion": {**motion, "table": dataclasses.asdict(table)}}
 
 
@@ -292,14 +298,14 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
         case Missing((("spring" | "material"), *_)):
             return _lacking(path, place, data)
         case Missing():
-            return TaskError(path, place, Unquoted("missing"), "given", missing_remedy(place, data) or EXAMPLE)
+            return TaskError(path, place, say("missing"), say("given"), missing_remedy(place, data) or EXAMPLE)
         case UnknownKey(where):
             return _unknown_key(path, place, value, classes, _table(where[:-1]), data)
         case UnknownKind(table):
             tags = [each[-1] for each in classes if each[:-1] == _table(table)]
-            found = value.get("kind", Unquoted("missing"))
+            found = value.get("kind", say("missing"))
             remedy = value_remedy("kind", found, tags) or EXAMPLE
-            return TaskError(path, f"{place}.kind", _shown(found), "one of " + ", ".join(tags), remedy)
+            return TaskError(path, f"{place}.kind", _shown(found), say("one of {names}", names=", ".join(tags)), remedy)
         case WrongType((*_, key), expected, choices):
             remedy = value_remedy(f"{key}", value, choices) or EXAMPLE
             return TaskError(path, place, _shown(value), expected, remedy)
@@ -312,10 +318,10 @@ def _lacking(path: str, place: str, data: dict[str, Any]) -> TaskError:
     remedy = EXAMPLE
     if place == "spring.mass" and _swings(data):
         place = "spring.inertia"
-        remedy = "in kg mm^2, about the arm's pivot"
+        remedy = say("in kg mm^2, about the arm's pivot")
     others = ", ".join(key for key in _missing(data) if key != place)
-    limit = f"given, and so must {others}" if others else "given"
-    return TaskError(path, place, Unquoted("missing"), limit, remedy)
+    limit = say("given, and so must {others}", others=others) if others else say("given")
+    return TaskError(path, place, say("missing"), limit, remedy)
 
 
 def _missing(data: dict[str, Any]) -> list[str]:
@@ -343,10 +349,10 @@ def _unknown_key(
     alike = [other for other in classes if table[:-1] and other[:-1] == table[:-1]]
     kinds = [other[-1] for other in alike if key in _keys(classes[other])]
     if kinds:
-        left_out = f"left out where the kind is {table[-1]}"
-        return TaskError(path, place, _shown(value), left_out, f"it is for {' and '.join(kinds)}")
+        left_out = say("left out where the kind is {table}", table=table[-1])
+        return TaskError(path, place, _shown(value), left_out, say("it is for {names}", names=chained(kinds)))
     remedy = key_remedy(key, value, known, data)
-    return TaskError(path, place, Unquoted("an unknown key"), "one that is known", remedy)
+    return TaskError(path, place, say("an unknown key"), say("one that is known"), remedy)
 
 
 def _keys(table: type) -> list[str]:
@@ -360,17 +366,17 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
     field, value = _look_up(data, (*place, *key.split(".")))
     # What follows from a table is no value that its key has.
     if not isinstance(value, int | float | str) or error.quantity == "the table's lift":
-        value = Unquoted(error.value) if isinstance(error.value, str) else error.value
+        value = bare(error.value) if isinstance(error.value, str) else error.value
     if error.quantity == "sum of the phase angles":
-        field = f"{field} (sum of the angles)"
+        field = say("{field} (sum of the angles)", field=field)
     elif error.quantity == "sum of rises less returns":
-        field = f"{field} (sum of rises less returns)"
+        field = say("{field} (sum of rises less returns)", field=field)
     elif error.quantity == "the table's lift":
-        field = f"{field} (lift)"
-    limit, others = error.limit, ", ".join(_missing(data))
+        field = say("{field} (lift)", field=field)
+    limit, others = error.args[2], ", ".join(_missing(data))
     if key == "spring" and data.get("spring") is None and others:
-        limit = f"given where there is a material, and so must {others}"
-    return TaskError(path, field, _shown(value), limit, error.remedy or EXAMPLE)
+        limit = say("given where there is a material, and so must {others}", others=others)
+    return TaskError(path, field, _shown(value), limit, error.advice or EXAMPLE)
 
 
 def _look_up(data: Any, place: Place) -> tuple[str, Any]:
@@ -394,9 +400,13 @@ def _table(place: Place) -> tuple[str, ...]:
 
 def _shown(value: Any) -> Any:
     """A value as TOML writes it, as far as that differs from Python; tables and lists by name, long ones cut."""
+    if isinstance(value, Caption):
+        return value
     if isinstance(value, bool):
-        return Unquoted(str(value).lower())
-    if isinstance(value, dict | list):
-        return Unquoted("a table" if isinstance(value, dict) else f"a list of {len(value)}")
+        return bare(str(value).lower())
+    if isinstance(value, dict):
+        return say("a table")
+    if isinstance(value, list):
+        return say("a list of {count}", count=len(value))  # pyright: ignore[reportUnknownArgumentType]
     text = repr(value)
-    return Unquoted(text[:_LONGEST] + "...") if len(text) > _LONGEST else value
+    return bare(text[:_LONGEST] + "...") if len(text) > _LONGEST else value

@@ -10,6 +10,7 @@ from graphcam.errors import DesignError
 from graphcam.given.motion_law import Law
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
+from graphcam.words import say
 
 TASK_FILE = "task.toml"
 
@@ -28,8 +29,8 @@ def task_files(task: Task | ArcsTask) -> dict[str, str]:
     if isinstance(task, Task):
         for k, phase in enumerate(task.motion.phases or ()):
             if isinstance(own := getattr(phase, "law", ""), Law):
-                remedy = "a law of one's own stands in Python only"
-                raise DesignError(f"motion.phases[{k}].law", own.name, "a built-in law in a file", remedy)
+                remedy = say("a law of one's own stands in Python only")
+                raise DesignError(f"motion.phases[{k}].law", own.name, say("a built-in law in a file"), remedy)
     said = _filled(task.to_dict())
     table = task.motion.table if isinstance(task, Task) else None
     tables: dict[str, str] = {}

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from graphcam.errors import DesignError
 from graphcam.given.making_errors import SIZES, Distribution, MakingErrors, deviations_within
 from graphcam.given.ranges import positive
+from graphcam.words import say
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,8 @@ class TolerancesTable:
         """
         for name in SIZES:
             if (tolerance := getattr(self, name)) is not None and name not in own:
-                left_out = f"left out for a follower of kind {kind}"
-                remedy = f"it has {', '.join(own)}" if own else "of its sizes none is to be made: waviness is left"
+                left_out = say("left out for a follower of kind {kind}", kind=kind)
+                remedy = say("of its sizes none is to be made: waviness is left")
+                if own:
+                    remedy = say("it has {names}", names=", ".join(own))
                 raise DesignError(f"tolerances.{name}", tolerance, left_out, remedy)

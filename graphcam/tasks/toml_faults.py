@@ -9,7 +9,8 @@ from __future__ import annotations
 import re
 import unicodedata
 
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
+from graphcam.words import Words, bare, say
 
 _PLACE = re.compile(r" \(at (?:line (\d+), column \d+|end of document)\)$")
 _STRING_OR_COMMENT = re.compile(r"\"(?:[^\"\\]|\\.)*\"|'[^']*'|#.*")
@@ -26,7 +27,7 @@ _LONGEST = 60
 """Characters of a line that a message shows."""
 
 
-def toml_fault(path: str, text: str, error: Exception, example: str) -> TaskError:
+def toml_fault(path: str, text: str, error: Exception, example: Words) -> TaskError:
     """What to say of a text that a parser refused.
 
     path : how the message calls the file
@@ -47,25 +48,25 @@ def toml_fault(path: str, text: str, error: Exception, example: str) -> TaskErro
     place = _PLACE.search(str(error))
     why = _PLACE.sub("", str(error))
     if place is None or (place[1] is None and not text.strip()):
-        return TaskError(path, "the text", Unquoted(f"not TOML ({why})"), "a TOML file", example)
+        return TaskError(path, say("the text"), say("not TOML ({why})", why=why), say("a TOML file"), example)
     lines = text.splitlines() or [""]
     number = min(int(place[1]), len(lines)) if place[1] else len(lines)
     line = lines[number - 1]
-    place_of = f"line {number}"
-    told = _typography(line, place_of) or _comma(line, place_of) or _value(line, place_of)
+    where = say("line {number}", number=number)
+    told = _typography(line, where) or _comma(line, where) or _value(line, where)
     if told is not None:
-        what, found, wanted, remedy = told
-        return TaskError(path, what, Unquoted(found), wanted, remedy)
+        return TaskError(path, *told)
     shown = line.strip()
     shown = shown if len(shown) <= _LONGEST else shown[:_LONGEST] + "..."
-    return TaskError(path, f"line {number}", shown, f"TOML ({why[:1].lower()}{why[1:]})", example)
+    expected = say("TOML ({why})", why=f"{why[:1].lower()}{why[1:]}")
+    return TaskError(path, where, shown, expected, example)
 
 
-Told = tuple[str, str, str, str]
+Told = tuple[Words, Words, Words, Words]
 """What in a line, its value, what it must be, and the remedy."""
 
 
-def _typography(line: str, place: str) -> Told | None:
+def _typography(line: str, place: Words) -> Told | None:
     """A character outside of texts and comments that is not the one of the keyboard."""
     outside = _STRING_OR_COMMENT.sub(lambda found: " " * len(found[0]), line)
     for column, letter in enumerate(outside, 1):
@@ -73,15 +74,14 @@ def _typography(line: str, place: str) -> Told | None:
         if plain is None:
             continue
         name = unicodedata.name(letter, f"U+{ord(letter):04X}").lower()
-        if not plain.strip():
-            what, found = f"{place}, column {column}: the character", f"invisible ({name})"
-            return (what, found, "a plain space", "type it anew") if plain else (what, found, "left out", "delete it")
-        return (
-            f"{place}, column {column}: the character",
-            f"'{letter}' ({name})",
-            f"a plain {plain!r}",
-            "type it in a text editor",
-        )
+        what = say("{place}, column {column}: the character", place=place, column=column)
+        if plain.strip():
+            found = bare(f"'{letter}' ({name})")
+            return what, found, say("a plain {plain!r}", plain=plain), say("type it in a text editor")
+        found = say("invisible ({name})", name=name)
+        if plain:
+            return what, found, say("a plain space"), say("type it anew")
+        return what, found, say("left out"), say("delete it")
     return None
 
 
@@ -99,26 +99,29 @@ def _plain(letter: str) -> str | None:
     return same if same.isascii() and len(same) == 1 else None
 
 
-def _comma(line: str, place: str) -> Told | None:
+def _comma(line: str, place: Words) -> Told | None:
     """A number with a decimal comma."""
     if comma := _COMMA.search(line):
-        remedy = f"write {comma[1]}.{comma[2]}"
-        return f"{place}: the number", f"{comma[1]},{comma[2]}", "written with a decimal point", remedy
+        found, remedy = bare(f"{comma[1]},{comma[2]}"), say("write {word}", word=f"{comma[1]}.{comma[2]}")
+        return say("{place}: the number", place=place), found, say("written with a decimal point"), remedy
     return None
 
 
-def _value(line: str, place: str) -> Told | None:
+def _value(line: str, place: Words) -> Told | None:
     """A text without quotes, or a number with its unit."""
     for found in _VALUE.finditer(_STRING_OR_COMMENT.sub("''", line)):
         word = found[1]
         if word.startswith("''") or _is_value(word):
             continue
         if word in _SWITCHES:
-            return f"{place}: the switch", word, "true or false", f"write {_SWITCHES[word]}"
+            remedy = say("write {word}", word=_SWITCHES[word])
+            return say("{place}: the switch", place=place), bare(word), say("true or false"), remedy
         if number := _WITH_UNIT.fullmatch(word):
-            return f"{place}: the number", word, "written without its unit", f"write {number[1]}"
+            limit, remedy = say("written without its unit"), say("write {word}", word=number[1])
+            return say("{place}: the number", place=place), bare(word), limit, remedy
         if "'" not in word and '"' not in word:
-            return f"{place}: the text", word, "in quotes", f'write "{word}"'
+            limit, remedy = say("in quotes"), say('write "{word}"', word=word)
+            return say("{place}: the text", place=place), bare(word), limit, remedy
     return None
 
 

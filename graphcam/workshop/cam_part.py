@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.tasks.part_table import PartTable
 from graphcam.words import Words, say
 from graphcam.workshop.keyways import STANDARDS, THICKEST_SHAFT, THINNEST_SHAFT, KeySection, key_section
@@ -138,10 +138,11 @@ def _keyway(table: PartTable, bore: float) -> KeySection | None:
         return None
     section = key_section(bore)
     if section is None and table.keyway is not None:
-        limit = (
-            f"none for a bore of {bore:g} mm: the standard has keys from {THINNEST_SHAFT:g} to {THICKEST_SHAFT:g} mm"
+        limit = say(
+            "none for a bore of {bore:g} mm: the standard has keys from {thinnest_shaft:g} to {thickest_shaft:g} mm"
         )
-        raise DesignError("part.keyway", table.keyway, limit, "write 'none' or change part.bore")
+        limit = limit.where(bore=bore, thinnest_shaft=THINNEST_SHAFT, thickest_shaft=THICKEST_SHAFT)
+        raise DesignError("part.keyway", table.keyway, limit, say("write 'none' or change part.bore"))
     return section
 
 
@@ -168,19 +169,25 @@ def _check_walls(part: CamPart, least_radius: float) -> None:
     needed = part.keyway_top + LEAST_WALL * part.bore
     hub = part.hub
     if hub and not hub.diameter / 2 < least_radius:
-        limit = f"less than twice the minimum radius of the profile, {least_radius:.4g} mm"
-        raise DesignError("part.hub_diameter", hub.diameter, limit, "take a smaller hub or a larger prime radius")
+        limit = say(
+            "less than twice the minimum radius of the profile, {least_radius:.4g} mm", least_radius=least_radius
+        )
+        raise DesignError("part.hub_diameter", hub.diameter, limit, say("take a smaller hub or a larger prime radius"))
     if hub and not hub.length > part.width:
-        limit = f"greater than the cam's width of {part.width:g} mm"
-        raise DesignError("part.hub_length", hub.length, limit, "lengthen the hub or give a smaller part.width")
+        limit = say("greater than the cam's width of {width:g} mm", width=part.width)
+        raise DesignError("part.hub_length", hub.length, limit, say("lengthen the hub or give a smaller part.width"))
     for inside, outer, larger in (
         *([("the hub's radius", hub.diameter / 2, "part.hub_diameter")] if hub else []),
-        ("the minimum radius of the profile", least_radius, "prime radius"),
+        (say("the minimum radius of the profile"), least_radius, say("prime radius")),
     ):
         if not needed <= outer:
-            keyway = f" with its keyway {part.keyway.depth:g} mm deep" if part.keyway else ""
-            found = f"{part.bore:g} mm{keyway}"
-            limit = f"small enough to leave a wall of {LEAST_WALL:g} of the bore inside {inside} of {outer:.4g} mm"
+            keyway = say(" with its keyway {depth:g} mm deep", depth=part.keyway.depth) if part.keyway else ""
+            found = say("{bore:g} mm{keyway}", bore=part.bore, keyway=keyway)
+            limit = say("small enough to leave a wall of {least:g} of the bore inside {inside} of {outer:.4g} mm")
+            limit = limit.where(least=LEAST_WALL, inside=inside, outer=outer)
             fitting = [d for d in standard_diameters() if _top(part.table, d) + LEAST_WALL * d <= outer]
-            smaller = f"take a smaller bore, {max(fitting):g} mm or less," if fitting else "take a smaller bore"
-            raise DesignError("part.bore", Unquoted(found), limit, f"{smaller} or a larger {larger}")
+            smaller = say("take a smaller bore")
+            if fitting:
+                smaller = say("take a smaller bore, {fitting:g} mm or less,", fitting=max(fitting))
+            remedy = say("{smaller} or a larger {larger}", smaller=smaller, larger=larger)
+            raise DesignError("part.bore", found, limit, remedy)

@@ -10,6 +10,7 @@ import numpy as np
 
 from graphcam.errors import DesignError
 from graphcam.mechanism.kinematics import Complexes
+from graphcam.words import say
 from graphcam.workshop.biarcs import Move, arcs_along, merged
 from graphcam.workshop.outline import Outline
 
@@ -67,7 +68,8 @@ def cutter_path(outline: Outline, cutter_radius: float, tolerance: float) -> Cut
             start = contour[0].start
             ways = _leads(start, max(cutter_radius, LEAD * abs(start)))
             return CutterPath(contour, *ways, cutter_radius, max(error for _, error in fitted))
-    raise DesignError("tolerance", tolerance, "greater for this profile", "give a larger part.profile_tolerance")
+    limit = say("greater for this profile")
+    raise DesignError("tolerance", tolerance, limit, say("give a larger part.profile_tolerance"))
 
 
 def _sampled(outline: Outline, cutter_radius: float, count: int) -> list[Samples]:

@@ -8,6 +8,7 @@ Source: T. R. Kramer, F. M. Proctor, E. Messina, *The NIST RS274NGC Interpreter,
 """
 
 from graphcam.errors import DesignError
+from graphcam.words import say
 from graphcam.workshop.biarcs import Move
 from graphcam.workshop.cutter_path import CutterPath, cutter_path
 from graphcam.workshop.outline import Outline
@@ -47,9 +48,10 @@ def cutting_program(
     ('M30', ['G17 G21 G40 G90 G94'])
     """
     if not tolerance >= LEAST_TOLERANCE:
-        raise DesignError("tolerance", tolerance, f"{LEAST_TOLERANCE:g} mm or more", "less is lost by rounding")
+        limit = say("{least:g} mm or more", least=LEAST_TOLERANCE)
+        raise DesignError("tolerance", tolerance, limit, say("less is lost by rounding"))
     if not feed > 0:
-        raise DesignError("part.feed", feed, "more than 0 mm/min")
+        raise DesignError("part.feed", feed, say("more than 0 mm/min"))
     path = cutter_path(outline, cutter_radius, tolerance - ROUNDING)
     lines = [
         *_head(path, tolerance, feed, name),

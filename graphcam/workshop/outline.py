@@ -24,6 +24,7 @@ from graphcam.mechanism.kinematics import Complexes
 from graphcam.mechanism.undercut import Lost, kept_arcs, lost_parts
 from graphcam.plane import cross
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
+from graphcam.words import say
 
 SAMPLES, FEWEST = 12_000, 33
 """Samples on the whole outline, shared by its spans, and the minimum on each of them."""
@@ -224,9 +225,10 @@ class Outline:
         """
         if not math.isfinite(self.least_hollow):
             return  # seen from every place of its way a cutter has only one nearest place of a convex cam
-        remedy = "take a smaller cutter, or leave it out"
+        remedy = say("take a smaller cutter, or leave it out")
         if not radius < self.least_hollow:
-            limit = f"less than {self.least_hollow:.4g} mm, the minimum radius of the profile's hollows"
+            limit = say("less than {least_hollow:.4g} mm, the minimum radius of the profile's hollows")
+            limit = limit.where(least_hollow=self.least_hollow)
             raise DesignError("part.cutter_radius", radius, limit, remedy)
         from scipy.spatial import KDTree
 
@@ -235,7 +237,7 @@ class Outline:
         nearest, _ = KDTree(around).query(ways)
         cut = radius - float(nearest.min())
         if cut > CUT * self.greatest_radius:
-            limit = f"small enough for the hollows: it would cut {cut:.2g} mm off the other side"
+            limit = say("small enough for the hollows: it would cut {cut:.2g} mm off the other side", cut=cut)
             raise DesignError("part.cutter_radius", radius, limit, remedy)
 
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import takewhile
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.sheets.box import Box
 from graphcam.sheets.formats import Format
 from graphcam.sheets.frame import taken, title_box
@@ -137,9 +137,9 @@ def laid_out(contents: PartContents) -> tuple[PartLayout, Placed | None]:
         if first and least_profile < LEAST_PROFILE:
             break
     if first is None:
-        found = f"{contents.part.length:g} mm wide"
-        limit = "narrow enough to be drawn beside its profile"
-        raise DesignError("part", Unquoted(found), limit, "give a smaller part.width or part.hub_length")
+        found = say("{length:g} mm wide", length=contents.part.length)
+        limit = say("narrow enough to be drawn beside its profile")
+        raise DesignError("part", found, limit, say("give a smaller part.width or part.hub_length"))
     return first, None
 
 

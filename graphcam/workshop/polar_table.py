@@ -14,12 +14,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.roots import roots
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.tasks.part_table import PartTable
+from graphcam.words import say
 from graphcam.workshop.cam_part import profile_tolerance, radius_decimals
 from graphcam.workshop.outline import Outline
 
@@ -31,7 +32,7 @@ MOST_ROWS = 1500
 """The maximum number of rows of a table that somebody reads."""
 CORNER_DECIMALS = 3
 """Decimals of the angle of a corner [deg]."""
-FILES_REMEDY = "give a larger one; the files of the profile have the curve itself"
+FILES_REMEDY = say("give a larger one; the files of the profile have the curve itself")
 TURNS_BACK = 1e-12
 """The angle [rad] by which a curve turns back at least: less is rounding."""
 
@@ -52,10 +53,9 @@ class PolarCurve:
         angles = self.angles
         back = np.flatnonzero(np.diff(angles) < -TURNS_BACK)
         if back.size:
-            at = f"met more than once by the ray at {math.degrees(angles[back[0]]) % 360:.1f} degrees"
-            raise DesignError(
-                "profile", Unquoted(at), "met once by every ray from the cam centre", "enlarge the prime radius"
-            )
+            at = say("met more than once by the ray at {value:.1f} degrees", value=math.degrees(angles[back[0]]) % 360)
+            limit = say("met once by every ray from the cam centre")
+            raise DesignError("profile", at, limit, say("enlarge the prime radius"))
 
     @cached_property
     def _sampled(self) -> tuple[Floats, Complexes, NDArray[np.intp]]:
@@ -140,7 +140,7 @@ def polar_table(outline: Outline, table: PartTable) -> PolarTable:
     corners = np.degrees(np.angle(outline.corners)) % 360
     angles = _rows(curves, table.table_step, bound, corners.round(CORNER_DECIMALS))
     if angles.size > MOST_ROWS:
-        limit = f"large enough for a table of at most {MOST_ROWS} rows, not {angles.size}"
+        limit = say("large enough for a table of at most {most} rows, not {size}", most=MOST_ROWS, size=angles.size)
         raise DesignError("part.profile_tolerance", allowed, limit, FILES_REMEDY)
     radii = [curve.radius(np.radians(angles)) for curve in curves]
     decimals = radius_decimals(table, outline.greatest_radius)
@@ -156,7 +156,7 @@ def _rows(curves: list[PolarCurve], step: int, bound: float, corners: Floats) ->
         near = (row for row in divided if max(_departure(row, *curve.turn) for curve in curves) <= bound)
         row = next(near, None)
         if row is None:
-            limit = f"large enough for rows {step / PARTS[-1]:g} degrees apart"
+            limit = say("large enough for rows {value:g} degrees apart", value=step / PARTS[-1])
             raise DesignError("part.profile_tolerance", bound / PART_OF_TOLERANCE, limit, FILES_REMEDY)
         rows.append(row[:-1])
     return np.concatenate(rows)

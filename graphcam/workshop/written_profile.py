@@ -7,11 +7,12 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import DesignError, Unquoted, check_kind, meant, nearest
+from graphcam.errors import DesignError, check_kind, meant, nearest
 from graphcam.files import whole_folder
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.spline import ProfileSpline, profile_spline
 from graphcam.tasks.part_table import PartTable
+from graphcam.words import say
 from graphcam.workshop import cutting_files, profile_files
 from graphcam.workshop.cam_part import cam_part
 from graphcam.workshop.outline import of_cam
@@ -65,7 +66,7 @@ def write_profile(
     wanted = [kinds] if isinstance(kinds, str) else list(kinds)
     for kind in wanted:
         if kind not in KINDS:
-            raise DesignError("kinds", kind, f"of {', '.join(KINDS)}", meant(kind, KINDS))
+            raise DesignError("kinds", kind, say("of {names}", names=", ".join(KINDS)), meant(kind, KINDS))
     table, names = _part_table(part), {f"profile_{kind}" for kind in wanted}
     spline = _spline(cam, table) if any(kind in OF_SPLINE for kind in wanted) else None
     with whole_folder(folder) as draft:
@@ -80,9 +81,8 @@ def _part_table(part: dict[str, Any]) -> PartTable:
     known = [field.name for field in fields(PartTable)]
     for key in part:
         if key not in known:
-            raise DesignError(
-                "part", Unquoted(f"{key} = {part[key]!r}"), "what a table [part] has", nearest(key, known)
-            )
+            found = say("{key} = {part!r}", key=key, part=part[key])
+            raise DesignError("part", found, say("what a table [part] has"), nearest(key, known))
     return PartTable(**part)
 
 

@@ -44,7 +44,9 @@ def grade(course: Path, **more: Any) -> tuple[str, dict[str, dict[str, Any]]]:
     """What the command says, and the records by student."""
     out = course / "out" / "grades.csv"
     said = grade_course(Course(course / "in", course / "secret", out, feedback=course / "pages", **more))
-    return said, {one["student"]: one for one in json.loads(out.with_suffix(".json").read_text(encoding="utf-8"))}
+    return "\n".join(map(str, said)), {
+        one["student"]: one for one in json.loads(out.with_suffix(".json").read_text(encoding="utf-8"))
+    }
 
 
 def table(course: Path, name: str = "grades.csv") -> list[dict[str, str]]:
@@ -84,7 +86,7 @@ def test_answers_are_found_where_students_put_them(course: Path, kind: str, zipp
     if zipped:
         (course / "in.zip").write_bytes(packed(FOUND[kind]))
         out = course / "out" / "grades.csv"
-        said = grade_course(Course(course / "in.zip", course / "secret", out))
+        said = "\n".join(map(str, grade_course(Course(course / "in.zip", course / "secret", out))))
         assert table(course)[0]["total"] == f"{EXERCISE.marks:g}"
     else:
         said, records = grade(course)

@@ -14,8 +14,7 @@ from typer.testing import CliRunner
 from graphcam.cli import app
 from graphcam.cli.shared import WRONG_INPUT
 from graphcam.errors import TaskError
-from graphcam.language import language
-from graphcam.messages import told
+from graphcam.language import language, languages
 from graphcam.tasks.task_file import _CLASSES as CLASSES, _keys as keys_of, builtin_text, load_task
 
 WHOLE = builtin_text("coursework") + "\n[cam]\nprime_radius = 50\n"
@@ -208,16 +207,37 @@ NAMES = {
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_is_told_in_russian_as_a_whole(fault, tmp_path):
     path = file_with(fault, tmp_path)
-    said = told(error_of(path), language("ru")).replace(str(path), "")
+    said = language("ru").text(error_in(path).caption).replace(str(path), "")
     # What Unicode calls a letter and what a parser says stands in brackets, what somebody wrote in quotes.
     said = re.sub(r"(TOML|невидимый|'.') \(.*?\)(?=[,;])", "", said)
     assert english_words(re.sub(r"'[^']*'", "", said), sorted(NAMES, key=len, reverse=True)) == set(), said
 
 
-def error_of(path: Path) -> str:
+LITERALS = re.compile(r"'[^']+'|\"[^\"]+\"|`[^`]+`|\\b[a-z]+(?:[_.\\[][\\w\\]]+)+|\\b[a-z_]{3,} = ")
+"""What of a message is typed into a file: quoted words, keys with their tables, and assignments."""
+ONE_OF = re.compile(r"one of ((?:[\w-]+, )*[\w-]+)")
+
+
+@pytest.mark.parametrize("spoken", languages())
+def test_what_must_be_typed_is_the_same_in_every_language(spoken, tmp_path):
+    listed = 0
+    for fault in [*FAULTS, *NO_TEXT]:
+        error = error_in(file_with(fault, tmp_path))
+        said, told = str(error), language(spoken).text(error.caption)
+        kinds = [word for names in ONE_OF.findall(error.expected) for word in names.split(", ")]
+        listed += bool(kinds)
+        assert [word for word in (*LITERALS.findall(said), *kinds) if word not in told] == [], told
+    assert listed >= 5
+
+
+def error_in(path: Path) -> TaskError:
     with pytest.raises(TaskError) as caught:
         load_task(path)
-    return str(caught.value)
+    return caught.value
+
+
+def error_of(path: Path) -> str:
+    return str(error_in(path))
 
 
 @pytest.mark.parametrize(

@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import MissingFileError, TaskError, Unquoted, unreadable
+from graphcam.errors import MissingFileError, TaskError, unreadable
 from graphcam.exercises.course.roster import Student, folder_name, is_cut, read_roster, student_of
 from graphcam.exercises.definition.exercise_file import library
 from graphcam.files import OutputError
 from graphcam.language import ENGLISH
-from graphcam.words import plain
+from graphcam.words import Caption, say, sequence
 
 STUDENTS, TEACHER = "students", "teacher"
 """The two folders that 'exercise make' writes; the first may be handed out as it is."""
@@ -37,6 +37,12 @@ HIDDEN = ".graphcam"
 """The folder of answer keys in a course made otherwise; no student's folder has a name that begins with a point."""
 
 
+KEEP = say(
+    "choose another folder; to keep the variants: --secret-file {secret}; do not delete {teacher}: without its secret "
+    "nothing can be graded"
+)
+
+
 class CourseThereError(OutputError):
     """A folder that a course is to be made in, and that holds one.
 
@@ -47,20 +53,16 @@ class CourseThereError(OutputError):
     """
 
     def __init__(self, path: str | Path) -> None:
-        super().__init__(path, "it already holds a course", "choose another folder")
-
-    def __str__(self) -> str:
-        teacher = Path(self.path, TEACHER)
+        teacher, remedy = Path(path, TEACHER), say("choose another folder")
         secret = teacher / SECRET
-        if not secret.is_file():
-            return plain(f"{self.path} already holds a course; choose another folder")
-        return plain(
-            f"{self.path} already holds a course; choose another folder; to keep the variants: --secret-file {secret}; "
-            f"do not delete {teacher}: without its secret nothing can be graded"
-        )
+        if secret.is_file():
+            remedy = KEEP.where(secret=str(secret), teacher=str(teacher))
+        super().__init__(path, say("it already holds a course"), remedy)
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return CourseThereError, (self.path,)
+    @property
+    def fault(self) -> Caption:
+        """What lies in the folder."""
+        return say("{path} already holds a course", path=str(self.path))
 
 
 @dataclass(frozen=True)
@@ -147,7 +149,7 @@ class AnswerKeys:
         copy = self.folder / f"{name}.toml"
         if name and not copy.is_file() and name not in library():
             # An exercise of the teacher's own: the library cannot replace it.
-            raise MissingFileError(str(copy), "put the exercise's file back there")
+            raise MissingFileError(str(copy), say("put the exercise's file back there"))
         return str(copy) if copy.is_file() else name
 
     def check_secret(self, secret: bytes, path: str | Path) -> None:
@@ -158,9 +160,9 @@ class AnswerKeys:
         TaskError : the course was made with another one
         """
         if self.course().get("secret", _digest(secret)) != _digest(secret):
-            remedy = "name the file that 'graphcam exercise make' or 'export' was given"
-            expected = "the one that the course was made with"
-            raise TaskError(str(path), "the secret", Unquoted("another one"), expected, remedy)
+            remedy = say("name the file that 'graphcam exercise make' or 'export' was given")
+            expected = say("the one that the course was made with")
+            raise TaskError(str(path), say("the secret"), say("another one"), expected, remedy)
 
     def secret_file(self, given: Path | None) -> Path:
         """The file of the course's secret: the one that is given, or else the one in this folder.
@@ -172,12 +174,15 @@ class AnswerKeys:
         path = self.folder / SECRET if given is None else given
         if given is None and not path.is_file():
             if self.folder.name == HIDDEN:
-                remedy = "name the file that the course was made with, by --secret-file"
-                raise TaskError(str(self.folder.parent), "the course's secret", Unquoted("missing"), "given", remedy)
-            remedy = "name the file that the course was made with, by --secret-file, or put a copy of it there"
+                remedy = say("name the file that the course was made with, by --secret-file")
+                what = say("the course's secret")
+                raise TaskError(str(self.folder.parent), what, say("missing"), say("given"), remedy)
+            remedy = say("name the file that the course was made with, by --secret-file, or put a copy of it there")
             if (self.folder / KEYS).is_file():
-                remedy += f"; {KEYS} still has the keys for marking by hand"
-            raise TaskError(str(path), "the course's secret", Unquoted("missing"), "in the teacher's folder", remedy)
+                keys = say("{file} still has the keys for marking by hand", file=KEYS)
+                remedy = sequence([remedy, keys], "; ")
+            what = say("the course's secret")
+            raise TaskError(str(path), what, say("missing"), say("in the teacher's folder"), remedy)
         return path
 
     def secret(self, given: Path | None) -> bytes:
@@ -251,9 +256,9 @@ def read_secret(path: str | Path) -> bytes:
     try:
         secret = Path(path).read_bytes().strip()
     except (OSError, ValueError) as error:
-        remedy = "name the file with the secret that the course was made with"
-        raise unreadable(path, "the secret", "a file that only you can read", error, remedy) from None
+        remedy = say("name the file with the secret that the course was made with")
+        raise unreadable(path, say("the secret"), say("a file that only you can read"), error, remedy) from None
     if not secret:
-        remedy = "write one into the file and keep it"
-        raise TaskError(str(path), "the secret", Unquoted("empty"), "a long random text", remedy)
+        remedy = say("write one into the file and keep it")
+        raise TaskError(str(path), say("the secret"), say("empty"), say("a long random text"), remedy)
     return secret

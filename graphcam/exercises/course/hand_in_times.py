@@ -13,10 +13,11 @@ from graphcam.exercises.course.hand_ins import HandIn, answers_folder
 from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.student_table import StudentLine, once, student_lines
 from graphcam.exercises.reading.submission_files import answer_files
+from graphcam.words import say
 
 SUBMITTED_TIMES = "submitted.csv"
 """The teacher's table of when each student handed in, as the learning system says."""
-TIME_FORM = "a date and a time such as 2026-12-01T23:59 or 2026-12-01T23:59+01:00"
+TIME_FORM = say("a date and a time such as 2026-12-01T23:59 or 2026-12-01T23:59+01:00")
 NAMED = re.compile(r"(\d{4}-\d\d-\d\d)-(\d\d)-(\d\d)-(\d\d)")
 """A time as Blackboard writes it into a name."""
 TimeSource = Literal["table", "name", "file", ""]
@@ -70,8 +71,8 @@ def read_times(path: Path, known: Recognition) -> dict[tuple[str, str], datetime
     ------
     TaskError : the file cannot be read, or a line of it names a student, a time or an attempt that cannot be
     """
-    lines = student_lines(path, "the table of times", ("student", "submitted"), known)
-    remedy = "give each attempt of a student once, with its number in a column 'attempt'"
+    lines = student_lines(path, say("the table of times"), ("student", "submitted"), known)
+    remedy = say("give each attempt of a student once, with its number in a column 'attempt'")
     filled = [line for line in once(lines, ("attempt",), remedy) if line["submitted"]]
     return {(line.student, _number(line)): time_in(line, "submitted") for line in filled}
 
@@ -79,7 +80,7 @@ def read_times(path: Path, known: Recognition) -> dict[tuple[str, str], datetime
 def _number(line: StudentLine) -> str:
     said = line["attempt"]
     if said and not re.fullmatch(r"\d{1,4}", said):
-        raise line.wrong("attempt", "the number of an attempt, or empty", "correct the line")
+        raise line.wrong("attempt", say("the number of an attempt, or empty"), say("correct the line"))
     return str(int(said)) if said else ""
 
 
@@ -92,7 +93,7 @@ def time_in(line: StudentLine, column: str) -> datetime:
     """
     found = moment(line[column])
     if found is None:
-        raise line.wrong(column, TIME_FORM, "correct the line")
+        raise line.wrong(column, TIME_FORM, say("correct the line"))
     return found
 
 

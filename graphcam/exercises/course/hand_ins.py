@@ -91,7 +91,7 @@ def _names(folder: Path, known: Callable[[str], bool], *, lms: bool) -> list[str
         with os.scandir(folder) as entries:
             listed = [(entry.name, entry.is_file(follow_symlinks=False)) for entry in entries]
     except OSError as error:
-        raise unreadable(folder, "the folder", "one with a folder for every student", error) from None
+        raise unreadable(folder, say("the folder"), say("one with a folder for every student"), error) from None
     return sorted(
         name
         for name, plain in listed

@@ -10,7 +10,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import get_args
 
-from graphcam.errors import TaskError, Unquoted, installed
+from graphcam.errors import TaskError, installed
 from graphcam.exercises.course.course_advice import other_scale, wide_tolerances
 from graphcam.exercises.course.course_folder import (
     KEYS,
@@ -37,6 +37,7 @@ from graphcam.files import whole_folder
 from graphcam.language import languages
 from graphcam.photo.printed import Ink
 from graphcam.tasks.sheet_tables import one_of
+from graphcam.words import Words, say
 from graphcam.workers import executor_of, in_order
 
 UNMARKED = "unmarked"
@@ -69,7 +70,7 @@ def make(
     workers: int = 1,
     cluster: str = "",
     step: Callable[[int, int], None] = lambda done, total: None,
-    tell: Callable[[str], None] = lambda line: None,
+    tell: Callable[[Words], None] = lambda line: None,
 ) -> int:
     """Make every student's handouts; how many students there are.
 
@@ -123,17 +124,21 @@ def make(
         write_secret(draft / TEACHER / SECRET, secret)
     variants_told = (Variant(exercise, key.student, key.draw, key.parameters) for key in answer_keys[:1])
     for said, scale in filter(None, map(other_scale, variants_told)):
-        tell(f"the text of the exercise says '{said}', but the sheet is drawn at {scale:g}° to 1 mm")
+        other = say("the text of the exercise says '{said}', but the sheet is drawn at {scale:g}° to 1 mm")
+        tell(other.where(said=said, scale=scale))
     for answer, part in wide_tolerances(exercise, answer_keys).items():
-        tell(f"the tolerance of {answer} is {part:.0%} of its value; larger diagrams or --hand careful make it smaller")
+        wide = say(
+            "the tolerance of {answer} is {part:.0%} of its value; larger diagrams or --hand careful make it smaller"
+        )
+        tell(wide.where(answer=answer, part=part))
     return len(students)
 
 
 def _given_secret(path: str | Path) -> bytes:
     """The secret in a file that is named, which must be there: another course's variants may depend on it."""
     if not Path(path).exists():
-        remedy = "check the name, or leave out --secret-file: a new secret is made then"
-        raise TaskError(str(path), "the course's secret", Unquoted("missing"), "a file that is there", remedy)
+        remedy = say("check the name, or leave out --secret-file: a new secret is made then")
+        raise TaskError(str(path), say("the course's secret"), say("missing"), say("a file that is there"), remedy)
     return read_secret(path)
 
 

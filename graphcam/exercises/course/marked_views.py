@@ -62,8 +62,8 @@ def marked_views(exercise: Exercise, chain: Chain, side: float, tell: Tell) -> l
     steps = [step for name, count in exercise.sheet.items() for step in construction_of(chain, name).steps()[:count]]
     for step in steps:
         if step.view.name != PROFILE.name:
-            limit = "the profile and empty axes alone where worksheets are photographed"
-            raise DesignError("sheet", step.view.name, limit, "leave papers out")
+            limit = say("the profile and empty axes alone where worksheets are photographed")
+            raise DesignError("sheet", step.view.name, limit, say("leave papers out"))
     views = [_diagram(exercise, chain, name, tell) for name in exercise.axes]
     marks = [mark for step in steps for mark in step.told(tell).marks]
     if marks:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.exercises.course.handouts import Sheets, answer_table, instructions
 from graphcam.exercises.course.marked_views import MarkedView, marked_views
 from graphcam.exercises.course.page_parts import (
@@ -117,8 +117,9 @@ def _one_sheet_each(
     while blocks:
         entities, left = maker.column([], len(drawn) + 1).filled(blocks, BETWEEN)
         if len(left) == len(blocks):
-            limit, remedy = f"short enough for a page of {paper}", "shorten them, or take a larger paper"
-            raise DesignError("the text with the answers", Unquoted("too long"), limit, remedy)
+            limit = say("short enough for a page of {paper}", paper=paper)
+            remedy = say("shorten them, or take a larger paper")
+            raise DesignError(say("the text with the answers"), say("too long"), limit, remedy)
         blocks = left
         drawn.append(([], entities))
     made = [maker.page(placed, entities, k, len(drawn)) for k, (placed, entities) in enumerate(drawn, 1)]

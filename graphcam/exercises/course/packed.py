@@ -13,7 +13,7 @@ from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
 from graphcam.exercises.course.hand_ins import Refused
 from graphcam.exercises.reading.regular_file import read_regular
 from graphcam.exercises.reading.submission_files import LIMITS
@@ -45,9 +45,8 @@ def unpacked(place: Path) -> Generator[tuple[Path, list[Refused]]]:
             with zipfile.ZipFile(place) as archive:
                 refused = _unpack(archive, place, Path(scratch), MOST_ENTRIES, MOST_BYTES)
         except (OSError, zipfile.BadZipFile) as error:
-            raise TaskError(
-                str(place), "the zip", Unquoted(f"not readable ({error})"), "a whole zip file", "download it again"
-            ) from None
+            what, found = say("the zip"), say("not readable ({error})", error=str(error))
+            raise TaskError(str(place), what, found, say("a whole zip file"), say("download it again")) from None
         yield Path(scratch), refused
 
 
@@ -65,9 +64,8 @@ def unpack_one(path: Path, folder: Path) -> None:
             _unpack(archive, path, folder, MOST_ENTRIES_OF_ONE, MOST_BYTES_OF_ONE)
     # What zipfile makes of bytes that somebody chose.
     except (OSError, zipfile.BadZipFile, NotImplementedError, EOFError, ValueError, struct.error) as error:
-        raise TaskError(
-            str(path), "the zip", Unquoted(f"not readable ({error})"), "a whole zip file", "hand it in again"
-        ) from None
+        found = say("not readable ({error})", error=str(error))
+        raise TaskError(str(path), say("the zip"), found, say("a whole zip file"), say("hand it in again")) from None
 
 
 def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path, most: int, most_bytes: int) -> list[Refused]:
@@ -77,7 +75,8 @@ def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path, most: int, most
     """
     entries = archive.infolist()
     if len(entries) > most:
-        raise TaskError(str(place), "the number of entries", len(entries), f"at most {most}", "unpack it")
+        what = say("the number of entries")
+        raise TaskError(str(place), what, len(entries), say("at most {most}", most=most), say("unpack it"))
     refused: list[Refused] = []
     left = most_bytes
     for entry in entries:
@@ -100,13 +99,8 @@ def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path, most: int, most
         except (OSError, zipfile.BadZipFile, NotImplementedError, EOFError, ValueError, zlib.error):
             refused.append(Refused(entry.filename, say("it cannot be unpacked")))
         if left < 0:
-            raise TaskError(
-                str(place),
-                "the size",
-                Unquoted("larger"),
-                f"at most {most_bytes} bytes unpacked",
-                "look into it by hand",
-            )
+            expected = say("at most {most_bytes} bytes unpacked", most_bytes=most_bytes)
+            raise TaskError(str(place), say("the size"), say("larger"), expected, say("look into it by hand"))
     return refused
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.student_table import student_lines
+from graphcam.words import say
 
 REQUESTS = "regrade-requests.csv"
 """The teacher's table of the questions."""
@@ -31,10 +32,10 @@ def read_requests(path: Path, answers: Collection[str], known: Recognition) -> l
     """
     found: list[RegradeRequest] = []
     columns = ("student", "answer", "question")
-    for line in student_lines(path, "the table of requests", columns, known, "who handed in"):
+    for line in student_lines(path, say("the table of requests"), columns, known, say("who handed in")):
         if line["answer"] not in answers:
-            raise line.wrong("answer", f"one of {', '.join(answers)}", "check the name")
+            raise line.wrong("answer", say("one of {names}", names=", ".join(answers)), say("check the name"))
         if not line["question"]:
-            raise line.wrong("question", "a text", "give the question, or delete the line")
+            raise line.wrong("question", say("a text"), say("give the question, or delete the line"))
         found.append(RegradeRequest(line.student, line["answer"], " ".join(line["question"].split())))
     return found

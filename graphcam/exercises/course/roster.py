@@ -5,7 +5,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
 from graphcam.exercises.course.roster_columns import at, names_alone, roster_columns
 from graphcam.exercises.course.spreadsheet import read_table
 from graphcam.words import Caption, say
@@ -88,26 +88,28 @@ def read_roster(path: str | Path) -> list[Student]:
     """
     rows = read_table(path, "the roster")
     if rows and names_alone(rows[0][1]) and not roster_columns([row for _, row in rows]).heading:
-        found, advice = Unquoted("missing"), "add a column 'id', or one of the addresses, 'email'"
-        raise TaskError(str(path), "the column of ids", found, "given", advice)
+        found, advice = say("missing"), say("add a column 'id', or one of the addresses, 'email'")
+        raise TaskError(str(path), say("the column of ids"), found, say("given"), advice)
     students = _students(rows)
     if not students:
-        raise TaskError(str(path), "the roster", Unquoted("empty"), "one line for each student", "give a column 'id'")
+        what = say("the roster")
+        raise TaskError(str(path), what, say("empty"), say("one line for each student"), say("give a column 'id'"))
     seen: dict[str, tuple[int, str]] = {}
     for line, student in students:
         if not student.id.strip():
-            remedy = f"fill in the id of {student.name or 'every student'}"
-            raise TaskError(str(path), f"line {line}: id", student.id, "given", remedy)
+            remedy = say("fill in the id of {value}", value=student.name or "every student")
+            raise TaskError(str(path), say("line {line}: id", line=line), student.id, say("given"), remedy)
         # Some file systems do not tell capitals from small letters.
         folder = folder_name(student.id).casefold()
         if folder in seen:
             before, same = seen[folder]
-            expected = f"another one than {same!r} in line {before}"
-            raise TaskError(str(path), f"line {line}: id", student.id, expected, "name each student once")
+            expected = say("another one than {same!r} in line {before}", same=same, before=before)
+            what = say("line {line}: id", line=line)
+            raise TaskError(str(path), what, student.id, expected, say("name each student once"))
         seen[folder] = line, student.id
         # It stands in the title block.
         if not (said := student.name or student.id).isprintable():
-            raise TaskError(str(path), "the name", said, "printable text on one line", "retype it")
+            raise TaskError(str(path), say("the name"), said, say("printable text on one line"), say("retype it"))
     return [student for _, student in students]
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from urllib.parse import quote, unquote
 
 from graphcam.errors import TaskError
+from graphcam.words import Words, say
 
 KIND = "GC1"
 """What every code begins with: the program and how the fields stand."""
@@ -59,24 +60,26 @@ class SheetCode:
         """
         kind, *fields = text.split("/")
         if kind != KIND or len(fields) != 6:
-            raise _refused("none of graphcam's", "that of a worksheet", "photograph the worksheet of this course")
+            limit = say("that of a worksheet")
+            raise _refused(say("none of graphcam's"), limit, say("photograph the worksheet of this course"))
         said, _, signature = text.rpartition("/")
         if not hmac.compare_digest(signature.encode(), _signature(said, secret).encode()):
-            found = "signed with another secret, or changed"
-            raise _refused(found, "signed with this course's secret", "look whose sheet it is, and of which course")
+            found = say("signed with another secret, or changed")
+            limit = say("signed with this course's secret")
+            raise _refused(found, limit, say("look whose sheet it is, and of which course"))
         name, version, student, draw, page = fields[:5]
         if exercise and name != _short(exercise):
-            raise _refused(f"of {unquote(name)!r}", f"of {exercise!r}", "put it to the other exercise")
+            raise _refused(f"of {unquote(name)!r}", f"of {exercise!r}", say("put it to the other exercise"))
         of = next((each for each in students if _short(each) == student), None)
         if of is None:
             who = f"of {unquote(student)!r}"
-            raise _refused(who, "of a student of this course", "look whether the roster has changed")
+            raise _refused(who, say("of a student of this course"), say("look whether the roster has changed"))
         # It is signed, so these are numbers.
         return SheetCode(exercise or unquote(name), int(version), of, int(draw), int(page))
 
 
-def _refused(found: str, wanted: str, remedy: str) -> TaskError:
-    return TaskError("photograph", "the code of the sheet", found, wanted, remedy)
+def _refused(found: Words, wanted: Words, remedy: Words) -> TaskError:
+    return TaskError("photograph", say("the code of the sheet"), found, wanted, remedy)
 
 
 def _short(name: str) -> str:

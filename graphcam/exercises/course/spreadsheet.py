@@ -7,7 +7,8 @@ from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from pathlib import Path
 
-from graphcam.errors import TaskError, Unquoted, unreadable
+from graphcam.errors import TaskError, unreadable
+from graphcam.words import Words, say
 
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
 """What makes a spreadsheet calculate a text instead of showing it; the wide forms count as the plain ones do."""
@@ -64,7 +65,7 @@ def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     return text.getvalue()
 
 
-def read_table(path: str | Path, what: str) -> list[tuple[int, list[str]]]:
+def read_table(path: str | Path, what: Words) -> list[tuple[int, list[str]]]:
     """The rows of a CSV file that hold anything, each with the number of its line.
 
     The cells stand apart by commas or semicolons, whichever the first line has more of.
@@ -78,18 +79,19 @@ def read_table(path: str | Path, what: str) -> list[tuple[int, list[str]]]:
     try:
         data = Path(path).read_bytes()
         if data.startswith(WORKBOOKS):
-            raise TaskError(
-                str(path), what, Unquoted("an Excel workbook"), "a CSV file in UTF-8", "save it as CSV UTF-8"
-            )
+            found = say("an Excel workbook")
+            raise TaskError(str(path), what, found, say("a CSV file in UTF-8"), say("save it as CSV UTF-8"))
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise TaskError(str(path), what, Unquoted("not in UTF-8"), "a CSV file in UTF-8", "save it as UTF-8") from None
+        found = say("not in UTF-8")
+        raise TaskError(str(path), what, found, say("a CSV file in UTF-8"), say("save it as UTF-8")) from None
     except (OSError, ValueError) as error:
-        raise unreadable(path, what, "a CSV file", error) from None
+        raise unreadable(path, what, say("a CSV file"), error) from None
     first = text.partition("\n")[0]
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=";" if first.count(";") > first.count(",") else ",")
     try:
         return [(reader.line_num, row) for row in reader if any(value.strip() for value in row)]
     except csv.Error as error:
-        remedy = "save it again from the spreadsheet"
-        raise TaskError(str(path), what, Unquoted(f"not readable ({error})"), "a CSV file", remedy) from None
+        remedy = say("save it again from the spreadsheet")
+        found = say("not readable ({error})", error=str(error))
+        raise TaskError(str(path), what, found, say("a CSV file"), remedy) from None

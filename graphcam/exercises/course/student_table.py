@@ -7,6 +7,7 @@ from pathlib import Path
 from graphcam.errors import TaskError
 from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.spreadsheet import cell, read_table
+from graphcam.words import Words, say
 
 
 @dataclass(frozen=True)
@@ -22,17 +23,18 @@ class StudentLine:
         """What stands in a column, without spaces around it; empty where the line has no such cell."""
         return self.cells.get(column, "").strip()
 
-    def wrong(self, column: str, expected: str, remedy: str) -> TaskError:
+    def wrong(self, column: str, expected: Words, remedy: Words) -> TaskError:
         """The error to raise about a cell of this line."""
-        return TaskError(self.path, f"line {self.number}: {column}", self[column], expected, remedy)
+        what = say("line {number}: {column}", number=self.number, column=column)
+        return TaskError(self.path, what, self[column], expected, remedy)
 
 
 def student_lines(
     path: Path,
-    what: str,
+    what: Words,
     columns: Sequence[str],
     known: Recognition,
-    who: str = "of the course",
+    who: Words = "of the course",
     absent: str = "check the id",
 ) -> Iterator[StudentLine]:
     """The lines of a CSV file about students, whom it names by id, e-mail address or name.
@@ -49,20 +51,18 @@ def student_lines(
     rows = read_table(path, what)
     head = [name.strip().lower() for name in rows[0][1]] if rows else []
     if not set(columns) <= set(head):
-        remedy = "name the columns in the first line"
-        raise TaskError(str(path), "the first line", ",".join(head), f"with {','.join(columns)}", remedy)
+        remedy = say("name the columns in the first line")
+        expected = say("with {names}", names=",".join(columns))
+        raise TaskError(str(path), say("the first line"), ",".join(head), expected, remedy)
     for number, row in rows[1:]:
         cells = dict(zip(head, row, strict=False))
         said = cells.get(columns[0], "")
         meant = _meant(said, known)
         if len(meant) != 1:
-            remedy = f"it may mean {', '.join(meant)}; give the id" if meant else absent
+            remedy = say("it may mean {names}; give the id", names=", ".join(meant)) if meant else absent
+            expected = say("one student {who} by id, address or name", who=who)
             raise TaskError(
-                str(path),
-                f"line {number}: {columns[0]}",
-                said,
-                f"one student {who} by id, address or name",
-                remedy,
+                str(path), say("line {number}: {columns}", number=number, columns=columns[0]), said, expected, remedy
             )
         yield StudentLine(str(path), number, meant[0], cells)
 
@@ -73,7 +73,7 @@ def _meant(said: str, known: Recognition) -> list[str]:
     return exact or known.meant([said])
 
 
-def once(lines: Iterable[StudentLine], keys: Sequence[str], remedy: str) -> Iterator[StudentLine]:
+def once(lines: Iterable[StudentLine], keys: Sequence[str], remedy: Words) -> Iterator[StudentLine]:
     """The lines, if none of them is about the same student and the same other cells as one before.
 
     Raises
@@ -84,6 +84,6 @@ def once(lines: Iterable[StudentLine], keys: Sequence[str], remedy: str) -> Iter
     for line in lines:
         about = (line.student, *(line[key] for key in keys))
         if about in seen:
-            raise line.wrong(keys[-1] if keys else "student", "another one", remedy)
+            raise line.wrong(keys[-1] if keys else "student", say("another one"), remedy)
         seen.add(about)
         yield line

@@ -9,7 +9,7 @@ from graphcam.constructions.chain import Chain
 from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.constructions.working_profile import working_profile
 from graphcam.drafting.ink import say
-from graphcam.errors import DesignError, Unquoted
+from graphcam.errors import DesignError
 from graphcam.exercises.definition.catalogue import usual
 from graphcam.exercises.definition.drawn_answers import read_as, redrawn, rescaled
 from graphcam.given.follower import Rotation, sense
@@ -21,7 +21,7 @@ def offset_sign(chain: Chain) -> Chain:
     """The follower's line on the other side of the cam centre."""
     follower = chain.board.follower
     if follower.place is None or follower.place_name != "offset":
-        raise DesignError("offset", Unquoted("not given"), "given where its sign is to be mistaken")
+        raise DesignError("offset", say("not given"), say("given where its sign is to be mistaken"))
     return redrawn(chain, replace(chain.board, follower=DrawnTranslating(-follower.place)))
 
 
@@ -123,7 +123,7 @@ def limits_swapped(chain: Chain) -> Chain:
     """The rise at the return's permitted angle, the return at the rise's."""
     limits = chain.board.limits
     if limits.return_ is None:
-        raise DesignError("limits", Unquoted("without one of the return"), "two where they are to be swapped")
+        raise DesignError("limits", say("without one of the return"), say("two where they are to be swapped"))
     return redrawn(chain, replace(chain.board, limits=Limits(limits.return_, limits.rise, limits.rest)))
 
 

@@ -29,7 +29,7 @@ Moving = Rise | Return
 def wrong_law(law: str) -> Change:
     """All moving phases by another law."""
     if law not in LAWS:
-        raise DesignError("law", law, "one of the known laws", nearest(law, LAWS, LAW_WORDS))
+        raise DesignError("law", law, say("one of the known laws"), nearest(law, LAWS, LAW_WORDS))
 
     def by_law(phase: Phase) -> Phase:
         """The phase by that law; a dwell has none."""

@@ -18,6 +18,7 @@ from graphcam.exercises.definition.exercise import Asked
 from graphcam.exercises.definition.marked_scale import MarkedDrawing, on_marked_paper
 from graphcam.given.stations import Stations
 from graphcam.tasks.task import Task
+from graphcam.words import say
 
 T = TypeVar("T")
 PRIMES = "'’′"
@@ -106,12 +107,13 @@ def place_of(chain: Chain, asked: Asked) -> int:
     name = re.fullmatch(rf"(\d+)([{PRIMES}]*)", asked.station)
     stations = chain.board.stations
     if name is None:
-        raise DesignError("station", asked.station, "a number, with a prime for each phase after the first")
+        raise DesignError("station", asked.station, say("a number, with a prime for each phase after the first"))
     number, phase = int(name[1]), len(name[2])
     if asked.construction in PER_INTERVAL or asked.reading in PER_PHASE:
         return number - 1
     if phase >= len(stations.phases):
-        raise DesignError("station", asked.station, f"in one of {len(stations.phases)} moving phases")
+        limit = say("in one of {phases} moving phases", phases=len(stations.phases))
+        raise DesignError("station", asked.station, limit)
     return _in_phase(stations, number, phase, asked)
 
 
@@ -119,7 +121,8 @@ def _in_phase(stations: Stations, number: int, phase: int, asked: Asked) -> int:
     span, first = (stations.parts, 1) if asked.reading in PER_PART else (stations.phases, 0)
     place = span[phase].start + number - first
     if not span[phase].start <= place < span[phase].stop:
-        raise DesignError("station", asked.station, f"up to {span[phase].stop - span[phase].start - 1 + first}")
+        limit = say("up to {value}", value=span[phase].stop - span[phase].start - 1 + first)
+        raise DesignError("station", asked.station, limit)
     return place
 
 
@@ -200,5 +203,5 @@ def with_ordinates(diagram: Construction, factor: NDArray[np.float64]) -> Constr
 
 def _named(things: Mapping[str, T], name: str, what: str, *others: str) -> T:
     if name not in things:
-        raise DesignError(what, name, "one of " + ", ".join((*things, *others)))
+        raise DesignError(what, name, say("one of {names}", names=", ".join((*things, *others))))
     return things[name]

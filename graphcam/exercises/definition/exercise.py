@@ -8,14 +8,14 @@ from typing import Any, Literal
 
 from graphcam.drafting.marks import Points
 from graphcam.drafting.units import UNITS
-from graphcam.errors import DesignError, Unquoted, nearest
+from graphcam.errors import DesignError, nearest
 from graphcam.exercises.definition.hands import HandTable
 from graphcam.exercises.definition.marked_formats import PAPERS
 from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.given.ranges import positive
 from graphcam.language import ENGLISH, language, languages
 from graphcam.tasks.sheet_tables import one_of
-from graphcam.words import Tell, Words
+from graphcam.words import Tell, Words, say
 
 Kind = Literal["number", "points", "curve"]
 Of = Literal["value", "paper", "scale"]
@@ -43,17 +43,14 @@ class Parameter:
     def __post_init__(self) -> None:
         grid = (self.start, self.stop, self.step)
         if (self.choices is None) == (None in grid):
-            raise DesignError(
-                "parameter",
-                Unquoted("given in neither or in both ways"),
-                "given by start, stop and step, or by choices",
-            )
+            found = say("given in neither or in both ways")
+            raise DesignError("parameter", found, say("given by start, stop and step, or by choices"))
         if self.choices is not None and not self.choices:
-            raise DesignError("choices", Unquoted("empty"), "a list of one or more")
+            raise DesignError("choices", say("empty"), say("a list of one or more"))
         if self.choices is None:
             positive("step", self.step, "")
             if self.stop is not None and self.start is not None and self.stop < self.start:
-                raise DesignError("stop", self.stop, f"at least start, {self.start:g}")
+                raise DesignError("stop", self.stop, say("at least start, {start:g}", start=self.start))
 
     @cached_property
     def values(self) -> tuple[Value, ...]:
@@ -115,18 +112,21 @@ class Asked:
     def __post_init__(self) -> None:
         positive("marks", self.marks, "")
         if bool(self.reading) == bool(self.points):
-            raise DesignError("reading", self.reading, "given where there are no points", "name a reading or points")
+            limit = say("given where there are no points")
+            raise DesignError("reading", self.reading, limit, say("name a reading or points"))
         if self.kind == "number" and self.points and not self.component:
-            raise DesignError("component", self.component, "x or y where points are asked as a number")
+            raise DesignError("component", self.component, say("x or y where points are asked as a number"))
         if self.kind != "number" and not (self.points and self.layer):
-            raise DesignError("points", self.points, f"given with a layer where a {self.kind} is asked")
+            raise DesignError("points", self.points, say("given with a layer where a {kind} is asked", kind=self.kind))
         if self.layer and not re.fullmatch(r"[\w-]+", self.layer):
-            raise DesignError("layer", self.layer, "of letters, digits, hyphens and underscores")
+            raise DesignError("layer", self.layer, say("of letters, digits, hyphens and underscores"))
         if self.mark not in (marks := MARKS[self.kind if self.kind != "number" or not self.points else "place"]):
             said = ", ".join(mark for mark in marks if mark)
-            raise DesignError("mark", self.mark, f"one of {said} for this answer", "leave it out for the usual one")
+            limit = say("one of {said} for this answer", said=said)
+            raise DesignError("mark", self.mark, limit, say("leave it out for the usual one"))
         if self.mark and self.kind == "number" and not self.place:
-            raise DesignError("place", self.place, "given where a number has a mark", "name the view it is drawn in")
+            limit = say("given where a number has a mark")
+            raise DesignError("place", self.place, limit, say("name the view it is drawn in"))
 
     @property
     def drawn_as(self) -> Drawn:
@@ -196,21 +196,21 @@ class Exercise:
     def __post_init__(self) -> None:
         one_of("language", self.language, languages())
         if not self.answers:
-            raise DesignError("answers", Unquoted("empty"), "a list of one or more")
+            raise DesignError("answers", say("empty"), say("a list of one or more"))
         for paper in self.papers:
             one_of("papers", paper, PAPERS)
         names = [asked.name for asked in self.answers]
         doubled = sorted({name for name in names if names.count(name) > 1})
         if doubled:
-            raise DesignError("answers", doubled[0], "named once each")
+            raise DesignError("answers", doubled[0], say("named once each"))
         for asked in self.answers:
             one_of("kind", asked.kind, ("number", "points", "curve"))
         named = [("marks.caps", name) for name in self.policy.caps]
         named += [("alike", name) for pair in self.alike for name in pair]
         for where, name in named:
             if name not in self.misconceptions:
-                remedy = nearest(name, self.misconceptions) if self.misconceptions else "list it there"
-                raise DesignError(where, name, "one of the misconceptions of this exercise", remedy)
+                remedy = nearest(name, self.misconceptions) if self.misconceptions else say("list it there")
+                raise DesignError(where, name, say("one of the misconceptions of this exercise"), remedy)
 
     @property
     def tell(self) -> Tell:

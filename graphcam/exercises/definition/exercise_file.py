@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.constructions.chain import Chain
-from graphcam.errors import DesignError, TaskError, Unquoted, meant, nearest
+from graphcam.errors import DesignError, TaskError, meant, nearest
 from graphcam.exercises.definition.blank_axes import empty_axes
 from graphcam.exercises.definition.drawn_answers import ask, board_chain, construction_of
 from graphcam.exercises.definition.exercise import Asked, Exercise, Parameter
@@ -21,8 +21,9 @@ from graphcam.exercises.definition.variant import fill_in
 from graphcam.language import ENGLISH, languages
 from graphcam.tasks.sheet_tables import SheetTable
 from graphcam.tasks.task_file import Classes, checked, other_file, parse_toml, read_content
+from graphcam.words import say
 
-HOW_TO = "see exercises/README.md"
+HOW_TO = say("see exercises/README.md")
 NO_KEYS = {"name", "language", "paper"}
 """What an exercise has and its file does not say."""
 
@@ -72,8 +73,8 @@ def on_paper(exercise: Exercise, paper: str) -> Exercise:
     format_ = format_of(paper)
     if format_ not in exercise.papers or paper not in (*PAPERS, TILES):
         made_for = [*exercise.papers, *([TILES] if "A3" in exercise.papers else [])]
-        none = "left out: no paper of this exercise is made to be photographed"
-        raise DesignError("paper", paper, f"one of {', '.join(made_for)}" if made_for else none)
+        none = say("left out: no paper of this exercise is made to be photographed")
+        raise DesignError("paper", paper, say("one of {names}", names=", ".join(made_for)) if made_for else none)
     drawing = dict(exercise.task.get("drawing", {}))
     sheet = {"format": format_, "orientation": orientation_of(paper)}
     if format_ != drawing.get("format", SheetTable.format) or "orientation" in drawing:
@@ -94,8 +95,8 @@ def exercise_path(name: str) -> Path:
     if name.endswith(".toml") or "/" in name:
         return Path(name)
     if name not in library():
-        known = "one that 'graphcam exercise list' names"
-        raise TaskError(name, "the exercise", Unquoted("unknown"), known, nearest(name, library()))
+        known = say("one that 'graphcam exercise list' names")
+        raise TaskError(name, say("the exercise"), say("unknown"), known, nearest(name, library()))
     return _folder() / f"{name}.toml"
 
 
@@ -107,14 +108,14 @@ def load_exercise(path: str | Path, language: str = ENGLISH.name) -> Exercise:
     TaskError : there is no such file, it is not TOML, or a field is missing, unknown or wrong
     """
     path = Path(path)
-    with other_file("exercise file", HOW_TO):
+    with other_file(say("exercise file"), HOW_TO):
         data = parse_toml(str(path), read_content(path))
         if "motion" in data and "task" not in data:
-            remedy = "begin with a copy: 'graphcam exercise copy integration mine.toml'"
-            expected = "an exercise, which has the task in its table [task]"
-            raise TaskError(str(path), "the file", Unquoted("a task"), expected, remedy)
+            remedy = say("begin with a copy: 'graphcam exercise copy integration mine.toml'")
+            expected = say("an exercise, which has the task in its table [task]")
+            raise TaskError(str(path), say("the file"), say("a task"), expected, remedy)
         for key in NO_KEYS & data.keys():
-            raise TaskError(str(path), key, Unquoted("an unknown key"), "one that is known", HOW_TO)
+            raise TaskError(str(path), key, say("an unknown key"), say("one that is known"), HOW_TO)
         told = in_language(str(path), data, language)
         exercise = checked(Exercise, _classes(data), str(path), told, told)
     exercise = dataclasses.replace(exercise, name=path.stem, language=language)
@@ -142,7 +143,7 @@ def _check(path: str, exercise: Exercise) -> None:
         try:
             misconception(name)
         except DesignError as error:
-            raise TaskError(path, "misconceptions", name, error.limit, error.remedy) from None
+            raise TaskError(path, "misconceptions", name, *error.args[2:]) from None
     _check_text(path, exercise)
     first = {name: parameter.values[0] for name, parameter in exercise.parameters.items()}
     task = fill_in(exercise, first, path)
@@ -151,33 +152,33 @@ def _check(path: str, exercise: Exercise) -> None:
             try:
                 fill_in(exercise, {**first, name: value}, path)
             except TaskError as error:
-                place, shown = f"parameters.{name}.choices[{k}]", error.value
-                raise TaskError(path, place, shown, error.expected, error.remedy) from None
+                raise TaskError(path, f"parameters.{name}.choices[{k}]", *error.args[2:]) from None
     chain = board_chain(task)
     shown = worksheet_views(exercise, chain)
     for k, asked in enumerate(exercise.answers):
         if not (asked.name.isascii() and asked.name.isidentifier()) or iskeyword(asked.name):
-            limit = "a name of Latin letters, digits and _, as students write it before their answer"
-            raise TaskError(path, f"answers[{k}].name", asked.name, limit, 'write "v_max"')
+            limit = say("a name of Latin letters, digits and _, as students write it before their answer")
+            raise TaskError(path, f"answers[{k}].name", asked.name, limit, say('write "v_max"'))
         try:
             ask(chain, asked)
             if asked.place and asked.place not in shown:
-                limit = f"a view of the worksheet: {', '.join(shown) or 'none is shown'}"
+                limit = say("a view of the worksheet: {value}", value=", ".join(shown) or say("none is shown"))
                 raise DesignError("place", asked.place, limit, meant(asked.place, shown))
         except DesignError as error:
             place = f"answers[{k}].{error.quantity}"
-            raise TaskError(path, place, error.value, error.limit, error.remedy or HOW_TO) from None
+            raise TaskError(path, place, *error.args[1:3], error.advice or HOW_TO) from None
 
 
 def _check_text(path: str, exercise: Exercise) -> None:
     """Check that the text tells every parameter, and nothing in braces that is none."""
     for said in re.findall(r"\{[^{}]*\}", exercise.text):
         if (name := said[1:-1]) not in exercise.parameters:
-            raise TaskError(path, "text", said, "the name of a parameter in braces", meant(name, exercise.parameters))
+            expected = say("the name of a parameter in braces")
+            raise TaskError(path, "text", said, expected, meant(name, exercise.parameters))
     for name in exercise.parameters:
         if f"{{{name}}}" not in exercise.text:
-            found, limit = Unquoted(f"without {{{name}}}"), "one that tells students every parameter"
-            raise TaskError(path, "text", found, limit, f"write {{{name}}} where its value stands")
+            found, limit = say("without {{{name}}}", name=name), say("one that tells students every parameter")
+            raise TaskError(path, "text", found, limit, say("write {{{name}}} where its value stands", name=name))
 
 
 def worksheet_views(exercise: Exercise, chain: Chain) -> list[str]:
@@ -221,7 +222,7 @@ def _chosen(path: str, place: str, table: Mapping[str, Any], language: str) -> d
             continue
         for name in texts:
             if name not in languages():
-                expected = "a language, one of " + ", ".join(languages())
+                expected = say("a language, one of {names}", names=", ".join(languages()))
                 raise TaskError(path, f"{place}{key}", name, expected, meant(name, languages()))
         first = next(iter(texts.values()))
         found[key] = texts.get(language, texts.get(ENGLISH.name, first))

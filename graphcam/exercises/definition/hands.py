@@ -15,7 +15,8 @@ import numpy as np
 from graphcam.drafting.acts import Floats, Kind
 from graphcam.drafting.pencil import Pencil, Stream
 from graphcam.drafting.slips import SLIPS
-from graphcam.errors import DesignError, meant
+from graphcam.errors import DesignError, among
+from graphcam.words import say
 
 
 class Range(NamedTuple):
@@ -147,13 +148,14 @@ class HandTable:
 
     def __post_init__(self) -> None:
         if self.name not in HANDS:
-            raise DesignError("hand.name", self.name, "one of " + ", ".join(HANDS), meant(self.name, HANDS))
+            raise DesignError("hand.name", self.name, *among(self.name, HANDS))
         for field, said in self._own.items():
             least, greatest = said if isinstance(said, tuple) else (said, said)
             if not 0 <= least <= greatest < math.inf:
-                raise DesignError(f"hand.{field}", said, "0 or more, or the minimum and the maximum of such numbers")
+                limit = say("0 or more, or the minimum and the maximum of such numbers")
+                raise DesignError(f"hand.{field}", said, limit)
         if not self.errors.stretch < 1:
-            raise DesignError("hand.stretch", self.stretch, "a part less than 1, such as 0.005")
+            raise DesignError("hand.stretch", self.stretch, say("a part less than 1, such as 0.005"))
 
     @property
     def _own(self) -> dict[str, Any]:

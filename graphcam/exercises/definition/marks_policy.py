@@ -9,8 +9,9 @@ from functools import cached_property
 from typing import Any
 
 from graphcam.errors import DesignError
+from graphcam.words import say
 
-WHAT_A_CAP_IS = "a mistake and the part of all marks that is left, such as offset-sign=0.5"
+WHAT_A_CAP_IS = say("a mistake and the part of all marks that is left, such as offset-sign=0.5")
 
 
 @dataclass(frozen=True)
@@ -33,9 +34,9 @@ class MarksPolicy:
         parts = {"follow_through": self.follow_through} | {f"caps.{name}": cap for name, cap in self.caps.items()}
         for name, part in parts.items():
             if not 0 <= part <= 1:
-                raise DesignError(name, part, "a part from 0 to 1")
+                raise DesignError(name, part, say("a part from 0 to 1"))
         if not 1 <= self.near < math.inf:
-            raise DesignError("near", self.near, "a number of tolerances, at least 1")
+            raise DesignError("near", self.near, say("a number of tolerances, at least 1"))
 
     @cached_property
     def without_follow_through(self) -> MarksPolicy:

@@ -13,6 +13,7 @@ from graphcam.errors import DesignError, nearest
 # Both enter their mistakes as they are imported.
 from graphcam.exercises.definition import cam_mistakes as cam_mistakes, diagram_mistakes as diagram_mistakes
 from graphcam.exercises.definition.catalogue import CATALOGUE as CATALOGUE, Change
+from graphcam.words import say
 
 
 @dataclass(frozen=True)
@@ -40,10 +41,12 @@ def misconception(name: str) -> Misconception:
     """
     key, _, argument = (part.strip() for part in name.partition(":"))
     if key not in CATALOGUE:
-        raise DesignError("misconception", key, "one of the catalogue", nearest(key, CATALOGUE))
+        raise DesignError("misconception", key, say("one of the catalogue"), nearest(key, CATALOGUE))
     entry = CATALOGUE[key]
     if bool(argument) != bool(entry.takes):
-        wanted = f"followed by a colon and {entry.takes}" if entry.takes else "without an argument"
+        wanted = (
+            say("followed by a colon and {takes}", takes=entry.takes) if entry.takes else say("without an argument")
+        )
         raise DesignError("misconception", name, wanted)
     said = replace(entry.said, values={"argument": LAW_TITLES.get(argument, argument)})
     return Misconception(name, said, entry.change(argument) if entry.takes else entry.change)

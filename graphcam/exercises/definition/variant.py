@@ -64,7 +64,7 @@ def _filled(node: Any, parameters: Mapping[str, Value], path: str) -> Any:
         return node
     sign, name = place.groups()
     if name not in parameters:
-        raise TaskError(path, "task", node, "a parameter in braces", nearest(name, parameters))
+        raise TaskError(path, "task", node, say("a parameter in braces"), nearest(name, parameters))
     value = parameters[name]
     return -value if sign and not isinstance(value, str) else value
 

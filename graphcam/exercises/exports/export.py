@@ -21,6 +21,7 @@ from graphcam.exercises.marking.course_variants import course_variants
 from graphcam.files import OutputError, whole_folder
 from graphcam.language import ENGLISH, languages
 from graphcam.tasks.sheet_tables import one_of
+from graphcam.words import say
 
 MOST = 1000
 """Variants of one export."""
@@ -49,9 +50,9 @@ def export(
     TaskError : two students have one e-mail address, or the system cannot ask for what the exercise asks
     """
     if not 0 < len(students) <= MOST:
-        raise DesignError("number of variants", len(students), f"from 1 to {MOST}")
+        raise DesignError(say("number of variants"), len(students), say("from 1 to {most}", most=MOST))
     if folder.exists():
-        raise OutputError(folder, "it already exists", "choose another folder, or remove that one first")
+        raise OutputError(folder, say("it already exists"), say("choose another folder, or remove that one first"))
     one_of("language", language, languages())
     exercise = find_exercise(name, language, hand)
     emails = student_by_email(students)

@@ -81,8 +81,10 @@ def student_by_email(students: Sequence[Student]) -> dict[str, str]:
     for student in students:
         for name in filter(None, (_plain(student.id), _plain(student.email))):
             if found.setdefault(name, student.id) != student.id:
-                expected = f"another one than that of {found[name]!r}"
-                raise TaskError("the roster", "email", name, expected, "give each student an address of their own")
+                expected = say("another one than that of {found!r}", found=found[name])
+                raise TaskError(
+                    say("the roster"), "email", name, expected, say("give each student an address of their own")
+                )
     return found
 
 

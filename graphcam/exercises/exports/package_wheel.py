@@ -10,9 +10,10 @@ from collections.abc import Iterator
 from importlib import metadata, resources
 from pathlib import Path, PurePosixPath
 
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise_file import exercise_path, library
 from graphcam.exercises.exports.repeatable_zip import write_zip
+from graphcam.words import say
 
 PACKAGE = "graphcam"
 LIBRARY = f"{PACKAGE}/exercises/library"
@@ -31,8 +32,8 @@ def write_wheel(folder: Path) -> Path:
     try:
         distribution = metadata.distribution(PACKAGE)
     except metadata.PackageNotFoundError:
-        remedy = "install it with pip, a checkout with 'pip install -e .'"
-        raise TaskError(PACKAGE, "the package", Unquoted("not installed"), "installed", remedy) from None
+        remedy = say("install it with pip, a checkout with 'pip install -e .'")
+        raise TaskError(PACKAGE, say("the package"), say("not installed"), say("installed"), remedy) from None
     about = f"{PACKAGE}-{distribution.version}.dist-info"
     held = dict(_package()) | dict(_about(distribution, about))
     record = [f"{name},sha256={_digest(data)},{len(data)}" for name, data in held.items()]

@@ -8,7 +8,7 @@ from fractions import Fraction
 from io import BytesIO
 from typing import NamedTuple
 
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
 from graphcam.exercises.course.handouts import worksheet
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.exercise import Asked, Exercise
@@ -49,8 +49,10 @@ def check_numbers(exercise: Exercise) -> None:
     TaskError : no answer of the exercise is a number
     """
     if all(asked.kind != "number" for asked in exercise.answers):
-        remedy = "export with --format moodle, which asks for drawings"
-        raise TaskError(f"exercise {exercise.name}", "answers", Unquoted("all drawn"), "one or more numbers", remedy)
+        remedy = say("export with --format moodle, which asks for drawings")
+        raise TaskError(
+            say("exercise {name}", name=exercise.name), "answers", say("all drawn"), say("one or more numbers"), remedy
+        )
 
 
 def asked_text(exercise: Exercise, answer_key: AnswerKey, asked: Asked) -> str:

@@ -144,8 +144,9 @@ page, with https:// before it; put the page there with 'graphcam studio --site'
     """
     parts = urlsplit(url)
     if parts.scheme not in ("http", "https", "file") or parts.fragment or not (parts.netloc or parts.path):
-        remedy = "put the page there with 'graphcam studio --site'"
-        raise TaskError("--studio", "the address", url, "that of the studio's page, with https:// before it", remedy)
+        remedy = say("put the page there with 'graphcam studio --site'")
+        what = say("the address")
+        raise TaskError("--studio", what, url, say("that of the studio's page, with https:// before it"), remedy)
 
 
 def write_links(folder: Path, secret_file: Path | None, url: str, *, checks: bool = False) -> int:

@@ -50,7 +50,9 @@ def attempt_rule_of(text: str) -> AttemptRule:
     """
     found = re.fullmatch(r"(last|best)(?::([1-9]\d{0,3}))?", text.strip())
     if not found or int(found[2] or 1) > MOST_ATTEMPTS:
-        allowed = f"last or best, perhaps with how many may count, at most {MOST_ATTEMPTS}, such as best:3"
+        allowed = say(
+            "last or best, perhaps with how many may count, at most {most}, such as best:3", most=MOST_ATTEMPTS
+        )
         raise DesignError("--attempts", text, allowed)
     return AttemptRule("best" if found[1] == "best" else "last", int(found[2]) if found[2] else None)
 

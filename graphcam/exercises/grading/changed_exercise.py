@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
 from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.words import say
 
 LOOKED_AT = 5
 """Answer keys that are compared; one that somebody has changed alone is made again."""
-REMEDY = "put the file back as it was; marks, caps and texts may change"
+REMEDY = say("put the file back as it was; marks, caps and texts may change")
 
 
 def check_unchanged(exercise: Exercise, kept: AnswerKeys, students: Iterable[str], secret: bytes) -> None:
@@ -35,7 +36,7 @@ def check_unchanged(exercise: Exercise, kept: AnswerKeys, students: Iterable[str
         else:
             return
     if others:
-        raise TaskError(place, others[0], Unquoted("changed"), "as it was when the handouts were made", REMEDY)
+        raise TaskError(place, others[0], say("changed"), say("as it was when the handouts were made"), REMEDY)
 
 
 def _known(kept: AnswerKeys, students: Iterable[str], name: str) -> list[AnswerKey]:

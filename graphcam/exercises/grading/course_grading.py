@@ -19,7 +19,7 @@ from typing import Any
 import graphcam
 from graphcam.drafting.ink import say
 from graphcam.drafts import clear_drafts
-from graphcam.errors import MissingFileError, TaskError, Unquoted, installed
+from graphcam.errors import MissingFileError, TaskError, installed
 from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.course.found_answers import Look
 from graphcam.exercises.course.hand_ins import HandIn, Refused, hand_ins_in
@@ -47,7 +47,7 @@ from graphcam.exercises.running.levels import Level, ResourceLimits
 from graphcam.exercises.running.probe import LevelError, require
 from graphcam.files import OutputError
 from graphcam.locks import locked_folder
-from graphcam.words import plain
+from graphcam.words import Caption, Words
 from graphcam.workers import BATCH, WorkerPool, results, worker_pool
 
 Records = list[dict[str, Any]]
@@ -93,7 +93,7 @@ class Store:
                 stack.enter_context(locked_folder(self.folder))
             except BlockingIOError:
                 out = self.folder.with_name(self.folder.name.rpartition("-")[0][1:])
-                raise OutputError(out, "another run is grading into it", "wait until it ends") from None
+                raise OutputError(out, say("another run is grading into it"), say("wait until it ends")) from None
             # Where nothing was graded, nothing is left.
             stack.callback(_remove_empty, (self.folder, self.folder.parent)[: 1 + made])
             yield
@@ -148,9 +148,9 @@ def _remove_empty(folders: Iterable[Path]) -> None:
             folder.rmdir()
 
 
-UNTRUSTED = (
-    "code there can read and change what you can: the secret, the answers of others, the grades; choose level L2, or "
-    "add --i-trust-these-students"
+UNTRUSTED = say(
+    "code there can read and change what you can: the secret, the answers of others, the "
+    "grades; choose level L2, or add --i-trust-these-students"
 )
 """What level L1 does not hold."""
 
@@ -199,8 +199,8 @@ class Course:
     show_right: bool = False
 
 
-def grade_course(course: Course, step: Callable[[int, int], None] = lambda done, total: None) -> str:
-    """Grade a course and write its reports; what was done, in a sentence.
+def grade_course(course: Course, step: Callable[[int, int], None] = lambda done, total: None) -> list[Caption]:
+    """Grade a course and write its reports; what was done, in lines.
 
     Raises
     ------
@@ -209,8 +209,8 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     _check_places(course)
     folder, kept = AnswerKeys.of(course.folder)
     if not course.folder.is_dir() and not kept.course():
-        remedy = "put it beside the folder 'teacher' of its course, or unpack it"
-        raise TaskError(str(course.folder), "the zip", Unquoted("elsewhere"), "beside the answer keys", remedy)
+        remedy = say("put it beside the folder 'teacher' of its course, or unpack it")
+        raise TaskError(str(course.folder), say("the zip"), say("elsewhere"), say("beside the answer keys"), remedy)
     exercise = _exercise(course, kept)
     if course.level is Level.L1 and not course.trusted:
         raise LevelError(course.level, UNTRUSTED)
@@ -273,18 +273,19 @@ def _graded(
             store.note_pages(course.feedback)
             folders = {one.student: one.path for one in hand_ins}
             write_feedback(course.feedback, exercise, records, answer_keys, names, folders, right=course.show_right)
-        told = [plain(f"not graded: {one.place}: {one.why}") for one in refused]
+        told = [say("not graded: {place}: {why}", place=one.place, why=one.why) for one in refused]
         if course.gradebook:
             told += enter_scores(course.gradebook, exercise, graded, kept.folder / ENTERED)
         told += closing_lines(records, called, {one.student for one in silent}, pairs, awaiting, course.out.stem)
         store.clear()
     # Which of the bounds on memory was in force: the kernel's own are seldom given to users.
-    level = f"{course.level}"
+    level: Words = f"{course.level}"
     if assignment.memory:
-        level = plain(f"{course.level} (memory watched, {assignment.memory} MiB for all processes)")
-    listed = ", ".join(files)
-    done = plain(f"submissions graded: {len(graded)}, at level {level}; in {course.out.parent}: {listed}")
-    return "\n".join([done, *map(_line, told)])
+        watched = say("{level} (memory watched, {memory} MiB for all processes)")
+        level = watched.where(level=level, memory=assignment.memory)
+    done = say("submissions graded: {count}, at level {level}; in {folder}: {files}")
+    done = done.where(count=len(graded), level=level, folder=str(course.out.parent), files=", ".join(files))
+    return [done, *told]
 
 
 def _check_nobody_waits(late: LateRules | None, now: datetime) -> None:
@@ -296,8 +297,8 @@ def _check_nobody_waits(late: LateRules | None, now: datetime) -> None:
     """
     if late is not None and not late.deadlines.past(now):
         last = late.deadlines.last.isoformat(" ", timespec="minutes")
-        remedy = "wait until then, or leave the option out"
-        raise TaskError("--show-right", "the last deadline, extensions included,", last, "past", remedy)
+        remedy = say("wait until then, or leave the option out")
+        raise TaskError("--show-right", say("the last deadline, extensions included,"), last, say("past"), remedy)
 
 
 def _shown_names(course: Course, assignment: Assignment, hand_ins: Sequence[HandIn]) -> ShownNames:
@@ -312,41 +313,35 @@ def _shown_names(course: Course, assignment: Assignment, hand_ins: Sequence[Hand
     students = {one.student for one in hand_ins}
     pages = [course.feedback / f"{folder_name(student)}.html" for student in students if course.feedback]
     if course.feedback and any(page.exists() for page in pages):
-        raise OutputError(course.feedback, "it has pages under the students' ids", "name another folder")
+        raise OutputError(course.feedback, say("it has pages under the students' ids"), say("name another folder"))
     return ShownNames(hidden_names(assignment.secret, assignment.exercise.name, students))
-
-
-def _line(text: str) -> str:
-    """A line for the terminal: a name may hold what is no line, and what a terminal obeys."""
-    return text if text.isprintable() else ascii(text)
 
 
 def _check_places(course: Course) -> None:
     """What must not first come out when all is graded."""
     if not course.folder.is_dir() and not zipfile.is_zipfile(course.folder):
         if not course.folder.exists():
-            raise MissingFileError(str(course.folder), kind="folder")
-        wanted = "one with a folder for every student, or a zip file"
-        raise TaskError(str(course.folder), "the folder", Unquoted("a file"), wanted, "check the name")
+            raise MissingFileError(str(course.folder), kind=say("folder"))
+        wanted = say("one with a folder for every student, or a zip file")
+        raise TaskError(str(course.folder), say("the folder"), say("a file"), wanted, say("check the name"))
     if course.out.suffix.lower() != ".csv" and not course.out.is_dir():
-        raise OutputError(course.out, "the grades are a CSV file", "name a file that ends in .csv")
+        raise OutputError(course.out, say("the grades are a CSV file"), say("name a file that ends in .csv"))
     if course.out.is_dir():
-        raise OutputError(course.out, "it is a folder", "name a file, grades.csv")
+        raise OutputError(course.out, say("it is a folder"), say("name a file, grades.csv"))
     if course.feedback is not None and course.feedback.exists() and not course.feedback.is_dir():
-        raise OutputError(course.feedback, "it is a file", "name a folder for the pages")
+        raise OutputError(course.feedback, say("it is a file"), say("name a folder for the pages"))
 
 
 def _exercise(course: Course, kept: AnswerKeys) -> Exercise:
     """The exercise that the course is noted to be about, or else the one that is named."""
     noted = kept.exercise()
     if not noted and not course.exercise:
-        raise TaskError(
-            str(course.folder), "the exercise", Unquoted("not noted there"), "known", "name it with --exercise"
-        )
+        what = say("the exercise")
+        raise TaskError(str(course.folder), what, say("not noted there"), say("known"), say("name it with --exercise"))
     exercise = find_exercise(course.exercise or noted, kept.language(), kept.hand(), kept.paper())
     if noted and exercise.name != Path(noted).stem:
-        made_for = f"{Path(noted).stem!r}, which {course.folder} was made for"
-        raise TaskError("--exercise", "the exercise", exercise.name, made_for, "leave the option out")
+        made_for = say("{stem!r}, which {folder} was made for", stem=Path(noted).stem, folder=course.folder)
+        raise TaskError("--exercise", say("the exercise"), exercise.name, made_for, say("leave the option out"))
     return _with_marks(exercise, course.marks)
 
 

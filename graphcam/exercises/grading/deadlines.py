@@ -11,11 +11,12 @@ from graphcam.errors import DesignError
 from graphcam.exercises.course.hand_in_times import TIME_FORM, moment, time_in
 from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.student_table import once, student_lines
+from graphcam.words import say
 
 EXTENSIONS = "extensions.csv"
 """The teacher's table of deadlines of single students."""
 PERIODS = {"day": timedelta(days=1), "hour": timedelta(hours=1)}
-PENALTY_FORM = (
+PENALTY_FORM = say(
     "the part lost per started day or hour, and perhaps the minimum part left, such as 0.1/day or 0.1/day:0.5"
 )
 
@@ -87,7 +88,7 @@ def deadline_of(text: str) -> datetime:
     """
     found = moment(text)
     if found is None:
-        raise DesignError("--deadline", text, TIME_FORM, "give the time of the day too")
+        raise DesignError("--deadline", text, TIME_FORM, say("give the time of the day too"))
     return found
 
 
@@ -103,7 +104,7 @@ def late_penalty_of(text: str) -> LatePenalty:
     """
     found = re.fullmatch(r"(\d*\.?\d+)/(day|hour)(?::(\d*\.?\d+))?", text.strip())
     if not found or not 0 < float(found[1]) <= 1 or float(found[3] or 0) > 1:
-        raise DesignError("--late", text, PENALTY_FORM, "parts go from 0 to 1")
+        raise DesignError("--late", text, PENALTY_FORM, say("parts go from 0 to 1"))
     return LatePenalty(float(found[1]), found[2], float(found[3] or 0))
 
 
@@ -114,5 +115,5 @@ def read_extensions(path: Path, known: Recognition) -> dict[str, datetime]:
     ------
     TaskError : the file cannot be read, or a line of it names a student or a deadline that cannot be
     """
-    lines = student_lines(path, "the table of extensions", ("student", "deadline"), known)
-    return {line.student: time_in(line, "deadline") for line in once(lines, (), "give each student once")}
+    lines = student_lines(path, say("the table of extensions"), ("student", "deadline"), known)
+    return {line.student: time_in(line, "deadline") for line in once(lines, (), say("give each student once"))}

@@ -83,7 +83,7 @@ class LateError(BaseException):
     """
 
     def __str__(self) -> str:
-        return f"it took more than {self.args[0]:g} s"
+        return say("it took more than {args:g} s", args=self.args[0])
 
 
 @dataclass(frozen=True)

@@ -7,11 +7,12 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.grading.overrides import TOTAL
-from graphcam.words import plain
+from graphcam.words import Caption, say
 
+BY_HAND = say("{student}: the total given by hand is not in the grade book, which adds up the answers")
 ENTERED = "gradebook.json"
 """The teacher's file of what was entered into grade books."""
 Entered = dict[str, dict[str, list[Any]]]
@@ -36,14 +37,15 @@ def check_gradebook(database: str) -> None:
     try:
         create_engine(database).connect().close()
     except SQLAlchemyError as error:
-        why = f"{database} ({getattr(error, 'orig', None) or 'no address of a database'})"
-        remedy = "sqlite:///gradebook.db is the file gradebook.db in this folder"
-        raise TaskError(
-            "--gradebook", "the grade book", Unquoted(why), "a database that can be opened", remedy
-        ) from None
+        why = say(
+            "{database} ({value})", database=database, value=getattr(error, "orig", None) or "no address of a database"
+        )
+        remedy = say("sqlite:///gradebook.db is the file gradebook.db in this folder")
+        what = say("the grade book")
+        raise TaskError("--gradebook", what, why, say("a database that can be opened"), remedy) from None
 
 
-def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, Any]], entered: Path) -> list[str]:
+def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, Any]], entered: Path) -> list[Caption]:
     """Enter scores and comments into the grade book of a course that was exported for nbgrader.
 
     What somebody has changed there since stays, and is told: a sentence for each.
@@ -81,9 +83,7 @@ def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, 
                 handed_in = book.find_submission_notebook(NOTEBOOK, exercise.name, student)
                 handed_in.late_submission_penalty = max(record["late"]["earned"] - record["total"], 0.0)
             if any(one["answer"] == TOTAL for one in record.get("overrides", [])):
-                told.append(
-                    plain(f"{student}: the total given by hand is not in the grade book, which adds up the answers")
-                )
+                told.append(BY_HAND.where(student=student))
         book.db.commit()
     entered.parent.mkdir(parents=True, exist_ok=True)
     draft = entered.with_name(f"{entered.name}.new")
@@ -103,22 +103,23 @@ def _noted(entered: Path) -> dict[str, Entered]:
 
 def _enter(
     book: Any, assignment: str, record: dict[str, Any], answer: dict[str, Any], former: dict[str, list[Any]]
-) -> list[str]:
+) -> list[Caption]:
     """Enter one answer's score and comment, each unless it is somebody's; a sentence where it is."""
     where = answer["name"], NOTEBOOK, assignment, record["student"]
     grade, comment = book.find_grade(*where), book.find_comment(*where)
     said = "\n".join(each for each in record["feedback"] if each.startswith(f"{answer['name']}:"))
     marks, words = former.get(answer["name"], [None, None])
-    told: list[str] = []
+    told: list[Caption] = []
     place = f"{record['student']}, {answer['name']}"
     if grade.manual_score in (None, marks, answer["marks"]):
         grade.manual_score, grade.needs_manual_grade = answer["marks"], False
         marks = answer["marks"]
     else:
-        told.append(plain(f"{place}: the grade book keeps {grade.manual_score:g}, not {answer['marks']:g}"))
+        keeps = say("{place}: the grade book keeps {kept:g}, not {found:g}")
+        told.append(keeps.where(place=place, kept=grade.manual_score, found=answer["marks"]))
     if comment.manual_comment in (None, "", words, said):
         comment.manual_comment = words = said
     else:
-        told.append(plain(f"{place}: the grade book keeps its comment"))
+        told.append(say("{place}: the grade book keeps its comment", place=place))
     former[answer["name"]] = [marks, words]
     return told

@@ -17,7 +17,7 @@ OVERRIDES = "overrides.csv"
 TOTAL = "total"
 """The word in place of an answer's name: the marks are for the whole hand-in."""
 COLUMNS = ("student", "answer", "marks", "comment")
-ABSENT = "give the marks as the total"
+ABSENT = say("give the marks as the total")
 """What to do about an answer of a student who did not hand in."""
 
 
@@ -41,8 +41,8 @@ def read_overrides(path: Path, exercise: Exercise, known: Recognition, handed_in
     TaskError : the file cannot be read, or a line of it names a student, an answer or marks that there are not
     """
     possible = {asked.name: asked.marks for asked in exercise.answers} | {TOTAL: exercise.marks}
-    lines = student_lines(path, "the table of overrides", COLUMNS, known)
-    single = once(lines, ("answer",), "give each answer of a student once")
+    lines = student_lines(path, say("the table of overrides"), COLUMNS, known)
+    single = once(lines, ("answer",), say("give each answer of a student once"))
     return [_override(line, possible, absent=line.student not in handed_in) for line in single]
 
 
@@ -52,16 +52,17 @@ def _override(line: StudentLine, possible: Mapping[str, float], *, absent: bool)
     possible : marks by the answer's name;  absent : the student has not handed in
     """
     if absent and line["answer"] != TOTAL:
-        raise line.wrong("answer", f"{TOTAL}: {line.student} has not handed in", ABSENT)
+        limit = say("{total}: {student} has not handed in", total=TOTAL, student=line.student)
+        raise line.wrong("answer", limit, ABSENT)
     if line["answer"] not in possible:
-        raise line.wrong("answer", f"one of {', '.join(possible)}", "check the name")
+        raise line.wrong("answer", say("one of {names}", names=", ".join(possible)), say("check the name"))
     most = possible[line["answer"]]
     try:
         marks = float(line["marks"].replace(",", "."))
     except ValueError:
         marks = math.nan
     if not 0 <= marks <= most:
-        raise line.wrong("marks", f"a number from 0 to {most:g}", "correct the line")
+        raise line.wrong("marks", say("a number from 0 to {most:g}", most=most), say("correct the line"))
     return Override(line.student, line["answer"], marks, " ".join(line["comment"].split()))
 
 

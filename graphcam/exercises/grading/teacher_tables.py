@@ -6,7 +6,7 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
 from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.course.hand_in_times import SUBMITTED_TIMES, HandInTime, hand_in_times, read_times
 from graphcam.exercises.course.hand_ins import HandIn, course_students
@@ -19,6 +19,7 @@ from graphcam.exercises.grading.deadlines import EXTENSIONS, Deadlines, LatePena
 from graphcam.exercises.grading.handed_in import with_absence
 from graphcam.exercises.grading.lateness import NO_PENALTY, LateRules, penalised, timed
 from graphcam.exercises.grading.overrides import OVERRIDES, TOTAL, Override, overridden, read_overrides
+from graphcam.words import say
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,8 @@ def late_rules(course: HandedInCourse, deadline: datetime | None, penalty: LateP
     """
     if deadline is None:
         if penalty != NO_PENALTY:
-            raise TaskError("--late", "the deadline", Unquoted("not given"), "given", "name it with --deadline")
+            what = say("the deadline")
+            raise TaskError("--late", what, say("not given"), say("given"), say("name it with --deadline"))
         return None
     path = course.table(EXTENSIONS)
     return LateRules(Deadlines(deadline, read_extensions(path, course.students()) if path else {}), penalty)

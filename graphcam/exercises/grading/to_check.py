@@ -6,7 +6,7 @@ from typing import Any
 from graphcam.exercises.marking.copies import AlikePair
 from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.student_rows import is_unanswered
-from graphcam.words import plain
+from graphcam.words import Caption, say
 
 MOST_NAMED = 5
 """Students that a line names; the page names all."""
@@ -19,7 +19,7 @@ def closing_lines(
     pairs: Sequence[AlikePair],
     awaiting: Sequence[str],
     stem: str,
-) -> list[str]:
+) -> list[Caption]:
     """Lines on who has not handed in, and on what needs a look.
 
     called : the students of the course by id;  stem : of the files' names
@@ -28,18 +28,20 @@ def closing_lines(
     return [*not_handed_in(called, graded, unread), *to_check(records, unread, pairs, awaiting, f"{stem}.html")]
 
 
-def not_handed_in(called: Mapping[str, str], graded: Sequence[Mapping[str, Any]], unread: Collection[str]) -> list[str]:
+def not_handed_in(
+    called: Mapping[str, str], graded: Sequence[Mapping[str, Any]], unread: Collection[str]
+) -> list[Caption]:
     """A line on who of the course has handed nothing in; none where everybody has.
 
     called : the students of the course by id
     graded : the records of those who have;  unread : who has handed in what cannot be read
 
-    >>> not_handed_in({"s1": "", "s2": "Ben"}, [{"student": "s1"}], [])
-    ['not handed in: s2']
+    >>> print(*not_handed_in({"s1": "", "s2": "Ben"}, [{"student": "s1"}], []))
+    not handed in: s2
     """
     there = {record["student"] for record in graded}
     missing = sorted(student for student in called if student not in there and student not in unread)
-    return [plain(f"not handed in: {', '.join(missing)}")] if missing else []
+    return [say("not handed in: {names}", names=", ".join(missing))] if missing else []
 
 
 def to_check(
@@ -48,26 +50,26 @@ def to_check(
     pairs: Sequence[AlikePair],
     awaiting: Sequence[str],
     page: str,
-) -> list[str]:
+) -> list[Caption]:
     """What needs a look, a line each; none where nothing does.
 
     unread : who has handed in what cannot be read
     pairs : who agrees beyond chance;  awaiting : whose photographs nobody has looked at
     page : the file that tells all
 
-    >>> to_check([], ["s1"], [], [], "grades.html")
-    ['to check: submissions without readable answers: 1 (s1); see grades.html']
+    >>> print(*to_check([], ["s1"], [], [], "grades.html"))
+    to check: submissions without readable answers: 1 (s1); see grades.html
     """
     silent = sorted({*unread, *(record["student"] for record in records if is_unanswered(record))})
     exact = [record["student"] for record in records if is_handed_in(record) and record["too_exact"]]
     agree = [f"{pair.student} and {pair.other}" for pair in pairs]
     lines = (
-        (silent, plain(f"to check: submissions without readable answers: {len(silent)} ({_some(silent)}); see {page}")),
-        (agree, plain(f"to check: pairs that agree too well: {len(agree)} ({_some(agree)}); see {page}")),
-        (exact, plain(f"to check: readings as exact as by a program: {len(exact)} ({_some(exact)}); see {page}")),
-        (awaiting, plain(f"to check: drawings that await review: {len(awaiting)} ({_some(awaiting)}); see {page}")),
+        (silent, say("to check: submissions without readable answers: {count} ({some}); see {page}")),
+        (agree, say("to check: pairs that agree too well: {count} ({some}); see {page}")),
+        (exact, say("to check: readings as exact as by a program: {count} ({some}); see {page}")),
+        (awaiting, say("to check: drawings that await review: {count} ({some}); see {page}")),
     )
-    return [line for found, line in lines if found]
+    return [line.where(count=len(found), some=_some(found), page=page) for found, line in lines if found]
 
 
 def _some(students: Sequence[str]) -> str:

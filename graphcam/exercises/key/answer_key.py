@@ -13,10 +13,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeVar
 
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise import Value
 from graphcam.exercises.key.expectation import Expected, from_stored, stored
 from graphcam.exercises.key.follow_through import Dependence
+from graphcam.words import say
 
 FORMAT = 2
 STORED_AS_THEY_ARE = (
@@ -154,9 +155,10 @@ class AnswerKey:
         try:
             return _read(json.loads(text))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            found, wanted = f"not readable ({error})", f"an answer key of format {FORMAT}"
-            remedy = "make it again with 'graphcam exercise make'"
-            raise TaskError(path, "the answer key", Unquoted(found), wanted, remedy) from None
+            found = say("not readable ({error})", error=str(error))
+            wanted = say("an answer key of format {format}", format=FORMAT)
+            remedy = say("make it again with 'graphcam exercise make'")
+            raise TaskError(path, say("the answer key"), found, wanted, remedy) from None
 
 
 def _read(said: dict[str, Any]) -> AnswerKey:

@@ -13,6 +13,7 @@ from graphcam.errors import DesignError, GraphcamError
 from graphcam.exercises.definition.drawn_answers import construction_of
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.key.separation import CAREFUL
+from graphcam.words import Caption, say
 
 Kind = Literal["nothing", "mistake", "room", "alike", "sides", "number"]
 ENOUGH = 40
@@ -78,40 +79,44 @@ class Refusals:
         reason = max(self.counts, key=lambda each: (self.counts[each], self.certain[each]))
         asked = telling(self.last[reason].drawings or {}, reason.first, reason.second)
         remedy = _remedy(reason, self.counts[reason], asked)
-        return DesignError("exercise", self.exercise.name, f"diagnosable in {self.draws} draws", remedy)
+        limit = say("diagnosable in {draws} draws", draws=self.draws)
+        return DesignError("exercise", self.exercise.name, limit, remedy)
 
 
-def _remedy(reason: Reason, count: int, asked: str) -> str:
-    first, second = reason.first, reason.second
-    if reason.kind == "alike" and second == CAREFUL:
-        if asked:
-            return f"in {count} of them '{first}' cannot be told from right work; ask for {asked} or leave it out"
-        return f"in {count} of them '{first}' cannot be told from right work; leave it out or widen the parameters"
-    if reason.kind == "alike":
-        if asked:
-            return (
-                f"in {count} of them '{first}' cannot be told from '{second}'; ask for {asked}, leave one of the two "
-                "out, or list the pair in alike"
-            )
-        return (
-            f"in {count} of them '{first}' cannot be told from '{second}'; leave one of the two out, or list the pair "
-            "in alike"
-        )
-    if reason.kind == "mistake":
-        return f"in {count} of them nothing can be drawn to the end with '{first}'; leave it out, or ask for less"
-    if reason.kind == "room":
-        return (
-            f"in {count} of them the diagrams do not fit on the worksheet; choose a smaller ordinate or longer poles, "
-            "or leave both out"
-        )
-    if reason.kind == "sides":
-        return f"in {count} of them careful work finds an extreme on either side; ask for another reading"
-    if reason.kind == "number":
-        return (
-            f"in {count} of them one number, given for every answer, earns more than half of the marks; ask for more "
-            "readings, or change their marks"
-        )
-    return f"in {count} of them nothing can be drawn; change the ranges of the parameters"
+ALIKE = (
+    say(
+        "in {count} of them '{first}' cannot be told from '{second}'; leave one of the two out, or list the pair in "
+        "alike"
+    ),
+    say(
+        "in {count} of them '{first}' cannot be told from '{second}'; ask for {asked}, leave one of the two out, or "
+        "list the pair in alike"
+    ),
+)
+NOT_RIGHT = (
+    say("in {count} of them '{first}' cannot be told from right work; leave it out or widen the parameters"),
+    say("in {count} of them '{first}' cannot be told from right work; ask for {asked} or leave it out"),
+)
+REMEDIES: Mapping[Kind, Caption] = {
+    "nothing": say("in {count} of them nothing can be drawn; change the ranges of the parameters"),
+    "mistake": say("in {count} of them nothing can be drawn to the end with '{first}'; leave it out, or ask for less"),
+    "room": say(
+        "in {count} of them the diagrams do not fit on the worksheet; choose a smaller ordinate or longer poles, or "
+        "leave both out"
+    ),
+    "sides": say("in {count} of them careful work finds an extreme on either side; ask for another reading"),
+    "number": say(
+        "in {count} of them one number, given for every answer, earns more than half of the marks; ask for more "
+        "readings, or change their marks"
+    ),
+}
+
+
+def _remedy(reason: Reason, count: int, asked: str) -> Caption:
+    """What to do about it; ``asked`` is a reading that would tell two drawings apart."""
+    alike = (NOT_RIGHT if reason.second == CAREFUL else ALIKE)[bool(asked)]
+    told = alike if reason.kind == "alike" else REMEDIES[reason.kind]
+    return told.where(count=count, first=reason.first, second=reason.second, asked=asked)
 
 
 def telling(drawings: Mapping[str, Chain], first: str, second: str) -> str:

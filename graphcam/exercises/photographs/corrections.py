@@ -11,12 +11,13 @@ from typing import Any, Literal
 
 import numpy as np
 
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise import Exercise, Given
 from graphcam.exercises.photographs.read_photo import pairs
 from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
 from graphcam.exercises.reading.values import Points, number, points
 from graphcam.files import whole_file
+from graphcam.words import Words, bare, say
 
 FORMAT = 1
 KEPT = "photo-corrections.json"
@@ -28,7 +29,7 @@ STRETCH = (0.97, 1.03)
 FARTHEST = 2000.0
 """mm from the view's origin: no paper is larger."""
 Verdict = Literal["corrected", "confirmed", "left out"]
-BY_REVIEW = "export the corrections from the review page again"
+BY_REVIEW = say("export the corrections from the review page again")
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,19 +124,19 @@ def read_corrections(path: Path, exercise: Exercise, students: Collection[str]) 
         text = read_regular(path, LARGEST).decode("utf-8")
         said = json.loads(text)
     except UnreadableError as error:
-        raise TaskError(
-            str(path), "the file", Unquoted(f"not readable ({error})"), "a file of corrections", "check the name"
-        ) from None
+        what, found = say("the file"), say("not readable ({error})", error=error.why)
+        raise TaskError(str(path), what, found, say("a file of corrections"), say("check the name")) from None
     except (ValueError, RecursionError):
-        raise TaskError(str(path), "the file", Unquoted("not JSON"), "a file of corrections", BY_REVIEW) from None
+        raise TaskError(str(path), say("the file"), say("not JSON"), say("a file of corrections"), BY_REVIEW) from None
     reader = _Reader(str(path), exercise)
-    table = reader.table("the file", said, {"format", "exercise", "students"})
+    table = reader.table(say("the file"), said, {"format", "exercise", "students"})
     reader.one_of("format", table["format"], (FORMAT,))
     reader.one_of("exercise", table["exercise"], (exercise.name,))
     listed = reader.table("students", table["students"])
     for student in listed:
         if student not in students:
-            raise TaskError(str(path), "students", student, "ids of this course", "use the corrections of this course")
+            expected = say("ids of this course")
+            raise TaskError(str(path), "students", student, expected, say("use the corrections of this course"))
     return {student: reader.student(f"students.{student}", one) for student, one in listed.items()}
 
 
@@ -146,25 +147,26 @@ class _Reader:
     path: str
     exercise: Exercise
 
-    def wrong(self, where: str, value: object, allowed: str) -> TaskError:
+    def wrong(self, where: Words, value: object, allowed: Words) -> TaskError:
         """The error about a value."""
         if isinstance(value, str):
             return TaskError(self.path, where, value[:60], allowed, BY_REVIEW)
         shown = f"{value}"[:60] if isinstance(value, int | float | None) else f"a {type(value).__name__}"
-        return TaskError(self.path, where, Unquoted(shown), allowed, BY_REVIEW)
+        return TaskError(self.path, where, bare(shown), allowed, BY_REVIEW)
 
-    def table(self, where: str, said: Any, names: set[str] | None = None) -> dict[str, Any]:
+    def table(self, where: Words, said: Any, names: set[str] | None = None) -> dict[str, Any]:
         """A table, with exactly these names if they are given."""
         if not isinstance(said, dict):
-            raise self.wrong(where, said, "a table")
+            raise self.wrong(where, said, say("a table"))
         if names is not None and said.keys() != names:
-            raise self.wrong(where, ", ".join(map(str, said)), f"a table of {', '.join(sorted(names))}")
+            limit = say("a table of {names}", names=", ".join(sorted(names)))
+            raise self.wrong(where, ", ".join(map(str, said)), limit)
         return said
 
     def one_of(self, where: str, said: Any, allowed: tuple[Any, ...]) -> Any:
         """One of the allowed values, of the same type."""
         if not any(type(said) is type(one) and said == one for one in allowed):
-            raise self.wrong(where, said, f"one of {', '.join(map(str, allowed))}")
+            raise self.wrong(where, said, say("one of {names}", names=", ".join(map(str, allowed))))
         return said
 
     def student(self, where: str, said: Any) -> StudentCorrections:
@@ -183,31 +185,32 @@ class _Reader:
         asked = next((one for one in self.exercise.answers if one.name == name), None)
         if asked is None:
             names = ", ".join(one.name for one in self.exercise.answers)
-            raise self.wrong(where, name, f"one of the answers {names}")
+            raise self.wrong(where, name, say("one of the answers {names}", names=names))
         table = self.table(where, said, {"verdict", "value", "photo"})
         # Nothing but a drawing is read, so nothing else can be right as it was read.
         verdicts = ("corrected", "confirmed", "left out") if asked.drawn_as else ("corrected",)
         verdict = self.one_of(f"{where}.verdict", table["verdict"], verdicts)
         photo = table["photo"]
         if not isinstance(photo, str) or len(photo) > 200:
-            raise self.wrong(f"{where}.photo", photo, "a digest")
+            raise self.wrong(f"{where}.photo", photo, say("a digest"))
         if verdict != "corrected":
             self.one_of(f"{where}.value", table["value"], (None,))
             return Correction(verdict, None, photo)
         try:
             given: Given = points(name, table["value"]) if asked.drawn_as else number(name, table["value"])
         except UnreadableError as error:
-            raise self.wrong(f"{where}.value", str(error), "as the answer is asked") from None
+            raise self.wrong(f"{where}.value", str(error), say("as the answer is asked")) from None
         if isinstance(given, np.ndarray) and np.abs(given).max() > FARTHEST:
-            raise self.wrong(f"{where}.value", f"{np.abs(given).max():g} mm away", f"within {FARTHEST:g} mm")
+            found, limit = f"{np.abs(given).max():g} mm away", say("within {farthest:g} mm", farthest=FARTHEST)
+            raise self.wrong(f"{where}.value", found, limit)
         return Correction(verdict, given, photo)
 
     def lengths(self, where: str, page: str, said: Any) -> tuple[int, tuple[float | None, float | None]]:
         """A page, and what its bars measure."""
         if not (page.isascii() and page.isdecimal() and 0 < int(page[:4]) < 1000):
-            raise self.wrong(where, page, "the number of a page")
+            raise self.wrong(where, page, say("the number of a page"))
         if not isinstance(said, list) or len(said) != 2:
-            raise self.wrong(where, said, "two lengths in mm, across and up")
+            raise self.wrong(where, said, say("two lengths in mm, across and up"))
         across, up = (self.length(where, one) for one in said)
         return int(page), (across, up)
 
@@ -216,7 +219,7 @@ class _Reader:
         if said is None:
             return None
         if isinstance(said, bool) or not isinstance(said, int | float) or not 0 < said <= FARTHEST:
-            raise self.wrong(where, said, f"a length in mm, at most {FARTHEST:g}")
+            raise self.wrong(where, said, say("a length in mm, at most {farthest:g}", farthest=FARTHEST))
         return float(said)
 
 
@@ -238,8 +241,9 @@ def stretch_of(
     for length, said, way in zip(printed, measured, ("across", "up"), strict=True):
         part = said / length if said is not None and length > 0 else 1.0
         if not (math.isfinite(part) and STRETCH[0] <= part <= STRETCH[1]):
-            allowed = f"from {STRETCH[0] * length:.1f} to {STRETCH[1] * length:.1f} mm"
-            raise TaskError(where, f"the scale bar {way}", Unquoted(f"{said:g} mm"), allowed, "measure it again")
+            allowed = say("from {value:.1f} to {value2:.1f} mm", value=STRETCH[0] * length, value2=STRETCH[1] * length)
+            what = say("the scale bar {way}", way=way)
+            raise TaskError(where, what, say("{length:g} mm", length=said), allowed, say("measure it again"))
         found.append(part)
     return found[0], found[1]
 

@@ -11,7 +11,7 @@ from importlib import import_module
 from pathlib import Path
 
 import graphcam
-from graphcam.errors import MissingFileError, TaskError, Unquoted, installed
+from graphcam.errors import MissingFileError, TaskError, installed
 from graphcam.exercises.course.course_folder import COURSE, PRINTED, TEACHER, AnswerKeys
 from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
@@ -128,11 +128,12 @@ def _course(order: ReadingOrder, kept: AnswerKeys) -> tuple[Exercise, PrintedShe
     """
     noted = kept.course()
     if not noted:
-        missing, remedy = Unquoted(f"without {TEACHER}/{COURSE}"), "name the folder that 'exercise make' wrote"
-        raise TaskError(str(order.course), "the course", missing, "a folder of a course", remedy)
+        missing = say("without {teacher}/{course}", teacher=TEACHER, course=COURSE)
+        remedy = say("name the folder that 'exercise make' wrote")
+        raise TaskError(str(order.course), say("the course"), missing, say("a folder of a course"), remedy)
     if not (kept.folder / PRINTED).is_dir():
-        wanted, remedy = "made to be photographed", "make the course with --paper A3"
-        raise TaskError(str(order.course), "the worksheet", Unquoted("without marks"), wanted, remedy)
+        wanted, remedy = say("made to be photographed"), say("make the course with --paper A3")
+        raise TaskError(str(order.course), say("the worksheet"), say("without marks"), wanted, remedy)
     secret = kept.secret(order.secret_file)
     exercise = find_exercise(kept.exercise(), kept.language(), kept.hand(), kept.paper())
     students = [student.id for student in kept.students()]
@@ -142,14 +143,14 @@ def _course(order: ReadingOrder, kept: AnswerKeys) -> tuple[Exercise, PrintedShe
 def _check_places(order: ReadingOrder, out: Path) -> None:
     """What must not first come out when all is read."""
     if out.exists() and not out.is_dir():
-        raise OutputError(out, "it is a file", "name a folder for the readings")
+        raise OutputError(out, say("it is a file"), say("name a folder for the readings"))
     if out.resolve() in ((order.course / TEACHER).resolve(), order.course.resolve()):
-        raise OutputError(out, "it holds the course itself", "name a folder of its own")
+        raise OutputError(out, say("it holds the course itself"), say("name a folder of its own"))
     if order.review is not None and order.review.is_dir():
-        raise OutputError(order.review, "it is a folder", "name a file, review.html")
+        raise OutputError(order.review, say("it is a folder"), say("name a file, review.html"))
     for path in order.photographs:
         if not path.exists() and not path.is_symlink():
-            raise MissingFileError(str(path), "check the name", kind="photograph")
+            raise MissingFileError(str(path), say("check the name"), kind=say("photograph"))
 
 
 def _basis(exercise: Exercise, kept: AnswerKeys) -> str:

@@ -51,7 +51,7 @@ def _answer(asked: Asked, place: str, ink: Ink, view: PrintedView, tell: Tell) -
             return _points(ReadAnswer(place, _crossings(read_lines(ink, view))), tell)
         return _marks(asked, place, read_points(ink, view, less=FAINTER), tell)
     except PhotographError as error:
-        return _refused(ReadAnswer(place, None, share=0.0, confidence=0.0), (error.why, error.remedy), tell)
+        return _refused(ReadAnswer(place, None, share=0.0, confidence=0.0), (error.why, error.advice), tell)
 
 
 def _curve(place: str, ink: Ink, view: PrintedView, tell: Tell) -> ReadAnswer:

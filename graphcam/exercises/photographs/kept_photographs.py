@@ -12,6 +12,7 @@ from graphcam.exercises.course.photo_reports import HIDDEN
 from graphcam.exercises.photographs.read_photo import ReadPhoto, from_json, to_json
 from graphcam.files import OutputError, whole_folder
 from graphcam.locks import locked_folder
+from graphcam.words import say
 
 READINGS = "readings.json"
 DIGITS = 32
@@ -84,7 +85,8 @@ class KeptPhotographs:
                 place.mkdir(parents=True, exist_ok=True)
                 stack.enter_context(locked_folder(place))
             except BlockingIOError:
-                raise OutputError(self.folder, "another run reads photographs into it", "wait until it ends") from None
+                why = say("another run reads photographs into it")
+                raise OutputError(self.folder, why, say("wait until it ends")) from None
             except OSError as error:
                 raise OutputError(self.folder, error.strerror or str(error)) from None
             yield

@@ -72,7 +72,7 @@ def read_file(job: ReadingJob, file: PhotoFile) -> list[ReadPhoto]:
         with limited() as allow:
             return _read(job, file, allow)
     except OutputError as error:
-        why, remedy = say("the reading cannot be saved ({error})", error=error.why), error.remedy
+        why, remedy = say("the reading cannot be saved ({error})", error=error.why), error.advice
     except Exception as error:  # noqa: BLE001  # one photograph never stops the others
         why = say("it cannot be read ({error})", error=f"{type(error).__name__}: {error}"[:200])
         remedy = say("photograph the sheet again, and save it as JPEG")

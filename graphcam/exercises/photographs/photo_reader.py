@@ -110,7 +110,7 @@ def _looked_at(
 
 
 def _refused(known: ReadPhoto, error: PhotographError, exercise: Exercise) -> ReadPhoto:
-    return replace(known, why=exercise.tell(error.why), remedy=exercise.tell(error.remedy))
+    return replace(known, why=exercise.tell(error.why), remedy=exercise.tell(error.advice))
 
 
 def _registered(known: ReadPhoto, registration: Registration) -> ReadPhoto:

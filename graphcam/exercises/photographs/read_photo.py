@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import TaskError, Unquoted
+from graphcam.errors import TaskError
 from graphcam.photo.printed import Edges, Points
+from graphcam.words import say
 
 FORMAT = 2
 DECIMALS = 3
 """Decimals of a place in mm: a thousandth is far below what a photograph shows."""
-REMEDY = "delete the folder that holds it, and read the photographs again"
+REMEDY = say("delete the folder that holds it, and read the photographs again")
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,9 +122,8 @@ def from_json(text: str, path: str = "readings") -> tuple[list[ReadPhoto], str]:
             raise ValueError(f"format {said['format']}")
         return [_photo(each) for each in said["photos"]], str(said["basis"])
     except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise TaskError(
-            path, "the reading", Unquoted(f"not readable ({error})"), f"one of format {FORMAT}", REMEDY
-        ) from None
+        found = say("not readable ({error})", error=str(error))
+        raise TaskError(path, say("the reading"), found, say("one of format {format}", format=FORMAT), REMEDY) from None
 
 
 def _photo(said: dict[str, Any]) -> ReadPhoto:

@@ -12,7 +12,7 @@ from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.course.sheet_code import SheetCode
 from graphcam.photo.printed import PrintedPage
 from graphcam.photo.refusal import PhotographError
-from graphcam.words import say
+from graphcam.words import message, say
 
 TAKE_IN_THE_CODE = say("include the whole sheet with its QR code, and keep the picture sharp")
 
@@ -74,7 +74,7 @@ class PrintedSheets:
         except OSError:
             page = None
         except TaskError as error:
-            raise PhotographError(str(error), say("make the course again")) from None
+            raise PhotographError(error.caption, say("make the course again")) from None
         # The parameters of a student change if the course is made anew after others were added before.
         if page is None or page.code != code.text(self.secret):
             raise PhotographError(
@@ -87,7 +87,9 @@ class PrintedSheets:
 def _nobodys(errors: Sequence[TaskError], *, tags: bool) -> PhotographError:
     if errors:
         error = errors[0]
-        return PhotographError(f"{error.field} is {error.value}, but must be {error.expected}", error.remedy)
+        what, value, expected = error.args[1:4]
+        fault = say("{what} is {shown}, but must be {allowed}", what=what, shown=str(value), allowed=expected)
+        return PhotographError(message(fault), error.advice)
     if tags:
         return PhotographError(say("the QR code cannot be seen"), TAKE_IN_THE_CODE)
     return PhotographError(

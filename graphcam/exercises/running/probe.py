@@ -10,6 +10,7 @@ from pathlib import Path
 
 from graphcam.errors import GraphcamError
 from graphcam.exercises.running.levels import MEBIBYTE, Level, ResourceLimits
+from graphcam.words import Caption, Words, chained, say
 
 FEW = ResourceLimits(seconds=20.0, memory=512 * MEBIBYTE, processes=8)
 ESCAPES = """
@@ -54,12 +55,14 @@ class LevelError(GraphcamError):
     level: Level
     why: str
 
-    def __str__(self) -> str:
-        return f"level {self.level} is not available: {self.why}"
+    @property
+    def fault(self) -> Caption:
+        """What is not available, and why."""
+        return say("level {level} is not available: {why}", level=str(self.level), why=self.why)
 
 
 @functools.cache
-def missing(level: Level) -> str:
+def missing(level: Level) -> Words:
     """The reason why the level is not available here, in one sentence; empty where it is.
 
     A program that does what must be impossible is run once; that it fails is the evidence.
@@ -69,15 +72,15 @@ def missing(level: Level) -> str:
     if level is Level.L0:
         return ""
     if sys.platform != "linux":
-        return "it needs Linux and the program bwrap (bubblewrap); level L0, which runs no code, grades everywhere"
+        return say("it needs Linux and the program bwrap (bubblewrap); level L0, which runs no code, grades everywhere")
     if level is Level.L2 and shutil.which("bwrap") is None:
-        return "the program bwrap (bubblewrap) is not installed"
+        return say("the program bwrap (bubblewrap) is not installed")
     if level is Level.L1 and os.getuid() == 0 and not _readable_by_all(Path(sys.executable)):
-        return f"its code runs as another user than root, who cannot read {sys.executable}"
+        return say("its code runs as another user than root, who cannot read {executable}", executable=sys.executable)
     try:
         return _broken(level)
     except OSError as error:
-        return f"the launcher does not start ({error.strerror})"
+        return say("the launcher does not start ({strerror})", strerror=error.strerror)
 
 
 def require(level: Level, private: tuple[Path, ...] = ()) -> None:
@@ -98,7 +101,9 @@ def require(level: Level, private: tuple[Path, ...] = ()) -> None:
     for path in private:
         for folder in visible():
             if path.resolve().is_relative_to(folder):
-                raise LevelError(level, f"{path} lies in {folder}, which the code can read; move it")
+                raise LevelError(
+                    level, say("{path} lies in {folder}, which the code can read; move it", path=path, folder=folder)
+                )
 
 
 def _readable_by_all(program: Path) -> bool:
@@ -108,7 +113,7 @@ def _readable_by_all(program: Path) -> bool:
     return all(folder.stat().st_mode & 0o001 for folder in folders)
 
 
-def _broken(level: Level) -> str:
+def _broken(level: Level) -> Words:
     import socket
 
     # Made of what only Linux has: not to be loaded before it is known to be one.
@@ -126,5 +131,5 @@ def _broken(level: Level) -> str:
         broken = json.loads(ended.handed_out)["broken"]
     except (ValueError, KeyError):
         last = ended.text.strip().splitlines()[-1:] or [f"status {ended.status}"]
-        return f"a program in it does not run ({last[0]})"
-    return f"code in it reaches {' and '.join(broken)}" if broken else ""
+        return say("a program in it does not run ({last})", last=last[0])
+    return say("code in it reaches {names}", names=chained(broken)) if broken else ""

@@ -1,0 +1,60 @@
+"""The texts of the command line's help, found in the code for the tools of gettext.
+
+Typer takes them as plain text: what an option, an argument or a group of commands says as its ``help``, and the first
+paragraph of a command's docstring.  Each stands in the catalogs as a whole, and is told as one when the help is shown.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from typing import IO, Any
+
+from graphcam.words import Caption
+
+HELPED = {"Option", "Argument", "Typer"}
+"""What of typer has a help."""
+
+
+def help_text(text: str) -> Caption:
+    """A text of the help, as it stands in the catalogs.
+
+    >>> str(help_text("Where the files\\n  go."))
+    'Where the files go.'
+    """
+    return Caption(" ".join(text.split()).replace("{", "{{").replace("}", "}}"))
+
+
+def extract(file: IO[bytes], keywords: Any, comment_tags: Any, options: Any) -> Iterator[Any]:
+    """A method for ``pybabel extract``: what it finds in Python itself, and the texts of the help."""
+    from babel.messages.extract import extract_python
+
+    yield from extract_python(file, keywords, comment_tags, options)
+    file.seek(0)
+    for line, text in texts_of_help(file.read().decode("utf-8")):
+        yield line, "say", help_text(text).template, []
+
+
+def texts_of_help(code: str) -> Iterator[tuple[int, str]]:
+    """Lines and texts.
+
+    >>> code = '@app.command()\\ndef solve(out=Option(help="The folder.")):\\n    "Draw a cam.\\\\n\\\\nMore."'
+    >>> [text for _, text in texts_of_help(code)]
+    ['Draw a cam.', 'The folder.']
+    """
+    module = ast.parse(code)
+    named: dict[str, ast.expr] = {}
+    for node in module.body:
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+            named[node.targets[0].id] = node.value
+    for node in ast.walk(module):
+        if isinstance(node, ast.FunctionDef) and (docstring := ast.get_docstring(node)):
+            if "[bold]Examples[/bold]" in docstring or any("command" in ast.unparse(d) for d in node.decorator_list):
+                yield node.lineno, docstring.partition("\n\n")[0]
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in HELPED:
+            for text in (each.value for each in node.keywords if each.arg == "help"):
+                match named.get(text.id) if isinstance(text, ast.Name) else text:
+                    case ast.Constant(value=str() as said):
+                        yield node.lineno, said
+                    case _:
+                        pass
