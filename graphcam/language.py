@@ -18,6 +18,8 @@ from graphcam.words import Caption, Message, Words, message, say, say_in
 
 MINUS = "−"
 """As wide as a plus; a hyphen is what a program reads."""
+SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"
+"""The digits and the minus of a power of ten."""
 DECIMAL_SIGN = say_in("decimal sign", ".")
 """What stands before the decimals, which a catalog tells as it does every text."""
 SENTENCE = "{what} is {shown}, but must be {allowed}"
@@ -100,7 +102,19 @@ class _Written:
         if isinstance(value, str) or self.typed:
             return format(value, format_spec)
         written = format(value, format_spec).replace(".", self.language.decimal)
-        return written.replace("-", MINUS) if isinstance(value, Real) else written
+        return _power(written).replace("-", MINUS) if isinstance(value, Real) else written
+
+
+def _power(number: str) -> str:
+    """A number with its power of ten as it is written, not as a program reads it.
+
+    >>> _power("2.008e+05"), _power("1e-09"), _power("12.5")
+    ('2.008·10⁵', '1·10⁻⁹', '12.5')
+    """
+    mantissa, e, power = number.partition("e")
+    if not e or not power.lstrip("+-").isdecimal():
+        return number
+    return mantissa + "·10" + str(int(power)).translate(str.maketrans("0123456789-", SUPERSCRIPTS))
 
 
 ENGLISH = Language("en")

@@ -169,7 +169,7 @@ NOTES = [(spoken, name, "perfect") for spoken in CATALOGS for name in TASKS] + [
 def test_a_note_has_no_english_word_and_no_foreign_decimal_sign(spoken, name, hand):
     solution = in_language(spoken, name, hand)
     # A step's number has a point in every language.
-    note = re.sub(r"^- \*\d+\.\d+ ", "", note_of(solution), flags=re.MULTILINE)
+    note = re.sub(r"^\*\*\d+\.\d+\. ", "", note_of(solution), flags=re.MULTILINE)
     for text in (note, comparison_file(solution), *solution.warnings):
         assert english_words(text, ("measured", *SHARED), spoken) - own_words(spoken) == set()
         assert re.findall(r"\d,\d" if language(spoken).decimal == "." else r"\d\.\d", text) == []

@@ -117,7 +117,7 @@ def _panel_of_parts(axes: Axes, title: str, found: Labelled, guides: Mapping[int
 
 
 def _guide(axes: Axes, parts: Sequence[int], order: int, start: float) -> None:
-    """A line of that order, beside the curves so that it is not mistaken for one."""
+    """Draw a line of the order beside the curves, so that it is not mistaken for one."""
     n = np.array([parts[0], parts[-1]], dtype=float)
     axes.plot(n, start * (n / n[0]) ** -order, color=GREY, lw=0.9, ls=(0, (5, 3)), zorder=1)
     middle = float(np.sqrt(n[0] * n[1]))
@@ -181,7 +181,7 @@ SPOTS = {
     ("profile", "graphical"): (1.0, (8, 10), "left"),
     ("profile", "shapely buffer"): (0.5, (-9, -4), "right"),
 }
-"""Where a method's label stands: at which of its points (0 the first, 1 the last), how far off [pt], how aligned."""
+"""Places of the methods' labels: at which point (0 the first, 1 the last), how far off [pt], how aligned."""
 NAMES = {
     "cumulative_trapezoid": "cumulative\ntrapezoid",
     "cumulative_simpson": "cumulative\nSimpson",
@@ -190,7 +190,7 @@ NAMES = {
     "shapely buffer": "polygon\nbuffer",
 }
 ORDERS = {"graphical": 2, "cumulative_simpson": 4}
-"""Of the methods that an order line goes with."""
+"""The orders of the methods that have a line of their order in the figure."""
 LOWEST, HIGHEST = 2e-17, 0.6
 
 

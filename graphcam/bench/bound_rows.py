@@ -16,14 +16,14 @@ BOUND_PARTS = 12, 48
 
 
 def bound_rows(_: Gauge) -> Iterator[Row]:
-    """Of the rise of the translating follower, by law, parts and quantity; not where the drawing is exact."""
+    """Rows for the rise of the translating follower, by law, parts and quantity; not where the drawing is exact."""
     for name in LAWS:
         for parts in BOUND_PARTS:
             yield from rows_of_law(name, parts)
 
 
 def rows_of_law(name: str, parts: int) -> Iterator[Row]:
-    """Those of one law and number of parts.
+    """The rows of one law and number of parts.
 
     >>> for row in rows_of_law("3-4-5", 12):
     ...     print(row.what, round(row.ratio, 2))

@@ -34,7 +34,7 @@ STATIONS = 181
 LOOPED = 8
 """Designs of the loop, in which every cam takes as long as the other."""
 RUNS = 12
-"""Of a sweep, the best of which counts: beside other work most of them lose the cache."""
+"""Runs of a sweep, the best of which counts: beside other work most of them lose the cache."""
 SWEEPS = (
     *(("translating", law) for law in ("3-4-5", "cycloidal", "modified-trapezoidal")),
     ("arm", "3-4-5"),
@@ -47,15 +47,15 @@ GOALS = (
     | dict.fromkeys(("cosine", "cycloidal"), "<= 1.3")
     | dict.fromkeys(("rectangular", "modified-sine", "modified-trapezoidal"), "<= 1.6")
 )
-"""Of the laws: polynomial, trigonometric, piecewise."""
+"""Goals of the laws: polynomial, trigonometric, piecewise."""
 PASSES, QUOTIENTS = 60, 4
-"""Of a block of values, that cam points take; see :func:`_bare_cam_points`."""
+"""Passes over a block of values, and quotients of it, that cam points take; see :func:`_bare_cam_points`."""
 LOBES, POINTS = 200, 2000
 """Phases of a cam on which a large roller leaves many loops, and points of what is left of its profile."""
 SUMMED = 10_000_000
 """Values of the running sums."""
 HALVINGS = 8
-"""Of the chords between three points of a curve, from 0.1 rad on."""
+"""Halvings of the chords between three points of a curve, from 0.1 rad on."""
 
 
 def designs(follower: str, law: str, n: int) -> Designs:
@@ -108,7 +108,7 @@ def _looked_up(n: int) -> None:
 
 
 def _mixed(places: Floats) -> Floats:
-    """The same places in no order, which is always the same."""
+    """The places in a random order, which is always the same."""
     return np.random.default_rng(2).permutation(places)
 
 
@@ -214,7 +214,7 @@ def _sweeps(timer: Timer) -> Iterator[Row]:
 
 
 def _by_loop(some: Designs) -> list[list[float]]:
-    """The same of one cam after another: the maximum pressure angles and the minimum convex radius."""
+    """The maximum pressure angles and the minimum convex radius, one cam after another."""
     extremes = [some.cam(k).extremes() for k in range(len(some))]
     return [[e.pressure_angle_rise[0], e.pressure_angle_return[0], e.min_convex_radius[0]] for e in extremes]
 

@@ -44,7 +44,7 @@ class Hands:
 
     @property
     def floor(self) -> float:
-        """That smallest mean error, which drawing by hand does not improve."""
+        """The minimum of the mean errors, which drawing by hand does not improve."""
         return self.mean[self._best]
 
     @property

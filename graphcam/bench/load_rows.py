@@ -33,7 +33,7 @@ from graphcam.sweeps.sweep_forces import FORCES
 FRICTION = 0.05
 STEM = SpringLoad(mass=0.5, speed_rpm=300.0, stiffness=4.0, preload=400.0)
 LEVER = ArmLoad(inertia=0.5 * ARM**2, speed_rpm=300.0, stiffness=4.0 * ARM**2, preload=400.0 * ARM)
-"""The same mass and spring at the end of an arm."""
+"""The load of an arm with the mass and the spring of the stem at its end."""
 SAMPLED = 100, 1000, 10_000
 """Stations of a turn at which forces are sampled."""
 RATIOS = np.linspace(0.5, 10.0, 96)
@@ -48,7 +48,7 @@ CONDITIONS = (
 )
 """A rise and a return without a dwell between, by nine conditions: degree 8."""
 PLACES = 16
-"""Of the motion by conditions, at which it is held against 50 digits."""
+"""Places of the motion by conditions at which it is held against 50 digits."""
 
 
 def load_rows(gauge: Gauge) -> Iterator[Row]:
@@ -77,7 +77,7 @@ def extreme_forces(cam: Cam, follower: str) -> tuple[float, float, float]:
 
 
 def sampled_forces(cam: Cam, follower: str, n: int) -> tuple[float, float, float]:
-    """The same of n stations of the turn."""
+    """The extremes of the forces among n stations of the turn."""
     forces, motion = CamForces(cam, load_of(follower), friction=FRICTION), cam.motion
     phi = (np.arange(n) + 0.5) * FULL_TURN / n
     phase = np.searchsorted(motion.starts, phi, side="right") - 1
@@ -87,7 +87,7 @@ def sampled_forces(cam: Cam, follower: str, n: int) -> tuple[float, float, float
 
 
 def force_rows(follower: str, unit: Unit, timer: Timer) -> Iterator[Row]:
-    """Of one cam: the extremes, beside samples, which always miss them on the unsafe side."""
+    """Rows of one cam: the extremes, beside samples, which always miss them on the unsafe side."""
     cam = scene(follower, "3-4-5").cam
     exact, seconds = extreme_forces(cam, follower), timer.seconds(partial(extreme_forces, cam, follower))
     yield unit.row(f"forces, {follower}", "maximum and minimum normal force, maximum torque", seconds)
@@ -136,7 +136,7 @@ def residual_of_cycloid(n: Floats) -> Floats:
 
 
 def stepped_residual(n: float, tolerance: float) -> float:
-    """The same of one ratio by scipy's integrator of the eighth order."""
+    """The residual vibration of one ratio by scipy's integrator of the eighth order."""
     integrate: Any = optional("scipy.integrate")
     omega = 2 * pi * n
 

@@ -33,13 +33,13 @@ TWO_ROWS = 2 * FULL_TURN / ROWS
 PEAKS = {0.0: (0.02, 0.05), 0.003: (0.15, 0.4), 0.01: (0.15, 0.4), 0.03: (math.inf, math.inf)}
 """Goals of max |a| by noise: of laws whose acceleration is continuous, and of those whose jumps."""
 MOTIONS = 100
-"""Of the bench; the tests take more."""
+"""The number of motions of the bench; the tests take more."""
 JERK = 60.0
-"""Of the 3-4-5 law where it begins and ends, in h/F^3: what the jerk of a motion changes by over a phase."""
+"""The jerk of the 3-4-5 law where it begins and ends, in h/F^3: what the jerk of a motion changes by over a phase."""
 
 
 def measured_rows(gauge: Gauge) -> Iterator[Row]:
-    """Of random motions with every noise: wrong phases, ends and maximum accelerations, beside what noise permits."""
+    """Rows of random motions with noise: wrong phases, ends and maximum accelerations, beside what noise permits."""
     every = list(sampled_motions(MOTIONS))
     for noise in NOISES:
         some = [one for one in every if one.noise == noise]

@@ -52,7 +52,7 @@ INTEGRATORS: dict[str, Integrator] = {
     "cumulative_simpson": lambda x, a: cumulative_simpson(cumulative_simpson(a, x=x, initial=0), x=x, initial=0),
     "CubicSpline": lambda x, a: np.asarray(CubicSpline(x, a).antiderivative(2)(x)),
 }
-"""By the names of scipy, each integrating twice: s less its value at the start."""
+"""Integrators by the names of scipy, each integrating twice: s less its value at the start."""
 
 
 def integrated_error(motion: Motion, n: int, method: Integrator) -> float:
@@ -108,7 +108,7 @@ def by_optimiser(lines: Lines, start: tuple[float, float]) -> float:
 
 
 def by_linear_constraints(lines: Lines, start: tuple[float, float]) -> float:
-    """The same with the half-planes as scipy's linear constraints."""
+    """The least radius with the half-planes as scipy's linear constraints."""
     size = math.hypot(*start)
     normals, least = lines[0], cast(Any, lines[1] / size)
     kept = LinearConstraint(normals, least, np.inf)
@@ -117,7 +117,7 @@ def by_linear_constraints(lines: Lines, start: tuple[float, float]) -> float:
 
 
 def _square(x: Floats) -> tuple[float, Floats]:
-    """Of the distance from the origin, and its derivative."""
+    """The squared distance from the origin, and its derivative."""
     return float(x @ x), 2 * x
 
 
@@ -147,7 +147,7 @@ def by_pressure_angles(motion: Motion, limit: float, n: int, start: tuple[float,
 
 
 def by_half_planes(lines: Lines, inside: tuple[float, float]) -> float:
-    """The same by scipy's HalfspaceIntersection, boxed in, from a point inside the region."""
+    """The least radius by scipy's HalfspaceIntersection, boxed in, from a point inside the region."""
     normals, heights = lines
     box = 4 * math.hypot(*inside)
     walls = np.array([[1.0, 0, -box], [-1, 0, -box], [0, 1, -box], [0, -1, -box]])

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from graphcam.bench.timing import Timer
 
 SECONDS = {"µs": 1e-6, "ms": 1e-3, "s": 1.0}
-"""Units of a goal that is a time on this machine."""
+"""Seconds of each unit in which a goal that is a time is written."""
 _GOAL = re.compile(r"(?:(?P<sense>[<>]=) (?P<limit>\S+)|(?P<middle>\S+) ± (?P<room>\S+))(?: (?P<unit>.+))?")
 
 

@@ -23,7 +23,7 @@ from graphcam.mechanism.least_radius import LeastRadius, minimum_radius
 FOLLOWERS = ("translating", "arm", "flat")
 BENCH_LAWS = ("cycloidal", "3-4-5", "rectangular", "cosine")
 LIFT = 30.0
-"""Of the translating and the flat-faced follower [mm]."""
+"""The lift of the translating and the flat-faced follower [mm]."""
 ARM = 100.0
 """Length of the arm [mm]; its centre distance is left open where the minimum radius is sought."""
 LIMIT = radians(30)
@@ -45,7 +45,7 @@ class TestScene:
 
     @property
     def cam(self) -> Cam:
-        """The same cam, exact."""
+        """The exact cam."""
         follower = self.board.follower.built(self.sizes.place, self.sizes.roller_radius)
         return Cam(self.board.motion, follower, self.sizes.prime_radius, self.board.rotation)
 

@@ -23,7 +23,7 @@ from graphcam.tasks.task_file import BUILT_IN, builtin_arcs_task, builtin_task
 LIBRARIES = "import numpy, matplotlib.figure, ezdxf"
 """What loading a program that draws takes at least."""
 TIMES = 1.6
-"""So many times of it a whole run may take, and a second more."""
+"""How many times the loading of the libraries a whole run may take, and a second more."""
 STARTED = 3
 """Times that each program is started, the best of which counts: the first one compiles it."""
 PROGRAM = "import sys; from graphcam.cli import main; sys.argv = ['graphcam', 'solve', '--out', sys.argv[1]]; main()"

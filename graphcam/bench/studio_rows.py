@@ -15,7 +15,7 @@ PX_PER_MM = 1.9
 MOST = 30
 """Milliseconds for a view."""
 STEP = 1e-3
-"""By so much a size grows from one picture to the next [mm or degrees]."""
+"""How much a size grows from one picture to the next [mm or degrees]."""
 
 
 def studio_rows(gauge: Gauge) -> Iterator[Row]:

@@ -106,7 +106,7 @@ def swept_file(designs: int, workers: int) -> SweptFile:
 
 
 def _processor_seconds() -> float:
-    """Of all programs that this one has run to their end."""
+    """The processor's seconds of all programs that this one has run to their end."""
     used = os.times()
     return used.children_user + used.children_system
 

@@ -17,7 +17,7 @@ LAW = "cycloidal"
 INSIDE = (0.0, 3 * LIFT)
 """A point well inside the region for the cam centre [mm]."""
 STATIONS = 360
-"""At which the exact side is asked, of one turn."""
+"""Stations of one turn at which the exact side is asked."""
 ROUNDS = 2
 """How often all points of a method are timed; the minimum time of each counts."""
 CHECKED = 24
@@ -81,7 +81,7 @@ def _timed(way: Trial, timer: Timer, pair: float) -> Method:
 
 
 def _drawn(question: str, counts: Parts, where: TestScene, construction: str, reading: str) -> Trial:
-    """By a construction, drawn anew with all that it starts from."""
+    """The trial of a construction, drawn anew with all that it starts from."""
 
     def work(n: int) -> object:
         """The construction in n parts."""

@@ -25,7 +25,7 @@ from graphcam.given.laws import Floats
 from graphcam.showing import by_parts
 
 FINER = (2, 3, 5)
-"""Into how many parts every part is divided for the redrawings."""
+"""The numbers of parts into which every part is divided for the redrawings."""
 CHANGE_TO_ERROR = 2.5
 """The bound is this many times the greatest change by a redrawing."""
 DEVIATIONS = 3.0
@@ -52,7 +52,7 @@ class Redrawable(Protocol):
     def __getitem__(self, name: str, /) -> Construction: ...
 
     def redrawn(self, refine: int = 1, pencil: Pencil | None = None) -> Redrawable:
-        """The same cam, every part divided in ``refine``, drawn by another hand; by default one without error."""
+        """The cam with every part divided in ``refine``, drawn by another hand; by default one without error."""
         ...
 
 
@@ -86,7 +86,7 @@ class Bounds:
         return self._of(construction, reading) / self._per_mm(construction, reading) + ARITHMETIC
 
     def of_choice(self, construction: str, candidates: str, ranks: Sequence[Rank]) -> float:
-        """The same for the candidate of highest rank among several that are read as ``candidates`` (..., k).
+        """The bound for the candidate of highest rank among several that are read as ``candidates`` (..., k).
 
         The exact one ranks between the highest rank that any candidate surely has and the highest that any may have.
         NaN where a candidate cannot be read, or shows up in a finer redrawing only: how far it would be off is unknown,

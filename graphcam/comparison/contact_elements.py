@@ -27,7 +27,7 @@ from graphcam.words import say
 ABREAST, DEEP = 1.5, 2.0
 """Half-widths of the contact, to the side and into the depth, over which the mesh is even."""
 COARSER = 1.15
-"""From element to element beyond."""
+"""The growth from element to element beyond the even mesh."""
 REACH = 0.8
 """Share of the smaller radius that is meshed: a profile over more of it would stand upright."""
 MOST_FLAT = 0.2
@@ -53,7 +53,7 @@ class ElementStresses:
 
     @property
     def greatest_shear(self) -> Floats:
-        """In the plane of the figure, (n,) MPa."""
+        """The maximum shear stress in the plane of the figure, (n,) MPa."""
         return np.hypot((self.across - self.along) / 2, self.shear)
 
     @property
@@ -81,12 +81,12 @@ class ElementContact:
 
     @property
     def peak_pressure(self) -> float:
-        """In the middle, MPa."""
+        """The pressure in the middle, MPa."""
         return float(self.pressure[0])
 
     @cached_property
     def half_width(self) -> float:
-        """Where the pressure ends [mm]: there the straight line through p^2 over x^2, by least squares, is zero."""
+        """The place where the pressure ends [mm]: there the line fitted to p^2 over x^2 by least squares is zero."""
         touch = self.pressure > 0
         slope, middle = np.polyfit(self.x[touch] ** 2, self.pressure[touch] ** 2, 1)
         return math.sqrt(-middle / slope)
@@ -217,7 +217,7 @@ class _Body:
         return found
 
     def yielding(self, count: int) -> Floats:
-        """By how much the first nodes of the surface yield to unit forces on them (count, count), mm."""
+        """The displacements of the first surface nodes by unit forces on them (count, count), mm."""
         nodes = self.surface[:count]
         pushed = np.zeros((self.size, count))
         pushed[nodes, np.arange(count)] = 1

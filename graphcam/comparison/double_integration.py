@@ -160,7 +160,7 @@ def proved_bounds(motion: Motion, stations: Stations) -> dict[str, float]:
 
 
 def _range_of_top(c: Chords, jumps: NDArray[np.bool_]) -> Floats:
-    """Between which heights the curve of v, faired from jump to jump, has its top, of the lift over the phase."""
+    """The heights between which the curve of v, faired from jump to jump, has its top, of the lift over the phase."""
     plotted = c.exact[1] + c.v
     second = np.where(jumps[1:-1], 0.0, np.abs(np.diff(plotted, 2)) + 4 * np.max(c.v_rest))
     low = np.max(plotted - c.v_rest)

@@ -203,7 +203,7 @@ def _quantity(
 
 
 def side_of(extreme: float) -> int:
-    """Where a signed value's extreme of greatest magnitude stands beside the one of the other side: highest first."""
+    """The index of a signed value's extreme of greatest magnitude in a pair: 0 for the highest, 1 for the lowest."""
     return 0 if extreme >= 0 else 1
 
 

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from math import isclose
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,6 @@ from graphcam.constructions.axes import (
     degrees_below,
     numbers,
     ordinate,
-    part_names,
     part_titles,
     phase_ends,
     phase_names,
@@ -35,12 +35,14 @@ from graphcam.constructions.time_axis import axis_said, times_below
 from graphcam.constructions.views import ACCELERATION
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import LIFT, MU_PHI, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Construction, Part, Step, say
 from graphcam.drafting.marks import Dimension, Role, Segments
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
+from graphcam.drafting.telling import FRENCH_CURVE, RULER, led_by
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion, Moving
 from graphcam.given.spline_law import MEASURED
@@ -63,6 +65,50 @@ class AccelerationGivens:
 AccelerationDiagram = Construction[AccelerationGivens]
 
 
+def _scale_of_angle(diagram: AccelerationDiagram) -> Values:
+    """Of the axis."""
+    yield {"base": float(diagram.first("base")), "mu": diagram.givens.mu_phi.per_mm}
+
+
+def _ordinate_values(diagram: AccelerationDiagram) -> Values:
+    """Those that follow from the one that is chosen, by the numbers of their phases."""
+    stations, greatest = diagram.givens.stations, diagram.first("greatest").tolist()
+    phases, index = moving_phases(diagram.givens.motion, stations), stations.phase[stations.last].tolist()
+    first = next(k for k, phase in enumerate(phases) if phase.direction > 0)
+
+    def terms(k: int, of: str) -> dict[str, Any]:
+        """What the lift of a phase is proportional to."""
+        phase = phases[k]
+        law = {f"C{of}": phase.normalised.peak_acceleration, f"h{of}": phase.lift}
+        return {**law, f"k{of}": index[k] + 1, f"angle{of}": float(np.degrees(phase.angle)), f"y{of}": greatest[k]}
+
+    yield from (terms(k, "") | terms(first, "1") for k in range(len(phases)) if k != first)
+
+
+FORMULAS = (
+    Formula(
+        r"\mu_\varphi = \frac{2\pi}{b}",
+        r"\mu_\varphi = \frac{2\pi}{<base:.2f>} = <mu:.6f>\ \text{<rad_per_mm>}",
+        _scale_of_angle,
+        (MU_PHI, Symbol("b", say("the length of the axis"), "mm of paper")),
+        of="base",
+    ),
+    Formula(
+        r"y_k = y_1\,\frac{C_k h_k/\varphi_k^2}{C_1 h_1/\varphi_1^2}, \qquad C = \frac{a_{\max}\varphi^2}{h}",
+        r"y_{<k>} = <y1:.2f> \cdot \frac{<C:.6g> \cdot <h:.6g>/<angle:.6g>^2}"
+        r"{<C1:.6g> \cdot <h1:.6g>/<angle1:.6g>^2} = <y:.2f>\ \text{<mm>}",
+        _ordinate_values,
+        (
+            Symbol("y", say("the maximum ordinate of a phase, y₁ that of the first rise"), "mm of paper"),
+            Symbol("C", say("the factor of its law")),
+            LIFT,
+            Symbol(r"\varphi_k", say("the angle of a phase"), "°"),
+        ),
+        of="greatest",
+    ),
+)
+
+
 MEANING = Meaning(
     "acceleration",
     say("Acceleration diagram"),
@@ -75,7 +121,7 @@ MEANING = Meaning(
         "middles": ReadingMeaning(say("middle ordinates"), "yₘ", "mm of paper", over=part_titles),
         "base": ReadingMeaning(say("length of the axis"), "b", "rad"),
     },
-    "report.paragraphs.acceleration",
+    FORMULAS,
 )
 
 
@@ -179,32 +225,28 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
     laws = [_LawOverPhase(*each) for each in moving]
     curves = [law.drawn(showing(diagram), k) for k, law in enumerate(laws)]
     lines = tuple(curve.line(Role.RESULT) for curve in curves)
-    plotted = _by_their_laws(laws)
-    shape = say(
-        "Because the law of a phase gives the shape of its acceleration, and its maximum ordinate gives the height."
-    )
-    parts = tuple(Part(law.told(), (curve,)) for law, curve in zip(laws, curves, strict=True))
+    shape = say("The law of a phase gives the shape of its acceleration, and its maximum ordinate gives the height.")
     return [
         _axis(diagram, np.concatenate([curve.shown.imag for curve in curves])),
         _ordinates(diagram, laws, curves),
-        Step(say("Acceleration by the law"), plotted, ACCELERATION, lines, why=shape, parts=parts),
+        Step(say("Acceleration by the law"), _by_their_laws(laws, curves), ACCELERATION, lines, why=shape),
         _middle_ordinates(diagram),
     ]
 
 
-def _by_their_laws(laws: Sequence[_LawOverPhase]) -> Caption:
+def _by_their_laws(laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> tuple[Part, ...]:
     """What the curves are drawn by: laws that textbooks give, or the ordinates of a smoothed table."""
+    named = [say("{phase} {law}", phase=law.title, law=law_name(law.phase.normalised)) for law in laws]
+    told = say(
+        "Over each moving phase draw the acceleration by its law: {laws}. Ordinates above the axis are positive; "
+        "at a jump the line is vertical."
+    ).where(laws=sequence(named))
     if all(law.phase.normalised.name == MEASURED for law in laws):
-        table = say(
+        told = say(
             "The motion is a table, which has no law: its acceleration is that of the smoothed table, as under "
             "“{section}”. Ordinates above the axis are positive."
         ).where(section=say("Velocity and acceleration by differentiation"))
-        return sequence([table, *(law.told() for law in laws)], " ")
-    told = [say("{phase} {law}", phase=law.title, law=law_name(law.phase.normalised)) for law in laws]
-    return say(
-        "Over each moving phase draw the acceleration by its law: {laws}. Ordinates above the axis are positive; "
-        "at a jump the line is vertical."
-    ).where(laws=sequence(told))
+    return led_by(told, [Part(law.told(), (curve,)) for law, curve in zip(laws, curves, strict=True)])
 
 
 def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
@@ -212,16 +254,15 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
     motion, mu_phi, stations = diagram.givens.motion, diagram.givens.mu_phi, diagram.givens.stations
     omega = diagram.givens.omega
     turn, ends = diagram.acts["turn"], phase_ends(motion, mu_phi)
-    told = sequence([say("{end:.1f}", end=end) for end in ends[1:]])
-    said = say(
-        "Draw a horizontal line {length:.1f} mm long for one revolution, so 1 mm is {degree:.4g}° and μᵩ = "
-        "{mu:.5f} rad/mm. From its left end set off {ends} mm, where the phases end, and draw a vertical at each."
-    ).where(length=ends[-1], degree=np.degrees(mu_phi.per_mm), mu=mu_phi.per_mm, ends=told)
-    said = said if omega is None else sequence([said, axis_said(mu_phi, omega)], " ")
-    level = say("With T-square and ruler draw the axis, {length:.1f} mm long.", length=ends[-1])
+    level = say(
+        "With T-square and ruler draw a horizontal line {length:.1f} mm long for one revolution, so 1 mm is "
+        "{degree:.4g}° and μᵩ = {mu:.5f} rad/mm."
+    ).where(length=ends[-1], degree=np.degrees(mu_phi.per_mm), mu=mu_phi.per_mm)
+    level = level if omega is None else sequence([level, axis_said(mu_phi, omega)], " ")
     upright = say(
-        "From its left end set off {ends} mm with the ruler; draw verticals there with the set square.", ends=told
-    )
+        "From its left end set off {ends} mm with the ruler, where the phases end, and draw a vertical at each with "
+        "the set square."
+    ).where(ends=sequence([say("{end:.1f}", end=end) for end in ends[1:]]))
     cuts = diagram.acts["axis"].first[[k for span in stations.phases for k in (span.start, span.stop - 1)]]
     across, up, thin, *others = phi_axes(motion, mu_phi, heights, ordinate("a", diagram.givens.unit))
     # A thin line belongs to the cut that it stands on; that at the end of the turn goes with the last one.
@@ -229,38 +270,32 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
     thin = replace(thin, of=cuts.act, index=cuts.index[nearest])
     axes = (across, up, thin, *others, turn.line_from(0j, Role.RESULT))
     title = say("Axis of the cam angle")
-    why = say("Because all diagrams are drawn over the cam angle, one axis with one scale serves them all.")
+    why = say("All diagrams are drawn over the cam angle, so one axis with one scale serves them all.")
     parts = Part(level, (turn.first,)), Part(upright, (cuts,))
     under = degrees_below(ends[-1], mu_phi, low := reach(heights)[0])
     under += times_below(ends[-1], mu_phi, low, omega, phases=False)
-    return Step(title, said, ACCELERATION, axes, ("base",), given=axes, why=why, parts=parts, under=under)
+    return Step(title, parts, ACCELERATION, axes, ("base",), given=axes, why=why, under=under)
 
 
 def _ordinates(diagram: AccelerationDiagram, laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> Step:
     """The largest ordinates: that of the first rise is chosen, the others follow."""
     chosen = next(k for k, law in enumerate(laws) if law.phase.direction > 0)
     numbers = [say("{c:.5g} ({phase})", c=law.phase.normalised.peak_acceleration, phase=law.title) for law in laws]
-    said = say(
-        "Choose {ordinate:.1f} mm for the maximum ordinate of the first rise; its scale is found at the end. The "
-        "others follow from y = y₁·(C·h/φ²)/(C₁·h₁/φ₁²), with lift h and angle φ of the phase and C = aₘₐₓ·φ²/h "
-        "of its law, here {numbers}: {greatest} mm."
-    ).where(
-        ordinate=laws[chosen].greatest,
-        numbers=sequence(numbers),
-        greatest=sequence([say("{y:.1f}", y=law.greatest) for law in laws]),
-    )
+    choice = say("Choose {y:.1f} mm for the maximum ordinate of {phase}; its scale is found at the end.")
+    others = say(
+        "The others follow from y = y₁·(C·h/φ²)/(C₁·h₁/φ₁²), with lift h and angle φ of the phase and C = aₘₐₓ·φ²/h "
+        "of its law, here {numbers}."
+    ).where(numbers=sequence(numbers))
     marks = tuple(_dimension(diagram, k, law, curve) for k, (law, curve) in enumerate(zip(laws, curves, strict=True)))
-    choice = say("For {phase} choose {y:.1f} mm.", phase=laws[chosen].title, y=laws[chosen].greatest)
-    ends, others = diagram.acts["greatest"].first, [k for k in range(len(laws)) if k != chosen]
-    parts = (
-        Part(choice, (ends[[chosen]],)),
-        *(Part(laws[k].reckoned(laws[chosen]), (ends[[k]],)) for k in others),
-    )
+    ends = diagram.acts["greatest"].first
+    first = Part(choice.where(phase=laws[chosen].title, y=laws[chosen].greatest), (ends[[chosen]],))
+    reckoned = [Part(laws[k].reckoned(laws[chosen]), (ends[[k]],)) for k in range(len(laws)) if k != chosen]
     why = say(
-        "Because the lift of a phase is proportional to y·φ²/C, the displacement returns to the axis only if the "
+        "The lift of a phase is proportional to y·φ²/C, so the displacement returns to the axis only if the "
         "ordinates are in this ratio."
     )
-    return Step(say("Ordinates of the phases"), said, ACCELERATION, marks, ("greatest",), why=why, parts=parts)
+    title, parts = say("Ordinates of the phases"), (first, *led_by(others, reckoned))
+    return Step(title, parts, ACCELERATION, marks, ("greatest",), why=why)
 
 
 @dataclass(frozen=True)
@@ -293,14 +328,12 @@ class _LawOverPhase:
         branches = list(self.branches())
         curved = any(x.size > 2 for x, _ in branches)
         branches = [(x, y) if x.size == 2 else (x[::PLOTTED], y[::PLOTTED]) for x, y in branches]
-        # What is nothing has no sign.
+        # What is nothing has no sign; a corner, where one branch goes on from another, is one point.
         ends = [(a, b + 0.0) for x, y in branches for a, b in zip(x, np.round(y, 1), strict=True)]
+        ends = [end for end, before in zip(ends, (None, *ends), strict=False) if end != before]
         places = [say("{y:.1f} at {x:.1f}", x=a, y=b) for a, b in ends]
-        if curved:
-            said = say("Over {phase} set off the ordinates {places} mm and join them with the French curve.")
-        else:
-            said = say("Over {phase} set off the ordinates {places} mm and join them with the ruler.")
-        return said.where(phase=self.title, places=sequence(places))
+        said = say("Over {phase} set off the ordinates {places} mm and join them {tool}.")
+        return said.where(phase=self.title, places=sequence(places), tool=FRENCH_CURVE if curved else RULER)
 
     def reckoned(self, first: _LawOverPhase) -> Caption:
         """How the largest ordinate follows from the chosen one; what both phases have alike is left out."""
@@ -322,7 +355,7 @@ class _LawOverPhase:
 def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
     """The ordinates between the stations."""
     stations, axis, middles = diagram.givens.stations, diagram.acts["axis"], diagram.acts["middles"]
-    ordinates, x = diagram.first("middles"), axis.shown
+    x = axis.shown
     marks = (
         middles.from_(diagram.acts["middles of the parts"], Role.CONSTRUCTION),
         middles.dots(Role.CONSTRUCTION),
@@ -330,18 +363,16 @@ def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
         # On the side of the axis where no ordinates stand.
         *numbers(axis, stations, np.where(diagram.first("before") + diagram.first("stations") < 0, UP, -UP)),
     )
-    parts, third = joined([f"{s.stop - s.start}" for s in stations.parts]), min(2, ordinates.size - 1)
-    said = say(
-        "Divide the moving phases into {parts} parts, {equal}, and number the cuts; each part has the number of "
-        "the cut at its end. At the middle of each part draw a thin ordinate up to the curve: that of part "
-        "{name} measures {third:.1f} mm."
-    ).where(parts=parts, equal=equal_parts(stations), name=part_names(stations)[third], third=ordinates[third])
     why = say(
-        "Because a part's area is its width times its middle ordinate, exactly where the acceleration is a "
-        "straight line, and very nearly elsewhere."
+        "A part's area is its width times its middle ordinate, exactly where the acceleration is a straight line, and "
+        "very nearly elsewhere."
     )
-    each = tuple(part for k in range(len(stations.phases)) for part in _divided_phase(diagram, k))
-    return Step(say("Middle ordinates"), said, ACCELERATION, marks, ("middles",), given=marks, why=why, parts=each)
+    divided = say(
+        "Divide the moving phases into parts, {equal}, and number the cuts; each part has the number of the cut at its "
+        "end."
+    ).where(equal=equal_parts(stations))
+    parts = led_by(divided, [part for k in range(len(stations.phases)) for part in _divided_phase(diagram, k)])
+    return Step(say("Middle ordinates"), parts, ACCELERATION, marks, ("middles",), given=marks, why=why)
 
 
 def _divided_phase(diagram: AccelerationDiagram, k: int) -> Iterator[Part]:
@@ -374,7 +405,8 @@ def _divided_phase(diagram: AccelerationDiagram, k: int) -> Iterator[Part]:
             heights.append([part])
     told = [say("{parts}: {y:z.1f}", parts=together(same, stations), y=ordinates[same[0]]) for same in heights]
     raised = say(
-        "Over {phase} draw a thin ordinate at the middle of each part with the set square, in mm: {ordinates}."
+        "Over {phase} draw a thin ordinate at the middle of each part up to the curve with the set square, in mm: "
+        "{ordinates}."
     )
     lines = tuple(diagram.acts[name].first[own] for name in ("middles of the parts", "middles"))
     yield Part(raised.where(phase=title, ordinates=sequence(told, "; ")), lines)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.drafting.ink import Caption, Step, View, say
+from graphcam.drafting.ink import Caption, Part, Step, View, say
 from graphcam.drafting.scale import UNLIMITED, Paper
 from graphcam.given.laws import Floats
 from graphcam.words import sequence
@@ -81,6 +81,7 @@ class Adoption:
     found : the place that the region proposes; None where the task gives it
     given : whether the task gives the prime radius
     rounding : sizes are adopted in multiples of this
+    proposed : the least prime radius at the place that the region proposes; None where the task gives it
     """
 
     prime_radius: float
@@ -89,6 +90,7 @@ class Adoption:
     found: float | None
     given: bool
     rounding: float
+    proposed: float | None = None
 
 
 def nothing_adopted() -> Adoption | None:
@@ -113,33 +115,45 @@ def adoption_step(adopted: Adoption, symbol: str, mu: float, view: View) -> Step
 
     symbol : of the place;  mu : mm of the machine to a millimetre of paper of the view
     """
-    said: list[Caption] = []
+    on_paper = say("On paper r₀ is {r0:g}/{mu:.5g} = {paper:.2f} mm.")
+    on_paper = on_paper.where(r0=adopted.prime_radius, mu=mu, paper=adopted.prime_radius / mu)
+    parts = [Part(sequence([*_of_the_radius(adopted, symbol), on_paper], " "))]
     if adopted.found is not None:
         place = say("The value found, {symbol} = {found:.5g} mm, is rounded to {place:g} mm.")
-        said.append(place.where(symbol=symbol, found=adopted.found, place=adopted.place))
-    said.append(_of_the_radius(adopted))
-    on_paper = say("On paper r₀ is {r0:g}/{mu:.5g} = {paper:.2f} mm.")
-    said.append(on_paper.where(r0=adopted.prime_radius, mu=mu, paper=adopted.prime_radius / mu))
-    why = say(
-        "Because a round size is easily made and measured, and a radius larger than the minimum stays within the "
-        "limits."
-    )
+        parts.insert(0, Part(place.where(symbol=symbol, found=adopted.found, place=adopted.place)))
+    why = say("A round size is easily made and measured, and a radius larger than the minimum stays within the limits.")
     if adopted.given:
-        why = say(
-            "Because the limits are satisfied only if the given radius is not smaller than the minimum permitted one."
-        )
-    return Step(say("The adopted prime radius"), sequence(said, " "), view, (), why=why)
+        why = say("The limits are satisfied only if the given radius is not smaller than the minimum permitted one.")
+    return Step(say("The adopted prime radius"), tuple(parts), view, (), why=why)
 
 
-def _of_the_radius(adopted: Adoption) -> Caption:
-    """What is adopted, against the least permitted radius.
+def _of_the_radius(adopted: Adoption, symbol: str) -> list[Caption]:
+    """What is adopted, against the least radius that was found; where the rounded place changes that, against its own.
 
-    >>> str(_of_the_radius(Adoption(44.0, -10.0, 43.2804, None, False, 1.0)))
-    'Round the minimum radius, 43.28 mm, up to r₀ = 44 mm.'
-    >>> str(_of_the_radius(Adoption(61.0, 150.0, 32.81, None, True, 1.0)))
+    >>> [str(said) for said in _of_the_radius(Adoption(44.0, -10.0, 43.2804, None, False, 1.0), "e")]
+    ['Round the minimum radius, 43.28 mm, up to r₀ = 44 mm.']
+    >>> [str(said) for said in _of_the_radius(Adoption(17.0, 102.0, 16.248, 102.12, False, 1.0, 16.222), "c")]
+    ['Round the minimum radius, 16.222 mm, up to r₀ = 17 mm.']
+    >>> [str(said) for said in _of_the_radius(Adoption(18.0, 102.0, 17.02, 102.12, False, 1.0, 16.98), "c")]
+    ['At c = 102 mm the minimum radius is 17.02 mm.', 'Round the minimum radius, 17.02 mm, up to r₀ = 18 mm.']
+    """
+    told = _against(adopted, adopted.least)
+    if adopted.proposed is None:
+        return [told]
+    found = _against(adopted, adopted.proposed)
+    if found.template == told.template:
+        return [found]
+    at = say("At {symbol} = {place:g} mm the minimum radius is {least:.5g} mm.")
+    return [at.where(symbol=symbol, place=adopted.place, least=adopted.least), told]
+
+
+def _against(adopted: Adoption, least: float) -> Caption:
+    """What is adopted, against a least permitted radius.
+
+    >>> str(_against(Adoption(61.0, 150.0, 32.81, None, True, 1.0), 32.81))
     'The task gives r₀ = 61 mm, which is larger than the minimum permitted radius, 32.81 mm.'
     """
-    r0, least = adopted.prime_radius, adopted.least
+    r0 = adopted.prime_radius
     if math.isnan(least):
         told = say("The task gives r₀ = {r0:g} mm.") if adopted.given else say("Take r₀ = {r0:g} mm.")
     elif math.isclose(r0, least, rel_tol=SAME):

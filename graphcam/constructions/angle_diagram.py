@@ -22,13 +22,13 @@ from graphcam.constructions.views import ANGLE
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.hand import Hand, between, showing
-from graphcam.drafting.ink import Caption, Construction, Part, Step, say
+from graphcam.drafting.ink import Caption, Construction, Part, Step, Words, say
 from graphcam.drafting.marks import Mark, Role
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
+from graphcam.drafting.telling import STATION, led_by, run
 from graphcam.given.limits import Limits
-from graphcam.words import sequence
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +59,6 @@ MEANING = Meaning(
             (Compared("max_pressure_angle_return_deg", say("pressure angle, return"), sides="return_candidates"),),
         ),
     },
-    "report.paragraphs.greatest_angles",
     scales={"angle": "max_rise"},
 )
 
@@ -129,60 +128,48 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
         *times_below(phase_ends(motion, mu_phi)[-1], mu_phi, reach(heights)[0], givens.omega),
         *numbers(axis, stations, np.where(heights < 0, UP, -UP)),
     )
-    met = say("At {first}, where the acceleration jumps, it has a corner.")
-    drawn, lines, faired = curve_over_phi(givens, showing(plotted), "α", curve, met)
+    met = say("at {first}, where the acceleration jumps, it has a corner")
+    lines, faired = curve_over_phi(givens, showing(plotted), "α", curve, met)
     degrees, names = np.degrees(plotted.givens.measured.first("alpha")), station_names(stations)
-    set_off = [
-        Part(_SET_OFF[0 if alpha >= 0 else 1].where(name=names[k], alpha=alpha, y=abs(y)), (curve.first[[k]],))
-        for k, (alpha, y) in enumerate(zip(degrees.tolist(), curve.shown.imag.tolist(), strict=True))
-    ]
     k = min(4, len(names) - 1)
     said = say(
         "At its station set off each angle from the axis with the dividers, {scale:.4g}° a millimetre, positive ones "
-        "upward: {alpha:.2f}° at station {name} are {y:.2f} mm. {drawn}"
-    ).where(scale=np.degrees(plotted.givens.mu_alpha.per_mm), name=names[k], alpha=degrees[k])
-    said = said.where(y=curve.shown.imag[k], drawn=drawn)
-    why = say("Because the maximum usually lies between two stations, it is read off the curve through all of them.")
+        "upward: {alpha:.2f}° at station {name} are {y:.2f} mm."
+    ).where(scale=np.degrees(plotted.givens.mu_alpha.per_mm), name=names[k], alpha=degrees[k], y=heights[k])
+
+    def mm(k: int) -> Words:
+        """The angle of a station, how long it is on the paper, and to which side of the axis."""
+        said = say("{alpha:z.2f}°, {y:.2f} mm upward") if degrees[k] >= 0 else say("{alpha:.2f}°, {y:.2f} mm downward")
+        return said.where(alpha=degrees[k], y=abs(heights[k]))
+
+    set_off = run(said, STATION, names, curve, settings=mm)
+    why = say("The maximum usually lies between two stations, so it is read off the curve through all of them.")
     marks = (*axes, curve.from_(axis, Role.CONSTRUCTION), curve.dots(Role.CONSTRUCTION), *lines)
     title = say("The pressure angle over the cam angle")
-    return Step(title, said, ANGLE, marks, given=axes, why=why, parts=(*set_off, *faired))
-
-
-_SET_OFF = (
-    say("Station {name}: set off {y:.2f} mm upward for {alpha:z.2f}°."),
-    say("Station {name}: set off {y:.2f} mm downward for {alpha:.2f}°."),
-)
+    return Step(title, (set_off, *faired), ANGLE, marks, given=axes, why=why)
 
 
 def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
     limits = plotted.givens.limits
-    marks, parts, told = list[Mark](), list[Part](), list[Caption]()
-    inner_marks, inner_parts = list[Mark](), list[Part]()
+    marks, parts, inner_marks, inner_parts = list[Mark](), list[Part](), list[Mark](), list[Part]()
     for name, said, limit in (("max_rise", _ON_THE_RISE, limits.rise), ("max_return", _ON_THE_RETURN, limits.return_)):
         top, alpha = plotted.acts[name].first, float(np.degrees(plotted.value(name)))
-        marks += [
-            top.dots(Role.LIMIT),
-            top.label(say("{alpha:.1f}°", alpha=alpha), _outward(top)),
-        ]
+        marks += [top.dots(Role.LIMIT), top.label(say("{alpha:.1f}°", alpha=alpha), _outward(top))]
         compared = _NO_LIMIT if limit is None else _compared(abs(alpha), limit, plotted.givens.mu_alpha)
-        told.append(said.where(y=top.place.imag, alpha=alpha, compared=compared))
-        parts.append(Part(told[-1], (top,)))
+        parts.append(Part(said.where(y=top.place.imag, alpha=alpha, compared=compared), (top,)))
         if other := inside(plotted, name.removeprefix("max_")):
             beside = float(np.degrees(plotted.givens.mu_alpha.per_mm)) * other.place.imag
             inner_marks += [other.dots(Role.LIMIT), other.label(say("{alpha:.1f}°", alpha=beside), _outward(other))]
-            told.append(_INSIDE.where(y=other.place.imag, alpha=beside))
-            inner_parts.append(Part(told[-1], (other,)))
-    marks, parts = marks + inner_marks, parts + inner_parts
+            inner_parts.append(Part(_INSIDE[name].where(y=other.place.imag, alpha=beside), (other,)))
     found = say(
         "Slide the T-square up and down to the curve until it touches, over the rises and over the returns, and read "
-        "the point farthest from the axis. {told}"
-    ).where(told=sequence(told, " "))
-    why = say(
-        "Because the follower may jam if the angle between force and motion is too large, it is compared with "
-        "the limit."
+        "the point farthest from the axis."
     )
-    title = say("The maximum pressure angles")
-    return Step(title, found, ANGLE, tuple(marks), ("max_rise", "max_return"), why=why, parts=tuple(parts))
+    why = say(
+        "If the angle between force and motion is too large, the follower may jam; so it is compared with the limit."
+    )
+    title, reads = say("The maximum pressure angles"), ("max_rise", "max_return")
+    return Step(title, (*led_by(found, parts), *inner_parts), ANGLE, (*marks, *inner_marks), reads, why=why)
 
 
 def _outward(top: Drawn) -> complex:
@@ -199,10 +186,16 @@ def _compared(size: float, limit: float, mu_alpha: Scale) -> Caption:
 
 _ON_THE_RISE = say("On the rise the farthest point of the curve is at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
 _ON_THE_RETURN = say("On the return the farthest point of the curve is at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
-_INSIDE = say(
-    "That point is at an end of the phase; inside it, on the other side of the axis, the farthest point is at {y:.2f} "
-    "mm, so α = {alpha:.2f}°."
-)
+_INSIDE = {
+    "max_rise": say(
+        "That of the rise is at an end of the phase; inside it, on the other side of the axis, the farthest point is "
+        "at {y:.2f} mm, so α = {alpha:.2f}°."
+    ),
+    "max_return": say(
+        "That of the return is at an end of the phase; inside it, on the other side of the axis, the farthest point "
+        "is at {y:.2f} mm, so α = {alpha:.2f}°."
+    ),
+}
 _KEPT = say("{size:.2f}° < {limit:.4g}°, within the limit")
 _JUST = say("equal to the limit of {limit:.4g}° within drawing accuracy")
 _PASSED = say("{size:.2f}° > {limit:.4g}°, the limit is exceeded")

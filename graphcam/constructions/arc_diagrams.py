@@ -9,16 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.constructions.arc_outline import FLAT
+from graphcam.constructions.arc_outline import unreadable
 from graphcam.constructions.arc_plan import worked
 from graphcam.constructions.arc_stations import RollerOnArcs
 from graphcam.constructions.axes import NUMBER_ROOM, PHASES_BELOW, axes_over_phi, degrees_below, ordinate, reach
 from graphcam.constructions.graduation import graduated
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
+from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
+from graphcam.drafting.ink import Construction, Part, Step, View, Words, say
 from graphcam.drafting.marks import Dimension, Label, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
@@ -148,36 +149,35 @@ SPANS = (
 CARRIED = {
     "a": say(
         "Plot the accelerations OM over the cam angle, {degree:.4g}° a millimetre. Each is laid off at {mu:g} "
-        "(mm/rad²)/mm, up from the axis if M lies beyond O, otherwise down: for station {name}, {length:.2f} mm × "
-        "{factor:.4g} = {ordinate:.2f} mm. Repeat for the others; where two arcs meet, each has its own."
+        "(mm/rad²)/mm, up from the axis if M lies beyond O, otherwise down: for station {name}, {there}. Where two "
+        "arcs meet, each has its own."
     ),
     "v": say(
         "Plot the velocities OK over the cam angle, {degree:.4g}° a millimetre. Each is laid off at {mu:g} "
-        "(mm/rad)/mm, up from the axis: for station {name}, {length:.2f} mm × {factor:.4g} = {ordinate:.2f} mm. Repeat "
-        "for the others."
+        "(mm/rad)/mm, up from the axis: for station {name}, {there}."
     ),
     "s": say(
         "Plot the displacements over the cam angle, {degree:.4g}° a millimetre. The distance of B outside the "
-        "prime circle is laid off at {mu:g} mm/mm, up from the axis: for station {name}, {length:.2f} mm × "
-        "{factor:.4g} = {ordinate:.2f} mm. Repeat for the others."
+        "prime circle is laid off at {mu:g} mm/mm, up from the axis: for station {name}, {there}. The lift measures "
+        "{paper:.2f} mm, which is {value:.3f} mm."
     ),
     "alpha": say(
         "Plot the angles between rod and ray over the cam angle, {degree:.4g}° a millimetre. Each is laid off at "
-        "{mu:g}° a millimetre: for station {name}, {length:.2f}° are {ordinate:.2f} mm. Repeat for the others."
+        "{mu:g}° a millimetre, up from the axis: for station {name}, {there}."
     ),
 }
 MAXIMUM = {
-    "a": say("The one of maximum magnitude measures {paper:.2f} mm, which is {value:.3f} mm/rad²."),
-    "v": say("The maximum measures {paper:.2f} mm, which is {value:.3f} mm/rad."),
-    "s": say("The lift measures {paper:.2f} mm, which is {value:.3f} mm."),
+    "a": say("The maximum magnitude is {value:.3f} mm/rad²."),
+    "v": say("The maximum is {value:.3f} mm/rad."),
     "alpha": say("The maximum is {value:.3f}°."),
 }
-JOINED = say("Join the points with the French curve, each arc by itself.")
 RETURNED = {
-    1: say("Return: mirror the curve of the rise in the vertical at {middle:.2f} mm, half-way between the two."),
+    1: say(
+        "Return: mirror the curve of the rise in the vertical at {middle:.2f} mm, half-way between rise and return."
+    ),
     -1: say(
-        "Return: rotate the curve of the rise by 180° about the point at {middle:.2f} mm on the axis, half-way "
-        "between the two."
+        "Return: rotate the curve of the rise by 180° about the point at {middle:.2f} mm on the axis, half-way between "
+        "rise and return."
     ),
 }
 """How the curve goes on, by what becomes of the quantity on the return."""
@@ -193,21 +193,12 @@ WHYS = {
     "s": say("The follower has risen by the increase of OB since the start."),
     "alpha": say("The follower may jam where this angle is large, so its maximum decides whether the cam is usable."),
 }
-PLOTTED = {
-    "a": say("Station {title}: OM = {length:.2f} mm × {factor:.4g}, {ordinate:.2f} mm {way} at {at:.2f} mm."),
-    "v": say("Station {title}: OK = {length:.2f} mm × {factor:.4g}, {ordinate:.2f} mm {way} at {at:.2f} mm."),
-    "s": say("Station {title}: {length:.2f} mm × {factor:.4g} = {ordinate:.2f} mm {way} at {at:.2f} mm."),
-    "alpha": say("Station {title}: {length:.2f}° are {ordinate:.2f} mm {way} at {at:.2f} mm."),
-}
-"""What is laid off at a station, and where on the axis."""
-ON_THE_AXIS = say("Station {title}: nothing is laid off, its point lies on the axis at {at:.2f} mm.")
-UNREAD = say("Station {title}: nothing was read, so nothing is plotted at {at:.2f} mm.")
 
 
 def _draw(plotted: Construction[ArcDiagramsGivens]) -> list[Step]:
     if np.isnan(plotted.givens.rolled.first("phi")).any():
         said = say("Without a path of the roller there is nothing to plot.")
-        return [Step(say("No diagrams"), said, DISPLACEMENT, (), why=FLAT)]
+        return [unreadable(say("No diagrams"), said, DISPLACEMENT)]
     return [_diagram(plotted, name) for name in VIEWS]
 
 
@@ -228,25 +219,33 @@ def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
         *(dots.dots(Role.CONSTRUCTION), curve.line(Role.RESULT)),
         *(_phases(ends, mu_phi, low - PHASES_BELOW) if name == "alpha" else ()),
     ]
-    at_stations, key = _at_stations(plotted, name), "lift" if name == "s" else f"max_{name}"
-    ordinates = np.array([values["ordinate"] for values in at_stations])
-    values, paper = at_stations[worked(plotted.givens.rolled.givens.stations, ordinates)], float(plotted.first(key))
-    values |= {"paper": paper, "value": paper * values["mu"], "middle": float(ends.shown.real[3:5].mean())}
+    stations, key = plotted.givens.rolled.givens.stations, "lift" if name == "s" else f"max_{name}"
+    lengths, paper = _lengths(plotted, name), float(plotted.first(key))
+    at, middle = worked(stations, (dots.shown - feet.shown).imag), float(ends.shown.real[3:5].mean())
+    values = {"degree": float(np.degrees(mu_phi.per_mm)), "mu": per_mm, "paper": paper, "value": paper * per_mm}
+
+    def laid_off(k: int) -> Words:
+        """What is laid off at a station, to which side if they differ, and where on the axis."""
+        place, x = dots.shown[k], round(float(feet.shown[k].real), 2)
+        if np.isnan(place):
+            return say("nothing was read, so nothing is plotted at {x:g} mm", x=x)
+        said = say("{length} at {x:g} mm")
+        if name == "a" and abs(place.imag) > NOTHING:
+            said = say("{length} up at {x:g} mm") if place.imag > 0 else say("{length} down at {x:g} mm")
+        return said.where(length=lengths[k], x=x)
+
+    carried = CARRIED[name].where(**values, name=stations.names[at], there=laid_off(at))
     parts = [
         _edges(ends, limits),
-        *(Part(_told(name, each), (feet[k], dots[k])) for k, each in enumerate(at_stations)),
-        *_along_the_curve(plotted, name, curve, values["middle"]),
+        telling.run(carried, telling.STATION, stations.titles, feet, dots, settings=laid_off),
+        *_along_the_curve(plotted, name, curve, middle),
     ]
-    said = [CARRIED[name], *([MAXIMUM[name]] if np.isfinite(paper) else []), JOINED, RETURNED[MIRROR[name]]]
     if name != "s" and np.isfinite(paper):
         found, touched = _maximum(plotted, hand, name, values)
         marks, parts = marks + found, [*parts, touched]
     marks += _names(plotted, dots)  # the number of the maximum finds its place first
-    caption = sequence([each.where(**values) for each in said], " ")
     under = () if name == "alpha" else below
-    return Step(
-        TITLES[name], caption, VIEWS[name], tuple(marks), (key,), axes, why=WHYS[name], parts=tuple(parts), under=under
-    )
+    return Step(TITLES[name], tuple(parts), VIEWS[name], tuple(marks), (key,), axes, why=WHYS[name], under=under)
 
 
 def _maximum(
@@ -261,7 +260,8 @@ def _maximum(
         touched = say("Slide the T-square up until it touches the curve: {paper:.2f} mm below the axis.")
     shown = say("{value:.2f}°") if name == "alpha" else say("{value:.2f}")
     number = Label(top.place, shown.where(value=side * values["value"]), side * UP, of=read)
-    return [top.dots(Role.LIMIT), number], Part(touched.where(**values), (top,))
+    said = sequence([each.where(**values) for each in (touched, MAXIMUM[name])], " ")
+    return [top.dots(Role.LIMIT), number], Part(said, (top,))
 
 
 def _per_mm(plotted: Construction[ArcDiagramsGivens], name: str) -> float:
@@ -271,40 +271,20 @@ def _per_mm(plotted: Construction[ArcDiagramsGivens], name: str) -> float:
     return plotted.readings["lift" if name == "s" else f"max_{name}"].per_mm
 
 
-def _at_stations(plotted: Construction[ArcDiagramsGivens], name: str) -> list[dict[str, Any]]:
-    """What is taken from the drawing of the roller at each station, and laid off."""
-    rolled, mu_phi = plotted.givens.rolled, plotted.givens.mu_phi.per_mm
-    stations, feet, dots = rolled.givens.stations, plotted.acts["stations"].shown, plotted.acts[name].shown
-    degree, angle, mu = float(np.degrees(mu_phi)), name == "alpha", _per_mm(plotted, name)
-    factor = 1 / mu if angle else rolled.readings[name].per_mm / mu
-    ordinates = (dots - feet).imag
-    lengths = np.degrees(rolled.first(name)) if angle else rolled.first(name)
-    return [
-        {
-            "degree": degree,
-            "mu": mu,
-            "factor": factor,
-            "title": stations.titles[k],
-            "name": stations.names[k],
-            "length": abs(float(lengths[k])),
-            "ordinate": abs(float(ordinates[k])),
-            "way": say("up") if ordinates[k] > 0 else say("down"),
-            "at": float(feet[k].real),
-        }
-        for k in range(feet.size)
-    ]
-
-
-def _told(name: str, values: Mapping[str, Any]) -> Caption:
-    """The caption of a station's part."""
-    if np.isnan(values["ordinate"]):
-        return UNREAD.where(**values)
-    return (PLOTTED[name] if values["ordinate"] > NOTHING else ON_THE_AXIS).where(**values)
+def _lengths(plotted: Construction[ArcDiagramsGivens], name: str) -> list[Words]:
+    """What is laid off at each station, and where it comes from."""
+    dots, degrees = plotted.acts[name].first, np.degrees(plotted.givens.rolled.first(name)).tolist()
+    if name != "alpha":
+        return [telling.setting(dots[k]) for k in range(dots.shown.size)]
+    paper = dots.shown.imag.tolist()
+    said = say("{degrees:.2f}° are {paper:.2f} mm")
+    return [said.where(degrees=a, paper=y) if y > NOTHING else "0" for a, y in zip(degrees, paper, strict=True)]
 
 
 def _edges(ends: Drawn, limits: Drawn) -> Part:
     """The ends of arcs and phases on the axis."""
-    places = sequence([say("{at:.2f}", at=x) for x in ends.shown[1:].real.tolist()])
+    # Without an upper dwell the return begins where the rise ends.
+    places = sequence([say("{at:.2f}", at=x) for x in np.unique(ends.shown[1:].real.round(6)).tolist()])
     said = say("On the axis mark the ends of arcs and phases from 0, at {places} mm, and draw a thin vertical in each.")
     return Part(said.where(places=places), (ends, limits))
 
@@ -316,7 +296,7 @@ def _along_the_curve(plotted: Construction[ArcDiagramsGivens], name: str, curve:
     held = Part(say("Upper dwell: a horizontal line, drawn with the T-square."), (curve[n : n + 2],))
     back = RETURNED[MIRROR[name]].where(middle=middle)
     return [
-        Part(JOINED, (curve[:n],)),
+        Part(say("Join the points with the French curve, each arc by itself."), (curve[:n],)),
         *([held] if arcs.givens.dwell else []),
         Part(back, (curve[n + 2 : -2] if arcs.givens.dwell else curve[n:-2],)),
         Part(say("Lower dwell: go over the axis as far as {end:.2f} mm.", end=ends[-1]), (curve[-2:],)),

@@ -14,6 +14,7 @@ import numpy as np
 from graphcam.constructions.arc_profile import SENSE, ArcOutline, ThreeArcsGivens, arc, cam, middle_of_dwell, run
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP, unit
+from graphcam.drafting.formulas import Formula, Symbol
 from graphcam.drafting.hand import COMPASS, Hand, between
 from graphcam.drafting.ink import Caption, Part, Step, View, say
 from graphcam.drafting.marks import Dimension, Label, Line, Mark, Role
@@ -55,6 +56,13 @@ MEANING = Meaning(
             for axis in "xy"
         },
     },
+    (
+        Formula(
+            r"C_3C_1 = \rho_3 - \rho_1, \qquad C_3G = \rho_3",
+            symbols=(Symbol(r"\rho_1, \rho_3", say("the radii of the arcs about C1 and C3"), "mm"),),
+            of="rho3",
+        ),
+    ),
     scales={"arcs": "base"},
 )
 
@@ -121,19 +129,27 @@ def _touching(hand: Hand, name: str, centres: Drawn, about_c1: Drawn, rho3: Sett
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-FLAT = say("Lines that cross at less than a degree have no point of intersection that can be read.")
 Move = tuple[Caption, *tuple[Drawn, ...]]
 """What is done, and what it leaves."""
 
 
-def in_parts(moves: Sequence[Move], values: Mapping[str, Any]) -> tuple[Part, ...]:
-    """A part for each move, with the values in its places."""
-    return tuple(Part(said.where(**values), draws) for said, *draws in moves for draws in [tuple(draws)])
+def in_parts(
+    moves: Sequence[Move], values: Mapping[str, Any], first: Sequence[Caption] = (), last: Sequence[Caption] = ()
+) -> tuple[Part, ...]:
+    """A part for each move, with the values in its places.
+
+    first, last : what else is said in the first part, before it, and in the last one, after it
+    """
+    told = [[said] for said, *_ in moves]
+    told[0][:0], told[-1][len(told[-1]) :] = first, last
+    captions = [sequence([each.where(**values) for each in said], " ") for said in told]
+    return tuple(Part(caption, tuple(draws)) for caption, (_, *draws) in zip(captions, moves, strict=True))
 
 
-def in_a_row(parts: Sequence[Part], *more: Caption) -> Caption:
-    """The parts as one caption, and what follows from them."""
-    return sequence([*(part.caption for part in parts), *more], " ")
+def unreadable(title: Caption, said: Caption, view: View) -> Step:
+    """A step that cannot be drawn, for lines cross at less than a degree."""
+    why = say("Lines that cross at less than a degree have no point of intersection that can be read.")
+    return Step(title, (Part(said),), view, (), why=why)
 
 
 def _draw(arcs: ArcOutline) -> list[Step]:
@@ -161,17 +177,17 @@ def _plot(arcs: ArcOutline, name: str, point: Point) -> Move:
 
 def _data(arcs: ArcOutline) -> Step:
     given, mu_l, o = arcs.givens.given, arcs.givens.mu_l.per_mm, arcs.acts["O"]
-    parts = in_parts([_plot(arcs, name, at) for name in "ADG" if (at := getattr(given, name)) is not None], {})
+    axes = say("Draw two axes through the cam centre O, and plot at {ratio}: every length times {times:g}.")
+    moves = [_plot(arcs, name, at) for name in "ADG" if (at := getattr(given, name)) is not None]
+    parts = in_parts(moves, {"ratio": ratio_text(mu_l), "times": 1 / mu_l}, [axes])
     reach = np.array([-1, 1]) * (abs(complex(*given.D)) / mu_l + OVERHANG)
     plotted: tuple[Mark, ...] = (
         *(Line(reach + 0j, Role.AXIS), Line(UP * reach, Role.AXIS), o.dots(), o.label("O", -1 - 1j)),
         *(at.dots() for part in parts for at in part.draws),
         *(at.label(at.act.name[-1], complex(unit(at.shown).item())) for part in parts for at in part.draws),
     )
-    axes = say("Draw two axes through the cam centre O, and plot at {ratio}: every length times {times:g}.")
-    said = sequence([axes.where(ratio=ratio_text(mu_l), times=1 / mu_l), in_a_row(parts)], " ")
     why = say("Everything else follows from these points and the radius ρ₁ alone, so they come first.")
-    return Step(say("The data"), said, ARCS, plotted, given=plotted, why=why, parts=parts)
+    return Step(say("The data"), parts, ARCS, plotted, given=plotted, why=why)
 
 
 OUTER = say("Draw the outer circle about O through D: compass {outer:.2f} mm.")
@@ -197,7 +213,7 @@ def _first_centre(arcs: ArcOutline) -> Step:
     )
     why = say("Where two circles touch, their centres and the point of contact lie on one line: here O, C1 and D.")
     parts = in_parts(moves, values)
-    return Step(say("The first centre"), in_a_row(parts), ARCS, marks, (*_xy("C1"), "outer"), why=why, parts=parts)
+    return Step(say("The first centre"), parts, ARCS, marks, (*_xy("C1"), "outer"), why=why)
 
 
 def _second_centre(arcs: ArcOutline) -> Step:
@@ -205,7 +221,7 @@ def _second_centre(arcs: ArcOutline) -> Step:
     a, c2, g, about = (acts[name] for name in ("A", "C2", "G", "circle about C2"))
     if np.isnan(a.place):
         said = say("The bisector of AG meets the line OA at less than a degree: C2 cannot be read.")
-        return Step(say("The second centre"), said, ARCS, (), why=FLAT)
+        return unreadable(say("The second centre"), said, ARCS)
     radius = abs(g.place - c2.place)
     values = {"rho2": radius * mu_l, "radius": radius, "mu": mu_l, "base": abs(a.place), "at": _at(arcs, "C2")}
     if given.C2 is None:
@@ -235,7 +251,7 @@ def _second_centre(arcs: ArcOutline) -> Step:
     )
     why = say("The arc touches the base circle in A, so O lies on the line C2 A, and C2 is as far from A as from G.")
     reads, parts = (*_xy("C2"), "rho2", "base"), in_parts(moves, values)
-    return Step(say("The second centre"), in_a_row(parts), ARCS, marks, reads, why=why, parts=parts)
+    return Step(say("The second centre"), parts, ARCS, marks, reads, why=why)
 
 
 LAID_OFF = say("Set the dividers to {step:.2f} mm, ρ₁, and lay it off on the line G C2 from G {side}: P{prime}.")
@@ -247,13 +263,13 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
     role, mu_l, acts = Role.HIDDEN if name else Role.CONSTRUCTION, arcs.givens.mu_l.per_mm, arcs.acts
     chord, radius = abs(acts[p].place - acts["C1"].place), abs(acts[c3].place - acts["G"].place)
     values = {"prime": "′" if name else "", "step": arcs.givens.given.rho1 / mu_l, "compass": COMPASS * chord}
-    values |= {"radius": radius, "mu": mu_l, "rho3": radius * mu_l, "orders": _orders(arcs, name)}
+    values |= {"radius": radius, "mu": mu_l, "rho3": radius * mu_l}
     values |= {"c3": _at(arcs, c3), "f": _at(arcs, f), "side": say("away from C2") if name else say("towards C2")}
     title = say("The other root") if name else say("The third centre")
     if np.isnan(arcs.first(c3)):
         parallel = say("The bisector of C1 P{prime} is almost parallel to the line: C3{prime} cannot be read.")
         said = sequence([each.where(**values) for each in (LAID_OFF, parallel)], " ")
-        return [Step(title, said, ARCS, (), why=FLAT)]
+        return [unreadable(title, said, ARCS)]
     to_c3 = [
         (LAID_OFF, acts["G C2"], acts[p]),
         (say("Join C1 and P{prime} with the ruler."), acts[f"C1 {p}"]),
@@ -284,15 +300,14 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
             "Laid off the other way, ρ₁ leads to a second centre as far from P′ as from C1, so that there are two "
             "roots."
         )
-        parts = in_parts([*to_c3, *to_f], values)
-        marks, reads = (*centre, *line), (*_xy(c3), *_xy(f))
-        return [Step(title, in_a_row(parts, orders), ARCS, marks, reads, why=why, parts=parts)]
+        parts = in_parts([*to_c3, *to_f], values, last=[orders])
+        return [Step(title, parts, ARCS, (*centre, *line), (*_xy(c3), *_xy(f)), why=why)]
     why = say("C3 lies on the line G C2, and as C3 P and C3 C1 both are ρ₃ − ρ₁, on the bisector of C1 P.")
     touch = say("Where two circles touch, their centres and the point of contact lie on one line: here C3, C1 and F.")
-    first, last = in_parts(to_c3, values), in_parts(to_f, values)
+    first, last = in_parts(to_c3, values), in_parts(to_f, values, last=[orders])
     return [
-        Step(title, in_a_row(first), ARCS, centre, (*_xy("C3"), "rho3"), why=why, parts=first),
-        Step(say("The point of contact"), in_a_row(last, orders), ARCS, line, _xy("F"), why=touch, parts=last),
+        Step(title, first, ARCS, centre, (*_xy("C3"), "rho3"), why=why),
+        Step(say("The point of contact"), last, ARCS, line, _xy("F"), why=touch),
     ]
 
 
@@ -338,7 +353,7 @@ def _profile(arcs: ArcOutline) -> Step:
         "The arcs touch, so the profile has no corner, and the same flank, mirrored, lets the follower down again."
     )
     marks = (*(mark for mark, _ in pieces), line, *dimensions)
-    return Step(say("The profile"), in_a_row(parts), ARCS, marks, why=why, parts=tuple(parts))
+    return Step(say("The profile"), tuple(parts), ARCS, marks, why=why)
 
 
 # Names, lines and what is said of them.

@@ -3,19 +3,20 @@
 See :mod:`~graphcam.constructions.arc_roller` for what is drawn.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
 
-from graphcam.constructions.arc_outline import FLAT, Move, in_a_row, in_parts
+from graphcam.constructions.arc_outline import Move, in_parts, unreadable
 from graphcam.constructions.arc_profile import run
 from graphcam.constructions.arc_stations import ARCS, CENTRES, ROLLER, ArcStations, RollerOnArcs
 from graphcam.constructions.velocity_plan import VelocityScale
 from graphcam.constructions.views import at_scale
+from graphcam.drafting import telling
 from graphcam.drafting.euclid import UP, unit
 from graphcam.drafting.hand import Hand, between, showing
-from graphcam.drafting.ink import Caption, Part, Step, View, say
+from graphcam.drafting.ink import Caption, Part, Row, Step, View, say
 from graphcam.drafting.marks import Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
 from graphcam.drafting.units import NOTHING, unit as unit_named
@@ -63,7 +64,7 @@ def _plan(rolled: RollerOnArcs) -> list[Step]:
     places: Points = np.array([0j, *(rolled.first(name)[at] for name in PLACES)]) * upright
     if np.isnan(places).any():
         said = say("At station {name} a line cannot be read: it crosses another at less than a degree.", name=station)
-        return [Step(say("Velocity and acceleration"), said, PLAN, (), why=FLAT)]
+        return [unreadable(say("Velocity and acceleration"), said, PLAN)]
     scale = _scale(rolled, places, PLAN)
     hand, velocities = showing(rolled), VelocityScale(scale, rolled.givens.omega)
     _crank_drive(hand, rolled, at, upright * mu_l / scale.per_mm)
@@ -154,15 +155,14 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -
         *(acts[name].label(text, towards) for name, text, towards in names),
         *speed,
     )
-    parts = in_parts(moves, values)
+    parts = in_parts(moves, values, [opening])
     why = say(
         "While the roller runs on one arc, O{centre} is a crank and {centre}B a rod, and OK is ds/dφ, as in every "
         "velocity plan.",
         centre=centre,
     )
-    said = in_a_row([Part(opening.where(**values), ()), *parts])
     title, view = say("Velocity at station {name}", name=station), _at_scale(station, scale)
-    return Step(title, said, view, marks, why=why, parts=parts)
+    return Step(title, parts, view, marks, why=why)
 
 
 def _acceleration(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -> Step:
@@ -205,12 +205,12 @@ def _acceleration(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScal
         centre=centre,
     )
     title = say("Acceleration at station {name}", name=station)
-    return Step(title, in_a_row(parts), _at_scale(station, scale), marks, why=why, parts=parts)
+    return Step(title, parts, _at_scale(station, scale), marks, why=why)
 
 
 # --- at all stations -------------------------------------------------------------------------------------------------
 
-UNREAD = say("Station {title}: a line crosses another at less than a degree, and nothing can be read.")
+UNREAD = say("nothing can be read: a line crosses another at less than a degree")
 
 
 def _velocities(rolled: RollerOnArcs) -> Step:
@@ -218,27 +218,23 @@ def _velocities(rolled: RollerOnArcs) -> Step:
     stations, mu = rolled.givens.stations, rolled.givens.arcs.givens.mu_l.per_mm
     rods, across, k = (rolled.acts[name].first for name in ("rods", "across", "K"))
     paper, alpha = np.abs(k.shown), np.degrees(rolled.first("alpha"))
-    one = say(
-        "Station {name}: draw the rod from B{name} towards {centre} as far as the line through O square to ray "
-        "{name}; OK = {paper:.2f} mm × {mu:g} = {v:.3f} mm/rad, and the rod makes {alpha:.2f}° with the ray."
-    )
-
-    def values(j: int) -> Mapping[str, object]:
-        """What is drawn and read at a station."""
-        named = {"name": stations.names[j], "title": stations.names[j], "centre": CENTRES[stations.arc[j]], "mu": mu}
-        return named | {"paper": paper[j], "v": float(rolled.value("v")[j]), "alpha": alpha[j]}
-
-    none = say(
-        "Station {name}: the rod lies on ray {name}, so K coincides with O; velocity and pressure angle are zero."
-    )
+    at = worked(stations, paper)
 
     def told(j: int) -> Caption:
-        """The caption of a station's part."""
-        said = UNREAD if np.isnan(paper[j]) else one if paper[j] > NOTHING else none
-        return said.where(**values(j))
+        """What is read at a station."""
+        if np.isnan(paper[j]):
+            return UNREAD
+        if paper[j] <= NOTHING:
+            return say("the rod lies on the ray, so K coincides with O; velocity and pressure angle are zero")
+        said = say("OK = {paper:.2f} mm × {mu:g} = {v:.3f} mm/rad, and {alpha:.2f}°")
+        return said.where(paper=paper[j], mu=mu, v=float(rolled.value("v")[j]), alpha=alpha[j])
 
-    parts = tuple(Part(told(j[0]), (rods[j], across[j], k[j])) for j in stations.places.values())
-    named = [j for j, *_ in stations.places.values() if not np.isnan(paper[j])]
+    rows = tuple(
+        Row(telling.STATION.where(name=name), told(j[0]), (rods[j], across[j], k[j]))
+        for name, j in stations.places.items()
+    )
+    first = [j for j, *_ in stations.places.values()]
+    named = [j for j in first if not np.isnan(paper[j])]
     out = across.directions * -run(rolled.givens.arcs)
     marks: tuple[Mark, ...] = (
         Segments(rolled.acts["B"].shown, k.shown, Role.CONSTRUCTION).left_by(rods),
@@ -247,12 +243,12 @@ def _velocities(rolled: RollerOnArcs) -> Step:
         *(k[j].label(stations.names[j], complex(unit(out)[j]), small=True) for j in named),
     )
     said = say(
-        "Do the same at every station, in the drawing of the roller itself, where K has the number of its ray. "
-        "At station {name} OK is {paper:.2f} mm there: × {mu:g} = {v:.3f} mm/rad. The angle between rod and ray, "
-        "read with the protractor, is the pressure angle: {alpha:.2f}°. Repeat for the others."
-    ).where(**values(worked(stations, paper)))
+        "Do the same at every station, in the drawing of the roller itself: draw the rod from B towards the centre of "
+        "its arc as far as the line through O square to the ray; K has the number of its ray. The angle between rod "
+        "and ray, read with the protractor, is the pressure angle. Station {name}: {there}."
+    ).where(name=stations.names[at], there=told(at))
     why = say("The rod is the normal of the profile, so its angle with the follower's motion is the pressure angle.")
-    return Step(say("Velocities at all stations"), said, ROLLER, marks, ("v", "alpha"), why=why, parts=parts)
+    return Step(say("Velocities at all stations"), (Part(said, rows=rows),), ROLLER, marks, ("v", "alpha"), why=why)
 
 
 def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
@@ -271,22 +267,21 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
         np.abs(rolled.first(end) - start)
         for end, start in (("K", rolled.first("C")), ("N", rolled.first("C")), ("M", 0j))
     )
-    one = say(
-        "Station {title}: {centre}E = {centre}K = {ck:.2f} mm, {centre}N = {cn:.2f} mm, and M is {om:.2f} mm from O, "
-        "{way}: × {mu:g}, a = {a:.3f} mm/rad²."
-    )
 
-    def values(j: int) -> Mapping[str, object]:
+    def told(j: int) -> Caption:
         """What is drawn and read at a station."""
-        a = float(rolled.value("a")[j])
-        way = say("beyond O") if a > 0 else say("towards B")
-        named = {"title": stations.titles[j], "name": stations.names[j], "centre": centre[j], "mu": mu, "way": way}
-        return named | {"ck": ck[j], "cn": cn[j], "om": om[j], "a": a}
+        if np.isnan(om[j]):
+            return UNREAD
+        a, n_at = (
+            float(rolled.value("a")[j]),
+            say("{centre}N = {cn:.2f} mm") if cn[j] > NOTHING else say("N in {centre}"),
+        )
+        way, named = say("beyond O") if a > 0 else say("towards B"), {"centre": centre[j], "cn": cn[j]}
+        said = say(
+            "{centre}E = {centre}K = {ck:.2f} mm, {n_at}, OM = {om:.2f} mm {way}, × {mu:g}: a = {a:.3f} mm/rad²"
+        ).where(n_at=n_at.where(**named), **named)
+        return said.where(ck=ck[j], om=om[j], mu=mu, way=way, a=a)
 
-    parts = tuple(
-        Part((UNREAD if np.isnan(om[j]) else one).where(**values(j)), (rays[j], b[j], n[j], across[j], m[j]))
-        for j in range(stations.u.size)
-    )
     named = [j for j in range(stations.u.size) if not np.isnan(om[j])]
     marks: tuple[Mark, ...] = (
         rays.ways(Role.CONSTRUCTION),
@@ -295,15 +290,15 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
         *(b.dots(Role.CONSTRUCTION), m.dots(), n.dots(Role.CONSTRUCTION)),
         *(m[j].label(stations.names[j], complex(unit(m.shown)[j]), small=True) for j in named),
     )
+    at = worked(stations, om)
     said = say(
         "Do the same at every station in the drawing of the roller; only the rays, B, N and M are shown here, at "
-        "{ratio}, and the lengths given are those in the drawing of the roller. Station {name}: lay {centre}K = "
-        "{ck:.2f} mm off square to the rod, find {centre}N = {cn:.2f} mm, and M is {om:.2f} mm from O, {way}: × "
-        "{mu:g}, a = {a:.3f} mm/rad². Repeat for the others."
-    ).where(ratio=ratio_text(scale.per_mm), **values(worked(stations, om)))
+        "{ratio}, and the lengths given are those in the drawing of the roller. Station {name}: {there}."
+    ).where(ratio=ratio_text(scale.per_mm), name=stations.titles[at], there=told(at))
     why = say(
         "Where two arcs meet, the length of the rod changes suddenly, so the acceleration jumps, and such a "
         "station has two points M."
     )
+    part = telling.run(said, telling.STATION, stations.titles, rays, b, n, across, m, settings=told)
     title = say("Accelerations at all stations")
-    return Step(title, said, at_scale(ACCELERATIONS, scale), marks, ("a", *ends), why=why, parts=parts)
+    return Step(title, (part,), at_scale(ACCELERATIONS, scale), marks, ("a", *ends), why=why)

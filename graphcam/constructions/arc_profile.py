@@ -7,12 +7,13 @@ import numpy as np
 
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.hand import showing
-from graphcam.drafting.ink import Construction, say
+from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Arc, Points, Role
 from graphcam.drafting.scale import Paper, Scale
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.three_arcs import ThreeArcs
 from graphcam.plane import cross
+from graphcam.words import say_in
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +40,13 @@ def middle_of_dwell(arcs: ArcOutline) -> Drawn:
     """The line through the middle of the upper dwell: beyond it lies the mirror image of the rise, the return."""
     turn = -run(arcs) * arcs.givens.dwell / 2
     return showing(arcs).protractor("middle of the dwell", arcs.acts["O"].first, arcs.first("D"), turn)
+
+
+def mirror_line(arcs: ArcOutline) -> Caption:
+    """What that line is called where something is mirrored in it."""
+    if not arcs.givens.dwell:
+        return say_in("mirrored in", "the line OD")
+    return say_in("mirrored in", "the middle line of the dwell")
 
 
 def outline(

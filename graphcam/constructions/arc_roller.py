@@ -11,14 +11,16 @@ from functools import partial
 
 import numpy as np
 
-from graphcam.constructions.arc_outline import FLAT, Move, in_parts
+from graphcam.constructions.arc_outline import unreadable
 from graphcam.constructions.arc_plan import UNREAD, plans, worked
-from graphcam.constructions.arc_profile import SENSE, ArcOutline, cam, middle_of_dwell, outline, run
+from graphcam.constructions.arc_profile import SENSE, ArcOutline, cam, middle_of_dwell, mirror_line, outline, run
 from graphcam.constructions.arc_stations import ARCS, CENTRES, ROLLER, ArcRollerGivens, ArcStations, RollerOnArcs
+from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP, unit
+from graphcam.drafting.formulas import A, Formula, Symbol, V
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Step, say
+from graphcam.drafting.ink import Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
@@ -35,6 +37,27 @@ ENDS = {
     "a_D": say("a in {point}", point="D"),
 }
 """The accelerations at the first and the last station of every arc, in order."""
+FORMULAS = (
+    Formula(
+        r"v = \mu_l \cdot OK",
+        symbols=(
+            V,
+            Symbol(r"\mu_l", say("the scale of the drawing"), "mm/mm"),
+            Symbol("OK", say("what the rod cuts off the line through O square to the ray"), "mm of paper"),
+        ),
+        of="v",
+    ),
+    Formula(
+        r"CN = \frac{CK^2}{CB}, \qquad |a| = \mu_l \cdot OM",
+        symbols=(
+            A,
+            Symbol("C", say("the centre of the arc on which the roller runs")),
+            Symbol("CB", say("the rod"), "mm of paper"),
+            Symbol("OM", say("what the line through N square to the rod cuts off the ray"), "mm of paper"),
+        ),
+        of="a",
+    ),
+)
 MEANING = Meaning(
     "arc_roller",
     say("The roller on the arcs"),
@@ -70,6 +93,7 @@ MEANING = Meaning(
         },
         **{name: ReadingMeaning(title, "a", "mm/rad²", (Compared(name),)) for name, title in ENDS.items()},
     },
+    FORMULAS,
     scales={"roller": "x"},
 )
 
@@ -152,7 +176,7 @@ def _draw(rolled: RollerOnArcs) -> list[Step]:
         said = say(
             "Not every arc has a centre that can be read ({missing}), so the roller has no path.", missing=missing
         )
-        return [Step(say("The arcs of the roller's centre"), said, ROLLER, (), why=FLAT)]
+        return [unreadable(say("The arcs of the roller's centre"), said, ROLLER)]
     return [_paths(rolled), _joints(rolled), _stations(rolled), *plans(rolled, ENDS)]
 
 
@@ -174,7 +198,12 @@ def _paths(rolled: RollerOnArcs) -> Step:
     starts = np.array([centres[name].place for name in ("C3", "C3", "C1")])
     values = {"roller": roller, "paper": roller / arcs.givens.mu_l.per_mm, "prime": _radii(prime)[0]}
     copied = say("Copy the profile from the drawing of the arcs, with O, the joints, C1 and C3.")
-    moves: list[Move] = [(copied, *(circle for _, circle in profile), *joints, o, *centres.values())]
+    if not roller:
+        copied = say(
+            "The knife edge moves along the arcs of the profile itself: copy it from the drawing of the arcs, with O, "
+            "the joints, C1 and C3."
+        )
+    parts = [Part(copied, (*(circle for _, circle in profile), *joints, o, *centres.values()))]
     marks: list[Mark] = [
         *(mark for mark, _ in profile),
         Segments(trace.shown[1:], starts, Role.AXIS).left_by(lines[1:]),
@@ -182,18 +211,8 @@ def _paths(rolled: RollerOnArcs) -> Step:
         *(o.dots(), o.label("O", -1 - 1j), prime.drawn_circle(Role.CONSTRUCTION)),
         *(mark for name, at in centres.items() for mark in (at.dots(), at.label(name, -UP))),
     ]
-    said = say(
-        "The knife edge moves along the arcs of the profile itself: copy it from the drawing of the arcs. Draw "
-        "the prime circle about O through A: compass {prime:.2f} mm."
-    )
     why = say("A knife edge has no radius, so it runs on the profile itself.")
     if roller:
-        said = say(
-            "Copy the profile. The roller's centre moves along arcs about the same centres, with radii larger by "
-            "r = {roller:g} mm: set {paper:.2f} mm off outward from A, G, F and D on the lines of centres (from "
-            "G away from C3), open the compass from each centre to these points and draw the arcs, about C2 with "
-            "{about:.2f} mm. The prime circle about O passes through the first point: {prime:.2f} mm."
-        ).where(about=_radii(acts["arcs of the roller's centre"])[0])
         why = say(
             "A roller touches an arc on the line through the arc's centre, so its own centre stays r farther out."
         )
@@ -201,29 +220,39 @@ def _paths(rolled: RollerOnArcs) -> Step:
         circles = [paths[0], paths[1], paths[2], dwells[0], dwells[1]]
         grown = outline(arcs, axis, circles, trace.shown, Role.CURVE)
         marks += [trace.dots(Role.CONSTRUCTION), *(mark for mark, _ in grown)]
-        moves += _outward(rolled) + _arcs(rolled, [circle for _, circle in grown])
-    moves += [(say("Draw the prime circle about O, over the lower dwell as well: compass {prime:.2f} mm."), prime)]
-    reads, parts = ("prime_radius", "roller_radius", "rho"), in_parts(moves, values)
-    title = say("The arcs of the roller's centre")
-    return Step(title, said.where(**values), ROLLER, tuple(marks), reads, why=why, parts=parts)
+        parts += [_outward(rolled, values), _arcs(rolled, [circle for _, circle in grown])]
+    circled = say(
+        "Draw the prime circle about O through the path at A, also over the lower dwell: compass {prime:.2f} mm."
+    )
+    parts.append(Part(circled.where(**values), (prime,)))
+    title, reads = say("The arcs of the roller's centre"), ("prime_radius", "roller_radius", "rho")
+    return Step(title, tuple(parts), ROLLER, tuple(marks), reads, why=why)
 
 
-def _outward(rolled: RollerOnArcs) -> list[Move]:
+def _outward(rolled: RollerOnArcs, values: dict[str, float]) -> Part:
     """From each joint to the roller's centre."""
     lines, trace = rolled.acts["lines of centres"].first, rolled.acts["trace"].first
-    out = say("From {joint} set {paper:.2f} mm off outward on the line from {centre}.")
-    named = zip("AGFD", ("O", "C3", "C3", "C1"), strict=True)
-    return [(out.where(joint=joint, centre=name), lines[k], trace[k]) for k, (joint, name) in enumerate(named)]
+    said = say(
+        "The roller's centre moves along arcs about the same centres, with radii larger by r = {roller:g} mm: from "
+        "every joint set {paper:.2f} mm off outward on its line of centres."
+    ).where(**values)
+    centres = [say("on the line from {centre}", centre=name) for name in ("O", "C3", "C3", "C1")]
+    return telling.run(said, say("From {name}"), "AGFD", lines, trace, settings=centres.__getitem__)
 
 
-def _arcs(rolled: RollerOnArcs, circles: list[Drawn]) -> list[Move]:
+def _arcs(rolled: RollerOnArcs, circles: list[Drawn]) -> Part:
     """The path arc by arc, but for the lower dwell."""
-    one = say("{arc}: draw the arc about {centre} through the points set off, compass {radius:.2f} mm.")
-    radii = [_radii(circle)[0] for circle in circles]
-    rise = [(one.where(arc=ARCS[k], centre=CENTRES[k], radius=radii[k]), circles[k]) for k in range(3)]
-    held = say("Upper dwell: go on from D about O, compass {radius:.2f} mm.", radius=radii[3]), circles[3]
-    back = say("Return: mirror the three arcs in the middle line of the dwell."), *circles[-4:-1]
-    return [*rise, *([held] if rolled.givens.arcs.givens.dwell else []), back]
+    radii, about = [_radii(circle)[0] for circle in circles], say("about {centre}, compass {radius:.2f} mm")
+    rows = [Row(ARCS[k], about.where(centre=CENTRES[k], radius=radii[k]), (circles[k],)) for k in range(3)]
+    if rolled.givens.arcs.givens.dwell:
+        rows.append(Row(say("Upper dwell"), about.where(centre="O", radius=radii[3]), (circles[3],)))
+    mirrored = say("the three arcs, mirrored in {line}", line=mirror_line(rolled.givens.arcs))
+    rows.append(Row(say("Return"), mirrored, tuple(circles[-4:-1])))
+    said = say(
+        "Open the compass from each centre to the points set off and draw the arcs, {arc} about {centre} with "
+        "{radius:.2f} mm."
+    ).where(arc=ARCS[0], centre=CENTRES[0], radius=radii[0])
+    return Part(said, rows=tuple(rows))
 
 
 def _joints(rolled: RollerOnArcs) -> Step:
@@ -237,11 +266,6 @@ def _joints(rolled: RollerOnArcs) -> Step:
         "Join O with the points of the path at A, G, F and D. Set the protractor on OA and read the angles of the "
         "others {sense}: {g:.3f}° at G, {f:.3f}° at F, and {d:.3f}° at D, where the rise ends."
     )
-    measured = say("{joint}: join O with the point there; the angle from OA is {angle:.3f}°, {sense}.")
-    moves: list[Move] = [
-        (say("Join O with the point at A."), lines[0]),
-        *((measured.where(joint=name.upper(), angle=values[name]), lines[k]) for k, name in enumerate("gfd", 1)),
-    ]
     size = abs(complex(trace.shown[0]))
     marks: list[Mark] = [lines.ways(Role.CONSTRUCTION)]
     for k, name in enumerate(reads, 1):
@@ -249,8 +273,11 @@ def _joints(rolled: RollerOnArcs) -> Step:
         shown_as = say("{angle:.2f}°", angle=float(np.degrees(angles[k])))
         marks.append(AngleMark(0j, (0.15 + 0.15 * k) * size, low, high, shown_as, of=rolled.readings[name].act))
     why = say("These are the angles by which the cam turns while the roller runs over one arc after another.")
-    parts = in_parts(moves, values)
-    return Step(say("The angles of the arcs"), said.where(**values), ROLLER, tuple(marks), reads, why=why, parts=parts)
+    part = telling.run(
+        *(said.where(**values), say("Line O{name}"), "AGFD", lines),
+        settings=lambda k: say("{angle:.3f}°", angle=float(np.degrees(angles[k]))) if k else "",
+    )
+    return Step(say("The angles of the arcs"), (part,), ROLLER, tuple(marks), reads, why=why)
 
 
 def _stations(rolled: RollerOnArcs) -> Step:
@@ -275,25 +302,19 @@ def _stations(rolled: RollerOnArcs) -> Step:
         *named,
         Line(np.array([0j, complex(unit(axis.directions)) * reach]), Role.AXIS).left_by(axis),
     )
-    one = say(
-        "Ray {name}: {phi:.3f}° from OA, {sense}; it meets the arc about {centre} in B{name}, {s:.2f} mm outside the "
-        "prime circle."
-    )
-    level = say("Ray {name}: {phi:.3f}° from OA, {sense}; B{name} lies on the prime circle.")
-    values = {"sense": SENSE[run(arcs)], "mu": mu_l}
-    moves: list[Move] = []
+    one = say("{phi:.3f}°, on the arc about {centre} {s:.2f} mm outside the prime circle")
+    level, rows = say("{phi:.3f}°, on the prime circle"), list[Row]()
     for name, places in stations.places.items():
         k = places[0]
         told = UNREAD if np.isnan(s[k]) else one if s[k] > NOTHING else level
-        told = told.where(name=name, title=name, phi=abs(phi[k]), centre=CENTRES[stations.arc[k]], s=s[k])
-        moves.append((told, rays[places], b.first[places], *(rollers[j] for j in places if j in rollers)))
-    moves.append((say("Return: mirror the points B in the middle line of the dwell."), returning))
+        told = told.where(phi=abs(phi[k]), centre=CENTRES[stations.arc[k]], s=s[k])
+        draws = rays[places], b.first[places], *(rollers[j] for j in places if j in rollers)
+        rows.append(Row(say("Ray {name}", name=name), told, draws))
     said = say(
         "Hold the cam and turn the follower the other way, {sense}. Divide the angle of each arc into {parts} "
         "equal parts, set the angles off from OA with the protractor and number the rays. Ray {name} makes "
         "{phi:.3f}° with OA and meets the arc about {centre} in B. With the dividers take the distance of B "
-        "outside the prime circle: {s:.2f} mm × {mu:g} = {lift:.3f} mm is the displacement. Repeat for the "
-        "others; the return is the mirror image."
+        "outside the prime circle: {s:.2f} mm × {mu:g} = {lift:.3f} mm is the displacement."
     ).where(
         parts=stations.u.size // 3 - 1,
         name=stations.names[at],
@@ -301,12 +322,15 @@ def _stations(rolled: RollerOnArcs) -> Step:
         centre=CENTRES[stations.arc[at]],
         s=s[at],
         lift=s[at] * mu_l,
-        **values,
+        sense=SENSE[run(arcs)],
+        mu=mu_l,
     )
+    back = Part(say("Return: mirror the points B in {line}.", line=mirror_line(arcs)), (returning,))
     why = say(
         "Turning the follower about a fixed cam is the same relative motion as turning the cam under the follower."
     )
-    return Step(say("Stations"), said, ROLLER, marks, ("lift", "s", "x", "y"), why=why, parts=in_parts(moves, values))
+    parts = Part(said, rows=tuple(rows)), back
+    return Step(say("Stations"), parts, ROLLER, marks, ("lift", "s", "x", "y"), why=why)
 
 
 def _rollers(rolled: RollerOnArcs, hand: Hand) -> dict[int, Drawn]:

@@ -13,7 +13,6 @@ Source: reduction of a torque to a point of its link, as in force plans of linka
 :mod:`graphcam.constructions.arm_pressure_angle`.
 """
 
-import cmath
 import math
 from dataclasses import dataclass, replace
 from functools import partial
@@ -22,14 +21,28 @@ from operator import itemgetter
 import numpy as np
 
 from graphcam.constructions.arm_pressure_angle import ArmAngles
-from graphcam.constructions.axes import station_names
-from graphcam.constructions.force_plan import BEYOND, LEAST_LOAD, LOAD_LENGTH, READABLE_FORCE, round_scale, third_corner
+from graphcam.constructions.force_plan import (
+    BACK,
+    BEYOND,
+    CORNER,
+    LEAST_LOAD,
+    READABLE_FORCE,
+    UP_TO_CORNER,
+    beyond,
+    leaning,
+    loaded,
+    not_closed,
+    round_scale,
+    station_name,
+    third_corner,
+    triangle_step,
+)
 from graphcam.constructions.pressure_angle import moving_up, shown_station
 from graphcam.constructions.views import FORCES
 from graphcam.drafting.euclid import unit
 from graphcam.drafting.hand import Hand, between, reckoned
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
-from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role, angle_at
+from graphcam.drafting.marks import Arrow, Label, Line, Mark, Role
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
@@ -150,10 +163,6 @@ def _draw(plan: Construction[ArmForcePlanGivens]) -> list[Step]:
     return [draw(plan, view) for draw in (_load, _line_of_force, _line_of_reaction, last)]
 
 
-def _name(plan: Construction[ArmForcePlanGivens]) -> str:
-    return station_names(plan.givens.measured.givens.integrated.givens.stations)[plan.givens.station]
-
-
 def _terms(plan: Construction[ArmForcePlanGivens]) -> list[tuple[Caption, float]]:
     """What the torque consists of, term by term [N mm]."""
     givens, load = plan.givens.measured.givens, plan.givens.load
@@ -175,12 +184,19 @@ def _terms(plan: Construction[ArmForcePlanGivens]) -> list[tuple[Caption, float]
 
 def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     """The load, reduced to the arm's end, square to the arm."""
-    foot, givens, mu = plan.acts["foot"].first, plan.givens.measured.givens, plan.givens.mu_force.per_mm
+    givens, mu = plan.givens.measured.givens, plan.givens.mu_force.per_mm
     terms, integrated, k = _terms(plan), givens.integrated, plan.givens.station
     s, a = float(integrated.value("s")[k]), float(integrated.value("a")[k])
     torque = sum(each for _, each in terms)
     told = sequence([said.where(torque=each) for said, each in terms if abs(each) >= READABLE_FORCE * givens.arm])
-    values = {"name": _name(plan), "s": math.degrees(s), "a": a, "torque": torque, "terms": told, "arm": givens.arm}
+    values = {
+        "name": station_name(plan),
+        "s": math.degrees(s),
+        "a": a,
+        "torque": torque,
+        "terms": told,
+        "arm": givens.arm,
+    }
     values |= {"load": torque / givens.arm, "mu": mu, "paper": abs(torque) / givens.arm / mu}
     values["way"] = say("against the rise") if torque > 0 else say("in the sense of the rise")
     said = say(
@@ -188,14 +204,8 @@ def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
         "C: {terms}. Reduced to the arm's end it is Q = M/l = {torque:.0f}/{arm:g} = {load:.1f} N. At μF = {mu:g} N/mm "
         "set the dividers to {paper:.1f} mm, and lay Q off from its tail square to the arm of this station, {way}."
     )
-    label = Label(foot.place / 2, "Q", towards=-_beside(plan)).left_by(foot)
-    ends = Dots(np.array([0j, foot.place])).left_by(foot)
-    return Step(
-        say("Force plan at station {name}: the load", name=_name(plan)),
-        *(said.where(**values), view, (foot.arrow(0j, Role.CURVE), label, ends)),
-        reads=("load",),
-        why=say("Because a torque about the pivot has the same effect as a force at the arm's end, square to the arm."),
-    )
+    why = say("A torque about the pivot has the same effect as a force at the arm's end, square to the arm.")
+    return loaded(plan, view, said.where(**values), -_beside(plan), why)
 
 
 def _beside(plan: Construction[ArmForcePlanGivens]) -> complex:
@@ -206,32 +216,15 @@ def _beside(plan: Construction[ArmForcePlanGivens]) -> complex:
 
 def _line_of_force(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     """The line of the contact force through the head of the load."""
-    normal, length, down = plan.acts["line of F"].first, float(plan.first("normal")), plan.acts["line of Q"].first
+    normal, up = plan.acts["line of F"].first, -complex(unit(plan.acts["line of Q"].first.directions))
     alpha = float(plan.givens.measured.first("alpha")[plan.givens.station])
-    foot, along, up = normal.place, complex(unit(normal.directions)), -complex(unit(down.directions))
-    reach = 2 * LOAD_LENGTH if math.isnan(length) else length + BEYOND
-    radius = 0.4 * min(reach, LOAD_LENGTH)
     said = say(
         "In the arm positions lay the set squares along the line from A to D of station {name}. Carry it to the "
-        "head of Q and draw the line of the contact force F there; it makes α = {alpha:.1f}° with Q.",
-        name=_name(plan),
-        alpha=abs(math.degrees(alpha)),
-    )
-    start = cmath.phase(up)
-    marks = (
-        Line(np.array([foot, foot + reach * along]), Role.CONSTRUCTION).left_by(normal),
-        Line(np.array([foot, foot + (radius + BEYOND) * up]), Role.AXIS),
-        angle_at(
-            foot,
-            start,
-            start + cmath.phase(along / up),
-            radius,
-            say("α = {alpha:.1f}°", alpha=math.degrees(alpha)),
-            normal.act,
-        ),
-    )
-    why = say("Because the contact normal passes through the centre of relative rotation, and A D is parallel to it.")
-    return Step(say("The line of the contact force"), said, view, marks, why=why)
+        "head of Q and draw the line of the contact force F there; it makes α = {alpha:.1f}° with Q."
+    ).where(name=station_name(plan), alpha=abs(math.degrees(alpha)))
+    marks = leaning(normal, beyond(float(plan.first("normal"))), alpha, up)
+    why = say("The contact normal passes through the centre of relative rotation, and A D is parallel to it.")
+    return Step(say("The line of the contact force"), (Part(said, (normal,)),), view, marks, why=why)
 
 
 def _line_of_reaction(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
@@ -243,41 +236,28 @@ def _line_of_reaction(plan: Construction[ArmForcePlanGivens], view: View) -> Ste
     said = say(
         "With the set squares draw the line of the reaction R through the tail of Q, parallel to the arm CB of station "
         "{name}.",
-        name=_name(plan),
+        name=station_name(plan),
     )
-    why = say(
-        "Because F and Q act at B and are in equilibrium about C, so the reaction to both passes through B and C."
-    )
+    why = say("F and Q act at B and are in equilibrium about C, so the reaction to both passes through B and C.")
     mark = Line(ends, Role.CONSTRUCTION).left_by(line)
-    return Step(say("The line of the pivot's reaction"), said, view, (mark,), why=why)
+    return Step(say("The line of the pivot's reaction"), (Part(said, (line,)),), view, (mark,), why=why)
 
 
 def _not_pressed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     """The last step where there is no third corner."""
     said = say("The two lines do not meet where the cam could push: the load does not press the arm onto the cam.")
-    why = say("Because a cam can only push: F must point from the head of Q towards the crossing.")
-    return Step(say("The triangle does not close"), said, view, (), why=why)
+    return not_closed(view, said)
 
 
 def _closed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     """The triangle, and what is measured on it."""
     foot, corner, force, reaction = (plan.acts[name].first for name in ("foot", "corner", "F", "R"))
     corner, side, down = corner[0], _beside(plan), complex(unit(plan.acts["line of Q"].first.directions))
-    values = {name: float(plan.value(name)) for name in plan.readings} | {"mu": plan.givens.mu_force.per_mm}
-    values |= {f"{name}_mm": float(plan.first(name)) for name in plan.readings}
-    told = (
-        (say("Mark where the two lines cross: the third corner."), corner),
-        (say("F runs from the head of Q up to this corner: {normal_mm:.1f} mm × {mu:g} = {normal:.1f} N."), force),
-        (
-            say(
-                "R runs from the corner back to the tail of Q: {reaction_mm:.1f} mm × {mu:g} = {reaction:.1f} N. "
-                "Square to the arm F cos α measures {along_mm:.1f} mm × {mu:g} = {along:.1f} N, and along the arm F "
-                "sin α {side_mm:.1f} mm × {mu:g} = {side:.1f} N."
-            ),
-            reaction,
-        ),
+    sides = say(
+        "Square to the arm F cos α measures {along_mm:.1f} mm × {mu:g} = {along:.1f} N, and along the arm F sin α "
+        "{side_mm:.1f} mm × {mu:g} = {side:.1f} N."
     )
-    parts = tuple(Part(said.where(**values), (left,)) for said, left in told)
+    told = ((CORNER,), (corner,)), ((UP_TO_CORNER,), (force,)), ((BACK, sides), (reaction,))
     marks: tuple[Mark, ...] = (
         Arrow(foot.place, corner.place, Role.RESULT).left_by(force),
         Arrow(corner.place, 0j, Role.RESULT).left_by(reaction),
@@ -285,9 +265,4 @@ def _closed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
         Label((foot.place + corner.place) / 2, "F", towards=side + down / 2).left_by(force),
         Label(corner.place / 2, "R", towards=-down).left_by(reaction),
     )
-    return Step(
-        say("The triangle of forces"),
-        *(sequence([part.caption for part in parts], " "), view, marks, tuple(MEANING.readings)[1:]),
-        why=say("Because forces in equilibrium, drawn head to tail, form a closed polygon."),
-        parts=parts,
-    )
+    return triangle_step(plan, view, told, marks)

@@ -1,23 +1,27 @@
 """The profile of an oscillating follower by inversion: the pivot goes round the cam, against the cam's rotation."""
 
-from dataclasses import dataclass, replace
+import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from graphcam.constructions import profile_view
-from graphcam.constructions.arm_positions import arc_through, by_dividers, example
-from graphcam.constructions.axes import numbers, station_names, turning
+from graphcam.constructions.arm_positions import arc_through, cam_centre, example, turning_angle
+from graphcam.constructions.axes import numbers, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import RIGHT, UP, circles_meet, unit
+from graphcam.drafting.formulas import ARM, DISTANCE, PSI0, RADIUS, Formula, S, Values
 from graphcam.drafting.hand import Hand
-from graphcam.drafting.ink import Construction, Part, Step, say
+from graphcam.drafting.ink import Construction, Part, Step, Words, say
 from graphcam.drafting.marks import Role
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.scale import Scale
+from graphcam.drafting.telling import STATION, alike, circle_drawn, run
 from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation
+from graphcam.words import say_in
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +35,28 @@ class ArmInversionGivens(profile_view.InvertedGivens):
 ArmInverted = Construction[ArmInversionGivens]
 
 
+def _worked(inverted: ArmInverted) -> Values:
+    """The polar radius at the station that the captions work."""
+    givens, stations = inverted.givens, inverted.givens.integrated.givens.stations
+    k, arm, c = profile_view.worked_station(stations), givens.arm, givens.distance
+    s, psi0 = float(givens.integrated.value("s")[k]), float(np.angle(-cam_centre(arm, c, givens.prime_radius)))
+    radius = math.sqrt(arm**2 + c**2 - 2 * arm * c * math.cos(psi0 + s))
+    angles = {"psi0": math.degrees(psi0), "s": math.degrees(s)}
+    yield {"k": station_names(stations)[k], "l": arm, "c": c, **angles, "radius": radius}
+
+
+FORMULAS = (
+    Formula(
+        r"R = \sqrt{l^2 + c^2 - 2lc\cos(\psi_0 + s)}",
+        r"R_{<k>} = \sqrt{<l:.6g>^2 + <c:.6g>^2 - 2 \cdot <l:.6g> \cdot <c:.6g>\cos(<psi0:.3f>^\circ + <s:.3f>^\circ)}"
+        r" = <radius:.2f>\ \text{<mm>}",
+        _worked,
+        (RADIUS, ARM, DISTANCE, PSI0, S),
+        of="radius",
+    ),
+)
+
+
 MEANING = Meaning(
     "inversion",
     say("Pitch curve by inversion"),
@@ -39,7 +65,7 @@ MEANING = Meaning(
         "of the pivot the arm is turned by its displacement: the positions of its end give the cam."
     ),
     profile_view.CURVE,
-    "report.arm_paragraphs.inversion",
+    FORMULAS,
     scales={"profile": "x"},
 )
 
@@ -92,58 +118,31 @@ def _draw(inverted: ArmInverted) -> list[Step]:
 
 def _circles(inverted: ArmInverted) -> Step:
     """The prime circle and the circle of the pivot."""
-    mu_l, c, r0 = inverted.givens.mu_l, inverted.givens.distance, inverted.givens.prime_radius
+    mu_l, c = inverted.givens.mu_l.per_mm, inverted.givens.distance
     start, circle = profile_view.start_of_turn(inverted), inverted.acts["pivot circle"]
-    sizes = {"r0": r0, "c": c, "ratio": ratio_text(mu_l.per_mm), "r0_paper": mu_l.paper(r0), "c_paper": mu_l.paper(c)}
-    said = say(
-        "About the cam centre A draw with the compass, at {ratio}, the prime circle of {r0_paper:.1f} mm, r₀ = {r0:g} "
-        "mm, and the circle of the pivot of {c_paper:.1f} mm, c = {c:g} mm."
-    ).where(**sizes)
-    pivots = say("Draw the circle of the pivot, {c_paper:.1f} mm, about A.").where(**sizes)
-    step = profile_view.prime_step(
-        inverted, say("Prime circle and pivot circle"), said, start, (circle.drawn_circle(Role.CONSTRUCTION),)
-    )
-    why = say("Because the pivot stays at the centre distance from A, and the lift starts at the prime circle.")
-    return replace(step, why=why, parts=(*step.parts, Part(pivots, (circle,))))
+    pivots = circle_drawn(say_in("drawn", "the circle of the pivot about A"), "c", c, mu_l)
+    title, circles = say("Prime circle and pivot circle"), (circle.drawn_circle(Role.CONSTRUCTION),)
+    why = say("The pivot stays at the centre distance from A, and the lift starts at the prime circle.")
+    return profile_view.prime_step(inverted, title, start, circles, why=why, parts=(Part(pivots, (circle,)),))
 
 
 def _pivots(inverted: ArmInverted) -> Step:
     """The places of the pivot on its circle, numbered."""
     pivots, positions = (inverted.acts[name] for name in ("pivots", "inverted positions"))
     stations = inverted.givens.integrated.givens.stations
-    names, k, phi = station_names(stations), example(inverted.givens.integrated, pivots), np.degrees(stations.phi)
-    against = turning("cw" if inverted.givens.rotation == "ccw" else "ccw")
     said = say(
-        "The cam turns {rotation}; hold it still and step the pivot round A the other way, {against}. Begin on "
-        "the horizontal to the right of A; set the cam angle off at A with the protractor and mark and number "
-        "the pivots on their circle. Station {name}: {phi:.6g}° {against}, {step:.6g}° on from the previous one. "
-        "Repeat for the others; the phases take {angles}."
+        "The cam turns {rotation}; hold it still and step the pivot round A the other way, {against}. Set the "
+        "protractor on A and count {against} from the horizontal to the right of A, from station to station {steps}, "
+        "so station {name} at {angle}; mark and number the pivots on their circle."
     ).where(**profile_view.divided_by(inverted))
-    said = said.where(name=names[k], phi=phi[k], step=phi[k] - phi[k - 1], against=against)
-    level = say("C{name} lies on the horizontal through A, to the right: mark it on the pivot circle.")
-    begun = say(
-        "C{name}: set {phi:.6g}° off at A {against}, from the horizontal to the right, and mark C{name} on the "
-        "pivot circle."
-    )
-    on = say(
-        "C{name}: set {phi:.6g}° off at A {against}, {step:.6g}° on from C{before}, and mark C{name} on the pivot "
-        "circle."
-    )
-    texts = [(begun if phi[n] else level).where(name=name, phi=phi[n], against=against) for n, name in enumerate(names)]
-    for span in stations.phases:
-        for n in range(span.start + 1, span.stop):
-            values = {"name": names[n], "phi": phi[n], "step": phi[n] - phi[n - 1], "before": names[n - 1]}
-            texts[n] = on.where(against=against, **values)
     first = pivots.first[0]
     marks = (
         *(pivots.dots(Role.CONSTRUCTION), first.label("C", UP * first.place)),
         *numbers(pivots, stations, pivots.shown),
     )
-    return Step(
-        *(say("Inverted positions of the pivot"), said, PROFILE, marks),
-        why=say("Because the frame, seen from the cam, turns against the cam's rotation, and the pivot turns with it."),
-        parts=tuple(Part(text, (positions[n], pivots[n])) for n, text in enumerate(texts)),
-    )
+    why = say("The frame, seen from the cam, turns against the cam's rotation, and the pivot turns with it.")
+    stepped = run(said, STATION, station_names(stations), positions, pivots)
+    return Step(say("Inverted positions of the pivot"), (stepped,), PROFILE, marks, why=why)
 
 
 def _starts(inverted: ArmInverted) -> Step:
@@ -152,25 +151,17 @@ def _starts(inverted: ArmInverted) -> Step:
     names, k = station_names(integrated.givens.stations), example(integrated, inverted.acts["pivots"])
     arm, pitch = inverted.givens.mu_l.paper(inverted.givens.arm), inverted.acts["pitch"]
     said = say(
-        "Set the compass to the arm, {arm:.1f} mm. From every pivot strike an arc across the prime circle, "
-        "always at the crossing on the left as seen from A towards the pivot, and continue a little outside: "
-        "from C{name} to B₀{name}. Repeat for the others. {outside}"
-    )
-    each = say(
-        "From C{name} strike an arc of {arm:.1f} mm across the prime circle, on the left seen from A towards C{name}."
-    )
+        "Set the compass to the arm, {arm:.1f} mm. From every pivot strike an arc across the prime circle, always at "
+        "the crossing on the left as seen from A towards the pivot, and continue a little outside: from C{name} to "
+        "B₀{name}."
+    ).where(arm=arm, name=names[k])
     found = np.stack([starts.shown, pitch.shown], axis=-1)
     drawn = [arc_through(arcs[n], found[n], ARC_BEYOND) for n in range(len(names))]
     phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
-    said = said.where(arm=arm, name=names[k], outside=last.caption)
-    return Step(
-        *(say("Arcs of the arm"), said, PROFILE, (*drawn, starts.dots(Role.CONSTRUCTION), *phases)),
-        why=say(
-            "Because at the start of the lift the end of the arm lies on the prime circle, in every position of "
-            "the frame."
-        ),
-        parts=(*(Part(each.where(name=name, arm=arm), (arcs[n], starts[n])) for n, name in enumerate(names)), last),
-    )
+    struck = run(said, STATION, names, arcs, starts, settings=alike)
+    marks = (*drawn, starts.dots(Role.CONSTRUCTION), *phases)
+    why = say("At the start of the lift the end of the arm lies on the prime circle, in every position of the frame.")
+    return Step(say("Arcs of the arm"), (struck, last), PROFILE, marks, why=why)
 
 
 def _turned(inverted: ArmInverted) -> Step:
@@ -179,29 +170,18 @@ def _turned(inverted: ArmInverted) -> Step:
     names, k = station_names(integrated.givens.stations), example(integrated, inverted.acts["pivots"])
     s, factor = integrated.first("s"), np.degrees(integrated.readings["s"].per_mm)
     chords = 2 * inverted.givens.mu_l.paper(inverted.givens.arm) * np.sin(np.abs(np.radians(s * factor)) / 2)
-    angle = say("{paper:.2f} mm × {factor:.4g}°/mm = {angle:.2f}°, a chord of {chord:.2f} mm")
-    angles = [
-        angle.where(paper=paper, factor=factor, angle=paper * factor, chord=chord)
-        for paper, chord in zip(s.tolist(), chords.tolist(), strict=True)
-    ]
-    some = say(
-        "Arm {name}: from B₀{name} {angle}, clockwise along the arc about C{name}; mark {name} and draw the arm."
-    )
-    none = say("Arm {name}: the displacement is zero, so {name} lies on the prime circle; draw the arm.")
-    texts = [
-        by_dividers((some if chord > NOTHING else none).where(name=name, angle=angle), turn, chord)
-        for name, angle, chord, turn in zip(names, angles, chords.tolist(), (s * factor).tolist(), strict=True)
-    ]
+
+    def turn(n: int) -> Words:
+        """By how much the arm is turned at a station, as an angle and as a chord."""
+        angle = turning_angle(s[n], factor)
+        return say("{angle}, a chord of {chord:.2f} mm", angle=angle, chord=chords[n]) if chords[n] > NOTHING else angle
+
     said = say(
         "Turn every arm about its pivot from the prime circle by the displacement, away from A (clockwise on the "
-        "paper), with the protractor or, with dividers, by the chord of its arc. Station {name}: {angle}. Repeat for "
-        "the others; the ends are points of the pitch curve."
-    ).where(name=names[k], angle=angles[k])
-    return Step(
-        *(say("Arms turned by the displacement"), said, PROFILE),
-        *((arms.ways(Role.CONSTRUCTION),), profile_view.CURVE_READINGS),
-        why=say(
-            "Because the displacement of an arm is the angle through which it has turned from its lowest position."
-        ),
-        parts=tuple(Part(text, (arms[n], pitch[n])) for n, text in enumerate(texts)),
-    )
+        "paper), with the protractor or, with dividers, by the chord of its arc. Station {name}: from B₀{name} along "
+        "the arc about C{name} {turn}; mark the end {name} and draw the arm. The ends are points of the pitch curve."
+    ).where(name=names[k], turn=turn(k))
+    swung = run(said, STATION, names, arms, pitch, settings=turn)
+    why = say("The displacement of an arm is the angle through which it has turned from its lowest position.")
+    title, marks = say("Arms turned by the displacement"), (arms.ways(Role.CONSTRUCTION),)
+    return Step(title, (swung,), PROFILE, marks, profile_view.CURVE_READINGS, why=why)

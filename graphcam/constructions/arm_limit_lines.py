@@ -15,10 +15,11 @@ from graphcam.drafting.euclid import UP, unit
 from graphcam.drafting.hand import showing
 from graphcam.drafting.ink import Part, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Line, Points, Role, Segments
+from graphcam.drafting.telling import run
 from graphcam.given.follower import sense
 from graphcam.given.limits import Limits
 from graphcam.plane import dot
-from graphcam.words import sequence
+from graphcam.words import say_in, sequence
 
 SHORTEST, BEYOND = 20.0, 5.0
 """A line at a limit that does not bound the region is drawn only so far, one that does so far beyond it [mm]."""
@@ -38,9 +39,10 @@ class _AtLimit:
     @property
     def said(self) -> dict[str, Words]:
         """How they are turned from the normal that points down, and on which side of them A must lie."""
-        if self.side > 0:
-            return {"limit": degrees(self.limit), "turn": say("anticlockwise, towards C"), "kept": say("away from C")}
-        return {"limit": degrees(self.limit), "turn": say("clockwise, away from C"), "kept": say("towards C")}
+        turn, kept = say("anticlockwise, towards C"), say_in("a side of a line", "away from C")
+        if self.side < 0:
+            turn, kept = say("clockwise, away from C"), say_in("a side of a line", "towards C")
+        return {"limit": degrees(self.limit), "turn": turn, "kept": kept}
 
 
 def _downwards(lines: Drawn, hatched: Points) -> Segments:
@@ -76,31 +78,25 @@ def family_step(drawn: ArmPositions, name: str, direction: int, limit: float, ha
     title, phase = say("Lines at the limit of the rise"), say("rise")
     if direction < 0:
         title, phase = say("Lines at the limit of the return"), say("return")
+    square = say(
+        "At every point D of the {phase} draw the normal to the arm downwards with the set squares; that at D{name} is "
+        "shown."
+    ).where(phase=phase, name=named[k])
     said = say(
-        "At every point D of the {phase} draw the normal to the arm downwards with the set squares, and from D "
-        "with the protractor the line at {limit} to this normal, turned from it {turn}. The cam centre A must "
-        "lie on the side {kept}. Station {name} is shown with its normal. Repeat for the others."
-    )
-    first = say("D{name}: with the set squares draw the normal to arm {name} downwards.")
-    second = say("Line {name}: from D{name} set off {limit} from the normal, {turn}. A must lie on the side {kept}.")
-    again = say(
-        "Line {name}: from D{name} set off {limit} from the normal to arm {name}, {turn}. A must lie on the side "
-        "{kept}."
-    )
+        "From every D draw with the protractor the line at {limit} to its normal, turned from it {turn}. The cam "
+        "centre A must lie on the side {kept}."
+    ).where(**so.said)
     normal, shown, angle = _normal(drawn, k, lines[own], so)
-    others = [Part(again.where(name=named[n], **so.said), (lines[i],)) for i, n in enumerate(at) if n != k]
+    # The worked one comes first.
+    order = [own, *(i for i in range(len(at)) if i != own)]
     return Step(
-        *(title, said.where(phase=phase, name=named[k], **so.said), at_scale(REGION, drawn.givens.mu_l)),
-        (shown, _downwards(lines, hatched), angle),
+        title,
+        (Part(square, (normal,)), run(said, say("Line {name}"), [named[at[i]] for i in order], lines[order])),
+        *(at_scale(REGION, drawn.givens.mu_l), (shown, _downwards(lines, hatched), angle)),
         why=say(
-            "Because the direction from D to the cam centre makes the pressure angle with the normal to the arm, "
-            "and on the {phase} this angle may be at most {limit}."
+            "The direction from D to the cam centre makes the pressure angle with the normal to the arm, and on the "
+            "{phase} this angle may be at most {limit}."
         ).where(phase=phase, limit=degrees(limit)),
-        parts=(
-            Part(first.where(name=named[k]), (normal,)),
-            Part(second.where(name=named[k], **so.said), (lines[own],)),
-            *others,
-        ),
     )
 
 
@@ -120,23 +116,21 @@ def dwells_step(drawn: ArmPositions, limits: Limits, hatched: Points) -> Step:
     families = {"rest": _AtLimit(-sigma, limits.rise)}
     if limits.return_ is not None:
         families["rest after the return"] = _AtLimit(sigma, limits.return_)
-    at = say("From {place} set off {limit} from the normal downwards, {turn}. A must lie on the side {kept}.")
+    each = say(
+        "From B₀ and from the end {top} of the highest arm draw lines with the protractor at {limit} to the normal "
+        "downwards, turned from it {turn}. A must lie on the side {kept}."
+    )
     parts, marks = list[Part](), list[Segments]()
     for name, so in families.items():
-        lines = drawn.acts[f"limits: {name}"]
+        lines, said = drawn.acts[f"limits: {name}"], each.where(top=top, **so.said)
+        if not parts:
+            said = sequence([say("In a dwell D is the end of the arm."), said], " ")
         marks.append(_downwards(lines, hatched))
-        parts += [Part(at.where(place=place, **so.said), (lines[n],)) for n, place in enumerate(("B₀", top))]
-    each = say("{limit} {turn} (A on the side {kept})")
-    said = say(
-        "In a dwell D is the end of the arm. From B₀ and from the end {top} of the highest arm draw lines at the limit "
-        "to the other side of the normal, set off from it with the protractor: {turns}."
-    ).where(top=top, turns=sequence([each.where(**so.said) for so in families.values()], "; "))
+        parts.append(run(said, say("From {name}"), ("B₀", top), lines))
     return Step(
-        *(say("Lines at the limit in the dwells"), said, at_scale(REGION, drawn.givens.mu_l), tuple(marks)),
-        why=say(
-            "Because in a dwell nothing is laid off along the arm, and the angle is limited on the other side as well."
-        ),
-        parts=tuple(parts),
+        say("Lines at the limit in the dwells"),
+        *(tuple(parts), at_scale(REGION, drawn.givens.mu_l), tuple(marks)),
+        why=say("In a dwell nothing is laid off along the arm, and the angle is limited on the other side as well."),
     )
 
 
@@ -151,12 +145,12 @@ def reach_step(drawn: ArmPositions) -> Step:
     lines, top = drawn.acts["limits: reach"], highest_arm(drawn)
     out = lines.shown - PRODUCED * abs(drawn.acts["start"].place) * unit(lines.first.directions)
     produced = Segments(lines.shown, out, Role.CONSTRUCTION).left_by(lines)
-    lowest, highest = say("Extend CB₀ with the ruler; A must lie below it."), say("Extend arm {top} with the ruler.")
     return Step(
         say("The arm extended"),
-        say("With the ruler extend CB₀ and the highest arm, {top}, beyond their ends. A must lie below both.", top=top),
-        at_scale(REGION, drawn.givens.mu_l),
-        (produced,),
-        why=say("Because the cam lies below the arm, which must not swing across the line of centres CA."),
-        parts=(Part(lowest, (lines[0],)), Part(highest.where(top=top), (lines[1],))),
+        (
+            Part(say("With the ruler extend CB₀ beyond B₀; A must lie below it."), (lines[0],)),
+            Part(say("Extend the highest arm, {top}, beyond its end; A must lie below it too.", top=top), (lines[1],)),
+        ),
+        *(at_scale(REGION, drawn.givens.mu_l), (produced,)),
+        why=say("The cam lies below the arm, which must not swing across the line of centres CA."),
     )

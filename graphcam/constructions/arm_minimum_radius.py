@@ -6,8 +6,9 @@ makes the pressure angle with the arm's normal; so through every D the line at t
 is drawn, and A may lie where no line cuts it off.  Between the positions the lines are faired like any other curve.
 """
 
+import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from graphcam.constructions.arm_positions import (
     velocities_step,
 )
 from graphcam.constructions.arm_region_detail import detail_scale, region_enlarged
-from graphcam.constructions.axes import pieces_of
+from graphcam.constructions.axes import pieces_of, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.region import LEAST_RADIUS, ON_THE_LINE, Boundary, nearest_of_many
 from graphcam.constructions.region_picture import RegionPicture, picture_of
@@ -31,6 +32,7 @@ from graphcam.constructions.touched_station import touched
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import NOWHERE, UP, circles_meet, turned, unit
+from graphcam.drafting.formulas import ALPHA, ARM, DISTANCE, PSI0, R0, SIGMA, Formula, S, V, Values
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Dimension, Label, Line, Mark, Points, Region, Role
@@ -41,7 +43,7 @@ from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.limits import Limits
 from graphcam.plane import dot
-from graphcam.words import joined
+from graphcam.words import joined, sequence
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +60,61 @@ class ArmLeastRadiusGivens(ArmGivens, ToldByChain):
 ArmRegion = Construction[ArmLeastRadiusGivens]
 
 
+def _triangle(region: ArmRegion) -> Values:
+    """The triangle of A0, B0 and the pivot, where a cam centre is found."""
+    centre, arm = complex(region.first("centre")) * region.givens.mu_l.per_mm, region.givens.arm
+    if not np.isnan(centre):
+        c, psi0 = abs(centre), float(np.angle(-centre))
+        r0 = math.sqrt(arm**2 + c**2 - 2 * arm * c * math.cos(psi0))
+        yield {"l": arm, "c": c, "psi0": math.degrees(psi0), "r0": r0}
+
+
+def _worst(region: ArmRegion) -> Values:
+    """Of every family of lines the position in which the angle comes nearest to its limit, or beyond."""
+    integrated, limits, sigma = region.givens.integrated, region.givens.limits, sense(region.givens.rotation)
+    s, v = (integrated.value(name) for name in "sv")
+    moving, names = directions(region.givens), station_names(integrated.givens.stations)
+    at_rest = np.zeros_like(moving, bool)
+    at_rest[[0, int(np.argmax(s))]] = True
+    families = (
+        ("rise", limits.rise, sigma, moving > 0),
+        ("return", limits.return_, -sigma, moving < 0),
+        ("rest", limits.rise, -sigma, at_rest),
+        ("rest after the return", limits.return_, sigma, at_rest),
+    )
+    for triangle in _triangle(region):
+        arm, c, psi = triangle["l"], triangle["c"], math.radians(triangle["psi0"]) + s
+        for name, limit, side, of in families:
+            if f"limits: {name}" not in region.acts or limit is None:
+                continue
+            along = 0.0 * v if name in DWELLS else sigma * v
+            tangent = (arm * (1 + along) - c * np.cos(psi)) / (c * np.sin(psi))
+            k = int(np.argmax(np.where(of, side * tangent, -np.inf)))
+            found = {"tangent": float(tangent[k]), "alpha": math.degrees(math.atan(tangent[k]))}
+            terms = {"v": abs(float(along[k])), "sign": "-" if along[k] < 0 else "+", "s": math.degrees(s[k])}
+            bound = {"least": r"\le" if side > 0 else r"\ge", "limit": side * math.degrees(limit)}
+            yield {**triangle, **terms, **found, **bound, "k": "0" if name in DWELLS and not k else names[k]}
+
+
+FORMULAS = (
+    Formula(
+        r"\tan\alpha = \frac{l\,(1 + \sigma v) - c\cos(\psi_0 + s)}{c\,\sin(\psi_0 + s)}",
+        r"\tan\alpha_{<k>} = \frac{<l:.6g>\,(1 <sign> <v:.4f>) - <c:.3f>\cos(<psi0:.3f>^\circ + <s:.3f>^\circ)}"
+        r"{<c:.3f>\,\sin(<psi0:.3f>^\circ + <s:.3f>^\circ)} = <tangent:.4f>, "
+        r"\qquad \alpha_{<k>} = <alpha:.2f>^\circ <least> <limit:g>^\circ",
+        _worst,
+        (ALPHA, ARM, SIGMA, V, DISTANCE, PSI0, S),
+        of="prime_radius",
+    ),
+    Formula(
+        r"r_0 = \sqrt{l^2 + c^2 - 2lc\cos\psi_0}",
+        r"r_0 = \sqrt{<l:.6g>^2 + <c:.3f>^2 - 2 \cdot <l:.6g> \cdot <c:.3f>\cos <psi0:.3f>^\circ} = "
+        r"<r0:.2f>\ \text{<mm>}",
+        _triangle,
+        (R0,),
+        of="prime_radius",
+    ),
+)
 MEANING = Meaning(
     "minimum_radius",
     say("Minimum prime radius"),
@@ -72,7 +129,7 @@ MEANING = Meaning(
             say("centre distance c"), "c", "mm", (Compared("minimum_distance", say("its centre distance c")),)
         ),
     },
-    "report.arm_paragraphs.least_radius",
+    FORMULAS,
 )
 
 
@@ -269,18 +326,15 @@ def _shaded(region: ArmRegion, picture: RegionPicture, hatched: Points) -> Step:
     edges = showing(region).given("edges of the picture", corners, np.diff([*corners, corners[0]]))
     bounds = showing(region).take("bounds", region.acts["lines"].first, edges)
     said = say(
-        "Hatch the region on the permitted side of all lines; between the stations its edge is the curve that "
-        "the lines touch."
+        "Hatch the region on the permitted side of all lines; between the stations its edge is the curve that the "
+        "lines touch."
     )
     if region.givens.limits.return_ is None:
-        said = say(
-            "Hatch the region on the permitted side of all lines; between the stations its edge is the curve "
-            "that the lines touch. A spring drives the return, which therefore has no lines."
-        )
+        said = sequence([said, say("A spring drives the return, which therefore has no lines.")], " ")
     return Step(
-        *(say("The permitted region"), said, at_scale(REGION, region.givens.mu_l)),
+        *(say("The permitted region"), (Part(said, (bounds,)),), at_scale(REGION, region.givens.mu_l)),
         *((Region(hatched, of=bounds.act),),),
-        why=say("Because with a cam centre in the hatched region no position of the arm exceeds its permitted angle."),
+        why=say("With a cam centre in the hatched region no position of the arm exceeds its permitted angle."),
     )
 
 
@@ -346,35 +400,27 @@ def found_at(region: ArmRegion) -> Caption:
 def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
     c, acts, length = region.givens.distance, region.acts, region.givens.mu_l.paper
     start, centre, arcs, parts = acts["start"], acts["centre"][0], list[Mark](), list[Part]()
-    said = NO_CENTRE[c is not None]
     if c is not None:
         circle = acts["circle of the centre"]
         middle = centre.place if found else -length(c) * np.exp(0.2j)
         arcs.append(arc_through(circle, middle * np.exp([-0.15j, 0.15j])))
-        parts.append(Part(say("Draw an arc of {paper:.1f} mm about C with the compass.", paper=length(c)), (circle,)))
-    reads = ("prime_radius", "distance") if found else ()
-    step = Step(
-        *(say("The minimum prime radius"), said, at_scale(REGION, region.givens.mu_l), tuple(arcs), reads),
-        why=say(
-            "Because the prime circle goes through B₀, so the nearest permitted cam centre gives the smallest cam."
-        ),
-    )
+        about = say("Draw an arc of {paper:.1f} mm about C with the compass, for c = {c:g} mm.", paper=length(c), c=c)
+        parts.append(Part(about, (circle,)))
+    title, view = say("The minimum prime radius"), at_scale(REGION, region.givens.mu_l)
+    why = say("The prime circle goes through B₀, so the nearest permitted cam centre gives the smallest cam.")
     if not found:
-        return step
-    place, bind = found_at(region), acts["lines that bind"]
-    line = showing(region).join("line of centres", acts["pivot"].first, centre.first)
-    r0, away = (float(region.value(name)) for name in reads)
-    said = say("A₀ is {place}. Join it to B₀ and C and measure: {sizes}.")
-    if c is not None:
-        said = say(
-            "Draw an arc of {paper:.1f} mm about C with the compass, for c = {c:g} mm. A₀ is {place}. Join it to "
-            "B₀ and C and measure: {sizes}."
-        ).where(paper=length(c), c=c)
-    sizes = say("A₀B₀ = {paper:.2f} mm, so r₀ = {r0:.3f} mm, and A₀C = {away:.2f} mm, so c = {c:.3f} mm").where(
-        paper=abs(centre.place - start.place), r0=r0, away=abs(centre.place), c=away
+        return Step(title, (*parts, Part(NO_CENTRE[c is not None])), view, tuple(arcs), why=why)
+    line, reads = (
+        showing(region).join("line of centres", acts["pivot"].first, centre.first),
+        ("prime_radius", "distance"),
     )
-    parts.append(Part(say("Mark A₀, {place}.", place=place), (bind, centre)))
-    parts.append(Part(say("Join A₀ to B₀ and C and measure: {sizes}.", sizes=sizes), (acts["prime radius"], line)))
+    r0, away = (float(region.value(name)) for name in reads)
+    joining = say(
+        "Join A₀ to B₀ and C and measure: A₀B₀ = {paper:.2f} mm, so r₀ = {r0:.3f} mm, and A₀C = {away:.2f} mm, so c = "
+        "{c:.3f} mm."
+    ).where(paper=abs(centre.place - start.place), r0=r0, away=abs(centre.place), c=away)
+    parts.append(Part(say("Mark A₀, {place}.", place=found_at(region)), (acts["lines that bind"], centre)))
+    parts.append(Part(joining, (acts["prime radius"], line)))
     marks = (
         *(*arcs, *_binding_marks(region, hatched)),
         *(acts["prime radius"].way(Role.LIMIT), line.way(Role.AXIS)),
@@ -384,4 +430,4 @@ def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
         ),
         Dimension(centre.place, 0j, say("c = {c:.2f}", c=away), -8.0, of=region.readings["distance"].act),
     )
-    return replace(step, said=said.where(place=place, sizes=sizes), marks=marks, parts=tuple(parts))
+    return Step(title, tuple(parts), view, marks, reads, why=why)

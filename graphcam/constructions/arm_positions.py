@@ -17,9 +17,10 @@ from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP, circles_meet, unit
 from graphcam.drafting.hand import Hand, showing
-from graphcam.drafting.ink import Caption, Construction, Part, Step, say
+from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, Words, say
 from graphcam.drafting.marks import Arc, Line, Points, Role
 from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.telling import STATION, from_to, run, setting
 from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.stations import Stations
@@ -113,25 +114,27 @@ def positions_step(drawn: ArmPositions) -> Step:
     level = acts["arm at rest"]
     stations, s, k = integrated.givens.stations, integrated.first("s"), example(integrated, acts["tips"])
     factor, arm = np.degrees(integrated.readings["s"].per_mm), drawn.givens.arm / mu_l.per_mm
-    worked = say("{paper:.2f} mm × {factor:.4g}°/mm = {angle:.2f}°")
-    angles = [worked.where(paper=paper, factor=factor, angle=paper * factor) for paper in s.tolist()]
-    said = say(
-        "Mark the pivot C on the right. At {ratio} the arm is {arm:.1f} mm long: draw CB₀ horizontally to the "
-        "left, and with the compass an arc of {arm:.1f} mm about C. Multiply every ordinate of the displacement "
-        "by {factor:.4g}°/mm and set the angle off at C with the protractor, upwards from CB₀ (clockwise), as "
-        "far as the arc. Station {name}: {angle}. Repeat for the others and number them; the largest angle is "
-        "{most:.2f}°."
-    ).where(ratio=ratio_text(mu_l.per_mm), arm=arm, factor=factor, most=s.max() * factor, angle=angles[k])
+    names, given, turns = station_names(stations), (pivot.dots(), pivot.label("C", 1 + 0j)), s * factor
     base = say(
-        "Draw CB₀ horizontally to the left from C, {arm:.1f} mm long, and an arc of {arm:.1f} mm about C.", arm=arm
-    )
-    down = say("Arm {name}: the displacement is zero, so it lies on CB₀.")
-    up = say("Arm {name}: {angle}; set it off at C upwards from CB₀ and draw the arm as far as the arc.")
-    names, given = station_names(stations), (pivot.dots(), pivot.label("C", 1 + 0j))
-    parts = [
-        by_dividers((up if abs(turn) > NOTHING else down).where(name=names[n], angle=angles[n]), turn, chord)
-        for n, (turn, chord) in enumerate(zip((s * factor).tolist(), np.abs(ends.shown - start.place), strict=True))
-    ]
+        "Mark the pivot C on the right. At {ratio} the arm is {arm:.1f} mm long: draw CB₀ horizontally to the left, "
+        "and with the compass an arc of {arm:.1f} mm about C."
+    ).where(ratio=ratio_text(mu_l.per_mm), arm=arm)
+    said = say(
+        "Multiply every ordinate of the displacement by {factor:.4g}°/mm, set the angle off at C with the protractor, "
+        "upwards from CB₀ (clockwise), draw the arm there as far as the arc and number it. Station {name}: {angle}. "
+        "The largest angle is {most:.2f}°."
+    ).where(factor=factor, name=names[k], angle=turning_angle(s[k], factor), most=s.max() * factor)
+
+    small = (np.abs(turns) > NOTHING) & (np.abs(turns) < SMALLEST_ANGLE)
+    if small.any():
+        by_dividers = say("An angle too small for the protractor is set off along the arc with the dividers.")
+        said = sequence([said, by_dividers], " ")
+
+    def swung(n: int) -> Words:
+        """By how much the arm is turned at a station, and of a small angle how long its chord is."""
+        angle, chord = turning_angle(s[n], factor), abs(ends.shown[n] - start.place)
+        return say("{angle}, {chord:.2f} mm along the arc", angle=angle, chord=chord) if small[n] else angle
+
     towards = ends.shown * (1 - UP * directions(drawn.givens))
     marks = (
         *(*given, start.label("B₀", -UP, small=True)),
@@ -140,22 +143,21 @@ def positions_step(drawn: ArmPositions) -> Step:
         *(arms.ways(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION)),
         *numbers(ends, stations, towards, shown=_first_here(ends, start, stations)),
     )
+    swings = run(said, STATION, names, arms, ends, settings=swung)
     return Step(
-        *(say("Arm positions"), said.where(name=names[k]), at_scale(REGION, mu_l), marks),
+        say("Arm positions"),
+        (Part(base, (level, arc, start)), swings),
+        *(at_scale(REGION, mu_l), marks),
         given=given,
-        why=say("Because the displacement of an arm is the angle through which it turns about its pivot."),
-        parts=(Part(base, (level, arc, start)), *(Part(part, (arms[n], ends[n])) for n, part in enumerate(parts))),
+        why=say("The displacement of an arm is the angle through which it turns about its pivot."),
     )
 
 
-def by_dividers(said: Caption, turn: float, chord: float) -> Caption:
-    """How an angle [degrees] of an arm is set off, and what is to be done with a small one: its chord [mm of paper]."""
-    if not NOTHING < abs(turn) < SMALLEST_ANGLE:
-        return said
-    small = say(
-        "The angle is too small for the protractor: with dividers set off {chord:.2f} mm along the arc.", chord=chord
-    )
-    return sequence([said, small], " ")
+def turning_angle(paper: float, factor: float) -> Words:
+    """By which angle [degrees] an arm is turned for an ordinate of the displacement [mm of paper]."""
+    if abs(paper * factor) < NOTHING:
+        return "0°"
+    return say("{paper:.2f} mm × {factor:.4g}°/mm = {angle:.2f}°", paper=paper, factor=factor, angle=paper * factor)
 
 
 def _first_here(ends: Drawn, start: Drawn, stations: Stations) -> NDArray[np.bool_]:
@@ -172,30 +174,32 @@ def velocities_step(drawn: ArmPositions) -> Step:
     ends, tips = drawn.acts["ends"], drawn.acts["tips"]
     stations, v, k = integrated.givens.stations, integrated.first("v"), example(integrated, tips)
     names, mu, arm = station_names(stations), integrated.readings["v"].per_mm, drawn.givens.mu_l.paper(drawn.givens.arm)
-    worked, smooth = say("{paper:.2f} mm × {factor:.4g} = {length:.2f} mm"), showing(drawn)
-    lengths = [worked.where(paper=paper, factor=arm * mu, length=arm * mu * paper) for paper in np.abs(v).tolist()]
     said = say(
         "Multiply every ordinate of the velocity by l·μᵥ = {arm:.1f} mm × {mu:.4g}/mm = {factor:.4g} and lay it off "
         "with dividers along the arm from its end, to D: on the rise {rise}, on the return {back}. Station {name}: "
-        "{length}. Repeat for the others and join the ends D by smooth curves."
-    ).where(arm=arm, mu=mu, factor=arm * mu, rise=along_the_arm(sigma), back=along_the_arm(-sigma))
-    none = say("D{name}: the velocity is zero, so D is the end of the arm.")
-    some = say("D{name}: {length}; lay it off from the end of arm {name} along it, {side}.")
-    parts = list[Part]()
-    for n, way in enumerate(arm * mu * v):
-        text = some.where(length=lengths[n], side=along_the_arm(sigma * way)) if abs(way) > NOTHING else none
-        parts.append(Part(text.where(name=names[n]), (tips[n],)))
-    curves = [smooth.fair(f"curve of the tips {n}", tips.first, [piece]) for n, piece in enumerate(stations.pieces)]
-    for curve, piece in zip(curves, stations.pieces, strict=True):
-        text = say("Join D{first} to D{last} through those between by a smooth curve, with the French curve.")
-        parts.append(Part(text.where(first=names[piece.start], last=names[piece.stop - 1]), (curve,)))
+        "{length}."
+    ).where(arm=arm, mu=mu, factor=arm * mu, rise=along_the_arm(sigma), back=along_the_arm(-sigma), name=names[k])
+
+    def laid_off(n: int) -> Words:
+        """How long the velocity is at a station, and in which sense it lies along the arm."""
+        length = setting(tips.first[[n]])
+        return length if length == "0" else say("{length} {side}", length=length, side=along_the_arm(sigma * v[n]))
+
+    hand, pieces = showing(drawn), stations.pieces
+    curves = [hand.fair(f"curve of the tips {n}", tips.first, [piece]) for n, piece in enumerate(pieces)]
+    through = tuple(
+        Row(from_to(f"D{names[piece.start]}", f"D{names[piece.stop - 1]}"), "", (curve,))
+        for curve, piece in zip(curves, pieces, strict=True)
+    )
+    smooth = say("Join the ends D by smooth curves with the French curve, from jump to jump of the acceleration.")
+    laid = run(said.where(length=setting(tips.first[[k]])), STATION, names, tips, settings=laid_off)
     marks = (
         *(tips.from_(ends, Role.CURVE), *(curve.line(Role.RESULT) for curve in curves)),
         *numbers(tips, stations, tips.shown, shown=clear_numbers(tips.shown, stations, ends.shown)),
     )
     why = say(
-        "Because the end of the arm has the velocity l·ds/dφ square to the arm; turned by 90° in the sense of the "
-        "cam's rotation ({rotation}) it lies along the arm."
+        "The end of the arm has the velocity l·ds/dφ square to the arm; turned by 90° in the sense of the cam's "
+        "rotation ({rotation}) it lies along the arm."
     ).where(rotation=turning(drawn.givens.rotation))
-    said, view = said.where(name=names[k], length=lengths[k]), at_scale(REGION, drawn.givens.mu_l)
-    return Step(say("Velocities along the arm"), said, view, marks, why=why, parts=tuple(parts))
+    view = at_scale(REGION, drawn.givens.mu_l)
+    return Step(say("Velocities along the arm"), (laid, Part(smooth, rows=through)), view, marks, why=why)

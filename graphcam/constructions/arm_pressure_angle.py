@@ -6,6 +6,7 @@ senses on the rise, towards the pivot when in the same sense.  The angle of D A 
 angle.
 """
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,12 +26,14 @@ from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import ARM_ANGLES, PLAN, REGION, at_scale
 from graphcam.drafting.acts import Floats, Setting
 from graphcam.drafting.euclid import RIGHT, UP, unit
+from graphcam.drafting.formulas import ALPHA, ARM, DISTANCE, PSI0, R0, SIGMA, Formula, S, Symbol, V, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Points, Role, Segments, angle_at
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
+from graphcam.drafting.telling import STATION, run
 from graphcam.given.follower import Rotation, sense
 from graphcam.words import sequence
 
@@ -52,6 +55,42 @@ class ArmPressureAngleGivens(MeasuredGivens):
 ArmAngles = Construction[ArmPressureAngleGivens]
 
 
+def _at_start(measured: ArmAngles) -> Values:
+    """The triangle of the adopted sizes."""
+    arm, c, r0 = measured.givens.arm, measured.givens.distance, measured.givens.prime_radius
+    yield {"l": arm, "c": c, "r0": r0, "psi0": math.degrees(np.angle(-cam_centre(arm, c, r0)))}
+
+
+def _worked(measured: ArmAngles) -> Values:
+    """The station of the velocity plan."""
+    givens, k, (at_start,) = measured.givens, shown_station(measured), _at_start(measured)
+    s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
+    along, psi = sense(givens.rotation) * v, math.radians(at_start["psi0"]) + s
+    tangent = (givens.arm * (1 + along) - givens.distance * math.cos(psi)) / (givens.distance * math.sin(psi))
+    found = {"tangent": tangent, "alpha": math.degrees(math.atan(tangent))}
+    yield {**at_start, "v": abs(along), "sign": "-" if along < 0 else "+", "s": math.degrees(s), **found}
+
+
+FORMULAS = (
+    Formula(
+        r"\psi_0 = \arccos\frac{l^2 + c^2 - r_0^2}{2lc}",
+        r"\psi_0 = \arccos\frac{<l:.6g>^2 + <c:.6g>^2 - <r0:.6g>^2}{2 \cdot <l:.6g> \cdot <c:.6g>} = <psi0:.3f>^\circ",
+        _at_start,
+        (PSI0, ARM, DISTANCE, R0),
+        of="psi0",
+    ),
+    Formula(
+        r"\tan\alpha = \frac{l\,(1 + \sigma v) - c\cos(\psi_0 + s)}{c\,\sin(\psi_0 + s)}, \qquad "
+        r"\gamma = 90^\circ - |\alpha|",
+        r"\tan\alpha = \frac{<l:.6g>\,(1 <sign> <v:.4f>) - <c:.6g>\cos(<psi0:.3f>^\circ + <s:.3f>^\circ)}"
+        r"{<c:.6g>\,\sin(<psi0:.3f>^\circ + <s:.3f>^\circ)} = <tangent:.4f>, \qquad \alpha = <alpha:.2f>^\circ",
+        _worked,
+        (ALPHA, SIGMA, V, S, Symbol(r"\gamma", say("the transmission angle"), "°")),
+        of="alpha",
+    ),
+)
+
+
 MEANING = Meaning(
     "pressure_angle",
     say("Pressure angle"),
@@ -60,7 +99,7 @@ MEANING = Meaning(
         "a length along the arm, and the angle between normal and motion is found without the profile."
     ),
     {**ANGLES, "psi0": ReadingMeaning(say("angle ψ₀"), "ψ₀", "rad")},
-    "report.arm_paragraphs.pressure_angle",
+    FORMULAS,
 )
 
 
@@ -153,32 +192,26 @@ def _centre(measured: ArmAngles) -> Step:
     sizes = {"c": givens.distance, "r0": givens.prime_radius}
     sizes |= {"about_c": length(givens.distance), "about_b": length(givens.prime_radius), "psi0": psi0}
     before = say("Continue in the drawing of the arm positions, which holds C, B₀ and the ends D of all stations.")
-    first = say("Draw an arc of {about_c:.1f} mm about C below the arm, for c = {c:g} mm.")
+    first = say("With the compass draw an arc of {about_c:.1f} mm about C below the arm, for c = {c:g} mm.")
     second = say(
-        "Cut it with an arc of {about_b:.1f} mm about B₀, for r₀ = {r0:g} mm: the crossing below the arm is A."
+        "Cut it with an arc of {about_b:.1f} mm about B₀, for r₀ = {r0:g} mm: the crossing below the arm is the cam "
+        "centre A."
     )
     third = say("Join C to A and measure the angle B₀CA with the protractor: ψ₀ = {psi0:.2f}°.")
-    said = say(
-        "In the drawing of the arm positions draw with the compass arcs of {about_c:.1f} mm about C, for c = {c:g} mm, "
-        "and of {about_b:.1f} mm about B₀, for r₀ = {r0:g} mm: they cross below the arm in the cam centre A. Join C to "
-        "A and measure the angle B₀CA with the protractor: ψ₀ = {psi0:.2f}°."
-    )
     marks = (
         *(tips.dots(Role.CONSTRUCTION), *arcs),
         *(radius.way(Role.LIMIT), line.way(Role.CONSTRUCTION), centre.dots(Role.RESULT)),
         centre.label(_named(givens), -UP),
         angle,
     )
-    return Step(
-        *(say("The cam centre"), said.where(**sizes), at_scale(REGION, givens.mu_l), marks, ("psi0",)),
-        why=say("Because the cam centre is as far from C as the centre distance, and from B₀ as the prime radius."),
-        parts=(
-            Part(before, (start, tips)),
-            Part(first.where(**sizes), (circles[0],)),
-            Part(second.where(**sizes), (circles[1], centre, radius)),
-            Part(third.where(**sizes), (line,)),
-        ),
+    parts = (
+        Part(before, (start, tips)),
+        Part(first.where(**sizes), (circles[0],)),
+        Part(second.where(**sizes), (circles[1], centre, radius)),
+        Part(third.where(**sizes), (line,)),
     )
+    why = say("The cam centre is as far from C as the centre distance, and from B₀ as the prime radius.")
+    return Step(say("The cam centre"), parts, at_scale(REGION, givens.mu_l), marks, ("psi0",), why=why)
 
 
 def _named(givens: ArmPressureAngleGivens) -> Caption:
@@ -235,16 +268,16 @@ def _mechanism(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -
     sizes = {"ratio": ratio, "ac": c.place.real, "psi0": psi0, "s": s, "psi": psi0 + s, "arm": arm}
     sizes |= {"v": abs(v), "factor": factor, "bd": abs(v) * factor, "side": along_the_arm(sense(givens.rotation) * v)}
     texts = (
-        say("Draw AC horizontally, {ac:.1f} mm long, with C on the right."),
-        say("At C set off ψ₀ + s = {psi0:.2f}° + {s:.2f}° = {psi:.2f}° upwards from CA and lay off CB = {arm:.1f} mm."),
+        say("At {ratio} draw AC horizontally, {ac:.1f} mm long, with C on the right."),
+        say(
+            "At C set off the angle of the arm, ψ₀ + s = {psi0:.2f}° + {s:.2f}° = {psi:.2f}°, upwards from CA with the "
+            "protractor, and lay off the arm, CB = {arm:.1f} mm."
+        ),
         say("Join A to B."),
-        say("From B lay off {v:.2f} mm × {factor:.4g} = {bd:.2f} mm along the arm, {side}, to D."),
-    )
-    said = say(
-        "At {ratio} draw AC = {ac:.1f} mm horizontally, with C on the right. At C set off the angle of the arm, "
-        "ψ₀ + s = {psi0:.2f}° + {s:.2f}° = {psi:.2f}°, upwards from CA with the protractor, and lay off the arm, "
-        "CB = {arm:.1f} mm. From B lay off l·ds/dφ along the arm {side} with the dividers, {v:.2f} mm × "
-        "{factor:.4g} = {bd:.2f} mm, to D."
+        say(
+            "From B lay off l·ds/dφ along the arm, {side}, with the dividers: {v:.2f} mm × {factor:.4g} = {bd:.2f} mm, "
+            "to D."
+        ),
     )
     marks = (
         *(c.line_from(a, Role.AXIS), cb[k].way(Role.CURVE), bd[k].way(Role.RESULT), ab[k].way(Role.CONSTRUCTION)),
@@ -252,15 +285,11 @@ def _mechanism(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -
         *(a.label("A", -1 - 1j), b[k].label("B", 1 + 1j), c.label("C", 1 - 1j), d[k].label("D", -1 + 1j)),
     )
     draws = ((a, c), (cb[k], b[k]), (ab[k],), (bd[k], d[k]))
-    return Step(
-        say("The mechanism at station {name}", name=names[k]),
-        *(said.where(**sizes), scales.view(names[k]), marks),
-        why=say(
-            "Because l·ds/dφ, the velocity of B turned by 90°, is a length along the arm, the velocities can be drawn "
-            "into the mechanism."
-        ),
-        parts=tuple(Part(text.where(**sizes), drawn) for text, drawn in zip(texts, draws, strict=True)),
+    parts = tuple(Part(text.where(**sizes), drawn) for text, drawn in zip(texts, draws, strict=True))
+    why = say(
+        "The velocity of B turned by 90°, l·ds/dφ, is a length along the arm, so it can be drawn in the mechanism."
     )
+    return Step(say("The mechanism at station {name}", name=names[k]), parts, scales.view(names[k]), marks, why=why)
 
 
 def _velocities(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> Step:
@@ -270,28 +299,23 @@ def _velocities(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) 
     across, along = v1.place - pole.place, v2.place - pole.place
     sizes = {"across": abs(across), "along": abs(along), "closing": abs(along - across)}
     sizes |= {"turn": turning(rotation), "back": turning("cw" if rotation == "ccw" else "ccw")}
-    texts = (
-        say("From p draw v₁ = AB = {across:.1f} mm: the direction of AB turned by 90° {turn}."),
-        say("From p draw v₂ = BD = {along:.1f} mm: the direction of BD turned by 90° {back}, square to the arm."),
-        say("Join the tips of v₁ and v₂: v₂₁ = {closing:.1f} mm."),
-    )
-    said = say(
+    first = say(
         "All velocities are divided by ω, so v₁ = ω·AB is drawn as long as AB. From a pole p draw with the set squares "
-        "v₁ = {across:.1f} mm, square to AB, as AB turned by 90° {turn}, and v₂ = BD = {along:.1f} mm, square to the "
-        "arm, as BD turned by 90° {back}. The line from the tip of v₁ to that of v₂ is v₂₁ = {closing:.1f} mm."
+        "v₁ = AB = {across:.1f} mm, square to AB: the direction of AB turned by 90° {turn}."
     )
-    speeds = scales.told(pole, v1, v2)
-    said = sequence([said.where(**sizes), *speeds], " ")
-    captions = [text.where(**sizes) for text in texts]
-    captions[-1] = sequence([captions[-1], *speeds], " ")
+    second = say(
+        "From p draw v₂ = BD = {along:.1f} mm, square to the arm: the direction of BD turned by 90° {back}."
+    ).where(**sizes)
+    third = say("Join the tip of v₁ to the tip of v₂: v₂₁ measures {closing:.1f} mm.").where(**sizes)
+    closing = sequence([third, *scales.told(pole, v1, v2)], " ")
     return Step(
         say("Velocity plan at station {name}", name=names[k]),
-        *(said, scales.view(names[k]), velocity_plan(pole, v1, v2, v21, scales)),
+        (Part(first.where(**sizes), (pole, v1)), Part(second, (v2,)), Part(closing, (v21,))),
+        *(scales.view(names[k]), velocity_plan(pole, v1, v2, v21, scales)),
         why=say(
-            "Because the velocity of the arm's end is that of the cam's point and the sliding along the profile "
-            "together, v₂ = v₁ + v₂₁."
+            "The velocity of the arm's end is that of the cam's point and the sliding along the profile together, "
+            "v₂ = v₁ + v₂₁."
         ),
-        parts=tuple(Part(text, drawn) for text, drawn in zip(captions, ((pole, v1), (v2,), (v21,)), strict=True)),
     )
 
 
@@ -307,21 +331,17 @@ def _angle(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> St
         *(ray.way(Role.LIMIT), stroke(normal, 0.7 * length)),
         angle_at(tip, begin, end, 0.6 * length, text, ray.act),
     )
-    said = say(
-        "At D draw the normal to the arm downwards, square to CD, with the set squares, and join D to A. The angle "
-        "from the normal to DA, measured with the protractor, is the pressure angle at station {name}: {alpha:.2f}°; "
-        "the transmission angle is 90° − |α| = {transmission:.2f}°."
-    )
     square = say("At D draw the normal to the arm downwards, square to CD, with the set squares.")
-    measure = say("Join D to A and measure the angle from the normal to DA with the protractor: {alpha:.2f}°.")
-    return Step(
-        *(say("The pressure angle"), said.where(**sizes), scales.view(name), marks),
-        why=say(
-            "Because the plan turned by 90° is the triangle ABD: v₂ lies along BD, so DA is square to v₂₁ and has the "
-            "direction of the normal to the profile."
-        ),
-        parts=(Part(square, (normal,)), Part(measure.where(**sizes), (ray,))),
+    measure = say(
+        "Join D to A and measure the angle from the normal to DA with the protractor: the pressure angle at station "
+        "{name} is {alpha:.2f}°, and the transmission angle 90° − |α| = {transmission:.2f}°."
+    ).where(**sizes)
+    why = say(
+        "The plan turned by 90° is the triangle ABD: v₂ lies along BD, so DA is square to v₂₁ and has the direction "
+        "of the normal to the profile."
     )
+    parts = Part(square, (normal,)), Part(measure, (ray,))
+    return Step(say("The pressure angle"), parts, scales.view(name), marks, why=why)
 
 
 def _everywhere(measured: ArmAngles, k: int) -> Step:
@@ -337,25 +357,20 @@ def _everywhere(measured: ArmAngles, k: int) -> Step:
     angle = angle_at(rays.first[k].place, begin, end, 4 * NORMAL, shown, rays.act)
     angle = replace(angle, index=rays[k].index)
     worst = int(np.nanargmax(np.abs(alpha)))
-    each = say(
-        "Ray {name}: draw the normal to arm {name} downwards from D{name}, join D{name} to A and measure the angle "
-        "from the normal to the ray: {alpha:.2f}°."
+    apart = say(
+        "Prick A and the ends D of all stations through onto a separate drawing, where the lines at the limits do not "
+        "cross the rays."
     )
-    apart = say("Prick A and the ends D of all stations through onto a separate drawing.")
     said = say(
-        "Prick A and the ends D of all stations through onto a separate drawing, where the lines at the limits "
-        "do not cross the rays. From every D draw the normal to its arm downwards with the set squares, join D "
-        "to A and measure the angle from the normal to DA with the protractor, positive anticlockwise. Station "
-        "{name}: {alpha:.2f}°. Repeat for the others. The minimum transmission angle is 90° − |α| = "
-        "{least:.2f}°, at station {worst}."
+        "From every D draw the normal to its arm downwards with the set squares, join D to A and measure the angle "
+        "from the normal to DA with the protractor, positive anticlockwise. Station {name}: {alpha:.2f}°. The minimum "
+        "transmission angle is 90° − |α| = {least:.2f}°, at station {worst}."
     ).where(name=names[k], alpha=alpha[k], least=90 - abs(alpha[worst]), worst=names[worst])
     tips, centre = measured.acts["tips"], measured.acts["centre"]
     places = (tips.dots(Role.CONSTRUCTION), centre.dots(Role.RESULT), centre.label("A", -UP))
     named = numbers(tips, measured.givens.integrated.givens.stations, UP)
-    parts = [Part(each.where(name=name, alpha=alpha[n]), (normals[n], rays[n])) for n, name in enumerate(names)]
-    return Step(
-        *(say("The pressure angle at every station"), said, at_scale(ARM_ANGLES, measured.givens.mu_l)),
-        *((strokes, rays.ways(Role.CONSTRUCTION), *places, *named, angle), ("alpha", "transmission")),
-        why=say("Because what holds at one station holds at all: only D and the arm differ; A is the same."),
-        parts=(Part(apart, (tips, centre)), *parts),
-    )
+    every = run(said, STATION, names, normals, rays, settings=lambda n: say("{alpha:z.2f}°", alpha=alpha[n]))
+    marks = (strokes, rays.ways(Role.CONSTRUCTION), *places, *named, angle)
+    title, view = say("The pressure angle at every station"), at_scale(ARM_ANGLES, measured.givens.mu_l)
+    why = say("What holds at one station holds at all: only D and the arm differ; A is the same.")
+    return Step(title, (Part(apart, (tips, centre)), every), view, marks, ("alpha", "transmission"), why=why)

@@ -15,7 +15,6 @@ from graphcam.drafting.hand import showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Label, Line, Mark, Points, Region, Role
 from graphcam.drafting.scale import Ratios, Scale, ratio_text, standard_scale
-from graphcam.words import sequence
 
 SMALL, ENLARGED = 30.0, 60.0
 """Where the adopted prime radius is shorter than this on the arm positions, it is shown at the largest standard scale
@@ -75,10 +74,9 @@ def region_enlarged(
     first = first.where(ratio=ratio_text(scale.per_mm), paper=abs(a.place))
     second = say("Draw the lines on which A₀ lies, and hatch again the region that no line cuts off.")
     return Step(
-        *(say("The cam centre enlarged"), sequence([first, second], " ")),
+        *(say("The cam centre enlarged"), (Part(first, (b, a)), Part(second, (*through, permitted)))),
         *(at_scale(CAM_CENTRE, scale), tuple(marks)),
-        why=say("Because at the scale of the arm, points so close to its end cannot be told apart."),
-        parts=(Part(first, (b, a)), Part(second, (*through, permitted))),
+        why=say("At the scale of the arm, points so close to its end cannot be told apart."),
     )
 
 
@@ -88,8 +86,7 @@ def adopted_enlarged(measured: Construction[Any], scale: Scale, label: Caption) 
     a = hand.enlarged("A", centre, start, measured.givens.mu_l.per_mm / scale.per_mm)
     said = say("Mark A in the enlarged drawing too, {paper:.1f} mm from B₀.", paper=abs(a.place))
     return Step(
-        *(say("The adopted cam centre enlarged"), said, at_scale(CAM_CENTRE, scale)),
+        *(say("The adopted cam centre enlarged"), (Part(said, (a,)),), at_scale(CAM_CENTRE, scale)),
         (a.dots(Role.RESULT), a.label(label, -UP)),
-        why=say("Because it shows that A lies in the hatched region."),
-        parts=(Part(said, (a,)),),
+        why=say("The enlarged drawing shows that A lies in the hatched region."),
     )

@@ -239,9 +239,11 @@ class Chain(Drawings):
         """How the prime radius and the place came about."""
         board, region = self.board, self.perfect.minimum_radius
         found = None if board.follower.place is not None else float(region.value(board.follower.place_name))
-        at_place = region if found is None else self.perfect._least_radius(self.place)
-        least, given = float(at_place.value("prime_radius")), board.prime_radius is not None
-        return Adoption(self.prime_radius, self.place, least, found, given, self.rounding)
+        least, given = float(region.value("prime_radius")), board.prime_radius is not None
+        if found is None:
+            return Adoption(self.prime_radius, self.place, least, None, given, self.rounding)
+        there = float(self.perfect._least_radius(self.place).value("prime_radius"))
+        return Adoption(self.prime_radius, self.place, there, found, given, self.rounding, proposed=least)
 
     def adopted_if_any(self) -> Adoption | None:
         """The same; None where what the region leaves open cannot be read off it."""

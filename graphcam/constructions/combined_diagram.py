@@ -16,8 +16,9 @@ from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, showing
-from graphcam.drafting.ink import Caption, Construction, Part, Reading, Step, say
+from graphcam.drafting.ink import Caption, Construction, Part, Reading, Row, Step, say
 from graphcam.drafting.marks import Line, Role
+from graphcam.drafting.telling import STATION, from_to, run, setting
 from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.words import say_in, sequence
@@ -62,7 +63,7 @@ def laid_off(region: Construction[Any], bottom: float) -> Step:
     """The displacements up the line of motion, and at each the velocity."""
     integrated, heights, ends = region.givens.integrated, region.acts["displacements"], region.acts["ends"]
     stations, start, x = integrated.givens.stations, region.acts["start of the lift"].first, ends.shown.real
-    s, v, factor = integrated.first("s"), integrated.first("v"), _factor(integrated)
+    s = integrated.first("s")
     # The ends of a phase lie on the line of motion, several in one place: their numbers stand above it or below.
     rising = np.array([integrated.givens.motion.phases[k].direction for k in stations.phase])
     apart = np.where(s > np.mean(s), UP, -UP) - sense(region.givens.rotation) * rising
@@ -74,59 +75,45 @@ def laid_off(region: Construction[Any], bottom: float) -> Step:
         start.label("B₀", towards=sense(region.givens.rotation) - UP),
         *numbers(ends, stations, np.where(np.abs(x) > 1, np.sign(x) + 0j, apart)),
     )
+    base = say("Draw the line of motion vertical with a set square and mark B₀ on it, where the lift starts.")
+
+    def set_off(k: int) -> Caption:
+        """How high a station's mark lies, and how long v is there, and to which side."""
+        up = say("at B₀") if abs(s[k]) < NOTHING else say("{s:.2f} mm up", s=s[k])
+        at = ends.first[[k]]
+        v_there = say("v = 0") if abs(x[k]) < NOTHING else say("v {set} {side}", set=setting(at), side=aside(x[k]))
+        return say("{up}, {v_there}", up=up, v_there=v_there)
+
+    stationed = run(_laying_off(region), STATION, station_names(stations), heights, ends, settings=set_off)
     why = say(
-        "Because the line from a cam centre to the end of v makes the pressure angle with the motion, as the "
-        "velocity plan will show."
+        "Seen from a cam centre, the end of v lies at the pressure angle to the line of motion, as the velocity plan "
+        "will show."
     )
-    parts = [
-        Part(
-            say("Draw the line of motion vertical with a set square and mark B₀ on it, where the lift starts."),
-            (start,),
-        )
-    ]
-    for k, name in enumerate(station_names(stations)):
-        said = say("Station {name}: {mark}; {lay}.", name=name, mark=_marked(s[k]), lay=_level(v[k], factor, x[k]))
-        parts.append(Part(said, (heights.first[k], ends.first[k])))
-    title, said = say("Velocities at the displacements"), _laying_off(region)
-    return Step(title, said, COMBINED, marks, given=line, why=why, parts=tuple(parts))
+    title = say("Velocities at the displacements")
+    return Step(title, (Part(base, (start,)), stationed), COMBINED, marks, given=line, why=why)
 
 
 def _laying_off(region: Construction[Any]) -> Caption:
     """All stations in a few sentences, and one of them in full."""
-    integrated, sigma = region.givens.integrated, sense(region.givens.rotation)
-    k, factor = worked_station(integrated), _factor(integrated)
-    s, v = float(integrated.first("s")[k]), float(integrated.first("v")[k])
-    longest = float(np.abs(region.acts["ends"].shown.real).max())
-    marked = say(
-        "Draw the line of motion vertical with a set square and carry every displacement s across to it with the "
-        "T-square, upwards from B₀, where the lift starts. At every mark lay v off horizontally with the "
-        "dividers, {rise} on a rise and {back} on a return: v turned by 90° with the cam, {rotation}. Multiply "
-        "every ordinate of v by μᵥ/μₛ = {factor:.5g}, so that it has the scale of s."
-    ).where(rise=aside(-sigma), back=aside(sigma), rotation=turning(region.givens.rotation), factor=factor)
-    worked = say(
-        "Station {name}: mark it {s:.2f} mm up, lay off {v:.2f} mm × {factor:.5g} = {length:.2f} mm. Repeat for "
-        "the others."
-    ).where(name=station_names(integrated.givens.stations)[k], s=s, v=v, factor=factor, length=v * factor)
-    longest = say("The longest measures {longest:.1f} mm.", longest=longest)
-    return sequence([marked, *([worked] if v > NOTHING else []), longest], " ")
-
-
-def _factor(integrated: Integrated) -> float:
-    """What an ordinate of v is multiplied by, to stand in the scale of s."""
-    return integrated.readings["v"].per_mm / integrated.readings["s"].per_mm
-
-
-def _marked(s: float) -> Caption:
-    """Where on the line of motion a displacement [mm of paper] is marked."""
-    return say("it lies at B₀") if abs(s) < NOTHING else say("mark s = {s:.2f} mm up from B₀", s=s)
-
-
-def _level(v: float, factor: float, x: float) -> Caption:
-    """How an ordinate of v [mm of paper] is laid off."""
-    if abs(v) < NOTHING:
-        return say("v is zero, so its end is the mark itself")
-    laid_off = say("lay v off horizontally from there, {v:.2f} mm × {factor:.5g} = {length:.2f} mm {side}")
-    return laid_off.where(v=abs(v), factor=factor, length=abs(v) * factor, side=aside(x))
+    integrated, ends, sigma = region.givens.integrated, region.acts["ends"], sense(region.givens.rotation)
+    k, longest = worked_station(integrated), float(np.abs(ends.shown.real).max())
+    said = [
+        say(
+            "Carry every displacement s across to the line of motion with the T-square, upwards from B₀. From every "
+            "mark lay v off horizontally with the dividers, {rise} on a rise and {back} on a return: v turned by 90° "
+            "with the cam, {rotation}. Multiply every ordinate of v by μᵥ/μₛ = {factor:.5g}, so that it has the scale "
+            "of s."
+        ).where(
+            rise=aside(-sigma),
+            back=aside(sigma),
+            rotation=turning(region.givens.rotation),
+            factor=integrated.readings["v"].per_mm / integrated.readings["s"].per_mm,
+        )
+    ]
+    if integrated.first("v")[k] > NOTHING:
+        worked = say("Station {name}: mark it {s:.2f} mm up and lay off {set}.", s=integrated.first("s")[k])
+        said.append(worked.where(name=station_names(integrated.givens.stations)[k], set=setting(ends.first[[k]])))
+    return sequence([*said, say("The longest measures {longest:.1f} mm.", longest=longest)], " ")
 
 
 def joined_up(region: Construction[Any]) -> Step:
@@ -134,28 +121,22 @@ def joined_up(region: Construction[Any]) -> Step:
     hand, ends, stations = showing(region), region.acts["ends"], region.givens.integrated.givens.stations
     names, pieces = station_names(stations), stations.pieces
     curves = [hand.fair("curve", ends.first, [piece]) for piece in pieces]
-    through = [
-        say_in("stations", "{first} to {last}", first=names[piece.start], last=names[piece.stop - 1])
-        for piece in pieces
+    # Two ends have no curve.
+    tools = [
+        say("with the ruler") if piece.stop - piece.start == 2 else say("with the French curve") for piece in pieces
     ]
-    met = [names[a.stop - 1] for a, b in pairwise(pieces) if a.stop - 1 == b.start]
-    said = [say("Join the ends of v in their order with the French curve: {through}.", through=sequence(through))]
-    if met:
+    through = tuple(
+        Row(from_to(names[piece.start], names[piece.stop - 1]), tool, (curve,))
+        for piece, tool, curve in zip(pieces, tools, curves, strict=True)
+    )
+    said = [say("Join the ends of v in their order, from jump to jump of the acceleration.")]
+    if met := [names[a.stop - 1] for a, b in pairwise(pieces) if a.stop - 1 == b.start]:
         said.append(say("There is a corner at {names}, where the acceleration jumps.", names=sequence(met)))
     said.append(say("In a dwell v is zero, so the curves start and end on the line of motion."))
-    why = say("Because the limits must be satisfied between the stations too.")
-    parts = tuple(
-        Part(_through(piece, each), (curve,)) for piece, each, curve in zip(pieces, through, curves, strict=True)
-    )
+    why = say("The limits must be satisfied between the stations too.")
     marks = tuple(curve.line(Role.RESULT) for curve in curves)
-    return Step(say("Curves of rise and return"), sequence(said, " "), COMBINED, marks, why=why, parts=parts)
-
-
-def _through(piece: slice, ends: Caption) -> Caption:
-    """How the ends of a piece are joined: two of them have no curve."""
-    if piece.stop - piece.start == 2:
-        return say("Join the ends {ends} with the ruler.", ends=ends)
-    return say("Draw the French curve through the ends {ends}.", ends=ends)
+    title = say("Curves of rise and return")
+    return Step(title, (Part(sequence(said, " "), rows=through),), COMBINED, marks, why=why)
 
 
 def offset_caption(offset: float, mu: float) -> Caption:

@@ -18,6 +18,7 @@ from graphcam.constructions.sharpest_bend import centres_of, neighbours, resting
 from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import RHO, Formula, Symbol, Values
 from graphcam.drafting.hand import COMPASS, Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Role
@@ -64,6 +65,24 @@ def _three_points(_: object) -> tuple[Words, ...]:
     return say("before B"), "B", say("after B")
 
 
+def _radius_values(curved: Curved) -> Values:
+    """What OB measures, where a bend is readable."""
+    rho, mu = float(curved.value("rho")), curved.readings["rho"].per_mm
+    if math.isfinite(rho):
+        yield {"mu": mu, "ob": rho / mu, "rho": rho}
+
+
+FORMULAS = (
+    Formula(
+        r"\rho = \mu_l \cdot OB",
+        r"\rho = <mu:g> \cdot <ob:.2f> = <rho:.2f>\ \text{<mm>}",
+        _radius_values,
+        (RHO, Symbol(r"\mu_l", say("the scale of the drawing"), "mm/mm")),
+        of="rho",
+    ),
+)
+
+
 MEANING = Meaning(
     "curvature",
     say("Minimum radius of curvature"),
@@ -72,7 +91,7 @@ MEANING = Meaning(
         "limits the roller."
     ),
     {**LEAST_CURVATURE, "phi": ReadingMeaning(say("cam angles φ"), "φ", "rad", over=_three_points)},
-    "report.paragraphs.curvature",
+    FORMULAS,
 )
 
 
@@ -179,8 +198,8 @@ def detail_of(curved: Curved) -> Detail | None:
 def _draw(curved: Curved) -> list[Step]:
     detail = detail_of(curved)
     if detail is None:
-        title, why = say("Curvature at the sharpest point"), say("Because three points on a line lie on no circle.")
-        return [Step(title, _unreadable(curved), PROFILE, (), why=why)]
+        title, why = say("Curvature at the sharpest point"), say("Three points on a line lie on no circle.")
+        return [Step(title, (Part(_unreadable(curved)),), PROFILE, (), why=why)]
     return [_chords(curved, detail), _bisected(curved, detail), _measured(curved, detail), _on_profile(curved)]
 
 
@@ -193,32 +212,24 @@ def _chords(curved: Curved, detail: Detail) -> Step:
         points = say("{before}, B and {after}", before=before, after=after)
     said = say(
         "Find the sharpest outward bend of the pitch curve and call this point B: here {place}, at φ = "
-        "{phi:.1f}°. Copy {points} with dividers to a free part of the sheet, {copied}, and join them: the "
-        "chords measure {first:.2f} mm and {second:.2f} mm. They span {step:.3g}° of the cam angle."
-    ).where(
-        place=_place(curved),
-        phi=np.degrees(phi[1] % FULL_TURN),
-        points=points,
-        copied=_copied(detail),
-        first=first,
-        second=second,
-        step=np.degrees(phi[2] - phi[0]),
-    )
+        "{phi:.1f}°. Copy {points} with dividers to a free part of the sheet, {copied}."
+    ).where(place=_place(curved), phi=np.degrees(phi[1] % FULL_TURN), points=points, copied=_copied(detail))
+    joined = say(
+        "Join them with a ruler: the chords measure {first:.2f} mm and {second:.2f} mm. They span {step:.3g}° of the "
+        "cam angle."
+    ).where(first=first, second=second, step=np.degrees(phi[2] - phi[0]))
     more = [*_missed(curved), *([ONLY_RESTS] if np.isnan(curved.first("rho_candidates")[0]) else [])]
     why = say(
-        "Because three close points of a curve determine the circle that fits it best, and the roller is limited "
-        "by the smallest such circle of the pitch curve."
+        "Three close points of a curve determine the circle that fits it best, and the roller is limited by the "
+        "smallest such circle of the pitch curve."
     )
     chords = detail.hand.join("chords", triple[:2], triple[1:])
     marks = (
         *(chords.ways(Role.CURVE), triple.dots()),
         *(triple[k].label(name, -detail.hub.place) for k, name in enumerate((before, "B", after))),
     )
-    copies = say("Copy B and the points on both sides of it with dividers, {copied}.", copied=_copied(detail))
-    joined = say("Join them with a ruler: {first:.2f} mm and {second:.2f} mm.", first=first, second=second)
-    parts = (Part(copies, (triple,)), Part(joined, (chords,)))
-    title = say("Chords at the sharpest point")
-    return Step(title, sequence([said, *more], " "), detail.view, marks, reads=("phi",), why=why, parts=parts)
+    parts = Part(said, (triple,)), Part(sequence([joined, *more], " "), (chords,))
+    return Step(say("Chords at the sharpest point"), parts, detail.view, marks, ("phi",), why=why)
 
 
 def _copied(detail: Detail) -> Caption:
@@ -280,37 +291,34 @@ def _twice_as_wide(curved: Curved) -> tuple[list[str], float] | None:
 def _bisected(curved: Curved, detail: Detail) -> Step:
     """The perpendicular bisectors of the chords, and O where they meet."""
     lines, settings = _bisectors(curved, detail)
-    said = say(
-        "Set the compass to {first:.1f} mm ({share:g} of the first chord), strike arcs about both of its ends that "
-        "cross on either side of it, and draw the line through the two crossings. Do the same with {second:.1f} mm on "
-        "the second chord. The two lines meet in O, the centre of curvature."
-    ).where(first=settings[0], second=settings[1], share=COMPASS)
-    why = say("Because the centre of a circle is equally far from both ends of a chord.")
-    drawn = say("Chord {number}: compass {setting:.1f} mm about both ends; draw the line through the two crossings.")
-    halves = [
-        Part(drawn.where(number=k + 1, setting=setting), of)
-        for k, ((_, of), setting) in enumerate(zip(lines, settings, strict=True))
-    ]
+    first = say(
+        "Set the compass to {setting:.1f} mm ({share:g} of the first chord), strike arcs about both of its ends that "
+        "cross on either side of it, and draw the line through the two crossings."
+    )
+    second = say("Do the same with {setting:.1f} mm on the second chord.")
+    why = say("The centre of a circle is equally far from both ends of a chord.")
+    told = (first.where(setting=settings[0], share=COMPASS), second.where(setting=settings[1]))
+    halves = [Part(caption, of) for caption, (_, of) in zip(told, lines, strict=True)]
     hub, marks = detail.hub, [mark for made, _ in lines for mark in made]
-    found = Part(say("Call the point where both lines meet O."), (hub,))
+    found = Part(say("The two lines meet in O, the centre of curvature."), (hub,))
     title, all_marks = say("Perpendicular bisectors"), (*marks, hub.dots(Role.RESULT), hub.label("O", hub.place))
-    return Step(title, said, detail.view, all_marks, why=why, parts=(*halves, found))
+    return Step(title, (*halves, found), detail.view, all_marks, why=why)
 
 
 def _measured(curved: Curved, detail: Detail) -> Step:
     """The radius, and the arc that shows how well it fits."""
     said = say(
         "Join O to B with a ruler: OB measures {paper:.2f} mm, at {ratio}, so the minimum radius of curvature of "
-        "the pitch curve is ρ = {rho:.3f} mm. Check with the compass: the arc about O through B passes through "
-        "the neighbouring points and follows the curve closely."
+        "the pitch curve is ρ = {rho:.3f} mm."
     ).where(paper=abs(detail.hub.place), ratio=ratio_text(detail.per_mm), rho=curved.value("rho"))
-    why = say("Because the circle through the three points replaces the curve near B, and its radius is OB.")
-    marks, ob, circle = _radius(curved, detail)
-    parts = (
-        Part(say("Join O to B and measure it: {paper:.2f} mm.", paper=abs(detail.hub.place)), (ob,)),
-        Part(say("Set the compass to OB and swing the arc about O through the three points."), (circle,)),
+    check = say(
+        "Check with the compass: the arc about O through B passes through the neighbouring points and follows the "
+        "curve closely."
     )
-    return Step(say("Radius of curvature"), said, detail.view, marks, why=why, parts=parts)
+    why = say("The circle through the three points replaces the curve near B, and its radius is OB.")
+    marks, ob, circle = _radius(curved, detail)
+    parts = Part(said, (ob,)), Part(check, (circle,))
+    return Step(say("Radius of curvature"), parts, detail.view, marks, why=why)
 
 
 def _on_profile(curved: Curved) -> Step:
@@ -321,12 +329,13 @@ def _on_profile(curved: Curved) -> Step:
         "On the profile mark O too, {paper:.1f} mm from B, square to the pitch curve on its inner side: the roller's "
         "centre turns about it while the roller passes B."
     ).where(paper=abs(b.place - o.place))
-    why = say("Because it shows how much of the cam is left between the roller and O.")
+    why = say("The place of O shows how much of the cam is left between the roller and O.")
     marks = (
         Line(np.array([o.place, b.place]), Role.LIMIT).left_by(ob),
         *(o.dots(Role.LIMIT), o.label("O", o.place - b.place), b.label("B", b.place - o.place)),
     )
-    return Step(say("Centre of curvature on the profile"), said, PROFILE, marks, reads=("rho",), why=why)
+    part = Part(said, (ob, o, b))
+    return Step(say("Centre of curvature on the profile"), (part,), PROFILE, marks, reads=("rho",), why=why)
 
 
 def _unreadable(curved: Curved) -> Caption:

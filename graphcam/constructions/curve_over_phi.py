@@ -8,8 +8,9 @@ from graphcam.drafting import euclid
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand
-from graphcam.drafting.ink import Caption, Part, say
+from graphcam.drafting.ink import Caption, Part, Row, say
 from graphcam.drafting.marks import Line, Points, Role
+from graphcam.drafting.telling import FRENCH_CURVE, RULER, from_to
 from graphcam.given.motion import FULL_TURN
 from graphcam.plane import dot
 from graphcam.words import sequence
@@ -19,8 +20,6 @@ STRAIGHT = 0.05
 REST = 1e-9
 """A dwell is longer [rad]."""
 
-_STRAIGHT = say("From {first} to {last} the points lie on one line: join them with the ruler.")
-_BENT = say("From {first} to {last} draw the curve through the points with the French curve.")
 _ALL_STRAIGHT = say(
     "From jump to jump of the acceleration the points lie on one line: join them with the ruler, because the "
     "chords are the curve."
@@ -35,27 +34,25 @@ _LEVEL = say("In the dwells draw it horizontally with the T-square.")
 
 def curve_over_phi(
     givens: AccelerationGivens, hand: Hand, name: str, curve: Drawn, met: Caption
-) -> tuple[Caption, tuple[Line, ...], tuple[Part, ...]]:
-    """How the curve of that ``name`` is drawn, its lines, and its parts.
+) -> tuple[tuple[Line, ...], tuple[Part, ...]]:
+    """The lines of the curve of that ``name``, and how they are drawn: piece by piece, then in the dwells.
 
     met : what happens at station {first} in a phase, where the acceleration jumps and one piece meets the next
     """
     stations, names = givens.stations, station_names(givens.stations)
     begins = {span.start for span in stations.phases}
-    straight, lines, parts = list[bool](), list[Line](), list[Part]()
+    straight, lines, rows = list[bool](), list[Line](), list[Row]()
     for piece in stations.pieces:
         straight.append(_on_one_line(curve.shown[piece]))
-        ends = {"first": names[piece.start], "last": names[piece.stop - 1]}
-        said = (_STRAIGHT if straight[-1] else _BENT).where(**ends)
+        ends, tool = from_to(names[piece.start], names[piece.stop - 1]), RULER if straight[-1] else FRENCH_CURVE
         faired = hand.fair(name, curve.first, [piece])
-        parts.append(Part(said if piece.start in begins else sequence([said, met.where(**ends)], " "), (faired,)))
+        setting = tool if piece.start in begins else sequence([tool, met.where(first=names[piece.start])], "; ")
+        rows.append(Row(ends, setting, (faired,)))
         lines.append(faired.line(Role.RESULT))
-    caption = _ALL_STRAIGHT if all(straight) else _EITHER if any(straight) else _ALL_BENT
+    told = _ALL_STRAIGHT if all(straight) else _EITHER if any(straight) else _ALL_BENT
     level, resting = _rests(givens, hand, curve)
-    if resting:
-        caption = sequence([caption, _LEVEL], " ")
-        parts.append(Part(_LEVEL, (level,)))
-    return caption, (*lines, *resting), tuple(parts)
+    rests = (Part(_LEVEL, (level,)),) if resting else ()
+    return (*lines, *resting), (Part(told, rows=tuple(rows)), *rests)
 
 
 def _on_one_line(points: Points) -> bool:

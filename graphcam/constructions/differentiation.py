@@ -9,13 +9,21 @@ mu_a = mu_v/(mu_phi H2).
 import math
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from graphcam.constructions.axes import EVERY, SUBSCRIPTS, axes_over_phi, degrees_below, ordinate, pole_marks, reach
 from graphcam.constructions.graduation import graduated
-from graphcam.constructions.slope_numbers import every_kth, falling_together, ray_numbers, row_numbers
+from graphcam.constructions.slope_numbers import (
+    every_kth,
+    falling_together,
+    raised,
+    ray_numbers,
+    row_numbers,
+    run_of_chord,
+)
+from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP, divided
 from graphcam.drafting.hand import Hand, between, reckoned, showing
@@ -24,7 +32,7 @@ from graphcam.drafting.marks import Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.drafting.units import NOTHING, unit
+from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
@@ -238,46 +246,6 @@ def _greatest(hand: Hand, curve: Drawn, going_on: Drawn) -> Setting:
 READABLE_ANGLE = 0.05
 """Angles [degrees] of less are not told: they are nothing."""
 
-_TRACED: dict[By, tuple[Caption, Caption, Caption]] = {
-    "chords": (
-        say("Chords of {source}"),
-        say("With the ruler join each point of {source} to the next one. {numbered}"),
-        say("Because the mean slope of {source} over a part is very nearly its slope in the middle of the part."),
-    ),
-    "tangents": (
-        say("Tangents to {source}"),
-        say(
-            "Set a mirror across the curve of {source} at a point, and turn it until the curve runs into its "
-            "image without a corner: then it is on the normal. Draw the tangent square to it, and number it."
-        ),
-        say(
-            "Because the tangent has the slope of {source} at its point, and a mirror finds it more exactly than "
-            "the eye."
-        ),
-    ),
-}
-_NUMBERED = {
-    "s": say("A chord has the number of the point at its end."),
-    "v": say("A chord has the number of the point where it begins."),
-}
-"""Which number a chord has: the points of s are counted from 0, those of v from 1."""
-_ONE_TRACE: dict[By, Caption] = {
-    "chords": say("Chord {name} runs from {start} to {end}, {run:.2f} mm across and {climb}."),
-    "tangents": say("Tangent {name}, square to the mirror at point {name}, {lean}."),
-}
-_ONE_RAY: dict[By, Caption] = {
-    "chords": say(
-        "Slide the set square from chord {name} to P{index}: ray {name} ends on the vertical axis, {height}. "
-        "With the T-square carry that height to the vertical in the middle of chord {name}: point {name} of "
-        "{target}."
-    ),
-    "tangents": say(
-        "Slide the set square from tangent {name} to P{index}: ray {name} ends on the vertical axis, {height}. "
-        "With the T-square carry that height to the vertical of station {name}: point {name} of {target}."
-    ),
-}
-_REPEAT = say("Repeat for the others, {count} in all.")
-
 
 @dataclass(frozen=True, eq=False)
 class _Pass:
@@ -298,40 +266,31 @@ class _Pass:
         return int(self.c.givens.by == "chords")
 
     @property
-    def steepest(self) -> int:
-        """The slope that is worked in full."""
-        return int(np.argmax(np.abs(self.drawn("heights").shown.imag)))
+    def names(self) -> list[str]:
+        """The numbers of the slopes."""
+        return [f"{self.first + k}" for k in range(self.drawn("slopes").shown.size)]
 
-    def said(self, k: int) -> dict[str, Any]:
-        """What captions say of the slope of that index, and of its ray."""
-        way, points = complex(self.drawn("slopes").directions[k]), self.c.acts[self.source].shown.size
-        begin = k + (self.first if self.number == 2 else 0)
-        after, beyond = say("point {name}", name=begin + 1), say("point {name} of the next turn")
-        return {
-            "source": self.source,
-            "target": self.target,
-            "index": f"{self.number}".translate(SUBSCRIPTS),
-            "name": f"{self.first + k}",
-            "start": say("point {name}", name=begin),
-            "end": after if k + 1 < points else beyond.where(name=begin + 1 - points),
-            "run": way.real,
-            "climb": _raised(way.imag, say("level")),
-            "lean": _lean(math.degrees(np.angle(way))),
-            "height": _raised(float(self.drawn("heights").shown[k].imag), say("at the origin")),
-        }
+    def slope(self, k: int) -> Caption:
+        """How a chord or a tangent runs."""
+        way = complex(self.drawn("slopes").directions[k])
+        if self.first:
+            return run_of_chord(way)
+        angle = math.degrees(np.angle(way))
+        if abs(angle) < READABLE_ANGLE:
+            return say("is level")
+        return say("rises at {angle:.1f}°", angle=angle) if angle > 0 else say("falls at {angle:.1f}°", angle=-angle)
 
+    def height(self, k: int) -> Caption:
+        """Where a ray ends on the vertical axis."""
+        return raised(float(self.drawn("heights").shown[k].imag), say("at the origin"))
 
-def _raised(mm: float, nothing: Caption) -> Caption:
-    """How far up or down."""
-    if abs(mm) < NOTHING:
-        return nothing
-    return say("{mm:.2f} mm up", mm=mm) if mm > 0 else say("{mm:.2f} mm down", mm=-mm)
-
-
-def _lean(angle: float) -> Caption:
-    if abs(angle) < READABLE_ANGLE:
-        return say("is level")
-    return say("rises at {angle:.1f}°", angle=angle) if angle > 0 else say("falls at {angle:.1f}°", angle=-angle)
+    def told(self, *sentences: Caption) -> Caption:
+        """Sentences with what is said of the pass, and of the steepest slope, which is worked for all."""
+        k, names = int(np.argmax(np.abs(self.drawn("heights").shown.imag))), self.names
+        values = {"source": self.source, "target": self.target, "index": f"{self.number}".translate(SUBSCRIPTS)}
+        values |= {"name": names[k], "count": len(names), "pole": self.c.givens.poles[self.number - 1]}
+        values |= {"slope": self.slope(k), "height": self.height(k), "start": self.number - 1}
+        return sequence([each.where(**values) for each in sentences], " ")
 
 
 def _draw(c: Construction[DifferentiationGivens]) -> list[Step]:
@@ -359,58 +318,73 @@ def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
     told = [plotted_at, said.where(degrees=math.degrees(c.givens.mu_phi.per_mm))]
     if c.givens.turn:
         told.append(say("After the last station the next turn begins with station 0."))
-    why = say("Because the velocity is the slope of the displacement, and only a curve has a slope.")
-    if c.givens.rows.size:
+    rows, curve, crosses = _shown_rows(c), _curve(c, "s"), ()
+    if rows:
         told.append(say("The crosses are rows of the table, which the curve smooths."))
-    marks = (*plotted, *_crosses(c), _curve(c, "s"))
-    title, under = say("The displacement"), _degrees(c, "s")
-    return Step(title, sequence(told, " "), _view(c, "s"), marks, given=plotted, why=why, under=under)
+        arms = CROSS * np.array([1 + UP, 1 - UP])
+        crosses = (Segments(rows[0].shown - a, rows[0].shown + a, Role.LIMIT).left_by(rows[0]) for a in arms)
+    marks = (*plotted, *crosses, curve.line(Role.RESULT))
+    why = say("The velocity is the slope of the displacement, and only a curve has a slope.")
+    part, under = Part(sequence(told, " "), (*rows, curve)), _degrees(c, "s")
+    return Step(say("The displacement"), (part,), _view(c, "s"), marks, given=plotted, why=why, under=under)
 
 
-def _crosses(c: Construction[DifferentiationGivens]) -> tuple[Segments, ...]:
-    """The rows of a table, every k-th where they lie too close to one another."""
-    if not c.givens.rows.size:
+def _shown_rows(c: Construction[DifferentiationGivens]) -> tuple[Drawn, ...]:
+    """The rows of a table that are shown as crosses, every k-th where they lie too close to one another."""
+    rows = c.givens.rows
+    if not rows.size:
         return ()
-    rows = c.acts["rows"].first[np.argsort(c.givens.rows.real)[:: _every(c.givens.rows)]]
-    arms = CROSS * np.array([1 + UP, 1 - UP])
-    return tuple(Segments(rows.shown - a, rows.shown + a, Role.LIMIT).left_by(rows) for a in arms)
-
-
-def _every(rows: Points) -> int:
     spacing = float(np.median(np.diff(np.sort(rows.real))))
-    return next((k for k in EVERY if k * spacing >= ROWS_ROOM), rows.size)
+    every = next((k for k in EVERY if k * spacing >= ROWS_ROOM), rows.size)
+    return (c.acts["rows"].first[np.argsort(rows.real)[::every]],)
 
 
 def _traced(run: _Pass) -> Step:
     """The chords, or short pieces of the tangents."""
-    c, slopes, by = run.c, run.drawn("slopes"), run.c.givens.by
+    c, slopes = run.c, run.drawn("slopes")
     places, along, outward = slopes.shown, slopes.directions, np.where(slopes.shown.imag < 0, -UP, UP)
-    if by == "chords":
-        beside = run.drawn("middles")
+    more = [say("Repeat for the others, {count} in all.")]
+    if c.givens.by == "chords":
         # At each corner but the first one a chord ends.
         index = np.append(slopes.index[:1], slopes.index)
         line = Line(np.append(places, places[-1] + along[-1]), Role.LIMIT, of=slopes.act, index=index)
         # A number here would stand beside that of a point, and be taken for it; the rays have theirs.
-        numbers = ()
+        beside, numbers, title, called = run.drawn("middles"), (), say("Chords of {source}"), say("Chord {name}")
+        # The points of s are counted from 0, those of v from 1.
+        number = say("A chord has the number of the point at its end.")
+        if run.source == "v":
+            number = say("A chord has the number of the point where it begins.")
+        said = say("With the ruler join each point of {source} to the next one."), number
+        one = say("Chord {name} runs {slope}.")
+        if c.givens.turn:
+            more.append(say("The last one runs to point {start} of the next turn."))
+        why = say("The mean slope of {source} over a part is very nearly its slope in the middle of the part.")
     else:
+        title, called = say("Tangents to {source}"), say("Tangent {name}")
         beside, half = slopes, TANGENT * along / np.abs(along)
         line = Segments(places - half, places + half, Role.LIMIT).left_by(slopes)
         # The points of v have theirs already.
         numbers = row_numbers(slopes, run.first, outward) if run.source == "s" else ()
-    one, count = _ONE_TRACE[by], places.size
-    title, how, why = (each.where(source=run.source, numbered=_NUMBERED[run.source]) for each in _TRACED[by])
-    said = sequence([how, one.where(**run.said(run.steepest)), _REPEAT.where(count=count)], " ")
-    parts = tuple(Part(one.where(**run.said(k)), (slopes[k], beside[k])) for k in range(count))
-    return Step(title, said, _view(c, run.source), (line, *numbers), why=why, parts=parts)
+        said = (
+            say(
+                "Set a mirror across the curve of {source} at a point, and turn it until the curve runs into its "
+                "image without a corner: then it is on the normal. Draw the tangent square to it, and number it."
+            ),
+        )
+        one = say("Tangent {name}, square to the mirror at point {name}, {slope}.")
+        why = say(
+            "The tangent has the slope of {source} at its point, and a mirror finds it more exactly than the eye."
+        )
+    part = telling.run(run.told(*said, one, *more), called, run.names, slopes, beside, settings=run.slope)
+    return Step(run.told(title), (part,), _view(c, run.source), (line, *numbers), why=run.told(why))
 
 
 def _with_rays(run: _Pass) -> Step:
     """The pole, the rays through it, and what they cut off, carried across."""
     c, rays, heights, derived = run.c, run.drawn("rays"), run.drawn("heights"), run.c.acts[run.target].first
-    one, distance, count = _ONE_RAY[c.givens.by], c.givens.poles[run.number - 1], rays.shown.size
-    groups = falling_together(heights)
-    kept, worked = [int(group[0]) for group in groups], run.said(run.steepest)
-    pole = pole_marks(c.acts[f"P{run.number}"], distance, worked["index"], heights.shown.imag)
+    groups, distance = falling_together(heights), c.givens.poles[run.number - 1]
+    kept, index = [int(group[0]) for group in groups], f"{run.number}".translate(SUBSCRIPTS)
+    pole = pole_marks(c.acts[f"P{run.number}"], distance, index, heights.shown.imag)
     axes, outward = (*_axes(c, run.target), *pole), np.where(derived.shown.imag < 0, -UP, UP)
     carried = (
         Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act, index=rays.index[kept]),
@@ -418,24 +392,28 @@ def _with_rays(run: _Pass) -> Step:
         *ray_numbers(heights, run.first, groups, every_kth(derived.shown)),
         *row_numbers(derived, run.first, outward),
     )
+    why = say(
+        "The triangle of pole, origin and height has the slope of {source}, so the height is H{index} times that "
+        "slope: an ordinate of {target}."
+    )
     set_off = say(
         "With the dividers set off the pole P{index} on the axis, H{index} = {pole:.1f} mm to the left of the origin."
     )
-    why = say(
-        "Because the triangle of pole, origin and height has the slope of {source}, the height is H{index} times that "
-        "slope: an ordinate of {target}."
+    ray = say(
+        "Slide the set square from tangent {name} to P{index}: ray {name} ends on the vertical axis, {height}. With "
+        "the T-square carry that height to the vertical of station {name}: point {name} of {target}."
     )
-    said = [set_off.where(**worked, pole=distance), one.where(**worked), _REPEAT.where(count=count)]
-    if len(groups) < count:
-        said.append(say("Slopes that are parallel share a ray."))
-    return Step(
-        say("Pole and rays, {source} to {target}", source=run.source, target=run.target),
-        *(sequence(said, " "), _view(c, run.target), (*axes, *carried)),
-        given=axes,
-        why=why.where(**worked),
-        parts=tuple(Part(one.where(**run.said(k)), (rays[k], heights[k], derived[k])) for k in range(count)),
-        under=() if run.target == "a" else _degrees(c, run.target),
-    )
+    if c.givens.by == "chords":
+        ray = say(
+            "Slide the set square from chord {name} to P{index}: ray {name} ends on the vertical axis, {height}. With "
+            "the T-square carry that height to the vertical in the middle of chord {name}: point {name} of {target}."
+        )
+    shared = [say("Slopes that are parallel share a ray.")] if len(groups) < rays.shown.size else []
+    said = run.told(set_off, ray, say("Repeat for the others, {count} in all."), *shared)
+    part = telling.run(said, say("Ray {name}"), run.names, rays, heights, derived, settings=run.height)
+    title, marks = say("Pole and rays, {source} to {target}"), (*axes, *carried)
+    under = () if run.target == "a" else _degrees(c, run.target)
+    return Step(run.told(title), (part,), _view(c, run.target), marks, given=axes, why=run.told(why), under=under)
 
 
 def _joined(run: _Pass) -> Step:
@@ -445,9 +423,10 @@ def _joined(run: _Pass) -> Step:
     near, longest = int(np.argmax(heights if up >= down else -heights)), float(c.first(f"max_{target}"))
     said = say(
         "Join the points by a smooth curve with the French curve. Its longest ordinate, {height}, is near point {name}."
-    ).where(height=_raised(longest if up >= down else -longest, say("at the origin")), name=run.first + near)
-    why = say("Because {target} is wanted between the points too, above all its maximum.", target=target)
-    return Step(say("Curve of {target}", target=target), said, _view(c, target), (_curve(c, target),), why=why)
+    ).where(height=raised(longest if up >= down else -longest, say("at the origin")), name=run.first + near)
+    why = say("The values of {target} are wanted between the points too, above all the maximum.")
+    title, curve = run.told(say("Curve of {target}")), _curve(c, target)
+    return Step(title, (Part(said, (curve,)),), _view(c, target), (curve.line(Role.RESULT),), why=run.told(why))
 
 
 def _view(c: Construction[DifferentiationGivens], symbol: str) -> View:
@@ -459,12 +438,12 @@ def _view(c: Construction[DifferentiationGivens], symbol: str) -> View:
     return replace(view, title=say("{title}, μ{index} = {mu:.4g} {per}/{mm}", per=per, mm=unit("mm"), **values))
 
 
-def _curve(c: Construction[DifferentiationGivens], name: str) -> Mark:
+def _curve(c: Construction[DifferentiationGivens], name: str) -> Drawn:
     """The faired curve; of a cyclic diagram over the ends of the turn."""
     hand, turn = showing(c), c.givens.turn
     line = hand.fair(f"curve of {name}", _going_on(hand, turn, c.acts[name].first), [slice(None)])
     drawn = slice(None) if turn is None else (line.points.real >= 0) & (line.points.real <= turn)
-    return line[drawn].line(Role.RESULT)
+    return line[drawn]
 
 
 def _end(c: Construction[DifferentiationGivens]) -> float:
@@ -482,39 +461,24 @@ def _degrees(c: Construction[DifferentiationGivens], symbol: str) -> tuple[Mark,
     return degrees_below(_end(c), c.givens.mu_phi, reach(c.acts[symbol].shown.imag)[0])
 
 
-_SCALES = {
-    "v": (
-        say("The scale of v"),
-        say(
-            "The first pole gives μᵥ = μₛ/(μᵩ·H₁) = {mu_s:.4g}/({mu_phi:.4g} · {pole:g}) = {mu_v:.5g} ({unit}/rad)/mm: "
-            "the maximum velocity is {mm:.2f} mm × {mu_v:.5g} = {value:.5g} {unit}/rad."
-        ),
-    ),
-    "a": (
-        say("The scale of a"),
-        say(
-            "The second gives μₐ = μᵥ/(μᵩ·H₂) = {mu_v:.5g}/({mu_phi:.4g} · {pole:g}) = {mu_a:.5g} ({unit}/rad²)/mm: "
-            "the maximum acceleration is {mm:.2f} mm × {mu_a:.5g} = {value:.5g} {unit}/rad²."
-        ),
-    ),
-}
-
-
 def _scale(run: _Pass) -> Step:
     """The scale of a derivative, its greatest value, and the divisions of its ordinates, away from the rays."""
-    c, name, pole = run.c, run.target, run.c.givens.poles[run.number - 1]
-    scales = {"mu_phi": c.givens.mu_phi.per_mm, "mu_s": c.givens.mu_s.per_mm, "unit": unit(c.givens.mu_s.unit)}
-    scales |= {f"mu_{each}": c.readings[each].scale for each in "va"}
-    greatest = {"pole": pole, "mm": float(c.first(f"max_{name}")), "value": float(c.value(f"max_{name}"))}
-    title, said = _SCALES[name]
-    said = said.where(**scales, **greatest)
-    why = say("Because a ray cuts off H times a slope on paper, where {source} and φ have their scales.")
-    end, heights = _end(c), c.acts[name].shown.imag
-    upright, read = Line(end + UP * np.array(reach(heights)), Role.SCALE), c.readings[name]
-    return Step(
-        *(title, said, _view(c, name)),
-        (upright, *graduated(heights, float(read.scale), end, read.act)),
-        (f"max_{name}", name),
-        why=why.where(source=run.source),
-        parts=(Part(said, ()),),
+    c, name = run.c, run.target
+    said = say(
+        "The first pole gives μᵥ = μₛ/(μᵩ·H₁) = {mu_s:.4g}/({mu_phi:.4g} · {pole:g}) = {mu_v:.5g} ({unit}/rad)/mm: "
+        "the maximum velocity is {mm:.2f} mm × {mu_v:.5g} = {value:.5g} {unit}/rad."
     )
+    if name == "a":
+        said = say(
+            "The second gives μₐ = μᵥ/(μᵩ·H₂) = {mu_v:.5g}/({mu_phi:.4g} · {pole:g}) = {mu_a:.5g} ({unit}/rad²)/mm: "
+            "the maximum acceleration is {mm:.2f} mm × {mu_a:.5g} = {value:.5g} {unit}/rad²."
+        )
+    values = {"mu_phi": c.givens.mu_phi.per_mm, "mu_s": c.givens.mu_s.per_mm, "unit": unit(c.givens.mu_s.unit)}
+    values |= {f"mu_{each}": c.readings[each].scale for each in "va"}
+    values |= {"mm": float(c.first(f"max_{name}")), "value": float(c.value(f"max_{name}"))}
+    why = say("A ray cuts off H times a slope on paper, where {source} and φ have their scales.")
+    end, heights, read = _end(c), c.acts[name].shown.imag, c.readings[name]
+    upright = Line(end + UP * np.array(reach(heights)), Role.SCALE)
+    marks, part = (upright, *graduated(heights, float(read.scale), end, read.act)), Part(run.told(said.where(**values)))
+    title, reads = run.told(say("The scale of {target}")), (f"max_{name}", name)
+    return Step(title, (part,), _view(c, name), marks, reads, why=run.told(why))

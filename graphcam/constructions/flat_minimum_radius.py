@@ -9,6 +9,7 @@ arctan(mu_a/mu_s) in place of 45 degrees.
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from operator import itemgetter
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,11 +22,13 @@ from graphcam.constructions.region import LEAST_RADIUS
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import R0, RHO, A, Formula, S, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Part, Step, say
+from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Label, Line, Mark, Points, Role
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.telling import STATION, from_to
 from graphcam.drafting.units import NOTHING
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell
@@ -62,6 +65,46 @@ class FlatCurvatureGivens:
 FlatCurved = Construction[FlatCurvatureGivens]
 
 
+def _sharpest(region: FlatRegion, r0: float) -> dict[str, Any]:
+    """The least sum of displacement and acceleration, with a radius to which it is added."""
+    least = -float(region.value("need"))
+    return {"rho": region.givens.least_curvature, "sum": abs(least), "sign": "-" if least < 0 else "+", "r0": r0}
+
+
+def _enough_radius(region: FlatRegion) -> Values:
+    """The least prime radius; not positive where any will do."""
+    r0 = region.givens.least_curvature + float(region.value("need"))
+    values = _sharpest(region, r0)
+    yield {**values, "sign": "+" if values["sign"] == "-" else "-"}
+
+
+def _least_bend(curved: FlatCurved) -> Values:
+    """The least radius of curvature at the adopted prime radius."""
+    r0 = curved.givens.prime_radius
+    yield {**_sharpest(curved.givens.region, r0), "least": r0 - float(curved.givens.region.value("need"))}
+
+
+SUM = Symbol(r"\min(s + a)", say("the minimum of the sum of displacement and acceleration"), "mm")
+FORMULAS = (
+    Formula(
+        r"\rho = r_0 + s + \frac{d^2 s}{d\varphi^2} \ge [\rho], \qquad r_0 \ge [\rho] - \min(s + a)",
+        r"r_0 \ge <rho:g> <sign> <sum:.3f> = <r0:.3f>\ \text{<mm>}",
+        _enough_radius,
+        (RHO, R0, S, A, Symbol(r"[\rho]", say("the permitted radius of curvature"), "mm"), SUM),
+        of="prime_radius",
+    ),
+)
+CURVATURE_FORMULAS = (
+    Formula(
+        r"\rho_{\min} = r_0 + \min(s + a)",
+        r"\rho_{\min} = <r0:g> <sign> <sum:.3f> = <least:.3f>\ \text{<mm>}",
+        _least_bend,
+        (Symbol(r"\rho_{\min}", say("the minimum radius of curvature"), "mm"),),
+        of="rho",
+    ),
+)
+
+
 LEAST_RADIUS_MEANING = Meaning(
     "minimum_radius",
     say("Minimum prime radius"),
@@ -71,7 +114,7 @@ LEAST_RADIUS_MEANING = Meaning(
         "touches it there."
     ),
     {"prime_radius": LEAST_RADIUS, "need": ReadingMeaning(say("maximum of −(s + a)"), "−(s + a)", "mm")},
-    "report.flat_paragraphs.least_radius",
+    FORMULAS,
 )
 CURVATURE_MEANING = Meaning(
     "curvature",
@@ -87,7 +130,7 @@ CURVATURE_MEANING = Meaning(
             compared=(Compared("min_pitch_curvature_radius", say("minimum radius of curvature ρ")),),
         )
     },
-    "report.flat_paragraphs.curvature",
+    CURVATURE_FORMULAS,
 )
 
 
@@ -181,19 +224,18 @@ def _laid_off(region: FlatRegion) -> Step:
     if jumps:
         marks.append(near.from_(heights[jumps], Role.CONSTRUCTION))
         marks += [near[k].label(named[jump], complex(_outward(near)[k]), small=True) for k, jump in enumerate(jumps)]
-    captions = [_station(region, k) for k in range(after.shown.size)]
     ends = [(near[jumps.index(k)], after[k]) if k in jumps else (after[k],) for k in range(after.shown.size)]
     worked = int(np.argmax(np.round(np.abs(after.shown.real) * after.shown.imag, 3)))
-    how = say(
-        "With the T-square carry each displacement across to a vertical axis. From there lay off the "
-        "acceleration horizontally with the dividers, in the scale of s: times μₐ/μₛ = {mu_a:.4g}/{mu_s:.4g} = "
-        "{factor:.4f}, to the right where it is positive."
-    ).where(factor=_factor(region), **{f"mu_{name}": integrated.readings[name].per_mm for name in "as"})
-    said = sequence([how, captions[worked], say("Repeat for the others, and number the ends.")], " ")
-    why = say("Because ρ = r₀ + s + a, and lengths in one scale can be added on the paper.")
-    parts = tuple(Part(caption, draws) for caption, draws in zip(captions, ends, strict=True))
+    said = say(
+        "With the T-square carry each displacement across to a vertical axis. From there lay off the acceleration "
+        "horizontally with the dividers, in the scale of s: times μₐ/μₛ = {mu_a:.4g}/{mu_s:.4g} = {factor:.4f}, to the "
+        "right where it is positive. Station {name}: {there}. Number the ends."
+    ).where(name=named[worked], there=_station(region, worked), factor=_factor(region))
+    said = said.where(**{f"mu_{name}": integrated.readings[name].per_mm for name in "as"})
+    rows = tuple(Row(STATION.where(name=named[k]), _station(region, k), draws) for k, draws in enumerate(ends))
+    why = say("The radius of curvature is ρ = r₀ + s + a, and lengths in one scale can be added on the paper.")
     title, marks = say("Displacement over acceleration"), (*axes, *marks)
-    return Step(title, said, OVER_ACCELERATION, marks, given=axes, why=why, parts=parts)
+    return Step(title, (Part(said, rows=rows),), OVER_ACCELERATION, marks, given=axes, why=why)
 
 
 def _outward(ends: Drawn) -> Points:
@@ -208,19 +250,14 @@ def _factor(region: FlatRegion) -> float:
 
 
 def _station(region: FlatRegion, k: int) -> Caption:
-    """What is laid off at a station: where the acceleration jumps, on both sides."""
-    integrated = region.givens.integrated
-    s, a, before = (float(integrated.first(name)[k]) for name in ("s", "a", "a_before"))
-    said = {"name": station_names(integrated.givens.stations)[k], "height": _raised(s), "after": _level(a, region)}
-    if k in _jumps(integrated):
-        both = say(
-            "Station {name}: mark the axis of s {height}. From there lay off the acceleration before the jump, {near}, "
-            "and after it, {after}."
-        )
-        return both.where(**said, near=_level(before, region))
-    if abs(a) < NOTHING:
-        return say("Station {name}: mark the axis of s {height}; the acceleration is zero.").where(**said)
-    return say("Station {name}: mark the axis of s {height}, and from there lay off {after}.").where(**said)
+    """What is marked and laid off at a station: where the acceleration jumps, on both sides."""
+    s, a, before = (float(region.givens.integrated.first(name)[k]) for name in ("s", "a", "a_before"))
+    said = say("{height}, from there {after}")
+    if k in _jumps(region.givens.integrated):
+        said = say("{height}, from there before the jump {near}, after it {after}")
+    elif abs(a) < NOTHING:
+        said = say("{height}; the acceleration is zero")
+    return said.where(height=_raised(s), near=_level(before, region), after=_level(a, region))
 
 
 def _raised(y: float) -> Caption:
@@ -245,24 +282,23 @@ def _level(a: float, region: FlatRegion) -> Caption:
 def _joined(region: FlatRegion) -> Step:
     """The smooth curves through the ends, and the dwells."""
     integrated, smooth, curve = region.givens.integrated, showing(region), region.acts["curve"].first
-    stations, rests, marks, parts = integrated.givens.stations, region.acts["rests"].first, list[Mark](), list[Part]()
+    stations, rests, marks, rows = integrated.givens.stations, region.acts["rests"].first, list[Mark](), list[Row]()
     names = station_names(stations)
     for piece, stretch in zip(_smooth(integrated), stations.stretches, strict=False):
         start, end = names[stretch.start], names[stretch.stop - 1]
         line = smooth.fair(f"from {start}", curve[piece], [slice(None)])
         marks.append(line.line(Role.RESULT))
-        said = say("From {start} to {end}: draw along the French curve through the ends.", start=start, end=end)
-        parts.append(Part(said, (line,)))
+        rows.append(Row(from_to(start, end), "", (line,)))
     for k, last in enumerate(_rests(integrated)):
-        said = say("In the dwell after {name} the acceleration is zero: mark the point of the axis {height}.")
-        parts.append(Part(said.where(name=names[last], height=_raised(rests.shown[k].imag)), (rests[k],)))
+        called = say("In the dwell after {name}", name=names[last])
+        rows.append(Row(called, _raised(rests.shown[k].imag), (rests[k],)))
     said = say(
         "Join the ends by smooth curves with the French curve, from each jump or corner of the acceleration to the "
-        "next. A dwell is a point of the axis."
+        "next. In a dwell the acceleration is zero: mark a point of the axis."
     )
-    why = say("Because s + a is wanted between the stations too, and in a dwell a is zero.")
-    marks = (*marks, rests.dots(Role.RESULT))
-    return Step(say("The curve of s over a"), said, OVER_ACCELERATION, marks, why=why, parts=tuple(parts))
+    why = say("The sum s + a is wanted between the stations too, and in a dwell a is zero.")
+    marks, part = (*marks, rests.dots(Role.RESULT)), Part(said, rows=tuple(rows))
+    return Step(say("The curve of s over a"), (part,), OVER_ACCELERATION, marks, why=why)
 
 
 def _touched(region: FlatRegion) -> Step:
@@ -275,8 +311,12 @@ def _touched(region: FlatRegion) -> Step:
     read = say(
         "The edge meets the axis of s {height}, so the maximum of −(s + a) is {paper:.2f} mm × {mu:.5g} = "
         "{need:.3f} mm."
-    ).where(height=_raised(zero.place.imag), mu=region.readings["need"].per_mm, need=need)
-    read = read.where(paper=float(region.first("need")) + 0.0)
+    )
+    paper = float(region.first("need")) + 0.0
+    if abs(paper) < NOTHING:
+        read = say("The edge meets the axis of s {height}, so the maximum of −(s + a) is zero.")
+    values = {"mu": region.readings["need"].per_mm, "paper": paper, "need": need}
+    read = read.where(height=_raised(zero.place.imag), **values)
     lean = say(
         "If a had kept its own scale, the edge would have to fall by arctan(μₐ/μₛ) = {angle:.1f}°.",
         angle=np.degrees(np.arctan(_factor(region))),
@@ -287,12 +327,9 @@ def _touched(region: FlatRegion) -> Step:
         *(line.dots(Role.LIMIT), zero.dots(Role.LIMIT)),
         AngleMark(zero.place, 12.0, -np.pi / 2, -np.pi / 4, "45°").left_by(line),
     )
-    return Step(
-        say("The tangent at 45 degrees"),
-        *(sequence([slide, read, lean], " "), OVER_ACCELERATION, marks, ("need",)),
-        why=say("Because s + a is constant along a line at 45°, and smaller on every line farther to the lower left."),
-        parts=(Part(slide, (line,)), Part(read, (zero,))),
-    )
+    parts = Part(slide, (line,)), Part(sequence([read, lean], " "), (zero,))
+    why = say("Along a line at 45° s + a is constant, and on every line farther to the lower left it is smaller.")
+    return Step(say("The tangent at 45 degrees"), parts, OVER_ACCELERATION, marks, ("need",), why=why)
 
 
 def nearest_station(region: FlatRegion) -> str:
@@ -323,10 +360,9 @@ def _found(region: FlatRegion) -> Step:
         *(centre.dots(Role.RESULT), centre.label("A₀", 1 - 1j)),
         Dimension(0j, centre.place, radius, -10.0, of=region.readings["prime_radius"].act),
     )
-    why = say(
-        "Because the minimum of ρ = r₀ + s + a is r₀ minus the maximum of −(s + a), and must equal the permitted ρ."
-    )
-    return Step(say("The minimum prime radius"), said, OVER_ACCELERATION, marks, ("prime_radius",), why=why)
+    why = say("The minimum of ρ = r₀ + s + a is r₀ minus the maximum of −(s + a), and must equal the permitted ρ.")
+    parts = (Part(said, (centre,)),)
+    return Step(say("The minimum prime radius"), parts, OVER_ACCELERATION, marks, ("prime_radius",), why=why)
 
 
 def _sum(least: float, need: float) -> Caption:
@@ -366,14 +402,9 @@ def _draw_curvature(curved: FlatCurved) -> list[Step]:
     named = say("ρ = {rho:.2f}", rho=value)
     label = centre.label(say("A (r₀ = {r0:g})", r0=r0), -1 - 1j)
     marks = (centre.dots(Role.RESULT), label, Dimension(centre.place, zero, named, -14.0, of=rho.act))
-    return [
-        Step(
-            say("The minimum radius of curvature"),
-            *(sequence([placed, measured], " "), OVER_ACCELERATION, marks, ("rho",)),
-            why=say(
-                "Because A lies r₀ below the axis of a, and the line lies the maximum of −(s + a) below it: the "
-                "difference is the minimum of r₀ + s + a."
-            ),
-            parts=(Part(placed, (centre,)), Part(measured, ())),
-        )
-    ]
+    parts = Part(placed, (centre,)), Part(measured)
+    why = say(
+        "A lies r₀ below the axis of a, and the line lies the maximum of −(s + a) below it: the difference is the "
+        "minimum of r₀ + s + a."
+    )
+    return [Step(say("The minimum radius of curvature"), parts, OVER_ACCELERATION, marks, ("rho",), why=why)]

@@ -10,6 +10,7 @@ Source: the equilibrium of a follower in two bearings, H. A. Rothbart, *Cam Desi
 
 import cmath
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from operator import itemgetter
@@ -22,7 +23,7 @@ from graphcam.constructions.graduation import round_up
 from graphcam.constructions.pressure_angle import MeasuredAngles, moving_up, shown_station
 from graphcam.constructions.views import FORCES
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import NOWHERE, RIGHT, UP
+from graphcam.drafting.euclid import NOWHERE, RIGHT, UP, unit
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role, angle_at
@@ -216,8 +217,7 @@ def _terms(plan: Construction[ForcePlanGivens]) -> list[tuple[Caption, float]]:
 
 def load_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     """The load, straight down from its tail."""
-    foot, integrated = plan.acts["foot"].first, plan.givens.measured.givens.integrated
-    name, mu = station_names(integrated.givens.stations)[plan.givens.station], plan.givens.mu_force.per_mm
+    name, mu = station_name(plan), plan.givens.mu_force.per_mm
     terms, (s, a) = _terms(plan), _values(plan, "s", "a")
     load = sum(force for _, force in terms)
     told = sequence([said.where(force=force) for said, force in terms if abs(force) >= READABLE_FORCE])
@@ -226,75 +226,92 @@ def load_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
         "At μF = {mu:g} N/mm set the dividers to {size:.1f}/{mu:g} = {paper:.1f} mm, and lay Q off from its tail "
         "straight {way}."
     ).where(name=name, s=s, a=a, load=load, terms=told, mu=mu, size=abs(load), paper=abs(load) / mu)
-    label = Label(foot.place / 2, "Q", towards=-side_of(plan) + 0j).left_by(foot)
-    tail_and_head = Dots(np.array([0j, foot.place])).left_by(foot)
-    return Step(
-        say("Force plan at station {name}: the load", name=name),
-        *(said.where(way=say("down") if load > 0 else say("up")), view),
-        (foot.arrow(0j, Role.CURVE), label, tail_and_head),
-        reads=("load",),
-        why=say(
-            "Because inertia, spring and preload act along the motion: this force is known in magnitude and direction."
-        ),
+    said = said.where(way=say("down") if load > 0 else say("up"))
+    why = say("Inertia, spring and preload act along the motion: this force is known in magnitude and direction.")
+    return loaded(plan, view, said, -side_of(plan) + 0j, why)
+
+
+def station_name(plan: Construction) -> str:
+    """The station of a plan."""
+    return station_names(plan.givens.measured.givens.integrated.givens.stations)[plan.givens.station]
+
+
+def loaded(plan: Construction, view: View, said: Caption, beside: complex, why: Caption) -> Step:
+    """The load as an arrow from its tail, its name on the side ``beside``."""
+    foot = plan.acts["foot"].first
+    marks = (
+        foot.arrow(0j, Role.CURVE),
+        Label(foot.place / 2, "Q", towards=beside).left_by(foot),
+        Dots(np.array([0j, foot.place])).left_by(foot),
+    )
+    title = say("Force plan at station {name}: the load", name=station_name(plan))
+    return Step(title, (Part(said, (foot,)),), view, marks, ("load",), why=why)
+
+
+def beyond(length: float) -> float:
+    """How long a line is drawn that ends after ``length`` [mm]; NaN where it meets nothing."""
+    return 2 * LOAD_LENGTH if math.isnan(length) else length + BEYOND
+
+
+def leaning(line: Drawn, reach: float, alpha: float, up: complex = UP) -> tuple[Mark, ...]:
+    """A line of a length through the head of the load, and the pressure angle [rad] that it makes with ``up`` there."""
+    radius, foot, way = 0.4 * min(reach, LOAD_LENGTH), line.place, complex(unit(line.directions))
+    start, named = cmath.phase(up), say("α = {alpha:.1f}°", alpha=math.degrees(alpha))
+    return (
+        Line(np.array([foot, foot + reach * way]), Role.CONSTRUCTION).left_by(line),
+        Line(np.array([foot, foot + (radius + BEYOND) * up]), Role.AXIS),
+        angle_at(foot, start, start + cmath.phase(way / up), radius, named, line.act),
     )
 
 
 def _line_of_force(plan: Construction[ForcePlanGivens], view: View) -> Step:
     """The line of the contact force through the head of the load."""
-    normal, length = plan.acts["line of F"].first, float(plan.first("normal"))
-    alpha = float(plan.givens.measured.first("alpha")[plan.givens.station])
+    normal, alpha = plan.acts["line of F"].first, float(plan.givens.measured.first("alpha")[plan.givens.station])
     said = say(
         "At the head of Q set the protractor to α = {alpha:.2f}° from the vertical {side}, and draw the line of "
         "the contact force F there, parallel to the contact normal of this station."
     ).where(alpha=abs(math.degrees(alpha)), side=towards(side_of(plan)))
-    reach = 2 * LOAD_LENGTH if math.isnan(length) else length + BEYOND
-    radius, foot, direction = 0.4 * min(reach, LOAD_LENGTH), normal.place, complex(normal.directions)
-    named = say("α = {alpha:.1f}°", alpha=math.degrees(alpha))
-    marks = (
-        Line(np.array([foot, foot + reach * direction]), Role.CONSTRUCTION).left_by(normal),
-        Line(np.array([foot, foot + (radius + BEYOND) * UP]), Role.AXIS),
-        angle_at(foot, math.pi / 2, cmath.phase(direction), radius, named, normal.act),
-    )
-    why = say("Because the cam pushes along the contact normal, which makes the pressure angle with the motion.")
-    return Step(say("The line of the contact force"), said, view, marks, why=why)
+    marks = leaning(normal, beyond(float(plan.first("normal"))), alpha)
+    why = say("The cam pushes along the contact normal, which makes the pressure angle with the motion.")
+    return Step(say("The line of the contact force"), (Part(said, (normal,)),), view, marks, why=why)
 
 
 def reaction_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     """The line of the reaction through the tail of the load."""
-    line, guide, side, title = (
-        plan.acts["line of R"].first,
-        plan.givens.guide,
-        side_of(plan),
-        say("The line of the guide's reaction"),
-    )
-    end = BASE * side + 0j if guide is None else plan.acts["incline"].first.place
+    line, guide, side = plan.acts["line of R"].first, plan.givens.guide, side_of(plan)
+    title, end = say("The line of the guide's reaction"), BASE * side + 0j
+    if guide is not None:
+        end = plan.acts["incline"].first.place
     across = Line(line.place + end * np.array([-0.3, 1.0]), Role.CONSTRUCTION).left_by(line)
     if guide is None or not guide.friction:
         said = say(
             "With the T-square draw the horizontal line through the tail of Q: on it lies the reaction R of the guide."
         )
-        why = say("Because a guide without friction can push only square to the motion.")
-        return Step(title, said, view, (across,), why=why)
+        why = say("A guide without friction can push only square to the motion.")
+        return Step(title, (Part(said, (line,)),), view, (across,), why=why)
     base, incline, (s,) = plan.acts["base"].first, plan.acts["incline"].first, _values(plan, "s")
     height = float(_incline(guide, _direction(plan), np.array(s)))
     values = {"base": BASE, "side": towards(side), "mu": guide.friction, "length": guide.length, "height": abs(height)}
     values |= {"overhang": guide.overhang - s, "way": say("up") if height > 0 else say("down")}
-    told = (
-        say("With the dividers lay off {base:g} mm from the tail of Q horizontally {side}, for l = {length:g} mm."),
-        say(
-            "From there lay off {base:g} · μ(l + 2b)/l = {base:g} · {mu:g} · ({length:g} + 2 · "
-            "{overhang:.2f})/{length:g} = {height:.2f} mm straight {way}."
-        ),
-        say("Join the tail of Q to this point with the ruler: on this line lies the reaction R of the guide."),
+    laid = say("With the dividers lay off {base:g} mm from the tail of Q horizontally {side}, for l = {length:g} mm.")
+    inclined = say(
+        "From there lay off {base:g} · μ(l + 2b)/l = {base:g} · {mu:g} · ({length:g} + 2 · "
+        "{overhang:.2f})/{length:g} = {height:.2f} mm straight {way}."
     )
-    told = [each.where(**values) for each in told]
-    marks = (*(across, base.line_from(0j, Role.CONSTRUCTION), incline.line_from(base, Role.CONSTRUCTION)),)
+    join = say("Join the tail of Q to this point with the ruler: on this line lies the reaction R of the guide.")
+    parts = (Part(laid.where(**values), (base,)), Part(inclined.where(**values), (incline,)), Part(join, (line,)))
+    marks = (across, base.line_from(0j, Role.CONSTRUCTION), incline.line_from(base, Role.CONSTRUCTION))
     why = say(
-        "Because the nearer bearing carries (l + b)/l of the side force and the farther one b/l, so friction is "
-        "μ(l + 2b)/l of it and acts against the motion."
+        "The nearer bearing carries (l + b)/l of the side force and the farther one b/l, so friction is μ(l + 2b)/l of "
+        "it and acts against the motion."
     )
-    parts = tuple(Part(each, (left,)) for each, left in zip(told, (base, incline, line), strict=True))
-    return Step(title, sequence(told, " "), view, marks, why=why, parts=parts)
+    return Step(title, parts, view, marks, why=why)
+
+
+def not_closed(view: View, said: Caption) -> Step:
+    """The last step where there is no third corner, and what that means."""
+    why = say("A cam can only push: F must point from the head of Q towards the crossing.")
+    return Step(say("The triangle does not close"), (Part(said),), view, (), why=why)
 
 
 def jammed_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
@@ -303,41 +320,42 @@ def jammed_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
         "The two lines do not meet where the cam could push: at this pressure angle the follower jams in its "
         "guide, or the load does not press it onto the cam."
     )
-    why = say("Because a cam can only push: F must point from the head of Q towards the crossing.")
-    return Step(say("The triangle does not close"), said, view, (), why=why)
+    return not_closed(view, said)
+
+
+CORNER = say("Mark where the two lines cross: the third corner.")
+UP_TO_CORNER = say("F runs from the head of Q up to this corner: {normal_mm:.1f} mm × {mu:g} = {normal:.1f} N.")
+BACK = say("R runs from the corner back to the tail of Q: {reaction_mm:.1f} mm × {mu:g} = {reaction:.1f} N.")
+
+
+Told = tuple[tuple[Caption, ...], tuple[Drawn, ...]]
+"""Sentences with the readings of a plan in their places, and what is drawn."""
+
+
+def triangle_step(plan: Construction, view: View, told: Sequence[Told], marks: tuple[Mark, ...]) -> Step:
+    """The closed triangle of forces, and what is measured on it; of a reading there is also ``{name_mm}`` on paper."""
+    values = {name: float(plan.value(name)) for name in plan.readings} | {"mu": plan.givens.mu_force.per_mm}
+    values |= {f"{name}_mm": float(plan.first(name)) for name in plan.readings}
+    parts = tuple(Part(sequence([each.where(**values) for each in said], " "), draws) for said, draws in told)
+    reads, why = tuple(plan.readings)[1:], say("Forces in equilibrium, drawn head to tail, form a closed polygon.")
+    return Step(say("The triangle of forces"), parts, view, marks, reads, why=why)
 
 
 def _closed(plan: Construction[ForcePlanGivens], view: View) -> Step:
     """The triangle, and what is measured on it."""
     foot, corner, force, reaction = (plan.acts[name].first for name in ("foot", "corner", "F", "R"))
-    corner, shown, side, mu = corner[0], showing(plan), side_of(plan), plan.givens.mu_force.per_mm
+    corner, shown, side = corner[0], showing(plan), side_of(plan)
     level = shown.project("level", corner, shown.given("line of Q", 0j, UP))
-    values = {name: float(plan.value(name)) for name in plan.readings}
-    values |= {f"{name}_mm": float(plan.first(name)) for name in plan.readings} | {"mu": mu}
-    borne = say("The friction in the guide is {friction_mm:.1f} mm × {mu:g} = {friction:.1f} N.")
-    told = (
-        (say("Mark where the two lines cross: the third corner."), corner),
-        (
-            say("F runs from the head of Q up to this corner: {normal_mm:.1f} mm × {mu:g} = {normal:.1f} N."),
-            force,
-        ),
-        (
-            say("R runs from the corner back to the tail of Q: {reaction_mm:.1f} mm × {mu:g} = {reaction:.1f} N."),
-            reaction,
-        ),
-        (
-            say(
-                "With the T-square carry the corner horizontally to the line of Q. Along the motion F cos α "
-                "measures {along_mm:.1f} mm × {mu:g} = {along:.1f} N, and across it F sin α {side_mm:.1f} mm × "
-                "{mu:g} = {side:.1f} N."
-            ),
-            level,
-        ),
+    sides = say(
+        "With the T-square carry the corner horizontally to the line of Q. Along the motion F cos α measures "
+        "{along_mm:.1f} mm × {mu:g} = {along:.1f} N, and across it F sin α {side_mm:.1f} mm × {mu:g} = {side:.1f} N."
     )
-    parts = [Part(said.where(**values), (left,)) for said, left in told]
-    if values["friction"] >= READABLE_FORCE:
-        last = parts[-1]
-        parts[-1] = replace(last, caption=sequence([last.caption, borne.where(**values)], " "))
+    friction = say("The friction in the guide is {friction_mm:.1f} mm × {mu:g} = {friction:.1f} N.")
+    borne = (friction,) if float(plan.value("friction")) >= READABLE_FORCE else ()
+    told = (
+        *(((CORNER,), (corner,)), ((UP_TO_CORNER,), (force,)), ((BACK,), (reaction,))),
+        ((sides, *borne), (level,)),
+    )
     marks: tuple[Mark, ...] = (
         Arrow(foot.place, corner.place, Role.RESULT).left_by(force),
         Arrow(corner.place, 0j, Role.RESULT).left_by(reaction),
@@ -345,9 +363,4 @@ def _closed(plan: Construction[ForcePlanGivens], view: View) -> Step:
         Label((foot.place + corner.place) / 2, "F", towards=side - 0.5j).left_by(force),
         Label(corner.place / 2, "R", towards=UP).left_by(reaction),
     )
-    return Step(
-        say("The triangle of forces"),
-        *(sequence([part.caption for part in parts], " "), view, marks, tuple(MEANING.readings)[1:]),
-        why=say("Because forces in equilibrium, drawn head to tail, form a closed polygon."),
-        parts=tuple(parts),
-    )
+    return triangle_step(plan, view, told, marks)

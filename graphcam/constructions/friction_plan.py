@@ -9,7 +9,6 @@ Source: the equilibrium of a follower with friction at the cam, I. Voloder, M. C
 (2007): N (cos alpha - mu sin alpha) is the load.
 """
 
-import cmath
 import math
 from dataclasses import dataclass, replace
 from functools import partial
@@ -18,6 +17,7 @@ from operator import itemgetter
 import numpy as np
 
 from graphcam.constructions.force_plan import (
+    BACK,
     BASE,
     BEYOND,
     LOAD_LENGTH,
@@ -25,6 +25,7 @@ from graphcam.constructions.force_plan import (
     ForcePlanGivens,
     force_at,
     jammed_step,
+    leaning,
     load_step,
     plan_station,
     reaction_step,
@@ -32,19 +33,19 @@ from graphcam.constructions.force_plan import (
     side_of,
     third_corner,
     towards,
+    triangle_step,
 )
 from graphcam.constructions.pressure_angle import MeasuredAngles
 from graphcam.constructions.views import FORCES
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Construction, Part, Step, View, say
-from graphcam.drafting.marks import Arrow, Label, Line, Mark, Role, angle_at
+from graphcam.drafting.marks import Arrow, Label, Line, Mark, Role
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import sense
 from graphcam.given.spring_load import SpringLoad
-from graphcam.words import sequence
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,22 +145,13 @@ def _normal(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     """The contact normal through the head of the load."""
     normal, length = plan.acts["normal"].first, float(plan.first("normal"))
     alpha = float(plan.givens.measured.first("alpha")[plan.givens.station])
-    foot, direction = normal.place, complex(normal.directions)
     said = say(
         "At the head of Q set the protractor to α = {alpha:.2f}° from the vertical {side}, and draw the contact "
         "normal of this station there."
-    ).where(alpha=abs(math.degrees(alpha)), side=towards(-1.0 if direction.real < 0 else 1.0))
+    ).where(alpha=abs(math.degrees(alpha)), side=towards(-1.0 if normal.directions.real < 0 else 1.0))
     reach = max(BASE, 2 * LOAD_LENGTH if math.isnan(length) else length) + BEYOND
-    radius = 0.4 * min(reach, LOAD_LENGTH)
-    named = say("α = {alpha:.1f}°", alpha=math.degrees(alpha))
-    way = Line(np.array([foot, foot + reach * direction]), Role.CONSTRUCTION).left_by(normal)
-    marks = (
-        way,
-        Line(np.array([foot, foot + (radius + BEYOND) * UP]), Role.AXIS),
-        angle_at(foot, math.pi / 2, cmath.phase(direction), radius, named, normal.act),
-    )
-    why = say("Because without friction the cam would push along the contact normal.")
-    return Step(say("The contact normal"), said, view, marks, why=why)
+    why = say("Without friction the cam would push along the contact normal.")
+    return Step(say("The contact normal"), (Part(said, (normal,)),), view, leaning(normal, reach, alpha), why=why)
 
 
 def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
@@ -167,60 +159,44 @@ def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     base, incline, line = (plan.acts[name].first for name in ("base", "incline", "line of F"))
     sigma, mu, length = sense(plan.givens.measured.givens.rotation), plan.givens.mu, float(plan.first("contact"))
     values = {"base": BASE, "mu": mu, "height": BASE * mu, "side": towards(-float(sigma))}
-    told = (
-        say("With the dividers lay off {base:g} mm on the normal from the head of Q."),
-        say("From there lay off {base:g} · μ = {base:g} · {mu:g} = {height:.2f} mm square to the normal, {side}."),
-        say("Join the head of Q to this point with the ruler: on this line lies the contact force F."),
+    laid = say("With the dividers lay off {base:g} mm on the normal from the head of Q.")
+    inclined = say(
+        "From there lay off {base:g} · μ = {base:g} · {mu:g} = {height:.2f} mm square to the normal, {side}."
     )
-    captions = [each.where(**values) for each in told]
+    join = say("Join the head of Q to this point with the ruler: on this line lies the contact force F.")
+    parts = (Part(laid.where(**values), (base,)), Part(inclined.where(**values), (incline,)), Part(join, (line,)))
     along = complex(line.directions) / abs(complex(line.directions))
     reach = max(abs(complex(line.directions)), 2 * LOAD_LENGTH if math.isnan(length) else length) + BEYOND
     run = Line(np.array([line.place, line.place + reach * along]), Role.CONSTRUCTION).left_by(line)
     marks = (run, incline.line_from(base, Role.CONSTRUCTION), base.dots(Role.CONSTRUCTION))
     why = say(
-        "Because the cam slides past the follower in its own sense and drags it along the profile with μN, so F "
-        "makes the friction angle, whose tangent is μ, with the normal."
+        "The cam slides past the follower in its own sense and drags it along the profile with μN, so F makes the "
+        "friction angle, whose tangent is μ, with the normal."
     )
-    parts = tuple(Part(each, (left,)) for each, left in zip(captions, (base, incline, line), strict=True))
-    return Step(say("The line of the contact force"), sequence(captions, " "), view, marks, why=why, parts=parts)
+    return Step(say("The line of the contact force"), parts, view, marks, why=why)
 
 
 def _closed(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     """The triangle, the contact force in its parts, and what is measured on it."""
     names = ("foot", "corner", "F", "R", "square", "tip of N", "N", "T")
     foot, corner, force, reaction, square, tip, normal, friction = (plan.acts[name].first for name in names)
-    corner, shown, side, mu = corner[0], showing(plan), side_of(plan), plan.givens.mu_force.per_mm
+    corner, shown, side = corner[0], showing(plan), side_of(plan)
     level = shown.project("level", tip, shown.given("line of Q", 0j, UP))
-    values = {name: float(plan.value(name)) for name in plan.readings}
-    values |= {f"{name}_mm": float(plan.first(name)) for name in plan.readings} | {"mu": mu}
-    told = (
-        (say("Mark where the line of F meets that of R: the third corner."), (corner,)),
-        (
-            say("F runs from the head of Q up to this corner: {contact_mm:.1f} mm × {mu:g} = {contact:.1f} N."),
-            (force,),
-        ),
-        (
-            say("R runs from the corner back to the tail of Q: {reaction_mm:.1f} mm × {mu:g} = {reaction:.1f} N."),
-            (reaction,),
-        ),
-        (
-            say(
-                "From the corner draw the perpendicular to the normal with the set squares. It cuts off on the "
-                "normal the normal force N = {normal_mm:.1f} mm × {mu:g} = {normal:.1f} N, and it is itself the "
-                "friction T = {contact_friction_mm:.1f} mm × {mu:g} = {contact_friction:.1f} N."
-            ),
-            (square, tip, normal, friction),
-        ),
-        (
-            say(
-                "With the T-square carry the tip of N horizontally to the line of Q. Along the motion N cos α "
-                "measures {along_mm:.1f} mm × {mu:g} = {along:.1f} N, and across it N sin α {side_mm:.1f} mm × "
-                "{mu:g} = {side:.1f} N."
-            ),
-            (level,),
-        ),
+    meet = say("Mark where the line of F meets that of R: the third corner.")
+    up = say("F runs from the head of Q up to this corner: {contact_mm:.1f} mm × {mu:g} = {contact:.1f} N.")
+    parted = say(
+        "From the corner draw the perpendicular to the normal with the set squares. It cuts off on the normal the "
+        "normal force N = {normal_mm:.1f} mm × {mu:g} = {normal:.1f} N, and it is itself the friction T = "
+        "{contact_friction_mm:.1f} mm × {mu:g} = {contact_friction:.1f} N."
     )
-    parts = tuple(Part(said.where(**values), left) for said, left in told)
+    sides = say(
+        "With the T-square carry the tip of N horizontally to the line of Q. Along the motion N cos α measures "
+        "{along_mm:.1f} mm × {mu:g} = {along:.1f} N, and across it N sin α {side_mm:.1f} mm × {mu:g} = {side:.1f} N."
+    )
+    told = (
+        *(((meet,), (corner,)), ((up,), (force,)), ((BACK,), (reaction,))),
+        *(((parted,), (square, tip, normal, friction)), ((sides,), (level,))),
+    )
     marks: tuple[Mark, ...] = (
         Arrow(foot.place, corner.place, Role.RESULT).left_by(force),
         Arrow(corner.place, 0j, Role.RESULT).left_by(reaction),
@@ -232,9 +208,4 @@ def _closed(plan: Construction[FrictionPlanGivens], view: View) -> Step:
         Label((foot.place + tip.place) / 2, "N", towards=-side + 0j).left_by(normal),
         Label((tip.place + corner.place) / 2, "T", towards=UP).left_by(friction),
     )
-    return Step(
-        say("The triangle of forces"),
-        *(sequence([part.caption for part in parts], " "), view, marks, tuple(MEANING.readings)[1:]),
-        why=say("Because forces in equilibrium, drawn head to tail, form a closed polygon."),
-        parts=parts,
-    )
+    return triangle_step(plan, view, told, marks)

@@ -19,7 +19,6 @@ from graphcam.constructions.axes import (
     height_names,
     numbers,
     ordinate,
-    part_names,
     phase_ends,
     phase_names,
     phase_title,
@@ -36,11 +35,13 @@ from graphcam.constructions.time_axis import graduated_at_speed, scale_said, tim
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import LIFT, Formula, Symbol, Values, per_mm
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
+from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, View, say
 from graphcam.drafting.marks import Dimension, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.telling import led_by
 from graphcam.drafting.units import NOTHING, unit
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
@@ -69,6 +70,64 @@ class IntegrationGivens(AccelerationGivens):
 Integrated = Construction[IntegrationGivens]
 
 
+def _values(drawn: Integrated) -> Values:
+    """The scales, and the greatest ordinates with what they stand for."""
+    scales = {f"mu_{name}": drawn.readings[name].per_mm for name in "sva"}
+    units = {f"of_{name}": per_mm(drawn.readings[name].unit) for name in "sva"}
+    tops = {f"max_{name}": float(drawn.value(f"max_{name}")) for name in "va"}
+    papers = {name: float(drawn.first(f"max_{name}")) for name in "va"}
+    of_tops = {f"unit_{name}": unit(drawn.readings[name].unit) for name in "va"}
+    (h1, h2), lift, mu = drawn.givens.poles, drawn.givens.motion.lift, drawn.givens.mu_phi.per_mm
+    named = {"h1": h1, "h2": h2, "mu_phi": mu, "lift": lift, "paper": lift / scales["mu_s"]}
+    yield {**scales, **units, **tops, **papers, **of_tops, **named}
+
+
+FORMULAS = (
+    Formula(
+        r"\Delta y = \frac{y\,\Delta x}{H}",
+        symbols=(
+            Symbol(r"\Delta y", say("what a chord climbs"), "mm of paper"),
+            Symbol("y", say("the middle ordinate of its part"), "mm of paper"),
+            Symbol(r"\Delta x", say("the width of the part"), "mm of paper"),
+            Symbol("H", say("the pole distance: H₁ of the first integration, H₂ of the second"), "mm of paper"),
+        ),
+    ),
+    Formula(
+        r"\mu_s = \frac{h}{y_s}",
+        r"\mu_s = \frac{<lift:.6g>}{<paper:.2f>} = <mu_s:.5g>\ \text{<of_s>}",
+        _values,
+        (
+            Symbol(r"\mu_s", say("the scale of the displacement"), "lift/mm"),
+            LIFT,
+            Symbol("y_s", say("the maximum ordinate of s"), "mm of paper"),
+        ),
+        of="s",
+    ),
+    Formula(
+        r"\mu_v = \frac{\mu_s}{\mu_\varphi H_2}, \qquad v_{\max} = \mu_v\,y_v",
+        r"\mu_v = \frac{<mu_s:.5g>}{<mu_phi:.6f> \cdot <h2:g>} = <mu_v:.5g>\ \text{<of_v>}, \qquad "
+        r"v_{\max} = <mu_v:.5g> \cdot <v:.2f> = <max_v:.5g>\ \text{<unit_v>}",
+        _values,
+        (
+            Symbol(r"\mu_v", say("the scale of the velocity"), "(lift/rad)/mm"),
+            Symbol("y_v", say("the maximum ordinate of v"), "mm of paper"),
+        ),
+        of="v",
+    ),
+    Formula(
+        r"\mu_a = \frac{\mu_v}{\mu_\varphi H_1}, \qquad a_{\max} = \mu_a\,y_a",
+        r"\mu_a = \frac{<mu_v:.5g>}{<mu_phi:.6f> \cdot <h1:g>} = <mu_a:.5g>\ \text{<of_a>}, \qquad "
+        r"a_{\max} = <mu_a:.5g> \cdot <a:.2f> = <max_a:.5g>\ \text{<unit_a>}",
+        _values,
+        (
+            Symbol(r"\mu_a", say("the scale of the acceleration"), "(lift/rad²)/mm"),
+            Symbol("y_a", say("the maximum ordinate of a"), "mm of paper"),
+        ),
+        of="a",
+    ),
+)
+
+
 MEANING = Meaning(
     "integration",
     say("Velocity, displacement and the scales"),
@@ -92,7 +151,7 @@ MEANING = Meaning(
         "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad", over=phase_names),
         "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),
     },
-    "report.paragraphs.integration",
+    FORMULAS,
     scales={"acceleration": "a", "velocity": "v", "displacement": "s", "combined": "s"},
     scales_found_by="integration",
 )
@@ -223,6 +282,7 @@ class _Integrating:
     source: View
     target: View
     symbols: tuple[str, str]
+    carried: Caption
     closing: Caption
     joined: Caption
     met: Caption
@@ -237,15 +297,21 @@ _AT_REST = say(
     "Each phase ends at rest: the residual velocity there, at most {left:.2f} mm, is removed by rotating the base line."
 )
 _SHARED_OUT = say("The residual displacement at the end of the turn, {left:.2f} mm, is distributed over the returns.")
-_CORNERS = say(
-    "Because the slope of v is the acceleration, v has a corner where the acceleration jumps, and is smooth elsewhere."
+_ORDINATES = say(
+    "Carry each middle ordinate of {source} horizontally to the vertical axis with the T-square, join it there to the "
+    "pole with the ruler, and give the ray the number of the part; equal ordinates share one ray."
 )
-_SMOOTH = say("Because the slope of s is the velocity, which never jumps, adjoining pieces of s share a tangent.")
+_OF_CHORDS = say(
+    "Take the ordinate at the middle of each chord of {source}, carry it horizontally to the vertical axis with the "
+    "T-square, join it there to the pole with the ruler, and give the ray the number of the part; equal ordinates "
+    "share one ray."
+)
+_CORNERS = say("The slope of v is the acceleration: v has a corner where it jumps, and is smooth elsewhere.")
+_SMOOTH = say("The slope of s is the velocity, which never jumps, so adjoining pieces of s share a tangent.")
+_CORNER, _TANGENT = say("at {first} it has a corner"), say("at {first} the tangent is continuous")
 _PASSES = (
-    _Integrating(1, ACCELERATION, VELOCITY, ("a", "v"), _AT_REST, _CORNERS, say("At {first} it has a corner.")),
-    _Integrating(
-        2, VELOCITY, DISPLACEMENT, ("v", "s"), _SHARED_OUT, _SMOOTH, say("At {first} the tangent is continuous.")
-    ),
+    _Integrating(1, ACCELERATION, VELOCITY, ("a", "v"), _ORDINATES, _AT_REST, _CORNERS, _CORNER),
+    _Integrating(2, VELOCITY, DISPLACEMENT, ("v", "s"), _OF_CHORDS, _SHARED_OUT, _SMOOTH, _TANGENT),
 )
 
 
@@ -268,37 +334,23 @@ def _draw_rays(c: Integrated, run: _Integrating) -> Step:
         rays.first[kept].ways(Role.CONSTRUCTION),
         *height_names(projected, names),
     )
-    told = kept[min(2, len(kept) - 1)]
-    joined = say(
-        "Mark the pole P{index} on the axis, H{index} = {distance:.1f} mm to the left of 0. Carry each middle "
-        "ordinate of {source} horizontally to the vertical axis with the T-square, join it there to the pole "
-        "with the ruler, and give the ray the number of the part; equal ordinates share one ray."
-    ).where(index=run.subscript, distance=distance, source=source)
-    cut = _SHARED_CUT if len(same[kept.index(told)]) > 1 else _CUT
-    joined = sequence([joined, cut.where(name=names[kept.index(told)], y=height[told])], " ")
+    marked = say("Mark the pole P{index} on the axis, H{index} = {distance:.1f} mm to the left of 0.")
+    marked = marked.where(index=run.subscript, distance=distance)
+    rows = tuple(
+        Row(
+            (say("Rays {name}") if len(own) > 1 else say("Ray {name}")).where(name=name),
+            say("{source} = {y:z.2f} mm", source=source, y=height[k]),
+            (*(places.first[own] for places in halves), levelled.first[[k]], rays.first[[k]]),
+        )
+        for k, own, name in zip(kept, same, names, strict=True)
+    )
+    said = sequence([run.carried.where(source=source), rows[min(2, len(rows) - 1)].caption], " ")
     why = say(
-        "Because a ray rises by the ordinate y over the distance H, its slope y/H is the slope that {target} has there."
+        "A ray rises by the ordinate y over the distance H, so its slope y/H is the slope that {target} has there."
     ).where(target=target)
-    marked = say("Mark P{index} on the axis, {distance:.1f} mm to the left of 0.")
-    parts = [Part(marked.where(index=run.subscript, distance=distance), (pole.first,))]
-    for k, own, name in zip(kept, same, names, strict=True):
-        said = _SHARED_RAY if len(own) > 1 else _RAY
-        caption = said.where(name=name, y=height[k], source=source, index=run.subscript)
-        parts.append(Part(caption, (*(places.first[own] for places in halves), levelled.first[[k]], rays.first[[k]])))
-    titled = say("Pole and rays, {source} to {target}", source=source, target=target)
-    return Step(titled, joined, run.source, (*laid_out, *marks), given=laid_out, why=why, parts=tuple(parts))
-
-
-_CUT = say("Ray {name} cuts the vertical axis at {y:.2f} mm.")
-_SHARED_CUT = say("Rays {name} coincide and cut the vertical axis at {y:.2f} mm.")
-_RAY = say(
-    "Ray {name}: carry the middle ordinate of part {name}, {source} = {y:z.2f} mm, horizontally to the vertical "
-    "axis; join it to P{index}."
-)
-_SHARED_RAY = say(
-    "Rays {name} coincide: the middle ordinates of these parts are equal, {source} = {y:z.2f} mm; carry one "
-    "horizontally to the vertical axis, join it to P{index}."
-)
+    title = say("Pole and rays, {source} to {target}", source=source, target=target)
+    parts = Part(marked, (pole.first,)), Part(said, rows=rows)
+    return Step(title, parts, run.source, (*laid_out, *marks), given=laid_out, why=why)
 
 
 def _draw_chords(c: Integrated, run: _Integrating) -> Step:
@@ -308,23 +360,13 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
     y, left = polygon.shown.imag, float(np.max(np.abs(c.first(f"closing_{target}"))))
     motion, mu_phi, heights, far = c.givens.motion, c.givens.mu_phi, curve.shown.imag, np.abs(y) >= 0
     axes = phi_axes(motion, mu_phi, heights, ordinate(target, c.givens.unit))
+    end, low, omega = float(phase_ends(motion, mu_phi)[-1]), reach(heights)[0], c.givens.omega
+    under = (*degrees_below(end, mu_phi, low), *times_below(end, mu_phi, low, omega, phases=False))
     if run.index == 2:
         # What is near the numbers of the axis needs none of its own.
         axes, far = (*axes, *numbers(c.acts["acceleration: axis"], stations, -UP)), np.abs(y) > NEAR
         if c.givens.lowest:
-            low = reach(heights)[0]
-            axes += phases_below(motion, mu_phi, low)
-            axes += times_below(phase_ends(motion, mu_phi)[-1], mu_phi, low, c.givens.omega)
-    numbered = run.index == 2 and c.givens.lowest
-    end, low, omega = float(phase_ends(motion, mu_phi)[-1]), reach(heights)[0], c.givens.omega
-    under = (
-        ()
-        if numbered
-        else (
-            *degrees_below(end, mu_phi, low),
-            *times_below(end, mu_phi, low, omega, phases=False),
-        )
-    )
+            axes, under = (*axes, *phases_below(motion, mu_phi, low), *times_below(end, mu_phi, low, omega)), ()
     marks = (
         *(polygon.first[span].line(Role.CONSTRUCTION) for span in stations.phases),
         curve.from_(curve.shown.real + 0j, Role.CONSTRUCTION),
@@ -333,24 +375,25 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
     # The fourth chord is worked in full, or the first one after it that climbs.
     climbing = np.flatnonzero(np.abs(np.diff(y)[stations.left]) >= NOTHING)
     part = int(climbing[min(np.searchsorted(climbing, 3), climbing.size - 1)]) if climbing.size else 0
-    k = int(stations.left[part]) + 1
+    k, names = int(stations.left[part]) + 1, station_names(stations)
     width = polygon.shown.real[k] - polygon.shown.real[k - 1]
-    values = {"width": width, "distance": c.givens.poles[run.index - 1], "rise": y[k] - y[k - 1]}
-    values |= {"name": part_names(stations)[part], "height": c.acts[f"heights for {target}"].shown.imag[part]}
+    values = {"name": names[k], "before": names[k - 1], "width": width, "distance": c.givens.poles[run.index - 1]}
+    values |= {"rise": y[k] - y[k - 1], "height": c.acts[f"heights for {target}"].shown.imag[part]}
     said = say(
         "In each part draw a chord parallel to its ray with two set squares, from the end of the previous chord "
-        "to the next vertical, and number its end. Chord {name} climbs by y·Δx/H = "
-        "{height:.2f}·{width:.2f}/{distance:.1f} = {rise:.2f} mm."
+        "to the next vertical, and number its end. Chord {name}: slide the set square from ray {name} to point "
+        "{before} and draw as far as vertical {name}; it climbs by y·Δx/H = {height:.2f}·{width:.2f}/{distance:.1f} = "
+        "{rise:.2f} mm."
     ).where(**values)
-    if left > NOTHING:
-        said = sequence([said, run.closing.where(left=left)], " ")
     why = say(
-        "Because a chord with the slope y/H climbs by y·Δx/H, the area of its part divided by H, chords set end to end "
+        "A chord with the slope y/H climbs by y·Δx/H, the area of its part divided by H, so chords set end to end "
         "add up the area under {source}."
     ).where(source=source)
-    parts = (*(part for k in range(len(stations.phases)) for part in _chord_parts(c, run, k)), *_ordinates(c, run))
+    chords = Part(said, rows=tuple(row for k in range(len(stations.phases)) for row in _chord_rows(c, run, k)))
+    checks = tuple(_ordinates(c, run))
+    checks = led_by(run.closing.where(left=left), checks) if left > NOTHING else checks
     title = say("Chords parallel to the rays: {target}", target=target)
-    return Step(title, said, run.target, (*axes, *marks), given=axes, why=why, parts=parts, under=under)
+    return Step(title, (chords, *checks), run.target, (*axes, *marks), given=axes, why=why, under=under)
 
 
 def _outward(y: Floats, stations: Stations) -> Points:
@@ -359,30 +402,26 @@ def _outward(y: Floats, stations: Stations) -> Points:
     return np.where(leaving, -RIGHT, RIGHT) + 0j
 
 
-def _chord_parts(c: Integrated, run: _Integrating, phase: int) -> Iterator[Part]:
+def _chord_rows(c: Integrated, run: _Integrating, phase: int) -> Iterator[Row]:
     """The chords of a phase, one after another; of s first where they start."""
     stations, polygon = c.givens.stations, c.acts[f"{run.symbols[1]}_chords"]
     span, y, names = stations.phases[phase], polygon.shown.imag, station_names(stations)
     if run.index == 2:
-        said = _STARTS[0 if abs(y[span.start]) < NOTHING else 1 if phase else 2]
-        title = phase_title(c.givens.motion, int(stations.phase[span.start]))
-        yield Part(said.where(phase=title, y=y[span.start], name=names[span.start]), (polygon.first[[span.start]],))
+        start = _STARTS[0 if abs(y[span.start]) < NOTHING else 1 if phase else 2]
+        title = say("Start of {phase}", phase=phase_title(c.givens.motion, int(stations.phase[span.start])))
+        yield Row(title, start.where(y=y[span.start], name=names[span.start]), (polygon.first[[span.start]],))
     for k in range(span.start + 1, span.stop):
         rise = y[k] - y[k - 1]
         change = _CHANGES[0 if abs(rise) < NOTHING else 1 if rise > 0 else 2].where(rise=abs(rise))
-        said = say(
-            "Chord {name}: slide the set square from ray {name} to point {before}, draw as far as vertical "
-            "{name}; {change}."
-        )
         # The first chord of v starts at rest, where the phase does.
         drawn = [k - 1, k] if k == span.start + 1 and run.index == 1 else [k]
-        yield Part(said.where(name=names[k], before=names[k - 1], change=change), (polygon.first[drawn],))
+        yield Row(say("Chord {name}", name=names[k]), change, (polygon.first[drawn],))
 
 
 _STARTS = (
-    say("Start of {phase}: vertical {name}, on the axis."),
-    say("Start of {phase}: carry the end of the previous phase, {y:.2f} mm high, horizontally to vertical {name}."),
-    say("Start of {phase}: vertical {name}; the axis, through the lowest dwell, will lie {y:.2f} mm below."),
+    say("vertical {name}, on the axis"),
+    say("carry the end of the previous phase, {y:.2f} mm high, horizontally to vertical {name}"),
+    say("vertical {name}; the axis, through the lowest dwell, will lie {y:.2f} mm below"),
 )
 _CHANGES = say("it is horizontal"), say("it climbs {rise:.2f} mm"), say("it falls {rise:.2f} mm")
 
@@ -398,15 +437,18 @@ def _ordinates(c: Integrated, run: _Integrating) -> Iterator[Part]:
         off = (curve.shown - polygon.shown).imag[[first, last]]
         # What is nothing has no sign.
         y, end = (float(np.round(curve.shown.imag[each], 2)) + 0.0 for each in (k, last))
-        said = say("Check: {symbol} is {y:.2f} mm at {name} and {end:.2f} mm at {last}.", symbol=run.symbols[1])
         ends = {"first": names[first], "last": names[last]}
-        said = said.where(y=y, name=names[k], end=end, **ends)
+        said = _CHECKS[int(end != 0)].where(symbol=run.symbols[1], y=y, name=names[k], end=end, **ends)
         if np.abs(off).max() > NOTHING:
             shared = _SHARED[int(np.abs(off[0]) > NOTHING)].where(start=off[0], by=off[1], **ends)
             said = sequence([shared, said], " ")
         yield Part(said, (curve.first[span],))
 
 
+_CHECKS = (
+    say("Check: {symbol} is {y:.2f} mm at {name} and zero at {last}."),
+    say("Check: {symbol} is {y:.2f} mm at {name} and {end:.2f} mm at {last}."),
+)
 _SHARED = (
     say("Distribute the residual: {by:+.2f} mm at {last}, decreasing in proportion back to {first}."),
     say("Distribute the residual: {start:+.2f} mm at {first} to {by:+.2f} mm at {last}, in proportion between them."),
@@ -415,8 +457,8 @@ _SHARED = (
 
 def _draw_curve(c: Integrated, run: _Integrating) -> Step:
     target = run.symbols[1]
-    said, lines, parts = curve_over_phi(c.givens, showing(c), target, c.acts[f"{target}_curve"], run.met)
-    return Step(say("Curve of {target}", target=target), said, run.target, lines, why=run.joined, parts=parts)
+    lines, parts = curve_over_phi(c.givens, showing(c), target, c.acts[f"{target}_curve"], run.met)
+    return Step(say("Curve of {target}", target=target), parts, run.target, lines, why=run.joined)
 
 
 def _draw_scales(c: Integrated) -> Iterator[Step]:
@@ -454,33 +496,31 @@ def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, ma
     if lift_unit == "rad":
         told = sequence([told, say("In degrees {mu:.4g}°/mm.", mu=np.degrees(mu))], " ")
     if c.givens.omega is not None and name != "s":
-        said_too = scale_said(mu, name, c.givens.omega, c.givens.unit)
-        told = sequence([told, said_too], " ")
+        told = sequence([told, scale_said(mu, name, c.givens.omega, c.givens.unit)], " ")
         divided += graduated_at_speed(
             heights, mu, name, c.givens.omega, c.givens.unit, float(turn), c.readings[name].act
         )
-    parts = Part(found, () if of is None else (of,)), Part(told, ())
-    said = sequence([found, told], " ")
-    return Step(title, said, view, (*marks, *divided), reads, why=why, parts=parts)
+    parts = Part(found, () if of is None else (of,)), Part(told)
+    return Step(title, parts, view, (*marks, *divided), reads, why=why)
 
 
 _SCALES = {
     "s": (
         DISPLACEMENT,
         say("The scale of s"),
-        say("Because the lift is known, its length on paper fixes the scale."),
+        say("The lift is known, so its length on paper fixes the scale."),
         ("s", "closing_s"),
     ),
     "v": (
         VELOCITY,
         say("The scale of v"),
-        say("Because a chord of s climbs by y·Δx/H₂, the second integration has divided the scale by μᵩ·H₂."),
+        say("A chord of s climbs by y·Δx/H₂, so the second integration has divided the scale by μᵩ·H₂."),
         ("v", "max_v", "closing_v"),
     ),
     "a": (
         ACCELERATION,
         say("The scale of a"),
-        say("Because a chord of v climbs by y·Δx/H₁, the first integration has divided the scale by μᵩ·H₁."),
+        say("A chord of v climbs by y·Δx/H₁, so the first integration has divided the scale by μᵩ·H₁."),
         ("a", "max_a"),
     ),
 }

@@ -1,5 +1,6 @@
 """The profile by inversion: the cam stands still and the frame turns about it, against the cam's rotation."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,16 +10,18 @@ from graphcam.constructions.axes import numbers, station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import RIGHT, UP, unit
+from graphcam.drafting.formulas import OFFSET, RADIUS, S0, Formula, S, Values
 from graphcam.drafting.hand import Hand, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
-from graphcam.drafting.marks import Line, Role, Segments
+from graphcam.drafting.marks import Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.scale import Scale
+from graphcam.drafting.telling import STATION, circle_drawn, run, setting
 from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation
 from graphcam.given.laws import Floats
-from graphcam.words import say_in, sequence
+from graphcam.words import Words, say_in, sequence
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +34,25 @@ class InversionGivens(profile_view.InvertedGivens):
 OffsetInverted = Construction[InversionGivens]
 
 
+def _worked(inverted: OffsetInverted) -> Values:
+    """The polar radius at the station that the captions work."""
+    givens, stations = inverted.givens, inverted.givens.integrated.givens.stations
+    k, e, r0 = profile_view.worked_station(stations), abs(givens.offset), givens.prime_radius
+    s0, s = math.sqrt(r0**2 - e**2), float(givens.integrated.value("s")[k])
+    yield {"k": station_names(stations)[k], "e": e, "s0": s0, "s": s, "radius": math.hypot(e, s0 + s)}
+
+
+FORMULAS = (
+    Formula(
+        r"R = \sqrt{e^2 + (s_0 + s)^2}",
+        r"R_{<k>} = \sqrt{<e:.2f>^2 + (<s0:.2f> + <s:.2f>)^2} = <radius:.2f>\ \text{<mm>}",
+        _worked,
+        (RADIUS, OFFSET, S0, S),
+        of="radius",
+    ),
+)
+
+
 MEANING = Meaning(
     "inversion",
     say("Pitch curve by inversion"),
@@ -39,7 +61,7 @@ MEANING = Meaning(
         "the follower is moved by its displacement: its positions give the cam."
     ),
     profile_view.CURVE,
-    "report.translating_paragraphs.inversion",
+    FORMULAS,
     scales={"profile": "x"},
 )
 
@@ -93,43 +115,33 @@ def _side(inverted: OffsetInverted) -> Caption:
 
 def _circles(inverted: OffsetInverted) -> Step:
     """The prime circle, the offset circle, and the follower's line at the start of the turn."""
-    mu_l, e, r0 = inverted.givens.mu_l.per_mm, inverted.givens.offset, inverted.givens.prime_radius
+    mu_l, e = inverted.givens.mu_l.per_mm, inverted.givens.offset
     start, hand = profile_view.start_of_turn(inverted), showing(inverted)
     foot = hand.lay_off("foot of the line", hand.given("cam centre"), RIGHT, e / mu_l)
     line = hand.erect("follower's line", foot)
     top = hand.cross("top of the line", line, inverted.acts["prime circle"].first)
     drawn = Line(np.array([foot.place, top.place]), Role.CURVE).left_by(line)
-    values = {"r0": r0, "paper": r0 / mu_l, "ratio": ratio_text(mu_l), "line": _first_line(inverted)}
-    if not e:
-        said = say(
-            "Set the compass to {paper:.1f} mm and draw the prime circle, r₀ = {r0:g} mm at {ratio}, about the "
-            "cam centre A. Draw the vertical from A to the circle: {line}."
-        )
-        why = say(
-            "Because with e = 0 the follower's line passes through the cam centre in every position, and s "
-            "is counted from the prime circle."
-        )
-        upright = Part(say("Draw the vertical from A up to the circle: {line}.", line=values["line"]), (line, top))
-        parts, title, marks = (upright,), say("Prime circle"), (drawn,)
-        return profile_view.prime_step(inverted, title, said.where(**values), start, (), marks, why=why, parts=parts)
-    said = say(
-        "Set the compass to {paper:.1f} mm and draw the prime circle, r₀ = {r0:g} mm at {ratio}, about the cam "
-        "centre A; set it to {e_paper:.1f} mm and draw the offset circle, e = {e:g} mm. Draw the vertical that "
-        "touches the offset circle on the {side}: {line}."
-    ).where(e=e, e_paper=abs(e) / mu_l, side=_side(inverted), **values)
+    title, circles, further, parts = say("Prime circle"), tuple[Mark, ...](), tuple[Mark, ...](), list[Part]()
+    upright = say("Draw the vertical from A up to the circle: {line}.")
     why = say(
-        "Because the follower's line passes the cam centre at the distance e in every position, it always touches the "
-        "offset circle; s is counted from the prime circle."
+        "With e = 0 the follower's line passes through the cam centre in every position, and s is counted from the "
+        "prime circle."
     )
-    circle = inverted.acts["offset circle"]
-    arrow, of_arrow = profile_view.radius_arrow(inverted, circle, start * UP, "e", abs(e))
-    upright = say("Draw the vertical from the {side} end of the offset circle up to the prime circle: {line}.")
-    parts = (
-        Part(profile_view.compass_said(inverted, "|e|", abs(e)), (circle, *of_arrow)),
-        Part(upright.where(side=_side(inverted), line=values["line"]), (line, top)),
-    )
-    circles, title = (circle.drawn_circle(Role.CONSTRUCTION),), say("Prime circle and offset circle")
-    return profile_view.prime_step(inverted, title, said, start, circles, (*arrow, drawn), why=why, parts=parts)
+    if e:
+        circle, title = inverted.acts["offset circle"], say("Prime circle and offset circle")
+        further, of_arrow = profile_view.radius_arrow(inverted, circle, start * UP, "e", abs(e))
+        told = circle_drawn(say_in("drawn", "the offset circle about A"), "|e|", abs(e), mu_l)
+        circles, parts = (circle.drawn_circle(Role.CONSTRUCTION),), [Part(told, (circle, *of_arrow))]
+        upright = say(
+            "With e = {e:g} mm draw the vertical from the {side} end of the offset circle up to the prime circle: "
+            "{line}."
+        ).where(e=e, side=_side(inverted))
+        why = say(
+            "The follower's line passes the cam centre at the distance e in every position, so it always touches the "
+            "offset circle; s is counted from the prime circle."
+        )
+    parts.append(Part(upright.where(line=_first_line(inverted)), (line, top)))
+    return profile_view.prime_step(inverted, title, start, circles, (*further, drawn), why=why, parts=tuple(parts))
 
 
 def _first_line(inverted: OffsetInverted) -> Caption:
@@ -154,75 +166,56 @@ def _positions(inverted: OffsetInverted) -> Step:
     said = say(
         "The cam turns {rotation}; hold it still and turn the follower the other way, {against}. Set the protractor on "
         "A and count {against} from {line}, from station to station {steps}, so station {name} at {angle}; draw and "
-        "number the rays. The phases take {angles}."
+        "number the rays."
     )
     tangents = say(
         "The cam turns {rotation}; hold it still and turn the follower the other way, {against}. Set the "
         "protractor on A, count {against} from the {side} end of the offset circle, from station to station "
         "{steps}, so station {name} at {angle}; mark these points on the offset circle. At each draw the tangent "
-        "with set squares, square to the radius, to the same side as {line}, and number it. The phases take "
-        "{angles}."
+        "with set squares, square to the radius, to the same side as {line}, as far as the prime circle, and number it."
     )
-    line = _first_line(inverted)
-    said = (tangents if e else said).where(side=_side(inverted), line=line, **profile_view.divided_by(inverted))
+    values = {"side": _side(inverted), "line": _first_line(inverted), **profile_view.divided_by(inverted)}
     why = say(
-        "Because only the motion relative to the cam shapes it: a frame that turns {against} about the fixed cam "
+        "Only the motion relative to the cam shapes it: a frame that turns {against} about the fixed cam "
         "is the same as a cam that turns {rotation} in the frame."
     ).where(rotation=turning(inverted.givens.rotation), against=profile_view.against(inverted))
-    title = say("Inverted positions of the follower's line")
-    parts = [_position(inverted, k) for k in range(stations.u.size)]
-    return Step(title, said, PROFILE, marks, why=why, parts=(*parts, last))
-
-
-def _position(inverted: OffsetInverted, k: int) -> Part:
-    """The follower's line at one station."""
-    rays, *drawn = (inverted.acts[name].first[k] for name in ("inverted positions", "feet", "starts", "motion"))
-    ray = say("Station {name}: set off {angle} at A, {against} from {line}, and draw ray {name}.")
-    tangent = say(
-        "Station {name}: set off {angle} at A, {against} from the {side} end of the offset circle; at this point "
-        "draw tangent {name}, square to the radius, as far as the prime circle."
+    title, rays, names = (
+        say("Inverted positions of the follower's line"),
+        inverted.acts["inverted positions"],
+        station_names(stations),
     )
-    names = station_names(inverted.givens.integrated.givens.stations)
-    said = (tangent if inverted.givens.offset else ray).where(
-        name=names[k],
-        angle=profile_view.turn_of(inverted, k),
-        against=profile_view.against(inverted),
-        side=_side(inverted),
-        line=_first_line(inverted),
-    )
-    return Part(said, (rays, *drawn))
+    turned = run((tangents if e else said).where(**values), STATION, names, rays, feet, starts, motion)
+    return Step(title, (turned, last), PROFILE, marks, why=why)
 
 
 def _laid_off(inverted: OffsetInverted) -> Step:
     """The displacements along the follower's lines, from the prime circle."""
     integrated, starts, pitch = inverted.givens.integrated, inverted.acts["starts"], inverted.acts["pitch"]
-    stations, s, mu_l = integrated.givens.stations, integrated.first("s"), inverted.givens.mu_l.per_mm
+    stations, mu_l = integrated.givens.stations, inverted.givens.mu_l.per_mm
     at, moved = profile_view.worked_station(stations), np.flatnonzero(_lengths(inverted))
     drawn = pitch.first[moved].from_(starts.first[moved], Role.CONSTRUCTION)
     mu_s, names = integrated.readings["s"].per_mm, station_names(stations)
     said = say(
         "Take s at every station from the displacement diagram with dividers; 1 mm there is {mu_s:.4g} mm × {times:g} "
         "= {factor:.4g} mm here. Lay it off along the line of that station, from the prime circle outward: station "
-        "{name}: {s:.2f} mm × {factor:.4g} = {length:.1f} mm. Repeat for the others; the longest is {longest:.1f} mm. "
-        "The ends are points of the pitch curve."
-    ).where(
-        mu_s=mu_s,
-        times=round(1 / mu_l, 6),
-        factor=mu_s / mu_l,
-        name=names[at],
-        s=s[at],
-        length=s[at] * mu_s / mu_l,
-        longest=float(np.abs(pitch.shown - starts.shown).max()),
-    )
-    if (_lengths(inverted) < 0).any():
+        "{name}: {length}. The ends are points of the pitch curve."
+    ).where(mu_s=mu_s, times=round(1 / mu_l, 6), factor=mu_s / mu_l, name=names[at], length=setting(pitch.first[at]))
+    lengths = _lengths(inverted)
+
+    def laid_off(k: int) -> Words:
+        """What is laid off at one station, and to which side where they differ."""
+        if not lengths[k]:
+            return say("s is zero, so the point lies on the prime circle")
+        return say("{length} inward", length=setting(pitch.first[k])) if lengths[k] < 0 else setting(pitch.first[k])
+
+    if (lengths < 0).any():
         said = sequence([said, say("A negative s is laid off inward.")], " ")
     why = say(
-        "Because at s = 0 the trace point is on the prime circle, and in every position it has moved outward "
+        "At s = 0 the trace point is on the prime circle, and in every position it has moved outward "
         "along the follower's line by s."
     )
-    parts = tuple(Part(_length_said(inverted, k), (pitch.first[k],)) for k in range(stations.u.size))
-    reads = profile_view.CURVE_READINGS
-    return Step(say("Displacements laid off"), said, PROFILE, (drawn,), reads=reads, why=why, parts=parts)
+    part = run(said, STATION, names, pitch, settings=laid_off)
+    return Step(say("Displacements laid off"), (part,), PROFILE, (drawn,), profile_view.CURVE_READINGS, why=why)
 
 
 def _lengths(inverted: OffsetInverted) -> Floats:
@@ -230,19 +223,3 @@ def _lengths(inverted: OffsetInverted) -> Floats:
     s = inverted.givens.integrated.readings["s"]
     lengths = inverted.givens.integrated.first("s") * s.per_mm / inverted.givens.mu_l.per_mm
     return np.where(np.abs(lengths) < NOTHING, 0.0, lengths)
-
-
-def _length_said(inverted: OffsetInverted, k: int) -> Caption:
-    """What is laid off at one station."""
-    integrated, length = inverted.givens.integrated, float(_lengths(inverted)[k])
-    name = station_names(integrated.givens.stations)[k]
-    if not length:
-        return say("Station {name}: s is zero, so the point lies on the prime circle.", name=name)
-    outward = say("Station {name}: lay off {s:.2f} mm × {factor:.4g} = {length:.2f} mm from the prime circle outward.")
-    inward = say("Station {name}: lay off {s:.2f} mm × {factor:.4g} = {length:.2f} mm from the prime circle inward.")
-    return (outward if length > 0 else inward).where(
-        name=name,
-        s=abs(float(integrated.first("s")[k])),
-        factor=integrated.readings["s"].per_mm / inverted.givens.mu_l.per_mm,
-        length=abs(length),
-    )

@@ -27,17 +27,19 @@ from graphcam.constructions.axes import (
 )
 from graphcam.constructions.graduation import graduated
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.slope_numbers import falling_together
+from graphcam.constructions.slope_numbers import falling_together, raised, run_of_chord
 from graphcam.constructions.time_axis import graduated_at_speed, scale_said, times_below
 from graphcam.constructions.views import ACCELERATION, JERK
+from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import Formula, Symbol, Values, per_mm
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Part, Step, say
+from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import Arrow, Label, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.units import unit
+from graphcam.drafting.units import NOTHING, unit
 from graphcam.given.impact import acceleration_jumps
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
@@ -66,6 +68,27 @@ def _parts(drawn: DrawnJerk) -> list[Caption]:
     return part_titles(drawn.givens.integrated)
 
 
+def _scale_values(drawn: DrawnJerk) -> Values:
+    """How the scale follows from that of the acceleration."""
+    integrated, read = drawn.givens.integrated, drawn.readings["j"]
+    mu = {"mu_a": integrated.readings["a"].per_mm, "mu_phi": integrated.givens.mu_phi.per_mm, "mu": read.per_mm}
+    yield {**mu, "h3": drawn.givens.pole, "of_j": per_mm(read.unit)}
+
+
+FORMULAS = (
+    Formula(
+        r"\mu_j = \frac{\mu_a}{\mu_\varphi H_3}",
+        r"\mu_j = \frac{<mu_a:.5g>}{<mu_phi:.6f> \cdot <h3:g>} = <mu:.5g>\ \text{<of_j>}",
+        _scale_values,
+        (
+            Symbol(r"\mu_j", say("the scale of the jerk"), "(lift/rad³)/mm"),
+            Symbol("H_3", say("the pole distance of the differentiation"), "mm of paper"),
+        ),
+        of="j",
+    ),
+)
+
+
 MEANING = Meaning(
     "jerk",
     say("Jerk"),
@@ -79,7 +102,7 @@ MEANING = Meaning(
             say("maximum j"), "max j", "lift/rad³", (Compared("max_j"),), Converges("maximum jerk", "max_j")
         ),
     },
-    "report.jerk_paragraphs.jerk",
+    FORMULAS,
     scales={JERK.name: "j"},
     scales_found_by="integration",
 )
@@ -161,21 +184,15 @@ def _steepest(c: DrawnJerk) -> int:
 
 
 def _chords(c: DrawnJerk) -> Step:
-    chords, names = c.acts["chords"].first, part_names(c.givens.integrated.givens.stations)
-    ends = chords.shown + chords.directions
-    line = Segments(chords.shown, ends, Role.LIMIT).left_by(chords)
-    k = _steepest(c)
+    chords, names, k = c.acts["chords"].first, part_names(c.givens.integrated.givens.stations), _steepest(c)
+    slopes = [run_of_chord(way) for way in chords.directions.tolist()]
     said = say(
         "In the acceleration diagram join with the ruler the ends of the ordinates at neighbouring stations, on the "
-        "near side of every jump: chord {name} runs {run:.2f} mm across and {climb:+.2f} mm up."
-    ).where(name=names[k], run=chords.directions[k].real, climb=chords.directions[k].imag + 0.0)
-    one = say("Chord {name}: {run:.2f} mm across, {climb:+.2f} mm up.")
-    parts = tuple(
-        Part(one.where(name=name, run=way.real, climb=way.imag + 0.0), (chords[k],))
-        for k, (name, way) in enumerate(zip(names, chords.directions.tolist(), strict=True))
-    )
-    why = say("Because the slope of a chord is very nearly that of the acceleration in the middle of the part.")
-    return Step(say("Chords of a"), said, ACCELERATION, (line,), why=why, parts=parts)
+        "near side of every jump: chord {name} runs {slope}."
+    ).where(name=names[k], slope=slopes[k])
+    part = telling.run(said, say("Chord {name}"), names, chords, settings=slopes.__getitem__)
+    why = say("The slope of a chord is very nearly that of the acceleration in the middle of the part.")
+    return Step(say("Chords of a"), (part,), ACCELERATION, (chords.ways(Role.LIMIT),), why=why)
 
 
 def _heights(c: DrawnJerk) -> Floats:
@@ -199,51 +216,45 @@ def _with_rays(c: DrawnJerk) -> Step:
         *(found.from_(heights, Role.CONSTRUCTION), found.dots(Role.CONSTRUCTION)),
         *height_names(heights[kept], told),
     )
+    ends = [raised(y, say("at the origin")) for y in heights.shown.imag.tolist()]
     said = say(
         "Over a new axis mark the pole P₃, H₃ = {distance:g} mm to the left of 0. Slide the set square from each chord "
         "to P₃; carry the level at which the ray ends on the vertical axis to the vertical in the middle of the part. "
-        "Ray {name} ends at {y:+.2f} mm."
-    ).where(distance=distance, name=names[k], y=heights.shown[k].imag + 0.0)
-    one = say("Ray {name}: parallel to chord {name} through P₃, to {y:+.2f} mm; level to the middle of part {name}.")
-    parts = tuple(
-        Part(one.where(name=name, y=y + 0.0), (rays[k], heights[k], found[k]))
-        for k, (name, y) in enumerate(zip(names, heights.shown.imag.tolist(), strict=True))
-    )
-    why = say("Because the triangle of pole, origin and height has the slope of the chord, the height is H₃ times it.")
+        "Ray {name} ends {height}."
+    ).where(distance=distance, name=names[k], height=ends[k])
+    part = telling.run(said, say("Ray {name}"), names, rays, heights, found, settings=ends.__getitem__)
+    why = say("The triangle of pole, origin and height has the slope of the chord, so the height is H₃ times it.")
     title = say("Pole and rays, a to j")
     end, low = float(phase_ends(givens.motion, givens.mu_phi)[-1]), reach(_heights(c))[0]
     under = degrees_below(end, givens.mu_phi, low)
     under += times_below(end, givens.mu_phi, low, givens.omega, phases=False)
-    return Step(title, said, JERK, (*axes, *marks), given=axes, why=why, parts=parts, under=under)
+    return Step(title, (part,), JERK, (*axes, *marks), given=axes, why=why, under=under)
 
 
 def _joined(c: DrawnJerk) -> Step:
     """The curve between jumps and corners, and arrows where the acceleration jumps."""
     givens, curve, hand = c.givens.integrated.givens, c.acts["curve"].first, showing(c)
-    names, marks, parts = station_names(givens.stations), list[Mark](), list[Part]()
-    one = say("From {first} to {last}: the French curve through the points, carried on straight to both ends.")
+    names, marks, rows = station_names(givens.stations), list[Mark](), list[Row]()
     for piece, stretch in zip(curve_pieces(givens.stations), givens.stations.stretches, strict=True):
         faired = hand.fair("curve of j", curve, [piece])
         marks.append(faired.line(Role.RESULT))
-        parts.append(Part(one.where(first=names[stretch.start], last=names[stretch.stop - 1]), (faired,)))
+        called = telling.from_to(names[stretch.start], names[stretch.stop - 1])
+        rows.append(Row(called, "", (faired,)))
     said = [
         say(
             "Between jumps and corners of the acceleration join the points with the French curve, and carry it on "
-            "straight to the stations at both ends. In the dwells the jerk is nothing."
+            "straight to the stations at both ends. In the dwells the jerk is zero."
         )
     ]
     if jumps := acceleration_jumps(givens.motion):
         marks += _arrows(c)
         places = sequence([degrees(jump.phi) for jump in jumps])
-        said.append(
-            say("At {places} the acceleration jumps: there the jerk is infinite, as an arrow shows.").where(
-                places=places
-            )
-        )
+        jumping = say("At {places} the acceleration jumps: there the jerk is infinite, as an arrow shows.")
+        said.append(jumping.where(places=places))
     else:
         said.append(say("The acceleration nowhere jumps, so the jerk is finite everywhere."))
-    why = say("Because the slope is found in the middles, and is wanted everywhere between the places where it jumps.")
-    return Step(say("Curve of j"), sequence(said, " "), JERK, tuple(marks), why=why, parts=tuple(parts))
+    why = say("The slope is found in the middles, and is wanted everywhere between the places where it jumps.")
+    return Step(say("Curve of j"), (Part(sequence(said, " "), rows=tuple(rows)),), JERK, tuple(marks), why=why)
 
 
 def _arrows(c: DrawnJerk) -> list[Mark]:
@@ -261,11 +272,13 @@ def _scale(c: DrawnJerk) -> Step:
     """The scale of the jerk, its greatest finite value, and the divisions of its ordinates."""
     givens, read = c.givens.integrated.givens, c.readings["j"]
     mu, lift, mu_a = read.per_mm, unit(givens.unit), c.givens.integrated.readings["a"].per_mm
-    said = say(
-        "The pole gives μⱼ = μₐ/(μᵩ·H₃) = {mu_a:.5g}/({mu_phi:.5g}·{pole:g}) = {mu:.5g} ({unit}/rad³)/mm. The maximum "
-        "finite jerk is {mm:.2f} mm × {mu:.5g} = {value:.5g} {unit}/rad³."
-    ).where(mu_a=mu_a, mu_phi=givens.mu_phi.per_mm, pole=c.givens.pole, mu=mu, unit=lift)
-    told = [said.where(mm=float(c.first("max_j")), value=float(c.value("max_j")))]
+    values = {"mu_a": mu_a, "mu_phi": givens.mu_phi.per_mm, "pole": c.givens.pole, "mu": mu, "unit": lift}
+    values |= {"mm": (greatest := float(c.first("max_j"))), "value": float(c.value("max_j"))}
+    found = say("The maximum finite jerk is {mm:.2f} mm × {mu:.5g} = {value:.5g} {unit}/rad³.")
+    if greatest < NOTHING:
+        found = say("Between its jumps the acceleration is constant, so the finite jerk is zero.")
+    gives = say("The pole gives μⱼ = μₐ/(μᵩ·H₃) = {mu_a:.5g}/({mu_phi:.5g}·{pole:g}) = {mu:.5g} ({unit}/rad³)/mm.")
+    told = [gives.where(**values), found.where(**values)]
     heights, end = c.acts["curve"].first.shown.imag, float(phase_ends(givens.motion, givens.mu_phi)[-1])
     # At the end of the turn an arrow may stand.
     end += ASIDE if any(not jump.phi for jump in acceleration_jumps(givens.motion)) else 0.0
@@ -273,6 +286,6 @@ def _scale(c: DrawnJerk) -> Step:
     if givens.omega is not None:
         told.append(scale_said(mu, "j", givens.omega, givens.unit))
         marks += graduated_at_speed(heights, mu, "j", givens.omega, givens.unit, end, read.act) if marks else []
-    caption = sequence(told, " ")
-    why = say("Because a ray cuts off H₃ times a slope on paper, where a and φ have their scales.")
-    return Step(say("The scale of j"), caption, JERK, tuple(marks), ("j", "max_j"), why=why, parts=(Part(caption, ()),))
+    part = Part(sequence(told, " "))
+    why = say("A ray cuts off H₃ times a slope on paper, where a and φ have their scales.")
+    return Step(say("The scale of j"), (part,), JERK, tuple(marks), ("j", "max_j"), why=why)

@@ -5,7 +5,9 @@ motion is the pressure angle; so the tangents to the curve of the D_i at the per
 A may lie.
 """
 
+import math
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -34,11 +36,13 @@ from graphcam.constructions.touched_station import touched
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import OFFSET, R0, S0, SIGMA, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import AngleMark, Dimension, Line, Mark, Region, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.telling import led_by
 from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.limits import Limits
@@ -61,6 +65,68 @@ class LeastRadiusGivens(ToldByChain):
 LeastRadius = Construction[LeastRadiusGivens]
 
 
+def _touched(side: str, drawn: LeastRadius) -> Values:
+    """Where the tangent of the rise or of the return touches, and what the cam centre must keep to."""
+    limits = drawn.givens.limits
+    angle = limits.rise if side == "rise" else limits.return_
+    if side in drawn.points and angle is not None:
+        touch = complex(drawn.first(side)) * drawn.readings["s0"].per_mm
+        s, v = touch.imag, abs(touch.real)
+        yield {"angle": math.degrees(angle), "s": s, "v": v, "least": v - s * math.tan(angle)}
+
+
+def _rests(drawn: LeastRadius) -> Values:
+    """Whether the rest line is drawn."""
+    if "rest" in drawn.points:
+        yield {"angle": math.degrees(drawn.givens.limits.rise)}
+
+
+def _radius(drawn: LeastRadius) -> Values:
+    """What the place of the cam centre measures, where one is found."""
+    s0, e = (float(drawn.value(name)) for name in ("s0", "offset"))
+    if not math.isnan(s0):
+        yield {"s0": s0, "e": abs(e), "r0": math.hypot(s0, e)}
+
+
+FORMULAS = (
+    Formula(
+        r"s_0\tan[\alpha_1] + \sigma e \ge v_1 - s_1\tan[\alpha_1]",
+        r"s_0\tan <angle:g>^\circ + \sigma e \ge <v:.2f> - <s:.2f>\tan <angle:g>^\circ = <least:.2f>\ \text{<mm>}",
+        partial(_touched, "rise"),
+        (
+            S0,
+            Symbol(r"[\alpha_1]", say("the pressure angle permitted on the rise"), "°"),
+            SIGMA,
+            OFFSET,
+            Symbol("v_1", say("the velocity where the rise line touches the curve"), "mm/rad"),
+            Symbol("s_1", say("the displacement there"), "mm"),
+        ),
+        of="prime_radius",
+    ),
+    Formula(
+        r"s_0\tan[\alpha_2] - \sigma e \ge |v_2| - s_2\tan[\alpha_2]",
+        r"s_0\tan <angle:g>^\circ - \sigma e \ge <v:.2f> - <s:.2f>\tan <angle:g>^\circ = <least:.2f>\ \text{<mm>}",
+        partial(_touched, "return"),
+        (
+            Symbol(r"[\alpha_2]", say("the pressure angle permitted on the return"), "°"),
+            Symbol("v_2", say("the velocity where the return line touches the curve"), "mm/rad"),
+            Symbol("s_2", say("the displacement there"), "mm"),
+        ),
+        of="prime_radius",
+    ),
+    Formula(
+        r"s_0\tan[\alpha_1] - \sigma e \ge 0", r"s_0\tan <angle:g>^\circ - \sigma e \ge 0", _rests, of="prime_radius"
+    ),
+    Formula(
+        r"r_0 = \sqrt{s_0^2 + e^2}",
+        r"r_0 = \sqrt{<s0:.2f>^2 + <e:.2f>^2} = <r0:.2f>\ \text{<mm>}",
+        _radius,
+        (R0,),
+        of="prime_radius",
+    ),
+)
+
+
 MEANING = Meaning(
     "minimum_radius",
     say("Minimum prime radius"),
@@ -73,7 +139,7 @@ MEANING = Meaning(
         "offset": ReadingMeaning(say("offset e"), "e", "mm", (Compared("minimum_offset", say("its offset e")),)),
         "s0": ReadingMeaning(say("distance s₀"), "s₀", "mm"),
     },
-    "report.translating_paragraphs.least_radius",
+    FORMULAS,
 )
 
 
@@ -188,17 +254,16 @@ def _touching(region: LeastRadius, picture: RegionPicture) -> Step:
     """The lines that bound the region, each at its permitted angle."""
     hand, limits = showing(region), region.givens.limits
     lines = [_limit_line(region, hand, line, picture) for line in _shown(region)]
-    parts = tuple(part for part, _ in lines)
-    further = [_at_zero_lift(region)]
+    parts = [part for part, _ in lines]
     if not limits.return_:
-        further.append(say("A spring drives the return (force closure), so no line is drawn for the return."))
-    said = sequence([*(part.caption for part in parts), *further], " ")
+        none = say("A spring drives the return (force closure), so no line is drawn for the return.")
+        parts[-1] = Part(sequence([parts[-1].caption, none], " "), parts[-1].draws)
     why = say(
-        "Because from a point on a tangent the end of v that it touches is seen at exactly the permitted angle "
-        "to the motion, and from points below the tangent at less."
+        "From a point on a tangent the end of v that it touches is seen at exactly the permitted angle to the motion, "
+        "and from points below the tangent at less."
     )
     marks = tuple(mark for _, drawn in lines for mark in drawn)
-    return Step(say("Tangents at the permitted angles"), said, COMBINED, marks, why=why, parts=parts)
+    return Step(say("Tangents at the permitted angles"), tuple(parts), COMBINED, marks, why=why)
 
 
 def _limit_line(
@@ -242,6 +307,8 @@ def _limit_line(
             curve=CURVES[line.name],
             where=_touch(region, line.name, drawn.place),
         )
+    if line.name == "rise":
+        said = sequence([said, _at_zero_lift(region)], " ")
     return Part(said, (drawn, upright) if limit is drawn else (limit, drawn, upright)), marks
 
 
@@ -267,7 +334,6 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
     """The region, and the places that textbooks take."""
     hand, lines, others = showing(region), _shown(region), _alternatives(region)
     permitted = hand.given("permitted places", picture.permitted(lines))
-    hatch = say("Hatch the region below the lines that none of them cuts off.")
     sides = [
         say(
             "A cam centre {side} of {line} would give more than {angle} {limited}.",
@@ -278,20 +344,19 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
         )
         for line in lines
     ]
-    further = say("Thin crosses mark the points that textbooks choose: {names}.")
-    said = [*sides, hatch, further.where(names=sequence([PLACES[name] for name in others]))]
+    hatch = say("Hatch the region below the lines that none of them cuts off.")
     marks: list[Mark] = [Region(permitted.points).left_by(permitted)]
-    parts = [Part(hatch, (permitted,))]
+    crosses = list[Part]()
     for name, place in others.items():
         strokes = hand.erect(f"cross at {place.act.name}", place.first, np.array([1, UP]))
         starts, tips = (strokes.points + side * 1.5 * strokes.directions for side in (-1, 1))
         marks.append(Segments(starts, tips, Role.CONSTRUCTION).left_by(strokes))
         marks.append(place.first.label(PLACES[name], _outside(lines, place.place), small=True))
-        found = FOUND[name].where(distance=abs(place.place))
-        parts.append(Part(found, (place.first, strokes)))
-    why = say("Because the cam centre must satisfy all limits at once.")
-    title = say("The region of the cam centre")
-    return Step(title, sequence(said, " "), COMBINED, tuple(marks), why=why, parts=tuple(parts))
+        crosses.append(Part(FOUND[name].where(distance=abs(place.place)), (place.first, strokes)))
+    chosen = say("Thin crosses mark the points that textbooks choose.")
+    parts = Part(sequence([*sides, hatch], " "), (permitted,)), *led_by(chosen, crosses)
+    why = say("The cam centre must satisfy all limits at once.")
+    return Step(say("The region of the cam centre"), parts, COMBINED, tuple(marks), why=why)
 
 
 def _outside(lines: list[Boundary], place: complex) -> complex:
@@ -305,8 +370,8 @@ def _unreadable() -> Step:
         "No cam centre can be read: the lines that bound the region cross one another, or the line of the offset, "
         "at less than a degree."
     )
-    why = say("Because lines at so flat an angle do not show where they cross.")
-    return Step(say("The minimum prime radius"), said, COMBINED, (), why=why)
+    why = say("Lines at so flat an angle do not show where they cross.")
+    return Step(say("The minimum prime radius"), (Part(said),), COMBINED, (), why=why)
 
 
 def _result(region: LeastRadius) -> Step:
@@ -339,11 +404,9 @@ def _result(region: LeastRadius) -> Step:
         *_centre_lines(region, level),
     )
     why = say(
-        "Because the nearer the cam centre is to B₀, the smaller the cam, and points of the hatched region "
-        "satisfy all limits."
+        "The nearer the cam centre is to B₀, the smaller the cam, and points of the hatched region satisfy all limits."
     )
-    title, said = say("The minimum prime radius"), sequence([part.caption for part in parts], " ")
-    return Step(title, said, COMBINED, marks, reads, why=why, parts=tuple(parts))
+    return Step(say("The minimum prime radius"), tuple(parts), COMBINED, marks, reads, why=why)
 
 
 def _height(paper: float, mu: float, s0: float) -> Caption:

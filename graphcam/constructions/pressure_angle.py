@@ -6,7 +6,8 @@ sense of the cam's rotation, it ends in D; the angle of D A with the motion is t
 needed.
 """
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -15,18 +16,20 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.adoption import ToldByChain, adoption_step
 from graphcam.constructions.axes import station_names, turning
-from graphcam.constructions.combined_diagram import aside, offset_caption, offset_line, velocities, worked_station
+from graphcam.constructions.combined_diagram import aside, offset_caption, offset_line, velocities
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import COMBINED, PLAN
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import ALPHA, OFFSET, R0, S0, SIGMA, Formula, S, Symbol, V, Values
 from graphcam.drafting.hand import Direction, Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
+from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arc, Line, Mark, Role, angle_at
 from graphcam.drafting.meaning import Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
+from graphcam.drafting.telling import run
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.words import sequence
@@ -69,6 +72,42 @@ ANGLES = {
     "transmission": ReadingMeaning(say("transmission angle"), "γ", "rad", judged="least"),
 }
 """The angles at the stations, of any follower."""
+
+
+def _centre_height(measured: Construction[PressureAngleGivens]) -> Values:
+    """Where the cam centre lies at the adopted sizes."""
+    r0, e = measured.givens.prime_radius, abs(measured.givens.offset)
+    yield {"r0": r0, "e": e, "s0": math.sqrt(r0**2 - e**2)}
+
+
+def _worked(measured: Construction[PressureAngleGivens]) -> Values:
+    """The station of the velocity plan."""
+    givens, k = measured.givens, shown_station(measured)
+    s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
+    across = sense(givens.rotation) * givens.offset
+    s0 = float(measured.value("s0"))
+    alpha = math.degrees(math.atan2(v - across, s0 + s))
+    yield {"v": v, "less": "-" if across >= 0 else "+", "e": abs(across), "s0": s0, "s": s, "alpha": alpha}
+
+
+FORMULAS = (
+    Formula(
+        r"s_0 = \sqrt{r_0^2 - e^2}",
+        r"s_0 = \sqrt{<r0:g>^2 - <e:g>^2} = <s0:.2f>\ \text{<mm>}",
+        _centre_height,
+        (S0, R0, OFFSET),
+        of="s0",
+    ),
+    Formula(
+        r"\tan\alpha = \frac{v - \sigma e}{s_0 + s}, \qquad \gamma = 90^\circ - |\alpha|",
+        r"\tan\alpha = \frac{<v:.2f> <less> <e:.2f>}{<s0:.2f> + <s:.2f>}, \qquad \alpha = <alpha:.2f>^\circ",
+        _worked,
+        (ALPHA, V, SIGMA, S, Symbol(r"\gamma", say("the transmission angle"), "°")),
+        of="alpha",
+    ),
+)
+
+
 MEANING = Meaning(
     "pressure_angle",
     say("Pressure angle"),
@@ -77,7 +116,7 @@ MEANING = Meaning(
         "mechanism, and the angle between normal and motion is found without the profile."
     ),
     {**ANGLES, "s0": ReadingMeaning(say("distance s₀"), "s₀", "mm")},
-    "report.translating_paragraphs.pressure_angle",
+    FORMULAS,
 )
 
 
@@ -248,14 +287,6 @@ def _plan(measured: Construction[PressureAngleGivens], k: int, times: float) -> 
     return hand
 
 
-def _told(
-    title: Caption, why: Caption, view: View, parts: Sequence[Part], marks: Sequence[Mark], reads: tuple[str, ...] = ()
-) -> Step:
-    """A step whose caption is that of its parts, one after another."""
-    said = sequence([part.caption for part in parts], " ")
-    return Step(title, said, view, tuple(marks), reads, why=why, parts=tuple(parts))
-
-
 def _stroke(drawn: Drawn, start: complex, end: complex, role: Role) -> Line:
     """So much of a line as is drawn out."""
     return Line(np.array([start, end]), role).left_by(drawn)
@@ -286,8 +317,8 @@ def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
     if offset:
         parts.insert(1, Part(offset_caption(offset, mu), (line,)))
         marks.append(_stroke(line, centre.place - 6 * UP, centre.place.real + 6 * UP, Role.AXIS))
-    why = say("Because A lies on the vertical at the offset, and its distance from B₀ is the prime radius.")
-    return _told(say("The cam centre at the adopted radius"), why, COMBINED, parts, marks, ("s0",))
+    why = say("A lies on the vertical at the offset, and its distance from B₀ is the prime radius.")
+    return Step(say("The cam centre at the adopted radius"), tuple(parts), COMBINED, tuple(marks), ("s0",), why=why)
 
 
 def _mechanism(shown: _Shown) -> Step:
@@ -319,9 +350,8 @@ def _mechanism(shown: _Shown) -> Step:
         acts["AB"].way(Role.CURVE),
         *(a.dots(), b.dots(), a.label("A", -1j - shown.sigma), b.label("B")),
     )
-    why = say("Because the plan needs AB, the radius on which the point of the cam that drives B turns.")
-    title = say("The mechanism at station {name}", name=shown.name)
-    return _told(title, why, shown.view, parts, marks)
+    why = say("The plan needs AB, the radius on which the point of the cam that drives B turns.")
+    return Step(say("The mechanism at station {name}", name=shown.name), parts, shown.view, marks, why=why)
 
 
 def _velocities(shown: _Shown) -> Step:
@@ -347,11 +377,13 @@ def _velocities(shown: _Shown) -> Step:
     closing = sequence([closing, *shown.scales.told(pole, v1, v2)], " ")
     parts = Part(turned, (pole, v1)), Part(up, (v2,)), Part(closing, (v21,))
     why = say(
-        "Because B of the follower moves with the point of the cam under it and also slides along the profile: "
-        "v₂ = v₁ + v₂₁."
+        "B of the follower moves with the point of the cam under it and also slides along the profile: v₂ = v₁ + v₂₁."
     )
-    title = say("Velocity plan at station {name}", name=shown.name)
-    return _told(title, why, shown.view, parts, velocity_plan(pole, v1, v2, v21, shown.scales))
+    title, plan = (
+        say("Velocity plan at station {name}", name=shown.name),
+        velocity_plan(pole, v1, v2, v21, shown.scales),
+    )
+    return Step(title, parts, shown.view, plan, why=why)
 
 
 def _normal(shown: _Shown) -> Step:
@@ -369,11 +401,10 @@ def _normal(shown: _Shown) -> Step:
         *(c.dots(), c.label("C", -1j + shown.sigma)),
     )
     why = say(
-        "Because v₂₁ lies along the profile, the normal is square to it, so the sides of ABC are square to those "
-        "of the plan, and AC = v₂/ω = ds/dφ."
+        "The velocity v₂₁ lies along the profile and the normal is square to it, so the sides of ABC are square to "
+        "those of the plan, and AC = v₂/ω = ds/dφ."
     )
-    title = say("The normal and the triangle ABC")
-    return _told(title, why, shown.view, parts, marks)
+    return Step(say("The normal and the triangle ABC"), parts, shown.view, marks, why=why)
 
 
 def _angle(shown: _Shown) -> Step:
@@ -398,39 +429,32 @@ def _angle(shown: _Shown) -> Step:
         angle_at(d.place, -np.pi / 2, float(np.angle(-d.place)), 0.55 * height, label, reading.act),
     )
     why = say(
-        "Because DA is parallel to the normal, and D is the end of v in the combined diagram, where the angle can be "
-        "measured at every station."
+        "DA is parallel to the normal, and D is the end of v in the combined diagram, where the angle can be measured "
+        "at every station."
     )
-    title = say("The pressure angle at station {name}", name=shown.name)
-    return _told(title, why, shown.view, parts, marks)
+    return Step(say("The pressure angle at station {name}", name=shown.name), parts, shown.view, marks, why=why)
 
 
 def _everywhere(measured: Construction[PressureAngleGivens], shown: int) -> Step:
     """The rays from the cam centre to all ends, and the angle of each."""
     integrated, rays = measured.givens.integrated, measured.acts["rays"]
     names, alpha = station_names(integrated.givens.stations), np.degrees(measured.first("alpha"))
-    sigma, k, least = sense(measured.givens.rotation), worked_station(integrated), int(np.argmax(np.abs(alpha)))
+    sigma, most = sense(measured.givens.rotation), int(np.argmax(np.abs(alpha)))
     said = say(
         "In the combined diagram join A to every end with the ruler, and measure with the protractor the angle "
-        "of each ray to the vertical, positive where it leans {side} going up. Ray {worked}: {angle:.2f}°; ray "
-        "{shown}, the one of the plan: {again:.2f}°. The angle of maximum magnitude is {greatest:.2f}°, at "
-        "{name}; there the transmission angle 90° - |α| has its minimum, {transmission:.2f}°. The maximum angle "
-        "between stations is read from the angle diagram."
+        "of each ray to the vertical, positive where it leans {side} going up. Ray {shown}, the one of the plan: "
+        "{angle:.2f}°. The angle of maximum magnitude is {greatest:.2f}°, at {name}; there the transmission angle "
+        "90° - |α| has its minimum, {transmission:.2f}°. The maximum angle between stations is read from the angle "
+        "diagram."
     ).where(
         side=aside(-sigma),
-        worked=names[k],
-        angle=alpha[k],
         shown=names[shown],
-        again=alpha[shown],
-        greatest=alpha[least],
-        name=names[least],
-        transmission=90 - abs(alpha[least]),
+        angle=alpha[shown],
+        greatest=alpha[most],
+        name=names[most],
+        transmission=90 - abs(alpha[most]),
     )
-    ray = say("Ray {name}: join A to end {name}; its angle to the vertical is {alpha:z.2f}°.")
-    parts = [
-        Part(ray.where(name=name, alpha=angle), (rays.first[i],))
-        for i, (name, angle) in enumerate(zip(names, alpha, strict=True))
-    ]
-    why = say("Because the ray from A to an end is parallel to the normal at its station, as DA is.")
+    joined = run(said, say("Ray {name}"), names, rays, settings=lambda k: say("{alpha:z.2f}°", alpha=alpha[k]))
+    why = say("The ray from A to an end is parallel to the normal at its station, as DA is.")
     title, reads = say("The pressure angle at every station"), ("alpha", "transmission")
-    return Step(title, said, COMBINED, (rays.ways(Role.CONSTRUCTION),), reads, why=why, parts=tuple(parts))
+    return Step(title, (joined,), COMBINED, (rays.ways(Role.CONSTRUCTION),), reads, why=why)

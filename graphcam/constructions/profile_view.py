@@ -13,14 +13,15 @@ from graphcam.constructions.views import PROFILE
 from graphcam.drafting.acts import Drawn, Kind
 from graphcam.drafting.euclid import RIGHT, UP, turned, unit
 from graphcam.drafting.hand import Direction, Hand, between, showing
-from graphcam.drafting.ink import Caption, Construction, Part, Step, Words, say
+from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Converges, ReadingMeaning
-from graphcam.drafting.scale import Scale, ratio_text
+from graphcam.drafting.scale import Scale
+from graphcam.drafting.telling import FRENCH_CURVE, circle_drawn, from_to
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.stations import Stations
-from graphcam.words import sequence
+from graphcam.words import say_in, sequence
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +38,7 @@ Inverted = Construction[InvertedGivens]
 
 
 PRIME_WHY = say(
-    "Because only the motion of the cam relative to the follower matters: with the cam held still, its outline "
+    "Only the motion of the cam relative to the follower matters: with the cam held still, its outline "
     "is what the follower touches on its way round."
 )
 BEYOND = 9.0
@@ -131,12 +132,17 @@ def against(inverted: Inverted) -> Caption:
 class PiecewiseCurve:
     """A closed curve on the paper, piece by piece: faired between jumps, an arc about the cam centre in every dwell.
 
-    whole : all of it;  parts : how each piece is drawn;  arcs : the compass's settings for the dwells, if there are any
+    whole : all of it;  rows : each piece, with its instrument;  rests : whether some are arcs of dwells
     """
 
     whole: Drawn
-    parts: tuple[Part, ...]
-    arcs: Caption | None
+    rows: tuple[Row, ...]
+    rests: bool
+
+    def told(self, said: Caption, *more: Caption) -> Part:
+        """The run of its pieces: how they are said to be drawn between the dwells, the arcs, and what more there is."""
+        arcs = (say("In the dwells swing arcs about A with the compass."),) if self.rests else ()
+        return Part(sequence([said, *arcs, *more], " "), rows=self.rows)
 
 
 def piecewise_curve(name: str, inverted: Inverted, points: Drawn) -> PiecewiseCurve:
@@ -144,20 +150,14 @@ def piecewise_curve(name: str, inverted: Inverted, points: Drawn) -> PiecewiseCu
 
     points : (m,) places on the paper, NaN where there is none
     """
-    motion, pieces = inverted.givens.integrated.givens.motion, _pieces(name, inverted, points.first)
+    pieces = _pieces(name, inverted, points.first)
     known = np.flatnonzero(~np.isnan(np.concatenate([piece.points for _, piece in pieces])))
     whole = showing(inverted).take(name, *(piece for _, piece in pieces), which=known)
     ends = [0, *np.searchsorted(known, np.cumsum([piece.points.size for _, piece in pieces])).tolist()]
     # Where a phase has lost all its points there is no piece of it.
     left = [(k, piece, whole[a:b]) for (k, piece), (a, b) in zip(pieces, pairwise(ends), strict=True) if a < b]
-    arcs = [
-        say("{symbol}: {radius:.1f} mm", symbol=phase_symbol(motion, k), radius=abs(piece.shown[0]))
-        for k, piece, _ in left
-        if piece.act.kind is Kind.LAY_OFF
-    ]
-    parts = tuple(Part(_piece_said(inverted, k, piece), (at,)) for k, piece, at in left)
-    said = say("In the dwells swing arcs about A: {arcs}.", arcs=sequence(arcs)) if arcs else None
-    return PiecewiseCurve(whole, parts, said)
+    rows = tuple(_piece_row(inverted, k, piece, at) for k, piece, at in left)
+    return PiecewiseCurve(whole, rows, any(piece.act.kind is Kind.LAY_OFF for _, piece, _ in left))
 
 
 def _pieces(name: str, inverted: Inverted, points: Drawn) -> list[tuple[int, Drawn]]:
@@ -186,16 +186,16 @@ def _pieces(name: str, inverted: Inverted, points: Drawn) -> list[tuple[int, Dra
     return found
 
 
-def _piece_said(inverted: Inverted, k: int, piece: Drawn) -> Caption:
+def _piece_row(inverted: Inverted, k: int, piece: Drawn, drawn: Drawn) -> Row:
     """With which instrument a piece of a closed curve is drawn, from which station to which."""
     motion, stations = inverted.givens.integrated.givens.motion, inverted.givens.integrated.givens.stations
     phase = phase_title(motion, k)
     if piece.act.kind is Kind.FAIR:
         names, at = station_names(stations), piece.act.takes["points"].index
-        said = say("From {start} to {end}, {phase}: draw along the French curve through the points.")
-        return said.where(start=names[at[0]], end=names[at[-1]], phase=phase)
-    said = say("In the {phase}: set the compass to {radius:.1f} mm and swing an arc of {angle} about A.")
-    return said.where(phase=phase, radius=abs(piece.shown[0]), angle=degrees(motion.phases[k].angle))
+        return Row(sequence([from_to(names[at[0]], names[at[-1]]), phase]), FRENCH_CURVE, (drawn,))
+    arc = say("compass {radius:.1f} mm, an arc of {angle} about A")
+    arc = arc.where(radius=abs(piece.shown[0]), angle=degrees(motion.phases[k].angle))
+    return Row(say("In the {phase}", phase=phase), arc, (drawn,))
 
 
 ROTATION_ARC = 0.9
@@ -282,7 +282,6 @@ def ground(inverted: Inverted) -> tuple[Mark, ...]:
 def prime_step(
     inverted: Inverted,
     title: Caption,
-    said: Caption,
     start: complex,
     circles: tuple[Mark, ...] = (),
     further: tuple[Mark, ...] = (),
@@ -297,21 +296,16 @@ def prime_step(
     centre, circle = ground(inverted), inverted.acts["prime circle"]
     arrow, of_arrow = radius_arrow(inverted, circle, start, "r₀", inverted.givens.prime_radius)
     marks = (*centre, circle.drawn_circle(Role.CONSTRUCTION), *circles, *arrow, *further)
-    first = Part(compass_said(inverted, "r₀", inverted.givens.prime_radius), (circle, *of_arrow))
-    return Step(title, said, PROFILE, marks, given=centre, why=why, parts=(first, *parts))
-
-
-def compass_said(inverted: Inverted, symbol: str, radius: float) -> Caption:
-    """How a circle about the cam centre is drawn; radius : of the machine [mm]."""
-    mu_l = inverted.givens.mu_l.per_mm
-    said = say("Set the compass to {paper:.1f} mm ({symbol} = {radius:g} mm at {ratio}) and draw the circle about A.")
-    return said.where(paper=radius / mu_l, symbol=symbol, radius=radius, ratio=ratio_text(mu_l))
+    prime = say_in("drawn", "the prime circle about the cam centre A")
+    told = circle_drawn(prime, "r₀", inverted.givens.prime_radius, inverted.givens.mu_l.per_mm)
+    parts = (Part(told, (circle, *of_arrow)), *parts)
+    return Step(title, parts, PROFILE, marks, given=centre, why=why)
 
 
 PITCH_CURVE = say("Pitch curve")
 PITCH_SAID = say("Join the points of each phase with the French curve, from jump to jump of the acceleration.")
 PITCH_WHY = say(
-    "Because the follower moves smoothly between the stations, and in a dwell keeps its distance from the cam centre."
+    "The follower moves smoothly between the stations, and in a dwell keeps its distance from the cam centre."
 )
 
 
@@ -330,8 +324,8 @@ def pitch_steps(
     pitch, stations = inverted.acts["pitch"], inverted.givens.integrated.givens.stations
     points = (pitch.dots(Role.CONSTRUCTION), *numbers(pitch, stations, unit(pitch.shown)))
     curve = piecewise_curve("pitch curve", inverted, pitch)
-    line, told = curve.whole.line(Role.CURVE, closed=True), sequence([said, curve.arcs], " ") if curve.arcs else said
+    line = curve.whole.line(Role.CURVE, closed=True)
     return [
         replace(laid_off, marks=(*laid_off.marks, *points)),
-        Step(title, told, PROFILE, (line,), why=why, parts=curve.parts),
+        Step(title, (curve.told(said),), PROFILE, (line,), why=why),
     ]

@@ -9,11 +9,13 @@ import numpy as np
 from graphcam.constructions.curvature import Curved, detail_of
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import R0, RHO, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, Words, say
 from graphcam.drafting.marks import Mark, Role
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.telling import led_by
 from graphcam.given.laws import Floats
 from graphcam.given.roller_rule import Candidate
 from graphcam.words import sequence
@@ -37,6 +39,31 @@ def _terms(rolled: Construction[RollerGivens]) -> list[Caption]:
     return [say("given")] if givens.given is not None else [term.said for term in givens.rule]
 
 
+def _by_rule(rolled: Construction[RollerGivens]) -> Values:
+    """The terms of the rule and what each proposes, where the task does not give the radius."""
+    if rolled.givens.given is None:
+        radii = [say("{radius:.2f}", radius=r) for r in rolled.value("candidates").tolist() if np.isfinite(r)]
+        terms = sequence([_in_tex(term) for term in rolled.givens.rule], r";\ ")
+        yield {"terms": terms, "radii": sequence(radii, r";\ "), "r": float(rolled.value("roller_radius"))}
+
+
+def _in_tex(term: Candidate) -> Caption:
+    of = r"\,\rho" if term.of == "rho" else r"\,r_0"
+    less = [say(" - {margin:g}", margin=term.margin)] if term.margin else []
+    return sequence([*([] if less else [say("{factor:g}", factor=term.factor)]), of, *less], "")
+
+
+FORMULAS = (
+    Formula(
+        r"r \le \min(<terms>)",
+        r"r \le \min(<radii>) = <r:.2f>\ \text{<mm>}",
+        _by_rule,
+        (Symbol("r", say("the roller radius"), "mm"), RHO, R0),
+        of="roller_radius",
+    ),
+)
+
+
 MEANING = Meaning(
     "roller",
     say("Roller radius"),
@@ -47,7 +74,7 @@ MEANING = Meaning(
             say("roller radius r"), "r", "mm", (Compared("roller_radius", say("proposed roller radius"), "candidates"),)
         ),
     },
-    "report.paragraphs.roller",
+    FORMULAS,
 )
 
 
@@ -109,12 +136,12 @@ def _draw(rolled: Rolled) -> list[Step]:
     else:
         caption = say("The task gives a knife edge, which has no roller; the rule is not applied.")
     why = say(
-        "Because where the pitch curve has the radius ρ the working profile has ρ − r: a roller larger than ρ would "
+        "Where the pitch curve has the radius ρ the working profile has ρ − r: a roller larger than ρ would "
         "cut the cam away."
     )
     names = [term.said for term in rule] if given is None else ["r"]
     view, marks, parts = laid_off_on_ob(rolled, names, candidates)
-    return [Step(say("Roller radius"), caption, view, marks, ("candidates", "roller_radius"), why=why, parts=parts)]
+    return [Step(say("Roller radius"), led_by(caption, parts), view, marks, ("candidates", "roller_radius"), why=why)]
 
 
 def _proposal(term: Candidate, radius: float) -> Caption:

@@ -8,7 +8,7 @@ from graphcam.constructions.axes import degrees, phase_title
 from graphcam.constructions.board import Board
 from graphcam.constructions.law_names import law_title
 from graphcam.constructions.views import SCHEME
-from graphcam.drafting.ink import Caption, Construction, Step, Words, say
+from graphcam.drafting.ink import Caption, Construction, Part, Step, Words, say
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.motion import Motion
@@ -29,9 +29,8 @@ MEANING = Meaning(
         "The kinematic diagram shows how the links are joined, and names the points and the sizes. It is a "
         "sketch, not to scale, with a simplified cam, because the profile is only found at the end."
     ),
-    calculation="report.note.task_data",
 )
-WHY = say("Because everything that follows is drawn from these data and uses the point names of this diagram.")
+WHY = say("Everything that follows is drawn from these data and uses the point names of this diagram.")
 
 
 def scheme(board: Board, pencil: Pencil) -> Construction[SchemeGivens]:
@@ -44,7 +43,7 @@ def _draw(drawn: Construction[SchemeGivens]) -> list[Step]:
     marks = board.follower.scheme(board.rotation, board.roller_radius)
     said = sequence(data_sentences(board), " ")
     # All of it is given, so that it stands on a worksheet too.
-    return [Step(say("Kinematic diagram and data"), said, SCHEME, marks, given=marks, why=WHY)]
+    return [Step(say("Kinematic diagram and data"), (Part(said),), SCHEME, marks, given=marks, why=WHY)]
 
 
 def data_sentences(board: Board) -> list[Caption]:

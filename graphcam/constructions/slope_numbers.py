@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 from graphcam.constructions.axes import EVERY, in_runs
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.marks import Label, Points
+from graphcam.drafting.units import NOTHING
+from graphcam.words import Caption, say
 
 NUMBERS_ROOM = 12.0
 """Places stand at least so far apart that are numbered [mm]: points and chords have numbers beside one another."""
@@ -66,3 +68,25 @@ def ranges(numbers: NDArray[np.intp]) -> str:
     """
     runs = np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)
     return in_runs([str(number) for number in run] for run in runs)
+
+
+def raised(mm: float, nothing: Caption) -> Caption:
+    """How far up or down a place lies; ``nothing`` where it does neither.
+
+    >>> str(raised(-1.5, say("at the origin"))), str(raised(0.001, say("at the origin")))
+    ('1.50 mm down', 'at the origin')
+    """
+    if abs(mm) < NOTHING:
+        return nothing
+    return say("{mm:.2f} mm up", mm=mm) if mm > 0 else say("{mm:.2f} mm down", mm=-mm)
+
+
+def run_of_chord(way: complex) -> Caption:
+    """How far across and how far up or down a chord runs.
+
+    >>> str(run_of_chord(7.5 + 2j))
+    '7.50 mm across, 2.00 mm up'
+    """
+    if abs(way.imag) < NOTHING:
+        return say("{run:.2f} mm level", run=way.real)
+    return say("{run:.2f} mm across, {climb}", run=way.real, climb=raised(way.imag, Caption("")))

@@ -15,16 +15,16 @@ from graphcam.constructions.views import PROFILE
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP, tangent_of_circle, unit
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Part, Step, say
+from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import ratio_text
+from graphcam.drafting.telling import STATION, alike, circle_drawn, led_by, run
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.stations import Stations
-from graphcam.words import say_many, sequence
+from graphcam.words import say_in, say_many, sequence
 
 TOUCHING = 1e-9
 """A touch point this little inside another circle, as a fraction of its radius, still lies on it: rounding."""
@@ -57,7 +57,6 @@ MEANING = Meaning(
             say("polar radius"), "R", "mm", converges=Converges("working profile", "profile", "from the profile")
         )
     },
-    "report.paragraphs.working_profile",
 )
 
 
@@ -188,10 +187,10 @@ def _rounded(profile: Profile, rolled: Rolled) -> Step:
             "This drawing gives {proposed:.2f} mm; the radius is decided on a drawing with the ideal "
             "pencil: {adopted:g} mm."
         )
-    why = say("Because rollers are made in round sizes, and a larger one would violate the rule.")
+    why = say("Rollers are made in round sizes, and a larger one would violate the rule.")
     view, marks, parts = laid_off_on_ob(rolled, ["r"], np.array([adopted]))
     said = said.where(proposed=proposed, adopted=adopted)
-    return Step(say("Roller radius rounded"), said, view, marks, why=why, parts=parts)
+    return Step(say("Roller radius rounded"), led_by(said, parts), view, marks, why=why)
 
 
 def _names(profile: Profile) -> list[str]:
@@ -202,15 +201,12 @@ def _circles(profile: Profile) -> Step:
     """The roller's circle about every point of the pitch curve."""
     roller, mu_l = profile.givens.roller_radius, profile.givens.inverted.givens.mu_l.per_mm
     circles, names = profile.acts["roller circles"].first, _names(profile)
-    said = say(
-        "Set the compass to {paper:.1f} mm (r = {roller:g} mm at {ratio}) and draw the circle of the roller about "
-        "every point of the pitch curve, from {first} to {last}."
-    ).where(paper=roller / mu_l, roller=roller, ratio=ratio_text(mu_l), first=names[0], last=names[-1])
-    why = say("Because the roller's centre runs on the pitch curve: these circles are positions of the roller.")
-    each = say("Circle {name}: compass {paper:.1f} mm about point {name} of the pitch curve.")
-    parts = [Part(each.where(name=name, paper=roller / mu_l), (circles[k],)) for k, name in enumerate(names)]
-    marks = [circles[k].drawn_circle(Role.CONSTRUCTION) for k in range(len(names))]
-    return Step(say("Roller circles"), said, PROFILE, tuple(marks), why=why, parts=tuple(parts))
+    each = say_in("drawn", "the circle of the roller about every point of the pitch curve, from {first} to {last}")
+    said = circle_drawn(each.where(first=names[0], last=names[-1]), "r", roller, mu_l)
+    why = say("The roller's centre runs on the pitch curve: these circles are positions of the roller.")
+    part = run(said, say("Circle {name}"), names, circles, settings=alike)
+    marks = tuple(circles[k].drawn_circle(Role.CONSTRUCTION) for k in range(len(names)))
+    return Step(say("Roller circles"), (part,), PROFILE, marks, why=why)
 
 
 def _touched(profile: Profile) -> Step:
@@ -222,12 +218,11 @@ def _touched(profile: Profile) -> Step:
         "along the circle through the point and its two neighbours. Mark the contact point {paper:.1f} mm "
         "inward, on the roller's circle."
     ).where(paper=paper)
-    why = say("Because a circle touches the profile where the common normal of profile and pitch curve cuts it.")
-    each = say("Contact point {name}: {paper:.1f} mm inward from point {name}, square to the pitch curve.")
+    why = say("A circle touches the profile where the common normal of profile and pitch curve cuts it.")
     # Where two neighbours lie in one place, the curve has no direction that could be seen.
     seen = np.flatnonzero(~np.isnan(found.points))
-    parts = tuple(Part(each.where(name=names[k], paper=paper), (found[int(k)],)) for k in seen)
-    return Step(say("Contact points"), said, PROFILE, (found[seen].dots(Role.CONSTRUCTION),), why=why, parts=parts)
+    part = run(said, say("Contact point {name}"), [names[k] for k in seen], found[seen], settings=alike)
+    return Step(say("Contact points"), (part,), PROFILE, (found[seen].dots(Role.CONSTRUCTION),), why=why)
 
 
 def _envelope(profile: Profile) -> Step:
@@ -235,32 +230,31 @@ def _envelope(profile: Profile) -> Step:
     covered, measured = profile.acts["covered"].first, profile.value("radius")
     curve = piecewise_curve("working profile", profile.givens.inverted, profile.acts["touch"])
     marks: list[Mark] = [curve.whole.line(Role.RESULT, closed=True)]
-    parts, lost = list(curve.parts), np.flatnonzero(~np.isnan(covered.points))
-    names = [_names(profile)[k] for k in lost]
-    said, why = _envelope_said(profile.givens.roller_radius, names)
-    if lost.size:
-        marks.append(covered[lost].dots(Role.LIMIT))
-        left_out = say("Leave out the points inside another circle: {names}.", names=sequence(names))
-        parts.insert(0, Part(left_out, (covered[lost],)))
-    radii = say("Its radii run from {least:.2f} to {greatest:.2f} mm.")
-    radii = radii.where(least=np.fmin.reduce(measured), greatest=np.fmax.reduce(measured))
-    caption, title = sequence([*said, *([curve.arcs] if curve.arcs else []), radii], " "), say("Working profile")
-    return Step(title, caption, PROFILE, tuple(marks), ("radius",), why=why, parts=tuple(parts))
-
-
-def _envelope_said(roller: float, lost: Sequence[str]) -> tuple[list[Caption], Caption]:
-    """How the touch points are joined, without those that are lost, and why."""
-    if not roller:
-        drawn = say("Without a roller the curve is the working profile itself: draw over it with a thick line.")
-        return [drawn], say("Because there is no roller between the cam and the points that were found.")
-    why = say("Because the roller touches the cam from outside in every position and never enters it.")
+    lost, parts = np.flatnonzero(~np.isnan(covered.points)), list[Part]()
     joined = say(
         "Join the contact points with the French curve: the line touches every circle on its inner side and cuts "
         "none, so it is their inner envelope, the working profile."
     )
-    if not lost:
-        return [joined], why
-    undercut = say_many(
+    why = say("The roller touches the cam from outside in every position and never enters it.")
+    if not profile.givens.roller_radius:
+        joined = say("Without a roller the curve is the working profile itself: draw over it with a thick line.")
+        why = say("There is no roller between the cam and the points that were found.")
+    if lost.size:
+        marks.append(covered[lost].dots(Role.LIMIT))
+        parts.append(Part(_undercut([_names(profile)[k] for k in lost]), (covered[lost],)))
+        joined = say(
+            "Join the other contact points with the French curve: the line cuts no circle, so it is their inner "
+            "envelope, the working profile."
+        )
+    radii = say("Its radii run from {least:.2f} to {greatest:.2f} mm.")
+    radii = radii.where(least=np.fmin.reduce(measured), greatest=np.fmax.reduce(measured))
+    parts.append(curve.told(joined, radii))
+    return Step(say("Working profile"), tuple(parts), PROFILE, tuple(marks), ("radius",), why=why)
+
+
+def _undercut(lost: Sequence[str]) -> Caption:
+    """Which touch points are lost."""
+    return say_many(
         "At {count} station ({names}) the contact point lies inside another roller circle and is left out: the "
         "profile is undercut and cannot be made.",
         "At {count} stations ({names}) the contact point lies inside another roller circle and is left out: the "
@@ -268,50 +262,42 @@ def _envelope_said(roller: float, lost: Sequence[str]) -> tuple[list[Caption], C
         len(lost),
         names=sequence(lost),
     )
-    joined = say(
-        "Join the other contact points with the French curve: the line cuts no circle, so it is their inner "
-        "envelope, the working profile."
-    )
-    return [undercut, joined], why
 
 
 def _angles(profile: Profile) -> Step:
     """The pressure angles that the finished profile shows, beside those that were found without it."""
-    marks, parts, shown = list[Mark](), list[Part](), list[Caption]()
+    marks, rows = list[Mark](), list[Row]()
     measured, apart = profile.givens.measured, 0.0
     for found in _normals(profile):
         name, degrees = _names(profile)[found.at], abs(math.degrees(found.angle))
-        told = {"name": name, "alpha": degrees}
-        each = say("station {name}: {alpha:.1f}°").where(**told)
+        shown = say("{alpha:.1f}°", alpha=degrees)
         if measured is not None:
             planned = abs(math.degrees(measured.first("alpha")[found.at]))
-            each = say("station {name}: {alpha:.1f}° ({planned:.1f}° in the diagram)").where(**told, planned=planned)
+            shown = say("{alpha:.1f}° ({planned:.1f}° in the diagram)", alpha=degrees, planned=planned)
             apart = max(apart, abs(degrees - planned))
-        shown.append(each)
         marks += found.marks
-        said = say(
-            "Station {name}: join contact point {name} to point {name} and continue beyond it; draw there the "
-            "line on which the follower moves, and measure the angle between them with a protractor: "
-            "{alpha:.1f}°."
-        ).where(**told)
-        parts.append(Part(said, found.draws))
-    caption = say(
-        "Draw the line from the contact point through the roller's centre and measure with a protractor its "
-        "angle to the direction in which the follower moves, in each moving phase where it has its maximum: "
-        "{shown}."
-    ).where(shown=sequence(shown, "; "))
-    if not shown:
-        caption = say(
+        rows.append(Row(STATION.where(name=name), shown, found.draws))
+    title, why = (
+        say("Pressure angles on the profile"),
+        say("The roller presses along the common normal, which runs through its centre."),
+    )
+    if not rows:
+        none = say(
             "All contact points of the moving phases lie inside other circles: no pressure angle can be measured."
         )
-    elif apart >= SAME_ANGLE:
+        return Step(title, (Part(none),), PROFILE, (), why=why)
+    said = say(
+        "In each moving phase, at the station where the pressure angle has its maximum, join the contact point to the "
+        "point of the pitch curve and continue beyond it; draw there the line on which the follower moves, and measure "
+        "the angle between them with a protractor."
+    )
+    if apart >= SAME_ANGLE:
         differ = say(
-            "They differ, because the diagram uses the velocity at the station itself, while the normal here is "
-            "found from the neighbouring points."
+            "Where the two angles differ, it is because the diagram uses the velocity at the station itself, while the "
+            "normal here is found from the neighbouring points."
         )
-        caption = sequence([caption, differ], " ")
-    why = say("Because the roller presses along the common normal, which runs through its centre.")
-    return Step(say("Pressure angles on the profile"), caption, PROFILE, tuple(marks), why=why, parts=tuple(parts))
+        said = sequence([said, differ], " ")
+    return Step(title, (Part(said, rows=tuple(rows)),), PROFILE, tuple(marks), why=why)
 
 
 DIMENSION = 0.82
@@ -324,7 +310,7 @@ def _arcs_of_dwells(profile: Profile) -> Iterator[Step]:
     if measured is None:
         return
     sigma, touch = sense(inverted.givens.rotation), profile.acts["touch"].first
-    marks, parts, told = list[Mark](), list[Part](), list[Caption]()
+    marks, parts = list[Mark](), list[Part]()
     for (k, start, end), angle in zip(low_dwells(inverted), profile.value("low_dwells").tolist(), strict=True):
         if math.isnan(angle):
             continue
@@ -337,24 +323,19 @@ def _arcs_of_dwells(profile: Profile) -> Iterator[Step]:
             Segments(0 * places.shown, places.shown, Role.AXIS).left_by(places),
             AngleMark(0j, radius, low, high, said, of=places.act, index=places.index[:1]),
         ]
-        told.append(said)
         names = [_names(profile)[at] for at in (start, end)]
         each = say(
-            "Join A to the contact points {start} and {end}, between which the follower dwells, and measure the "
-            "angle of the arc: {said}; {rest:.1f}° are left of the turn."
+            "Join A to the contact points {start} and {end}, the ends of the arc of the lower dwell on the working "
+            "profile, and measure with a protractor the angle between them: {said}; {rest:.1f}° are left of the turn."
         )
         parts.append(Part(each.where(start=names[0], end=names[1], said=said, rest=360 - degrees), (places,)))
     if not parts:
         return
-    caption = say(
-        "Draw the radii to the ends of the arc of the lower dwell on the working profile and measure with a "
-        "protractor the angle between them: {told}."
-    ).where(told=sequence(told, "; "))
     why = say(
-        "Because the follower dwells on an arc about the cam centre, whose angle is that of the dwell; the rest of the "
+        "The follower dwells on an arc about the cam centre, whose angle is that of the dwell; the rest of the "
         "profile, which moves the follower, is its working part."
     )
-    yield Step(say("Angle of the lower dwell"), caption, PROFILE, tuple(marks), why=why, parts=tuple(parts))
+    yield Step(say("Angle of the lower dwell"), tuple(parts), PROFILE, tuple(marks), why=why)
 
 
 SAME_ANGLE = 0.05

@@ -88,7 +88,7 @@ class Part:
 class Step(Shown):
     """One move of the draughtsman: what is done, in whole sentences, and the marks it leaves in one view.
 
-    said : the step part by part, in the order of the drawing: its caption is theirs, one after another
+    parts : all that is told and drawn, in the order of the drawing; the step's caption is theirs, one after another
     why : the reason, in one sentence that stands alone
     reads : the construction's readings that are taken, or get their scale, with this move
     given : those of the marks that a worksheet shows before anything is drawn: axes, divisions, what the task gives
@@ -98,23 +98,18 @@ class Step(Shown):
     _drawn_in = "construction_drawing"
 
     title: Caption
-    said: Caption | tuple[Part, ...]
+    parts: tuple[Part, ...]
     view: View
     marks: tuple[Mark, ...]
     reads: tuple[str, ...] = ()
     given: tuple[Mark, ...] = ()
     why: Caption = field(kw_only=True, default_factory=lambda: Caption(""))
-    parts: tuple[Part, ...] = field(kw_only=True, default=())
     under: tuple[Mark, ...] = field(kw_only=True, default=())
-
-    def __post_init__(self) -> None:
-        if not isinstance(self.said, Caption):
-            object.__setattr__(self, "parts", self.said)
 
     @property
     def caption(self) -> Caption:
         """All that is said of the step."""
-        return self.said if isinstance(self.said, Caption) else sequence([part.caption for part in self.said], " ")
+        return sequence([part.caption for part in self.parts], " ")
 
     @property
     def places(self) -> tuple[Part, ...]:
@@ -138,7 +133,7 @@ class Step(Shown):
     def told(self, tell: Tell) -> Step:
         """The same step with every text as ``tell`` says it.
 
-        >>> step = Step(say("Pole"), say("The pole stands."), View("v", say("v"), "phi", "v"), (Label(0j, say("H")),))
+        >>> step = Step(say("Pole"), (), View("v", say("v"), "phi", "v"), (Label(0j, say("H")),))
         >>> step.told(lambda words: str(words).upper()).marks[0].text
         'H'
         """
@@ -157,11 +152,10 @@ class Step(Shown):
             )
             for part in self.parts
         )
-        said = _plain(self.said, tell) if isinstance(self.said, Caption) else parts
         answer = None if self.view.answer is None else _plain(self.view.answer, tell)
         view = replace(self.view, title=_plain(self.view.title, tell), answer=answer)
         titles = {"title": _plain(self.title, tell), "why": _plain(self.why, tell)}
-        return replace(self, said=said, view=view, marks=marks, given=given, under=under, parts=parts, **titles)
+        return replace(self, parts=parts, view=view, marks=marks, given=given, under=under, **titles)
 
 
 def _plain(caption: Caption, tell: Tell) -> Caption:

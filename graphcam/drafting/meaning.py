@@ -11,6 +11,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.drafting.formulas import Formula
 from graphcam.errors import DesignError
 from graphcam.words import Caption, Words, say
 
@@ -96,15 +97,14 @@ class Meaning:
     readings : those that a reader takes, by name; what else it reads is an aid of the draughtsman
     scales : the views whose scales it settles, each with a reading that is drawn in that scale
     scales_found_by : the construction by which they are found, if they are not chosen: they are answers then
-    calculation : the function of a room above that puts its numbers into formulas for the note, such as
-        "report.paragraphs.roller"; without one the captions of its steps tell it
+    formulas : how its readings follow from what is given and read, for the note
     """
 
     name: str
     title: Caption
     why: Caption
     readings: Mapping[str, ReadingMeaning] = field(default_factory=dict[str, ReadingMeaning])
-    calculation: str = ""
+    formulas: tuple[Formula, ...] = ()
     scales: Mapping[str, str] = field(default_factory=dict[str, str])
     scales_found_by: str = ""
 

@@ -1,16 +1,21 @@
 """What acts tell of themselves: to what an instrument is set at every place, and runs of like moves as tables."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from graphcam.drafting.acts import Drawn, Kind, Setting
 from graphcam.drafting.ink import Part, Row
+from graphcam.drafting.scale import ratio_text
 from graphcam.drafting.units import NOTHING
-from graphcam.words import Caption, Words, say
+from graphcam.words import Caption, Words, say, sequence
 
 SET = {Kind.LAY_OFF: "length", Kind.CIRCLE: "radius"}
 """The lengths to which dividers or a compass are set, by what the act calls them."""
+RULER, FRENCH_CURVE = say("with the ruler"), say("with the French curve")
+STATION = say("Station {name}")
+"""What a place of most runs is called."""
 
 
 def setting(drawn: Drawn) -> Words:
@@ -46,6 +51,34 @@ def _amount(amount: object, k: int) -> float:
         amount = amount.amount[0] if amount.sampled else amount.amount
     amounts = np.ravel(np.asarray(amount, dtype=np.float64))
     return float(amounts[k if amounts.size > 1 else 0])
+
+
+def from_to(first: Words, last: Words) -> Caption:
+    """A stretch of a curve, by the names of its ends, as it stands at the beginning of a row."""
+    return say("From {first} to {last}", first=first, last=last)
+
+
+def circle_drawn(circle: Caption, symbol: Words, radius: float, per_mm: float) -> Caption:
+    """How a circle of a size is drawn with the compass.
+
+    circle : what is drawn, about what, as in the case that "draw" needs: "the prime circle about A"
+    symbol, radius : of the machine [mm];  per_mm : drawing scale [mm/mm]
+    """
+    said = say("Set the compass to {paper:.1f} mm ({symbol} = {radius:g} mm at {ratio}) and draw {circle}.")
+    values = {"symbol": symbol, "radius": radius, "paper": radius / per_mm, "ratio": ratio_text(per_mm)}
+    return said.where(circle=circle, **values)
+
+
+def led_by(said: Caption, parts: Sequence[Part]) -> tuple[Part, ...]:
+    """Parts of which the first begins with what is said of all; where there are none, that alone."""
+    if not parts:
+        return (Part(said),)
+    return replace(parts[0], caption=sequence([said, parts[0].caption], " ")), *parts[1:]
+
+
+def alike(_: int) -> Words:
+    """The setting of places of which no one differs from another."""
+    return ""
 
 
 def run(

@@ -136,7 +136,7 @@ class PlacedArmLoad:
 
     @property
     def preload(self) -> float:
-        """Of the spring in the lowest position [N mm, or N of a spring at a point]."""
+        """The preload of the spring in the lowest position [N mm, or N of a spring at a point]."""
         return self.given.preload
 
     @property
@@ -152,7 +152,7 @@ class PlacedArmLoad:
         return inertia + (given.preload + given.stiffness * x) * x1 + self.arm * load_at(given.load, phi)
 
     def slope(self, values: Values, phi: Floats | float = math.nan) -> Floats:
-        """Its derivative by phi inside a phase [N mm/rad]."""
+        """The derivative of the load by phi inside a phase [N mm/rad]."""
         _, v, a, j = values
         given, (x, x1, x2) = self.given, self._spring(values)
         inertia = given.inertia / MM_PER_M * (j * given.omega**2 + a * given.acceleration)
@@ -176,7 +176,7 @@ class PlacedArmLoad:
         return self.given.preload + self.given.stiffness * self._spring(values)[0]
 
     def check(self, swing: float) -> None:
-        """That a spring at a point presses the arm on the cam over the whole swing [rad]."""
+        """Check that a spring at a point presses the arm on the cam over the whole swing [rad]."""
         if self.given.at is None or self.presses(swing):
             return
         if self._anchor == 0:

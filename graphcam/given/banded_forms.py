@@ -57,7 +57,7 @@ class Forms:
 
     @cached_property
     def _products(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Floats]:
-        """Of every two unknowns of a form: how far they are apart, the first, and the product of their factors."""
+        """For every two unknowns of a form: how far apart they are, the first, and the product of their factors."""
         left, right = np.triu_indices(self.unknowns.shape[1])
         a, b = self.unknowns[:, left], self.unknowns[:, right]
         # Two factors of one unknown meet twice on the diagonal.

@@ -19,7 +19,7 @@ SAME = Fraction(1, 10**9)
 
 
 def check_joint(before: Part, after: Part, number: int, size: Fraction) -> None:
-    """That a part begins where, and as fast as, the one before ends; with a gap between them the motion rests there.
+    """Check that a part begins where, and as fast as, the one before ends; with a gap between, the motion rests there.
 
     number : of the part that begins;  size : the greatest lift, and what a velocity is compared with per radian
 

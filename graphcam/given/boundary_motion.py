@@ -25,7 +25,7 @@ from graphcam.given.polynomial_law import leg_law
 from graphcam.words import say
 
 LOWEST = Fraction(1, 1 << 60)
-"""Of the lift: a lowest displacement nearer to 0 is 0, and was rounded."""
+"""A lowest displacement nearer to 0 than this part of the lift is 0, and was rounded."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -128,7 +128,7 @@ def _apart(places: Sequence[float]) -> Floats:
 
 
 def _legs(pieces: Sequence[ExactPiece]) -> list[tuple[Fraction, Fraction, int]]:
-    """From where to where over one turn the motion rises (+1), rests (0) or falls (-1); the last may end behind it."""
+    """Where over one turn the motion rises (+1), rests (0) or falls (-1); the last leg may end behind the turn."""
     found: list[tuple[Fraction, int]] = []
     for piece in pieces:
         sign, places = sign_changes(derivative(piece.p))

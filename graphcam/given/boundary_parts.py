@@ -21,17 +21,17 @@ from graphcam.given.motion_point import MotionPoint, exact_angle, told
 from graphcam.words import say
 
 MOST_DEGREE = 31
-"""Of a polynomial."""
+"""The maximum degree of a polynomial."""
 SPLINE_DEGREES = 2, 9
-"""Of a spline: from 2 on its velocity is continuous; of a high degree it swings as a polynomial does."""
+"""Degrees of a spline: from 2 on its velocity is continuous; of a high degree it swings as a polynomial does."""
 MOST_POINTS = 100
-"""Of a part."""
+"""The maximum number of points of a part."""
 LAST_DIGITS = 1e-9
-"""Of the part's maximum displacement: what the last digits of the given numbers may change it by."""
+"""How far the last digits of the given numbers may change a part, as a part of its maximum displacement."""
 MOST_TURNS = 2
-"""So often a part may turn between neighbouring points."""
+"""How often a part may turn between neighbouring points."""
 WILD = 0.5
-"""Of the span of the given displacements: so far a part may pass the two of neighbouring points."""
+"""How far a part may pass two neighbouring points, as a part of the span of the given displacements."""
 
 
 class _Part:
@@ -72,7 +72,7 @@ class _Part:
 
     @property
     def _conditions(self) -> list[tuple[Fraction, int, Fraction]]:
-        """Where, as a fraction of the part, which derivative by that fraction, and its value."""
+        """The conditions: place as a fraction of the part, order of the derivative by that fraction, value."""
         width = self.end - self.start
         return [
             ((point.place - self.start) / width, order, shortest(number) * width**order)

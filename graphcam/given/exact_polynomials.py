@@ -14,13 +14,13 @@ from itertools import pairwise
 
 Exact = tuple[Fraction, ...]
 PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494")
-"""To 60 digits."""
+"""The number pi to 60 digits."""
 SHORT = 10**6
 """A number that is the nearest one of the machine to a fraction with no greater a denominator stands for it."""
 BITS = 400
 """Behind the point, of coefficients that were solved for."""
 CLOSEST = 90
-"""So often an interval is halved about a place where a polynomial changes its sign."""
+"""How often an interval is halved about a place where a polynomial changes its sign."""
 
 
 def shortest(number: float) -> Fraction:
@@ -44,7 +44,7 @@ def derivative(p: Exact, times: int = 1) -> Exact:
 
 
 def value(p: Exact, at: Fraction) -> Fraction:
-    """The value at a place.
+    """The value of the polynomial at a place.
 
     >>> value((Fraction(1), Fraction(2)), Fraction(1, 2))
     Fraction(2, 1)

@@ -17,7 +17,7 @@ class FollowerLoad(Protocol):
 
     @property
     def preload(self) -> float:
-        """Of the spring at the lowest place."""
+        """The preload of the spring at the lowest place."""
         ...
 
     @property
@@ -34,7 +34,7 @@ class FollowerLoad(Protocol):
         ...
 
     def slope(self, values: Values, phi: Floats | float = ...) -> Floats:
-        """Its derivative by phi inside a phase."""
+        """The derivative of the load by phi inside a phase."""
         ...
 
     def size(self, values: Values) -> Floats:
@@ -42,5 +42,5 @@ class FollowerLoad(Protocol):
         ...
 
     def leverage(self, values: Values) -> tuple[Floats, Floats]:
-        """By how much the force grows with the spring's preload, and that by phi."""
+        """How much the force grows with the spring's preload, and the derivative of that by phi."""
         ...

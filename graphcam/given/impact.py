@@ -16,7 +16,7 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Jump:
-    """Where the motion jumps: cam angle [rad], and the values before and after."""
+    """A jump of the motion: cam angle [rad], and the values before and after."""
 
     phi: float
     before: float
@@ -24,7 +24,7 @@ class Jump:
 
     @property
     def size(self) -> float:
-        """After less before."""
+        """The value after the jump less the value before."""
         return self.after - self.before
 
 
@@ -52,7 +52,7 @@ def acceleration_jumps(motion: Motion) -> list[Jump]:
 
 
 def _jumps(motion: Motion, derivative: int) -> list[Jump]:
-    """Where that derivative jumps, seen from inside the phases: as a cam angle a break is rounded."""
+    """The jumps of a derivative, seen from inside the phases: as a cam angle a break is rounded."""
     inner = [() if isinstance(phase, Dwell) else phase.normalised.breaks for phase in motion.phases]
     phase = np.repeat(np.arange(len(inner)), [1 + len(breaks) for breaks in inner])
     u = np.concatenate([(0.0, *breaks) for breaks in inner])

@@ -44,4 +44,4 @@ LAW_WORDS: Mapping[str, tuple[str, ...]] = {
     "eighth-degree": ("полином восьмой степени", "đa thức bậc tám", "八次多项式"),
     "constant-velocity": ("uniform velocity", "постоянная скорость", "vận tốc không đổi", "等速"),
 }
-"""By the law's name; those of the catalogs among them."""
+"""Other names of the laws by the law's name; those of the catalogs among them."""

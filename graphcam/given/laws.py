@@ -177,7 +177,7 @@ def _no_fourth(x: Floats) -> tuple[Floats, float]:
 
 
 def _fourth_of_sine(x: Floats, *, formula: Formula, height: float, k: float) -> tuple[Floats, float]:
-    """Of an acceleration height * sin(k x + c)."""
+    """The fourth derivative f'''' of an acceleration height * sin(k x + c)."""
     return -(k**2) * np.asarray(formula(x)[2]), height * k**3
 
 
@@ -190,7 +190,7 @@ def _fourth_4_5_6_7(x: Floats) -> tuple[Floats, float]:
 
 
 def _fourth_of_double_harmonic(x: Floats, *, sign: int) -> tuple[Floats, float]:
-    """From the start with the sign -1, from the end +1: of what is missing there only the second wave changes sign."""
+    """f'''' from the start with the sign -1, from the end +1: only the second wave changes sign."""
     return _PI**4 * (-np.cos(_PI * x) / 2 - sign * 2 * np.cos(2 * _PI * x)), 4.5 * _PI**5
 
 
@@ -244,7 +244,7 @@ def _double_harmonic_tangent_back(k: float) -> tuple[float, float]:
 
 
 def _polynomial_tangent(k: float, *, n: int, rest: tuple[float, ...]) -> tuple[float, float]:
-    """Of f' = C (u (1 - u))^n: there n k (1 - 2u) = u (1 - u), and f' and f/k have u^n/(1 - u) in common.
+    """The tangent of f' = C (u (1 - u))^n: there n k (1 - 2u) = u (1 - u), and f' and f/k have u^n/(1 - u) in common.
 
     rest : coefficients of what is left, C (1 - u)^(n + 1) - n (1 - 2u) f/u^(n + 1), without the cancellation of the two
     """

@@ -26,9 +26,9 @@ OFF = 6.0
 SEEN, PART = 100.0, 0.15
 """A stop is judged by rows that are off its level by no more than this [sd of the noise] and part of the leg, ..."""
 FEWEST = 5
-"""... but by no fewer rows on either side."""
+"""The minimum number of rows on either side by which a stop is judged."""
 SLOW = 2.0
-"""On its way a motion may rest where it is so many times slower than on average."""
+"""A motion on its way may rest where it is so many times slower than on average."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +46,7 @@ class Leg:
 
     @property
     def a_turn_later(self) -> Leg:
-        """The same leg in the next revolution."""
+        """The leg in the next revolution."""
         return replace(self, start=self.start + FULL_TURN, end=self.end + FULL_TURN)
 
 
@@ -59,7 +59,7 @@ class _Flat:
     level: float
 
     def moved(self, rows: int) -> _Flat:
-        """The same so many rows on."""
+        """The level rows, so many rows on."""
         return replace(self, first=self.first + rows, last=self.last + rows)
 
 
@@ -154,7 +154,7 @@ def _with_rests_between(around: Floats, rows: Floats, flats: list[_Flat], noise:
 
 
 def _slow(x: Floats, y: Floats, noise: float, depth: float) -> list[_Flat]:
-    """Where rows that rise are slow for long, and more than ``depth`` above the first and below the last; in order."""
+    """Where rising rows are slow for long, more than ``depth`` above the first and below the last; in order."""
     found: list[_Flat] = []
     # With much noise the last of the rows between may be no higher than the first.
     if y.size < 2 * FEWEST or y[-1] <= y[0]:
@@ -201,7 +201,7 @@ def _edge(rows: Floats, edge: int, limit: int, level: float, off: float) -> int:
 
 
 def _ends(stop: Stop, gap: float) -> tuple[float, float]:
-    """Where a stop begins and ends; a rest half a gap sooner where the acceleration jumps, which the spline rounds."""
+    """The ends of a stop; a rest half a gap sooner where the acceleration jumps, which the spline rounds."""
     if stop.end == stop.start:
         return stop.start, stop.end
     sooner, later = (gap / 2 if power == 2 else 0.0 for power in stop.powers)

@@ -66,7 +66,7 @@ class LoadCurve:
         return np.interp(wrap(phi), self.phi, self.force)
 
     def slope(self, phi: Floats | float) -> Floats:
-        """Its derivative by phi [N/rad]; at a row that of the line behind it."""
+        """The derivative of the load by phi [N/rad]; at a row that of the line behind it."""
         angles = np.asarray(self.phi)
         row = np.clip(np.searchsorted(angles, wrap(phi), side="right") - 1, 0, angles.size - 2)
         return self._steepness[row]
@@ -96,7 +96,7 @@ def knots_of(load: Load) -> tuple[float, ...]:
 
 
 def check_load(load: Load) -> None:
-    """That a load of one number is finite.
+    """Check that a load of one number is finite.
 
     Raises
     ------

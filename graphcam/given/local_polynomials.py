@@ -28,17 +28,17 @@ CANCELLED = 2.0
 NEGLIGIBLE = 2.0**-56
 """Terms that all together are smaller, as a fraction of the greatest value, are left out."""
 AT_REST = 2.0**-55
-"""Of the greatest displacement: a piece that moves by less over its width, at the speed of its end, rests there."""
+"""A piece rests that moves by less than this part of the greatest displacement over its width, at its end's speed."""
 LEADING = 1e-12
-"""Of all terms of a series: the first that is no smaller leads, where the motion leaves its rest."""
+"""The first term of a series that is no smaller than this part of all terms leads where the motion leaves its rest."""
 DEEPEST = 20
-"""So often a piece is halved at most: a cell of a millionth is as good as it gets."""
+"""How often a piece is halved at most: a cell of a millionth is as good as it gets."""
 SAMPLES = 33
 """Places of a piece among which the greatest values are looked for."""
 COMPARED = 128
-"""From so many cells a search is quicker than a comparison with every start."""
+"""The number of cells from which a search is quicker than a comparison with every start."""
 FEW = 128
-"""Of fewer values a cell on average they are gathered, of more sliced."""
+"""The average number of values a cell below which they are gathered; more are sliced."""
 
 
 @dataclass(frozen=True)
@@ -183,7 +183,7 @@ class LocalPolynomials:
         return np.array(anchors), np.transpose(factors).copy(), table
 
     def _numbers(self, t: Floats, side: Side) -> NDArray[np.intp]:
-        """Of the cells that t lie in; where cells are few and t many it is quicker to compare than to search."""
+        """The cells that t lie in; where cells are few and t many it is quicker to compare than to search."""
         starts = self._starts
         if starts.size >= COMPARED or t.size < COMPARED * starts.size:
             return starts.searchsorted(t, side=side)
@@ -215,7 +215,7 @@ class LocalPolynomials:
 
 
 def _factors(scale: float) -> tuple[float, float, float, float]:
-    """From a series in (t - anchor)/scale to the derivatives by t."""
+    """The factors from a series in (t - anchor)/scale to the derivatives by t."""
     return 1.0, 1 / scale, 2 / scale**2, 6 / scale**3
 
 

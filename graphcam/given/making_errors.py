@@ -21,7 +21,7 @@ MADE = "roller_radius", *SIZES[1:]
 PARTS = {"normal": 1 / 3, "uniform": 1 / math.sqrt(3)}
 """The standard deviation of a size as a part of half its tolerance zone: an end is three of them, or the last value."""
 OF_A_WAVE = 1 / math.sqrt(2)
-"""That of a wave with a random phase, as a part of its amplitude."""
+"""The standard deviation of a wave with a random phase, as a part of its amplitude."""
 HIGHEST = 10_000
 """Harmonic of a wave: what is shorter is the roughness."""
 
@@ -55,7 +55,7 @@ class Deviations:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """Of the cams."""
+        """The shape of the arrays: one entry for each cam."""
         return np.broadcast_shapes(self.waves.shape[1:], *map(np.shape, self.sizes.values()))
 
     def waviness(self, theta: Floats | float) -> tuple[Floats, Floats, Floats]:
@@ -71,7 +71,7 @@ class Deviations:
         return deviation, slope, bend
 
     def times(self, share: float) -> "Deviations":
-        """All of them multiplied by a factor."""
+        """The deviations multiplied by a factor."""
         return Deviations(self.harmonics, share * self.waves, {name: share * off for name, off in self.sizes.items()})
 
 

@@ -26,7 +26,7 @@ FEWEST_ROWS, MOST_ROWS = 8, 10_000
 WIDEST_GAP = 2.0
 """The gap that closes the turn may be so many times the widest gap between rows."""
 SHORTEST_TURN = 0.85
-"""So much of a turn a table covers that ends a step before it, where another unit is looked for."""
+"""The part of a turn that a table covers at least which ends a step before it; below, another unit is looked for."""
 LARGEST, SMALLEST = 1e100, 1e-100
 """A value of a row and a tolerance between which squares are numbers still."""
 SAMPLES = 50
@@ -34,7 +34,7 @@ SAMPLES = 50
 TOLERANCE_OF_NOISE = 4.5
 """The tolerance is at least so many standard deviations of the noise; one row in 150,000 is off by more."""
 LEAST_NOISE = 3e-6
-"""Of the lift: what the spline itself, whose acceleration cannot jump, may be off."""
+"""What the spline, whose acceleration cannot jump, may be off by itself, as a part of the lift."""
 MISFIT = 7.0
 """Stops that are off by more than so many times the noise are not explained by it."""
 SCATTERED = 1.25

@@ -44,7 +44,7 @@ NEAR = 7
 ONE_WAY = 1e3
 """A velocity of the wrong sign counts so many times what the noise of a row would, were it to last over the leg."""
 SPREAD_AT_FIRST = 0.1
-"""Part of the weights that steps of the usual size would have, with which the jerk begins."""
+"""The weights with which the jerk begins, as a part of those that steps of the usual size would have."""
 LITTLE = 1e-2
 """Steps of the acceleration below this part of the usual one count as this."""
 ROUNDS, SETTLED = 40, 0.02
@@ -119,7 +119,7 @@ class _Circle:
         return _steps(factors) * (degree / self.width(degree))[:, None]
 
     def forms(self, factors: Floats) -> Forms:
-        """The same, of the unknowns."""
+        """The linear forms in the unknowns."""
         n, w = factors.shape
         return Forms(self.index[(np.arange(n)[:, None] - np.arange(w)) % n], factors)
 

@@ -31,7 +31,7 @@ def _check_positive(angle: float) -> None:
 
 
 def _check_turn(angle: float, remedy: Words) -> None:
-    """That a phase is no longer than a turn: an angle in degrees is told from one in radians by that."""
+    """Check that a phase is no longer than a turn: an angle in degrees is told from one in radians by that."""
     if angle > FULL_TURN + CLOSURE:
         raise DesignError("angle", say("{angle:.6g} rad", angle=angle), say("at most a full turn, 2 pi rad"), remedy)
 

@@ -27,16 +27,16 @@ Tangent = Callable[[float], tuple[float, float]]
 """Where f' - f/k is largest, and how great, as a function of k: a closed form."""
 _OfNumber = Callable[[float], Sequence[Any]]
 SHARP = 1e-6
-"""Where the acceleration, or its slope, jumps by more than this part of the maximum acceleration, it is told."""
+"""A jump of the acceleration, or of its slope, is reported that exceeds this part of the maximum acceleration."""
 CLOSE = 1e-9
 """What a law gives of itself is true to this; intervals around a maximum value are narrowed to it."""
 SMOOTH = 1e-7
 """The derivatives are one another's, over a part of a piece, to this fraction of the maximum."""
 PARTS = 17
-"""So many parts of a piece are looked at: a prime, so that no usual fraction, where a formula may bend, ends one."""
+"""Parts of a piece that are checked: a prime, so that no usual fraction, where a formula may bend, ends one."""
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
 DOUBTED = 2.0
-"""Where f'''' is estimated, it may be off by so many times what two neighbouring estimates differ by."""
+"""An estimate of f'''' may be off by so many times what two neighbouring estimates differ by."""
 DERIVATIVES = "f", "f'", "f''", "f'''"
 
 
@@ -244,7 +244,7 @@ class Law:
             low, high = u[top - 1, column], u[top + 1, column]
 
     def _parts(self) -> tuple[Floats, Floats]:
-        """Where the parts of the pieces begin and end."""
+        """The ends of the parts of the pieces."""
         ends = np.array([0.0, *self.edges, 1.0])
         places = np.linspace(ends[:-1], ends[1:], PARTS + 1)
         return places[:-1].T.ravel(), places[1:].T.ravel()
@@ -307,7 +307,7 @@ class Law:
             raise self._wrong("ratio", self.ratio, say("greater than 0"))
 
     def _check_derivatives(self, low: Floats, high: Floats, change: Floats, inside: Floats) -> None:
-        """Over every part of a piece each derivative integrates to what the one before changes by."""
+        """Check that over every part of a piece each derivative integrates to what the one before changes by."""
         integrals = (high - low) / 2 * np.einsum("n,dnp->dp", WEIGHTS, inside)
         for order in range(3):
             off = np.abs(integrals[order + 1] - change[order])

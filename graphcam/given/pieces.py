@@ -22,7 +22,7 @@ Formula = Callable[[Floats], Sequence[Floats | float]]
 CHUNK = 16_384
 """Values that are computed at a time: their arrays stay in the processor's cache, and bound the memory."""
 LONG = 512
-"""From so many values a piece on it is quicker to slice than to gather."""
+"""The number of values on a piece from which it is quicker to slice than to gather."""
 
 
 class Piece(NamedTuple):

@@ -25,11 +25,11 @@ HALF = Fraction(1, 2)
 MIDDLE = Fraction(1, 4), Fraction(3, 4)
 """An edge between these is where the law is seen from the other end; else a seam is laid at the middle."""
 SLIVER = Fraction(1, 10**12)
-"""Of a leg: a shorter piece is rounding."""
+"""A piece shorter than this part of a leg is rounding."""
 SMOOTHEST = 3
 """Blends are smooth to this derivative at most: the jerk is continuous."""
 LEAST_BLEND = 1e-6
-"""Of the phase: a shorter blend is a blow."""
+"""A blend shorter than this part of the phase is a blow."""
 
 
 def leg_law(name: str, pieces: Sequence[ExactPiece], *, trusted: bool = True) -> tuple[Fraction, Law]:

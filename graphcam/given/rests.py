@@ -20,18 +20,18 @@ from graphcam.given.laws import Floats
 POWERS, RARER = np.array([2, 3, 4]), np.array([1.4, 0.0, 3.6])
 """Of ten laws three, six and one leave their rest so; less twice the logarithm of it, beside the most usual."""
 PLACES, ROUNDS = 13, 7
-"""So many places are tried at a time; so often they then close in on the best one and its neighbours."""
+"""Places tried at a time, and rounds in which they close in on the best one and its neighbours."""
 EVIDENCE = 16.0
 """A rest takes at least so much from the sum of squares [variances of the noise] that a turning leaves."""
 SNAP = 4.0
 """A rest ends at a row if that adds no more than this to the sum of squares [variances of the noise]."""
 NO_WAY, SINGULAR = 1e-9, 1e-12
-"""Less way than this [rad] is none; a determinant of less than this beside its terms says that rows are missing."""
+"""A way [rad] of less is none; a determinant of less than this beside its terms says that rows are missing."""
 
 
 @dataclass(frozen=True)
 class Stop:
-    """Where a motion rests, or turns (then start = end).
+    """A stop: from where to where a motion rests, or where it turns (then start = end).
 
     start, end : cam angles [rad]
     powers : p before and after
@@ -61,7 +61,7 @@ class Surroundings:
     noise: float
 
     def leaving(self, side: int, places: Floats, since: Floats, powers: Floats) -> _Squares:
-        """Of the rows from ``since`` on, for a motion that leaves at those places; seen backwards before the stop."""
+        """The least squares of rows from ``since`` on, for a motion that leaves at the places; backwards before 0."""
         x, y = (self.x, self.y) if side else (-self.x[::-1], self.y[::-1])
         way = np.maximum(x[-1] - places, NO_WAY)[:, None]
         z = np.maximum(x - places[:, None], 0.0) / way

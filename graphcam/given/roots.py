@@ -56,7 +56,7 @@ def roots(function: Callable[[Floats], Floats], low: ArrayLike, high: ArrayLike)
 
 
 def _share(a: Floats, b: Floats, c: Floats, fa: Floats, fb: Floats, fc: Floats) -> Floats:
-    """Where between a and b the inverse parabola through three places vanishes; halfway if it does not go straight."""
+    """Where from a to b the inverse parabola through three places vanishes; halfway if it does not go straight."""
     x, f = (a - b) / (c - b), (fa - fb) / (fc - fb)
     straight = (f * f < x) & ((1 - f) * (1 - f) < 1 - x)
     inverse = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 MEASURED = "measured"
 """The name of the law of a measured motion."""
 AT_REST, TURNING = 4, 2
-"""So many of the first Taylor coefficients are zero: s is smooth to the third derivative at a rest, else v is zero."""
+"""How many of the first Taylor coefficients are zero: s is smooth to the third derivative at a rest, else v is zero."""
 FEWEST = 3
 """Samples of a law."""
 SAME_KNOT = 1e-9

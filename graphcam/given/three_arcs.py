@@ -62,7 +62,7 @@ class ThreeArcs:
 
     @property
     def design_case(self) -> int:
-        """Which of the four design cases it is: 1 with both centres, 2 without C2, 3 without C1, 4 without either."""
+        """The design case: 1 with both centres, 2 without C2, 3 without C1, 4 without either."""
         return 1 + (self.C2 is None) + 2 * (self.C1 is None)
 
 

@@ -64,7 +64,7 @@ class ArcFlank:
         return np.array([a / abs(a), (g - c2) / self.rho2, (f - c1) / self.rho1, d / abs(d)])
 
     def check(self) -> None:
-        """That it is sound, and that the given A and D lie where their arcs touch the circles about the cam centre.
+        """Check that it is sound, and that A and D lie where their arcs touch the circles about the cam centre.
 
         Raises
         ------

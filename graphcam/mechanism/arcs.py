@@ -147,13 +147,13 @@ STRAIGHT = (
     say("The flank from G to F is straight: it has no centre C3."),
     say("The flank from G to F is straight: it has no centre C3, and the profile would turn back in a cusp at F."),
 )
-"""Without a cusp, and with one."""
+"""Why a straight flank is no root: without a cusp, and with one."""
 AT_F = say("On the line of F, C1 and C3 the order is {order} instead of F, C1, C3: {reason}.")
 AT_G = say("On the line of G, C3 and C2 the order is {order} instead of G, C3, C2: {reason}.")
 
 
 def _why(k: float, t: float, rho2: float) -> Caption:
-    """Why a root is sound or not: k as laid off from G, t the directed way from G to C3 [mm]."""
+    """The reason why a root is sound or not: k as laid off from G, t the directed way from G to C3 [mm]."""
     if math.isinf(t):
         return STRAIGHT[k < 0]
     hollow = say("the flank would be hollow")

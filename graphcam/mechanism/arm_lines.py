@@ -85,7 +85,7 @@ class Side(NamedTuple):
         )
 
     def greatest(self, k: int, point: complex) -> HalfPlane:
-        """Of the lines beside the k-th place the one that the point lies farthest beyond."""
+        """The line, of those beside the k-th place, that the point lies farthest beyond."""
         line = self.number(k, point)
         low, high = max(line.touch.low, self.legs.w.item(k - 1)), min(line.touch.high, self.legs.w.item(k + 1))
         while True:
@@ -98,7 +98,7 @@ class Side(NamedTuple):
 
 
 class Touch(NamedTuple):
-    """Where a line touches: a side, a place w of a leg, the ends of its smooth piece, and f', f'', f''' there."""
+    """A place at which a line touches: side, place w of a leg, ends of its smooth piece, and f', f'', f''' there."""
 
     side: Side
     leg: OneLeg

@@ -181,7 +181,7 @@ class Cam(Shown):
     @overload
     def at(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> CamPoints: ...
     def at(self, phase: ArrayLike, u: ArrayLike | None = None, side: Side = "right") -> CamPoints:
-        """All of this at cam angles phi [rad], or at fractions of phases, whose ends are seen from inside then.
+        """All quantities at cam angles phi [rad], or at fractions of phases, whose ends are seen from inside then.
 
         ``at(phi)``: any real numbers; at a break the value of the named side.
         ``at(phase, u)``: the index of the phase, one or as many as there are fractions u.
@@ -257,7 +257,7 @@ class Cam(Shown):
     def _in_chunks(
         self, write: Callable[..., None], phi: ArrayLike, side: Side, points: int = 0, numbers: int = 0
     ) -> list[Floats]:
-        """So many arrays of points, and of numbers, that are written of the angles and (s, v, a, j)."""
+        """Arrays of points and of numbers that are computed from the angles and (s, v, a, j), chunk by chunk."""
         phi = np.asarray(phi, dtype=np.float64)
         flat = phi.ravel()
         # Points in one block: finding new memory for every array takes the system up to a fifth of the time.

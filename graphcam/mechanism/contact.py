@@ -216,7 +216,7 @@ class Contact:
         return stretches
 
     def _interval(self, phase: int, low: float, high: float) -> tuple[float, float]:
-        """Where xi is negative in a stretch [rad]; empty if it begins and ends at the same angle."""
+        """The interval of a stretch [rad] in which xi is negative; empty if it begins and ends at the same angle."""
 
         def xi(u: float) -> float:
             """The force at a part u of the phase, from 0 to 1."""

@@ -29,7 +29,7 @@ CUSP = 1e-12
 JUMP = 1e-9
 """A speed that changes at a break by more than this part of the prime radius jumps there."""
 SMALL_LOOP = 0.2
-"""Up to this cam angle [rad] the way round a loop is integrated, beyond it is a difference of two points."""
+"""The cam angle [rad] up to which the way round a loop is integrated; beyond, it is a difference of two points."""
 ROUNDING = 4 * float(np.finfo(np.float64).eps)
 """What a coordinate may be off by, as a part of the point's distance from the cam centre."""
 GAUSS_NODES, GAUSS_WEIGHTS = (0.5 * x for x in np.polynomial.legendre.leggauss(16))
@@ -162,7 +162,7 @@ class Envelope:
 
     @cached_property
     def _places(self) -> Places:
-        """Where the pitch curve's curvature is stationary, and both ends of every piece."""
+        """The places where the pitch curve's curvature is stationary, and both ends of every piece."""
         return stationary_places(self.motion, self.kinematics.curvature_slope)
 
     @property

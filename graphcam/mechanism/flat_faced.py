@@ -32,7 +32,7 @@ class FlatFacedKinematics(Kinematics):
 
     @classmethod
     def of(cls, sizes: FlatFaced, prime_radius: Any, sigma: Any, lift: Any) -> Self:
-        """Of a face there is nothing to know."""
+        """The kinematics of a flat-faced follower, which has no sizes."""
         return cls(sigma, prime_radius)
 
     def check(self) -> None:
@@ -108,12 +108,12 @@ class FlatFacedKinematics(Kinematics):
         return height - self.prime_radius, self.sigma * contour.point.real, 1 / contour.curvature - height
 
     def angle_by_sizes(self, values: Values) -> dict[str, Floats]:
-        """It is 0 whatever the sizes are."""
+        """The derivatives of the pressure angle by the sizes: all 0."""
         still = 0 * values[0]
         return {"prime_radius": still, "lift": still}
 
     def radius_by_sizes(self, values: Values) -> dict[str, Floats]:
-        """Of rho = r0 + s + a."""
+        """The derivatives of rho = r0 + s + a by the sizes."""
         s, _, a, _ = values
         return {"prime_radius": _ones(values), "lift": s + a}
 

@@ -78,12 +78,12 @@ class FollowerTrain:
 
     @property
     def angular_frequency(self) -> float:
-        """Of the free vibration while the follower keeps to the cam, without damping [rad/s]."""
+        """The angular frequency of the free, undamped vibration while the follower keeps to the cam [rad/s]."""
         return math.sqrt((self.stiffness + self.spring) * MM_PER_M / self.mass)
 
     @property
     def natural_frequency(self) -> float:
-        """The same in Hz."""
+        """The natural frequency [Hz]."""
         return self.angular_frequency / math.tau
 
     @property

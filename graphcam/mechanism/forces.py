@@ -297,12 +297,12 @@ class CamForces:
         return self.normal(places) * self._turning(places.values)[0]
 
     def torque_slope(self, places: Places) -> Floats:
-        """Its derivative by phi inside a phase [N mm/rad]."""
+        """The derivative of the torque by phi inside a phase [N mm/rad]."""
         lever, lever_slope = self._turning(places.values)
         return self.normal_slope(places) * lever + self.normal(places) * lever_slope
 
     def check(self) -> None:
-        """That the follower moves.
+        """Check that the follower moves: that it jams nowhere.
 
         Raises
         ------
@@ -367,7 +367,7 @@ class CamForces:
         return np.where(self.cam.motion.directions[places.phase] > 0, self._slip(places), np.nan)
 
     def _slip_slope(self, places: Places) -> Floats:
-        """Of the sign of the slope of h/(cos alpha - mu sin alpha)."""
+        """A quantity with the sign of the slope of h/(cos alpha - mu sin alpha)."""
         moved, moved_slope = transmission(self.cam, places.values, self.friction)
         held, held_slope = self._held(places.values)
         return held_slope * moved - held * moved_slope

@@ -49,7 +49,7 @@ def nearest(lines: Sequence[HalfPlane]) -> Kept:
 
 
 def _nearest_on(line: HalfPlane, others: Sequence[HalfPlane]) -> Kept:
-    """The same of the points on one of the lines, which are (height + i t) normal."""
+    """The nearest point that keeps the others on one of the lines, whose points are (height + i t) normal."""
     _, normal, height, _ = line
     along, at, low, high = normal.conjugate(), None, -math.inf, math.inf
     for other in others:

@@ -198,7 +198,7 @@ class ContactStress:
         return self.contact.width * (self.greatest().value / permitted) ** 2
 
     def slope(self, places: Places) -> Floats:
-        """Of the sign of the peak pressure's slope, that is of (F/R)', at places inside phases."""
+        """A quantity with the sign of the peak pressure's slope, that is of (F/R)', at places inside phases."""
         relative, relative_slope = self._kinematics.relative_radius(places.values, self._roller)
         return self.forces.normal_slope(places) * relative - self.forces.normal(places) * relative_slope
 

@@ -31,15 +31,15 @@ from graphcam.mechanism.taylor import Taylor
 PARTS, FEWEST = 32, 4
 """Cells of a whole phase at first, and of a piece of it, however short."""
 UNPROVED = 4
-"""So many times as many of a law that says nothing of its fourth derivative."""
+"""How many times as many cells a law takes that says nothing of its fourth derivative."""
 CLOSER, CLOSEST = 1 / 32, 1e-12
 """Near the phase's ends, where a small prime radius moves the extremes to, they follow at this ratio, so near."""
 DIVIDED = np.arange(5) / 4
-"""Into so many a cell is divided."""
+"""The ends of the parts into which a cell is divided, as fractions."""
 FLAT = 1e-12
-"""Where a quantity differs over a cell by no more than this part of its greatest value, its middle tells it."""
+"""A cell over which a quantity differs by no more than this part of its greatest value is told by its middle."""
 WIDER = 1e-6
-"""Of half a cell, by which rounding may put a stationary place aside."""
+"""How far rounding may put a stationary place aside, in half cells."""
 MOST = 100_000
 """Cells at a time: a quantity that stays the same over whole phases is not followed further."""
 
@@ -52,11 +52,11 @@ class Cells(NamedTuple):
     high: Floats
 
     def where(self, chosen: NDArray[np.bool_]) -> "Cells":
-        """Some of the cells."""
+        """The cells that a mask chooses."""
         return Cells(self.phase[chosen], self.low[chosen], self.high[chosen])
 
     def divided(self) -> "Cells":
-        """All of them divided."""
+        """The cells divided into equal parts."""
         ends = self.low[:, None] + (self.high - self.low)[:, None] * DIVIDED
         ends[:, -1] = self.high
         return Cells(np.repeat(self.phase, DIVIDED.size - 1), ends[:, :-1].ravel(), ends[:, 1:].ravel())
@@ -130,7 +130,7 @@ class Search:
     def _contenders(
         self, quantity: Callable[[Values], Floats], height: Callable[[Floats], Floats], top: Floats
     ) -> tuple[Cells, Floats]:
-        """Where the highest place of each group may lie, and the height in the middle where it is flat, else infinity.
+        """The places where each group may be highest, and the height in the middle where it is flat, else infinity.
 
         top : for each group a height that is reached; it is raised to the greatest that is met
         """
@@ -161,7 +161,7 @@ class Search:
 
 
 def _narrowed(cells: Cells, over: Taylor, alone: NDArray[np.bool_]) -> Cells:
-    """Where in each cell its one stationary place lies, if it has one: Newton's step with every bend that it may have.
+    """The one stationary place that each cell can have: Newton's step with every bend that the quantity may have.
 
     A cell without a single one is left as it is.
     """
@@ -174,7 +174,7 @@ def _narrowed(cells: Cells, over: Taylor, alone: NDArray[np.bool_]) -> Cells:
 
 @lru_cache(maxsize=64)
 def _cells_of(law: Law) -> tuple[Floats, Floats]:
-    """Where the cells of a phase by this law begin and end: none reaches from one formula of it to another.
+    """The ends of the cells of a phase by this law: none reaches from one formula of it to another.
 
     At a break the last one ends before it, because the break belongs to the formula that begins there.
     """

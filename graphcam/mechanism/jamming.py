@@ -28,7 +28,7 @@ def transmission(cam: Cam, values: Values, friction: float = 0.0) -> tuple[Float
 
 
 def transmitted(kin: Kinematics, values: Values, friction: float, roller: Any) -> tuple[Floats, Floats]:
-    """The same of one cam or of many, with the radii of their rollers [mm]."""
+    """The transmission of one cam or of many, as in :func:`transmission`, with the radii of their rollers [mm]."""
     cosine, sine, turning = contact_angle(kin, values)
     lean = kin.leaning * friction
     rim = roller / kin.reach if kin.swings else 0.0
@@ -72,7 +72,7 @@ def jamming_margin(cam: Cam, friction: float) -> ValueAt:
 
 
 def check_friction(friction: float) -> None:
-    """That a coefficient of friction can be one.
+    """Check that a number can be a coefficient of friction.
 
     Raises
     ------

@@ -85,11 +85,11 @@ class Kinematics(ABC):
     @classmethod
     @abstractmethod
     def of(cls, sizes: Any, prime_radius: Any, sigma: Any, lift: Any) -> Self:
-        """Of a follower, or of many with arrays for its sizes."""
+        """The kinematics of a follower, or of many with arrays for its sizes."""
 
     @abstractmethod
     def check(self) -> None:
-        """That there can be such a cam, a single one.
+        """Check that such a cam, a single one, can exist.
 
         Raises
         ------
@@ -97,7 +97,7 @@ class Kinematics(ABC):
         """
 
     def part(self, which: NDArray[Any] | slice) -> Self:
-        """The same of some of the cams, with what is known of them already."""
+        """The kinematics of some of the cams, with what is known of them already."""
         some = copy(self)
         for name, values in vars(self).items():
             object.__setattr__(some, name, values[which])
@@ -125,7 +125,7 @@ class Kinematics(ABC):
         return 0.0 * lift
 
     def pressure_slope(self, values: Values) -> Floats:
-        """Of the sign of alpha'."""
+        """A quantity with the sign of alpha'."""
         return pair_cross(*self.pressure(values))
 
     def pressed_by(self, load: Any) -> FollowerLoad:
@@ -174,7 +174,7 @@ class Kinematics(ABC):
 
     @abstractmethod
     def radius_by_sizes(self, values: Values) -> dict[str, Floats]:
-        """The same of the radius of curvature of the pitch curve, signed; inf or NaN where that is flat."""
+        """Derivatives of the pitch curve's signed radius of curvature by the sizes; inf or NaN where it is flat."""
 
     @property
     def leaning(self) -> Any:
@@ -206,7 +206,7 @@ class Kinematics(ABC):
 
     @abstractmethod
     def curvature_slope(self, values: Values) -> Floats:
-        """Of the sign of kappa', and zero with it."""
+        """A quantity with the sign of kappa', and zero with it."""
 
     def sharpness_and_slope(self, values: Values) -> tuple[Floats, Floats]:
         """The sharpness, and what has the sign of its derivative; both cost little more than one."""
@@ -219,7 +219,7 @@ class Kinematics(ABC):
     @staticmethod
     @abstractmethod
     def radius_of(sharpness: Floats) -> Floats:
-        """That radius [mm]; inf where it does not matter, NaN for NaN."""
+        """The roller radius [mm] as far as it matters: inf where it does not, NaN for NaN."""
 
     @abstractmethod
     def relative_radius(self, values: Values, roller: Any) -> tuple[Floats, Floats]:
@@ -278,7 +278,7 @@ class RollerKinematics(Kinematics):
         return {name: pair_cross(q, by) / squared for name, (by, _) in self.seen_by_sizes(values).items()}
 
     def radius_by_sizes(self, values: Values) -> dict[str, Floats]:
-        """Of rho = |q|^3/(|q|^2 + g q.imag - h q.real)."""
+        """The derivatives of rho = |q|^3/(|q|^2 + g q.imag - h q.real) by the sizes."""
         (along, across), ((g, h), _) = self.seen(values), self.bend(values)
         squared, bent = self._bent(values)
         radius = squared * np.sqrt(squared) / bent
@@ -330,7 +330,7 @@ class RollerKinematics(Kinematics):
         return squared, np.add(squared, g * across - h * along)
 
     def curvature_slope(self, values: Values) -> Floats:
-        """Of the sign of kappa'."""
+        """A quantity with the sign of kappa'."""
         return self.sharpness_and_slope(values)[1]
 
     def sharpness_and_slope(self, values: Values) -> tuple[Floats, Floats]:

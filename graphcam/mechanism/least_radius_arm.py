@@ -115,7 +115,7 @@ class _Region(NamedTuple):
     fixed: list[HalfPlane]
 
     def beyond(self, point: complex, kept: Sequence[HalfPlane]) -> list[HalfPlane]:
-        """Of each side the worst of the lines that the point lies beyond by more than rounding; the farthest last."""
+        """The worst line of each side that the point lies beyond by more than rounding; the farthest last."""
         rounding, lines = ROUNDING * (self.arm + abs(point)), self.fixed
         excesses = [(side, side.excess(point)) for side in self.sides]
         for side, excess in excesses:
@@ -183,7 +183,7 @@ def _least(
 
 
 def _touching(lines: Sequence[HalfPlane], point: complex) -> tuple[list[HalfPlane], float]:
-    """The same lines where they touch nearer to the point, and the longest step there, as a part of its place."""
+    """The lines moved to where they touch nearer to the point, and the longest step there, as a part of its place."""
     moved: list[HalfPlane] = []
     longest = 0.0
     for line in lines:

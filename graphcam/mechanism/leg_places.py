@@ -14,7 +14,7 @@ from graphcam.given.motion_law import Law
 INSIDE = 96
 """Places on a whole phase, denser at the ends of its smooth pieces ..."""
 FEWEST = 16
-"""... and on a piece, however short."""
+"""The minimum number of places on a piece, however short."""
 CLOSEST = np.logspace(-12, -4, 25)
 """Places nearer the phase's ends, where a steep limit moves the extremes to."""
 
@@ -69,7 +69,7 @@ def legs(motion: Motion, direction: int) -> tuple[OneLeg, ...]:
 
 @lru_cache(maxsize=64)
 def sampled_legs(motion: Motion, direction: int) -> LegPlaces:
-    """The same with their places.
+    """The rises or the returns of a motion, each with places on it.
 
     >>> from math import pi
     >>> import graphcam as gc

@@ -33,7 +33,7 @@ PATIENCE = 20
 CLOSE = 1e-13
 """A step that is no longer [rad] ends the search ..."""
 WRONG = 1e-9
-"""... and what still moves by more than this has found no contact."""
+"""A search whose last step [rad] is longer than this has found no contact."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,7 +136,7 @@ def linear_off(cam: Cam, phi: Floats, deviations: Deviations) -> tuple[Floats, F
 
 
 def lifted_over(kin: Any, values: Values) -> dict[str, Taylor]:
-    """By how much the follower is lifted by what is too large, with the first two derivatives by phi."""
+    """The lift of the follower by what is too large, with the first two derivatives by phi."""
     return kin.lifted(_followed(values))
 
 

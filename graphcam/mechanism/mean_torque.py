@@ -17,7 +17,7 @@ from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.stationary import Places, places_in, places_of, smooth_pieces
 
 NODES = 24
-"""Of Gauss on a part of a smooth piece."""
+"""The number of Gauss nodes on a part of a smooth piece."""
 PARTS = 4
 """A smooth piece is divided into so many equal parts, and where a bearing of the guide changes its side."""
 
@@ -50,7 +50,7 @@ def mean_torque(forces: CamForces) -> float:
 
 
 def _parts(forces: CamForces) -> tuple[NDArray[np.intp], Floats, Floats]:
-    """Where the torque is smooth: phase, and the fractions of it where a part begins and ends."""
+    """The parts of the turn in which the torque is smooth: phase, and the fractions where a part begins and ends."""
     motion, knots = forces.cam.motion, forces.pressing.knots
     phase, u0, u1 = smooth_pieces(motion, knots)
     cuts: list[tuple[int, float]] = []

@@ -78,7 +78,7 @@ class MotionSample(NamedTuple):
 
     @property
     def half_width(self) -> Floats:
-        """Of the band."""
+        """The half-width of the band of a sample."""
         return (self.high - self.low) / 2
 
 
@@ -120,7 +120,7 @@ class MotionBands(Shown):
 
     @cached_property
     def effects(self) -> Mapping[str, Floats]:
-        """By error, (3, n) by how much it moves s, v and a at the most, to the first order."""
+        """The maximum effects (3, n) of each error on s, v and a, to the first order."""
         return effects_of(self.cam.kinematics, self.errors, self.cam.motion(self.phi))
 
     @cached_property
@@ -144,7 +144,7 @@ class MotionBands(Shown):
 
     @property
     def shares(self) -> Mapping[str, Floats]:
-        """By error, (3, n) its part of the variance; 0 where nothing is off."""
+        """The shares (3, n) of each error in the variance; 0 where nothing is off."""
         return shares_of(self.effects, self.errors)
 
     @cached_property
@@ -164,7 +164,7 @@ class MotionBands(Shown):
 
     @cached_property
     def _widest(self) -> tuple[list[int], Floats]:
-        """Where among the dense angles the bands of s, v, a are widest, and the half-widths there."""
+        """The dense angles at which the bands of s, v, a are widest, and the half-widths there."""
         half = half_widths(self._dense[1], self.errors, self.coverage)
         # Of equal ones the first, though rounding makes another a little wider.
         at = [int(np.flatnonzero(row >= row.max() * (1 - EQUAL))[0]) for row in half]
@@ -255,7 +255,7 @@ def motion_bands(
 
 
 def effects_of(kin: Kinematics, errors: MakingErrors, values: Values) -> dict[str, Floats]:
-    """By how much each error moves s, v and a at the most, (3, ...), to the first order, from (s, v, a, j).
+    """The maximum effects (3, ...) of each error on s, v and a, to the first order, from (s, v, a, j).
 
     A wave reaches its maximum displacement, velocity and acceleration at different phases.
     """
@@ -270,18 +270,18 @@ def effects_of(kin: Kinematics, errors: MakingErrors, values: Values) -> dict[st
 
 
 def variance_of(effects: Mapping[str, Floats], errors: MakingErrors) -> Floats:
-    """Of independent errors: the sum of their variances."""
+    """The variance of independent errors: the sum of their variances."""
     return np.sum([(errors.part(name) * effect) ** 2 for name, effect in effects.items()], axis=0)
 
 
 def half_widths(effects: Mapping[str, Floats], errors: MakingErrors, coverage: float) -> Floats:
-    """Of the bands to the first order, shaped like the effects of the errors."""
+    """The half-widths of the bands to the first order, shaped like the effects of the errors."""
     normal = deviations_within(coverage) * np.sqrt(variance_of(effects, errors))
     return np.minimum(normal, np.sum(list(effects.values()), axis=0))
 
 
 def shares_of(effects: Mapping[str, Floats], errors: MakingErrors) -> dict[str, Floats]:
-    """By error its part of the variance; 0 where nothing is off."""
+    """The share of each error in the variance; 0 where nothing is off."""
     variance = variance_of(effects, errors)
     return {
         name: np.divide((errors.part(name) * by) ** 2, variance, out=np.zeros_like(by), where=variance > 0)

@@ -38,7 +38,7 @@ class OscillatingKinematics(RollerKinematics):
 
     @classmethod
     def of(cls, sizes: Oscillating, prime_radius: Any, sigma: Any, lift: Any) -> Self:
-        """With the arm and its centre distance; the lift is an angle."""
+        """The kinematics of an arm at its centre distance; the lift is an angle."""
         if sizes.distance is None:
             remedy = say("take the one that minimum_radius(...) finds")
             raise DesignError(say("centre distance"), say("left open"), say("given for a cam"), remedy)
@@ -47,7 +47,7 @@ class OscillatingKinematics(RollerKinematics):
         return made
 
     def check(self) -> None:
-        """That arm, distance and prime radius close a triangle, and the arm stays above the line of centres."""
+        """Check that arm, distance and prime radius close a triangle, and the arm stays above the line of centres."""
         arm, distance, r0 = self.arm, self.distance, self.prime_radius
         nearest, farthest = abs(distance - arm), distance + arm
         if not nearest < r0 < farthest:
@@ -105,7 +105,7 @@ class OscillatingKinematics(RollerKinematics):
         return along, (self.arm - self.distance) + self.sigma * self.arm * v + along * tangent
 
     def steepest(self, lift: Any, speed: Any) -> Any:
-        """Of numerator and denominator each the farthest, for cos(psi) falls and sin(psi) has its least at an end."""
+        """The bounds of numerator and denominator: cos(psi) falls and sin(psi) has its minimum at an end."""
         ends = self.psi0, self.psi0 + lift
         along = self.distance * np.minimum(*map(np.sin, ends))
         across = np.maximum(*(np.abs(self.arm - self.distance * np.cos(psi)) for psi in ends))
@@ -168,7 +168,7 @@ class OscillatingKinematics(RollerKinematics):
         return self.arm + sizes.get("arm", 0.0), self.distance + sizes.get("distance", 0.0)
 
     def seen_by_sizes(self, values: Values) -> dict[str, tuple[Pair, Pair]]:
-        """Of q = c sin(psi) + i (l (1 + sigma v) - c cos(psi)), g = l v (sigma + v) and h = l a.
+        """The derivatives of q = c sin(psi) + i (l (1 + sigma v) - c cos(psi)); g = l v (sigma + v), h = l a.
 
         cos(psi0) = (c^2 + l^2 - r0^2)/(2 c l) gives psi0 by r0, c and l: r0, l cos(psi0) - c and c cos(psi0) - l, each
         over c l sin(psi0).

@@ -42,7 +42,7 @@ SHORT, LONG = 2.0, 64.0
 RESOLVED = 2e-14
 """A series whose last three coefficients are no more than this part of the greatest is as good as its values."""
 MOST_CELLS = 64
-"""Into so many a smooth stretch is divided at most to resolve its forcing."""
+"""The maximum number of cells into which a smooth stretch is divided to resolve its forcing."""
 MOST_DAMPING = 10.0
 """Times the critical damping; from here on a percentage is likelier than a ratio."""
 RESONANCE = 1e-6

@@ -67,7 +67,7 @@ class Event:
 
     @property
     def end(self) -> float:
-        """When the dwell begins [rise times]: 1 for a law."""
+        """The end of the rise, where the dwell begins [rise times]: 1 for a law."""
         return float(self.drive.edges[-1])
 
 

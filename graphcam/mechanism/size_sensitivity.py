@@ -52,11 +52,11 @@ class Sensitivities:
     __repr__ = by_parts
 
     def pressure_angle(self, phi: ArrayLike) -> dict[str, Floats]:
-        """Of alpha, by the sizes of the design [rad/mm]."""
+        """The derivatives of alpha by the sizes of the design [rad/mm]."""
         return self._by_lift(self.cam.kinematics.angle_by_sizes(self.cam.motion(phi)))
 
     def curvature_radius(self, phi: ArrayLike) -> dict[str, Floats]:
-        """Of the working profile's radius of curvature rho - r, signed, by the sizes of the design [mm/mm].
+        """Derivatives of the working profile's signed radius of curvature rho - r by the design's sizes [mm/mm].
 
         inf or NaN at an inflection of the pitch curve.
         """
@@ -66,7 +66,7 @@ class Sensitivities:
         return found | {"roller_radius": -np.ones(np.shape(phi))} if kin.takes_roller else found
 
     def motion(self, phi: ArrayLike) -> dict[str, Floats]:
-        """Of (s, v, a), (3, ...), by what is too large on the follower as it is made [mm; rad of an arm, per mm].
+        """Derivatives of (s, v, a), (3, ...), by what is too large as it is made [mm; rad of an arm, per mm].
 
         "profile" is the profile that lies too far out along its normal, everywhere; a wave of it is in
         :func:`~graphcam.motion_bands`.  Where the acceleration jumps, those of v and a are of the right side.

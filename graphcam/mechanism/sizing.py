@@ -82,7 +82,7 @@ class SizedCam:
 
     @property
     def sizes(self) -> Sizes:
-        """Its sizes [mm]."""
+        """The sizes of the cam [mm]."""
         return Sizes(self.cam.prime_radius, self.offset, self.cam.roller_radius, self.face_width)
 
 
@@ -225,7 +225,7 @@ def pareto_front(problem: SizingProblem, count: int = 11) -> list[SizedCam]:
 
 
 def _undominated(cams: list[SizedCam]) -> list[SizedCam]:
-    """Those that gain stress for their radius."""
+    """The cams that gain stress for their radius."""
     kept: list[SizedCam] = []
     for cam in sorted(cams, key=lambda cam: (cam.radius, cam.stress)):
         if not kept or cam.stress < kept[-1].stress * (1 - DOMINATED):

@@ -38,7 +38,7 @@ RISE, RETURN, CURVATURE, SHARE, STRESS = LIMITS = (
 SPREAD = 24
 """Places on every smooth piece with which the search begins ..."""
 EVERY, FEWEST = 300, 3
-"""... but where there are many pieces about so many in all, and so many on each: the search adds what it needs."""
+"""Places in all where there are many pieces, and the minimum on each; the search adds what it needs."""
 NO_UNDERCUT = Candidate("rho", "rho")
 """What every cam must keep: the roller is no larger than the radius of curvature."""
 
@@ -96,7 +96,7 @@ class TurnPlaces:
 
     @classmethod
     def of(cls, motion: Motion, load: FollowerLoad, places: Places) -> TurnPlaces:
-        """The same places with their loads."""
+        """Places of the turn with their loads."""
         direction = motion.directions[places.phase]
         return cls(direction, places.values, load.force(places.values, direction, places.phi))
 
@@ -118,7 +118,7 @@ class TurnPlaces:
 
     @classmethod
     def worst(cls, stress: ContactStress) -> TurnPlaces:
-        """Where pressure angle, curvature and stress of one cam can have their exact extremes."""
+        """The places where pressure angle, curvature and stress of one cam can have their exact extremes."""
         cam, load = stress.forces.cam, stress.forces.pressing
         kin, motion = cam.kinematics, cam.motion
         steep, sharp = (stationary_places(motion, slope) for slope in (kin.pressure_slope, kin.curvature_slope))
@@ -130,13 +130,13 @@ class TurnPlaces:
         return first
 
     def joined(self, other: TurnPlaces) -> TurnPlaces:
-        """These places and others."""
+        """The places together with others."""
         s, v, a, j = (np.concatenate(pair) for pair in zip(self.values, other.values, strict=True))
         direction = np.concatenate([self.direction, other.direction])
         return TurnPlaces(direction, (s, v, a, j), np.concatenate([self.load, other.load]))
 
     def where(self, chosen: NDArray[np.bool_]) -> TurnPlaces:
-        """Some of the places."""
+        """The places that a mask chooses."""
         s, v, a, j = (value[chosen] for value in self.values)
         return TurnPlaces(self.direction[chosen], (s, v, a, j), self.load[chosen])
 

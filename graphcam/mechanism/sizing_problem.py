@@ -69,7 +69,7 @@ class SizingProblem:
         }
 
     def check_contact(self) -> None:
-        """That the load keeps the follower on its cam.
+        """Check that the load keeps the follower on its cam.
 
         Raises
         ------

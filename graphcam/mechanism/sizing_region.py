@@ -15,7 +15,7 @@ HALVINGS = 20
 ROLLERS = 25
 """Rollers that are tried on every cam."""
 FINER = 3
-"""So many times as many places as the search begins with."""
+"""How many times as many places as in the search the region begins with."""
 ALL = "all limits"
 Across = Literal["offset", "roller radius", "face width"]
 """The size over which a region is drawn."""

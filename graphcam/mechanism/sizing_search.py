@@ -26,7 +26,7 @@ ROUNDS = 30
 KEPT = 1e-10
 """A limit is kept if it is exceeded by less than this part of it while places are exchanged."""
 SPARE = 1e-9
-"""By this part of a limit a search for the width stays within it, so that rounding does not cost radius."""
+"""The part of a limit by which a search for the width stays within it, so that rounding does not cost radius."""
 SAME = 1e-13
 """Sizes that differ by less than this part are the same."""
 POLISH = 1e-5
@@ -34,7 +34,7 @@ POLISH = 1e-5
 NARROWEST = 1e-9
 """Narrower than this part of the widest face none is sought."""
 STARTS = 3
-"""From the best so many cams of a coarse grid the search starts."""
+"""The number of the best cams of a coarse grid from which the search starts."""
 GRID = 13, 9, 7
 """Cams of the coarse grid, by radius, offset and roller radius."""
 

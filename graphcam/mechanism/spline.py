@@ -36,25 +36,25 @@ Degree = Literal[2, 3, 4, 5]
 DEVIATION = 0.0005
 """How far the spline may lie from the exact profile [mm]."""
 LEAST_DEVIATION = 1e-9
-"""Nearer than this [mm] rounding would be approximated ..."""
+"""The minimum deviation [mm]: nearer, rounding would be approximated."""
 LEAST_PART = 2.5e-13
-"""... or than this part of the cam."""
+"""The minimum deviation as a part of the cam."""
 MOST_CONTROL_POINTS = 2000
-"""That may be asked for."""
+"""The maximum number of control points that may be asked for."""
 MOST_PARTS = 20_000
 """A demanded deviation that takes more is not looked for: the parts would fill the memory before they kept it."""
 RESERVE = 0.97
 """The part of the deviation that may be seen where it is measured: between these places it may be a little more."""
 ROUNDS = 40
-"""Of taking more knots where the deviation was missed ..."""
+"""Rounds in which knots are added where the deviation was missed."""
 TRIES = 8
-"""... or of moving them there, where their number is given."""
+"""Rounds in which knots are moved there, where their number is given."""
 LEAST_GROWTH = 1.02
 """How many times as many they are then at least."""
 NEED_SAMPLES = 129
-"""Between two breaks, to see how densely knots are needed."""
+"""Samples between two breaks, to see how densely knots are needed."""
 GRADE = 1.0
-"""By how many mm the distance of two knots may grow over a mm of the profile."""
+"""How many mm the distance of two knots may grow over a mm of the profile."""
 TINY = 1e-30
 """In place of a derivative of zero."""
 PROBES = np.arange(16) / 16

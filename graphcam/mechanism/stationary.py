@@ -38,7 +38,7 @@ class Places:
     values: Values
 
     def where(self, chosen: NDArray[np.bool_]) -> Places:
-        """Some of the places."""
+        """The places that a mask chooses."""
         s, v, a, j = (value[chosen] for value in self.values)
         return Places(self.phase[chosen], self.u[chosen], self.phi[chosen], (s, v, a, j))
 
@@ -58,7 +58,7 @@ def stationary_places(motion: Motion, slope: Callable[[Values], Floats]) -> Plac
 
 
 def places_of(motion: Motion, slope: Callable[[Places], Floats], knots: Sequence[float] = ()) -> Places:
-    """The same of a quantity that depends on the cam angle besides, or on the sense of the motion.
+    """The extreme places of a quantity that depends on the cam angle besides, or on the sense of the motion.
 
     slope : of places;  knots : cam angles [rad] at which the slope may jump inside a smooth piece
     """
@@ -178,7 +178,7 @@ def greatest_of(
     size: float = 0.0,
     knots: Sequence[float] = (),
 ) -> ValueAt:
-    """The same of a quantity whose slope depends on the cam angle besides, or on the sense of the motion.
+    """The supremum of a quantity whose slope depends on the cam angle besides, or on the sense of the motion.
 
     slope : of places;  knots : cam angles [rad] at which it may jump inside a smooth piece
     """

@@ -18,7 +18,8 @@ from traitlets.config import Config
 
 from graphcam.files import OutputError, whole_folder
 from graphcam.notebooks.generate import notebook_title, write_notebook
-from graphcam.notebooks.running import execute, needed
+from graphcam.notebooks.running import execute
+from graphcam.report.note_page import mathml
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_writer import task_files
@@ -50,19 +51,15 @@ class _Renderer(IPythonRenderer):
 
     def block_math(self, body: str) -> str:
         """A formula on lines of its own."""
-        return _mathml(body, "block")
+        return mathml(body, "block")
 
     def inline_math(self, body: str) -> str:
         """A formula within a line."""
-        return _mathml(body, "inline")
+        return mathml(body)
 
     def latex_environment(self, name: str, body: str) -> str:
         """A named arrangement of formulas, such as aligned ones."""
-        return _mathml(f"\\begin{{{name}}}{body}\\end{{{name}}}", "block")
-
-
-def _mathml(latex: str, display: str) -> str:
-    return needed("latex2mathml.converter", "a page with formulas").convert(latex.strip(), display=display)
+        return mathml(f"\\begin{{{name}}}{body}\\end{{{name}}}", "block")
 
 
 def markdown_page(source: str) -> str:

@@ -9,14 +9,14 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from graphcam.constructions.readings import ReadingRow, rows
-from graphcam.drafting.ink import Construction, Step
+from graphcam.drafting.ink import Construction, Part, Step
 from graphcam.errors import DesignError
 from graphcam.indices import in_html
 from graphcam.notebooks.picture import Picture
 from graphcam.plots.step_board import board_of
 from graphcam.report.documents import contents_of, drawing_of
 from graphcam.report.sheet_contents import all_drawn, chapters_of
-from graphcam.report.step_player import player_of
+from graphcam.report.step_player import player_of, run_text
 from graphcam.sheets.model import Page
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.words import Tell, say, sequence
@@ -62,34 +62,52 @@ class Stage:
         """The drawing as far as some of its parts, each of them in colour."""
         from graphcam.sheets.matplotlib_renderer import svg
 
-        number, count = self.number.rstrip("."), len(self.step.places)
+        number, places = self.number.rstrip("."), self.step.places
         alt = say("Drawn up to part {part} of step {number}, which is in colour: {caption}", number=number)
-        said = say("Part {part} of {count}: {caption}", count=count)
-        shown = [({"part": k + 1, "caption": self.step.places[k].caption}, page) for k, page in self.strip.items()]
-        return [Picture(svg(page), self.tell(alt.where(**part)), self.tell(said.where(**part))) for part, page in shown]
+        # A sentence of the list above is not said again.
+        said, bare = say("Part {part} of {count}: {caption}"), say("Part {part} of {count}")
+        found: list[Picture] = []
+        for k, page in self.strip.items():
+            told = {"part": k + 1, "count": len(places), "caption": places[k].caption}
+            below = said if _is_row(self.step, k) else bare
+            found.append(Picture(svg(page), self.tell(alt.where(**told)), self.tell(below.where(**told))))
+        return found
 
     @property
     def html(self) -> str:
-        """Title, caption and reason; some parts side by side, and all of them in words; the whole step; readings."""
-        title, caption, why = (
-            in_html(escape(self.tell(said))) for said in (self.step.title, self.step.caption, self.step.why)
-        )
-        words = f"<h4>{self.number} {title}</h4><p>{caption}</p>" + (f'<p class="why">{why}</p>' if why else "")
-        parts = "".join(f"<li>{in_html(escape(self.tell(part.caption)))}</li>" for part in self.step.places)
+        """Title, what is done part by part, and the reason; some parts side by side; the whole step; readings."""
+        title, why = (in_html(escape(self.tell(said))) for said in (self.step.title, self.step.why))
+        parts = "".join(f"<li>{self._told(part)}</li>" for part in self.step.parts)
+        words = f"<h4>{self.number} {title}</h4><ol>{parts}</ol>" + (f'<p class="why">{why}</p>' if why else "")
         if len(self.step.places) > 1:
-            strip = "".join(picture.html for picture in self.pictures)
-            summary = escape(self.tell(say("All parts in words")))
-            words += f'<div class="stills">{strip}</div><details><summary>{summary}</summary><ol>{parts}</ol></details>'
+            words += f'<div class="stills">{"".join(picture.html for picture in self.pictures)}</div>'
         shown = self.picture.html if self.picture else ""
         read = "".join(f"<li>{_reading(row, self.tell)}</li>" for row in self.reads)
         readings = f'<ul class="readings">{read}</ul>' if read else ""
         return f'<section class="step">{words}{shown}{readings}</section>'
+
+    def _told(self, part: Part) -> str:
+        """A part in words, a run with its table."""
+        said = in_html(escape(self.tell(part.caption)))
+        rows = [(self.tell(row.name), self.tell(row.setting)) for row in part.rows]
+        run = run_text("", 0, rows) if rows else None
+        if run is None or not run.settings:
+            return said
+        cells = (f"<li><b>{in_html(escape(name))}</b> {in_html(escape(setting))}</li>" for name, setting in run.rows)
+        head = f"<p>{in_html(escape(run.head))}</p>" if run.head else ""
+        return f'{said}{head}<ul class="rows">{"".join(cells)}</ul>'
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
         return {
             "text/html": self.html,
             "text/plain": f"{self.number} {self.tell(self.step.title)}: {self.tell(self.step.caption)}",
         }
+
+
+def _is_row(step: Step, place: int) -> bool:
+    """Whether a place of a step is one of a run."""
+    inside = [bool(part.rows) for part in step.parts for _ in part.rows or (part,)]
+    return inside[place]
 
 
 def _reading(row: ReadingRow, tell: Tell) -> str:

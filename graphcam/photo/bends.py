@@ -16,7 +16,7 @@ Places = NDArray[np.complex128]
 FAR = 100.0
 """mm that count as one in a place, so that the parameters are alike."""
 USUAL_FOCAL = 1.48
-"""Of a telephone's lens, in halves of the picture's longer side."""
+"""The focal length of a telephone's lens, in halves of the picture's longer side."""
 FOCAL_OFF = 0.15
 """The part by which a lens that is not known may differ from that."""
 FOCAL_KNOWN_OFF = 0.05
@@ -30,7 +30,7 @@ FOLDED = 0.3
 ROLLED = (0.2, 0.07, 0.15, 0.07)
 """Slopes that a rolled sheet gains towards its edge: evenly, to one side, faster and faster, and faster yet."""
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(6)
-"""For lengths along a rolled sheet."""
+"""Gauss nodes and weights for lengths along a rolled sheet."""
 POSE = 10
 """Parameters that every bent sheet has before those of its shape."""
 SEARCHED = 25
@@ -95,7 +95,7 @@ class Sheet:
         return np.array(starts).reshape(len(starts), len(self.prior().values))
 
     def project(self, parameters: Numbers, points: Places) -> Places:
-        """Where points (..., n) of the paper [mm] are in the picture [px], for parameters (..., m)."""
+        """Points (..., n) of the paper [mm] as places in the picture [px], for parameters (..., m)."""
         paper = points - self.frame.middle
         focal, stretch = self.focal * np.exp(parameters[..., 0, None]), parameters[..., 9, None]
         paper = paper.real * (1 + stretch) + 1j * paper.imag * (1 - stretch)
@@ -111,7 +111,7 @@ class Sheet:
         return self.frame.centre + self.frame.unit * bent(pixels, parameters[..., 7:9])
 
     def unproject(self, parameters: Numbers, places: Places) -> Places:
-        """Where places (n,) of the picture [px] are on the paper [mm], for parameters (m,)."""
+        """Places (n,) of the picture [px] as points of the paper [mm], for parameters (m,)."""
         plane, flat = self.flat
         points = plane.unproject(flat, places)
         for _ in range(SEARCHED):
@@ -170,7 +170,7 @@ class Rolled(Sheet):
         return [*ROLLED]
 
     def shape_starts(self) -> list[tuple[float, ...]]:
-        """In four directions, to both sides."""
+        """Start values in four directions, to both sides."""
         return [(turn, slope, 0.0, 0.0, 0.0) for turn, slope in product((0.0, 0.7, 1.57, -0.7), (-0.1, 0.1))]
 
 

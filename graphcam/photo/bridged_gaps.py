@@ -7,7 +7,7 @@ from graphcam.photo.flag_runs import Flags, runs
 from graphcam.photo.printed import Points
 
 LONGEST_GAP = 9.0
-"""Of a curve that is seen [mm]: less than the distance of two stations, so that it cannot turn unseen."""
+"""The maximum gap of a curve [mm]: less than the distance of two stations, so that it cannot turn unseen."""
 NEIGHBOURS = 5
 """Stations on either side whose run is prolonged, about 5 mm: less is the hand's tremor."""
 NOWHERE = complex(np.nan, np.nan)

@@ -23,7 +23,7 @@ PAPER = 25
 MOST = 4000
 """Pixels along the longer side of a picture that is made even."""
 CELL = 8.0
-"""Pixels of such a picture in a cell of a tag: a cell of a code is half as wide or less."""
+"""Pixels of an evened picture in a cell of a tag: a cell of a code is half as wide or less."""
 UNBLURRED = ((1.0, 0.03), (1.0, 0.1), (1.5, 0.03), (1.5, 0.01), (2.0, 0.03), (2.0, 0.01))
 """Parts of the blur that are taken back, as far places are blurred more; and how strong the noise is taken to be."""
 LIKELY = 4
@@ -31,9 +31,9 @@ LIKELY = 4
 WINDOW, AROUND = 10.0, 16.0
 """Cells of a tag over which edges are counted, and from such a place to the sides of what is looked at."""
 ENLARGED = 1.5
-"""By which a code is then looked at too."""
+"""The factor by which a code is enlarged to be looked at once more."""
 WIDTHS = (1.5, 3.0)
-"""Of the blur [px] that pictures are sharpened for if nobody knows it."""
+"""Widths of the blur [px] for which pictures are sharpened if nobody knows it."""
 GAUSSIAN = 1.683
 """Standard deviations of a blur between a fifth and four fifths of the light of an edge."""
 LEAST_NEAR = 0.3
@@ -41,7 +41,7 @@ LEAST_NEAR = 0.3
 ENOUGH = 3
 """Tags that tell how oblique the paper is."""
 SHARPER = 2.0
-"""By so much of what a blur takes away is a picture sharpened."""
+"""The part of what a blur takes away by which a picture is sharpened."""
 
 
 def codes_in(pixels: Photograph, tags: Tags | None = None) -> list[str]:
@@ -88,7 +88,7 @@ def _enlarged(grey: Grey, factor: float) -> Grey:
 
 
 def _even(grey: Grey) -> Grey:
-    """Without the shadows: paper is white everywhere."""
+    """The picture without shadows: paper is white everywhere."""
     small = cv2.resize(grey, None, fx=0.125, fy=0.125, interpolation=cv2.INTER_AREA)
     size = max(3, min(small.shape) // PAPER | 1)
     paper = cv2.blur(cv2.dilate(small, np.ones((size, size), np.uint8)), (size, size))

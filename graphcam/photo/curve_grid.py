@@ -28,7 +28,7 @@ SHORTEST, LONGEST = 0.5, 1.0
 INNER = 10.0
 """No curve runs nearer to its origin [mm]: there all rays of a construction meet."""
 EDGE = 0.8
-"""Beside the edge of the room [mm] its own line may be printed."""
+"""The margin beside the edge of the room [mm] in which its own line may be printed."""
 STEEPEST_ROUND = 1.2
 """Slope against the circle, 50 degrees: a cam's pressure angle is less."""
 STEEPEST_OVER = 3.7
@@ -87,7 +87,7 @@ class Evidence:
 
 
 def grid_of(view: PrintedView) -> Grid:
-    """Where the curve of a view may run."""
+    """The grid of places at which the curve of a view may run."""
     return _round_origin(view) if view.closed else _over_axis(view)
 
 

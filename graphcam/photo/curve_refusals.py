@@ -55,7 +55,7 @@ class Measures:
 
 
 def refusal_of(measures: Measures) -> tuple[Words, Words] | None:
-    """Why a curve cannot be used, and the remedy; None if it can.
+    """The reason why a curve cannot be used, and the remedy; None if it can.
 
     >>> from dataclasses import replace
     >>> good = Measures(.98, 3, .95, .05, 1.5, 0, 0, .3, 300, 0)

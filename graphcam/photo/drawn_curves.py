@@ -30,14 +30,14 @@ FULL_AT_FIRST = 0.05
 OF_STRONG = 0.7
 """Share of the curve's strong places that is full reward, so that one dark stroke does not outweigh a whole curve."""
 RIVAL_FULL, RIVAL_OF_STRONG = 8.0, 0.35
-"""The same for a second curve, which may be fainter."""
+"""Full reward and share of strong places for a second curve, which may be fainter."""
 APART = 1.2
 """A second curve runs at least so far [mm] from the first; nearer ones are told by their crests."""
 AS_DARK, AS_LONG, MOSTLY = 0.6, 10.0, 0.7
 """Share of the curve's strength that a second line has, over so many mm, and share of these on which it is seen, to
 leave it open there which of both is the curve."""
 MEETS = 3.0
-"""So near [mm] such a line comes to the curve before and behind; the lines of a hatching do not."""
+"""How near [mm] a second line comes to the curve before and behind; the lines of a hatching do not."""
 DARKER = 1.8
 """Times as dark as the strong places of a curve no long piece of it, nor any other line, may be: a hand presses evenly,
 and what is so much lighter an eraser has left."""
@@ -62,7 +62,7 @@ class CurveReading:
     measures: Measures
 
     def refusal(self) -> tuple[Words, Words] | None:
-        """Why it cannot be used, and the remedy; None if it can."""
+        """The reason why the curve cannot be used, and the remedy; None if it can."""
         return refusal_of(self.measures)
 
 
@@ -90,7 +90,7 @@ class RivalLine:
 
     @property
     def share(self) -> float:
-        """Of its length, on which it is seen."""
+        """The share of its length on which the line is seen."""
         return float(self.track.lengths[self.seen].sum() / self.track.lengths.sum())
 
 
@@ -167,7 +167,7 @@ def _rival(track: Track, grid: Grid, evidence: Evidence, black: Flags, ink: Ink)
 
 
 def _by_another_way(track: Track, rival: RivalLine, grid: Grid) -> Flags:
-    """Where (n,) a second line leaves the curve and comes back to it, so that either may be meant: about a stain."""
+    """Flags (n,) where a second line leaves the curve and comes back: either may be meant, as about a stain."""
     second = rival.track
     dark = rival.seen & (second.answers > AS_DARK * track.answers)
     another = np.zeros(dark.shape, np.bool_)

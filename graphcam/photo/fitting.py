@@ -12,7 +12,7 @@ Numbers = NDArray[np.float64]
 STRAY = 3.0
 """Misses from about here on, in parts of what is expected, weigh less."""
 STEP = 1e-6
-"""Of a parameter, for the slope of a miss; parameters are to be of the order of 1."""
+"""The step of a parameter for the slope of a miss; parameters are to be of the order of 1."""
 ENOUGH = 1e-7
 """A fit ends when its sum falls by less than this part of it."""
 
@@ -25,7 +25,7 @@ class Prior:
     spread: Numbers
 
     def misses(self, parameters: Numbers) -> Numbers:
-        """Of parameters (..., m), in parts of their spread."""
+        """The misses of parameters (..., m), in parts of their spread."""
         return (parameters - self.values) / self.spread
 
 

@@ -16,11 +16,11 @@ from graphcam.photo.refusal import PhotographError
 from graphcam.words import say
 
 FORMATS = ("JPEG", "PNG", "TIFF")
-"""That Pillow is to read; the fewer its readers, the fewer doors for a hostile file."""
+"""The formats that Pillow is to read; the fewer its readers, the fewer doors for a hostile file."""
 HEIF_BRANDS = tuple(b"ftyp" + brand for brand in (b"heic", b"heix", b"hevc", b"heim", b"heis", b"mif1", b"msf1"))
-"""By which a HEIC file begins, after four bytes."""
+"""The brands with which a HEIC file begins, after four bytes."""
 MOST_PAGES = 500
-"""Of a file."""
+"""The maximum number of pages of a file."""
 UNPACKED_AT_ONCE = 6
 """Bytes a pixel that a HEIC takes while it is unpacked."""
 BROKEN = (OSError, SyntaxError, ValueError, TypeError, KeyError, IndexError, OverflowError, EOFError, struct.error)

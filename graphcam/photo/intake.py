@@ -22,11 +22,11 @@ from graphcam.photo.scans import scanned_pages
 from graphcam.words import Words, say
 
 MOST_BYTES = 200_000_000
-"""Of a file."""
+"""The maximum number of bytes of a file."""
 SNIFFED = 1024
 """Bytes in which a file says what it is."""
 ENDINGS = frozenset({".jpg", ".jpeg", ".jpe", ".png", ".heic", ".heif", ".tif", ".tiff", ".pdf"})
-"""Of files in a folder that are told if they cannot be read; others are passed over."""
+"""Endings of files in a folder that are reported if they cannot be read; others are passed over."""
 FOLDERS_DEEP = 1
 """Folders within a folder that are looked into."""
 

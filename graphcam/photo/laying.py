@@ -15,13 +15,13 @@ from graphcam.photo.planes import Frame, Plane
 Places = NDArray[np.complex128]
 Kind = Literal["plane", "fold", "cylinder"]
 LEAST_TAGS = 3
-"""That tell where a page is."""
+"""The minimum number of tags by which a page is located."""
 EXPECTED = 0.1
 """How far a tag's corner is misplaced [px] in an ordinary picture."""
 GROWTH = 0.1
 """mm by which printing or light may move every edge of a tag outward, one and the same in the whole picture."""
 ROUNDS = 40
-"""Of a fit; it ends earlier as a rule."""
+"""The maximum number of rounds of a fit; it ends earlier as a rule."""
 FLAT = 0.2
 """Pixels by which the corners of a flat page miss on the average; if they miss by more, bent sheets are tried."""
 SIMPLER = 2.0
@@ -38,11 +38,11 @@ class Surface(Protocol):
     """A shape that paper can have under a camera, with parameters (m,)."""
 
     def project(self, parameters: Numbers, points: Places) -> Places:
-        """Where points (..., n) of the paper [mm] are in the picture [px], for parameters (..., m)."""
+        """Points (..., n) of the paper [mm] as places in the picture [px], for parameters (..., m)."""
         ...
 
     def unproject(self, parameters: Numbers, places: Places) -> Places:
-        """Where places of the picture [px] are on the paper [mm], for parameters (m,)."""
+        """Places of the picture [px] as points of the paper [mm], for parameters (m,)."""
         ...
 
     def prior(self) -> Prior:
@@ -63,7 +63,7 @@ class Sight:
     found: Places
 
     def only(self, kept: NDArray[np.bool_]) -> Sight:
-        """Those of a mask (n,)."""
+        """The tags that a mask (n,) chooses."""
         return Sight(self.points[kept], self.outward[kept], self.found[kept])
 
 
@@ -134,7 +134,7 @@ def _fit(sight: Sight, surface: Surface, starts: Numbers) -> FittedParameters:
 
 
 def _misplaced(sight: Sight, surface: Surface, parameters: Numbers) -> Places:
-    """By how much the corners (..., n, 4) miss [px], for parameters (..., m + 1)."""
+    """The misses of the corners (..., n, 4) [px], for parameters (..., m + 1)."""
     points = sight.points + parameters[..., -1, None, None] * sight.outward
     flat = points.reshape(*points.shape[:-2], -1)
     return surface.project(parameters[..., :-1], flat).reshape(points.shape) - sight.found

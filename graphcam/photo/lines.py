@@ -31,7 +31,7 @@ LONGEST_GAP = 4.0
 LEAST_COVER = 0.6
 """Share of its length on which a line is drawn, to be one."""
 COVER_TO_CROSS = 0.7
-"""The same, for a crossing to be taken from it."""
+"""The share of its length on which a line is drawn, for a crossing to be taken from it."""
 LEAST_ANGLE = 20.0
 """Degrees at which lines cross at least; at less a pencil's width moves the crossing by half a mm."""
 DEGREES = 6
@@ -43,7 +43,7 @@ ALIKE = 14.0
 WIDTHS = (0.8, 0.5, 0.4, 0.4)
 """Half the widths [mm] within which pieces belong to a line, while it is fitted."""
 MOST_SAG = 0.3
-"""By so much [mm] a line may bulge in its middle; more is an arc."""
+"""How far [mm] a line may bulge in its middle; more is an arc."""
 MOST_LINES = 80
 """Lines looked for; a construction of 24 stations has a third of these."""
 FEWEST = 20
@@ -55,7 +55,7 @@ STEP = 0.5
 OF_STRONG, STRONG = 0.3, 80
 """A line is drawn where it has this share of this percentile of its strength."""
 OUTLYING = 0.1
-"""From so many mm on a place counts less for its line: a digit, another line."""
+"""The distance in mm from which on a place counts less for its line: a digit, another line."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class Segment:
 
     @property
     def length(self) -> float:
-        """Between its ends, mm."""
+        """The distance between the ends, mm."""
         return abs(self.end - self.start)
 
 
@@ -80,7 +80,7 @@ class Pieces:
     directions: NDArray[np.float64]
 
     def only(self, kept: NDArray[np.bool_]) -> Pieces:
-        """Some of them."""
+        """The pieces that a mask chooses."""
         return Pieces(self.places[kept], self.directions[kept])
 
 
@@ -97,7 +97,7 @@ def read_lines(ink: Ink, view: PrintedView) -> list[Segment]:
 
 
 def crossing(one: Segment, other: Segment) -> complex:
-    """Where two lines cross, prolonged if need be [mm of paper from the view's origin].
+    """The crossing of two lines, prolonged if need be [mm of paper from the view's origin].
 
     Raises
     ------
@@ -169,7 +169,7 @@ def _straight(pieces: Pieces) -> Iterator[tuple[complex, complex]]:
 
 
 def _votes(pieces: Pieces, middle: complex) -> tuple[NDArray[np.int64], int]:
-    """For which bins of direction and distance each piece votes (n, m), and how many bins of the distance there are."""
+    """The bins of direction and distance for which each piece votes (n, m), and the number of bins of distance."""
     reach = float(np.abs(pieces.places - middle).max()) + 2 * BIN
     bins = 2 * int(np.ceil(reach / BIN)) + 2
     degrees = np.degrees(pieces.directions)[:, None] + np.arange(-DEGREES, DEGREES + 1)

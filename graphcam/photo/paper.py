@@ -29,13 +29,13 @@ half of them, that of a grey picture nothing."""
 BARE_LINES = (5, 35)
 """Percentiles of the brightness on printed lines between which they bear no pencil."""
 PATCH_EDGE = 1.2
-"""At the edge of a patch [mm], where blur mixes it with the paper."""
+"""The width of a patch's edge [mm], where blur mixes it with the paper."""
 PATCH_RING = 1.5
-"""Beside a patch [mm], where bare paper is looked for."""
+"""The width of a ring beside a patch [mm], where bare paper is looked for."""
 PATCH_DENSITY = (0.04, 1.2)
 """Densities that a patch of light print may have: others are a finger, or the edge of the photograph."""
 PATCH_UNEVEN = 0.25
-"""Between the quartiles of a patch, and of the paper about it: more is half covered."""
+"""The difference of the quartiles of a patch, and of the paper about it; a greater one is half covered."""
 GREY = np.ones(3)
 
 
@@ -71,7 +71,7 @@ def ink_of_patches(pictures: Sequence[Raster], page: PrintedPage) -> NDArray[np.
 
 
 def ink_of_lines(soft: Raster, lines: Sequence[NDArray[np.complex128]]) -> NDArray[np.float64] | None:
-    """The same from the printed lines, where they bear no pencil; None where there are none.
+    """The ink measured on the printed lines, where they bear no pencil; None where there are none.
 
     soft : densities (rows, columns, 3), blurred
     """
@@ -105,7 +105,7 @@ def is_coloured(ink: NDArray[np.float64]) -> bool:
 
 
 def lines_mask(lines: Sequence[NDArray[np.complex128]], picture: Raster) -> NDArray[np.uint8]:
-    """Where lines run (rows, columns), one pixel wide: 255 there, else 0."""
+    """A mask of the lines (rows, columns), one pixel wide: 255 there, else 0."""
     mask = np.zeros(picture.values.shape[:2], np.uint8)
     fraction = 4
     for line in lines:

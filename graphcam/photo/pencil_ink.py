@@ -33,11 +33,11 @@ from graphcam.photo.ridges import spread
 BLUR = 0.22
 """All channels are blurred by so much before they are mixed [mm]: print then vanishes a third better."""
 BLUR_PIXELS = 2.0
-"""... and by at least so many pixels of the photograph, as its colours are."""
+"""The minimum blur in pixels of the photograph, as wide as its colours are blurred."""
 CAMERA_PIXEL = 0.112
 """Side of a pixel of the photograph on the paper [mm], if it is not given: A3 at 12 megapixels."""
 BLACK_EDGE = 0.45
-"""About black print [mm], where its blur reaches."""
+"""The width of the margin about black print [mm] that its blur reaches."""
 OF_PRINT = 1.4
 """What is darker than so many times a printed line has been drawn, whatever its colour."""
 PROFILE_BIN = 0.05
@@ -45,9 +45,9 @@ PROFILE_BIN = 0.05
 PROFILE = 1.2
 """Half the width of a printed line's profile [mm]."""
 FLANK = 0.9
-"""From here on the profile is bare paper [mm]."""
+"""The distance from which on the profile is bare paper [mm]."""
 BESIDE_PRINT = 0.8
-"""So near to a printed line [mm] a stroke must be told from what is left of the line."""
+"""The distance from a printed line [mm] within which a stroke must be told from what is left of the line."""
 RESIDUE_STEP = 0.5
 """Places along printed lines [mm] at which is looked what is left of them."""
 

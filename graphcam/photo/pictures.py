@@ -15,9 +15,9 @@ from graphcam.words import say
 
 Pixels = NDArray[np.uint8]
 MOST_PIXELS = 120_000_000
-"""Of a picture, before it is reduced: no telephone makes larger ones."""
+"""The maximum number of pixels before a picture is reduced: no telephone makes larger ones."""
 KEPT_PIXELS = 24_000_000
-"""Of a picture that is read: finer ones tell no more about a pencil line."""
+"""The maximum number of pixels of a picture that is read: finer ones tell no more about a pencil line."""
 UNPACKED = 320_000_000
 """Bytes that a picture may take when it is unpacked, so that all stays within 600 MB."""
 WIDE = 4
@@ -54,7 +54,7 @@ class Photograph:
 
 
 def check_size(width: int, height: int, bytes_a_pixel: int = 1) -> None:
-    """Before a picture is unpacked.
+    """Check the size of a picture before it is unpacked.
 
     Raises
     ------

@@ -38,7 +38,7 @@ class Frame:
 
     @staticmethod
     def of(points: Places, size: tuple[int, int]) -> Frame:
-        """That of places on the paper (n,) [mm], and of a picture of so many columns and rows."""
+        """The frame for places on the paper (n,) [mm], and a picture of so many columns and rows."""
         columns, rows = size
         low, high = complex(points.real.min(), points.imag.min()), complex(points.real.max(), points.imag.max())
         return Frame((low + high) / 2, (high - low) / 2, complex(columns - 1, rows - 1) / 2, max(size) / 2)
@@ -67,7 +67,7 @@ class Plane:
         return np.concatenate([(matrix / matrix[2, 2]).ravel()[:8], np.zeros(4)])
 
     def project(self, parameters: Numbers, points: Places) -> Places:
-        """Where points (..., n) of the paper [mm] are in the picture, for parameters (..., 12)."""
+        """Points (..., n) of the paper [mm] as places in the picture, for parameters (..., 12)."""
         paper = (points - self.frame.middle) / REACH
         a, b, c, d, e, f, g, h = np.moveaxis(parameters[..., :8], -1, 0)[..., None]
         x, y = paper.real, paper.imag
@@ -77,7 +77,7 @@ class Plane:
         return self.frame.centre + self.frame.unit * (middle + bent(straight - middle, parameters[..., 8:10]))
 
     def unproject(self, parameters: Numbers, places: Places) -> Places:
-        """Where places of the picture are on the paper [mm], for parameters (12,)."""
+        """Places of the picture as points of the paper [mm], for parameters (12,)."""
         middle = complex(parameters[10], parameters[11])
         straight = middle + unbent((places - self.frame.centre) / self.frame.unit - middle, parameters[8:10])
         back = np.linalg.inv(np.append(parameters[:8], 1.0).reshape(3, 3))
@@ -88,7 +88,7 @@ class Plane:
 
 
 def bent(straight: Places, lens: Numbers) -> Places:
-    """Where a lens (..., 2) of k1 and k2 puts places (..., n)."""
+    """The places to which a lens (..., 2) of k1 and k2 puts places (..., n)."""
     squared = straight.real**2 + straight.imag**2
     first, second = np.moveaxis(lens, -1, 0)[..., None]
     return straight * (1 + first * squared + second * squared**2)

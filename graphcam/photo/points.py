@@ -39,13 +39,13 @@ DOT = 0.45
 RINGS = (0.75, 1.1)
 """Radii of rings [mm]."""
 HALF_SIDE = 2.2
-"""Of a pattern [mm]."""
+"""Half the side of a pattern [mm]."""
 APART = 2.0
-"""Nearer than so many mm two marks are one."""
+"""The minimum distance of two marks [mm]: nearer ones are one."""
 ENDED = 0.6
 """Share of its strength that an arm of a cross has at most where it should have ended; construction lines run on."""
 ARM_INSIDE, ARM_OUTSIDE = (0.5, 1.2), (2.2, 3.2)
-"""From where to where along an arm, and behind its end, is looked [mm]."""
+"""The spans along an arm, and behind its end, that are looked at [mm]."""
 CORE = (0.05, 0.15, 0.25)
 """Radii [mm] in a dot."""
 SURROUNDINGS = (1.0, 1.2, 1.4)
@@ -53,7 +53,7 @@ SURROUNDINGS = (1.0, 1.2, 1.4)
 OUTSTANDING = 2.15
 """Times the density of the lines about it that a dot has; where lines cross, their densities add to twice."""
 OUTSTANDING_ON_LINE = 1.95
-"""The same, where one line runs through."""
+"""Times the density about it that a dot has where one line runs through."""
 ROUND_RADII = np.arange(0.4, 1.75, 0.1)
 """Radii [mm] at which a ring may lie."""
 ROUND_WITHIN, ROUND_SHARE = 0.25, 0.7
@@ -61,7 +61,7 @@ ROUND_WITHIN, ROUND_SHARE = 0.25, 0.7
 GAP_IN_RING, WHOLE_RING = 0.4, 0.92
 """In that share of directions a ring has at least this part of its usual density: the bowl of a 3 or 5 is open."""
 BEHIND_RING = ((0.45, 0.55, 0.65), (0.75, 0.85, 0.95))
-"""So far outside a ring [mm] is looked what meets it: of a 6, 8 or 9 the rest of the digit."""
+"""How far outside a ring [mm] it is looked what meets it: of a 6, 8 or 9 the rest of the digit."""
 RAY_ABOUT, FAINT_RAY = 0.5, 0.2
 """Shares of a ring's density that such a line has, and a ray that goes on."""
 RADIAL, OPPOSITE = np.radians(14.0), np.radians(25.0)
@@ -83,7 +83,7 @@ class PointReading:
 
     @property
     def sure(self) -> NDArray[np.bool_]:
-        """Which (n,) are marks wherever they are drawn; of the others somebody knows that a mark may be there."""
+        """Flags (n,) of marks wherever they are drawn; of the others somebody knows that a mark may be there."""
         return self.scores > np.array([LEAST_SCORES[kind] for kind in self.kinds])
 
 
@@ -125,7 +125,7 @@ def read_points(ink: Ink, view: PrintedView, less: float = 0.0) -> PointReading:
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """Where something looks like a mark: its correlation, its place on the page, and the pattern."""
+    """Places that look like marks: correlation, place on the page, and pattern."""
 
     score: float
     place: complex
@@ -238,7 +238,7 @@ def _pattern(kind: Mark, turn: float, shape: NDArray[np.float64], room: NDArray[
 
 
 def _correlations(picture: Raster, faintest: float) -> dict[Mark, tuple[NDArray[np.float32], NDArray[np.int8]]]:
-    """Of each kind the best correlation at each pixel (rows, columns), and the number of its pattern."""
+    """For each kind the best correlation at each pixel (rows, columns), and the number of its pattern."""
     density = picture.values
     best: dict[Mark, tuple[NDArray[np.float32], NDArray[np.int8]]] = {}
     window, spread = np.zeros(0), density
@@ -260,7 +260,7 @@ def _correlations(picture: Raster, faintest: float) -> dict[Mark, tuple[NDArray[
 
 
 def _refined(score: NDArray[np.float32], row: int, column: int) -> tuple[float, float]:
-    """By how much the summit of the correlation lies below and right of its pixel, from its neighbours."""
+    """How far the summit of the correlation lies below and right of its pixel, from its neighbours."""
     if not (0 < row < score.shape[0] - 1 and 0 < column < score.shape[1] - 1):
         return 0.0, 0.0
     return _summit(score[row - 1 : row + 2, column]), _summit(score[row, column - 1 : column + 2])

@@ -74,7 +74,7 @@ class PrintedPage:
     seam: float | None = None
 
     def to_json(self) -> str:
-        """As text."""
+        """The page as JSON text."""
         said = {name: getattr(self, name) for name in ("code", "width", "height", "tag_side", "patch_side", "ink")}
         said |= {"format": FORMAT, "seam": self.seam, "black": self.black, "patches": _pairs(self.patches)}
         said["tags"] = {str(number): _pair(corner) for number, corner in self.tags.items()}

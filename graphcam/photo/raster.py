@@ -64,7 +64,7 @@ class Raster:
         return Raster(values, self.left, self.top, self.per_mm)
 
     def reduced(self, per_mm: float) -> Raster:
-        """The same part with fewer pixels, each the mean of what it covers."""
+        """The raster with fewer pixels, each the mean of what it covers."""
         # Filled up at its right and lower edges, so that the new pixels fit a whole number of times.
         whole = Fraction(per_mm / self.per_mm).limit_denominator(64).denominator
         rows, columns = (-length % whole for length in self.values.shape[:2])

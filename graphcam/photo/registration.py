@@ -30,12 +30,12 @@ MOST_DOUBT = 0.5
 GRID = 7
 """Points of a view each way for which the doubt is looked at."""
 OUTWARD = np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j])
-"""From the middle of a tag to its corners, in their order."""
+"""Directions from the middle of a tag to its corners, in their order."""
 
 
 @dataclass(frozen=True, eq=False)
 class Registration:
-    """Where the paper is in a picture.
+    """The place of the paper in a picture.
 
     kind : what shape the paper has
     residual : by how much the tags' corners miss [px], root of the mean square
@@ -56,18 +56,18 @@ class Registration:
     growth: float
 
     def pixels(self, points: Places | complex) -> Places:
-        """Where points of the paper (...) [mm] are in the picture [px]."""
+        """Points of the paper (...) [mm] as places in the picture [px]."""
         given = np.asarray(points, complex)
         return self.surface.project(self.parameters, given.ravel()).reshape(given.shape)
 
     def millimetres(self, places: Places | complex) -> Places:
-        """Where places of the picture (...) [px] are on the paper [mm]."""
+        """Places of the picture (...) [px] as points of the paper [mm]."""
         given = np.asarray(places, complex)
         return self.surface.unproject(self.parameters, given.ravel()).reshape(given.shape)
 
 
 def register(tags: Tags, page: PrintedPage, size: tuple[int, int], focal: float | None = None) -> Registration:
-    """Where a page is in a picture; of a page on two sheets, where the one is that is seen better.
+    """The registration of a page in a picture; of a page on two sheets, of the one that is seen better.
 
     size : columns and rows of the picture
     focal : length of the lens [px], None if it is not known
@@ -187,7 +187,7 @@ def _grid(room: Edges) -> Places:
 
 
 def _doubt(laid: Laid, points: Places) -> float:
-    """By how much points (n,) may be misplaced [mm], the worst of them: the spread that the corners' misses leave."""
+    """How far points (n,) may be misplaced [mm], the worst of them: the spread that the corners' misses leave."""
     parameters, project = laid.fit.parameters[:-1], laid.surface.project
     count = len(parameters)
     step = 1e-5

@@ -16,9 +16,9 @@ from graphcam.photo.refusal import PhotographError
 from graphcam.words import say
 
 POINTS = 72.0
-"""An inch."""
+"""Points of an inch."""
 DPI = 300.0
-"""Of a page that is more than one picture."""
+"""The resolution of a page that is more than one picture."""
 WHOLE = 0.9
 """The part of a page that its one picture covers at least."""
 NESTED = 8

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 CELLS = 8
-"""Of a tag in either direction, its border included."""
+"""The number of cells of a tag in either direction, its border included."""
 COUNT = 48
 """Tags that are known, numbered from 0."""
 _INSIDE = CELLS - 2
@@ -25,7 +25,7 @@ _CODES = (
 
 
 def dark_cells(number: int) -> NDArray[np.bool_]:
-    """Which cells (8, 8) of a tag are black, the rows from above.
+    """Flags (8, 8) of the black cells of a tag, the rows from above.
 
     Raises
     ------

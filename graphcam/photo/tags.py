@@ -16,18 +16,18 @@ from graphcam.photo.light import LINEAR
 from graphcam.photo.tag_family import CELLS, COUNT, dark_cells
 
 Places = NDArray[np.complex128]
-"""Of a picture, in pixels."""
+"""Places of a picture, in pixels."""
 Grey = NDArray[np.uint8]
 SEARCHED = 2000
 """Pixels along the longer side of the picture in which tags are looked for; corners are then found in all of it."""
 SMALLEST = 0.02
 """The circumference of a tag, as a share of the picture's longer side: 10 pixels a side."""
 MOST_SQUARES = 400
-"""Of what may be a tag; the largest are looked at."""
+"""The maximum number of squares that may be tags; the largest are looked at."""
 MOST_WRONG = 3
 """Cells of a tag; any two tags differ in eleven at least."""
 ALONG = np.linspace(0.08, 0.92, 49)
-"""Where the edges are looked at: not where another one is near."""
+"""Fractions of an edge at which it is looked at: not where another one is near."""
 REACH = 0.7
 """Cells to both sides of an edge that are looked at: the rim is one wide, and so is the white around it."""
 LOOKS = 24
@@ -39,7 +39,7 @@ LEVELS = np.array([0.2, 0.5, 0.8])
 _UNIT = np.array([[0, 1], [1, 1], [1, 0], [0, 0]], np.float32)
 """The corners of a square as those of a tag go round, rows down."""
 LEAST_CONTRAST = 0.08
-"""Of white over black, in parts of all light."""
+"""The minimum contrast of white over black, in parts of all light."""
 LEAST_SEEN = 0.6
 """The part of an edge that must be seen: a finger may hide the rest."""
 
@@ -62,7 +62,7 @@ class Tags:
         return len(self.numbers)
 
     def only(self, kept: NDArray[np.bool_]) -> Tags:
-        """Those of a mask (n,)."""
+        """The tags that a mask (n,) chooses."""
         widths = None if self.widths is None else self.widths[kept]
         return Tags(self.numbers[kept], self.corners[kept], widths)
 
@@ -90,7 +90,7 @@ def find_tags(grey: Grey) -> Tags:
 
 
 def _squares(grey: Grey) -> Places:
-    """About the black squares (n, 4), and others: their corners against the clock on the paper, from any of them on."""
+    """Black squares (n, 4), and others: their corners against the clock on the paper, from any of them on."""
     shrink = max(1.0, max(grey.shape) / SEARCHED)
     small = cv2.resize(grey, None, fx=1 / shrink, fy=1 / shrink, interpolation=cv2.INTER_AREA) if shrink > 1 else grey
     tags, _, others = _detector().detectMarkers(small)
@@ -193,7 +193,7 @@ def _sampled(grey: Grey, places: Places) -> NDArray[np.float64] | None:
 def _crossings(
     parts: NDArray[np.float64], across: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Where profiles (..., k) pass each level for the last time before they are white, and whether they do."""
+    """Where profiles (..., k) pass each level for the last time before they are white, and whether they do so."""
     places, crossed = [], []
     for level in LEVELS:
         above = parts >= level
@@ -224,7 +224,7 @@ def _line(offsets: NDArray[np.float64], seen: NDArray[np.bool_]) -> tuple[float,
 
 
 def _meeting(start: Places, end: Places, other_start: Places, other_end: Places) -> Places:
-    """Where lines through two points each meet."""
+    """The crossing of lines through two points each."""
     way, other = end - start, other_end - other_start
     turned = (other_start - start) * other.conj()
     return start + way * turned.imag / (way * other.conj()).imag

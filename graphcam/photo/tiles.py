@@ -59,15 +59,15 @@ class Moved:
     shift: complex
 
     def project(self, parameters: Numbers, points: Places) -> Places:
-        """Where points of the paper are in the picture."""
+        """Points of the paper as places in the picture."""
         return self.surface.project(parameters, (points - self.shift) / self.turn)
 
     def unproject(self, parameters: Numbers, places: Places) -> Places:
-        """Where places of the picture are on the paper."""
+        """Places of the picture as points of the paper."""
         return self.surface.unproject(parameters, places) * self.turn + self.shift
 
     def prior(self) -> Prior:
-        """That of the surface."""
+        """The prior of the surface's parameters."""
         return self.surface.prior()
 
 

@@ -105,7 +105,7 @@ def track_of(way: BestWay, grid: Grid, evidence: Evidence, ink: Ink) -> Track:
 
 
 def steps(path: Points, wraps: bool) -> Points:
-    """From the middle before each station (n,) to the middle behind it.
+    """The way (n,) from the middle before each station to the middle behind it.
 
     >>> steps(np.array([0j, 1, 3]), wraps=False).tolist()
     [(1+0j), (1.5+0j), (2+0j)]
@@ -114,7 +114,7 @@ def steps(path: Points, wraps: bool) -> Points:
 
 
 def seen_on(track: Track, evidence: Evidence, ink: Ink, wraps: bool) -> Flags:
-    """At which stations (n,) a line is seen; elsewhere nothing is said."""
+    """Flags (n,) of the stations at which a line is seen; elsewhere nothing is known."""
     least = max(SURE * evidence.noise, OF_STRONG * track.strong, FAINTEST)
     beside_print = max(least, OF_RESIDUE * ink.residue)
     enough = track.answers > np.where(track.beside, beside_print, least)

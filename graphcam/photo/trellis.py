@@ -56,7 +56,7 @@ def best_way(rewards: Rewards, wraps: bool) -> BestWay:
 
 
 def _best(rewards: Rewards, stations: NDArray[np.int64]) -> BestWay:
-    """Of the stations in this order."""
+    """The best way through the stations in this order."""
     _, states, slopes = rewards.shape
     value = np.zeros((slopes, states), np.float32)
     blocks = np.split(stations, np.arange(BLOCK, stations.size, BLOCK))

@@ -13,7 +13,7 @@ from graphcam.photo.tracks import SHORTEST_RUN, Track
 REACH = 2.2
 """Half the profile [mm] in which a second crest is looked for."""
 STEP = 0.1
-"""Of the profile [mm]."""
+"""The step along the profile [mm]."""
 CENTRAL = 0.7
 """The curve's own crest lies so near to its path [mm]."""
 NEAREST = 0.55

@@ -13,13 +13,13 @@ from graphcam.plots.motion_curves import ACROSS, GAP
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
 
 SIZE = 7.0, 7.5
-"""Of a new figure [inches]."""
+"""The size of a new figure [inches]."""
 SYMBOLS = "s", "v", "a"
 OF_RANGE = 0.12
 """The widest place of a band is drawn about so many times as high as the nominal curve ranges."""
 ROUND = 1.0, 2.0, 5.0, 10.0
 BEFORE = -0.12
-"""Where the names of the axes stand, as a part of the diagrams' width."""
+"""The place of the names of the axes, as a part of the diagrams' width."""
 
 
 def plot(bands: MotionBands, on: Axes | Figure | None = None) -> Axes:

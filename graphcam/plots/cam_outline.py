@@ -13,9 +13,9 @@ from graphcam.plots.figures import axes_on
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
 
 SIZE = 6.0, 6.5
-"""Of a new figure [inches]."""
+"""The size of a new figure [inches]."""
 POINTS = 181
-"""Of each curve between two breaks."""
+"""The number of points of each curve between two breaks."""
 BELOW = 0.22
 """Room for the legend, as a part of the cam's height."""
 FACE = 0.5

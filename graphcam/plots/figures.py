@@ -11,7 +11,7 @@ from matplotlib.figure import Figure, FigureBase
 from graphcam.showing import Shown
 
 WIDEST = 12.0
-"""Of a new figure [inches]: a larger drawing is shown reduced."""
+"""The maximum width of a new figure [inches]: a larger drawing is shown reduced."""
 
 
 def axes_on(on: Axes | FigureBase | None, width: float, height: float) -> Axes:

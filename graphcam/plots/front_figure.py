@@ -10,7 +10,7 @@ from graphcam.sweeps.front import ANGLE, SIZE
 from graphcam.sweeps.sweep import Columns
 
 INCHES = 6.4, 4.2
-"""Of the figure."""
+"""The size of the figure [inches]."""
 
 
 def front_figure(front: Columns, limit: float) -> Figure:

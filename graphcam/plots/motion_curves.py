@@ -18,13 +18,13 @@ CURVES = (("lift s", BLACK), ("v = ds/dφ", CURRENT), ("a = dv/dφ", ACCENT), ("
 """What the axes say, and the colour of the curve, from the top."""
 ACROSS = "cam angle φ, degrees\ns in mm, of an arm in rad; v, a and j per rad of cam angle"
 SIZE = 7.0, 7.0
-"""Of a new figure [inches]."""
+"""The size of a new figure [inches]."""
 POINTS = 61
-"""Of each curve between two breaks."""
+"""The number of points of each curve between two breaks."""
 GAP = 0.03
-"""Between two diagrams, as a part of the axes."""
+"""The gap between two diagrams, as a part of the axes."""
 BEFORE = -0.125
-"""Where the names of the axes stand, as a part of the diagram's width."""
+"""The place of the names of the axes, as a part of the diagram's width."""
 BESIDE, UPRIGHT = 28.0, 8.0
 """A phase of at least so many degrees has room for its name, one of at least so many for its name turned."""
 

@@ -15,13 +15,13 @@ from graphcam.plots.motion_curves import GAP
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
 
 SIZE = 7.0, 5.0
-"""Of a new figure [inches]."""
+"""The size of a new figure [inches]."""
 PER_PERIOD, FEWEST = 24, 400
 """Points of a curve in a natural period, and in all."""
 AFTER = 0.6, 3.0
-"""So many times of the rise are shown after it, or so many natural periods, whichever is longer."""
+"""The time shown after the rise: rise times, or natural periods, whichever is longer."""
 BEFORE = -0.11
-"""Where the names of the axes stand, as a part of the diagrams' width."""
+"""The place of the names of the axes, as a part of the diagrams' width."""
 
 
 def plot(shown: FollowerResponse | VibratingFollower, on: Axes | Figure | None = None) -> Axes:
@@ -44,7 +44,7 @@ def plot(shown: FollowerResponse | VibratingFollower, on: Axes | Figure | None =
 
 
 def _response(response: FollowerResponse, upper: Axes, lower: Axes) -> None:
-    """Over the time: where the cam is and where the mass is, and their accelerations."""
+    """Plot over the time where the cam is and where the mass is, and their accelerations."""
     end = response.event.end
     until = end + max(AFTER[0], AFTER[1] / response.n)
     u = np.linspace(0, until, FEWEST + round(PER_PERIOD * response.n * until))
@@ -71,7 +71,7 @@ def _response(response: FollowerResponse, upper: Axes, lower: Axes) -> None:
 
 
 def _turn(follower: VibratingFollower, upper: Axes, lower: Axes) -> None:
-    """Over the turn: the cam's and the mass's acceleration, and the force on the cam."""
+    """Plot over the turn the cam's and the mass's acceleration, and the force on the cam."""
     phi = _dense(follower)
     found = follower(phi)
     degrees = np.degrees(phi)

@@ -11,11 +11,11 @@ from graphcam.plots.figures import axes_on
 from graphcam.sheets.styles import ACCENT, BLACK, GREY
 
 SIZE = 7.0, 4.2
-"""Of a new figure [inches]."""
+"""The size of a new figure [inches]."""
 BELOW = -0.16
-"""Where the legend begins, as a part of the diagram's height."""
+"""The place where the legend begins, as a part of the diagram's height."""
 ROOM = 1.05
-"""Of the highest value, so high the axes are."""
+"""The height of the axes, as a multiple of the highest value."""
 FEW = 3
 """Fewer ratios are points and no curve."""
 DECADES = 2.0

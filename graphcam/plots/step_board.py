@@ -27,7 +27,7 @@ WIDEST, HIGHEST = 230.0, 175.0
 MARGIN = 5.0
 """Free margin around a drawing, where its outermost labels find room [mm]."""
 GAP = 8.0
-"""Between views [mm]."""
+"""The gap between views [mm]."""
 LYING = 1.1
 """Views that share no axis are laid out in columns, so that all are at most about so many times as wide as high."""
 
@@ -61,7 +61,7 @@ class StepBoard:
 
     @property
     def origin(self) -> complex:
-        """Where the origin of the first view lies on the page [mm]."""
+        """The place of the first view's origin on the page [mm]."""
         return -self._box.corner
 
     @cached_property
@@ -85,7 +85,7 @@ class StepBoard:
 
     @cached_property
     def _titles(self) -> tuple[Entity, ...]:
-        """Of several views; a single one is named beside the drawing."""
+        """The titles of several views; a single one is named beside the drawing."""
         titles = (e for panel, at in self._placed.values() for e in panel.title(self.origin + at))
         return tuple(titles) if self._titled else ()
 

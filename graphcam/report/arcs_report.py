@@ -9,14 +9,14 @@ from graphcam.constructions.axes import turning
 from graphcam.given.angular_velocity import omega_of
 from graphcam.given.laws import Floats
 from graphcam.mechanism.arcs import ThreeArcCam
-from graphcam.report.markdown import blocks, number, table
+from graphcam.report.markdown import Block, Grid, number
 from graphcam.report.note import (
     against_exact,
     constructions,
     drawn_how,
     errors_of_the_hand,
     heading,
-    markdown_table,
+    of_sheet,
     told_jumps,
     whole_note,
 )
@@ -100,7 +100,7 @@ def arcs_note(solution: ArcsSolution) -> str:
     >>> "C1, F, C3 instead of F, C1, C3" in arcs_note(gc.solve(gc.builtin_arcs_task()))
     True
     """
-    case, tell = solution.task.arcs().design_case, solution.tell
+    case = solution.task.arcs().design_case
     designed = say(
         "The flank of a disk cam is to consist of three circular arcs: AG about C2, GF about C3 and FD about C1. It is "
         "the design case {case} of Lanni, Ceccarelli and Figliolini (2002): {told}. The cam moves a central "
@@ -108,13 +108,12 @@ def arcs_note(solution: ArcsSolution) -> str:
         case=case,
         told=CASES[case],
     )
-    data, pencil = markdown_table(_data(solution), tell), drawn_how(solution.chain.pencil)
-    head = blocks(heading(solution.task.title, solution.task.drawing), designed, data, pencil, tell=tell)
-    jumps = told_jumps(solution.motion.jumps, "a", "mm/rad²", tell)
+    paper = heading(solution.task.title, solution.task.drawing)
+    head = [*paper, designed, of_sheet(_data(solution)), drawn_how(solution.chain.pencil)]
     chapters = [
         *constructions(solution),
         (say("Both roots"), _roots(solution)),
-        (say("Kind of impact"), f"{tell(IMPACT)} {jumps}"),
+        (say("Kind of impact"), [IMPACT, told_jumps(solution.motion.jumps, "a", "mm/rad²")]),
         (say("Values at the stations"), _stations(solution)),
         (say("Drawn against exact"), against_exact(solution)),
         *errors_of_the_hand(solution),
@@ -122,24 +121,23 @@ def arcs_note(solution: ArcsSolution) -> str:
     return whole_note(head, chapters, solution)
 
 
-def _roots(solution: ArcsSolution) -> str:
+def _roots(solution: ArcsSolution) -> list[Block]:
     """Both roots, exactly, and why one of them is taken."""
-    tell, (first, second) = solution.tell, solution.roots
+    first, second = solution.roots
     rows = [_root(say("first"), first), _root(say("second"), second)]
     why = say("- The first root: {why}", why=first.reason), say("- The second root: {why}", why=second.reason)
-    return blocks(
-        say("Two circles about points of the line G C2 touch the circle about C1. Their exact sizes are:"),
-        table((say("root"), "C3", "F", "ρ₃", say("valid")), rows, tell),
+    return [
+        say("Two circles about points of the line G C2 touch the circle about C1."),
+        Grid(say("Both roots, exactly"), (say("root"), "C3", "F", "ρ₃", say("valid")), rows),
         sequence(why, "\n"),
-        tell=tell,
-    )
+    ]
 
 
 def _root(name: Caption, root: ThreeArcCam) -> tuple[Words, ...]:
     return name, _xy(root.C3), _xy(root.F), _radius(root.rho3), say("yes") if root.sound else say("no")
 
 
-def _stations(solution: ArcsSolution) -> str:
+def _stations(solution: ArcsSolution) -> list[Block]:
     phi, values, alpha, _ = solution.comparison.exact_stations
     drawn = solution.comparison.drawn_stations
     columns = [(name, drawn[name], exact, 3) for name, exact in zip("sva", values, strict=False)]
@@ -148,5 +146,4 @@ def _stations(solution: ArcsSolution) -> str:
         "Displacement s in mm, velocity v in mm/rad, acceleration a in mm/rad² and pressure angle α in degrees "
         "on the rise. Where two arcs meet, the station is listed twice, once for each arc."
     )
-    stations = station_table(solution.chain.stations.names, phi, columns, solution.tell)
-    return blocks(said, stations, tell=solution.tell)
+    return [said, station_table(solution.chain.stations.names, phi, columns)]

@@ -4,6 +4,7 @@ from graphcam.report.arcs_report import arcs_contents, arcs_note
 from graphcam.report.given_profile_scale import check_profile_hopeful, check_profile_size
 from graphcam.report.mechanism_scene import MechanismScene, arcs_scene, cam_scene
 from graphcam.report.note import note
+from graphcam.report.note_page import note_page
 from graphcam.report.sheet_contents import Contents, motion_contents
 from graphcam.sheets.layout import compose_parts
 from graphcam.sheets.model import Drawing
@@ -65,6 +66,11 @@ def contents_of(solution: AnySolution) -> Contents:
 def note_of(solution: AnySolution) -> str:
     """The note in Markdown."""
     return arcs_note(solution) if isinstance(solution, ArcsSolution) else note(solution)
+
+
+def note_page_of(solution: AnySolution) -> str:
+    """The note as a page that prints."""
+    return note_page(note_of(solution), solution.task.drawing.language)
 
 
 def scene_of(solution: AnySolution) -> MechanismScene:

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 
 import numpy as np
 
+from graphcam.drafting import units
 from graphcam.drafting.acts import Act, Drawn, Floats, Kind, Setting
 from graphcam.drafting.euclid import unit
 from graphcam.drafting.moves import ActPlaces
@@ -124,7 +125,8 @@ def _source(length: object, amount: float) -> Caption | None:
         return None
     if length.value is not None:
         scale = float(np.ravel(length.reading.scale)[0])
-        return say("{value:.6g} {unit} : {scale:.5g}", value=abs(length.value), unit=length.reading.unit, scale=scale)
+        said = say("{value:.6g} {unit} : {scale:.5g}")
+        return said.where(value=abs(length.value), unit=units.unit(length.reading.unit), scale=scale)
     factor = abs(float(np.ravel(length.factor)[0]))
     return say("{paper:.2f} mm × {factor:.4g}", paper=amount / factor, factor=factor) if factor != 1 else None
 

@@ -1,12 +1,27 @@
-"""Markdown: numbers, texts and tables as a note prints them."""
+"""Markdown: numbers, texts, numbered formulas and tables as a note prints them."""
 
 import math
 import re
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import count
+from typing import Any
 
 from graphcam.indices import in_html
-from graphcam.language import MINUS
+from graphcam.language import MINUS, SUPERSCRIPTS
 from graphcam.words import Caption, Tell, Words, say, sequence
+
+FINEST_READING = 0.01
+"""What is told of a length on paper [mm]."""
+
+
+def digits(per_mm: float) -> int:
+    """As many decimals as the finest reading on paper has in the machine.
+
+    >>> digits(0.48), digits(2.0), digits(500.0)
+    (3, 2, 0)
+    """
+    return max(0, math.ceil(-math.log10(FINEST_READING * per_mm)))
 
 
 def number(value: float, digits: int = 2, *, sign: bool = False) -> Caption:
@@ -29,6 +44,16 @@ def numbers(**values: float) -> dict[str, Caption]:
     return {name: number(float(value)) for name, value in values.items()}
 
 
+def general(value: float, digits: int = 6) -> Caption:
+    """A number with so many digits, without needless zeros."""
+    return say("{value:.{digits}g}", value=value, digits=digits)
+
+
+def warning(sentence: Words) -> Caption:
+    """A sentence that must not be overlooked."""
+    return say("**{sentence}**", sentence=sentence)
+
+
 def text(plain: str) -> str:
     """A text of the user's, so that nothing in it is taken for markup.
 
@@ -46,37 +71,87 @@ def printed(note: str) -> str:
 
     There a decimal comma would be followed by a gap but for its braces.
 
-    >>> printed("φ_у = 1,5, $r = −1,5$ mm, \\\\$2,5")
-    'φ<sub>у</sub> = 1,5, $r = -1{,}5$ mm, \\\\$2,5'
+    >>> printed("φ_у = 1,5, $r = −1,5·10⁵$ mm, \\\\$2,5")
+    'φ<sub>у</sub> = 1,5, $r = -1{,}5 \\\\cdot 10^{5}$ mm, \\\\$2,5'
     """
     return "".join(_in_tex(part) if k % 2 else in_html(part) for k, part in enumerate(FORMULA.split(note)))
 
 
 def _in_tex(tex: str) -> str:
-    return re.sub(r"(?<=\d),(?=\d)", "{,}", tex).replace(MINUS, "-")
+    tex = re.sub(r"(?<=\d),(?=\d)", "{,}", tex).replace(MINUS, "-")
+    raised = {high: low for low, high in zip("0123456789-", SUPERSCRIPTS, strict=True)}
+    power = rf"·10([{SUPERSCRIPTS}]+)"
+    return re.sub(power, lambda found: f" \\cdot 10^{{{''.join(raised[c] for c in found[1])}}}", tex)
 
 
-def formula(tex: str, **values: Words) -> Caption:
+def formula(tex: str, **values: Any) -> Caption:
     r"""A formula in TeX, which keeps its braces to itself: a value stands where its name does in angle brackets.
 
-    >>> str(formula("$\\frac{<s>}{2}$", s=number(3)))
+    >>> str(formula("$\\frac{<s:.2f>}{<n>}$", s=3, n="2"))
     '$\\frac{3.00}{2}$'
     """
-    parts = re.split(r"<(\w+)>", tex)
-    return sequence([values[part] if k % 2 else part for k, part in enumerate(parts)], "")
+    parts = re.split(r"<(\w+)(:[^<>]+)?>", tex)
+    told: list[Words] = []
+    for literal, name, form in zip(parts[::3], [*parts[1::3], ""], [*parts[2::3], None], strict=True):
+        told += [literal, *([_value(values[name], form)] if name else [])]
+    return sequence(told, "")
 
 
-def blocks(*parts: Words, tell: Tell = str) -> str:
-    """Paragraphs, tables and formulas one under the other; empty ones are left out.
+def _value(value: Any, form: str | None) -> Words:
+    if form is None or isinstance(value, str | Caption):
+        return value if isinstance(value, str | Caption) else say("{value}", value=value)
+    if not math.isfinite(value):
+        return say("–")
+    if form.endswith("f"):
+        return number(value, int(form[2:-1]))
+    return Caption("{value" + form + "}", {"value": value + 0.0})
 
-    >>> blocks("One.", "", say("Two."))
-    'One.\\n\\nTwo.'
+
+@dataclass(frozen=True)
+class Equation:
+    """A formula on a line of its own that gets a number; ``tex`` without dollars."""
+
+    tex: Words
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A table that gets a number, with its title; of words all columns stand to the left."""
+
+    title: Words
+    header: Sequence[Words]
+    rows: Iterable[Sequence[Words]]
+    of_words: bool = False
+
+
+Block = Words | Equation | Grid
+"""A paragraph, a formula or a table."""
+
+
+def blocks(*parts: Block, tell: Tell = str) -> str:
+    """Paragraphs, tables and formulas one under the other, these two with their numbers; empty ones are left out.
+
+    >>> blocks("One.", "", Equation("x = 1"), say("Two."))
+    'One.\\n\\n$$x = 1 \\\\tag{1}$$\\n\\nTwo.'
     """
-    return "\n\n".join(tell(part) for part in parts if part)
+    formulas, tables = count(1), count(1)
+
+    def told(block: Block) -> str:
+        """A block with its number."""
+        if isinstance(block, Equation):
+            return f"$${tell(block.tex)} \\tag{{{next(formulas)}}}$$"
+        if isinstance(block, Grid):
+            title = say("Table {number}. {title}", number=next(tables), title=block.title)
+            return f"*{tell(title)}*\n\n{table(block.header, block.rows, tell, of_words=block.of_words)}"
+        return tell(block)
+
+    return "\n\n".join(told(part) for part in parts if part)
 
 
-def table(header: Sequence[Words], rows: Iterable[Sequence[Words]], tell: Tell = str) -> str:
+def table(header: Sequence[Words], rows: Iterable[Sequence[Words]], tell: Tell = str, *, of_words: bool = False) -> str:
     """A table: the first column to the left, the others to the right, every column as wide as its widest cell.
+
+    of_words : all columns to the left
 
     >>> print(table(("law", "C"), [("cosine", "4.93"), ("2-3", "6")]))
     | law    |    C |
@@ -87,10 +162,16 @@ def table(header: Sequence[Words], rows: Iterable[Sequence[Words]], tell: Tell =
     told = [[tell(cell) for cell in row] for row in (header, *rows)]
     widths = [max(3, *(len(row[k]) for row in told)) for k in range(len(header))]
 
-    def line(cells: Sequence[str]) -> str:
-        """A row, the first cell to the left and the others to the right."""
-        first, *rest = zip(cells, widths, strict=True)
-        return "| " + " | ".join([f"{first[0]:<{first[1]}}", *(f"{cell:>{width}}" for cell, width in rest)]) + " |"
+    sides = ["<", *((">", "<")[of_words] for _ in widths[1:])]
 
-    ruler = [":" + "-" * (widths[0] - 1), *("-" * (width - 1) + ":" for width in widths[1:])]
-    return "\n".join([line(told[0]), line(ruler), *(line(row) for row in told[1:])])
+    def line(cells: Sequence[str]) -> str:
+        """A row, every cell at its side."""
+        return (
+            "| " + " | ".join(f"{c:{side}{width}}" for c, side, width in zip(cells, sides, widths, strict=True)) + " |"
+        )
+
+    rules = (
+        ":" + "-" * (width - 1) if side == "<" else "-" * (width - 1) + ":"
+        for side, width in zip(sides, widths, strict=True)
+    )
+    return "\n".join([line(told[0]), line([*rules]), *(line(row) for row in told[1:])])

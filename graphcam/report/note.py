@@ -1,42 +1,55 @@
-"""The coursework note: the calculation that goes with the sheet, in Markdown."""
+"""The coursework note that goes with the sheet, in Markdown: the steps as prose, then tables and conclusions."""
 
 import math
-from collections.abc import Iterator, Sequence
-from itertools import groupby
+from collections.abc import Callable, Mapping, Sequence
 
 from graphcam.comparison.bounds import CHANGE_TO_ERROR, DEVIATIONS, FINER, HANDS
 from graphcam.comparison.speed import PER_SPEED
 from graphcam.constructions.axes import phase_title
-from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.units import unit
 from graphcam.given.angular_velocity import omega_of
 from graphcam.given.impact import Jump, acceleration_jumps, velocity_jumps
 from graphcam.given.motion import Moving
 from graphcam.report.budget_table import budget_table
+from graphcam.report.cautions import CAUTIONS
+from graphcam.report.chapters import Known, chapter
 from graphcam.report.conditions_table import conditions
-from graphcam.report.markdown import blocks, formula, number, numbers, printed, table, text
+from graphcam.report.loads import contact, contact_stress, forces
+from graphcam.report.making import errors_of_making
+from graphcam.report.markdown import (
+    Block,
+    Equation,
+    Grid,
+    blocks,
+    formula,
+    general,
+    number,
+    numbers,
+    printed,
+    text,
+    warning,
+)
 from graphcam.report.note_tables import at_stations, compared, polar_coordinates
-from graphcam.report.paragraphs import as_drawn, general, warning
-from graphcam.report.sheet_contents import all_drawn, chapter_numbers, chapters_of, steps_of
+from graphcam.report.sheet_contents import all_drawn
 from graphcam.report.sheet_data import ADOPTED, AT_SPEED, data, phases, sizes
-from graphcam.report.stress_paragraphs import contact_stress
-from graphcam.report.tolerance_paragraphs import errors_of_making
 from graphcam.sheets.tables import Table
-from graphcam.showing import from_above
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
 from graphcam.solving.stress_design import STRESS_MEANING
 from graphcam.solving.tolerance_design import TOLERANCE_MEANING
 from graphcam.tasks.sheet_tables import SheetTable, TitleTable
-from graphcam.words import Caption, Tell, joined, say, sequence
+from graphcam.words import Caption, joined, say, sequence
+
+Chapter = tuple[Caption, Sequence[Block]]
+"""Title and content of a chapter."""
 
 
 def note(solution: Solution) -> str:
     """The note in Markdown, with formulas in LaTeX.
 
     >>> import graphcam as gc
-    >>> "the prime radius is adopted as $r_0 = 44$ mm" in note(gc.solve(gc.builtin_task()))
+    >>> "Round the minimum radius, 43.28 mm, up to r₀ = 44 mm." in note(gc.solve(gc.builtin_task()))
     True
     """
     chapters = constructions(solution)
@@ -46,64 +59,64 @@ def note(solution: Solution) -> str:
         chapters.append((TOLERANCE_MEANING.title, errors_of_making(solution)))
     if solution.task.speed_rpm:
         chapters.append((say("Times, velocities and accelerations"), _at_speed(solution)))
-    chapters.append((say("Kind of impact"), _impact(solution)))
     chapters += [
+        (say("Kind of impact"), _impact(solution)),
         (say("Result"), _result(solution)),
         (say("Values at the stations"), at_stations(solution)),
         (say("Polar coordinates"), polar_coordinates(solution)),
         (say("Drawn against exact"), against_exact(solution)),
         *errors_of_the_hand(solution),
     ]
-    head = blocks(
-        heading(solution.task.title, solution.task.drawing), drawn_how(solution.chain.pencil), tell=solution.tell
-    )
+    head = [*heading(solution.task.title, solution.task.drawing), drawn_how(solution.chain.pencil)]
     return whole_note(head, chapters, solution)
 
 
-def whole_note(head: str, chapters: Sequence[tuple[Caption, str]], solution: AnySolution) -> str:
-    """Head, numbered chapters, and the appendix with what is said of all steps."""
-    tell = solution.tell
-    numbered = [f"## {k}. {tell(title)}\n\n{said}" for k, (title, said) in enumerate(chapters, 1)]
-    drawn = [tell(say("## Appendix: how it was drawn")), *_steps(solution)]
-    return printed(blocks(head, *numbered, *drawn) + "\n")
-
-
-def _steps(solution: AnySolution) -> Iterator[str]:
-    """What is done in every step, and why, by the numbers that the steps have on every page."""
-    tell, drawn = solution.tell, all_drawn(solution)
-    steps = steps_of(drawn)
-    numbers, chapters = chapter_numbers(steps), chapters_of(drawn)
-    for name, of_one in groupby(steps, key=lambda step: step[1]):
-        lines = [f"- *{numbers[k]} {tell(step.title)}.* {tell(step.caption)} {tell(step.why)}" for k, _, step in of_one]
-        yield f"### {chapters[name]}. {tell(drawn[name].meaning.title)}"
-        yield "\n".join(map(str.rstrip, lines))
+def whole_note(head: Sequence[Block], chapters: Sequence[Chapter], solution: AnySolution) -> str:
+    """Head and numbered chapters."""
+    tell, parts = solution.tell, list(head)
+    for k, (title, said) in enumerate(chapters, 1):
+        parts += [f"## {k}. {tell(title)}", *said]
+    return printed(blocks(*parts, tell=tell) + "\n")
 
 
 def comparison_file(solution: AnySolution) -> str:
     """The table of drawn against exact values as a Markdown file of its own."""
     title = say("{name}: drawn against exact", name=text(solution.task.title.told_name(solution.tell)))
-    return printed(f"# {solution.tell(title)}\n\n{against_exact(solution)}\n")
+    return printed(blocks(f"# {solution.tell(title)}", *against_exact(solution), tell=solution.tell) + "\n")
 
 
-def constructions(solution: AnySolution) -> list[tuple[Caption, str]]:
-    """A chapter on each construction: why it is drawn, and its numbers."""
-    return [(drawn.meaning.title, _told(drawn, solution)) for drawn in all_drawn(solution).values()]
+BEFORE: Mapping[str, Callable[[Solution], Sequence[Block]]] = {
+    "scheme": lambda solution: task_data(solution),
+    "contact": contact,
+    "turn_forces": forces,
+    "contact_stress": contact_stress,
+    "tolerances": errors_of_making,
+}
+"""What is given or calculated before the steps of a construction, by its name."""
 
 
-def _told(drawn: Construction, solution: AnySolution) -> str:
-    meaning = drawn.meaning
-    calculated = from_above(meaning.calculation)(solution) if meaning.calculation else as_drawn(drawn)
-    return blocks(meaning.why, calculated, tell=solution.tell)
+def constructions(solution: AnySolution) -> list[Chapter]:
+    """A chapter on each construction: why it is drawn, its steps with formulas, and what is to be noted."""
+    known, of_lift = Known(), solution.chain.board.follower.unit if isinstance(solution, Solution) else "mm"
+    chapters: list[Chapter] = []
+    for k, (name, drawn) in enumerate(all_drawn(solution).items(), 1):
+        why, *steps = chapter(drawn, k, of_lift, known, solution.tell)
+        before, after = [], []
+        if isinstance(solution, Solution):
+            before = BEFORE[name](solution) if name in BEFORE else []
+            after = CAUTIONS[name](solution) if name in CAUTIONS else []
+        chapters.append((drawn.meaning.title, [why, *before, *steps, *after]))
+    return chapters
 
 
-def heading(title: TitleTable, drawing: SheetTable) -> str:
+def heading(title: TitleTable, drawing: SheetTable) -> list[Block]:
     """The note's title, who wrote it, and what is to be said of its language."""
     tell = drawing.tell
     lines = [title.organisation, title.document, title.group, title.author, title.checked]
     names = (say("Organisation"), say("Document"), say("Group"), say("Author"), say("Checked by"))
     signed = [f"{tell(name)}: {text(line)}" for name, line in zip(names, lines, strict=True) if line]
     head = tell(say("{name}: calculation note", name=text(title.told_name(tell))))
-    return blocks(f"# {head}", f"*{drawing.remark}*" if drawing.remark else "", "  \n".join(signed))
+    return [f"# {head}", f"*{drawing.remark}*" if drawing.remark else "", "  \n".join(signed)]
 
 
 MOVED = {
@@ -120,18 +133,16 @@ MOVED = {
 """What is to be designed, without a roller and with one."""
 
 
-def task_data(solution: Solution) -> str:
+def task_data(solution: Solution) -> list[Block]:
     """What is given, and what is to be found."""
-    tell, roller, given = solution.tell, solution.chain.board.roller_radius != 0, data(solution)
+    roller, given, asked = solution.chain.board.roller_radius != 0, data(solution), conditions(solution)
     rows = tuple((name, say("to be found") if by == ADOPTED else value) for name, value, by in given.rows)
-    return blocks(
+    return [
         MOVED[solution.task.follower.kind][roller],
-        markdown_table(phases(solution), tell),
-        *([asked.title, markdown_table(asked, tell)] if (asked := conditions(solution)) else []),
-        say("The data:"),
-        markdown_table(Table(given.title, given.header[:2], rows), tell),
-        tell=tell,
-    )
+        of_sheet(phases(solution)),
+        *([of_sheet(asked)] if asked else []),
+        Grid(given.title, given.header[:2], rows),
+    ]
 
 
 def drawn_how(pencil: Pencil) -> Caption:
@@ -152,18 +163,18 @@ def drawn_how(pencil: Pencil) -> Caption:
 
 
 IN_GENERAL = (
-    r"$$t = \frac{\varphi}{\omega}, \qquad v_{\max} = C_v\,h\,\frac{\omega}{\varphi}, \qquad "
-    r"a_{\max} = C_a\,h\,\frac{\omega^2}{\varphi^2}.$$"
+    r"t = \frac{\varphi}{\omega}, \qquad v_{\max} = C_v\,h\,\frac{\omega}{\varphi}, \qquad "
+    r"a_{\max} = C_a\,h\,\frac{\omega^2}{\varphi^2}"
 )
 IN_NUMBERS = (
-    r"$$t = \frac{<angle>}{<omega>} = <time>\ \text{<s>}, \qquad v_{\max} = <cv> \cdot <lift> \cdot "
+    r"t = \frac{<angle>}{<omega>} = <time>\ \text{<s>}, \qquad v_{\max} = <cv> \cdot <lift> \cdot "
     r"\frac{<omega>}{<angle>} = <v>\ \text{<per_s>}, \qquad a_{\max} = <ca> \cdot <lift> \cdot "
-    r"\frac{<omega>^2}{<angle>^2} = <a>\ \text{<per_s>²}.$$"
+    r"\frac{<omega>^2}{<angle>^2} = <a>\ \text{<per_s>²}."
 )
 """Time, greatest velocity and greatest acceleration of a phase."""
 
 
-def _at_speed(solution: Solution) -> str:
+def _at_speed(solution: Solution) -> list[Block]:
     """Phase times, velocities and accelerations."""
     motion, rpm, of_lift = solution.cam.motion, solution.task.speed_rpm or 0.0, solution.chain.board.follower.unit
     speeds = solution.comparison.phases(rpm)
@@ -184,53 +195,54 @@ def _at_speed(solution: Solution) -> str:
         "v": number(speeds[k].max_velocity, 3),
         "a": number(speeds[k].max_acceleration, 3),
     }
-    return blocks(
-        say(
-            "At $n = {rpm:g}$ rpm the cam turns with $\\omega = 2\\pi n/60 = {omega}$ rad/s. A phase with the "
-            "angle $\\varphi$ takes the time $t$; its maximum velocity and acceleration follow from the law's "
-            "factors $C_v$ and $C_a$:",
-            rpm=rpm,
-            omega=omega,
-        ),
-        IN_GENERAL,
-        say("For the phase {phase}", phase=phase_title(motion, k)),
-        formula(IN_NUMBERS, omega=omega, **values),
-        say("The time, the maximum velocity and the maximum acceleration of every phase:"),
-        table((say("phase"), *AT_SPEED[of_lift]), rows, solution.tell),
-        tell=solution.tell,
+    said = say(
+        "At $n = {rpm:g}$ rpm the cam turns with $\\omega = 2\\pi n/60 = {omega}$ rad/s. A phase with the "
+        "angle $\\varphi$ takes the time $t$; its maximum velocity and acceleration follow from the law's "
+        "factors $C_v$ and $C_a$:"
     )
+    return [
+        said.where(rpm=rpm, omega=omega),
+        Equation(IN_GENERAL),
+        say("For the phase {phase}", phase=phase_title(motion, k)),
+        formula(f"$${IN_NUMBERS}$$", omega=omega, **values),
+        Grid(
+            say("Times, maximum velocities and accelerations of the phases"),
+            (say("phase"), *AT_SPEED[of_lift]),
+            rows,
+        ),
+    ]
 
 
-def _impact(solution: Solution) -> str:
+def _impact(solution: Solution) -> list[Block]:
     """Rigid, soft or none, and where."""
-    motion, of_lift, tell = solution.cam.motion, solution.chain.board.follower.unit, solution.tell
+    motion, of_lift = solution.cam.motion, solution.chain.board.follower.unit
     if rigid := velocity_jumps(motion):
         said = warning(say("The velocity jumps: the impact is rigid."))
-        return f"{tell(said)} {told_jumps(rigid, 'v', f'{of_lift}/rad', tell)}"
+        return [said, told_jumps(rigid, "v", f"{of_lift}/rad")]
     if soft := acceleration_jumps(motion):
         said = say(
             "The velocity is continuous and the acceleration jumps: the impact is soft. The force on the follower "
             "jumps with the acceleration."
         )
-        return f"{tell(said)} {told_jumps(soft, 'a', f'{of_lift}/rad²', tell)}"
-    return tell(say("Velocity and acceleration are continuous: there is no impact."))
+        return [said, told_jumps(soft, "a", f"{of_lift}/rad²")]
+    return [say("Velocity and acceleration are continuous: there is no impact.")]
 
 
-def told_jumps(jumps: list[Jump], symbol: str, of_symbol: str, tell: Tell) -> str:
+def told_jumps(jumps: list[Jump], symbol: str, of_symbol: str) -> Grid:
     """Where a quantity jumps, from what to what."""
     header = ("φ", say("{symbol} before", symbol=symbol), say("{symbol} after", symbol=symbol), say("jump"))
     rows = [
         (say("{phi}°", phi=number(math.degrees(jump.phi))), *map(number, (jump.before, jump.after, jump.size)))
         for jump in jumps
     ]
-    return blocks(say("The jumps, in {unit}:", unit=unit(of_symbol)), table(header, rows, tell), tell=tell)
+    return Grid(say("Jumps, in {unit}", unit=unit(of_symbol)), header, rows)
 
 
-def _result(solution: Solution) -> str:
+def _result(solution: Solution) -> list[Block]:
     """The sizes of the cam that is built."""
     built = [say("{name} {value} ({by})", name=name, value=value, by=by) for name, value, by in sizes(solution)]
     said = say("The cam is made with these sizes: {sizes}.", sizes=joined(built))
-    return blocks(said, *_face(solution), *map(warning, solution.warnings), tell=solution.tell)
+    return [said, *_face(solution), *map(warning, solution.warnings)]
 
 
 def _face(solution: Solution) -> list[Caption]:
@@ -253,9 +265,9 @@ def _face(solution: Solution) -> list[Caption]:
     return [sequence([said, rounded], " ")]
 
 
-def against_exact(solution: AnySolution) -> str:
+def against_exact(solution: AnySolution) -> list[Block]:
     """The table of drawn and exact values, and what the bound means."""
-    tell, pencil = solution.tell, solution.chain.pencil
+    pencil = solution.chain.pencil
     meaning = say(
         "The bound is an estimate, from redrawing, of how far the drawn value may deviate from the exact one on "
         "this paper: for the finite number of parts it is {factor:g} times the maximum change when every part is "
@@ -275,15 +287,12 @@ def against_exact(solution: AnySolution) -> str:
     )
     beforehand = any(math.isfinite(q.proved_paper) for q in solution.comparison.quantities.values())
     meaning = sequence([meaning, *([proved] if beforehand else [])], " ")
-    return blocks(
-        say("The error is the drawn value minus the exact one."),
-        compared(solution.comparison.quantities, tell),
-        sequence([meaning, *([] if pencil.perfect else [hands]), *_verdict(solution), *_other_sides(solution)], " "),
-        tell=tell,
-    )
+    said = [meaning, *([] if pencil.perfect else [hands]), *_verdict(solution), *_other_sides(solution)]
+    minus = say("The error is the drawn value minus the exact one.")
+    return [minus, compared(solution.comparison.quantities), sequence(said, " ")]
 
 
-def errors_of_the_hand(solution: AnySolution) -> list[tuple[Caption, str]]:
+def errors_of_the_hand(solution: AnySolution) -> list[Chapter]:
     """The chapter on what the acts of each kind bring to the scatter, where the hand errs."""
     pencil = solution.chain.pencil
     if pencil.perfect:
@@ -295,8 +304,8 @@ def errors_of_the_hand(solution: AnySolution) -> list[tuple[Caption, str]]:
         "only in combination, for example when they make the eye choose another point.",
         count=pencil.samples or HANDS,
     )
-    told = table(*budget_table(solution.chain, pencil), solution.tell)
-    return [(say("Where the drawing errors come from"), blocks(meaning, told, tell=solution.tell))]
+    title = say("Where the drawing errors come from")
+    return [(title, [meaning, Grid(title, *budget_table(solution.chain, pencil))])]
 
 
 def _verdict(solution: AnySolution) -> list[Caption]:
@@ -335,6 +344,6 @@ def _other_sides(solution: AnySolution) -> list[Caption]:
     return [text.where(names=joined(names))] if names else []
 
 
-def markdown_table(of_sheet: Table, tell: Tell) -> str:
+def of_sheet(told: Table) -> Grid:
     """A table of the sheet as the note prints it."""
-    return table(of_sheet.header, of_sheet.rows, tell)
+    return Grid(told.title, told.header, told.rows)

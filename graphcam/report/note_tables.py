@@ -11,11 +11,10 @@ from graphcam.constructions.axes import station_names, turning
 from graphcam.drafting.units import unit
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
-from graphcam.report.markdown import blocks, number, table
-from graphcam.report.paragraphs import digits
+from graphcam.report.markdown import Block, Grid, digits, number
 from graphcam.report.sheet_data import on_paper
 from graphcam.solving.solution import Solution
-from graphcam.words import Caption, Tell, Words, say
+from graphcam.words import Caption, say
 from graphcam.workshop.outline import of_cam
 from graphcam.workshop.polar_table import PolarCurve
 
@@ -41,7 +40,7 @@ Column = tuple[str, Floats, Floats, int]
 """A quantity at the stations: its symbol, what was drawn, what it is exactly, and decimals of what was drawn."""
 
 
-def at_stations(solution: Solution) -> str:
+def at_stations(solution: Solution) -> list[Block]:
     """s, v, a, the pressure angle and the transmission angle at the stations, drawn and exact; an arm's s in °."""
     of_lift, swings = solution.chain.board.follower.unit, solution.chain.board.follower.unit == "rad"
     units = {name: unit(of_lift + per) for name, per in (("s", ""), ("v", "/rad"), ("a", "/rad²"))}
@@ -57,11 +56,10 @@ def at_stations(solution: Solution) -> str:
     if "pressure_angle" in solution.drawn:
         columns.append(("α", np.degrees(drawn["alpha"]), np.degrees(exact.pressure_angle), 2))
         columns.append(("γ", transmission_deg(drawn["alpha"]), transmission_deg(exact.pressure_angle), 2))
-    told = station_table(station_names(stations), stations.phi, columns, solution.tell)
-    return blocks(said.where(**units), told, tell=solution.tell)
+    return [said.where(**units), station_table(station_names(stations), stations.phi, columns)]
 
 
-def station_table(names: Sequence[str], phi: Floats, columns: Sequence[Column], tell: Tell) -> str:
+def station_table(names: Sequence[str], phi: Floats, columns: Sequence[Column]) -> Grid:
     """The stations, their cam angles [rad], and what was drawn at them beside what is exact."""
     header = [say("station"), "φ", *(replace(side, values={"name": name}) for name, *_ in columns for side in SIDES)]
     told = [
@@ -69,10 +67,11 @@ def station_table(names: Sequence[str], phi: Floats, columns: Sequence[Column], 
         for _, drawn, exact, decimals in columns
         for values, places in ((drawn, decimals), (exact, max(EXACT_DIGITS, decimals + 1)))
     ]
-    return table(header, zip(names, map(number, np.degrees(phi).tolist()), *told, strict=True), tell)
+    rows = zip(names, map(number, np.degrees(phi).tolist()), *told, strict=True)
+    return Grid(say("Values at the stations"), header, rows)
 
 
-def polar_coordinates(solution: Solution) -> str:
+def polar_coordinates(solution: Solution) -> list[Block]:
     """The polar coordinates of the pitch curve and of the working profile at the stations, drawn.
 
     Under a flat face they are one curve.  Where the task asks for a table of the profile, that follows, exact.
@@ -91,11 +90,10 @@ def polar_coordinates(solution: Solution) -> str:
         "the horizontal, on the cam as it stands at φ = 0. A dash marks a station where no point of the profile "
         "is left."
     )
-    drawn = table(header, rows, solution.tell)
-    return blocks(said, drawn, *_at_round_angles(solution), tell=solution.tell)
+    return [said, Grid(say("Polar coordinates"), header, rows), *_at_round_angles(solution)]
 
 
-def _at_round_angles(solution: Solution) -> list[Words]:
+def _at_round_angles(solution: Solution) -> list[Block]:
     """The exact profile in the steps that the task's table ``[part]`` names; without one, nothing."""
     if solution.task.part is None:
         return []
@@ -114,10 +112,10 @@ def _at_round_angles(solution: Solution) -> list[Words]:
         zero=number(math.degrees(outline.zero)),
     )
     rows = zip((f"{angle:g}°" for angle in angles), (number(r, ROUND_DIGITS) for r in radii.tolist()), strict=True)
-    return [said, table(("ϑ", say("R profile")), rows, solution.tell)]
+    return [said, Grid(say("The exact working profile"), ("ϑ", say("R profile")), rows)]
 
 
-def compared(quantities: Mapping[str, Quantity], tell: Tell) -> str:
+def compared(quantities: Mapping[str, Quantity]) -> Grid:
     """Every quantity drawn and exact, its error in machine units and in mm of paper, and the bounds that are known."""
     there = [q for q in quantities.values() if q.exists]
     rows = [(q.title, unit(q.unit), number(q.drawn, 3), *_exactly(q), *on_paper(q)) for q in there]
@@ -126,7 +124,7 @@ def compared(quantities: Mapping[str, Quantity], tell: Tell) -> str:
     if any(math.isfinite(q.proved_paper) for q in there):
         header += (say("proved bound, mm of paper"),)
         rows = [(*row, number(q.proved_paper, 3)) for row, q in zip(rows, there, strict=True)]
-    return table(header, rows, tell)
+    return Grid(say("Drawn against exact"), header, rows)
 
 
 def _exactly(q: Quantity) -> tuple[Caption, Caption]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphcam.errors import DesignError, LetteringWarning, meant
 from graphcam.files import digest, whole_folder
-from graphcam.report.documents import contents_of, drawing_of, note_of
+from graphcam.report.documents import contents_of, drawing_of, note_of, note_page_of
 from graphcam.report.note import comparison_file
 from graphcam.report.step_player import player_of
 from graphcam.sheets.model import Drawing
@@ -276,5 +276,6 @@ TABLES: Mapping[str, tuple[str, Callable[[AnySolution], str]]] = {
     "csv": ("comparison.csv", _csv),
     "md": ("comparison.md", comparison_file),
     "note": ("note.md", note_of),
+    "note_html": ("note.html", note_page_of),
 }
 """The files of text: name, and what stands in it."""

@@ -193,6 +193,21 @@ def steps_of(drawn: Mapping[str, Construction]) -> Numbered:
     return tuple((next(numbers), name, step) for name, each in drawn.items() for step in each.steps())
 
 
+def scales_found(drawn: Mapping[str, Construction], steps: Numbered) -> dict[str, int]:
+    """The views whose scales are found by drawing, with the running numbers of the steps that find them."""
+    reading_in: dict[tuple[str, str], int] = {}
+    for number, name, step in steps:
+        for read in step.reads:
+            reading_in.setdefault((name, read), number)
+    return {
+        view: reading_in[by.name, reading]
+        for by in drawn.values()
+        if by.meaning.scales_found_by
+        for view, reading in by.meaning.scales.items()
+        if (by.name, reading) in reading_in
+    }
+
+
 def _scaled(step: Step, by: Construction | None) -> Step:
     """The step with its view's title, whose scale is an answer if drawing finds it."""
     if by is None:

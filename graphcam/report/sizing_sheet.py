@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import Step, View, say
+from graphcam.drafting.ink import Part, Step, View, say
 from graphcam.drafting.marks import Dots, Label, Line, Mark, Region, Role
 from graphcam.language import ENGLISH, language as language_of
 from graphcam.mechanism.sizing import SizedCam
@@ -113,8 +113,8 @@ class _Chart:
             "active": sequence([BINDING[name] for name in self.sized.active]),
         }
         return [
-            Step(say("The limits"), ABOVE, view, (*self.axes.marks(), *self._limits())),
-            Step(title, OVER.where(**values), view, self._best()),
+            Step(say("The limits"), (Part(ABOVE),), view, (*self.axes.marks(), *self._limits())),
+            Step(title, (Part(OVER.where(**values)),), view, self._best()),
         ]
 
     @property
@@ -199,4 +199,4 @@ def _front_step(sized: SizedCam, front: Sequence[SizedCam], size: complex) -> St
     ]
     title = say("Stress over {radius}", radius=SIZES[problem.measure])
     view = View("front", title, across="front radius", up="front stress")
-    return Step(FRONT, EVERY, view, tuple(marks))
+    return Step(FRONT, (Part(EVERY),), view, tuple(marks))

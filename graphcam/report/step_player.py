@@ -1,23 +1,23 @@
 """The step player of a solution: its sheet step by step with what is read off, and its mechanism."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
-from itertools import groupby
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import groupby, takewhile
 from typing import Any, Protocol
 
 from graphcam.constructions.readings import ReadingRow, rows
 from graphcam.drafting.acts import Act
-from graphcam.drafting.ink import Construction, Reading, Step, say
+from graphcam.drafting.ink import Construction, Reading, Row, Step, say
 from graphcam.drafting.moves import ActPlaces, FollowedBoard, Moves, all_of, visible_in
 from graphcam.drafting.written_acts import WrittenActs
 from graphcam.language import language
 from graphcam.report.documents import scene_of
 from graphcam.report.instruments import instruments
 from graphcam.report.mechanism_view import mechanism_view
-from graphcam.report.sheet_contents import Contents
+from graphcam.report.sheet_contents import Contents, scales_found
 from graphcam.sheets.layout import Numbered
 from graphcam.sheets.model import Drawing
-from graphcam.sheets.player import WORDS, Acts, PartText, Pieces, ReadingText, RowText, Slide, player
+from graphcam.sheets.player import WORDS, Acts, PartText, Pieces, ReadingText, RowText, RunText, Slide, player
 from graphcam.words import Tell
 
 
@@ -36,8 +36,12 @@ def player_of(contents: Contents, drawing: Drawing) -> str:
 
 def slides(contents: Contents, tell: Tell = str) -> tuple[list[Slide], Acts]:
     """What is said of each step of the sheet, in order, and the acts that it is drawn by."""
-    record = WrittenActs()
-    said = [slide for _, slide in told(contents.drawn, contents.steps, contents.numbers, record, tell)]
+    record, found = WrittenActs(), scales_found(contents.drawn, contents.steps)
+    answers = {step.view.name: tell(step.view.answer) for _, _, step in contents.steps if step.view.answer}
+    said = [
+        replace(slide, finds={view: answers[view] for view, step in found.items() if step == number})
+        for number, slide in told(contents.drawn, contents.steps, contents.numbers, record, tell)
+    ]
     marks = (mark for _, _, step in contents.steps for mark in step.marks)
     shown = {mark.of: record.number(mark.of) for mark in marks if isinstance(mark.of, Act)}
     return said, Acts(record, shown, drawn_in_parts(said))
@@ -94,6 +98,30 @@ def _views(steps: Iterable[Step]) -> dict[Act, str]:
     return found
 
 
+def run_text(caption: str, first: int, rows: Sequence[tuple[str, str]]) -> RunText:
+    """A run as it is shown: what is said of all its places, and its table of names and settings."""
+    head = _head([name for name, _ in rows])
+    alike = len({setting for _, setting in rows}) == 1
+    shown = tuple((name[len(head) :], "" if alike else setting) for name, setting in rows)
+    return RunText(caption, first, head.strip(), shown, ())
+
+
+def _head(names: Sequence[str]) -> str:
+    """The words with which names begin, all of them, if they go on behind.
+
+    >>> _head(["Station 0", "Station 12′"]), _head(["Ray 3", "Rays 4, 9"])
+    ('Station ', '')
+    """
+    alike = takewhile(lambda words: len({*words}) == 1, zip(*(name.split(" ")[:-1] for name in names), strict=False))
+    return "".join(f"{words[0]} " for words in alike)
+
+
+def _of_all(parts: Iterable[PartText]) -> tuple[str, ...]:
+    """The instruments that are used in every part."""
+    first, *others = (part.tools for part in parts)
+    return tuple(tool for tool in first if all(tool in tools for tools in others))
+
+
 @dataclass(frozen=True)
 class _Telling:
     """What is needed to tell the steps, one after another.
@@ -111,20 +139,34 @@ class _Telling:
         """What is said of a step; that which opens a chapter says why the construction is drawn."""
         tell, read = self.tell, {name: construction.readings[name] for name in step.reads}
         moves = self.board.followed(step, read.values())
-        captions = [tell(part.caption) for part in step.places] or [""]
+        captions, runs = self._said(step) if step.parts else ([""], [])
+        parts = tuple(self._part(*part, step) for part in zip(captions, moves, strict=True))
         title, why = (tell(said) for said in (construction.meaning.title, construction.meaning.why))
         return Slide(
             title,
             step.view.name,
             tell(step.title),
-            tell(step.caption),
+            "" if len(step.places) > 1 else tell(step.caption),
             tuple(text for row in rows(construction, step) for text in self._reading(row, read[row.name])),
             why if opens else "",
             number=number,
             reason=tell(step.why),
-            parts=tuple(self._part(*part, step) for part in zip(captions, moves, strict=True)),
+            parts=parts,
+            runs=tuple(replace(run, tools=_of_all(parts[run.first : run.first + len(run.rows)])) for run in runs),
             reads={name: self.record.number(each.act) for name, each in read.items() if each.act is not None},
         )
+
+    def _said(self, step: Step) -> tuple[list[str], list[RunText]]:
+        """What is said at every place of a step, and its runs."""
+        said, runs = list[str](), list[RunText]()
+        for part in step.parts:
+            if not part.rows:
+                said.append(self.tell(part.caption))
+                continue
+            rows = [(self.tell(row.name), self.tell(row.setting)) for row in part.rows]
+            runs.append(run_text(self.tell(part.caption), len(said), rows))
+            said += [self.tell(Row(name, setting, ()).caption) for name, setting in rows]
+        return said, runs
 
     def _part(self, caption: str, moves: Moves, step: Step) -> PartText:
         draws, lit, done = (self._pieces(found) for found in (moves.draws, moves.lit, moves.done + moves.closing))

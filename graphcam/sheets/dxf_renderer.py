@@ -45,7 +45,7 @@ BETWEEN_PAGES = 40.0
 LETTERS = "lc_opengost-br"
 """LibreCAD takes the name of the text style for its font; this one of its fonts has Cyrillic, Greek and primes."""
 CHINESE = "unicode"
-"""The same of LibreCAD's font with Chinese; programs that know typefaces are told of FangSong, as GB/T 14691 has it."""
+"""The text style of LibreCAD's font with Chinese; other programs are told of FangSong, as GB/T 14691 has it."""
 LINETYPES: dict[tuple[float, ...], tuple[str, str]] = {
     CENTER: ("CENTER", "Center ____ _ ____ _"),
     DASHED: ("DASHED", "Dashed __ __ __"),

@@ -62,7 +62,7 @@ def expand(step_marks: Iterable[marks.Mark], place: Placement, letters: Letterin
 
 
 def _sourced(mark: marks.Mark, entities: list[Entity], writings: list[Writing]) -> Drawn:
-    """The same with what the mark shows, where it is not known in more detail."""
+    """The entities with what the mark shows, where it is not known in more detail."""
     if mark.of is None:
         return entities, writings
     source = Source(mark.of, mark.index)

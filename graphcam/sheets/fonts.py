@@ -44,7 +44,7 @@ class Letters:
 
     @property
     def ink(self) -> tuple[str, complex, complex]:
-        """Its letters without blanks around them, and the ends of the part of the base line that they stand on."""
+        """The letters without blanks around them, and the ends of the part of the base line that they stand on."""
         bare = self.text.strip() or self.text
         before = self.text[: self.text.index(bare)]
         wide = [self.height * sum(glyph(letter).advance for letter in part) for part in (before, bare)]

@@ -7,7 +7,7 @@ from graphcam.sheets.box import Box
 from graphcam.words import Words, say
 
 SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0), "A3": (420.0, 297.0), "A4": (297.0, 210.0)}
-"""Width and height of the sheets, mm, lying."""
+"""Width and height of the sheets in landscape, mm."""
 ORIENTATIONS = ("landscape", "portrait")
 UPRIGHT_ONLY = ("A4", "gost")
 """Format and frame of GOST 2.301, which uses sheets A4 upright only, the title block along the short side."""

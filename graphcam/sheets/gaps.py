@@ -27,7 +27,7 @@ STEP = 0.05
 
 
 def parted(steps: Sequence[Sequence[Entity]]) -> list[list[Entity]]:
-    """The same steps, their thin lines parted where a text of any of them stands on one.
+    """The steps with their thin lines parted where a text of any of them stands on one.
 
     >>> line = Stroke(np.array([-10 + 1j, 20 + 1j]), Role.CONSTRUCTION)
     >>> (around,), _ = parted([[line], [Text(0j, "A", 3.5)]])

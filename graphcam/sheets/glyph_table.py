@@ -42,7 +42,7 @@ class Design(NamedTuple):
     top: int
 
     def glyph(self, capital: float) -> Glyph:
-        """Its measures by a height of capitals in the same units.
+        """The measures of a character by a height of capitals in the units of the face.
 
         >>> Design(200, 20, -10, 170, 100).glyph(100)
         Glyph(advance=2.0, below=0.1, above=1.0, left=0.2, right=0.3)

@@ -34,7 +34,7 @@ AROUND_TEXT = 0.8
 NEAR = 24
 """So many places of a text are looked at before the further ones."""
 LEADER_SHARES = np.linspace(0.1, 0.95, 60)
-"""Where along a leader it is looked at what it crosses."""
+"""Fractions of a leader at which it is looked at what it crosses."""
 
 
 class Occupancy:
@@ -89,7 +89,7 @@ class Occupancy:
 
 
 def _within(along: NDArray[np.floating[Any]], count: int) -> NDArray[np.intp]:
-    """In which of ``count`` cells of a row places lie, the first and the last of them beyond the ends."""
+    """The cells of a row, of ``count``, in which places lie, the first and the last of them beyond the ends."""
     return np.minimum(np.maximum(np.floor(along / CELL), -1), count - 2).astype(np.intp) + 1
 
 
@@ -107,12 +107,12 @@ def _grid(corner: complex, along: complex, up: complex) -> Points:
 
 @lru_cache(maxsize=1024)
 def _shares(length: float) -> Floats:
-    """Where along a length points stand in every cell, from 0 to 1."""
+    """The fractions of a length, from 0 to 1, at which points stand in every cell."""
     return np.linspace(0.0, 1.0, math.ceil(length / CELL) + 1)
 
 
 def chosen_places(writings: Sequence[Writing], drawn: Iterable[Entity], inside: Box) -> list[int]:
-    """Which of its places every writing takes, kept off what is drawn and inside a box.
+    """The place that every label takes, kept off what is drawn and inside a box.
 
     Texts of dimensions choose first: they belong to their lines.
     """
@@ -203,7 +203,7 @@ def with_texts(steps: Sequence[Drawn], places: Sequence[int | None]) -> list[lis
 
 
 def shading_parted(steps: Sequence[Sequence[Entity]]) -> list[tuple[Entity, ...]]:
-    """The same steps, their shading interrupted where a text of any of them stands."""
+    """The steps with their shading interrupted where a text of any of them stands."""
     texts = [e for entities in steps for e in entities if isinstance(e, Text)]
     return [tuple(interrupted(e, texts) if e.role == Role.HATCH else e for e in entities) for entities in steps]
 

@@ -32,11 +32,11 @@ from graphcam.sheets.title_block import TitleBlock
 from graphcam.words import Tell
 
 NOTES_WIDTH = 180.0
-"""Of the notes, mm, at most."""
+"""The maximum width of the notes, mm."""
 HEADING = 12.0
-"""Of the title of a view, mm."""
+"""The height of the title of a view, mm."""
 BESIDE_FRAME = 2.0
-"""Between a label and the frame, mm."""
+"""The gap between a label and the frame, mm."""
 FURNITURE = 30.0
 """What gauge, marks and margins take of a sheet's height above its title block, mm."""
 
@@ -60,7 +60,7 @@ class SheetPart:
     numbers: Mapping[int, str] = field(default_factory=dict[int, str])
 
     def told(self, tell: Tell) -> SheetPart:
-        """The same part with every text as ``tell`` says it."""
+        """The part with every text translated by ``tell``."""
         steps = tuple((number, name, step.told(tell)) for number, name, step in self.steps)
         tables, notes = tuple(table.told(tell) for table in self.tables), tuple(map(tell, self.notes))
         return replace(self, steps=steps, tables=tables, notes=notes)
@@ -155,7 +155,7 @@ def views_of_pages(sheet: Format, part: SheetPart) -> list[list[str]]:
 
 
 def fewest_pages(sheet: Format, part: SheetPart) -> int:
-    """As many pages as the views of a part take if they fill them; how they stand on pages is not looked for."""
+    """The number of pages that the views of a part fill; how they stand on pages is not looked for."""
     return fewest(sheet, panels((step for _, _, step in part.steps), sheet.lettering))
 
 

@@ -80,7 +80,7 @@ class EmptyPart:
     found: Room | None = None
 
     def find(self, box: Box, taken: Sequence[Box]) -> complex | None:
-        """By how much to move a box into what the boxes on the page leave of it; None if there is no room."""
+        """The move of a box into what the boxes on the page leave of the part; None if there is no room."""
         if self.panel.hollow.find([box], high) is None:
             return None
         if self.found is None:
@@ -106,7 +106,7 @@ class Leaf:
     blocks: list[tuple[Block, complex]] = field(default_factory=list[tuple[Block, complex]])
 
     def copy(self) -> Leaf:
-        """The same page, to be filled in another way."""
+        """A copy of the page, to be filled in another way."""
         parts = [replace(part, found=part.found and part.found.copy()) for part in self.parts]
         return Leaf(self.sheet, self.room.copy(), parts, list(self.taken), dict(self.views), list(self.blocks))
 
@@ -133,14 +133,14 @@ class Leaf:
         return any(shares(view, (panel for panel, _ in self.views.values())) for view in views)
 
     def find(self, boxes: Sequence[Box], preference: Preference) -> complex | None:
-        """By how much to move boxes which stand together into free room; None if there is none."""
+        """The move of boxes which stand together into free room; None if there is none."""
         # With their corner on the grid on which room is sought they touch the fewest of its cells.
         to_grid = self.room.corner - around_all(boxes).corner
         by = self.room.find([box.moved(to_grid) for box in boxes], preference)
         return None if by is None else by + to_grid
 
     def find_for(self, block: Block, preference: Preference) -> complex | None:
-        """By how much to move a table into an empty part of a diagram or beside the views; None without room."""
+        """The move of a table into an empty part of a diagram or beside the views; None without room."""
         box = block.box.grown(AIR)
         for part in self.parts:
             if (by := part.find(box, self.taken)) is not None:

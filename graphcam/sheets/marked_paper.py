@@ -19,13 +19,13 @@ PATCH = 7.0
 BAR_ROOM = 5.5
 """What a bar takes beside a strip, mm."""
 FROM_STRIP = 1.0
-"""Between a strip and the line of a bar, mm."""
+"""The gap between a strip and the line of a bar, mm."""
 LARGEST = 420.0
 """The side of a room for a drawing about its centre, mm, however large the paper: no compass draws a larger circle."""
 TITLE = 5.0
-"""Beside or above a view, for its title, mm."""
+"""The room beside or above a view for its title, mm."""
 CODE_COLUMN = 24.0
-"""Left of the views of the left tile, for a code of its own, mm."""
+"""The width of a column left of the views of the left tile, for a code of its own, mm."""
 
 
 @dataclass(frozen=True)
@@ -132,7 +132,7 @@ class MarkedPaper:
 
     @property
     def bar_captions(self) -> tuple[Box, Box]:
-        """Where it is written what the bars measure: under the one across, and beside the one up."""
+        """The captions of what the bars measure: under the one across, and beside the one up."""
         beside = self.gaps_beside(self.edge)
         return self.gaps_below()[0], beside[1] if self.up_in_strip else beside[0]
 
@@ -172,4 +172,4 @@ MARKED_PAPERS = {
         up_in_strip=True,
     ),
 }
-"""By name."""
+"""The papers by name."""

@@ -153,7 +153,7 @@ class _GroupArtist(Artist):
         return math.hypot(*(unit - origin)) * INCH / figure.dpi
 
     def _context(self, renderer: RendererBase, colour: str, width: float) -> GraphicsContextBase:
-        """For lines of a width [mm of the page]."""
+        """A graphics context for lines of a width [mm of the page]."""
         context = renderer.new_gc()
         context.set_foreground(colour)
         context.set_linewidth(self._times * width * POINT)

@@ -15,9 +15,9 @@ Grid = NDArray[np.float64]
 Preference = Callable[[Grid, Grid], Grid]
 """Cost of putting the lower left corner of the whole at x, y, in cells; the least is taken."""
 MESH = 2.0
-"""Of the grid on which room is sought, mm."""
+"""The mesh of the grid on which room is sought, mm."""
 AT_ONCE = 20_000
-"""So many pairs of a place and a box are looked at together."""
+"""The number of pairs of a place and a box that are looked at together."""
 EDGE = 1e-6
 """A box that ends on a line of the grid does not touch the cells beyond it."""
 
@@ -42,7 +42,7 @@ class Room:
             self.take(box)
 
     def copy(self, by: complex = 0j) -> Self:
-        """The same room moved ``by`` x + iy, to be taken in another way."""
+        """A copy of the room moved ``by`` x + iy, to be taken in another way."""
         other = copy(self)
         other.full, other.corner = self.full.copy(), self.corner + by
         return other
@@ -93,7 +93,7 @@ class Room:
         return self._sums
 
     def find(self, boxes: Sequence[Box], preference: Preference) -> complex | None:
-        """By how much to move the boxes, as one rigid body, so that all lie in free room; None if there is no room."""
+        """The move of the boxes, as one rigid body, by which all lie in free room; None if there is no room."""
         cells = np.array([self._cells(box) for box in boxes])
         least, most = cells[:, :2].min(axis=0), cells[:, 2:].max(axis=0)
         # Moves, in cells, that keep everything inside.
@@ -133,7 +133,7 @@ class Room:
 
 
 def least(across: float, up: float) -> Preference:
-    """Where a weighted sum of x and y is least.
+    """The preference for the place where a weighted sum of x and y is minimal.
 
     >>> import numpy as np
     >>> least(10, -1)(np.array([2.0]), np.array([5.0])).tolist()
@@ -143,15 +143,15 @@ def least(across: float, up: float) -> Preference:
 
 
 top_left, top_right = least(10, -1), least(-1, -10)
-"""At the left, then high; high, then at the right."""
+"""Preferences: at the left, then high; high, then at the right."""
 bottom_left, bottom_right = least(1, 10), least(-3, 1)
-"""Low, then at the left; at the right, then low."""
+"""Preferences: low, then at the left; at the right, then low."""
 high = least(1, -10)
-"""High, then at the left."""
+"""The preference: high, then at the left."""
 
 
 def left(x: Grid, y: Grid) -> Grid:
-    """At the left, at middle height."""
+    """The preference for a place at the left, at middle height."""
     return 10 * x + abs(y - y.mean())
 
 
@@ -161,5 +161,5 @@ def top(x: Grid, y: Grid) -> Grid:
 
 
 def middle(x: Grid, y: Grid) -> Grid:
-    """In the middle of the free room."""
+    """The preference for a place in the middle of the free room."""
     return (x - x.mean()) ** 2 + (y - y.mean()) ** 2

@@ -20,13 +20,13 @@ from graphcam.sheets.sampling import around, box_of_lines, linework, outermost, 
 AIR = 3.0
 """Free margin around what is drawn in a view, where labels find room, mm."""
 STRIPS = 12
-"""So many boxes cover the outline of a view."""
+"""The number of boxes that cover the outline of a view."""
 TITLE_AIR = 1.5
-"""Between a title and the lines below it, mm."""
+"""The gap between a title and the lines below it, mm."""
 BLANK = "_____"
-"""Where a number is to be written."""
+"""A field in which a number is to be written."""
 LEADING = 1.7
-"""From base line to base line, in heights of the letters."""
+"""The distance from base line to base line, in heights of the letters."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,12 +47,12 @@ class Panel:
 
     @property
     def base(self) -> tuple[Mark, ...]:
-        """What it has because it is the lowest."""
+        """What the panel shows because it is the lowest of its column."""
         return self.under if self.lowest else ()
 
     @cached_property
     def as_lowest(self) -> "Panel":
-        """The same where no view of its column stands below."""
+        """The panel as it is where no view of its column stands below."""
         return replace(self, lowest=True) if self.under else self
 
     @cached_property

@@ -23,13 +23,13 @@ from graphcam.sheets.model import ArcEntity, Entity, Heads, Strokes, Text, moved
 LINE = Role.DIMENSION
 """The role of all lines and letters of symbols."""
 LEGS = math.radians(60)
-"""Of the roughness symbol, to the surface."""
+"""The angle of the legs of the roughness symbol to the surface."""
 SHORT, LONG = 1.4, 3.0
 """Heights of its legs, in heights of the letters."""
 CLEAR = 0.6
-"""Between a line and the letters over or under it, mm."""
+"""The gap between a line and the letters over or under it, mm."""
 HALF_SIDE = 0.577
-"""Of the triangle of a datum, whose sides are equal, in its heights: tan 30°."""
+"""Half the side of a datum's triangle, whose sides are equal, in its heights: tan 30°."""
 COMPARTMENT = 2.0
 """Height of a tolerance frame, and width of its first compartment, in heights of the letters."""
 PROFILE_OF_A_LINE, PERPENDICULAR = "profile of a line", "perpendicular"

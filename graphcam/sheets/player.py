@@ -95,7 +95,7 @@ WORDS: Mapping[str, Caption] = {
 SCRIPTS = ("gestures.js", "camera.js", "board.js", "lights.js", "player.js")
 """What shows the steps; later ones use the functions of earlier ones."""
 MARGIN = 8.0
-"""Around what a step shows when it is looked at closely [mm]."""
+"""The margin around what a step shows when it is looked at closely [mm]."""
 
 
 Pieces = list[list[Any]]
@@ -148,13 +148,42 @@ class PartText:
 
 
 @dataclass(frozen=True)
+class RunText:
+    """A run of like parts as it is shown: told once, with a table of its places.
+
+    first : the place of its first part among all parts
+    head : what the names of all its places begin with, such as "Station"
+    rows : of every place the rest of its name, and what is set there, if that is not everywhere the same
+    tools : the instruments that are used at every place alike
+    """
+
+    caption: str
+    first: int
+    head: str
+    rows: tuple[tuple[str, str], ...]
+    tools: tuple[str, ...]
+
+    @property
+    def widest(self) -> int:
+        """The letters of its longest row."""
+        return max(len(name) + len(setting) for name, setting in self.rows)
+
+    @property
+    def settings(self) -> bool:
+        """Whether anything is set at its places."""
+        return any(setting for _, setting in self.rows)
+
+
+@dataclass(frozen=True)
 class Slide:
     """What is said of a step; ``chapter`` is the title of its construction, ``view`` the name of its drawing.
 
+    caption : what is done, if no parts tell it
     why : what is said of the construction before its first step
     number : of the step within the task, such as "3.2";  reason : for the step
-    parts : at least one
+    parts : at least one;  runs : of those that are alike
     reads : the numbers of the acts by which something is read, by the reading's name
+    finds : the views whose scales are known from this step on, and how their titles tell them
     """
 
     chapter: str
@@ -166,7 +195,17 @@ class Slide:
     number: str = ""
     reason: str = ""
     parts: tuple[PartText, ...] = ()
+    runs: tuple[RunText, ...] = ()
     reads: Mapping[str, int] = field(default_factory=dict[str, int])
+    finds: Mapping[str, str] = field(default_factory=dict[str, str])
+
+    @property
+    def listed(self) -> list[tuple[int, PartText | None, RunText | None]]:
+        """What is told one after another: the place of a part and the part, or that of the first and a run."""
+        runs = {run.first: run for run in self.runs}
+        inside = {run.first + k for run in self.runs for k in range(len(run.rows))}
+        every = enumerate(self.parts if len(self.parts) > 1 else ())
+        return [(k, None if k in runs else part, runs.get(k)) for k, part in every if k in runs or k not in inside]
 
 
 @dataclass(frozen=True)
@@ -213,6 +252,7 @@ def player(
         return Markup((files("graphcam") / "data" / "player" / name).read_text(encoding="utf-8"))
 
     steps, views = _places(drawing, slides)
+    finds = {view: (said, k) for k, slide in enumerate(slides) for view, said in slide.finds.items()}
     data = {"steps": steps, "views": views, "acts": acts.record.rows, "mechanism": mechanism, "words": dict(words)}
     lettering = (text.text for text in drawing.texts)
     remark = language_of(language).remark
@@ -222,7 +262,7 @@ def player(
         language=language,
         remark=remark,
         words=words,
-        pages=[_page(page, acts) for page in drawing.pages],
+        pages=[_page(page, acts, finds) for page in drawing.pages],
         slides=slides,
         chapters=[(name, [k for k, _ in run]) for name, run in groupby(enumerate(slides), key=lambda s: s[1].chapter)],
         style=whole("player.css") + Markup(roles_css()),
@@ -253,28 +293,37 @@ def _indexed(text: str) -> Markup:
     return Markup(in_html(str(escape(text))))
 
 
-def _page(page: Page, acts: Acts) -> dict[str, Any]:
+Finds = Mapping[str, tuple[str, int]]
+"""Of views whose scales are found by drawing: how the title tells it, and which step finds it."""
+
+
+def _page(page: Page, acts: Acts, finds: Finds) -> dict[str, Any]:
     from markupsafe import Markup
 
     groups = [
-        (group.key, group.key.startswith("step-"), view, Markup(group_svg(group, page.height, acts.shown_by)))
+        (group.key, group.key.startswith("step-"), view, since, Markup(group_svg(group, page.height, acts.shown_by)))
         for whole in page.groups
-        for view, group in _by_view(whole)
+        for view, since, group in _by_view(whole, finds)
     ]
     return {"width": f"{page.width:g}", "height": f"{page.height:g}", "groups": groups}
 
 
-def _by_view(group: Group) -> list[tuple[str, Group]]:
-    """The titles of several views as a group each, so that each can appear with its view; other groups as they are."""
-    titles: dict[str, list[Entity]] = {}
+def _by_view(group: Group, finds: Finds) -> list[tuple[str, int | None, Group]]:
+    """The titles of several views as a group each, so that each can appear with its view; other groups as they are.
+
+    What a title tells of a scale that is found by drawing is a group of its own, with the step that finds it.
+    """
+    titles: dict[tuple[str, int | None], list[Entity]] = {}
     for text in group.entities:
         if isinstance(text, Text) and text.view:
-            titles.setdefault(text.view, []).append(text)
-    return [(view, Group(f"{group.key}-{view}", tuple(own))) for view, own in titles.items()] or [("", group)]
+            said, since = finds.get(text.view, ("", None))
+            titles.setdefault((text.view, since if said and said in text.text else None), []).append(text)
+    named = {key: f"{group.key}-{key[0]}" + ("" if key[1] is None else "-scale") for key in titles}
+    return [(*key, Group(named[key], tuple(own))) for key, own in titles.items()] or [("", None, group)]
 
 
 def _places(drawing: Drawing, slides: Sequence[Slide]) -> tuple[list[dict[str, Any]], dict[str, dict[str, Any]]]:
-    """For each step its group and its parts, and where it stands; for each view its page and the box there.
+    """The group and the parts of each step, and where it stands; for each view its page and the box there.
 
     A box is x, y from the upper left corner, width and height [mm].
     """
@@ -310,5 +359,6 @@ def _texts(slide: Slide) -> Iterable[str]:
     yield from (slide.chapter, slide.why, slide.number, slide.title, slide.caption, slide.reason)
     for part in slide.parts:
         yield from (part.caption, *part.tools)
+    yield from (run.caption for run in slide.runs)
     for reading in slide.readings:
         yield from (reading.title, reading.taken, reading.value)

@@ -5,11 +5,11 @@ import segno
 from numpy.typing import NDArray
 
 LEVEL = "m"
-"""Of the correction of errors: what 15 % of damage leaves readable."""
+"""The level of error correction: what 15 % of damage leaves readable."""
 SMALLEST = 18.0
-"""Of a code's side, mm, without the white about it."""
+"""The minimum side of a code, mm, without the white about it."""
 FINEST, FINEST_OF_A_TILE = 0.75, 0.6
-"""Of a module, mm: in a photograph of 5 megapixels of a whole sheet of A3 still four pixels; half a sheet has more."""
+"""The minimum module, mm: in a photograph of 5 megapixels of a whole sheet of A3 four pixels; half a sheet has more."""
 QUIET = 4
 """Modules that stay white about a code."""
 

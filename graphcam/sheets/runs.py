@@ -11,11 +11,11 @@ from graphcam.sheets.panels import Panel, shares, with_lowest
 from graphcam.words import say
 
 GAPS = (24.0, 12.0, 6.0, 2.0, -2.0)
-"""Between diagrams that stand together, mm: the widest is taken that needs no further page."""
+"""Gaps between diagrams that stand together, mm: the widest is taken that needs no further page."""
 ONE_PAGE = ("A1",)
 """Formats on which diagrams that share an axis are parted only where a page cannot take them."""
 PARTINGS = 4
-"""So many ways to part views that share axes are tried at most."""
+"""The maximum number of ways to part views that share axes that are tried."""
 
 Runs = list[list[Panel]]
 """Views that stand together, several times."""

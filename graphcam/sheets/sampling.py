@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 FLATNESS = 0.02
 """A curve is replaced by chords that stay so close to it, mm."""
 DIRECTIONS = 72
-"""In which the outermost points are looked for: of a circle they miss 0.1 % of its radius."""
+"""The number of directions in which the outermost points are looked for: of a circle they miss 0.1 % of its radius."""
 
 
 def pieces(entity: Entity) -> tuple[Points, Points]:

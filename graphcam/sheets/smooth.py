@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from graphcam.drafting.marks import Points
 
 CORNER = np.radians(20.0)
-"""Where the polygon of dense points turns by more, the curve has a corner."""
+"""The angle by which a polygon of dense points turns at least where the curve has a corner."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +69,7 @@ def bezier(points: Points) -> Points:
 
 
 def clamped_spline(points: Points) -> tuple[Points, list[float]]:
-    """The same curve as one clamped cubic B-spline: control points (m,) and knots (m + 4).
+    """The curve as one clamped cubic B-spline: control points (m,) and knots (m + 4).
 
     Where the pieces share a derivative their common end is no control point, and its knot is double.
     """

@@ -16,9 +16,9 @@ from graphcam.words import Tell, Words
 ROW = 2.2
 """Height of a row, in heights of its letters."""
 LEADING = 1.5
-"""From line to line in a header, in heights of its letters."""
+"""The distance from line to line in a header, in heights of its letters."""
 MARGIN = 1.5
-"""Left and right of the text in a cell, in heights of its letters, both together."""
+"""The margins left and right of the text in a cell, in heights of its letters, both together."""
 SAME = 1e-6
 """A text that is wider than its column by less fits it: the column was made for it, mm."""
 LONGEST = 40.0
@@ -38,7 +38,7 @@ class Table:
     answers: frozenset[tuple[int, int]] = frozenset()
 
     def told(self, tell: Tell) -> Table:
-        """The same table with every text as ``tell`` says it."""
+        """The table with every text translated by ``tell``."""
         rows = tuple(tuple(tell(cell) for cell in row) for row in self.rows)
         return Table(tell(self.title), tuple(tell(cell) for cell in self.header), rows, self.answers)
 

@@ -14,7 +14,7 @@ from graphcam.words import Caption, Tell, say
 CAPTION, NARROW = 2.5, 1.8
 """Heights of the captions of fields, and of narrow ones, mm: the least of them stands in no other place of a sheet."""
 LEADING, TIGHT = 1.5, 1.35
-"""From base line to base line of an entry, in heights of its letters; in the smallest letters."""
+"""The distance of base lines of an entry, in heights of its letters; and that in the smallest letters."""
 SIZES = {"gost": (185.0, 55.0), "iso": (180.0, 36.0)}
 """Width and height of the block of each frame, mm."""
 

@@ -24,9 +24,9 @@ if TYPE_CHECKING:
 FAMILY = "osifont"
 """The family of the letters, by the name that drawings have for it."""
 ELSEWHERE = "DejaVu Sans"
-"""What comes nearest to it where it is not at hand."""
+"""The family that comes nearest to osifont where that is not installed."""
 BOX = "□"
-"""Stands for a character that no face has."""
+"""The sign that stands for a character that no face has."""
 ALPHABET = "".join(map(chr, (*range(0x20, 0x7F), *range(0xA0, 0x100), *range(0x391, 0x3CA), *range(0x400, 0x460))))
 """What nearly every sheet is lettered with, in any language that the program speaks."""
 UPRIGHT = "regular", "medium", "book", "roman"

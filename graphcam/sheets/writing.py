@@ -18,13 +18,13 @@ Floats = NDArray[np.float64]
 GAPS = np.array([1.2, 1.8, 2.5, 3.4, 4.6, 6.5, 9.0, 12.0, 16.0, 21.0, 27.0, 35.0])
 """Distances between a point and its label that are tried, mm."""
 LEADER = 6.0
-"""From this distance on, a thin line leads from the label to its point, mm."""
+"""The distance from which on a thin line leads from the label to its point, mm."""
 ABOVE = 1.0
-"""Between a dimension line and its text above it, mm."""
+"""The gap between a dimension line and its text above it, mm."""
 CLEAR = 2.0
-"""Between a dimension line and a text on a leader from it, mm."""
+"""The gap between a dimension line and a text on a leader from it, mm."""
 SHARES = np.array([0.5, 0.42, 0.58, 0.3, 0.7, 0.18, 0.82])
-"""Where along a dimension line its text may stand, the middle first."""
+"""The fractions of a dimension line at which its text may stand, the middle first."""
 DIRECTIONS: Points = np.exp(1j * np.radians(np.arange(0.0, 360.0, 22.5)))
 
 
@@ -99,7 +99,7 @@ def around(anchor: complex, text: str, height: float, towards: complex) -> Writi
 
 @dataclass(frozen=True, eq=False)
 class _Compass:
-    """Where a text may stand about a point, the best first; each (k,).
+    """Places of a text about a point, the best first; each (k,).
 
     ways : from the point to the text's box
     side : where the box is touched, from its middle to its side in halves of its width and height

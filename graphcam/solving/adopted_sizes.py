@@ -26,9 +26,9 @@ MORE = (2, 3, 4)
 MOST_BY_HAND = 72
 """Divisions of a phase; nobody draws more."""
 FURTHER = 4
-"""So many multiples of the rounding are tried on from the first radius that may help."""
+"""How many multiples of the rounding are tried on from the first radius that may help."""
 BESIDE = (0, 1, -1, 2, -2)
-"""And so many to either side of an adopted offset or centre distance."""
+"""The multiples to either side of an adopted offset or centre distance that are tried."""
 EXACTLY = 1e-9
 """mm or degrees: what a size that is named as a remedy may miss a limit by, for the arithmetic."""
 
@@ -74,7 +74,7 @@ def _radius(chain: Chain, cam: Cam) -> Iterator[Caution]:
 
 
 def _there(chain: Chain) -> Words:
-    """Beside which adopted place a radius is told."""
+    """The words for the adopted place beside which a radius is told."""
     name = chain.board.follower.place_name
     return PLACES[name].where(place=chain.place) if name in PLACES and "curvature" not in _asked(chain) else ""
 

@@ -28,7 +28,7 @@ from graphcam.words import Tell, say
 
 POINTS = ("A", "D", "F", "G", "C1", "C2", "C3")
 SHARE = 0.9
-"""Of the room for a profile, for each of the two views of the cam."""
+"""The share of the room for a profile, for each of the two views of the cam."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)

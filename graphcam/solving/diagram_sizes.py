@@ -26,11 +26,11 @@ their slopes."""
 LOW = 0.7
 """A diagram that is lower than this part of its room gets a shorter pole, as long as it keeps to the room."""
 LONGEST_POLE = 0.25
-"""Of the axis of the cam angle: a longer pole would take the room of the diagrams."""
+"""The maximum pole, as a part of the axis of the cam angle: a longer one would take the room of the diagrams."""
 WITH_JERK = 0.75
-"""So much of their heights the diagrams keep where that of the jerk shares their column."""
+"""The part of their heights that the diagrams keep where that of the jerk shares their column."""
 SAMPLES = 361
-"""Of each phase, however short it is."""
+"""The number of samples of each phase, however short it is."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class DiagramRoom:
 
     @property
     def beside_jerk(self) -> DiagramRoom:
-        """The same where the jerk stands in the column too."""
+        """The room where the jerk stands in the column too."""
         a, v, s = (WITH_JERK * high for high in (self.a, self.v, self.s))
         return replace(self, a=a, v=v, s=s)
 
@@ -174,19 +174,19 @@ def _places(motion: Motion) -> tuple[NDArray[np.intp], Floats]:
 
 
 def _height(values: Floats) -> float:
-    """Of a whole diagram, with its axis."""
+    """The height of a whole diagram, with its axis."""
     return float(max(0.0, values.max()) - min(0.0, values.min()))
 
 
 def _jerk_poles(longest: float) -> Iterator[float]:
-    """Those that are usually chosen from, the longest first, and ever smaller ones."""
+    """The poles that are usually chosen from, the longest first, and ever smaller ones."""
     yield from (pole for pole in reversed(POLES) if pole <= longest)
     for k in count(0):
         yield from (y / 10**k for y in (10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.2))
 
 
 def _ordinates() -> Iterator[float]:
-    """Those that are usually chosen from, and ever smaller ones."""
+    """The ordinates that are usually chosen from, and ever smaller ones."""
     yield from ORDINATES
     for k in count(1):
         yield from (y / 10**k for y in SMALLER)

@@ -8,7 +8,7 @@ from graphcam.constructions.chain import Chain
 from graphcam.solving.warnings import LAST_DIGIT
 
 Sides = tuple[float, float]
-"""To the left and to the right of the follower's axis [mm]."""
+"""Lengths to the left and to the right of the follower's axis [mm]."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class FaceDesign:
 
     @property
     def adopted(self) -> Sides:
-        """The same, rounded up [mm].
+        """The half-widths, rounded up [mm].
 
         >>> FaceDesign((24.78, 24.08), (25.0, 24.2), 3.0, 1.0).adopted
         (28.0, 28.0)

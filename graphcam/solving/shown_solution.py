@@ -11,12 +11,15 @@ from graphcam.given.laws import Floats
 from graphcam.showing import WIDTH, Shown, from_above, in_lines
 from graphcam.words import Words
 
-USUAL = ("pdf", "svg", "png", "dxf", "csv", "md", "note", "player", "profile_dxf", "profile_csv", "profile_xyz")
-"""The kinds of files that a solution is written to if nothing else is said ..."""
+USUAL = (
+    *("pdf", "svg", "png", "dxf", "csv", "md", "note", "note_html", "player"),
+    *("profile_dxf", "profile_csv", "profile_xyz"),
+)
+"""The kinds of files that a solution is written to if nothing else is said."""
 CUTTING = "profile_step", "profile_gcode"
-"""... those by which a machine cuts the cam ..."""
+"""The kinds of files by which a machine cuts the cam."""
 FILES = (*USUAL, *CUTTING)
-"""... and all that there are."""
+"""All kinds of files that there are."""
 GIVEN = "graphcam", "task", "files"
 """What ``solution.json`` says of an unfinished sheet: no answers."""
 
@@ -43,10 +46,10 @@ class ShownSolution(Shown):
         changed it since.  Other files stay as they are.
 
         files : a list of kinds; ``solution.json``, which names the others, always comes along.  The sheet is "pdf",
-            "svg", "png" and "dxf"; the table of drawn against exact values "csv" and "md"; the note "note"; the step
-            player "player"; the exact profile "profile_dxf" (one spline), "profile_csv" and "profile_xyz" (points),
-            "profile_step" (a solid) and "profile_gcode" (a program for a machine).  By default all but the last two,
-            and with a working drawing these too
+            "svg", "png" and "dxf"; the table of drawn against exact values "csv" and "md"; the note "note"
+            (Markdown) and "note_html" (a page that prints); the step player "player"; the exact profile "profile_dxf"
+            (one spline), "profile_csv" and "profile_xyz" (points), "profile_step" (a solid) and "profile_gcode" (a
+            program for a machine).  By default all but the last two, and with a working drawing these too
         upto, per_construction : which sheets, as for :func:`~graphcam.report.documents.sheet_of`; an unfinished sheet
             is called "worksheet", and stands alone: what holds answers is not written, nor do they stand in
             ``solution.json``

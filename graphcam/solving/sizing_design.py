@@ -29,7 +29,7 @@ from graphcam.tasks.task import CamTable, Task
 from graphcam.words import Words, say
 
 FINER = 4
-"""Where no round sizes keep the limits they are rounded to tenths, hundredths, ... so often."""
+"""How often sizes are rounded more finely (tenths, hundredths, ...) where no round sizes keep the limits."""
 TRIED = 50
 """Round radii that are tried, from the minimum one upwards."""
 

@@ -35,7 +35,6 @@ CONTACT_MEANING = Meaning(
     "contact",
     say("Contact force"),
     say("A spring presses the follower onto the cam. A cam cannot pull: where it would have to, contact is lost."),
-    calculation="report.spring_paragraphs.contact",
 )
 FORCES_MEANING = Meaning(
     "turn_forces",
@@ -44,7 +43,6 @@ FORCES_MEANING = Meaning(
         "The cam pushes along the normal, so the contact force is larger than the force that moves the follower; "
         "its lever arm about the cam centre makes the torque on the shaft."
     ),
-    calculation="report.spring_paragraphs.forces",
 )
 Row = tuple[Words, Words, Words]
 PLAIN_PARTS = 12
@@ -104,7 +102,7 @@ class SpringDesign:
         return self.chain.board.follower.force_plan(self.chain, self.load, self.chain.pencil, self.friction)
 
     def check(self) -> None:
-        """That there is such a design.
+        """Check that there is such a design.
 
         Raises
         ------
@@ -121,7 +119,7 @@ class SpringDesign:
 
     @property
     def lost(self) -> list[Caption]:
-        """Between which cam angles contact is lost."""
+        """The intervals of the cam angle in which contact is lost, as captions."""
         return [say("{start} to {end}", start=degrees(start), end=degrees(end)) for start, end in self.contact.lost()]
 
     @property
@@ -144,7 +142,7 @@ class SpringDesign:
 
     @property
     def units(self) -> tuple[str, str, str]:
-        """Of what presses along the motion, of the preload, and of the stiffness."""
+        """The units of what presses along the motion, of the preload, and of the stiffness."""
         if isinstance(self.load, SpringLoad):
             return "N", "N", "N/mm"
         return ("N·mm", "N·mm", "N·mm/rad") if self.load.at is None else ("N·mm", "N", "N/mm")
@@ -229,7 +227,7 @@ class SpringDesign:
             "",
             curve=self._curve(lambda places: forces.of(places).transmission),
             caption=(TRANSMITTED_BY_ARM if self.units[0] != "N" else TRANSMITTED).where(friction=self.friction),
-            why=say("Because the normal makes the angle α with the motion, and friction acts along the profile."),
+            why=say("The normal makes the angle α with the motion, and friction acts along the profile."),
             marked=((margin, say("{value:.3f}", value=margin.value)),),
         )
         normal = make(
@@ -244,7 +242,7 @@ class SpringDesign:
                 formula=normal_formula(self.load, self.friction),
                 greatest=with_unit(self.greatest_normal.value, "N"),
             ),
-            why=say("Because along the motion only a part of the normal force acts."),
+            why=say("Along the motion only a part of the normal force acts."),
             marked=((self.greatest_normal, with_unit(self.greatest_normal.value, "N")),),
         )
         mean, peak = self.torques[0], max(most_torque, least_torque, key=lambda found: abs(found.value))
@@ -261,7 +259,7 @@ class SpringDesign:
                 peak=with_unit(peak.value, "N·mm"),
                 mean=with_unit(_clean(mean), "N·mm"),
             ),
-            why=say("Because the power of the shaft equals that of the follower and of friction."),
+            why=say("The power of the shaft equals that of the follower and of friction."),
             marked=((peak, with_unit(peak.value, "N·mm")),),
         )
         return [normal, torque] if flat else [sliding, normal, torque]
@@ -408,7 +406,7 @@ def with_unit(value: float, of: str) -> Caption:
 
 
 def _rounded_up(force: float) -> float:
-    """To four digits, and no less: with less preload contact is lost."""
+    """The value rounded up to four digits, and no less: with less preload contact is lost."""
     unit_of_last = 10.0 ** (math.floor(math.log10(force)) - 3) if force > 0 else 1.0
     return math.ceil(force / unit_of_last) * unit_of_last
 

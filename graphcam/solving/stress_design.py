@@ -31,7 +31,6 @@ STRESS_MEANING = Meaning(
     "contact_stress",
     say("Contact stress"),
     say("Cam and follower touch in a narrow strip. The pressure in its middle decides how long the surfaces last."),
-    calculation="report.stress_paragraphs.contact_stress",
 )
 STRESS = say(
     "p₀ is the pressure in the middle of the contact by Hertz, from the force along the normal and the curvatures of "
@@ -64,7 +63,7 @@ WITHOUT = {
     "undercut": say("the profile is undercut, and ends in an edge there"),
     "no force": say("nothing presses the follower onto the cam"),
 }
-"""Why there is no greatest stress that is finite."""
+"""Reasons why there is no greatest stress that is finite."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +80,7 @@ class StressDesign:
 
     @cached_property
     def without(self) -> Literal["knife edge", "undercut", "no force"] | None:
-        """Why there is no greatest stress, if there is none."""
+        """The reason why there is no greatest stress, if there is none."""
         cam = self.forces.cam
         if cam.kinematics.takes_roller and not cam.roller_radius > 0:
             return "knife edge"
@@ -91,7 +90,7 @@ class StressDesign:
 
     @cached_property
     def stress(self) -> ContactStress:
-        """Over the turn; only where the follower has no knife edge."""
+        """The stress over the turn; only where the follower has no knife edge."""
         return ContactStress(self.forces, self.material())
 
     @cached_property
@@ -120,7 +119,7 @@ class StressDesign:
 
     @property
     def shape(self) -> Literal["convex", "concave", "flat"]:
-        """Of the profile where the stress is greatest."""
+        """The shape of the profile where the stress is greatest."""
         assert self.contact is not None
         radius, roller = float(self.contact.profile_radius), self.forces.cam.roller_radius
         if roller and abs(radius) > FLAT * roller:
@@ -166,7 +165,7 @@ class StressDesign:
             self.forces.cam.motion,
             curve,
             self._said,
-            why=say("Because surfaces suffer pitting where they are pressed too hard too often."),
+            why=say("Surfaces suffer pitting where they are pressed too hard too often."),
             marked=((self.greatest, with_unit(self.greatest.value, "MPa")),),
             limit=None if limit is None or self._far else (limit, with_unit(limit, "MPa")),
             wrong=() if limit is None else tuple(_above(curve, limit)),
@@ -244,7 +243,7 @@ class StressDesign:
 
 
 def rounded_up(width: float) -> float:
-    """To hundredths of a millimetre: what is less would not keep to the limit.
+    """The size rounded up to hundredths of a millimetre: what is less would not keep to the limit.
 
     >>> rounded_up(13.741)
     13.75

@@ -102,7 +102,7 @@ ROOMS = {
     ("A4", False): DiagramRoom(2.0, 45.0, 40.0, 30.0),
     ("A4", True): DiagramRoom(3.0, 75.0, 65.0, 40.0),
 }
-"""By format, and whether it stands upright."""
+"""The rooms for diagrams by format, and whether it stands upright."""
 WITHOUT_ANGLES = 1.6
 """So many times its height the displacement may have where no diagram of the pressure angle stands under it; not on A4,
 where the combined diagram, which has the same scale, would be wider than the sheet."""
@@ -146,7 +146,7 @@ HOPELESS = 10.0
 
 
 def check_given_sizes(task: Task, times: float = 1.0) -> None:
-    """That the ordinate and the poles that a task gives leave diagrams that fit a page of its format.
+    """Check that the ordinate and the poles that a task gives leave diagrams that fit a page of its format.
 
     times : how many times the room of the page they may take
 

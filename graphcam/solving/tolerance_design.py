@@ -27,7 +27,6 @@ TOLERANCE_MEANING = Meaning(
     "tolerances",
     say("Errors of making"),
     say("No cam is made exactly. What is permitted decides how far the follower may be off, and how much it shakes."),
-    calculation="report.tolerance_paragraphs.errors_of_making",
 )
 ERRORS = {
     "roller_diameter": say("roller diameter"),
@@ -62,9 +61,9 @@ HEADINGS = (
     say("Band of a, μ = {mu:g} {unit}/mm"),
 )
 WHYS = (
-    say("Because on a steep flank an error of the profile lifts the follower by more than itself."),
-    say("Because every wave of the profile counts as often as it occurs in a turn."),
-    say("Because the force of inertia grows with the square of the number of waves."),
+    say("On a steep flank an error of the profile lifts the follower by more than itself."),
+    say("Every wave of the profile counts as often as it occurs in a turn."),
+    say("The force of inertia grows with the square of the number of waves."),
 )
 SAID = say(
     "{coverage:g} of 100 mechanisms stay so near to the nominal value, above or below it, at {mu:g} {unit}/mm. The "
@@ -86,7 +85,7 @@ class ToleranceDesign:
 
     @cached_property
     def bands(self) -> MotionBands:
-        """Of s, v and a."""
+        """The bands of s, v and a."""
         return motion_bands(self.cam, self.given(), coverage=self.given.coverage)
 
     @cached_property
@@ -95,7 +94,7 @@ class ToleranceDesign:
         return not self.cam.roller_radius < self.cam.extremes().min_convex_radius[0]
 
     def check(self) -> None:
-        """That the follower can follow the waves.
+        """Check that the follower can follow the waves.
 
         Raises
         ------
@@ -175,7 +174,7 @@ class ToleranceDesign:
         }
 
     def table(self) -> Table:
-        """Which tolerance matters most, for the sheet and for the working drawing."""
+        """A table of which tolerance matters most, for the sheet and for the working drawing."""
         title = say("Tolerances and what they do")
         if self.undercut:
             return Table(title, ("", ""), ((say("the profile is undercut"), "–"),))

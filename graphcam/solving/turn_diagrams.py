@@ -14,7 +14,7 @@ import numpy as np
 from graphcam.constructions.axes import axes_over_phi, degrees, degrees_below, phase_ends, phase_symbol, reach
 from graphcam.constructions.graduation import graduated, round_up
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.ink import Caption, Construction, Step, View, Words, say
+from graphcam.drafting.ink import Caption, Construction, Part, Step, View, Words, say
 from graphcam.drafting.marks import Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
@@ -130,11 +130,11 @@ def diagram_step(diagram: TurnDiagram) -> Step:
     values = {"mu": mu.per_mm}
     view = View(diagram.name, diagram.heading.where(**values), across="turn phi", up=f"{diagram.name} up")
     said = replace(diagram.caption, values={**diagram.caption.values, **values})
-    return Step(diagram.title, said, view, tuple(marks), given=axes, why=diagram.why)
+    return Step(diagram.title, (Part(said),), view, tuple(marks), given=axes, why=diagram.why)
 
 
 def at_side(found: ValueAt, motion: Motion) -> Caption:
-    """At which cam angle, and on which side of it where the motion has a break."""
+    """The cam angle at which a value stands, and the side of it where the motion has a break."""
     phi = degrees(found.phi)
     if np.abs(np.append(motion.breaks, FULL_TURN) - found.phi).min() > BREAK:
         return say("at {phi}", phi=phi)

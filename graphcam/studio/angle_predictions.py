@@ -17,7 +17,7 @@ from graphcam.words import Caption, say, sequence
 STEEPEST_RAY = math.radians(75)
 """The ray turns so far from the motion."""
 LENGTH = 0.95
-"""Of the ray, in parts of the height from A to the end of the lift."""
+"""The length of the ray, in parts of the height from A to the end of the lift."""
 POINTS = 76
 ALPHA = say("pressure angle α")
 PHI = say("cam angle φ")
@@ -55,7 +55,7 @@ def angle_foretold(chain: Chain) -> Foretold:
 
 
 def _rising(chain: Chain) -> NDArray[np.bool_]:
-    """At which stations the follower rises."""
+    """Flags of the stations at which the follower rises."""
     return np.array([chain.board.motion.phases[k].direction > 0 for k in chain.board.stations.phase])
 
 
@@ -77,7 +77,7 @@ def _by_degrees(difference: float, lean: float, paper: float) -> Caption:
 
 
 def _outermost(chain: Chain, k: int) -> Caption:
-    """Which ray it is, and what it is made of."""
+    """The outermost ray, and what it is made of."""
     measured = chain.pressure_angle
     end = complex(measured.acts["ends"].first.shown[k]) - complex(measured.first("centre"))
     said = say(
@@ -88,7 +88,7 @@ def _outermost(chain: Chain, k: int) -> Caption:
 
 
 def steepest_foretold(chain: Chain) -> Foretold:
-    """At which cam angle of the rises the pressure angle is greatest.
+    """The prediction of the cam angle of the rises at which the pressure angle is greatest.
 
     >>> import graphcam as gc
     >>> asked = steepest_foretold(gc.solve(gc.builtin_task()).chain)

@@ -17,16 +17,16 @@ from graphcam.studio.foretold import PENCIL_LINE, Foretold, JudgedGuess, shown_s
 from graphcam.words import Caption, say, sequence
 
 GIVEN_STEPS = 2
-"""So many steps of the region are drawn before: what is laid off, and the curve; then come the limits."""
+"""The number of steps of the region that are drawn before: what is laid off, and the curve; then come the limits."""
 BEYOND = 1.7
 """The guess may move so many times as far as the lift is high, or as the centre lies away."""
 POINTS = 73
-"""Of a curve on which it moves."""
+"""The number of points of a curve on which the guess moves."""
 LEAST_RADIUS = say("minimum prime radius")
 
 
 def centre_foretold(chain: Chain) -> Foretold:
-    """Where the cam centre with the least radius lies.
+    """The prediction of the cam centre with the least radius.
 
     >>> import graphcam as gc
     >>> asked = centre_foretold(gc.solve(gc.builtin_task()).chain)
@@ -82,7 +82,7 @@ def _question(chain: Chain, free: bool) -> Caption:
 
 
 def _way(chain: Chain, answer: complex, origin: complex) -> tuple[Points, bool]:
-    """On what the guess moves, and whether it is free between two corners."""
+    """The way on which the guess moves, and whether it is free between two corners."""
     region, follower = chain.minimum_radius, chain.board.follower
     if _by_curvature(chain):
         height = float(region.acts["displacements"].first.shown.imag.max())

@@ -27,7 +27,7 @@ from graphcam.studio.view_steps import NamedStep
 from graphcam.words import Caption, Tell, say
 
 ROOM_FOR_LABELS = 12.0
-"""Around the drawing [mm]."""
+"""The room for labels around the drawing [mm]."""
 LEAST_LETTERS = 10.0
 """No letter on the screen is smaller [px]."""
 INDEX = math.sqrt(0.5)

@@ -21,7 +21,7 @@ ASKS: Mapping[str, str] = {
     "open": "graphcam.studio.task_text.opened",
     "sweep": "graphcam.studio.what_if.sweep_answer",
 }
-"""Who answers what, by the name of the function; its module is loaded when it is first asked."""
+"""The functions that answer requests; the module is loaded when it is first asked."""
 
 
 def answer(request: Mapping[str, Any]) -> Plain:

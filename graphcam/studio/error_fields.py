@@ -84,7 +84,7 @@ FIELDS: Mapping[str, str] = {
 }
 """The field of a quantity; where several sizes together are wrong, the one that its remedy names first."""
 TABLES = "motion", "follower", "cam", "limits", "spring", "material", "tolerances", "drawing", "arcs", "title", "part"
-"""Of a task file: what begins so is a place of it."""
+"""The tables of a task file: what begins so is a place of it."""
 OF_WHOLE = re.compile(r" \(.*\)$")
 """What a message adds to a place in words, such as "(sum of the angles)"."""
 

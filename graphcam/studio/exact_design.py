@@ -48,7 +48,7 @@ def exact_design(task: Task | ArcsTask) -> Design:
 
 
 def _of_motion(task: Task) -> dict[str, float | None]:
-    """Of a cam whose follower moves by laws, or as it was measured."""
+    """The design of a cam whose follower moves by laws, or as it was measured."""
     motion, given = task.motion(), task.follower
     least, place = _least(task)
     r0 = least if task.cam.prime_radius is None else task.cam.prime_radius
@@ -93,7 +93,7 @@ def _condition(task: Task) -> dict[str, float | None]:
 
 
 def _of_arcs(task: ArcsTask) -> dict[str, float | None]:
-    """On the return the pressure angle is the same, negative."""
+    """The design of a cam of arcs; on the return the pressure angle is the same, negative."""
     arcs = task.arcs()
     cam, _ = three_arc_cam(arcs.D, arcs.G, arcs.rho1, arcs.A, arcs.C1, arcs.C2)
     motion = cam.motion(task.follower.roller_radius, math.radians(task.arcs.dwell))

@@ -22,12 +22,12 @@ from graphcam.errors import DesignError
 from graphcam.words import say
 
 ITERATIONS = 20_000
-"""Of PBKDF2 with SHA-256: a course has fifty hashes a student, and no number of them withstands guessing."""
+"""Iterations of PBKDF2 with SHA-256: a course has fifty hashes a student, and no number of them withstands guessing."""
 MOST_ITERATIONS = 1_000_000
 LENGTH = 6
 """Bytes of a hash that are kept: they stand in an address, and a number hits one of them by chance once in 10^14."""
 DIGITS = 7
-"""To which offset and width are written."""
+"""Digits to which offset and width are written."""
 MARGIN = 1e-5
 """A cell is wider than the tolerance by this part, which writing takes away again."""
 MOST_ANSWERS = 100
@@ -49,7 +49,7 @@ class AnswerCheck:
 
     @property
     def plain(self) -> dict[str, Any]:
-        """As the page reads it."""
+        """The check as plain data for the page."""
         said: dict[str, Any] = {"offset": self.offset, "width": self.width, "right": self.right}
         return said | ({"hints": dict(self.hints)} if self.hints else {})
 
@@ -107,7 +107,7 @@ def salt_of(secret: bytes, *said: str) -> bytes:
 
 
 def _written(number: float) -> float:
-    """As it is written down, so that everybody reckons with the same."""
+    """A number as it is written down, so that everybody calculates with the same."""
     return float(f"{number:.{DIGITS}g}")
 
 

@@ -136,7 +136,7 @@ class FieldMaker:
         return field | {"first": {**freed, **first}}
 
     def choice(self, path: str, group: Caption, name: Caption, choices: Iterable[tuple[Any, Words]]) -> Field:
-        """One of several; what stands in the task is among them."""
+        """A field for one of several; what stands in the task is among them."""
         value = value_at(self.said, path)
         offered = [{"value": each, "name": self.tell(title)} for each, title in choices]
         if value is not None and all(each["value"] != value for each in offered):

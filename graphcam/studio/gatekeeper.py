@@ -55,7 +55,7 @@ class Gatekeeper:
         return f"127.0.0.1:{self.port}", f"localhost:{self.port}"
 
     def check_place(self, headers: Message) -> None:
-        """That a request means this server, and that no foreign page has sent it.
+        """Check that a request means this server, and that no foreign page has sent it.
 
         Raises
         ------
@@ -67,7 +67,7 @@ class Gatekeeper:
             raise RefusedError(HTTPStatus.FORBIDDEN, "no other origin may ask")
 
     def check_token(self, headers: Message) -> None:
-        """That a request knows the token; it takes as long to refuse an almost right one as any other.
+        """Check that a request knows the token; it takes as long to refuse an almost right one as any other.
 
         Raises
         ------
@@ -102,7 +102,7 @@ def body_length(headers: Message) -> int:
 
 
 def check_json(headers: Message) -> None:
-    """That a body is JSON: a form of a foreign page, which needs no leave to be sent, cannot say that.
+    """Check that a body is JSON: a form of a foreign page, which needs no leave to be sent, cannot say that.
 
     Raises
     ------

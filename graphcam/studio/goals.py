@@ -45,7 +45,7 @@ class Goal:
 
     @property
     def plain(self) -> dict[str, Any]:
-        """As the page reads it."""
+        """The goal as plain data for the page."""
         return {"path": self.path, "operator": self.operator, "value": self.value}
 
 

@@ -18,7 +18,7 @@ COARSE = 10
 """A coarse step is so many steps."""
 DECIMALS = 3
 TURN = SizeRange(0.0, 360.0, 0.5)
-"""Of the cam angle [degrees]."""
+"""The range of the cam angle [degrees]."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class HandleAxis:
     extra: Mapping[str, Any] | None = None
 
     def plain(self, tell: Tell) -> dict[str, Any]:
-        """As the page reads it."""
+        """The axis as plain data for the page."""
         each = self.range.around(self.value)
         return {
             "path": self.path,
@@ -79,11 +79,11 @@ class Handle:
 
     @property
     def id(self) -> str:
-        """Its own among those of all views."""
+        """An identifier that no other handle of the views has."""
         return f"{self.view}/{self.key}"
 
     def plain(self, tell: Tell) -> dict[str, Any]:
-        """As the page reads it."""
+        """The handle as plain data for the page."""
         return {
             "id": self.id,
             "view": self.view,

@@ -24,7 +24,7 @@ from graphcam.words import Tell, say
 MECHANISM = "mechanism"
 """The view of the turning mechanism, which the page draws itself."""
 HALVINGS = 7
-"""Of the way of a hand that goes where there is no design."""
+"""Halvings of the way of a hand that goes where there is no design."""
 Solved = TypeVar("Solved")
 FAR = 1e6
 """No place on paper is farther away [mm]."""
@@ -73,7 +73,7 @@ def dragged_within(
     phi: float = 0.0,
     station: int | None = None,
 ) -> tuple[Changes, Solved]:
-    """The same as far as there is a design: a hand that goes on is followed to the last one on its way.
+    """The dragged sizes as far as there is a design: a hand that goes on is followed to the last one on its way.
 
     solve : the solution with some changes, or a DesignError
     returns : the changes, and the solution with them
@@ -153,7 +153,7 @@ def _of_angles(solution: Solution, state: HandleState) -> Iterator[Handle]:
 
 
 def _of_combined(solution: Solution, state: HandleState) -> Iterator[Handle]:
-    """Of a stem with an offset, or of a flat face; an arm has another drawing."""
+    """Handles of a stem with an offset, or of a flat face; an arm has another drawing."""
     if "offset" in sizes_of(solution.task):
         yield from region.cam_centre(solution)
         yield from region.tangents(solution)

@@ -26,7 +26,7 @@ KEPT = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class ArmRegionPlaces:
-    """Where the hand may put the cam centre of an arm, and which sizes it has there.
+    """The places where the hand may put the cam centre of an arm, and which sizes it has there.
 
     touches, inwards : the lines that bound the region, (k,) each [mm of paper]
     arm : mm;  mu : mm of the machine to a millimetre of paper;  step : to which sizes are snapped
@@ -165,7 +165,7 @@ def _pivot(solution: Solution) -> Iterator[Handle]:
 
 
 def _end_of_arm(solution: Solution) -> Iterator[Handle]:
-    """On the prime circle: a longer arm reaches farther round it."""
+    """The handle on the prime circle: a longer arm reaches farther round it."""
     chain, mu, arm = solution.chain, scale_of(solution), sizes_of(solution.task)["arm"]
     radius, distance = chain.prime_radius, chain.place
     room = third_side(distance, radius, step_for(lift_of(solution)))

@@ -18,13 +18,13 @@ from graphcam.words import Caption, say
 MAGNET = 5.0
 """Round phase angles [degrees] draw a border ..."""
 NEAR = 1.0
-"""... that comes so near [degrees]."""
+"""The distance [degrees] within which a magnet draws a border."""
 NAMES = {ACCELERATION.name: "a", VELOCITY.name: "v", DISPLACEMENT.name: "s"}
 """The readings over the cam angle by the names of their views."""
 
 
 def borders(solution: Solution, view: str) -> Iterator[Handle]:
-    """Where one phase ends and the next begins: what one gains the other loses."""
+    """Handles where one phase ends and the next begins: what one gains the other loses."""
     phases = solution.task.motion.phases
     if phases is None:
         return
@@ -77,7 +77,7 @@ def ordinate(solution: Solution) -> Iterator[Handle]:
 
 
 def _first_rise(solution: Solution) -> int:
-    """Which of the moving phases is the first rise."""
+    """The number of the first rise among the moving phases."""
     moving = [phase.direction for phase in solution.cam.motion.phases if phase.direction]
     return moving.index(1)
 

@@ -20,7 +20,7 @@ RIM, PITCH = say("Rim of the roller"), say("Point of the pitch curve")
 
 
 def scale_of(solution: Solution) -> float:
-    """So many mm go to a millimetre of the profile's paper."""
+    """The scale of the profile: mm that go to a millimetre of paper."""
     return solution.chain["inversion"].readings["x"].per_mm
 
 
@@ -58,7 +58,7 @@ def kept_place(solution: Solution) -> Changes:
 
 
 def offset_circle(solution: Solution) -> Iterator[Handle]:
-    """Where the follower's line touches the offset circle at the start of the turn."""
+    """The handle where the follower's line touches the offset circle at the start of the turn."""
     mu, offset, room = scale_of(solution), solution.chain.place, ranges(solution)["follower.offset"]
 
     def drag(to: complex, fine: bool) -> Changes:

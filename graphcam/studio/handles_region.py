@@ -29,7 +29,7 @@ CENTRE = say("Cam centre A")
 
 @dataclass(frozen=True, eq=False)
 class CentreOfRegion:
-    """Where the hand may put the cam centre of a translating follower, and which sizes it has there.
+    """The places where the hand may put the cam centre of a translating follower, and which sizes it has there.
 
     lines : that bound the region;  mu : mm of the machine to a millimetre of paper
     step : to which sizes are snapped;  most : the greatest prime radius;  aside : the greatest offset
@@ -146,12 +146,12 @@ def tangents(solution: Solution) -> Iterator[Handle]:
 
 
 def _side(solution: Solution, name: str) -> int:
-    """To which side a tangent leans going down: 1 to the right."""
+    """The side to which a tangent leans going down: 1 to the right."""
     return sense(solution.task.rotation) * (1 if name == "rise" else -1)
 
 
 def tangents_meet(solution: Solution, name: str, angles: Floats, level: float) -> Floats:
-    """Where the tangents at permitted angles [rad] to the curve of the rise or the return meet a level; (k,) in mm."""
+    """Where tangents at permitted angles [rad] to the curve of rise or return meet a level; (k,) in mm."""
     motion, stations = solution.cam.motion, solution.chain.board.stations
     side, pieces = _side(solution, name), pieces_of(motion, stations, 1 if name == "rise" else -1)
     ends = np.asarray(solution.chain["pressure_angle"].first("ends"))

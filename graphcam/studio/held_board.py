@@ -24,7 +24,7 @@ from graphcam.tasks.task import Task
 from graphcam.words import say
 
 TALLEST = 2000.0
-"""Of the diagrams and of every view [mm of paper]; no sheet takes a fifth of it."""
+"""The maximum height of the diagrams and of every view [mm of paper]; no sheet takes a fifth of it."""
 
 
 def solved(
@@ -56,7 +56,7 @@ def _solved(task: str, spoken: str, kept: str, station: int | None) -> AnySoluti
 
 
 def check_heights(board: Board) -> None:
-    """That no diagram is so high that its divisions and labels could not be drawn in reasonable time.
+    """Check that no diagram is so high that its divisions and labels could not be drawn in reasonable time.
 
     Raises
     ------

@@ -36,7 +36,7 @@ class HeldView:
     labels: Mapping[str, LabelPlace]
 
     def plain(self) -> Plain:
-        """The same as plain data."""
+        """The held view as plain data."""
         labels = {name: [*_rounded(at.centre), round(at.angle, DIGITS)] for name, at in self.labels.items()}
         corners = [self.frame.left, self.frame.bottom, self.frame.right, self.frame.top]
         constructions = {"drawn": list(self.drawn_by), "settled": list(self.settled_by)}
@@ -58,7 +58,7 @@ class HeldDiagrams:
     asked: tuple[float | None, tuple[float, float] | None]
 
     def plain(self) -> Plain:
-        """The same as plain data."""
+        """The held diagrams as plain data."""
         asked = [self.asked[0], self.asked[1] and list(self.asked[1])]
         return {"ordinate": self.ordinate, "peak": self.peak, "poles": list(self.poles), "asked": asked}
 
@@ -80,7 +80,7 @@ class Hold:
     names: tuple[Plain, ...] = ()
 
     def plain(self) -> Plain:
-        """The same as plain data."""
+        """The hold as plain data."""
         return {
             "scales": dict(self.scales),
             "diagrams": self.diagrams and self.diagrams.plain(),

@@ -46,4 +46,4 @@ MODE_WORDS: Mapping[str, Caption] = {
     "practice": say("For practice only: marks are given for what you hand in."),
     "checked": say("{right} of {checked} right.", right="{right}", checked="{checked}"),
 }
-"""By the names that ``predict.js``, ``tour.js`` and ``exercise.js`` ask for."""
+"""Captions by the names that ``predict.js``, ``tour.js`` and ``exercise.js`` ask for."""

@@ -17,7 +17,7 @@ SHOWN = "phi", "station"
 
 @dataclass(frozen=True)
 class MovedTask:
-    """What is drawn.
+    """A task as it is drawn, with the sizes of a dragged handle.
 
     solution : of the task with the changes
     changes : by the dragged handle, by their paths

@@ -15,7 +15,7 @@ POLICY = (
     "default-src 'none'; script-src {scripts} 'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; "
     "font-src data:; img-src data:; base-uri 'none'; form-action 'none'"
 )
-"""Its own scripts and a worker made of them; no connection of any kind."""
+"""The content policy of the file: its own scripts and a worker made of them; no connection of any kind."""
 
 
 def write_one_file(path: Path, pyodide: Path, task: Task | ArcsTask, language: str = ENGLISH.name) -> None:

@@ -1,4 +1,4 @@
-"""What the drawing has at its stations, at any cam angle between."""
+"""Values that the drawing has at its stations, interpolated at any cam angle between."""
 
 import math
 

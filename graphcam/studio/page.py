@@ -133,7 +133,7 @@ SCRIPTS = (
     "what_if.js", "strip.js", "walk.js", "cam_angle.js", "asking.js", "changing.js", "picture.js", "files.js",
     "modes.js", "guess.js", "predict.js", "tour.js", "exercise.js", "studio.js",
 )  # fmt: skip
-"""In this order; later ones use the functions of earlier ones, and a mode's script is left out where there is none."""
+"""The scripts in order; later ones use functions of earlier ones, and a mode's script is left out where none is."""
 POLICY = (
     "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; connect-src 'self'; font-src data:; "
     "img-src data:; base-uri 'none'; form-action 'none'"

@@ -99,7 +99,7 @@ def _own_sums(found: Mapping[str, bytes]) -> dict[str, str]:
 
 
 def _check(folder: Path, name: str, content: bytes, known: set[str | None]) -> None:
-    """That a file is one that is known."""
+    """Check that a file is one that is known."""
     found = hashlib.sha256(content).hexdigest()
     if found not in known:
         trusted = sorted(each for each in known if each)

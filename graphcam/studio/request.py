@@ -13,9 +13,9 @@ from graphcam.tasks.task_file import task_from
 from graphcam.words import bare, say
 
 MOST_DIVISIONS, MOST_PHASES, MOST_ROWS, MOST_POINTS = 200, 36, 2000, 60
-"""Of a task in the studio: more take too long to be drawn while a size is moved."""
+"""Maximum sizes of a task in the studio: more take too long to be drawn while a size is moved."""
 MOST_VIEWS = 20
-"""In one request."""
+"""The maximum number of views in one request."""
 LETTERED_FROM = 0.8
 """A view shown smaller than this has no labels [px per mm]: it is a small picture, to be recognised and not read."""
 WORST_PENCIL = 1.0
@@ -140,7 +140,7 @@ def task_in(data: dict[str, Any], spoken: str = "en") -> Task | ArcsTask:
 
 
 def _check_size(data: Data) -> None:
-    """Before anything is made of a task: that it is not too large."""
+    """Check, before anything is made of a task, that it is not too large."""
     motion, drawing = (part if isinstance(part := data.get(name), dict) else {} for name in ("motion", "drawing"))
     table = part if isinstance(part := motion.get("table"), dict) else {}
     divisions = drawing.get("divisions")
@@ -159,7 +159,7 @@ def _check_size(data: Data) -> None:
 
 
 def _points(part: Any) -> int:
-    """Of a part by conditions; what is no part counts too."""
+    """The number of points of a part by conditions; what is no part counts too."""
     return max(1, _length(part.get("points"))) if isinstance(part, dict) else 1
 
 

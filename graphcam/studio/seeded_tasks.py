@@ -32,7 +32,7 @@ class Draws:
         self._left = int.from_bytes(hashlib.sha512(seed.encode()).digest())
 
     def one_of(self, values: Sequence[Any]) -> Any:
-        """One of some values."""
+        """A randomly drawn value of several."""
         self._left, place = divmod(self._left, len(values))
         return values[place]
 

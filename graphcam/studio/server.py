@@ -30,7 +30,7 @@ WORKING = 2.0
 QUIET = 10.0
 """Seconds after the last sign of life of a tab, when the server ends."""
 HIDDEN = 150.0
-"""The same where the last one came from a hidden tab: browsers let its clock tick once a minute."""
+"""Seconds after the last sign of life of a hidden tab: browsers let its clock tick once a minute."""
 ALIVE = {"/alive": QUIET, "/alive?hidden": HIDDEN, "/alive?end": QUIET}
 """How long a server lives on after a sign of life; a page that ends may come back, for it is loaded anew."""
 DROPPING = 1.0
@@ -44,7 +44,7 @@ POLICY = (
     "default-src 'none'; script-src {scripts}; style-src 'unsafe-inline'; connect-src 'self'; img-src data: blob:; "
     "font-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-"""And with the page: run the scripts that stand in it, ask this server, nothing else."""
+"""The content policy of the page: run the scripts that stand in it, ask this server, nothing else."""
 HEADERS = {
     "Cache-Control": "no-store",
     "Cross-Origin-Opener-Policy": "same-origin",
@@ -128,7 +128,7 @@ class _TimedStream(io.RawIOBase):
         self.connection, self.until = connection, 0.0
 
     def readable(self) -> bool:
-        """That it is there to be read."""
+        """Whether the stream can be read: it can."""
         return True
 
     def readinto(self, buffer: Any) -> int:

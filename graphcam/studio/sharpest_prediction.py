@@ -12,14 +12,14 @@ from graphcam.studio.foretold import PENCIL_LINE, Foretold, JudgedGuess, nearest
 from graphcam.words import Caption, say, sequence
 
 PLACES = 721
-"""Of the turn: every half degree."""
+"""The number of places of the turn: every half degree."""
 AS_SHARP = 0.005
 """What is less sharp by no more than this part is as sharp: an arc of a dwell is so all along."""
 RHO = say("radius of curvature ρ")
 
 
 def sharpest_foretold(solution: Solution) -> Foretold:
-    """Where on the curve the radius of curvature is least: on the pitch curve, under a flat face on the profile.
+    """Predict where the radius of curvature is least: on the pitch curve, under a flat face on the profile.
 
     >>> import graphcam as gc
     >>> asked = sharpest_foretold(gc.solve(gc.builtin_task()))

@@ -16,9 +16,9 @@ POLICY = (
     "default-src 'none'; script-src {scripts} 'self'; worker-src 'self'; connect-src 'self'; "
     "style-src 'unsafe-inline'; font-src data:; img-src data:; base-uri 'none'; form-action 'none'"
 )
-"""Its own scripts, and what lies in the same folder."""
+"""The content policy of the site: its own scripts, and what lies in the same folder."""
 BUILD_DIGITS = 12
-"""Of the sum that names a build."""
+"""Digits of the sum that names a build."""
 
 
 def write_site(folder: Path, pyodide: Path, task: Task | ArcsTask, language: str = ENGLISH.name) -> None:

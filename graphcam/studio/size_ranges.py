@@ -22,9 +22,9 @@ USUAL_STRESS = 1200.0
 """Permitted of hardened steel [MPa]; a slider begins there where no stress is judged."""
 MOST_PHASES = 36
 CLEAR = 4
-"""So many steps a triangle stays from a flat one."""
+"""How many steps a triangle stays from a flat one."""
 LEAST_ANGLE = 1.0
-"""Of a phase [degrees]."""
+"""The minimum angle of a phase [degrees]."""
 
 
 class SizeRange(NamedTuple):
@@ -46,11 +46,11 @@ class SizeRange(NamedTuple):
         return round(inside, 9)
 
     def plain(self) -> dict[str, float]:
-        """As the page reads it."""
+        """The range as plain data for the page."""
         return {"min": self.least, "max": self.most, "step": self.step}
 
     def around(self, value: float | None) -> "SizeRange":
-        """The same, wide enough for a value that stands there."""
+        """The range, wide enough for a value that stands there."""
         if value is None:
             return self
         return SizeRange(min(self.least, value), max(self.most, value), self.step)
@@ -137,7 +137,7 @@ def _(solution: ArcsSolution) -> dict[str, SizeRange]:
 
 
 def _wide_enough(found: dict[str, SizeRange], task: Task | ArcsTask) -> dict[str, SizeRange]:
-    """With the values that stand in the task, though they lie outside what is usual."""
+    """The ranges with the values that stand in the task, though they lie outside what is usual."""
     said = task.to_dict()
     return {path: each.around(value_at(said, path)) for path, each in found.items()}
 

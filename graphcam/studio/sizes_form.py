@@ -33,7 +33,7 @@ from graphcam.words import Tell, Words, say, say_in
 PENCIL = SizeRange(0.0, 0.5, 0.05)
 """Standard deviation of a line [mm]; 0.2 is a careful student's."""
 RATIO = SizeRange(0.2, 5.0, 0.1)
-"""Of the accelerations of the rectangular law's parts."""
+"""The range of the ratio of accelerations of the rectangular law's parts."""
 KIND_NAMES = {"rise": say("rise"), "dwell": say("dwell"), "return": say_in("a phase", "return")}
 TURNING = {"cw": say("clockwise"), "ccw": say("anticlockwise")}
 LIFTS = {"angle": say("angle of the arm, degrees"), "arc": say("arc of its end, mm")}

@@ -137,7 +137,7 @@ def _warning(solution: Solution, caution: Caution, spoken: Language) -> dict[str
 
 
 def _place(solution: Solution, caution: Caution) -> complex | None:
-    """Where it is seen in its view [mm of paper, y upwards]."""
+    """The place where a caution is seen in its view [mm of paper, y upwards]."""
     if not caution.phi:
         return None
     phi, chain = caution.phi[0], solution.chain

@@ -80,7 +80,7 @@ def _put(table: Any, step: str | int, value: Any, path: str) -> None:
 
 
 def _check(table: Any, step: str | int, path: str) -> None:
-    """That a step leads into a table, or to an entry that a list has."""
+    """Check that a step leads into a table, or to an entry that a list has."""
     fits = isinstance(table, dict) if isinstance(step, str) else isinstance(table, list) and step < len(table)
     if not fits:
         raise DesignError("path", path, say("one that the task has"), REMEDY)

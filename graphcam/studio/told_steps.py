@@ -1,4 +1,4 @@
-"""What is said of the steps of a view: captions, parts that light what they are found from, and readings."""
+"""The steps of a view as plain data: captions, parts that light what they are found from, and readings."""
 
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import asdict, dataclass, field
@@ -6,6 +6,7 @@ from typing import Any
 
 from graphcam.drafting.acts import Act
 from graphcam.drafting.moves import ActPlaces
+from graphcam.report.sheet_contents import scales_found
 from graphcam.report.step_player import drawn_in_parts, told
 from graphcam.sheets.model import Source
 from graphcam.sheets.player import PartText, Pieces, ReadingText, Slide
@@ -30,10 +31,14 @@ class SeenActs:
 
 @dataclass(frozen=True, eq=False)
 class ToldSteps:
-    """What is said of steps, by their running numbers, and the numbers of the acts that they show."""
+    """What is said of steps, by their running numbers, and the numbers of the acts that they show.
+
+    headings : of views whose scales are found by drawing, without them, and the steps that find them
+    """
 
     slides: Mapping[int, Slide]
     acts: SeenActs
+    headings: Mapping[str, tuple[str, int]] = field(default_factory=dict[str, tuple[str, int]])
     in_parts: Collection[int] = field(default_factory=frozenset[int])
 
     def shown_by(self, source: Source) -> tuple[int | None, bool]:
@@ -44,7 +49,9 @@ class ToldSteps:
     def plain(self, step: NamedStep) -> dict[str, Any]:
         """What is said of a step as plain data."""
         slide = self.slides[step.number]
+        heading, found = self.headings.get(step.step.view.name, ("", 0))
         return {
+            "heading": heading if step.number < found else None,
             "number": slide.number,
             "chapter": slide.chapter,
             "title": slide.title,
@@ -52,6 +59,7 @@ class ToldSteps:
             "why": slide.reason,
             "opens": slide.why,
             "parts": [_part(part) for part in slide.parts],
+            "runs": [{**asdict(run), "widest": run.widest} for run in slide.runs],
             "readings": [_reading(step.construction, reading) for reading in slide.readings],
         }
 
@@ -75,7 +83,10 @@ def told_steps(known: ViewSteps, views: Collection[str], tell: Tell) -> ToldStep
         slides[number] = slide
         if number == last:
             break
-    return ToldSteps(slides, acts, drawn_in_parts(slides.values()))
+    titles = {each.step.view.name: tell(each.step.view.title).replace("，", ", ") for each in known.steps}
+    found = scales_found(known.drawn, known.numbered)
+    headings = {view: (titles[view].partition(", ")[0], step) for view, step in found.items() if view in titles}
+    return ToldSteps(slides, acts, headings, drawn_in_parts(slides.values()))
 
 
 def _part(part: PartText) -> dict[str, Any]:

@@ -84,7 +84,7 @@ class ViewSteps:
         return tuple(dict.fromkeys(each.construction for each in self.of_view(view)))
 
     def settling(self, view: str) -> tuple[str, ...]:
-        """Those that settle its scale."""
+        """The constructions that settle the scale of the view."""
         return tuple(name for name, each in self.drawn.items() if view in each.meaning.scales)
 
     def names(self, tell: Tell) -> list[dict[str, object]]:

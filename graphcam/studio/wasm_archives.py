@@ -15,7 +15,7 @@ from pathlib import Path, PurePosixPath
 
 UNUSED_FOLDERS = frozenset({"tests", "testing", "fft", "f2py", "include", "_examples", "_pyinstaller", "pkgconfig"})
 UNUSED_ENDINGS = (".pyi", ".pxd", ".pyx", ".h", ".c", ".a", "RECORD")
-"""Of NumPy: what tests it, is for compilers, type checkers or installers, and transforms that no drawing needs."""
+"""Endings of NumPy's files for tests, compilers, type checkers or installers, and transforms that no drawing needs."""
 ABOVE = frozenset({"__main__.py", "cli", "exercises", "notebooks", "bench", "plots"})
 """The rooms of graphcam that the studio stands below, so that its engine cannot import them."""
 KEPT = frozenset({".py", ".pyi", ".json", ".po", ".toml", ".csv"})

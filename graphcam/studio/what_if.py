@@ -23,12 +23,12 @@ from graphcam.words import Caption, Tell, say
 
 DESIGNS, MOST_DESIGNS = 200, 400
 MOST_MEASURED = 60
-"""Of a measured motion, whose extremes take ten times as long."""
+"""The maximum number of designs of a measured motion, whose extremes take ten times as long."""
 UNMOVED = "motion.tolerance", "speed_rpm", *(path for path in NUMBERS if path.startswith(("spring.", "material.")))
 """Sizes that change none of the curves, or too slowly."""
 LARGEST = 1e6
 TIMES = 2.5
-"""So many times shorter and longer a phase is looked at: of much less angle every cam is huge."""
+"""How many times shorter and longer a phase is looked at: of much less angle every cam is huge."""
 NEARBY = 0.15
 """A point of the arcs is moved by so much of the outer circle's radius: few places make a sound cam."""
 

@@ -24,7 +24,7 @@ from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import task_from
 
 HEIGHT = 720
-"""Of the frame, in pixels of a page."""
+"""The height of the frame, in pixels of a page."""
 ID = "widget"
 """How the page and the frame around it know each other's messages."""
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"

@@ -22,7 +22,7 @@ ENGINE = "graphcam.zip"
 FIRST_VIEWS = ("combined", "region", "profile")
 """The view that the page opens with: the first of these that there is."""
 PX_PER_MM = 2.0
-"""For which the first view is lettered."""
+"""The scale for which the first view is lettered."""
 LICENCES = """\
 graphcam: MIT.  Its lettering, osifont: LGPL-3.0-only or GPL-3.0-only with the font exception.
 Pyodide: Mozilla Public License 2.0, https://github.com/pyodide/pyodide

@@ -22,7 +22,7 @@ TABLE = "measured.csv"
 PART, NOTEBOOK = "working drawing", "notebook"
 KINDS: Mapping[str, tuple[str, ...]] = {
     "sheet": ("pdf", "svg", "png", "dxf", "player"),
-    "note": ("csv", "md", "note"),
+    "note": ("csv", "md", "note", "note_html"),
     NOTEBOOK: (),
     PART: ("profile_dxf", "profile_csv", "profile_xyz", *CUTTING),
     "all": USUAL,

@@ -144,7 +144,7 @@ def _compute_missing(
 
 
 def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, str, int, int]) -> Record | Words:
-    """On a worker: compute the designs of one part and write them; what the part holds, or what went wrong."""
+    """Compute the designs of one part on a worker and write them; what the part holds, or what went wrong."""
     _, file, first, stop = job
     if version != __version__:
         host = socket.gethostname()
@@ -199,7 +199,7 @@ def joined(records: Sequence[Record]) -> Record:
 
 
 def _manifest(place: SharedFolder, space: Space) -> Record:
-    """That of an earlier run of the same space, with the parts that are still as recorded; else a new one."""
+    """The manifest of an earlier run of the same space, with the parts that are still as recorded; else a new one."""
     sizes = place.sizes()
     # As it is read back: lists in place of tuples.
     wanted = json.loads(json.dumps({"graphcam": __version__, "space": asdict(space)}))

@@ -134,7 +134,7 @@ class Designs:
         return (lift > 0) & (lift < np.inf) & (rise > 0) & (back > 0) & (dwell >= 0) & (self.low_dwell >= 0)
 
     def check_units(self) -> None:
-        """That angles are no degrees: beyond a turn, in every design, they were meant to be; that sizes are positive.
+        """Check that angles are no degrees (beyond a turn in every design) and that sizes are positive.
 
         Raises
         ------

@@ -35,7 +35,7 @@ class FoundBest:
     front: Columns | None = None
 
     def with_block(self, space: Space, columns: Columns) -> FoundBest:
-        """The same with some more designs of a space, by the columns of their results."""
+        """The best designs with some more of a space, by the columns of their results."""
         designs = self.designs + next(iter(columns.values())).size
         if FEASIBLE not in columns:
             return FoundBest(designs)

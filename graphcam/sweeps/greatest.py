@@ -31,15 +31,15 @@ INSIDE = 16
 FEWEST = 4
 """Places on a smooth piece of it, however short."""
 CLOSER = 1 / 256
-"""Nearer the phase's ends the places follow at this ratio, for small prime radii move the extremes there ..."""
+"""The ratio at which the places follow nearer the phase's ends, for small prime radii move the extremes there."""
 CLOSEST = 1e-12
-"""... down to this distance."""
+"""The minimum distance of a place from the phase's ends."""
 BLOCK = 16_384
 """Places that are looked at together: their arrays stay in the cache, and bound the memory."""
 CLOSE = 1e-8
 """A step of so small a part of the bracket changes the greatest value by no more than its rounding."""
 PATIENCE = 6
-"""After so many steps every other one halves the bracket."""
+"""The number of steps after which every other one halves the bracket."""
 Numbers = NDArray[np.intp]
 
 
@@ -107,7 +107,7 @@ class Legs:
     angle: Floats
 
     def part(self, which: NDArray[np.intp] | slice) -> Legs:
-        """Those of some of the cams."""
+        """The legs of some of the cams."""
         return Legs(self.law, self.direction, self.lift[which], self.angle[which])
 
     def at(self, w: Floats) -> Values:
@@ -135,7 +135,7 @@ class Sought(ABC):
     """Whether a negative value counts as much as a positive one."""
 
     def part(self, which: Numbers | slice) -> Self:
-        """The same of some of the cams."""
+        """The quantity of some of the cams."""
         return type(self)(self.kin.part(which))
 
     @abstractmethod
@@ -177,7 +177,7 @@ def _heights(sought: Sought, readings: Floats) -> Floats:
 
 
 def _peaks(sought: Sought, legs: Legs, table: LawTable, here: slice) -> tuple[Numbers, Numbers, Floats]:
-    """Where the places of the table are higher than their neighbours: cams, places, and heights.
+    """The places of the table that are higher than their neighbours: cams, places, and heights.
 
     heights : (5, p) of the place itself, of it and its neighbours (at an end of a piece the three nearest it), and of
         the cam's highest place

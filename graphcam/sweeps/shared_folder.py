@@ -92,7 +92,7 @@ class Sealed(io.RawIOBase):
         self._file, self._size, self._sum = file, 0, hashlib.sha256()
 
     def writable(self) -> bool:
-        """It is."""
+        """Whether the file can be written: it can."""
         return True
 
     def tell(self) -> int:

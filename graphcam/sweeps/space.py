@@ -28,7 +28,7 @@ ANGLES = ("rise_angle", "dwell_angle", "return_angle", "max_pressure_angle_rise"
 MOST = 10**12
 """Designs; nobody waits for more."""
 MOST_VALUES = 10**6
-"""Of one size."""
+"""The maximum number of values of one size."""
 _RANGE = ("start", "stop", "count")
 _ALLOWED = say("a number, a list of numbers, or {{ start = 40, stop = 60, count = 21 }}")
 Columns = dict[str, NDArray[Any]]

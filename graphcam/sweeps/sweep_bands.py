@@ -37,7 +37,7 @@ class SweptErrors:
         return deviations_within(self.coverage)
 
     def check(self, kin: Kinematics, roller: Any) -> None:
-        """That the followers have the sizes with a tolerance."""
+        """Check that the followers have the sizes with a tolerance."""
         check_sizes(kin, self.errors)
         if self.errors.roller_diameter and not np.all(np.asarray(roller) > 0):
             limit = say("left out where a follower has a knife edge")
@@ -52,7 +52,7 @@ class SoughtBand(Sought):
     swept: SweptErrors
 
     def part(self, which: Numbers | slice) -> Self:
-        """The same of some of the cams."""
+        """The band of some of the cams."""
         return type(self)(self.kin.part(which), self.swept)
 
     def reading(self, values: Values) -> Floats:

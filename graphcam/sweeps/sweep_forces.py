@@ -37,7 +37,7 @@ class SweptLoad:
             raise DesignError("load", found, say("a number in a sweep"), say("the cams have other phases"))
 
     def check(self, follower: str) -> None:
-        """That the load fits a kind of follower."""
+        """Check that the load fits a kind of follower."""
         if follower == "oscillating":
             check_kind("load", self.load, ArmLoad, say("an ArmLoad, for the followers swing"))
         else:
@@ -60,7 +60,7 @@ class SoughtForce(Sought):
     direction: int
 
     def part(self, which: Numbers | slice) -> Self:
-        """The same of some of the cams."""
+        """The force of some of the cams."""
         return replace(self, kin=self.kin.part(which), roller=self.roller[which])
 
     def at_rest(self, level: Floats) -> Floats:
@@ -148,7 +148,7 @@ class NeededPreload(SoughtForce):
         return load.preload - load.force(values, self.direction) / load.leverage(values)[0]
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:
-        """The same, and what has the sign of its slope."""
+        """The needed preload, and what has the sign of its slope."""
         (q, q_slope), (w, w_slope) = self._load(values), self.swept.beside(self.kin).leverage(values)
         return self.swept.load.preload - q / w, q * w_slope - q_slope * w
 
@@ -162,7 +162,7 @@ class Jamming(SoughtForce):
         return -moved / (self.kin.reach * size)
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:
-        """The same, and what has the sign of its slope, (sin(alpha) + mu cos(alpha)) alpha'."""
+        """The reading, and what has the sign of its slope, (sin(alpha) + mu cos(alpha)) alpha'."""
         q, q1 = self.kin.pressure(values)
         return self.reading(values), (q[1] + self.kin.leaning * self.swept.friction * q[0]) * pair_cross(q, q1)
 
@@ -179,7 +179,7 @@ class Rubbing(SoughtForce):
         return self.kin.leaning * (across - rim) / along
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:
-        """The same, and what has the sign of its slope, alpha' (1 - r/l sin(alpha))."""
+        """The reading, and what has the sign of its slope, alpha' (1 - r/l sin(alpha))."""
         q, q1 = self.kin.pressure(values)
         slope = self.kin.leaning * pair_cross(q, q1)
         if self.kin.swings:

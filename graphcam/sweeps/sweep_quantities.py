@@ -53,7 +53,7 @@ class Sharpness(Sought):
         return self.kin.sharpness(values)
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:
-        """The same, and what has the sign of kappa'."""
+        """The curvature, and what has the sign of kappa'."""
         return self.kin.sharpness_and_slope(values)
 
 
@@ -101,7 +101,7 @@ class Chunk:
 
     @cached_property
     def _moves(self) -> NDArray[np.bool_]:
-        """Where the follower jams nowhere."""
+        """Flags of the cams whose follower jams nowhere."""
         assert self.swept is not None
         friction, kin, roller = self.swept.friction, self.many, self.designs.column("roller_radius")
         steep = kin.steepest(self._lift, self.max_v)
@@ -200,7 +200,7 @@ class Chunk:
 
     @cached_property
     def _laws(self) -> dict[str, list[tuple[Law, Numbers | slice]]]:
-        """Of rises and returns the laws that occur, as seen from the low end, and whose they are."""
+        """The laws of rises and returns that occur, as seen from the low end, and whose they are."""
         rises, returns = _by_law(self.designs.rise_law, law), _by_law(self.designs.return_law, law_of_return)
         return {"rise_law": rises, "return_law": [(each.reversed, which) for each, which in returns]}
 

@@ -37,12 +37,12 @@ class Move:
     clockwise: bool = False
 
     def reversed(self) -> "Move":
-        """The same way back."""
+        """The move in the opposite direction."""
         return Move(self.end, self.start, self.centre, not self.clockwise)
 
     @property
     def turn(self) -> float:
-        """By which angle an arc turns [rad], positive."""
+        """The angle by which an arc turns [rad], positive."""
         if self.centre is None:
             return 0.0
         turned = float(np.angle((self.end - self.centre) / (self.start - self.centre)))

@@ -14,15 +14,15 @@ from graphcam.workshop.limits_and_fits import standard_diameters
 USUAL_WALL, LEAST_WALL = 0.3, 0.15
 """Between the keyway's bottom and the profile or the hub, as parts of the bore: where the bore is chosen; at least."""
 USUAL_TOLERANCE = 0.0005
-"""Of the profile, as a part of its greatest diameter."""
+"""The tolerance of the profile, as a part of its greatest diameter."""
 ROUNDING_PART = 0.5
 """The last decimal of a radius is at most this part of the tolerance."""
 CHAMFERS = (30, 1.6), (10, 1.0), (5, 0.5)
 """Bores beyond such a diameter, and the size of their chamfers [mm]."""
 SMALL_CHAMFER, LARGEST_CHAMFER = 0.05, 0.2
-"""Of a smaller bore's diameter; of the bore's length at most."""
+"""The chamfer as a part of a smaller bore's diameter; its maximum, as a part of the bore's length."""
 USUAL_WIDTH = 0.8
-"""Of the cam, as a part of the bore."""
+"""The width of the cam, as a part of the bore."""
 STEEL = {"iso": "C45 EN ISO 683-1", "gost": say("Steel 45 GOST 1050-2013")}
 """The material where the task names none, by the frame of the sheet."""
 STANDARD_OF_FRAME = {"iso": "din6885", "gost": "gost23360"}
@@ -54,22 +54,22 @@ class CamPart:
 
     @property
     def length(self) -> float:
-        """Of the bore."""
+        """The length of the bore."""
         return self.hub.length if self.hub else self.width
 
     @property
     def keyway_top(self) -> float:
-        """From the axis to the keyway's bottom, or to the bore where there is none."""
+        """The distance from the axis to the keyway's bottom, or to the bore where there is none."""
         return self.bore / 2 + (self.keyway.depth if self.keyway else 0.0)
 
     @property
     def chamfer(self) -> float:
-        """Of the bore's edges at 45 degrees."""
+        """The chamfer of the bore's edges at 45 degrees."""
         usual = next((size for least, size in CHAMFERS if self.bore > least), SMALL_CHAMFER * self.bore)
         return min(usual, LARGEST_CHAMFER * self.length)
 
     def mass(self, profile_area: float) -> float:
-        """In kg, of a cam with a profile of that area [mm^2]; chamfers are left out.
+        """The mass [kg] with a profile of that area [mm^2]; chamfers are left out.
 
         >>> part = cam_part(PartTable(bore=20, width=10), "iso", 27)
         >>> round(part.mass(6000), 4)
@@ -160,7 +160,7 @@ def _top(table: PartTable, bore: float) -> float:
 
 
 def _usual_width(bore: float) -> float:
-    """In round millimetres, of small cams in round parts of one."""
+    """The usual width in round millimetres, of small cams in round parts of one."""
     step = min(1.0, 10.0 ** math.floor(math.log10(bore)) / 10)
     return round(math.ceil(USUAL_WIDTH * bore / step - 1e-9) * step, 12)
 

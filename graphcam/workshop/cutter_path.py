@@ -17,7 +17,7 @@ from graphcam.workshop.outline import Outline
 SAMPLINGS = 2048, 8192, 32768, 131072, 524288
 """Samples of the way: of these numbers the first that suffices ..."""
 FEWEST = 17
-"""... and of a span at least."""
+"""The minimum number of samples of a span."""
 SAME = 1e-6
 """Two tangents, or curvatures as parts of one another, that differ by no more are the same."""
 SHORTEST = 1e-9
@@ -88,7 +88,7 @@ def _sampled(outline: Outline, cutter_radius: float, count: int) -> list[Samples
 
 
 def _joined(pieces: list[Samples]) -> list[Samples]:
-    """The same with neighbours in one where the way has no corner; arcs stay by themselves, and so are met exactly."""
+    """The pieces, neighbours made one where the way has no corner; arcs stay by themselves, and so are met exactly."""
     joined: list[list[Samples]] = []
     after_arc = True
     for piece in pieces:
@@ -113,7 +113,7 @@ def _one(parts: list[Samples]) -> Samples:
 
 
 def _from_the_farthest(pieces: list[Samples]) -> list[Samples]:
-    """The same begun at the farthest of the samples."""
+    """The pieces begun at the farthest of the samples."""
     k = int(np.argmax([np.abs(points).max() for points, _ in pieces]))
     points, tangents = pieces[k]
     j = int(np.argmax(np.abs(points)))

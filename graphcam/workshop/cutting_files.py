@@ -19,7 +19,7 @@ from graphcam.workshop.solid import solid_file
 
 NAMES = {"profile_step": "profile.step", "profile_gcode": "profile.ngc"}
 SHARE_OF_CUTTING = 0.1
-"""Of the profile's tolerance, which the program may use up."""
+"""The part of the profile's tolerance that the program may use up."""
 RECOVERED = 1e-6
 """How nearly the arcs of a cam of arcs are met [mm]."""
 

@@ -15,15 +15,15 @@ from graphcam.workshop.outline import Outline
 
 DECIMALS = 4
 ROUNDING = 2e-4
-"""By how much rounded ends and centres may move a circle [mm]."""
+"""How far rounded ends and centres may move a circle [mm]."""
 SHORTEST_ARC = 0.001
 """A shorter one [mm] is straight: of so few digits it might turn the wrong way round."""
 LEAST_TOLERANCE = 0.001
-"""Of the program [mm]: less is spent by rounding."""
+"""The minimum tolerance of the program [mm]: less is spent by rounding."""
 TOLERANCE = 0.005
-"""Where none is stated [mm]."""
+"""The tolerance where none is stated [mm]."""
 FEED = 100.0
-"""Where none is stated [mm/min]."""
+"""The feed where none is stated [mm/min]."""
 
 
 def cutting_program(
@@ -104,7 +104,7 @@ def _moves(moves: list[Move], feed: float) -> list[str]:
 
 
 def _feed(feed: float) -> str:
-    """In digits alone: controllers know no powers of ten."""
+    """The feed as a word of G-code, in digits alone: controllers know no powers of ten."""
     return f"{feed:.{DECIMALS}f}".rstrip("0").rstrip(".")
 
 

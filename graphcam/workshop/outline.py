@@ -27,11 +27,11 @@ from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.words import say
 
 SAMPLES, FEWEST = 12_000, 33
-"""On the whole outline, shared by its spans, and on each of them."""
+"""Samples on the whole outline, shared by its spans, and the minimum on each of them."""
 CUT = 1e-9
-"""Less than this part of its greatest radius a cutter does not cut off an outline."""
+"""The part of an outline's greatest radius below which a cutter cuts nothing off."""
 PARTS = 8
-"""Of a span, for integration."""
+"""The number of parts of a span, for integration."""
 
 
 class Span(Protocol):
@@ -39,12 +39,12 @@ class Span(Protocol):
 
     @property
     def begin(self) -> float:
-        """Where it begins."""
+        """The parameter at which the span begins."""
         ...
 
     @property
     def end(self) -> float:
-        """Where it ends."""
+        """The parameter at which the span ends."""
         ...
 
     def point(self, at: Floats) -> Complexes:
@@ -133,11 +133,11 @@ class CornerSpan:
         return np.full(at.shape, self.at)
 
     def velocity(self, at: Floats) -> Complexes:
-        """Zero."""
+        """The velocity at a corner: zero."""
         return np.zeros(at.shape, dtype=np.complex128)
 
     def normal(self, at: Floats) -> Complexes:
-        """From the normal of the side before to that of the side behind."""
+        """The normal, from that of the side before to that of the side behind."""
         return self.first * np.exp(1j * self.sense * at)
 
 
@@ -162,7 +162,7 @@ class Outline:
 
     @cached_property
     def sampled(self) -> list[tuple[Floats, Complexes, Complexes]]:
-        """Of each span parameters, points and normals as :meth:`seen`, densely."""
+        """Parameters, points and normals of each span as :meth:`seen`, densely."""
         total = math.fsum(span.end - span.begin for span in self.spans)
         samples: list[tuple[Floats, Complexes, Complexes]] = []
         for span in self.spans:
@@ -288,7 +288,7 @@ def _corner(envelope: Envelope, lost: Lost, sense: int) -> CornerSpan:
 
 
 def _of_arcs(solution: ArcsSolution) -> Outline:
-    """By a knife edge on the cam, whose centre is the point of contact."""
+    """The spans of a cam of arcs, by a knife edge on it, whose centre is the point of contact."""
     knife_edge = solution.cam.motion(0.0, solution.motion.dwell)
     a = complex(*solution.cam.A)
     ends = [0.0, *(edge for edge in knife_edge.edges[1:].tolist() if edge < FULL_TURN), FULL_TURN]

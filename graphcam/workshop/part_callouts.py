@@ -31,13 +31,13 @@ from graphcam.workshop.part_layout import PartLayout
 from graphcam.workshop.part_views import ShownPart, front_box, heights, told_radii
 
 SIDE = 30.0
-"""From the left face of the section to the symbols of it, mm."""
+"""The distance from the left face of the section to the symbols of it, mm."""
 EDGE = 4.0
-"""So far from the edges of a face a line ends on it, or a third of its height, mm."""
+"""The distance from the edges of a face at which a line ends on it, mm, or a third of its height."""
 
 
 BESIDE_RADIUS = math.radians(10)
-"""Between the line of a radius and the end of another line on the profile, seen from the axis."""
+"""The angle between the line of a radius and the end of another line on the profile, seen from the axis."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +81,7 @@ def _near(wanted: complex) -> Preference:
 
 
 def _callouts(contents: PartContents, layout: PartLayout) -> list[Callout]:
-    """Of the profile, of the side and of the bore."""
+    """The callouts of the profile, of the side and of the bore."""
     shown, table, tell = layout.shown, contents.part.table, contents.tell
     height = layout.sheet.lettering.label
     value, datum = tell(say("{value:g}", value=profile_tolerance(table, contents.outline.greatest_radius))), tell(DATUM)

@@ -48,7 +48,7 @@ class PartContents:
 
     @cached_property
     def part(self) -> CamPart:
-        """Its sizes, as :func:`~graphcam.workshop.cam_part.cam_part` settles them.
+        """The sizes of the part, as :func:`~graphcam.workshop.cam_part.cam_part` settles them.
 
         Raises
         ------
@@ -68,7 +68,7 @@ class PartContents:
 
     @property
     def frame(self) -> str:
-        """Of the sheet, which also chooses the standards."""
+        """The frame of the sheet, which also chooses the standards."""
         return self.solution.task.drawing.frame
 
     @property

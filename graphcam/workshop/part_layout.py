@@ -29,21 +29,21 @@ from graphcam.workshop.part_views import ShownPart, front_box, section_box
 BORDER = 5.0
 """Free along the frame and between what stands on the sheet, mm."""
 UNDER_NUMBER = 17.0
-"""From the border down to below the drawing's number, which stands in the upper left corner by GOST 2.104, mm."""
+"""The room from the border to below the drawing's number in the upper left corner by GOST 2.104, mm."""
 LEAST_PROFILE = 70.0
 """The profile is not drawn smaller than this, mm on paper ..."""
 SHEETS = (("A3", LEAST_PROFILE), ("A2", LEAST_PROFILE), ("A2", 20.0), ("A1", 5.0))
-"""... but of a part that is much wider than its profile is large.  The first sheet that has room is taken."""
+"""The sheets for a part that is much wider than its profile is large. The first one that has room is taken."""
 BORE_ROOM = 70.0
 """The enlarged bore is at most so wide, mm on paper."""
 ROW = 1.75
 """Height of a row of the polar table, in heights of its letters."""
 AT_RIGHT = least(-10, -1)
-"""At the right, then high."""
+"""The preference: at the right, then high."""
 SERIES = (5.0, 2.0, 1.0)
-"""Of drawing scales that both ISO 5455 and GOST 2.302 have, in every decade."""
+"""The series of drawing scales that both ISO 5455 and GOST 2.302 have, in every decade."""
 LARGEST_PROFILE = 300.0
-"""Nor is it drawn larger than this, mm on paper."""
+"""The maximum size of the drawn profile, mm on paper."""
 
 Placed = list[tuple[Block, complex]]
 """Blocks and where their lower left corners stand."""
@@ -51,7 +51,7 @@ Placed = list[tuple[Block, complex]]
 
 @dataclass(frozen=True, eq=False)
 class PartLayout:
-    """Where the views and the notes stand: places of their axes, and boxes.
+    """The layout of the views and the notes: places of their axes, and boxes.
 
     fixed : blocks with their corners: the notes, the roughness of the other faces
     room : what is left free
@@ -82,7 +82,7 @@ class PartTables:
 
     @property
     def count(self) -> int:
-        """Of the rows without the head."""
+        """The number of the rows without the head."""
         return len(self.rows) - 1
 
     def polar(self, first: int, last: int, columns: int) -> Block:

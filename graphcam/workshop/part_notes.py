@@ -25,7 +25,7 @@ GENERAL = {
 }
 """What holds for sizes without a tolerance, by the frame."""
 MOST_PHASES = 8
-"""Of a motion, that the table of data names."""
+"""The maximum number of phases of a motion that the table of data names."""
 PHASES = {"rise": say("rise"), "dwell": say("dwell"), "return": say("return")}
 """What kinds of phases are called."""
 
@@ -154,7 +154,7 @@ def polar_rows(table: PolarTable, tell: Tell) -> list[tuple[str, ...]]:
 
 
 def beside_each_other(rows: Sequence[tuple[str, ...]], columns: int, tell: Tell) -> Table:
-    """Some of the rows, the head first, as a table in so many columns."""
+    """A table of some of the rows, the head first, in so many columns."""
     head, *cells = rows
     high = math.ceil(len(cells) / columns)
     cells += [("",) * len(head)] * (high * columns - len(cells))

@@ -28,17 +28,17 @@ from graphcam.workshop.cam_part import CamPart, radius_decimals
 from graphcam.workshop.outline import Outline
 
 BESIDE, BETWEEN = 9.0, 8.0
-"""Of the first dimension line from what it measures, and of the next ones from it, mm on paper."""
+"""Distance of the first dimension line from what it measures, and of the next ones from it, mm on paper."""
 OVERHANG, PAST = 5.0, 4.0
-"""Of centre lines over the outline, and of the axis over the section, short of dimensions beside it, mm on paper."""
+"""Overhang of centre lines over the outline, and of the axis over the section, mm on paper."""
 MARK = 6.0
 """Length of the zero mark, mm on paper."""
 THINNING = 12
-"""Of the dense points of the outline every so many are drawn as a smooth curve, which passes between them exactly."""
+"""The step by which dense points of the outline are drawn as a smooth curve, which passes between them exactly."""
 SHELF = 5.0
-"""From the left face of the section to the shelf of its chamfer, mm on paper."""
+"""The distance from the left face of the section to the shelf of its chamfer, mm on paper."""
 ARROW_AIR = 5.0
-"""Between the profile and an arrow outside it, mm on paper."""
+"""The gap between the profile and an arrow outside it, mm on paper."""
 SAME_RADIUS = 0.05
 """The outline keeps a radius where it leaves it by no more than this, mm on paper."""
 SECTION, DETAIL = say_in("of a view", "A"), say_in("of a detail", "C")
@@ -71,7 +71,7 @@ class ShownPart:
 
     @cached_property
     def extent(self) -> Box:
-        """Of the profile on paper, about the axis."""
+        """The extent of the profile on paper, about the axis."""
         return around(self.profile)
 
     def reach(self, start: float, sweep: float) -> float:
@@ -168,7 +168,7 @@ def bore_marks(part: CamPart, scale: float) -> list[Mark]:
 
 
 def told_radii(shown: ShownPart) -> list[tuple[complex, Caption]]:
-    """Where on the profile its least and its greatest radius are dimensioned."""
+    """The places on the profile at which its least and its greatest radius are dimensioned."""
     radii, decimals = np.abs(shown.outline.points), radius_decimals(shown.part.table, shown.outline.greatest_radius)
     told: list[tuple[complex, Caption]] = []
     for extreme, name in ((radii.min(), say("R{radius} min")), (radii.max(), say("R{radius} max"))):
@@ -258,7 +258,7 @@ def section_view(shown: ShownPart, origin: complex) -> Drawn:
 
 
 def heights(shown: ShownPart) -> tuple[float, float, float, float]:
-    """On paper: the cut profile below and above the axis, and how far the half behind it is seen."""
+    """Heights on paper: the cut profile below and above the axis, and how far the half behind it is seen."""
     behind = shown.profile[shown.profile.real >= 0]
     cut = -shown.radius(-1j), shown.radius(1j)
     return (*cut, min(float(behind.imag.min()), cut[0]), max(float(behind.imag.max()), cut[1]))

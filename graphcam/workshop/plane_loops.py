@@ -18,7 +18,7 @@ from graphcam.workshop.biarcs import Move
 from graphcam.workshop.cam_part import CamPart
 
 MOST_PARTS = 4
-"""Of an edge, between its knots."""
+"""The maximum number of parts of an edge, between its knots."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,12 +31,12 @@ class SplineEdge:
 
     @property
     def start(self) -> complex:
-        """Where it begins."""
+        """The point at which the edge begins."""
         return complex(self.control[0])
 
     @property
     def end(self) -> complex:
-        """Where it ends."""
+        """The point at which the edge ends."""
         return complex(self.control[-1])
 
 

@@ -27,14 +27,14 @@ from graphcam.workshop.outline import Outline
 PART_OF_TOLERANCE = 0.25
 """How far a straight line between rows may leave the curve, as a part of the profile's tolerance."""
 PARTS = (1, 2, 5, 10, 20, 50, 100)
-"""Into so many equal parts a step may be divided."""
+"""The numbers of equal parts into which a step may be divided."""
 MOST_ROWS = 1500
-"""Of a table that somebody reads."""
+"""The maximum number of rows of a table that somebody reads."""
 CORNER_DECIMALS = 3
-"""Of the angle of a corner [deg]."""
+"""Decimals of the angle of a corner [deg]."""
 FILES_REMEDY = say("give a larger one; the files of the profile have the curve itself")
 TURNS_BACK = 1e-12
-"""Less than this [rad] a curve does not turn back, but is rounded."""
+"""The angle [rad] by which a curve turns back at least: less is rounding."""
 
 
 @dataclass(frozen=True, eq=False)

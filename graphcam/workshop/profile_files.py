@@ -16,7 +16,7 @@ from graphcam.mechanism.spline import ProfileSpline
 from graphcam.mechanism.undercut import CutProfile, trimmed_profile
 
 POINTS = 720
-"""On the profile: one for every half degree of the cam angle."""
+"""The number of points on the profile: one for every half degree of the cam angle."""
 NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profile_xyz": "profile.xyz"}
 
 

@@ -1,21 +1,22 @@
-"""Formulas as MathML, which browsers draw without a script: the same as on the pages of ``graphcam notebook``."""
+"""Formulas as MathML, which browsers draw without a script: as on the pages of ``graphcam notebook`` and in ``note.html``."""
 
 from __future__ import annotations
 
 from typing import Any
 
 from docutils import nodes
-from latex2mathml.converter import convert
 from sphinx.application import Sphinx
+
+from graphcam.report.note_page import mathml
 
 
 def _inline(page: Any, node: nodes.math) -> None:
-    page.body.append(convert(node.astext(), display="inline"))
+    page.body.append(mathml(node.astext()))
     raise nodes.SkipNode
 
 
 def _block(page: Any, node: nodes.math_block) -> None:
-    page.body.append(convert(node.astext(), display="block"))
+    page.body.append(mathml(node.astext(), "block"))
     raise nodes.SkipNode
 
 

@@ -362,7 +362,12 @@ def test_limits_that_no_cam_keeps_leave_no_radius_to_adopt(motion, distance, per
     assert np.isnan(region.readings["prime_radius"].value)
     last = region.steps()[-1]
     where = "At this centre distance no" if distance is not None else "No"
-    assert str(last.caption) == f"{where} cam centre satisfies all the limits."
+    arc = (
+        ""
+        if distance is None
+        else f"Draw an arc of {distance:.1f} mm about C with the compass, for c = {distance:g} mm. "
+    )
+    assert str(last.caption) == f"{arc}{where} cam centre satisfies all the limits."
     assert [type(mark) for mark in last.marks] == ([Arc] if distance is not None else [])  # it misses the hatching
     with pytest.raises(DesignError, match=r"minimum prime radius .* give .*cam.prime_radius"):
         _ = Chain(board).prime_radius

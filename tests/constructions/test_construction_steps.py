@@ -129,13 +129,24 @@ def fields(mark: Any) -> dict[str, Any]:
     return {name: getattr(mark, name) for name in names}
 
 
+def everything(step: Step) -> str:
+    """What is said of a step, and in the rows of its runs."""
+    rows = [str(row.caption) for part in step.parts for row in part.rows]
+    return " ".join([str(step.caption), *rows])
+
+
 def test_the_captions_carry_the_numbers_of_the_built_in_task():
     """Paper millimetres, the scale and the value stand in the sentence."""
     chain = Chain(coursework())
-    captions = {name: " ".join(str(step.caption) for step in chain[name].steps()) for name in chain}
+    captions = {name: " ".join(everything(step) for step in chain[name].steps()) for name in chain}
     mu_s = float(chain["integration"].readings["s"].scale)
     expected = {
-        "acceleration": ["360.0 mm", "0.01745 rad/mm", "50.0, 88.9 mm", "rise φ₁ rectangular, return φ₃ rectangular"],
+        "acceleration": [
+            "360.0 mm",
+            "0.01745 rad/mm",
+            "(80°/60°)² = 88.9 mm",
+            "rise φ₁ rectangular, return φ₃ rectangular",
+        ],
         "integration": ["H₁ = 40.0 mm", "H₂ = 40.0 mm", f"mm = {mu_s:.5g} mm/mm", "known lift of 30 mm"],
         "minimum_radius": [
             "at 30° to",
@@ -148,10 +159,15 @@ def test_the_captions_carry_the_numbers_of_the_built_in_task():
         "pressure_angle": ["43.28 mm, up to r₀ = 44 mm", "44/0.6 = 73.33 mm", "e = -10 mm", "Ray 4: 20.64°", "40.68°"],
         "angle_diagram": ["1° a millimetre"],
         "inversion": [
-            *("Set the compass to 44.0 mm", "r₀ = 44 mm at 1:1", "set it to 10.0 mm", "e = -10 mm"),
-            *("on the left: line 0", "The cam turns clockwise", "follower the other way, anticlockwise"),
+            *("Set the compass to 44.0 mm (r₀ = 44 mm at 1:1)", "Set the compass to 10.0 mm (|e| = 10 mm at 1:1)"),
+            *(
+                "With e = -10 mm draw the vertical from the left end of",
+                "up to the prime circle: line 0",
+                "The cam turns clockwise",
+                "follower the other way, anticlockwise",
+            ),
             *("6.67° in φ₁, 5° in φ₃", "station 4 at 26.67°", "80°, 45°, 60°, 175°"),
-            *("0.6 mm × 1 = 0.6 mm here", "station 4: 11.11 mm × 0.6 = 6.7 mm", "φ₂: 73.5 mm, φ₄: 44.0 mm"),
+            *("0.6 mm × 1 = 0.6 mm here", "station 4: 11.11 mm × 0.6 = 6.67 mm", "In the dwell φ₂: compass 73.5 mm"),
         ],
         "curvature": [
             "station 1′",
@@ -163,7 +179,7 @@ def test_the_captions_carry_the_numbers_of_the_built_in_task():
         "roller": ["0.4 r₀ = 17.60 mm"],
         "working_profile": [
             *("Round 17.60 mm down to 17 mm", "Set the compass to 17.0 mm (r = 17 mm at 1:1)"),
-            *("station 6: 29.7° (29.7° in the diagram)", "station 6′: 49.5° (49.3° in the diagram)"),
+            *("Station 6: 29.7° (29.7° in the diagram)", "Station 6′: 49.5° (49.3° in the diagram)"),
         ],
     }
     for name, parts in expected.items():
@@ -207,11 +223,11 @@ def test_where_the_moving_phases_have_too_few_points_only_the_rests_are_compared
                 "integration": ["known lift of 0.261799 rad"],
                 "minimum_radius": [
                     "At 1:1 the arm is 125.0 mm long",
-                    "the largest angle is 15.00°",
+                    "The largest angle is 15.00°",
                     "on the rise away from C",
-                    "the line at 45° to this normal",
+                    "the line at 45° to its normal",
                 ],
-                "pressure_angle": ["At 1:2 draw AC = 75.0 mm horizontally", "ψ₀ + s = 23.45° + 7.50° = 30.95°"],
+                "pressure_angle": ["At 1:2 draw AC horizontally, 75.0 mm long", "ψ₀ + s = 23.45° + 7.50° = 30.95°"],
                 "inversion": ["r₀ = 61 mm", "c = 150 mm", "= 7.50°, a chord of 8.18 mm"],
             },
         ),
@@ -238,7 +254,7 @@ def test_where_the_moving_phases_have_too_few_points_only_the_rests_are_compared
 def test_the_captions_carry_the_numbers_of_arm_and_flat_face(board, expected):
     chain = Chain(board)
     for name, parts in expected.items():
-        caption = " ".join(str(step.caption) for step in chain[name].steps())
+        caption = " ".join(everything(step) for step in chain[name].steps())
         for part in parts:
             assert part in caption, caption
 

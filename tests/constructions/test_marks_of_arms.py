@@ -154,7 +154,7 @@ def angle_at_pivot(drawn: Construction) -> float:
 def undrawn(step: Step) -> list[Mark]:
     """The marks that no part of a step draws, or not at all of their places."""
     found: dict[int, set[int]] = {}
-    for part in step.parts:
+    for part in step.places:
         for piece in pieces_of(part.draws):
             found.setdefault(id(piece.act), set()).update(piece.at)
     left = list[Mark]()
@@ -172,9 +172,11 @@ def undrawn(step: Step) -> list[Mark]:
 def test_every_step_has_a_reason_and_its_parts_draw_all_its_marks(name, pencil):
     for construction in ("minimum_radius", "pressure_angle", "inversion"):
         for step in steps_of(name, construction, pencil)[1]:
-            assert re.fullmatch(r"Because [^.]*(\.\d[^.]*)*\.", str(step.why)), (str(step.title), str(step.why))
-            assert not step.parts or undrawn(step) == [], str(step.title)
-            for part in step.parts:
+            why = str(step.why)
+            assert re.fullmatch(r"(?!Because)[A-Z][^.]*(\.\d[^.]*)*\.", why), (str(step.title), why)
+            assert construction == "pressure_angle" or step.parts, str(step.title)
+            assert undrawn(step) == [], str(step.title)
+            for part in (*step.parts, *step.places):
                 assert re.fullmatch(r"[A-Z].*\.", str(part.caption)), str(part.caption)
                 assert not re.search(r"\b(nan|inf|None)\b|[{}]|  | 0\.00 mm", str(part.caption)), str(part.caption)
 
@@ -241,19 +243,23 @@ def test_every_arm_is_said_with_its_ordinate_its_factor_and_its_angle(name):
         pytest.approx(factor, rel=1e-3),
         round(turns[k], 2),
     ]
-    base, *arms = step.parts
-    assert numbers(base.caption, r"C, ([\d.]+) mm long, and an arc of ([\d.]+) mm") == [round(length, 1)] * 2
+    assert "set the angle off at C with the protractor, upwards from CB₀ (clockwise)" in said
+    small = (turns > 0) & (turns < 0.5)
+    assert ("An angle too small for the protractor" in said) == small.any()
+    base, *arms = step.places
+    assert numbers(base.caption, r"arm is ([\d.]+) mm long: .* an arc of ([\d.]+) mm") == [round(length, 1)] * 2
     assert draws(base) == {"arm at rest": [0], "arc of the arm": [0], "start": [0]}
     for n, (part, text) in enumerate(zip(arms, names_of(region), strict=True)):
-        assert str(part.caption).startswith(f"Arm {text}: ")
+        assert str(part.caption).startswith(f"Station {text}: ")
         assert draws(part) == {"arms": [n], "ends": [n]}
         if turns[n] < 0.005:
-            assert str(part.caption).endswith("the displacement is zero, so it lies on CB₀.")
+            assert str(part.caption).endswith(": 0°.")
             continue
         paper, by, angle = numbers(part.caption, TURNED)
         assert (paper, angle) == pytest.approx((s[n], turns[n]), abs=0.0051)
         assert paper * by == pytest.approx(angle, abs=0.0051 + 0.0051 * by + paper * by * 1e-3)
-        assert "upwards from CB₀" in str(part.caption)
+        chord = f"°, {2 * length * math.sin(math.radians(turns[n]) / 2):.2f} mm along the arc."
+        assert str(part.caption).endswith(chord) == small[n]
 
 
 @EVERY
@@ -293,18 +299,18 @@ def test_every_velocity_is_said_with_its_ordinate_its_factor_its_length_and_its_
     assert numbers(said, LAID_OFF) == [*wanted, pytest.approx(abs(tips[k] - ends[k]), abs=0.0051)]
     assert v[k] > 0.4 * v.max()  # a station that is worth an example
     texts, pieces = names_of(region), region.givens.integrated.givens.stations.pieces
-    for n, (part, text) in enumerate(zip(step.parts, texts, strict=False)):
+    for n, (part, text) in enumerate(zip(step.places, texts, strict=False)):
         caption = str(part.caption)
-        assert (caption.split(":")[0], draws(part)) == (f"D{text}", {"tips": [n]})
+        assert (caption.split(":")[0], draws(part)) == (f"Station {text}", {"tips": [n]})
         if abs(tips[n] - ends[n]) < 0.005:
-            assert caption.endswith("the velocity is zero, so D is the end of the arm.")
+            assert caption.endswith(": 0.")
             continue
         paper, by, mm = numbers(caption, LAID_OFF)
         assert (paper, mm) == pytest.approx((abs(v[n]), abs(tips[n] - ends[n])), abs=0.0051)
         assert by == pytest.approx(factor, rel=1e-3)
-        assert caption.endswith(f"along it, {side_of(((tips[n] - ends[n]) / outward[n]).real)}.")
-    for part, piece in zip(step.parts[len(texts) :], pieces, strict=True):
-        assert f"Join D{texts[piece.start]} to D{texts[piece.stop - 1]} through" in str(part.caption)
+        assert caption.endswith(f" mm {side_of(((tips[n] - ends[n]) / outward[n]).real)}.")
+    for part, piece in zip(step.places[len(texts) :], pieces, strict=True):
+        assert str(part.caption) == f"From D{texts[piece.start]} to D{texts[piece.stop - 1]}."
 
 
 LINES = "Lines at the limit of the (rise|return)"
@@ -374,20 +380,16 @@ def test_of_every_line_it_is_said_how_it_is_turned_and_on_which_side_of_it_the_c
         told = re.search(r"turned from it (\w+, \w+ \w* ?C)\. .* must lie on the side (.*?)\.", str(step.caption))
         turn, way = told.groups()
         kept_side(lines, way, turn)
-        assert f"the line at {limit} to this normal" in str(step.caption)
+        assert f"the line at {limit} to its normal" in str(step.caption)
         assert f"on the {found.group(1)} this angle may be at most {limit}." in str(step.why)
-        names, k = names_of(region), example_of(step, region)
+        names = names_of(region)
+        k = station(region, re.search(r"that at D(\d+′*) is shown", str(step.caption)).group(1))
         moving = [n for n in range(len(names)) if at[n] == sign]
-        first, second, *others = step.parts
+        first, *others = step.places
         assert draws(first) == {"normal to the arm": [0]}
-        assert f"normal to arm {names[k]} downwards" in str(first.caption)
-        assert str(second.caption).startswith(
-            f"Line {names[k]}: from D{names[k]} set off {limit} from the normal, {turn}."
-        )
-        assert draws(second) == {f"limits: {found.group(1)}": [moving.index(k)]}
-        for part, n in zip(others, [n for n in moving if n != k], strict=True):
-            said = f"Line {names[n]}: from D{names[n]} set off {limit} from the normal to arm {names[n]}, {turn}. "
-            assert str(part.caption) == said + f"A must lie on the side {way}."
+        assert f"At every point D of the {found.group(1)} draw the normal to the arm downwards" in str(first.caption)
+        for part, n in zip(others, [k, *(n for n in moving if n != k)], strict=True):
+            assert str(part.caption) == f"Line {names[n]}: {float(limit[:-1]):g}°."
             assert draws(part) == {f"limits: {found.group(1)}": [moving.index(n)]}
         # The normal that is shown is square to the arm, downwards, and the angle lies between it and the line.
         (normal,), tip = marks(step, Line), positions(region)[3][k]
@@ -410,23 +412,25 @@ def test_in_the_dwells_the_lines_lie_on_the_other_side_of_the_normal(name):
     limits_ = [permitted.rise, *([] if permitted.return_ is None else [permitted.return_])]
     assert f"from the end {top} of the highest arm" in str(step.caption)
     families = marks(step, Segments)
-    assert len(step.parts) == 2 * len(families) == 2 * len(limits_)
-    for n, (lines, limit) in enumerate(zip(families, limits_, strict=True)):
+    assert str(step.caption).startswith("In a dwell D is the end of the arm. ")
+    for lines, limit, part in zip(families, limits_, step.parts, strict=True):
         degrees = f"{math.degrees(limit):.6g}°"
-        for place, part in zip(("B₀", top), step.parts[2 * n : 2 * n + 2], strict=True):
-            told = rf"From {place} set off {degrees} from the normal downwards, (.*)\. A must lie on the side (.*)\."
-            turn, way = re.fullmatch(told, str(part.caption)).groups()
-            kept_side(lines, way, turn)
-            assert f"{degrees} {turn} (A on the side {way})" in str(step.caption)
-            assert list(draws(part).values()) == [["B₀", top].index(place) * [1] or [0]]
+        told = rf"at {degrees} to the normal downwards, turned from it (.*)\. A must lie on the side (.*)\."
+        turn, way = re.search(told, str(part.caption)).groups()
+        kept_side(lines, way, turn)
+        for n, (place, row) in enumerate(zip(("B₀", top), part.rows, strict=True)):
+            assert str(row.caption) == f"From {place}: {degrees}."
+            assert list(draws(row).values()) == [[n]]
 
 
 def test_without_the_limits_in_the_dwells_the_arms_are_produced():
     region, steps = steps_of(REACH, "minimum_radius")
     step, top = titled(steps, "The arm extended"), names_of(region)[int(np.argmax(motion(region)[0]))]
-    assert f"extend CB₀ and the highest arm, {top}, beyond their ends" in str(step.caption)
+    below = (
+        f"extend CB₀ beyond B₀; A must lie below it. Extend the highest arm, {top}, beyond its end; A must lie below it"
+    )
+    assert below in str(step.caption)
     assert [draws(part) for part in step.parts] == [{"limits: reach": [0]}, {"limits: reach": [1]}]
-    assert f"arm {top}" in str(step.parts[1].caption)
 
 
 def from_edge(place: complex, corners: np.ndarray) -> float:
@@ -488,9 +492,8 @@ def test_the_least_radius_and_the_distance_are_as_long_as_their_dimensions_say(n
         (arc,), (part,) = marks(step, Arc), arc_said
         assert on_arc(arc, place)
         assert abs(arc.radius - given / mu) < (MANY * SIGMA if pencil else EXACT)
-        assert f"Draw an arc of {given / mu:.1f} mm about C with the compass" in str(part.caption)
-        assert f"Draw an arc of {given / mu:.1f} mm about C with the compass, for c = {given:g} mm." in str(
-            step.caption
+        assert f"Draw an arc of {given / mu:.1f} mm about C with the compass, for c = {given:g} mm." == str(
+            part.caption
         )
         assert c == pytest.approx(given, abs=MANY * SIGMA * mu if pencil else 1e-9)
 
@@ -515,7 +518,7 @@ def test_the_lines_that_bind_are_named_and_the_centre_lies_on_them(name):
         share = (place - start) / (end - start)
         assert share.imag == pytest.approx(0, abs=1e-6)
         assert -EXACT <= share.real <= 1 + EXACT
-    said = re.search(r"A₀ is (.*?)\. Join", str(step.caption)).group(1)
+    said = re.search(r"Mark A₀, (.*?)\. Join", str(step.caption)).group(1)
     assert said == WHERE.get(name, said)
     (length, outward, _, tips), permitted, at = positions(region), region.givens.limits, directions(region)
     sigma, seen = sense(region), np.angle((place - tips) / (1j * outward))
@@ -587,11 +590,11 @@ def test_the_cam_centre_is_where_the_arcs_of_the_two_sizes_cross_below_the_arm(n
         assert psi0 == pytest.approx(math.degrees(angle_at_pivot(measured)))
         assert direction(angle.start) == pytest.approx(-1)
         assert direction(angle.end) == pytest.approx(place / abs(place))
-    told = rf"arcs of {c / mu:.1f} mm about C, for c = {c:g} mm, and of {r0 / mu:.1f} mm about B₀, for r₀ = {r0:g} mm"
-    assert told in str(step.caption)
     assert numbers(step.caption, r"ψ₀ = ([\d.]+)°") == [round(psi0, 2)]
     _, first, second, third = step.parts
-    assert f"{c / mu:.1f} mm about C below the arm, for c = {c:g} mm" in str(first.caption)
+    assert f"With the compass draw an arc of {c / mu:.1f} mm about C below the arm, for c = {c:g} mm" in str(
+        first.caption
+    )
     assert f"{r0 / mu:.1f} mm about B₀, for r₀ = {r0:g} mm" in str(second.caption)
     assert f"ψ₀ = {psi0:.2f}°" in str(third.caption)
     assert [set(draws(part)) for part in step.parts] == [
@@ -628,8 +631,8 @@ def test_from_the_numbers_of_the_parts_alone_the_mechanism_is_drawn_again(name, 
     step, (k, scale) = titled(steps, MECHANISM), shown_at(measured, steps)
     level, swung, _, laid_off = (str(part.caption) for part in step.parts)
     (ac,) = numbers(level, r"AC horizontally, ([\d.]+) mm long")
-    psi0, s, psi, cb = numbers(swung, r"ψ₀ \+ s = ([\d.]+)° \+ (-?[\d.]+)° = ([\d.]+)° upwards .* CB = ([\d.]+) mm")
-    v, factor, bd = numbers(laid_off, r"lay off ([\d.]+) mm × ([\d.]+) = ([\d.]+) mm")
+    psi0, s, psi, cb = numbers(swung, r"ψ₀ \+ s = ([\d.]+)° \+ (-?[\d.]+)° = ([\d.]+)°, upwards .* CB = ([\d.]+) mm")
+    v, factor, bd = numbers(laid_off, r"dividers: ([\d.]+) mm × ([\d.]+) = ([\d.]+) mm")
     b = ac - cb * cmath.exp(-1j * math.radians(psi))
     d = b + (b - ac) / abs(b - ac) * (bd if "away from C" in laid_off else -bd)
     assert mechanism(steps) == pytest.approx((0, b, ac, d), abs=0.3)
@@ -667,9 +670,13 @@ def test_the_velocity_plan_is_square_to_the_mechanisms_triangle(name, pencil):
         assert out.real * (side.end - side.start).real + out.imag * (side.end - side.start).imag == pytest.approx(0)
         assert ((inner - halves[key]) * out.conjugate()).real < 0, key  # outside of the plan
     lengths = [abs(each.end - each.start) for each in (v1, v2, v21)]
-    said = numbers(step.caption, r"v₁ = ([\d.]+) mm, square to AB, .* v₂ = BD = ([\d.]+) mm, .* v₂₁ = ([\d.]+) mm")
+    texts = (
+        r"v₁ = AB = ([\d.]+) mm, square to AB",
+        r"v₂ = BD = ([\d.]+) mm, square to the arm",
+        r"v₂₁ measures ([\d.]+) mm",
+    )
+    said = [numbers(part.caption, text)[0] for part, text in zip(step.parts, texts, strict=True)]
     assert said == pytest.approx(lengths, abs=0.051)
-    assert [numbers(part.caption, r"= ([\d.]+) mm")[0] for part in step.parts] == pytest.approx(lengths, abs=0.051)
     turns = [turning(way) for way in ("ccw", "cw")][:: sense(measured)]
     assert [f"turned by 90° {way}" in str(part.caption) for way, part in zip(turns, step.parts, strict=False)] == [
         True,
@@ -699,11 +706,11 @@ def test_the_pressure_angle_that_is_printed_is_the_one_between_da_and_the_arms_n
     assert measured.first("alpha")[k] == pytest.approx(alpha, abs=near)
     assert measured.first("transmission")[k] == pytest.approx(math.pi / 2 - abs(alpha), abs=near)
     said = numbers(
-        step.caption, r"angle at station \d+′*: (-?[\d.]+)°; the transmission angle is 90° − \|α\| = ([\d.]+)°"
+        step.caption, r"angle at station \d+′* is (-?[\d.]+)°, and the transmission angle 90° − \|α\| = ([\d.]+)°"
     )
     assert said == pytest.approx([math.degrees(alpha), 90 - abs(math.degrees(alpha))], abs=0.0051)
-    assert f"at station {str(titled(steps, PLAN).title).split()[-1]}:" in str(step.caption)
-    assert f": {math.degrees(alpha):.2f}°." in str(step.parts[1].caption)
+    at = f"at station {str(titled(steps, PLAN).title).split()[-1]} is {math.degrees(alpha):.2f}°"
+    assert at in str(step.parts[1].caption)
     assert [sorted(draws(part)) for part in step.parts] == [["normal"], ["DA"]]
 
 
@@ -731,11 +738,10 @@ def test_all_rays_run_from_the_ends_d_to_the_cam_centre_each_with_its_normal_and
     near = MANY * 0.004 if pencil else EXACT  # by the protractor
     assert_allclose(measured.first("alpha"), alpha, atol=near)
     names, told = names_of(measured), np.degrees(measured.first("alpha"))
-    apart, *each = step.parts
+    apart, *each = step.places
     assert draws(apart) == {"tips": list(range(len(names))), "centre": [0]}
     for n, (part, text) in enumerate(zip(each, names, strict=True)):
-        assert str(part.caption).startswith(f"Ray {text}: draw the normal to arm {text} downwards from D{text}, ")
-        assert numbers(part.caption, r"to the ray: (-?[\d.]+)°\.") == pytest.approx([told[n]], abs=0.0051)
+        assert numbers(part.caption, rf"^Station {text}: (-?[\d.]+)°\.$") == pytest.approx([told[n]], abs=0.0051)
         assert draws(part) == {"normals": [n], "rays": [n]}
     k, _ = shown_at(measured, steps)
     worst = int(np.argmax(np.abs(told)))
@@ -766,9 +772,9 @@ def test_prime_circle_and_pivot_circle_have_the_sizes_that_are_told(name):
     (arrow,), text = marks(steps[0], Arrow), f"r₀ = {r0:g}"
     assert (arrow.start, abs(arrow.end)) == (0, pytest.approx(r0 / mu))
     assert labels(steps[0])[text].at == pytest.approx(0.6 * arrow.end)
-    told = f"at {ratio(mu)}, the prime circle of {r0 / mu:.1f} mm, r₀ = {r0:g} mm, and the circle of the pivot of "
-    assert told + f"{c / mu:.1f} mm, c = {c:g} mm." in str(steps[0].caption)
-    assert f"circle of the pivot, {c / mu:.1f} mm, about A" in str(steps[0].parts[-1].caption)
+    prime, pivots = (str(part.caption) for part in steps[0].parts)
+    assert prime.startswith(f"Set the compass to {r0 / mu:.1f} mm (r₀ = {r0:g} mm at {ratio(mu)}) and draw the prime")
+    assert pivots.startswith(f"Set the compass to {c / mu:.1f} mm (c = {c:g} mm at {ratio(mu)}) and draw the circle of")
 
 
 def against(drawn: Construction) -> str:
@@ -781,35 +787,24 @@ def test_the_pivot_is_stepped_off_against_the_rotation(name):
     inverted, steps = steps_of(name, "inversion")
     step, (pivots, _, _) = steps[1], inverted_positions(inverted)
     assert_allclose(marks(step, Dots)[0].points, pivots, atol=EXACT)
-    sigma, phases = sense(inverted), inverted.givens.integrated.givens.motion.phases
-    named = labels(step)
+    sigma, named = sense(inverted), labels(step)
     assert named.pop("C").at == pytest.approx(pivots[0])
     for text, label in named.items():
         k = station(inverted, text)
         assert (label.at, label.towards) == pytest.approx((pivots[k], pivots[k]))
     way, cam = against(inverted), turning(inverted.givens.rotation)
-    angles = ", ".join(f"{math.degrees(phase.angle):.6g}°" for phase in phases)
     assert f"The cam turns {cam}; hold it still and step the pivot round A the other way, {way}." in str(step.caption)
-    assert angles in str(step.caption)
-    k = example_of(step, inverted)
-    for n, (part, text) in enumerate(zip(step.parts, names_of(inverted), strict=True)):
+    assert f"count {way} from the horizontal to the right of A, from station to station " in str(step.caption)
+    k = station(inverted, re.search(r"so station (\S+) at", str(step.caption)).group(1))
+    for n, (part, text) in enumerate(zip(step.places, names_of(inverted), strict=True)):
         turn = math.degrees(-sigma * cmath.phase(pivots[n])) % 360
         assert draws(part) == {"inverted positions": [n], "pivots": [n]}
-        if turn > 1e-9 and 360 - turn > 1e-9:
-            assert str(part.caption).startswith(f"C{text}: set ")
-            assert numbers(part.caption, r"set ([\d.]+)° off at A " + way) == pytest.approx([turn], rel=1e-5)
-        else:
-            assert str(part.caption).startswith((f"C{text} lies on the horizontal", f"C{text}: set 360° off"))
-        begins = n in [span.start for span in inverted.givens.integrated.givens.stations.phases]
-        if begins:
-            assert "from the horizontal to the right" in str(part.caption) or "to the right: mark" in str(part.caption)
-            continue
-        on = math.degrees(-sigma * cmath.phase(pivots[n] / pivots[n - 1]))
-        before = names_of(inverted)[n - 1]
-        assert numbers(part.caption, rf", ([\d.]+)° on from C{before}, ") == pytest.approx([on], rel=1e-5)
+        (said,) = numbers(part.caption, rf"^Station {text}: ([\d.]+)°\.$")
+        assert said % 360 == pytest.approx(turn if turn > 1e-9 and 360 - turn > 1e-9 else 0, abs=0.0051)
         if n == k:
-            said = numbers(step.caption, rf"Station {text}: ([\d.]+)° {way}, ([\d.]+)° on from the previous one")
-            assert said == pytest.approx([turn, on], rel=1e-5)
+            assert numbers(step.caption, rf"so station {text} at ([\d.]+)°") == [said]
+            on = math.degrees(-sigma * cmath.phase(pivots[n] / pivots[n - 1]))
+            assert f"{round(on, 2):g}°" in str(step.caption)
 
 
 @EVERY
@@ -818,14 +813,12 @@ def test_the_arcs_of_the_arm_cross_the_prime_circle_on_the_left(name):
     step, (pivots, starts, pitch) = titled(steps, "Arcs of the arm"), inverted_positions(inverted)
     arm = inverted.givens.arm / inverted.givens.mu_l.per_mm
     assert_allclose(marks(step, Dots)[0].points, starts, atol=EXACT)
-    for n, (arc, part, text) in enumerate(zip(marks(step, Arc), step.parts[:-1], names_of(inverted), strict=True)):
+    for n, (arc, part, text) in enumerate(zip(marks(step, Arc), step.places[:-1], names_of(inverted), strict=True)):
         assert (arc.centre, arc.radius) == (pytest.approx(pivots[n]), pytest.approx(arm))
         assert on_arc(arc, starts[n])
         assert on_arc(arc, pitch[n])
         assert (starts[n] * pivots[n].conjugate()).imag > 0  # seen from the centre towards the pivot
-        said = f"From C{text} strike an arc of {arm:.1f} mm across the prime circle, "
-        said += f"on the left seen from A towards C{text}."
-        assert (str(part.caption), draws(part)) == (said, {"arcs of the arm": [n], "starts": [n]})
+        assert (str(part.caption), draws(part)) == (f"Station {text}.", {"arcs of the arm": [n], "starts": [n]})
     assert f"Set the compass to the arm, {arm:.1f} mm." in str(step.caption)
     assert "on the left as seen from A towards the pivot" in str(step.caption)
 
@@ -862,22 +855,22 @@ def test_from_every_pivot_the_arm_is_turned_by_the_displacement(name):
         assert (label.at, label.towards) == pytest.approx((pitch[k], pitch[k] / abs(pitch[k])))
     s, turns = ordinates(inverted)[0], np.degrees(-np.angle((pitch - pivots) / (starts - pivots)))
     k = example_of(step, inverted)
-    for n, (part, text) in enumerate(zip(step.parts, names_of(inverted), strict=True)):
+    assert "away from A (clockwise on the paper), with the protractor or, with dividers, by the chord" in str(
+        step.caption
+    )
+    for n, (part, text) in enumerate(zip(step.places, names_of(inverted), strict=True)):
         caption, chord = str(part.caption), abs(pitch[n] - starts[n])
         assert draws(part) == {"arms": [n], "pitch": [n]}
-        assert caption.startswith(f"Arm {text}: ")
+        assert caption.startswith(f"Station {text}: ")
         if chord < 0.005:
-            assert caption.endswith(f"so {text} lies on the prime circle; draw the arm.")
+            assert caption.endswith(": 0°.")
             continue
         paper, factor, angle, across = numbers(caption, TURN_AND_CHORD)
         assert (paper, angle, across) == pytest.approx((s[n], turns[n], chord), abs=0.0051)
         assert factor == pytest.approx(turns.max() / s.max(), rel=1e-3)
-        assert f"from B₀{text} " in caption
-        assert f"clockwise along the arc about C{text}; mark {text}" in caption
-        small = f"too small for the protractor: with dividers set off {chord:.2f} mm along the arc."
-        assert caption.endswith(small) == (abs(turns[n]) < 0.5)
         if n == k:
             assert numbers(step.caption, TURN_AND_CHORD) == [paper, factor, angle, across]
+            assert f"from B₀{text} along the arc about C{text} " in str(step.caption)
     # What moves is square to the arm, away from the cam.
     away = (pivots - pitch) / np.abs(pivots - pitch) * 1j
     assert_allclose(inverted.points["motion"], away, atol=EXACT)

@@ -339,36 +339,33 @@ def named(by: int, kind: tuple) -> list[str]:
     return [f"{k + by_chords(kind)}" for k in range(by)]
 
 
-def told_climb(caption) -> float:
-    """How far up a caption says that a chord runs."""
-    found = re.search(r"across and (?:([\d.]+) mm (up|down)|level)\.", str(caption))
+def told(caption, pattern: str, nothing: str) -> float:
+    """How far up a caption says that something runs or lies."""
+    found = re.search(rf"(?:{pattern})(?:([\d.]+) mm (up|down)|{nothing})\.", str(caption))
     return float(found[1]) * (1 if found[2] == "up" else -1) if found[1] else 0.0
 
 
 def told_height(caption) -> float:
     """The height that a caption says a ray ends at."""
-    found = re.search(r"axis, (?:([\d.]+) mm (up|down)|at the origin)\.", str(caption))
-    return float(found[1]) * (1 if found[2] == "up" else -1) if found[1] else 0.0
+    return told(caption, ": |axis, ", "at the origin")
 
 
 @EVERY
 @pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
-def test_ray_k_is_drawn_parallel_to_chord_or_tangent_k_and_every_part_bears_that_number_and_says_its_lengths(
+def test_ray_k_is_drawn_parallel_to_chord_or_tangent_k_and_every_row_bears_that_number_and_says_its_lengths(
     kind, pencil
 ):
-    noun = "chord" if by_chords(kind) else "tangent"
-    for number_of_pass, (plotted, derived, (traced, rays, _), distance, index) in enumerate(passes(kind, pencil)):
+    noun = "Chord" if by_chords(kind) else "Tangent"
+    for plotted, derived, (traced, rays, _), distance, _ in passes(kind, pencil):
         names = named(derived.size, kind)
-        assert len(traced.parts) == len(rays.parts) == derived.size
-        assert len({str(part.caption) for part in rays.parts}) == derived.size
-        for k, (name, trace, ray) in enumerate(zip(names, traced.parts, rays.parts, strict=True)):
-            assert str(trace.caption).startswith(f"{noun.capitalize()} {name}")
-            assert f"from {noun} {name} to P{index}: ray {name} ends" in str(ray.caption)
-            assert str(ray.caption).endswith(f"point {name} of {'va'[number_of_pass]}.")
+        assert len(traced.parts) == len(rays.parts) == 1
+        assert [str(row.name) for row in traced.parts[0].rows] == [f"{noun} {name}" for name in names]
+        assert [str(row.name) for row in rays.parts[0].rows] == [f"Ray {name}" for name in names]
+        for k, (trace, ray) in enumerate(zip(traced.places, rays.places, strict=True)):
             slope, line = trace.draws[0], ray.draws[0]
             across = (line.directions * slope.directions.conjugate()).imag / abs(line.directions * slope.directions)
             assert abs(across) < (MANY * SIGMA / 150 if pencil else EXACT)
-            way = complex(slope.directions)
+            way = complex(slope.directions.item())
             assert told_height(ray.caption) == pytest.approx(
                 distance * way.imag / way.real, abs=MANY * 0.5 if pencil else 0.006
             )
@@ -376,37 +373,57 @@ def test_ray_k_is_drawn_parallel_to_chord_or_tangent_k_and_every_part_bears_that
             assert ray.draws[2].place == derived[k]
             if by_chords(kind):
                 ends = ends_of_chords(kind, plotted)[k : k + 2]
-                assert complex(slope.points) == ends[0]
-                assert told_climb(trace.caption) == pytest.approx((ends[1] - ends[0]).imag, abs=0.0051)
-                assert number(trace.caption, r", ([\d.]+) mm across") == pytest.approx(
+                assert slope.place == ends[0]
+                assert told(trace.caption, "mm across, |mm ", "level") == pytest.approx(
+                    (ends[1] - ends[0]).imag, abs=0.0051
+                )
+                assert number(trace.caption, r": ([\d.]+) mm (?:across|level)") == pytest.approx(
                     (ends[1] - ends[0]).real, abs=0.0051
                 )
-                first = k + number_of_pass
-                begin, end = re.search(r"from point (\d+) to point (\d+)", str(trace.caption)).groups()
-                assert int(begin) == first
-                assert int(end) == (first + 1 if k + 1 < plotted.size else number_of_pass)
-                assert ("of the next turn" in str(trace.caption)) == (k + 1 == plotted.size)
             else:
                 said = re.search(r"(rises|falls) at ([\d.]+)°|is level", str(trace.caption))
                 lean = float(said[2]) * (1 if said[1] == "rises" else -1) if said[1] else 0.0
                 assert lean == pytest.approx(math.degrees(cmath.phase(way)), abs=0.051)
-                assert f"at point {name}," in str(trace.caption)
 
 
 @EVERY
-def test_the_caption_of_a_step_works_one_of_its_parts_and_says_how_many_there_are(kind):
-    for *_, (traced, rays, _), _, _ in passes(kind):
+def test_the_points_that_a_chord_joins_are_told_by_its_number(kind):
+    for number_of_pass, (plotted, derived, (traced, *_), *_) in enumerate(passes(kind)):
+        if not by_chords(kind):
+            assert re.search(r"mirror at point (\d+),", str(traced.caption))[1] in named(derived.size, kind)
+            continue
+        # The points of s are counted from 0, so a chord has the number of its end; those of v from 1.
+        rule = ("of the point at its end", "of the point where it begins")[number_of_pass]
+        assert f"A chord has the number {rule}." in str(traced.caption)
+        round_about = f"The last one runs to point {number_of_pass} of the next turn."
+        assert (round_about in str(traced.caption)) == cyclic(kind) == (derived.size == plotted.size)
+
+
+@EVERY
+def test_the_caption_of_a_step_works_the_steepest_slope_and_says_how_many_there_are(kind):
+    for *_, (traced, rays, _), _, index in passes(kind):
+        heights = [abs(place.draws[1].place.imag) for place in rays.places]
+        (name,) = [row.name for row in rays.parts[0].rows if row.draws[1].place.imag in (max(heights), -max(heights))][
+            :1
+        ]
+        _, name = str(name).split()
+        noun = "chord" if by_chords(kind) else "tangent"
+        assert f"from {noun} {name} to P{index}: ray {name} ends" in str(rays.caption)
+        assert f": point {name} of " in str(rays.caption)
+        worked = rays.places[[str(row.name) for row in rays.parts[0].rows].index(f"Ray {name}")]
+        assert told_height(rays.caption) == told_height(worked.caption)
+        (row,) = [row for row in traced.parts[0].rows if str(row.name).endswith(f" {name}")]
+        assert f"{row.name}" in str(traced.caption)
+        assert f"{row.setting}." in str(traced.caption)
         for step in (traced, rays):
-            (worked,) = [part for part in step.parts if str(part.caption) in str(step.caption)]
-            assert worked
-            assert number(step.caption, r"others, (\d+) in all") == len(step.parts)
+            assert number(step.caption, r"others, (\d+) in all") == len(step.places)
 
 
 @EVERY
 def test_the_parts_of_a_step_leave_all_its_own_marks(kind):
     for step in drawn(kind).steps():
-        left = {(part.act, k) for each in step.parts for part in each.draws for k in part.index.tolist()}
-        for mark in step.own if step.parts else ():
+        left = {(part.act, k) for each in step.places for part in each.draws for k in part.index.tolist()}
+        for mark in step.own:
             if mark.of is None or mark.of.kind is Kind.READ:
                 continue  # a graduation
             assert {(mark.of, k) for k in mark.index.tolist()} <= left, (str(step.title), mark)
@@ -459,7 +476,7 @@ def test_numbers_stand_at_the_ends_of_their_rays_and_at_their_points(kind):
 @EVERY
 def test_every_step_has_a_reason_in_one_sentence(kind):
     for step in drawn(kind).steps():
-        assert re.fullmatch(r"Because [^.]+\.", str(step.why)), str(step.why)
+        assert re.fullmatch(r"(?!Because)[A-Z][^.]+\.", str(step.why)), str(step.why)
 
 
 @EVERY

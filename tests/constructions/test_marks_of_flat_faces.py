@@ -117,10 +117,13 @@ def test_every_station_is_told_with_what_is_laid_off_there(name):
     step, (s, a, before, mu) = step_of(name, *LAID_OFF), lengths(name)
     factor = float(chain(name)["integration"].readings["a"].scale) / mu
     names = station_names(stations(name))
-    assert len(step.parts) == len(names)
-    for k, part in enumerate(step.parts):
+    assert len(step.parts) == 1
+    assert len(step.places) == len(names)
+    worked = re.search(r"(Station \S+: .*) Number the ends", str(step.caption))[1]
+    assert worked in [str(place.caption) for place in step.places]
+    for k, part in enumerate(step.places):
         said = str(part.caption)
-        assert said.startswith(f"Station {names[k]}: mark the axis of s ")
+        assert said.startswith(f"Station {names[k]}: ")
         height = re.search(r"([\d.]+) mm (above|below) the axis of a", said)
         assert (float(height[1]) * (1 if height[2] == "above" else -1) if height else 0) == pytest.approx(
             s[k], abs=0.0051
@@ -159,11 +162,11 @@ def test_smooth_curves_join_the_ends_between_jumps_and_corners(name):
     assert len(curves) == len(stations(name).stretches)
     names = station_names(stations(name))
     for curve, places, part, stretch in zip(
-        curves, expected_curve(name), step.parts, stations(name).stretches, strict=False
+        curves, expected_curve(name), step.places, stations(name).stretches, strict=False
     ):
         assert_allclose(curve.points[[0, -1]], places[[0, -1]], atol=EXACT)
         assert np.abs(places[:, None] - curve.points[None, :]).min(axis=1).max() < EXACT
-        assert f"From {names[stretch.start]} to {names[stretch.stop - 1]}:" in str(part.caption)
+        assert str(part.caption) == f"From {names[stretch.start]} to {names[stretch.stop - 1]}."
 
 
 @EVERY
@@ -175,10 +178,10 @@ def test_a_dwell_is_a_point_of_the_axis_at_its_displacement(name):
     levels = [motion.levels[k] / mu for k, phase in enumerate(motion.phases) if phase.kind == "dwell"]
     assert_allclose(dots.points.real, 0, atol=EXACT)
     assert_allclose(np.sort(dots.points.imag), np.sort(levels), atol=1e-6)
-    told = [str(part.caption) for part in step.parts[-dots.points.size :]]
+    told = [str(part.caption) for part in step.places[-dots.points.size :]]
     for said, level in zip(told, dots.points.imag, strict=True):
         assert said.startswith("In the dwell after ")
-        height = re.search(r"the axis ([\d.]+) mm above", said)
+        height = re.search(r": ([\d.]+) mm above", said)
         assert (float(height[1]) if height else 0) == pytest.approx(level, abs=0.0051)
 
 
@@ -251,10 +254,11 @@ def test_the_tangent_leans_by_45_degrees_touches_the_curve_and_crosses_it_nowher
     height = re.search(r"axis of s (?:([\d.]+) mm (above|below) the axis of a|at the axis of a)", str(step.caption))
     side = {"above": 1, "below": -1, None: 0}[height[2]]
     assert side * float(height[1] or 0) == pytest.approx(zero.imag, abs=0.0051)
-    paper, scale, need = re.search(r"is (-?[\d.]+) mm × ([\d.]+) = (-?[\d.]+) mm", str(step.caption)).groups()
-    assert float(paper) == pytest.approx(-zero.imag, abs=0.0051)
-    assert float(scale) == pytest.approx(mu, rel=1e-4)
-    assert float(need) == pytest.approx(-zero.imag * mu, abs=0.00051)
+    found = re.search(r"is (?:(-?[\d.]+) mm × ([\d.]+) = (-?[\d.]+) mm|zero)\.", str(step.caption))
+    paper, scale, need = (float(each) for each in found.groups(default="0"))
+    assert paper == pytest.approx(-zero.imag, abs=0.0051)
+    assert scale == (pytest.approx(mu, rel=1e-4) if found[1] else 0)
+    assert need == pytest.approx(-zero.imag * mu, abs=0.00051)
     # The ends that are told to be nearest are.
     (_, at), (s, a, before, _) = str(step.parts[0].caption).rsplit(" ", 1), lengths(name)
     k = station_names(stations(name)).index(at.rstrip("."))
@@ -348,9 +352,10 @@ def test_the_rays_turn_against_the_rotation_up_to_the_prime_circle_and_go_on_by_
     against = 1 if inverted.givens.rotation == "cw" else -1
     turned = np.angle(rays.ends / 1j * np.exp(-1j * against * stations(name).phi))
     assert np.abs(turned).max() < (MANY * (TREMBLING.protractor + SIGMA / r0) if pencil else EXACT)
-    said = re.search(r"compass to ([\d.]+)/([\d.]+) = ([\d.]+) mm", str(circle_step.caption)).groups()
-    assert [float(each) for each in said] == pytest.approx([inverted.givens.prime_radius, mu, r0], abs=0.051)
-    assert f"r₀ = {inverted.givens.prime_radius:g} mm" in str(circle_step.caption)
+    said = re.search(r"compass to ([\d.]+) mm \(r₀ = ([\d.]+) mm at ([\d.]+):([\d.]+)\)", str(circle_step.caption))
+    paper, whole, *ratio = (float(each) for each in said.groups())
+    assert (paper, whole) == (pytest.approx(r0, abs=0.051), inverted.givens.prime_radius)
+    assert ratio[1] / ratio[0] == pytest.approx(mu)
 
 
 @EVERY
@@ -359,13 +364,15 @@ def test_every_ray_is_told_with_its_angle_and_the_sense_against_the_rotation_and
     rays, names = of_kind(step, Segments)[0], station_names(stations(name))
     other = "anticlockwise|counter-clockwise" if inverted.givens.rotation == "cw" else "(?<!anti)(?<!counter-)clockwise"
     assert re.search(rf"turn the follower the other way, (?:{other})\.", str(step.caption))
-    assert len(step.parts) == len(names) + 1
-    for k, part in enumerate(step.parts[:-1]):
-        said = str(part.caption)
-        assert said.startswith(f"Ray {names[k]}: ")
-        angle = re.search(rf"to ([\d.]+)° from the vertical, (?:{other}),", said)
-        assert (float(angle[1]) if angle else 0.0) == pytest.approx(math.degrees(stations(name).phi[k]), abs=0.0051)
+    assert re.search(rf"from the vertical, (?:{other}), draw the ray from the cam centre", str(step.caption))
+    assert len(step.parts) == 2
+    assert len(step.places) == len(names) + 1
+    for k, part in enumerate(step.places[:-1]):
+        angle = re.fullmatch(rf"Ray {names[k]}: ([\d.]+)°\.", str(part.caption))[1]
+        assert float(angle) == pytest.approx(math.degrees(stations(name).phi[k]), abs=0.0051)
         assert part.draws[1].place == pytest.approx(complex(rays.ends[k]), abs=EXACT)
+    worked = re.search(r": ray (\S+) at ([\d.]+°)\.", str(step.caption))
+    assert f"Ray {worked[1]}: {worked[2]}." in [str(place.caption) for place in step.places]
     for label in (label for label in of_kind(step, Label) if str(label.text) in names):
         assert label.at == pytest.approx(complex(rays.ends[names.index(str(label.text))]), abs=EXACT)
         assert (label.towards / label.at).real < 0  # inside the circle
@@ -403,10 +410,12 @@ def test_every_face_is_told_with_the_displacement_that_is_laid_off(name):
     step, names = step_of(name, *FACES), station_names(stations(name))
     readings, mu = chain(name)["integration"].readings, chain(name)["inversion"].givens.mu_l.per_mm
     s, factor = readings["s"].paper, float(readings["s"].scale) / mu
-    assert len(step.parts) == len(names)
-    for k, part in enumerate(step.parts):
+    assert len(step.parts) == 1
+    assert len(step.places) == len(names)
+    assert f"μₛ/μₗ = {float(readings['s'].scale):.4g}/{mu:g} = {factor:.4g}. Station " in str(step.caption)
+    assert laid_off_at(step) in [laid_off_at(place) for place in step.places]
+    for k, part in enumerate(step.places):
         assert str(part.caption).startswith(f"Station {names[k]}: ")
-        assert f"ray {names[k]}" in str(part.caption)
         said = laid_off_at(part)
         assert (said is None) == (abs(s[k]) < 0.005)
         if said:
@@ -422,8 +431,10 @@ def test_the_touch_lies_ds_dphi_beside_the_ray_on_the_rise_to_the_right_of_a_cam
     reading, mu = chain(name)["integration"].readings["v"], inverted.givens.mu_l.per_mm
     to_the_right = (reading.value if inverted.givens.rotation == "ccw" else -reading.value) / mu
     assert_allclose(touch - ends, ends / np.abs(ends) / 1j * to_the_right, atol=EXACT)
-    assert len(step.parts) == len(names) + 1
-    for k, part in enumerate(step.parts[:-1]):
+    assert len(step.parts) == 2
+    assert len(step.places) == len(names) + 1
+    assert laid_off_at(step) in [laid_off_at(place) for place in step.places[:-1]]
+    for k, part in enumerate(step.places[:-1]):
         assert str(part.caption).startswith(f"Station {names[k]}: ")
         said = laid_off_at(part)
         assert (said is None) == (abs(reading.paper[k]) < 0.005)
@@ -486,7 +497,7 @@ def test_the_profile_is_the_envelope_it_crosses_no_face(name):
 @EVERY
 def test_the_parts_of_a_step_leave_all_its_own_marks_that_are_of_a_place(name):
     for (_, title), step in steps(name).items():
-        left = {(part.act, k) for each in step.parts for part in each.draws for k in part.index.tolist()}
+        left = {(part.act, k) for each in step.places for part in each.draws for k in part.index.tolist()}
         for mark in step.own if step.parts else ():
             if mark.of is not None and mark.index is not None:
                 assert {(mark.of, k) for k in mark.index.tolist()} <= left, (title, mark)
@@ -495,7 +506,7 @@ def test_the_parts_of_a_step_leave_all_its_own_marks_that_are_of_a_place(name):
 @EVERY
 def test_every_step_has_a_reason_in_one_sentence(name):
     for (_, title), step in steps(name).items():
-        assert re.fullmatch(r"Because[^.]+\.", str(step.why)), title
+        assert re.fullmatch(r"(?!Because)[A-Z][^.]+\.", str(step.why)), title
 
 
 @EVERY

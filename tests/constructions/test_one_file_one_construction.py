@@ -16,7 +16,7 @@ from graphcam.bench.convergence import series_of
 from graphcam.bench.scenes import scene
 from graphcam.drafting.euclid import RIGHT
 from graphcam.drafting.hand import Hand, between
-from graphcam.drafting.ink import Construction, Step, View, say
+from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Role
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
@@ -69,7 +69,7 @@ def draw(drawn: Construction[ToyGivens]) -> list[Step]:
     """One step."""
     said = say("The dividers are set to {mm:.2f} mm.", mm=float(drawn.first("length")))
     line = drawn.acts["end"].line_from(0j, Role.RESULT)
-    return [Step(say("The toy's step"), said, VIEW, (line,), reads=("length",))]
+    return [Step(say("The toy's step"), (Part(said),), VIEW, (line,), reads=("length",))]
 
 
 # --- added in one line -----------------------------------------------------------------------------------------------
@@ -116,7 +116,7 @@ def test_the_player_tells_it_with_its_reading(solution):
 
 def test_the_note_has_a_chapter_on_it(solution):
     before, _, chapter = note_of(solution).partition(
-        f". The toy's chapter\n\n{MEANING.why}\n\nThe dividers are set to "
+        f". The toy's chapter\n\n{MEANING.why}\n\n**{len(solution.drawn)}.1. The toy's step.** The dividers are set to "
     )
     assert before.rstrip("0123456789").endswith("## ")
     assert "length of the toy" in chapter

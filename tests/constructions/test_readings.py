@@ -17,7 +17,7 @@ import graphcam as gc
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.force_plan import force_plan
 from graphcam.constructions.readings import ReadingRow, rows
-from graphcam.drafting.ink import Construction, Step, View, reading, say
+from graphcam.drafting.ink import Construction, Part, Step, View, reading, say
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.spring_load import SpringLoad
 from graphcam.tasks.task_file import builtin_arcs_task, builtin_task
@@ -109,7 +109,7 @@ def test_the_unit_of_a_reading_is_the_one_that_its_meaning_says(task):
 
 def test_a_reading_of_which_nothing_is_said_is_refused_by_its_name():
     construction = Chain(coursework())["minimum_radius"]
-    step = Step(say("A"), say("B."), View("v", say("V"), "x", "y"), (), reads=("height",))
+    step = Step(say("A"), (Part(say("B.")),), View("v", say("V"), "x", "y"), (), reads=("height",))
     with pytest.raises(gc.DesignError, match=r"reading of minimum_radius is .*, but must be told"):
         rows(replace(construction, readings={"height": reading(1.0, 1.0, "mm")}), step)
 
@@ -184,7 +184,7 @@ def test_what_does_not_belong_to_stations_is_not_said_to(task):
 def test_what_could_not_be_read_is_left_out():
     construction = Chain(coursework())["minimum_radius"]
     unreadable = replace(construction, readings={"s0": reading(np.nan, 1.0, "mm")})
-    step = Step(say("A"), say("B."), View("v", say("V"), "x", "y"), (), reads=("s0",))
+    step = Step(say("A"), (Part(say("B.")),), View("v", say("V"), "x", "y"), (), reads=("s0",))
     assert rows(construction, step)
     assert rows(unreadable, step) == []
 

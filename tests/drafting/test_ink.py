@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_array_equal
 
 from graphcam.drafting.hand import Hand, between
-from graphcam.drafting.ink import Caption, Construction, Reading, Step, View, reading, say
+from graphcam.drafting.ink import Caption, Construction, Part, Reading, Step, View, reading, say
 from graphcam.drafting.marks import Line, Role
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
@@ -20,7 +20,9 @@ LINE = Meaning("line", say("Line"), say("The shortest way."), {"length": Reading
 
 def one_line(construction: Construction) -> list[Step]:
     line = Line(np.array([0j, complex(construction.first("length"))]), Role.RESULT)
-    return [Step(say("A line"), say("It measures {mm:.1f} mm.", mm=construction.first("length")), BOARD, (line,))]
+    return [
+        Step(say("A line"), (Part(say("It measures {mm:.1f} mm.", mm=construction.first("length"))),), BOARD, (line,))
+    ]
 
 
 def drawn(pencil: Pencil) -> Construction:

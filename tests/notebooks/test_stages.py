@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from functools import partial
 from types import SimpleNamespace
@@ -11,11 +12,11 @@ import pytest
 
 import graphcam as gc
 from graphcam.drafting.hand import Hand
-from graphcam.drafting.ink import Part, Step, View, say
+from graphcam.drafting.ink import Part, Row, Step, View, say
 from graphcam.drafting.marks import Role
 from graphcam.drafting.meaning import Meaning
 from graphcam.notebooks.explore import changed
-from graphcam.notebooks.stages import drawing, show_steps, stages
+from graphcam.notebooks.stages import Stage, drawing, show_steps, stages
 from graphcam.plots.step_board import board_of
 from graphcam.report.documents import contents_of
 from graphcam.report.sheet_contents import all_drawn
@@ -141,7 +142,7 @@ def fan_steps(drawn):
     parts = tuple(Part(one.where(k=k + 1), (rays[k], ends[k])) for k in range(6))
     why = say("Because this is a toy.")
     view = View("fan", say("Fan"), "fan x", "fan y")
-    return [Step(say("Rays"), say("All rays are drawn."), view, marks, given=given, why=why, parts=parts)]
+    return [Step(say("Rays"), parts, view, marks, given=given, why=why)]
 
 
 def lines_of(page, stage):
@@ -208,3 +209,21 @@ def test_a_step_of_words_has_a_picture_only_where_something_stands(drawn):
     assert alone.picture is None
     assert "<img" not in alone.html
     assert over.picture is not None
+
+
+def test_a_run_is_told_once_with_its_table_and_no_sentence_twice():
+    (old,) = fan_steps(fan())
+    rows = tuple(
+        Row(say("Ray {k}", k=k + 1), say("{mm:.1f} mm", mm=10.0 * (k + 1)), part.draws)
+        for k, part in enumerate(old.parts)
+    )
+    pole = Part(say("Mark the pole P."))
+    step = replace(old, said=(pole, Part(say("Draw rays 1 to 6 from P: ray 2 rises 20.0 mm."), rows=rows)), parts=())
+    stage = Stage("1.", step, None, (), str, dict.fromkeys((0, 3), board_of(fan()).page(0)))
+    html = re.sub(r'alt="[^"]*"', "", stage.html)
+    for told in ("Mark the pole P.", "Draw rays 1 to 6 from P: ray 2 rises 20.0 mm.", "<b>2</b> 20.0 mm"):
+        assert html.count(told) == 1
+    assert "<p>Ray</p>" in html
+    assert "details" not in html
+    assert html.index("<ol>") < html.index('class="why"') < html.index("stills")
+    assert [picture.caption for picture in stage.pictures] == ["Part 1 of 7", "Part 4 of 7: Ray 3: 30.0 mm."]

@@ -17,7 +17,7 @@ from graphcam.report.output_folder import write
 from graphcam.solving.solve import solve
 from graphcam.tasks.task_file import builtin_task
 
-REPEATABLE = ("solution.json", "comparison.csv", "comparison.md", "note.md", "player.html")
+REPEATABLE = ("solution.json", "comparison.csv", "comparison.md", "note.md", "note.html", "player.html")
 
 
 @pytest.fixture(scope="module")
@@ -46,7 +46,7 @@ def test_files_are_written_and_named(folder, document):
     assert document == solve(builtin_task()).to_dict() | {"files": files, "profile_spline": spline, "written": written}
     named = {name for name in files.values() if name}
     assert named == {
-        "sheet.pdf", "sheet.svg", "sheet.png", "sheet.dxf", "comparison.csv", "comparison.md", "note.md",
+        "sheet.pdf", "sheet.svg", "sheet.png", "sheet.dxf", "comparison.csv", "comparison.md", "note.md", "note.html",
         "player.html",
         "profile.dxf", "profile.csv", "profile.xyz",
     }  # fmt: skip

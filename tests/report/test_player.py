@@ -14,6 +14,7 @@ from programs import program
 
 import graphcam as gc
 from graphcam.sheets.model import Text
+from graphcam.sheets.player import Slide
 
 MECHANISMS = ("coursework", "arm", "flat", "measured", "arcs", "knife")
 slow = pytest.mark.slow
@@ -35,7 +36,7 @@ SEEN = """() => {
         frames: page.map((svg) => svg.querySelectorAll("g.frame").length),
         page: page.map((svg) => svg.id),
         chapter: texts("article .chapter"), title: texts("article h2 .name"), number: texts("article h2 .number"),
-        caption: texts("article .caption"),
+        said: texts("article :is(.caption, .parts .said)"),
         why: texts("article .reason > span"), readings: texts("article dt"), values: texts("article dd strong"),
         announced: document.getElementById("announcement").textContent,
         counter: document.getElementById("counter").textContent,
@@ -46,6 +47,12 @@ SEEN = """() => {
 def seen(page: Page) -> dict:
     """What is drawn and said."""
     return page.evaluate(SEEN)
+
+
+def said_of(slide: Slide) -> list[str]:
+    """What is told of a step: its caption, if it has one, and its parts; a run once."""
+    told = [(run or part).caption for _, part, run in slide.listed if run or part]
+    return [slide.caption, *told] if slide.caption else told
 
 
 def step_keys(count: int) -> list[str]:
@@ -62,10 +69,10 @@ def check_step(page: Page, solved: Solved, k: int) -> None:
     assert set(now.pop("titles")) == views & {slide.view for slide in solved.slides[: k + 1]}
     assert now == {
         "current": [key], "frames": [1], "page": [f"page-{on}"],
-        "chapter": [slide.chapter], "title": [slide.title], "caption": [slide.caption],
+        "chapter": [slide.chapter], "title": [slide.title], "said": said_of(slide),
         "number": [slide.number], "why": [slide.reason] if slide.reason else [],
         "readings": [reading.title for reading in slide.readings], "values": [r.value for r in slide.readings],
-        "announced": f"{slide.title}. {slide.caption}",
+        "announced": f"{slide.title}. {slide.caption or ' '.join(said_of(slide))}",
         "counter": f"{slide.number} step {k + 1} of {len(solved.slides)}",
     }  # fmt: skip
 
@@ -215,11 +222,11 @@ def test_the_step_is_looked_at_closely_and_the_sheet_as_a_whole(solved, opened, 
     page.wait_for_function(
         "w => document.querySelector('#stage .paper').getBoundingClientRect().width > 1.3 * w", arg=after["width"]
     )
-    caption, stage = page.locator("article:visible .caption").bounding_box(), page.locator("#stage").bounding_box()
+    told, stage = page.locator("article:visible h2").bounding_box(), page.locator("#stage").bounding_box()
     if window[0] < 800:
-        assert caption["y"] > stage["y"] + stage["height"], "in a narrow window the words stand under the drawing"
+        assert told["y"] > stage["y"] + stage["height"], "in a narrow window the words stand under the drawing"
     else:
-        assert caption["x"] > stage["x"] + stage["width"]
+        assert told["x"] > stage["x"] + stage["width"]
 
 
 def test_light_and_dark_and_back(solved, opened):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,7 @@ from graphcam.drafting.acts import Act, Kind
 from graphcam.drafting.written_acts import WrittenActs
 from graphcam.sheets.box import Box
 from graphcam.sheets.model import Drawing, Group, Page as Sheet, Source, Strokes, Text
-from graphcam.sheets.player import WORDS, Acts, PartText, ReadingText, RowText, Slide, player
+from graphcam.sheets.player import WORDS, Acts, PartText, ReadingText, RowText, RunText, Slide, player
 
 RAYS, CHORDS, CURVE = (Act(Kind.JOIN, "integration", name, {}, 3) for name in ("rays", "chords", "curve"))
 PLACES = np.arange(3)
@@ -61,7 +62,7 @@ SLIDES = [
 ]  # fmt: skip
 
 
-def written(folder: Path, *, far: bool = False, pages: bool = False) -> Path:
+def written(folder: Path, *, far: bool = False, pages: bool = False, slides: list[Slide] = SLIDES) -> Path:
     """The page in a file; on pages, the chords are on a sheet of their own."""
     acts = Acts(WrittenActs(), {RAYS: 0, CHORDS: 1, CURVE: 2}, {0, 1})
     drawn, wide = groups(far), 800.0 if far else 200.0
@@ -69,7 +70,7 @@ def written(folder: Path, *, far: bool = False, pages: bool = False) -> Path:
     drawing = Drawing("Made up", tuple(Sheet(wide, 150.0, Box(0, 0, wide, 150), sheet) for sheet in sheets))
     words = {name: str(word) for name, word in WORDS.items()}
     file = folder / "parts.html"
-    file.write_text(player(drawing, SLIDES, None, words, "en", acts), encoding="utf-8")
+    file.write_text(player(drawing, slides, None, words, "en", acts), encoding="utf-8")
     return file
 
 
@@ -95,7 +96,7 @@ BEFORE = {
 }  # fmt: skip
 SECOND = {
     "address": "2.1/2", "counter": "2.1 part 2 of 3", "now": "1/1", "done": "1/0", "lit": "0/1 0/1", "hidden": 3,
-    "listed": "Chord 1.\ndividers 1.00 mm · ruler", "announced": "Chord 1.",
+    "listed": "2\nChord 1.\ndividers 1.00 mm · ruler", "announced": "Chord 1.",
 }  # fmt: skip
 WHOLE_STEP = {
     "address": "2.1", "counter": "2.1 step 2 of 3", "now": "", "done": "", "lit": "", "hidden": 1, "listed": "",
@@ -173,7 +174,7 @@ def test_a_page_that_draws_a_part_too_many_or_lights_another_ray_is_seen(opened,
     for right, wrong in (
         ('own > part ? "later"', 'own > part + 1 ? "later"'),
         ("places.includes(at(piece))", "places.includes(at(piece) + 1)"),
-        ("items[part].querySelector", "items[0].querySelector"),
+        ("lineOf(items[part])", "lineOf(items[0])"),
     ):
         assert right in whole
         file = tmp_path / "broken.html"
@@ -194,6 +195,71 @@ def test_the_list_of_parts_follows_and_the_caption_says_why(page):
         item, words = (page.locator(s).bounding_box() for s in (".parts [aria-current]", "#words"))
         assert words["y"] - 1 <= item["y"]
         assert item["y"] + item["height"] <= words["y"] + words["height"] + 1
+
+
+# --- a run ------------------------------------------------------------------------------------------------------------
+
+ROWS = (("0", "0"), ("1", "2.00 mm"), ("2", "4.00 mm"))
+RUN = RunText("Draw all chords: chord 2 climbs 4.00 mm.", 1, "Chord", ROWS, ("ruler",))
+POLE = replace(part(0), caption="Mark the pole.", draws=[[0, [0]]], lit=[])
+TOLD_ONCE = replace(
+    SLIDES[1],
+    caption="",
+    parts=(POLE, *(replace(part(k), caption=f"Chord {name}: {set_to}.") for k, (name, set_to) in enumerate(ROWS))),
+    runs=(RUN,),
+)
+
+
+@pytest.fixture
+def run_page(opened, tmp_path) -> Page:
+    return opened(written(tmp_path, slides=[SLIDES[0], TOLD_ONCE, SLIDES[2]]), reduced_motion="reduce")
+
+
+def test_a_run_is_told_once_and_its_rows_are_gone_through(run_page):
+    run_page.keyboard.press("ArrowRight")
+    assert state(run_page)["announced"] == "The chords. Mark the pole."
+    for k, (said, now) in enumerate((
+        ("Draw all chords: chord 2 climbs 4.00 mm. Chord 0: 0.", "1/0"),
+        ("Chord 1: 2.00 mm.", "1/1"),
+        ("Chord 2: 4.00 mm.", "1/2 1/"),
+    ), 2):  # fmt: skip
+        run_page.keyboard.press("ArrowRight")
+        found = state(run_page)
+        assert (found["address"], found["announced"], found["now"]) == (f"2.1/{k}", said, now)
+    run_page.keyboard.press("ArrowRight")
+    run_page.keyboard.press("ArrowLeft")
+    assert state(run_page)["announced"] == "The chords. Mark the pole. Draw all chords: chord 2 climbs 4.00 mm."
+    run_page.keyboard.press("ArrowLeft")
+    assert state(run_page)["announced"] == "Draw all chords: chord 2 climbs 4.00 mm. Chord 2: 4.00 mm."
+
+
+def test_an_address_opens_a_row_and_a_row_is_chosen_with_the_pointer(run_page):
+    run_page.evaluate("location.hash = '2.1/4'")
+    run_page.wait_for_function("document.querySelector('.row-table [aria-current]') !== null")
+    assert state(run_page)["listed"] == "Chord 2: 4.00 mm.\n2\n4.00 mm"
+    run_page.locator("article:visible .row-table button").nth(1).click()
+    assert state(run_page)["address"] == "2.1/3"
+    assert run_page.locator(".row-table .later").count() == 1
+    assert run_page.locator("article:visible .run .tools-set").inner_text() == "ruler"
+    assert run_page.locator("article:visible .head").inner_text() == "Chord"
+
+
+@pytest.mark.parametrize(("wide", "columns"), [(1440, 2), (390, 2), (240, 1)])
+def test_the_rows_of_a_run_stand_beside_each_other_where_there_is_room(run_page, wide, columns):
+    run_page.set_viewport_size({"width": wide, "height": 844})
+    run_page.keyboard.press("ArrowRight")
+    boxes = [each.bounding_box() for each in run_page.locator("article:visible .row-table button").all()]
+    assert len({round(each["x"]) for each in boxes}) >= columns
+    words = run_page.locator("#words").bounding_box()
+    assert all(each["x"] >= words["x"] and each["x"] + each["width"] <= words["x"] + words["width"] for each in boxes)
+
+
+def test_the_protocol_tells_a_run_with_its_table(run_page):
+    run_page.keyboard.press("p")
+    told = run_page.locator("#row-1 td").nth(1).inner_text()
+    assert re.sub(r"\s+", " ", told).startswith(
+        "Mark the pole. Draw all chords: chord 2 climbs 4.00 mm. Chord 0 0 1 2.00 mm 2 4.00 mm"
+    )
 
 
 # --- two views --------------------------------------------------------------------------------------------------------

@@ -22,6 +22,7 @@ PLAIN = ("coursework", "arm", "flat", "measured", "arcs")
 def texts_of(slide: Slide) -> list[str]:
     """All that is said at a step."""
     parts = [text for part in slide.parts for text in (part.caption, *part.tools)]
+    parts += [run.caption for run in slide.runs]
     readings = [text for each in slide.readings for text in (each.title, each.taken, each.value)]
     return [slide.chapter, slide.why, slide.title, slide.caption, slide.reason, *parts, *readings]
 

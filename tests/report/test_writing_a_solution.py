@@ -65,7 +65,7 @@ def test_one_kind_alone_is_told_how_it_is_written(solution, tmp_path):
 @pytest.mark.parametrize("files", [["pdf", "pfd"], ["json"]])
 def test_an_unknown_kind_is_refused_by_naming_all(solution, tmp_path, files):
     with pytest.raises(
-        gc.DesignError, match=r"must be a list of kinds among pdf, svg, png, dxf, csv, md, note, player"
+        gc.DesignError, match=r"must be a list of kinds among pdf, svg, png, dxf, csv, md, note, note_html, player"
     ):
         solution.write(tmp_path / "out", files)
     assert not (tmp_path / "out").exists()

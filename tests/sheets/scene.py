@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphcam.drafting.ink import Step, View, say
+from graphcam.drafting.ink import Part, Step, View, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dimension, Dots, Label, Line, Region, Role, Segments
 from graphcam.sheets.formats import MARGINS, ORIENTATIONS, SIZES, UPRIGHT_ONLY
 from graphcam.sheets.layout import compose
@@ -70,9 +70,8 @@ def steps(ordinate: float = 50.0, size: float = 1.0) -> list[tuple[str, Step]]:
         *(Label(complex(at), f"{k}′", towards=complex(at), small=True) for k, at in enumerate(curve[::20])),
     )  # fmt: skip
     scenes = ((ACCELERATION, acceleration), (DISPLACEMENT, displacement), (COMBINED, combined), (PROFILE, profile))
-    return [
-        (view.name, Step(say("{n}", n=n), say("."), view, marks[n::2])) for view, marks in scenes for n in range(2)
-    ]  # fmt: skip
+    told = (Part(say(".")),)
+    return [(view.name, Step(say("{n}", n=n), told, view, marks[n::2])) for view, marks in scenes for n in range(2)]
 
 
 TABLE = Table("Data", ("quantity", "value"), (("lift", "30 mm"), ("prime radius r₀", "44 mm"), ("угол", "80°")))

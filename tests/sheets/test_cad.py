@@ -15,7 +15,7 @@ import pytest
 from ezdxf.document import Drawing as Document
 from scene import TITLE, drawing
 
-from graphcam.drafting.ink import Step, View, say
+from graphcam.drafting.ink import Part, Step, View, say
 from graphcam.drafting.marks import AngleMark
 from graphcam.sheets.cad_renderer import write_cad
 from graphcam.sheets.dxf_renderer import write_dxf
@@ -64,7 +64,7 @@ def test_every_dimension_measures_what_is_drawn(document: Document) -> None:
 def test_an_angle_of_half_a_turn_and_more_stays_as_it_is_drawn(tmp_path: Path) -> None:
     """Two lines measure less than 180°: a DIMENSION would say what is left of the turn."""
     angles = AngleMark(0j, 20.0, 0.0, np.radians(200), "200°"), AngleMark(0j, 30.0, 0.0, np.radians(160), "160°")
-    step = Step(say("Angles"), say("Two."), View("profile", say("Profile"), "x", "y"), angles)
+    step = Step(say("Angles"), (Part(say("Two.")),), View("profile", say("Profile"), "x", "y"), angles)
     write_cad(compose([("angles", step)], [], TITLE), tmp_path / "angles.dxf")
     space = ezdxf.readfile(tmp_path / "angles.dxf").modelspace()
     assert [d.dxf.text for d in space.query("DIMENSION")] == ["160°"]

@@ -13,7 +13,7 @@ from overlaps import overlaps
 from scene import SHEETS, TITLE
 
 import graphcam as gc
-from graphcam.drafting.ink import Step, View, say
+from graphcam.drafting.ink import Part, Step, View, say
 from graphcam.drafting.marks import Line, Role
 from graphcam.sheets.box import Box
 from graphcam.sheets.filling import FULL, fill
@@ -270,7 +270,7 @@ def steps(*parts: tuple[str, float, float]) -> list[tuple[str, Step]]:
         return rectangle(wide, high), rectangle(wide / 2, high / 2)
 
     return [
-        (name, Step(say("."), say("."), View(name, say(name), f"x {name}", f"y {name}"), marks(wide, high)))
+        (name, Step(say("."), (Part(say(".")),), View(name, say(name), f"x {name}", f"y {name}"), marks(wide, high)))
         for name, wide, high in parts
     ]
 
@@ -289,8 +289,8 @@ def page_texts(drawn: Drawing, key: str) -> list[str]:
 def test_an_unfinished_sheet_shows_what_is_given_and_the_steps_so_far_at_the_same_places():
     axis, curve = (Line(np.array([0, 50 + 10j * k]), Role.CURVE) for k in range(2))
     found = View("s", say("Scale, 1.2 mm"), "phi", "s", answer=say("1.2"), found_by="second")
-    first = Step(say("."), say("."), View("a", say("First"), "x", "y"), (axis,))
-    second = Step(say("."), say("."), found, (axis, curve), given=(axis,))
+    first = Step(say("."), (Part(say(".")),), View("a", say("First"), "x", "y"), (axis,))
+    second = Step(say("."), (Part(say(".")),), found, (axis, curve), given=(axis,))
     table = Table("T", ("q", "v"), (("lift", "30"),), frozenset({(0, 1)}))
     part = SheetPart(((1, "first", first), (2, "second", second)), (table,), ("A note.",))
     sheet = Format("A3", "gost")

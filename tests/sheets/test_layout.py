@@ -11,7 +11,7 @@ from overlaps import overlaps
 from scene import DRAWN_AT, TABLE, TITLE, drawing, steps
 
 import graphcam as gc
-from graphcam.drafting.ink import Step, View, say
+from graphcam.drafting.ink import Part, Step, View, say
 from graphcam.drafting.marks import Line, Role
 from graphcam.drafting.scale import ratio_text
 from graphcam.report.documents import contents_of, sheet_of
@@ -39,7 +39,7 @@ def corners_of(drawn: Drawing, name: str) -> list[tuple[int, complex]]:
 def line_at(name: str, across: str, up: str) -> tuple[str, Step]:
     """A step that draws one line from the origin of its view."""
     view = View(name, say(name), across, up)
-    return name, Step(say("."), say("."), view, (Line(np.array([0, 50 + 20j]), Role.CURVE),))
+    return name, Step(say("."), (Part(say(".")),), view, (Line(np.array([0, 50 + 20j]), Role.CURVE),))
 
 
 @pytest.mark.parametrize(("paper", "frame"), EVERY)
@@ -171,7 +171,7 @@ def test_a_wide_title_in_a_later_row_moves_the_next_column_aside() -> None:
 
     def titled(name: str, title: str, across: str, up: str, end: complex) -> tuple[str, Step]:
         line = Line(np.array([0, end]), Role.CURVE)
-        return name, Step(say("."), say("."), View(name, say(title), across, up), (line,))
+        return name, Step(say("."), (Part(say(".")),), View(name, say(title), across, up), (line,))
 
     shared = [
         titled("s", "s", "phi", "s", 20 + 20j),
@@ -196,7 +196,7 @@ def scales(drawn: Drawing) -> list[str]:
 def scaled(name: str, size: complex, mu_l: float | None, *, main: bool = False) -> tuple[str, Step]:
     view = View(name, say(name), f"{name} x", f"{name} y", mu_l=mu_l, main=main)
     box = np.array([0, size.real, size, 1j * size.imag])
-    return name, Step(say("."), say("."), view, (Line(box, Role.CURVE, closed=True),))
+    return name, Step(say("."), (Part(say(".")),), view, (Line(box, Role.CURVE, closed=True),))
 
 
 def test_the_title_block_bears_the_scale_of_what_is_drawn_on_its_sheet() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scene import SHEETS
 
-from graphcam.drafting.ink import Step, View, say
+from graphcam.drafting.ink import Part, Step, View, say
 from graphcam.drafting.marks import Circle, Label, Line, Mark, Role
 from graphcam.sheets.box import Box
 from graphcam.sheets.fonts import extent, width
@@ -206,7 +206,7 @@ def test_views_share_an_axis_directly_or_through_others():
 
 def test_steps_of_one_view_are_one_panel_with_its_last_title():
     def step(name: str, title: str, mark: Mark) -> Step:
-        return Step(say("."), say("."), View(name, say(title), "x", "y"), (mark,))
+        return Step(say("."), (Part(say(".")),), View(name, say(title), "x", "y"), (mark,))
 
     first, second, third = line(0, 1), line(0, 2), line(0, 3)
     found = panels([step("a", "early", first), step("b", "other", second), step("a", "late", third)], LETTERS)

@@ -6,6 +6,7 @@ import base64
 import html
 import json
 import re
+from dataclasses import replace
 from io import BytesIO
 
 import numpy as np
@@ -91,6 +92,13 @@ def test_titles_of_several_views_appear_with_their_own_view(page):
     groups = re.findall(r'<g id="page-1-titles-(\w)" class="titles" data-view="(\w)">(.*?)</g>', page, re.DOTALL)
     titles = [(key, view, re.findall(r">([^<]+)</text>", body)) for key, view, body in groups]
     assert titles == [("a", "a", ["of a", "a too"]), ("b", "b", ["of b"])]
+
+
+def test_what_a_title_says_of_a_scale_appears_with_the_step_that_finds_it():
+    slides = [*SLIDES[:1], replace(SLIDES[1], finds={"a": "a too"}), *SLIDES[2:]]
+    found = player(Drawing("The title", (FIRST, SECOND)), slides, None, SAID, "en")
+    groups = re.findall(r'<g id="page-1-(titles-\S+)" class="titles" data-view="(\w)"( data-since="1")?>', found)
+    assert groups == [("titles-a", "a", ""), ("titles-b", "b", ""), ("titles-a-scale", "a", ' data-since="1"')]
 
 
 def test_the_typeface_has_all_letters_that_are_shown_and_not_many_more(page):

@@ -153,7 +153,7 @@ def test_the_construction_of_the_page_is_drawn_compared_and_shown(tmp_path):
     assert 0 < abs(error) <= bound
     pages = [path.read_text(encoding="utf-8") for path in (tmp_path / "look").glob("sheet*.svg")]
     assert sum("The steepest chord" in page for page in pages) == 1
-    assert "the follower is fastest" in (tmp_path / "look" / "player.html").read_text(encoding="utf-8")
+    assert "The follower is fastest" in (tmp_path / "look" / "player.html").read_text(encoding="utf-8")
 
 
 def test_the_construction_of_the_page_has_the_order_of_error_that_it_says(tmp_path):

@@ -21,7 +21,7 @@ QUANTITIES = {
     "roller_radius": "mm",
 }  # fmt: skip
 FILES = {
-    "pdf", "svg", "png", "dxf", "csv", "md", "note", "player", "profile_dxf", "profile_csv", "profile_xyz",
+    "pdf", "svg", "png", "dxf", "csv", "md", "note", "note_html", "player", "profile_dxf", "profile_csv", "profile_xyz",
     "profile_step", "profile_gcode",
 }  # fmt: skip
 

@@ -62,7 +62,14 @@ def test_russian_is_written_with_its_words_and_decimal_commas():
     step = found["views"][0]["steps"]["minimum_radius/the-minimum-prime-radius"]
     assert re.search(r"\d,\d", step["readings"][0]["value"] + step["readings"][0]["taken"])
     assert all("." not in value["said"]["drawn"] for value in found["values"])
-    assert re.search("[а-я]", step["caption"])
+    assert re.search("[а-я]", step["caption"] or step["parts"][0]["caption"])
+
+
+def test_a_heading_tells_a_scale_from_the_step_on_that_finds_it():
+    steps = ask(plain_task("coursework"), "velocity", "displacement", told=True)["views"][0]["steps"]
+    headings = {name: step["heading"] for name, step in steps.items()}
+    assert headings["integration/pole-and-rays-source-to-target-2"] == "Velocity v"
+    assert list(headings.values())[-1] is None
 
 
 def test_an_exercise_shows_no_later_construction_and_no_later_value():

@@ -4,9 +4,9 @@
 
 function boardOf(pane, steps) {
   const groups = steps.map((step) => pane.querySelector(`[data-group="${step.group}"]`));
-  // The title of a view appears with the first step in it.
+  // The title of a view appears with the first step in it, and what it tells of a scale with the step that finds it.
   const titles = [...pane.querySelectorAll("[data-view]")]
-    .map((title) => [title, steps.findIndex((step) => step.view === title.dataset.view)]);
+    .map((title) => [title, Math.max(title.dataset.since ?? 0, steps.findIndex((step) => step.view === title.dataset.view))]);
   const pieces = new Map();
   for (const piece of pane.querySelectorAll(".step [data-act]")) {
     const { act } = piece.dataset;

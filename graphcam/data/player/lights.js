@@ -55,6 +55,32 @@ function placeBefore([step, part], counts) {
   return step ? [step - 1, null] : [step, part];
 }
 
+// The parts of a step stand in a list; those of a run in a list of its own, under what is said of all of them.
+const itemsOf = (slide) => [...slide.querySelectorAll("[data-part]")];
+const runOf = (item) => item?.closest(".run");
+const lineOf = (item) => item.querySelector(".done-here").textContent;
+
+// What is said of a whole step in parts, where it has no caption of its own.
+const wholeOf = (slide) => (slide.querySelector(".caption") ? [] : [...slide.querySelectorAll(".said")].map((said) => said.textContent));
+
+// What is new with a part: a run is told when it begins.
+function newsOf(items, part, before) {
+  const run = runOf(items[part]), goesOn = run && before !== null && run === runOf(items[before]);
+  return [...(run && !goesOn ? [run.querySelector(".said").textContent] : []), lineOf(items[part])];
+}
+
+function markParts(items, part) {
+  items.forEach((item, k) => {
+    item.classList.toggle("later", part !== null && k > part);
+    if (k === part) item.setAttribute("aria-current", "step");
+    else item.removeAttribute("aria-current");
+  });
+  for (const item of items) {
+    const run = runOf(item);
+    if (run && items[items.indexOf(item) - 1]?.closest(".run") !== run) run.classList.toggle("later", item.matches(".later"));
+  }
+}
+
 // --- light and dark, tabs -------------------------------------------------------------------------------------------
 
 function switchTheme() {

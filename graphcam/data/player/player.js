@@ -18,14 +18,14 @@
   const atStart = () => current === 0 && (part ?? (partsOf(0) > 1)) == 0;
 
   function go(step, toPart = null) {
-    const before = current;
+    const before = [current, part];
     current = Math.max(0, Math.min(last, step));
     part = toPart === null || partsOf(current) === 1 ? null : Math.max(0, Math.min(partsOf(current) - 1, toPart));
     for (const { board } of panes) board.show(current, part);
     document.body.classList.toggle("finished", atEnd());
     slides.forEach((slide, j) => (slide.hidden = j !== current));
     markContents();
-    tell(current !== before);
+    tell(...before);
     look();
     point([]);
     try { history.replaceState(null, "", `#${address()}`); } catch { /* a page in a frame may not */ }
@@ -58,9 +58,9 @@
 
   // --- what is said ----------------------------------------------------------------------------------------------
 
-  function tell(isNew) {
+  function tell(stepBefore, partBefore) {
     const slide = slides[current], said = (name) => slide.querySelector(name)?.textContent || "";
-    const items = [...slide.querySelectorAll(".parts li")];
+    const isNew = current !== stepBefore, items = itemsOf(slide);
     const place = part === null
       ? words.step_of.replace("{step}", current + 1).replace("{steps}", steps.length)
       : words.part_of.replace("{part}", part + 1).replace("{parts}", partsOf(current));
@@ -68,21 +68,21 @@
     at("place").textContent = place;
     at("slider").value = current + 1;
     at("slider").setAttribute("aria-valuetext", `${steps[current].number} ${said(".name")}, ${place}`);
-    const news = part === null ? [] : [items[part].querySelector(".done-here").textContent];
-    if (part === null || isNew) news.unshift(said(".name"), said(".caption"));
-    at("announcement").textContent = sentences(news);
+    at("announcement").textContent = sentences([
+      ...(part === null || isNew ? [said(".name"), said(".caption")] : []),
+      ...(part === null ? wholeOf(slide) : newsOf(items, part, isNew ? null : partBefore)),
+    ]);
     at("previous").disabled = atStart();
     at("whole-back").disabled = current === 0;
     at("next").disabled = at("whole-on").disabled = atEnd();
     slide.querySelector(".whole-step")?.setAttribute("aria-pressed", part === null);
-    items.forEach((item, k) => {
-      item.classList.toggle("later", part !== null && k > part);
-      if (k === part) item.firstElementChild.setAttribute("aria-current", "step");
-      else item.firstElementChild.removeAttribute("aria-current");
-    });
+    markParts(items, part);
     if (isNew) at("words").scrollTop = 0;
     // The first part leaves the caption in sight.
-    if (part !== null && (part || !isNew)) bringIntoSight(items[part]);
+    if (part !== null && (part || !isNew)) {
+      if (runOf(items[part])) bringIntoSight(runOf(items[part]).firstElementChild);
+      bringIntoSight(items[part]);
+    }
   }
 
   // Titles have no full stop of their own, most captions have one.

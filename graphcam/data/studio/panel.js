@@ -21,11 +21,27 @@ function readingOf(reading, words) {
 function stepPanelOf(element, words, go) {
   let told = null;
 
-  function partsOf(step) {
-    if (step.parts.length < 2) return [];
-    const items = step.parts.map((part, k) => make("li", {}, make("button", {
-      type: "button", "data-part": k, "data-key": `part/${k}`, onclick: () => go(k),
-    }, make("span", { class: "done-here", text: part.caption }), part.tools.length > 0 && make("span", { class: "tools-set", text: part.tools.join(" · ") }))));
+  const partButton = (k, ...inside) => make("button", { type: "button", "data-part": k, "data-key": `part/${k}`, onclick: () => go(k) }, ...inside);
+  const toolsOf = ({ tools }) => tools.length > 0 && [" ", make("span", { class: "tools-set", text: tools.join(" · ") })];
+
+  // A run is told once, with a table of its places.
+  function runItem({ caption, first, head, rows, tools, widest }, parts) {
+    return make("li", { class: "run" },
+      make("p", { class: "sentences" }, make("span", { class: "said", text: caption }), toolsOf({ tools })),
+      head && make("p", { class: "head", "aria-hidden": "true", text: head }),
+      make("ol", { class: "row-table", style: `--row: ${widest}` }, rows.map(([name, setting], k) => make("li", {}, partButton(first + k,
+        make("span", { class: "unseen done-here", text: parts[first + k].caption }),
+        make("b", { "aria-hidden": "true", text: name }), setting && [" ", make("span", { "aria-hidden": "true", text: setting })])))));
+  }
+
+  function partsOf({ parts, runs }) {
+    if (parts.length < 2) return [];
+    const inRun = (k) => runs?.find(({ first, rows }) => first <= k && k < first + rows.length);
+    const items = parts.map((part, k) => {
+      const run = inRun(k);
+      if (run) return run.first === k && runItem(run, parts);
+      return make("li", {}, partButton(k, make("span", { class: "at", text: k + 1 }), " ", make("span", { class: "said done-here", text: part.caption }), toolsOf(part)));
+    });
     return [
       make("div", { class: "part-by-part" }, make("h3", { id: "parts-title", text: words.part_by_part }),
         make("button", { type: "button", class: "whole-step", "data-key": "whole", text: words.whole_step, onclick: () => go(null) })),
@@ -36,11 +52,11 @@ function stepPanelOf(element, words, go) {
   function articleOf(step) {
     return make("article", {},
       make("p", { class: "chapter", text: step.chapter || "" }),
-      step.why && make("p", { class: "purpose", text: step.why }),
+      step.opens && make("p", { class: "purpose", text: step.opens }),
       make("h2", {}, make("span", { class: "number", text: step.number || "" }), " ", make("span", { class: "name", text: step.title || "" })),
-      make("p", { class: "caption", text: step.caption || "" }),
-      step.reason && make("p", { class: "reason" }, make("strong", { text: words.why }), " ", make("span", { text: step.reason })),
+      step.caption && make("p", { class: "caption", text: step.caption }),
       partsOf(step),
+      step.why && make("p", { class: "reason" }, make("strong", { text: words.why }), " ", make("span", { text: step.why })),
       step.readings?.length > 0 && [make("h3", { text: words.readings }), make("dl", {}, step.readings.map((reading) => readingOf(reading, words)))]);
   }
 
@@ -50,12 +66,9 @@ function stepPanelOf(element, words, go) {
     if (news !== told) keepingFocus(element, () => element.replaceChildren(articleOf(step)));
     told = news;
     element.querySelector(".whole-step")?.setAttribute("aria-pressed", part === null);
-    element.querySelectorAll(".parts li").forEach((item, k) => {
-      item.classList.toggle("later", part !== null && k > part);
-      if (k === part) item.firstElementChild.setAttribute("aria-current", "step");
-      else item.firstElementChild.removeAttribute("aria-current");
-    });
-    if (part) element.querySelectorAll(".parts li")[part]?.scrollIntoView({ block: "nearest" });
+    const items = itemsOf(element);
+    markParts(items, part);
+    if (part) items[part]?.scrollIntoView({ block: "nearest" });
   }
 
   function tell(...elements) {

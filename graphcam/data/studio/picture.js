@@ -17,7 +17,9 @@ function pictureOf(page) {
     if (page.turns()) page.showScene();
     else if (own) {
       stage.look(name, own.frame, { held: Boolean(page.hand) });
-      stage.fill(own, own.title || page.titleOf(name), own.steps[own.order[k]]?.title || "");
+      const step = own.steps[own.order[k]];
+      // A scale that is found by drawing is told from the step on that finds it.
+      stage.fill(own, step?.heading || own.title || page.titleOf(name), step?.title || "");
       stage.show(k, now().part);
     }
     showStep();

@@ -23,7 +23,7 @@ STATEMENTS = (
 
 
 def wide_tolerances(exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> dict[str, float]:
-    """By name the numbers whose tolerance is wide in half of the variants, and which part of it it is."""
+    """The numbers, by name, whose tolerance is wide in half of the variants, and which part of the value it is."""
     found: dict[str, float] = {}
     for asked in exercise.answers:
         keys = [each.keys[asked.name] for each in answer_keys]

@@ -20,21 +20,21 @@ from graphcam.words import Caption, say, sequence
 STUDENTS, TEACHER = "students", "teacher"
 """The two folders that 'exercise make' writes; the first may be handed out as it is."""
 SUBMITTED = "submitted"
-"""Where nbgrader collects: a folder for every student, and in it one for every assignment."""
+"""The folder where nbgrader collects: one for every student, and in it one for every assignment."""
 PRINTED = "printed"
-"""In the teacher's folder, what a reader of photographs must know of the printed pages of every worksheet."""
+"""The teacher's folder of what a reader of photographs must know of the printed pages of every worksheet."""
 COURSE = "course.json"
-"""In the teacher's folder, what the course is about."""
+"""The teacher's file of what the course is about."""
 KEPT = "certificates"
-"""In the teacher's folder, or the hidden one, the answer keys."""
+"""The folder of answer keys in the teacher's folder, or the hidden one."""
 ROSTER = "roster.csv"
-"""In the teacher's folder, the roster that the course was made for."""
+"""The teacher's copy of the roster that the course was made for."""
 SECRET = "secret"
-"""In the teacher's folder, the course's secret, if graphcam made it."""
+"""The teacher's file of the course's secret, if graphcam made it."""
 KEYS = "keys.csv"
-"""In the teacher's folder, all answer keys in a table."""
+"""The teacher's table of all answer keys."""
 HIDDEN = ".graphcam"
-"""Where answer keys go in a course that was not made so; no student's folder has a name that begins with a point."""
+"""The folder of answer keys in a course made otherwise; no student's folder has a name that begins with a point."""
 
 
 KEEP = say(
@@ -73,7 +73,7 @@ class AnswerKeys:
 
     @staticmethod
     def of(course: Path) -> tuple[Path, AnswerKeys]:
-        """Where the submissions of a course are, and where its answer keys: beside them if graphcam made the course."""
+        """The place of a course's submissions, and of its answer keys: beside them if graphcam made the course."""
         for submissions in (STUDENTS, SUBMITTED):
             # Students may have any name, and hand in what they like.
             if (course / submissions).is_dir() and (course / TEACHER / COURSE).is_file():

@@ -23,12 +23,12 @@ OF_PROGRAMS = ("timestamp.txt", "Thumbs.db", "desktop.ini")
 TABLES = {".toml": TOML, ".csv": CSV}
 """Endings of tables that are read under another name if there is but one, and the name that they are read by."""
 MOST_LOOKED_INTO = 20
-"""So many folders, zips and tables are looked into: students may hand in any number of them."""
+"""How many folders, zips and tables are looked into: students may hand in any number of them."""
 
 
 @dataclass(frozen=True)
 class Look:
-    """What is looked for.
+    """A search for the answers of a hand-in.
 
     assignment : name of the folder in a student's that counts if it is there
     answers : their names
@@ -123,7 +123,7 @@ def _is_other(name: str) -> bool:
 
 
 def _why(others: Sequence[tuple[str, bool]], places: Sequence[str], wrong: Sequence[Caption]) -> Caption:
-    """Why nothing is read of a hand-in that has something."""
+    """The reason why nothing is read of a hand-in that has something."""
     if wrong:
         return wrong[0]
     if places:

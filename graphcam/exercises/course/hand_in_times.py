@@ -16,7 +16,7 @@ from graphcam.exercises.reading.submission_files import answer_files
 from graphcam.words import say
 
 SUBMITTED_TIMES = "submitted.csv"
-"""In the teacher's folder, when each student handed in, as the learning system says."""
+"""The teacher's table of when each student handed in, as the learning system says."""
 TIME_FORM = say("a date and a time such as 2026-12-01T23:59 or 2026-12-01T23:59+01:00")
 NAMED = re.compile(r"(\d{4}-\d\d-\d\d)-(\d\d)-(\d\d)-(\d\d)")
 """A time as Blackboard writes it into a name."""
@@ -28,7 +28,7 @@ TimeTable = Mapping[tuple[str, str], datetime]
 
 @dataclass(frozen=True)
 class HandInTime:
-    """When a hand-in came, None where nothing tells it, and what told it."""
+    """The time of a hand-in, None where nothing tells it, and its source."""
 
     at: datetime | None
     source: TimeSource
@@ -63,7 +63,7 @@ def shown_time(text: str) -> str:
 
 
 def read_times(path: Path, known: Recognition) -> dict[tuple[str, str], datetime]:
-    """When who handed in, from a CSV file with the columns student, submitted and perhaps attempt.
+    """The times of hand-ins from a CSV file with the columns student, submitted and perhaps attempt.
 
     A line without a time says that nothing was handed in.
 
@@ -98,7 +98,7 @@ def time_in(line: StudentLine, column: str) -> datetime:
 
 
 def hand_in_times(hand_ins: Sequence[HandIn], table: TimeTable, assignment: str) -> list[HandInTime]:
-    """When each was handed in: the table counts before the name, and the name before the files.
+    """The time of each hand-in: the table counts before the name, and the name before the files.
 
     A line of the table that names no attempt is about the student's last one.
 
@@ -124,7 +124,7 @@ def _own_time(one: HandIn, assignment: str) -> HandInTime:
 
 
 def _newest(folder: Path, names: Mapping[str, str] | None) -> datetime | None:
-    """When the newest of the answer files was changed last; None where there is none."""
+    """The time of the last change of the newest answer file; None where there is none."""
     try:
         there = names if names is not None else {name: name for name in os.listdir(folder)}  # noqa: PTH208
         chosen = [folder / there[name] for name in answer_files(there)[0].values()]

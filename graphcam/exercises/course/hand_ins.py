@@ -17,14 +17,14 @@ from graphcam.exercises.reading.answered_files import answers_in
 from graphcam.exercises.reading.submission_files import answer_files
 
 MOST_ATTEMPTS = 10
-"""So many of a student's first attempts are read, and as many of the last: students may pack any number of them."""
+"""How many first attempts of a student are read, and as many of the last: students may pack any number of them."""
 ATTEMPT = re.compile(r"(?:attempt|попытка)[ _-]*0*([1-9]\d{0,3})", re.IGNORECASE)
 """A folder in a student's own that holds one of several attempts."""
 
 
 @dataclass(frozen=True)
 class HandIn:
-    """Where one student's answers lie.
+    """A hand-in: the place of one student's answers.
 
     place : the name of the folder, or of the first file, which two never share
     path : a folder of the student's own, or the one that holds the student's files among those of others
@@ -189,7 +189,7 @@ def _several(meant: list[str]) -> Caption:
 
 
 def _nobodys(name: str, known: Recognition, missing: Collection[str]) -> Caption:
-    """Why a folder is nobody's, and whose it may have been meant for.
+    """The reason why a folder is nobody's, and whose it may have been meant for.
 
     missing : the students who have handed in nothing
     """

@@ -33,7 +33,7 @@ from graphcam.words import Caption, Words, say, say_in, say_many
 LINE = 96
 """Letters in a line of the task in ``answers.toml``."""
 KEY_COLUMNS = (say("name"), say("unit"), say("value"), say_in("of an answer", "tolerance"), say("marks"))
-"""Of the key's table, as :func:`key_rows` fills them."""
+"""The columns of the key's table, as :func:`key_rows` fills them."""
 
 
 def instructions(variant: Variant) -> str:

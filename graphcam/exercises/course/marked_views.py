@@ -21,7 +21,7 @@ from graphcam.sheets.box import Box
 from graphcam.words import Tell, say
 
 RIGHT_OF_TURN = 1.0
-"""Beyond the tip of the axis of the cam angle, mm."""
+"""The room beyond the tip of the axis of the cam angle, mm."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,7 @@ class MarkedView:
     turn: float = 0.0
 
     def printed(self, origin: complex) -> PrintedView:
-        """The same on its page."""
+        """The view as it is printed on its page."""
         room = self.room.moved(origin)
         edges = room.left, room.bottom, room.right, room.top
         return PrintedView(origin, edges, closed=not self.turn, end=self.turn)

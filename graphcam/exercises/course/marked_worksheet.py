@@ -40,11 +40,11 @@ from graphcam.sheets.tables import Block, table_blocks
 from graphcam.words import Caption, say
 
 BETWEEN = 3.0
-"""Between views, and between blocks of text, mm."""
+"""The gap between views, and between blocks of text, mm."""
 FROM_TAGS = 1.5
-"""Between the white about a tag and a line beside it, mm."""
+"""The gap between the white about a tag and a line beside it, mm."""
 BESIDE = 5.0
-"""Between a view and the text beside it, mm."""
+"""The gap between a view and the text beside it, mm."""
 ROW = 2.8
 """Height of the rows of the answers, in heights of the letters: wide enough for handwriting."""
 HOW = say(
@@ -65,12 +65,12 @@ class PlacedView:
 
     @property
     def room(self) -> Box:
-        """Its room on the page."""
+        """The room of the view on the page."""
         return self.view.room.moved(self.origin)
 
     @property
     def box(self) -> Box:
-        """Its room with that for its titles."""
+        """The room of the view with that for its titles."""
         room = self.room
         if self.view.turn:
             return Box(room.left - TITLE, room.bottom, room.right + TITLE, room.top)
@@ -96,7 +96,7 @@ def marked_worksheet(
 def marked_sheets(
     variant: Variant, student: Student, secret: bytes, paper: str, ink: Ink
 ) -> tuple[Sheets, list[PrintedPage]]:
-    """The same, with the sheets as one draws on them in CAD, every page whole."""
+    """The worksheet with the sheets as one draws on them in CAD, every page whole."""
     whole, pages = _one_sheet_each(variant, student, secret, paper, ink)
     seam = MARKED_PAPERS[paper].seam
     return Sheets(whole if seam is None else in_tiles(whole, seam), whole), pages
@@ -138,7 +138,7 @@ def _placed(views: Sequence[MarkedView], paper: MarkedPaper) -> list[list[Placed
 
 
 def _height(stack: Sequence[MarkedView]) -> float:
-    """Of views one under the other, without a title above."""
+    """The height of views one under the other, without a title above."""
     return sum(view.room.height for view in stack) + BETWEEN * (len(stack) - 1)
 
 

@@ -20,13 +20,13 @@ from graphcam.exercises.reading.submission_files import LIMITS
 
 MOST_ENTRIES = 100_000
 MOST_BYTES = 4_000_000_000
-"""Of all files together, as they are unpacked; a bomb says less of itself and is stopped all the same."""
+"""The maximum size of all files together, unpacked; a bomb says less of itself and is stopped all the same."""
 DEEPEST = 4
 """Parts of a path: a student's folder, the assignment in it, the file, and one more."""
 ENDINGS = (*(Path(name).suffix for name in LIMITS), ".txt", ".zip")
-"""Of files that can hold answers, or tell about an attempt; of others there is no more than the name."""
+"""Endings of files that can hold answers, or tell about an attempt; of others there is no more than the name."""
 MOST_ENTRIES_OF_ONE, MOST_BYTES_OF_ONE = 1_000, 100_000_000
-"""The same of a zip that a single student handed in."""
+"""The maximum numbers of entries and bytes of a zip that a single student handed in."""
 
 
 @contextmanager
@@ -112,7 +112,7 @@ def _keep_time(entry: zipfile.ZipInfo, path: Path) -> None:
 
 
 def _unsafe(entry: zipfile.ZipInfo, path: PurePosixPath) -> Caption | None:
-    """Why an entry is not unpacked: it would lie elsewhere, or it is no file."""
+    """The reason why an entry is not unpacked: it would lie elsewhere, or it is no file."""
     if path.is_absolute() or ".." in path.parts or "\\" in entry.filename or not path.parts:
         return say("its path leads out of the folder")
     if len(path.parts) > DEEPEST:

@@ -22,11 +22,11 @@ from graphcam.words import Tell, say
 SMALL = 2.5
 """Height of the letters in the strips, mm."""
 LEADING = 1.7
-"""From line to line of a text, in heights of its letters."""
+"""The distance from line to line of a text, in heights of its letters."""
 FIELD = 22.0, 8.0
 """Width and height of the box in which a measured length is written, mm."""
 AIR = 1.0
-"""Between what is in the strip and the tags, mm."""
+"""The gap between what is in the strip and the tags, mm."""
 
 
 def mark_group(paper: MarkedPaper, ink: str) -> Group:

@@ -17,13 +17,13 @@ from graphcam.exercises.reading.regular_file import UnreadableError, read_regula
 from graphcam.words import sequence
 
 HIDDEN = ".photographs"
-"""In the folder of the readings, what was read; a folder without it was not made by 'exercise read'."""
+"""The hidden folder of what was read; a folder without it was not made by 'exercise read'."""
 REPORT = "report.json"
-"""In a student's folder, what became of the photographs."""
+"""The file in a student's folder that says what became of the photographs."""
 LARGEST_REPORT, LARGEST_PICTURE = 1_000_000, 2_000_000
 """Bytes that are read."""
 MOST_PAGES = 20
-"""No worksheet has more."""
+"""The maximum number of pages of a worksheet."""
 
 
 def with_photo_notes(hand_ins: Sequence[HandIn], submissions: Path) -> list[HandIn]:

@@ -52,7 +52,7 @@ class Recognition:
 
 
 def _plain(text: str) -> str:
-    """Without what differs between systems: capitals, spaces, how an accent is coded."""
+    """The text without what differs between systems: capitals, spaces, how an accent is coded."""
     return "".join(unicodedata.normalize("NFKC", text).casefold().split())
 
 

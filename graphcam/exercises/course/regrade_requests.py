@@ -9,7 +9,7 @@ from graphcam.exercises.course.student_table import student_lines
 from graphcam.words import say
 
 REQUESTS = "regrade-requests.csv"
-"""In the teacher's folder, the questions."""
+"""The teacher's table of the questions."""
 
 
 @dataclass(frozen=True)

@@ -114,7 +114,7 @@ def read_roster(path: str | Path) -> list[Student]:
 
 
 def ids_from(path: str | Path) -> Caption:
-    """Where a roster's ids are taken from, in words.
+    """The column that a roster's ids are taken from, in words.
 
     Raises
     ------

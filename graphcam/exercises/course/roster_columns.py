@@ -29,7 +29,7 @@ PARTS = (
 
 @dataclass(frozen=True)
 class RosterColumns:
-    """Where a roster has what, counted from 0.
+    """The columns of a roster, counted from 0.
 
     id : the column of the ids;  names : those whose cells together are a name;  email : None where there is none
     heading : of the ids' column; empty where the first row is a student

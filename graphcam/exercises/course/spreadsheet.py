@@ -13,7 +13,7 @@ from graphcam.words import Words, say
 FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
 """What makes a spreadsheet calculate a text instead of showing it; the wide forms count as the plain ones do."""
 WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
-"""With what workbooks begin, .xlsx and .xls: no text does."""
+"""The bytes with which workbooks begin, .xlsx and .xls: no text does."""
 _AFTER_SEPARATOR = re.compile(r"([;\t\r\n][\s\"']*)(?=[=+\-@＝＋－＠])")
 """A formula behind what separates cells or rows where the comma is decimal: there the file opens with other cells."""
 

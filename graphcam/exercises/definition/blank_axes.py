@@ -30,7 +30,7 @@ MARKED_REACH: Mapping[str, tuple[Mapping[Diagram, tuple[float, float]], float]] 
 """By format how far the axes reach and how far they begin before the zero, on worksheets that are made to be
 photographed: so that the three diagrams stand on one page, one under the other, as parallels are carried over [mm]."""
 CLEAR = 2.0
-"""Between a curve that is read off a photograph and the end of its room, mm."""
+"""The gap between a curve that is read off a photograph and the end of its room, mm."""
 ON_AXIS = 3.0
 """What the room has below an axis at its lower end, on which dwells are drawn, mm."""
 READ: Mapping[Diagram, str] = {"acceleration": "max_a", "velocity": "max_v", "displacement": "s"}
@@ -58,11 +58,11 @@ def empty_axes(exercise: Exercise, chain: Chain, name: Diagram) -> Step:
     named = ordinate(symbol, chain.board.follower.unit)
     axes = phi_axes(chain.board.motion, chain.board.mu_phi, np.array([low, high]), named)
     pole = () if name == "displacement" else (Line(np.array([-BEFORE, 0]) + 0j, Role.CONSTRUCTION),)
-    return Step(view.title, view.title, view, (*axes, *pole))
+    return Step(view.title, (), view, (*axes, *pole))
 
 
 def marked_axes(exercise: Exercise, chain: Chain, name: Diagram) -> tuple[View, tuple[Mark, ...], float]:
-    """The same without texts, and no mark beyond their room; the view, the marks, and how far left they begin [mm]."""
+    """The axes without texts, and no mark beyond their room; the view, the marks, and how far left they begin [mm]."""
     (low, high), before = reach_of(exercise, name), MARKED_REACH[format_of(exercise.paper)][1]
     board, step = chain.board, empty_axes(exercise, chain, name)
     ends = phase_ends(board.motion, board.mu_phi)

@@ -207,7 +207,7 @@ def poles_swapped(name: str) -> Change:
     takes=A_DIAGRAM,
 )
 def station_too_late(name: str) -> Change:
-    """At every station the ordinate of the next one, in the diagrams of the construction of that name."""
+    """The ordinate of the next station at every station, in the diagrams of the construction of that name."""
 
     def late(chain: Chain) -> Chain:
         """The chain that goes on from those ordinates."""

@@ -98,7 +98,7 @@ def is_length(chain: Chain, asked: Asked) -> bool:
 
 
 def place_of(chain: Chain, asked: Asked) -> int:
-    """Where the answer stands in its array.
+    """The place of the answer in its array.
 
     Raises
     ------

@@ -130,7 +130,7 @@ class Asked:
 
     @property
     def drawn_as(self) -> Drawn:
-        """How it is drawn on the worksheet; empty for what is written down."""
+        """The form of a mark on the worksheet; empty for what is written down."""
         return self.mark or USUAL_MARKS[self.kind]
 
     @property
@@ -219,12 +219,12 @@ class Exercise:
 
     @property
     def remark(self) -> str:
-        """What its readers should know of its language; mostly nothing."""
+        """A remark for the exercise's readers on its language; mostly none."""
         return language(self.language).remark
 
     @property
     def marks(self) -> float:
-        """Of all answers together."""
+        """The marks of all answers together."""
         return sum(asked.marks for asked in self.answers)
 
 

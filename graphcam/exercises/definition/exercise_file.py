@@ -124,7 +124,7 @@ def load_exercise(path: str | Path, language: str = ENGLISH.name) -> Exercise:
 
 
 def _folder() -> Path:
-    """Where the library lies: installed beside the code, in a checkout at the top level."""
+    """The folder of the library: installed beside the code, in a checkout at the top level."""
     installed = Path(str(resources.files("graphcam").joinpath("exercises", "library")))
     return installed if installed.is_dir() else Path(__file__).parents[3] / "exercises"
 
@@ -170,7 +170,7 @@ def _check(path: str, exercise: Exercise) -> None:
 
 
 def _check_text(path: str, exercise: Exercise) -> None:
-    """That the text tells every parameter, and nothing in braces that is none."""
+    """Check that the text tells every parameter, and nothing in braces that is none."""
     for said in re.findall(r"\{[^{}]*\}", exercise.text):
         if (name := said[1:-1]) not in exercise.parameters:
             expected = say("the name of a parameter in braces")

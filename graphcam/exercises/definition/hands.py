@@ -20,7 +20,7 @@ from graphcam.words import say
 
 
 class Range(NamedTuple):
-    """Of the finest student and of the coarsest; one number is both.
+    """A range of deviations: of the finest student and of the coarsest; one number is both.
 
     >>> Range(0.1, 0.3).middle
     0.2
@@ -31,11 +31,11 @@ class Range(NamedTuple):
 
     @property
     def middle(self) -> float:
-        """Of who draws as most do."""
+        """The deviation of a student in the middle."""
         return (self.least + self.greatest) / 2
 
     def of(self, coarse: Floats) -> Floats:
-        """Of students from the finest, 0, to the coarsest, 1."""
+        """The deviations of students from the finest, 0, to the coarsest, 1."""
         return self.least + coarse * (self.greatest - self.least)
 
 
@@ -78,7 +78,7 @@ class SteadyPencil(Pencil):
     """
 
     def stream(self, construction: str) -> Stream:
-        """As of any pencil, but of the frozen generator."""
+        """A stream of random numbers as of any pencil, but of the frozen generator."""
         return np.random.RandomState([self.seed, *construction.encode()])
 
 
@@ -95,17 +95,17 @@ class ManyHands(SteadyPencil):
 
     @cached_property
     def _students(self) -> Floats:
-        """Of every sample what is its student's own (3, samples), each evenly from 0 to 1."""
+        """What is each student's own in every sample (3, samples), each evenly from 0 to 1."""
         assert self.samples is not None
         return np.random.RandomState([self.seed, *b"students"]).uniform(size=(3, self.samples))
 
     @cached_property
     def stretched(self) -> Floats:
-        """By which factor every sample's lengths are off by its paper (samples,)."""
+        """The factor by which the paper makes every sample's lengths off (samples,)."""
         return 1 + self.errors.stretch * (2 * self._students[2] - 1)
 
     def slips(self, kind: Kind, what: str, stream: Stream, shape: tuple[int, ...]) -> Floats:
-        """By how much an act is off, every sample by its student's own deviation."""
+        """The errors of an act, every sample by its student's own deviation."""
         off = super().slips(kind, what, stream, shape)
         field = SLIPS[kind][what].of
         own: Range = getattr(self.errors, "protractor_deg" if field == "protractor" else field)
@@ -164,12 +164,12 @@ class HandTable:
 
     @cached_property
     def errors(self) -> Errors:
-        """Of the named hand, but for what is said otherwise."""
+        """The errors of the named hand, but for what is given otherwise."""
         own = {field: said if field == "stretch" else _range(said) for field, said in self._own.items()}
         return HANDS[self.name]._replace(**own)
 
     def pencil(self, samples: int, seed: int = 0) -> ManyHands:
-        """As many students."""
+        """A pencil for as many students."""
         errors = self.errors
         return ManyHands(
             line=errors.line.greatest,

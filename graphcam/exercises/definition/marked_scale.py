@@ -18,7 +18,7 @@ class MarkedDrawing(DrawingTable):
 
     @staticmethod
     def of(drawing: DrawingTable) -> "MarkedDrawing":
-        """The same table, of such a worksheet."""
+        """The table of a drawing, for a worksheet that is photographed."""
         return MarkedDrawing(**{field.name: getattr(drawing, field.name) for field in fields(drawing)})
 
 

@@ -30,7 +30,7 @@ CONTENT = ("http://www.imsglobal.org/xsd/imsccv1p1/imscp_v1p1", "http://www.imsg
 CANVAS = ("http://canvas.instructure.com/xsd/cccv1p0", "https://canvas.instructure.com/xsd/cccv1p0.xsd")
 """Namespaces, and where their schemas are."""
 FILES = "%24IMS-CC-FILEBASE%24"
-"""Stands for the folder into which Canvas puts the files of a package."""
+"""The placeholder of the folder into which Canvas puts the files of a package."""
 RESPONSE = "response1"
 
 

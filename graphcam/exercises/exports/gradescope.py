@@ -68,7 +68,7 @@ def _nothing(exercise: Exercise, email: str) -> dict[str, Any]:
 
 
 def student_by_email(students: Sequence[Student]) -> dict[str, str]:
-    """Who has which address, by the roster's e-mail; an id that is an address counts too.
+    """The students by address, from the roster's e-mail; an id that is an address counts too.
 
     >>> student_by_email([Student("7", email="Anna@example.org"), Student("ben@example.org")])
     {'7': '7', 'anna@example.org': '7', 'ben@example.org': 'ben@example.org'}

@@ -30,7 +30,7 @@ c.CourseDirectory.course_id = {course!r}
 c.ClearSolutions.code_stub = {{"python": {stub!r}}}
 '''
 SOLUTION = "### BEGIN SOLUTION\n### END SOLUTION"
-"""Without these nbgrader takes a whole cell for the solution, and the student gets one without the answer's name."""
+"""Marks of a solution: without them nbgrader takes the whole cell, and with it the answer's name."""
 
 
 def write_course(folder: Path, exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> None:

@@ -17,7 +17,7 @@ from graphcam.words import say
 
 PACKAGE = "graphcam"
 LIBRARY = f"{PACKAGE}/exercises/library"
-"""Where the exercises lie in an installed package; in a checkout they stand at the top level."""
+"""The place of the exercises in an installed package; in a checkout they stand at the top level."""
 TAG = "py3-none-any"
 SAYS = f"Wheel-Version: 1.0\nGenerator: {PACKAGE}\nRoot-Is-Purelib: true\nTag: {TAG}\n"
 

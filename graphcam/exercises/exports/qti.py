@@ -34,7 +34,7 @@ SCHEMAS = {
     QTI: "http://www.imsglobal.org/xsd/qti/qtiv2p1/imsqti_v2p1.xsd",
     CONTENT: "http://www.imsglobal.org/xsd/qti/qtiv2p1/qtiv2p1_imscpv1p2_v1p0.xsd",
 }
-"""Where the schema of a namespace is."""
+"""The address of the schema of each namespace."""
 TEST = "test.xml"
 
 

@@ -19,7 +19,7 @@ from graphcam.words import Caption, say
 
 RIGHT = say("Right.")
 FAR_OFF = say("The deviation is larger than careful drawing and calculation allow.")
-"""Of an answer that is neither right nor a catalogued mistake's."""
+"""The feedback on an answer that is neither right nor a catalogued mistake's."""
 PRINT_IT = say("The worksheet: print it true to scale and draw on it.")
 APART = say("Hand it in separately: its marks are not part of this question.")
 NAMESPACE = uuid.uuid5(uuid.NAMESPACE_DNS, "graphcam.exercise")
@@ -113,7 +113,7 @@ def identifier_of(*said: object) -> uuid.UUID:
 
 
 def short_identifier(letter: str, *said: object) -> str:
-    """The same as a name: a letter first, as XML wants it, and 32 characters, which every system of QTI takes.
+    """An identifier for a name: a letter first, as XML wants it, and 32 characters, which every QTI system takes.
 
     >>> len(short_identifier("v", "whole-cam"))
     32

@@ -30,7 +30,7 @@ from graphcam.studio.plain_tasks import built_in_tasks, nearest_built_in, plain_
 from graphcam.words import say
 
 FILE = "studio.txt"
-"""In a student's folder: the link."""
+"""The file of the link in a student's folder."""
 NOTHING_DRAWN = "scheme"
 """What is given of a task whose answers begin with the first diagram, or stand beside the others."""
 PRACTICE = say("Your exercise in the studio, for practice only: marks are given for what you hand in.")
@@ -131,7 +131,7 @@ def _ever_shorter(exercise: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def check_url(url: str) -> None:
-    """That a link can begin so.
+    """Check that a link can begin so.
 
     Raises
     ------

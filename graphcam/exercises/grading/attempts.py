@@ -14,7 +14,7 @@ from graphcam.exercises.marking.record import is_handed_in
 
 @dataclass(frozen=True)
 class AttemptRule:
-    """Which attempt counts.
+    """The rule by which an attempt counts.
 
     which : of those that may count;  first : so many may count, None where all may
     """
@@ -35,7 +35,7 @@ class AttemptRule:
 
 
 LAST = AttemptRule()
-"""Of all attempts the last one counts."""
+"""The rule by which the last of all attempts counts."""
 
 
 def attempt_rule_of(text: str) -> AttemptRule:

@@ -14,7 +14,7 @@ from graphcam.exercises.course.student_table import once, student_lines
 from graphcam.words import say
 
 EXTENSIONS = "extensions.csv"
-"""In the teacher's folder, deadlines of single students."""
+"""The teacher's table of deadlines of single students."""
 PERIODS = {"day": timedelta(days=1), "hour": timedelta(hours=1)}
 PENALTY_FORM = say(
     "the part lost per started day or hour, and perhaps the minimum part left, such as 0.1/day or 0.1/day:0.5"
@@ -23,7 +23,7 @@ PENALTY_FORM = say(
 
 @dataclass(frozen=True)
 class Deadlines:
-    """Until when a hand-in is in time; seconds do not count.
+    """The deadlines of a course; seconds do not count.
 
     usual : for all but those who are named in ``extended``, by their ids
     """

@@ -169,7 +169,7 @@ def _answers(assignment: Assignment, submission: Submission, answer_key: AnswerK
 
 
 def _paper_areas(exercise: Exercise, answer_key: AnswerKey) -> dict[str, PaperArea]:
-    """Where drawn answers can lie: where the key does, or what a usual mistake makes of it."""
+    """The areas where drawn answers can lie: where the key does, or what a usual mistake makes of it."""
     areas: dict[str, PaperArea] = {}
     for k, asked in enumerate(exercise.answers):
         if asked.kind != "number":
@@ -205,7 +205,7 @@ def _seconds(seconds: float) -> Generator[None]:
 
 @contextmanager
 def _watched(seconds: float, late: Callable[[int, FrameType | None], None]) -> Generator[None]:
-    """The same where the system has no such clock, as Windows: a thread looks at the processor's time."""
+    """A limit of the processor's time where the system has no such clock, as Windows: a thread looks at it."""
     until, over = time.process_time() + seconds, threading.Event()
 
     def watch() -> None:

@@ -14,7 +14,7 @@ from graphcam.words import Caption, say
 
 BY_HAND = say("{student}: the total given by hand is not in the grade book, which adds up the answers")
 ENTERED = "gradebook.json"
-"""In the teacher's folder, what was entered into grade books."""
+"""The teacher's file of what was entered into grade books."""
 Entered = dict[str, dict[str, list[Any]]]
 """By student and answer the score and the comment that were entered last."""
 NOTEBOOK = "answers"

@@ -18,7 +18,7 @@ NO_PENALTY = LatePenalty(0.0)
 
 @dataclass(frozen=True)
 class LateRules:
-    """Until when, and what is lost afterwards."""
+    """The deadline, and what is lost after it."""
 
     deadlines: Deadlines
     penalty: LatePenalty = NO_PENALTY
@@ -40,7 +40,7 @@ def timed(record: dict[str, Any], time: HandInTime, rules: LateRules) -> dict[st
 
 
 def _iso(at: datetime | None, deadline: datetime) -> str:
-    """To the second in the zone of the deadline, so that the two compare at a glance; empty where none is known."""
+    """A time to the second in the deadline's zone, so that the two compare at a glance; empty where none is known."""
     return at.astimezone(deadline.tzinfo).isoformat(" ", timespec="seconds") if at else ""
 
 

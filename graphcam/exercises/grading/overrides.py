@@ -13,9 +13,9 @@ from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.marking.record import is_handed_in
 
 OVERRIDES = "overrides.csv"
-"""In the teacher's folder, marks given by hand."""
+"""The teacher's table of marks given by hand."""
 TOTAL = "total"
-"""In place of an answer's name: the marks are for the whole hand-in."""
+"""The word in place of an answer's name: the marks are for the whole hand-in."""
 COLUMNS = ("student", "answer", "marks", "comment")
 ABSENT = say("give the marks as the total")
 """What to do about an answer of a student who did not hand in."""

@@ -24,7 +24,7 @@ from graphcam.words import say
 
 @dataclass(frozen=True)
 class HandedInCourse:
-    """Who handed in what, and where the teacher's tables are.
+    """A course as handed in: its students' hand-ins, and where the teacher's tables are.
 
     roster : of the students, instead of the one that was kept
     """
@@ -40,7 +40,7 @@ class HandedInCourse:
         return path if path.exists() else None
 
     def students(self) -> Recognition:
-        """Those of the course; where nobody said who they are, those who handed in."""
+        """The students of the course; where nobody said who they are, those who handed in."""
         return course_students(self.kept, self.roster) or Recognition(Student(one.student) for one in self.hand_ins)
 
     def who_handed_in(self) -> Recognition:
@@ -49,7 +49,7 @@ class HandedInCourse:
         return Recognition(student for student in self.students().ids.values() if student.id in names)
 
     def with_paper(self, overrides: Path | None) -> "HandedInCourse":
-        """The same with those who have a total by hand for work on paper, and handed in no file.
+        """The course with those who have a total by hand for work on paper, and handed in no file.
 
         overrides : marks by hand, instead of those in the teacher's folder
 
@@ -71,7 +71,7 @@ class HandedInCourse:
 
 
 def late_rules(course: HandedInCourse, deadline: datetime | None, penalty: LatePenalty) -> LateRules | None:
-    """Until when, for whom longer, and what is lost then; None where there is no deadline.
+    """The deadline, extensions and the penalty; None where there is no deadline.
 
     Raises
     ------

@@ -20,7 +20,7 @@ def closing_lines(
     awaiting: Sequence[str],
     stem: str,
 ) -> list[Caption]:
-    """Who has not handed in, and what needs a look.
+    """Lines on who has not handed in, and on what needs a look.
 
     called : the students of the course by id;  stem : of the files' names
     """
@@ -31,7 +31,7 @@ def closing_lines(
 def not_handed_in(
     called: Mapping[str, str], graded: Sequence[Mapping[str, Any]], unread: Collection[str]
 ) -> list[Caption]:
-    """Who of the course has handed nothing in, in a line; none where everybody has.
+    """A line on who of the course has handed nothing in; none where everybody has.
 
     called : the students of the course by id
     graded : the records of those who have;  unread : who has handed in what cannot be read

@@ -133,7 +133,7 @@ class AnswerKey:
         return frozenset(other for pair in self.alike if name in pair for other in pair if other != name)
 
     def to_json(self) -> str:
-        """As text; numbers as short as they are exact."""
+        """The answer key as JSON text; numbers as short as they are exact."""
         said = {"format": FORMAT} | {name: getattr(self, name) for name in STORED_AS_THEY_ARE}
         said["keys"] = {
             name: [stored(key.expected), key.tolerance, _finite(key.tolerance_paper), key.drawn]

@@ -6,7 +6,7 @@ from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.key.expectation import Expected
 
 HALF = 0.5
-"""No more of all marks may be had by one number, or by a copy of another variant."""
+"""The maximum part of all marks that one number, or a copy of another variant, may have."""
 
 
 def by_one_number(exercise: Exercise, keys: Sequence[Expected], tolerances: Sequence[float]) -> float:

@@ -28,7 +28,7 @@ MOST_PLACES = 2000
 STRAIGHT = 1e-6
 """A part of less bulge is as good as straight, and still has a radius."""
 ROUNDING = 1e-9
-"""More than rounding makes of a length, of itself."""
+"""A part of a length above what rounding makes of it."""
 POINT = 1e-9
 """A part of less length is as good as a point, and still has a direction [mm of paper]."""
 Scatter = float | Floats
@@ -198,7 +198,7 @@ class Expected:
 
 
 def stored(expected: Expected) -> list[Any]:
-    """As JSON takes it: value and scatter, and of points the bulge; a point is a pair."""
+    """The expectation for JSON: value and scatter, and of points the bulge; a point is a pair."""
     if not isinstance(expected.value, np.ndarray):
         return [expected.value, float(expected.scatter)]
     points = [[z.real, z.imag] for z in expected.value.tolist()]
@@ -218,7 +218,7 @@ def from_stored(said: list[Any]) -> Expected:
 
 
 def paired(given: Points, wanted: Points) -> Points:
-    """As many points (n,) in the order of the wanted ones, paired so that they lie as near as they can together.
+    """Points (n,) in the order of the wanted ones, paired so that they lie as near as they can together.
 
     A drawing does not say which point is which, and a CAD program may save them in another order.  The distances
     themselves are summed, not their squares, so that one point in a wrong place is left as that one.

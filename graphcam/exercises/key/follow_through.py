@@ -67,7 +67,7 @@ class Dependence:
         return found
 
     def to_json(self) -> str:
-        """As text."""
+        """The dependence as JSON text."""
         effects = {name: [each.centre, each.width, list(each.values)] for name, each in self.effects.items()}
         return json.dumps({"together": self.together, "effects": effects}, allow_nan=False)
 

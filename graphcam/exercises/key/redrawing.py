@@ -17,7 +17,7 @@ NOTHING = 0.05
 TRIALS = 24
 """Drawings from several own values at once, to see how effects go together."""
 SPREAD = 0.4
-"""By what part of themselves the own values of these are off at most."""
+"""The maximum part of themselves by which own values are off in the trials."""
 
 
 def dependences(exercise: Exercise, chain: Chain, keys: list[Expected], bound: float) -> dict[str, Dependence]:

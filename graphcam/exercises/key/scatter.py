@@ -23,7 +23,7 @@ CALCULATED = 1e-3
 NORMAL_95 = 1.959964
 """95 % of normally distributed values lie within so many standard deviations."""
 DWELL_STEP = math.radians(15)
-"""On the arc of a dwell the points of a curve lie at most so far apart, as seen from the cam centre."""
+"""The maximum angle between points of a curve on the arc of a dwell, as seen from the cam centre."""
 PROFILES = ("inversion", "working_profile")
 """Constructions about the cam centre, whose curves are closed."""
 
@@ -153,7 +153,7 @@ def _dwells(chain: Chain) -> Floats:
 
 
 def _steps(dwell: float) -> int:
-    """Into how many parts the arc of a dwell is divided; rounding makes no part more."""
+    """The number of parts into which the arc of a dwell is divided; rounding makes no part more."""
     return max(1, math.ceil(dwell / DWELL_STEP - 1e-6))
 
 

@@ -96,7 +96,7 @@ def permitted(exercise: Exercise, pairs: Iterable[tuple[str, str]]) -> bool:
 
 
 def forbidden(exercise: Exercise, pairs: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
-    """Those of the pairs that the exercise does not let be alike."""
+    """The pairs that the exercise does not let be alike."""
     let = {frozenset(pair) for pair in exercise.alike}
     return [pair for pair in pairs if frozenset(pair) not in let]
 

@@ -24,7 +24,7 @@ CLEARLY = 0.1
 
 @dataclass(frozen=True)
 class Reason:
-    """What stood in the way of a draw.
+    """A reason why a draw has no answer key.
 
     kind : the drawing comes to nothing, or the one with a mistake; no room for it; mistakes are alike; careful hands
         name different sides; one number earns too much

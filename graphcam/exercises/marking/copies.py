@@ -27,7 +27,7 @@ RELATED = 10.0
 """The answers of a drawing go together, so a mistake that nobody knows may bring several near another's key: the ratio
 for another's variant must be larger by this factor, which :mod:`~graphcam.exercises.marking.honest_courses` tests."""
 COPIED_PART = 0.5
-"""Who takes wrong numbers over is held to take over this part of them."""
+"""The part of wrong numbers that a student who copies is held to take over."""
 FEWEST = 2
 """Answers that must agree: a single one may be a slip of the pen."""
 ROWS = 64
@@ -61,7 +61,7 @@ class CourseNumbers:
 
     @cached_property
     def suspected(self) -> Students:
-        """Those who have enough wrong numbers to be told by them."""
+        """The students who have enough wrong numbers to be told by them."""
         return np.flatnonzero(self.wrong.sum(axis=1) >= FEWEST)
 
     @cached_property
@@ -88,7 +88,7 @@ class CourseNumbers:
 
     @cached_property
     def brought(self) -> NDArray[np.uint8]:
-        """Which mistakes bring each given number (students, answers, bytes), a bit a mistake."""
+        """The mistakes that bring each given number (students, answers, bytes), a bit a mistake."""
         reach = self.bound[:, None, None] * self.mistaken_scatter
         return np.packbits((np.abs(self.given[:, None] - self.mistaken) <= reach).swapaxes(1, 2), axis=2)
 
@@ -276,7 +276,7 @@ def same_wrong_numbers(numbers: CourseNumbers) -> list[tuple[int, int, float]]:
 def _named_by_wrong_numbers(
     numbers: CourseNumbers, i: Students, j: Students, pairs: int
 ) -> list[tuple[int, int, float]]:
-    """Those of these pairs that are named, where so many were compared."""
+    """The pairs, of those compared, that are named by their wrong numbers."""
     same, both = _same_wrong(numbers, i, j)
     enough = np.count_nonzero(same, axis=1) >= FEWEST
     i, j, same, both = i[enough], j[enough], same[enough], both[enough]
@@ -288,7 +288,7 @@ def _named_by_wrong_numbers(
 
 
 def _same_wrong(numbers: CourseNumbers, i: Students, j: Students) -> tuple[Flags, Flags]:
-    """Of pairs the answers (pairs, answers) that are wrong in both and the same, and those that are wrong in both.
+    """The answers (pairs, answers) that are wrong in both and the same, and those that are wrong in both.
 
     Left out are those that one mistake brings to both, and what is only calculated from the same sizes.
     """

@@ -30,12 +30,12 @@ class CopyGain:
 
     @property
     def part_above_half(self) -> float:
-        """Part of the copies that earn more than half of the marks."""
+        """The part of the copies that earn more than half of the marks."""
         return self.above_half / self.pairs if self.pairs else 0.0
 
 
 def copy_gain(exercise: Exercise, done: Sequence[tuple[AnswerKey, Answers]]) -> CopyGain:
-    """Of the answers to some variants, each marked by the keys of all others."""
+    """The gain by copies of the answers to some variants, each marked by the keys of all others."""
     parts = [
         (record := mark(exercise, answer_key, answers)).total / record.of
         for (answer_key, _), (_, answers) in permutations(done, 2)

@@ -18,7 +18,7 @@ from graphcam.workers import in_order
 LUCK = 1.25
 """A copy may be right by luck: an answer counts that is off by so many tolerances."""
 MOST_TIMES = 20
-"""So often at most a variant is drawn again: an exercise with few parameters has not enough of them for a group."""
+"""How often at most a variant is drawn again: an exercise with few parameters has not enough of them for a group."""
 
 
 def course_variants(

@@ -16,7 +16,7 @@ MOST_POINTS = 20_000
 LARGEST = 1e15
 """No reading is larger, and no number up to here makes the arithmetic overflow."""
 FAR = 5.0
-"""Beyond so many standard deviations an answer speaks against a mistake no more: it may be a slip of its own."""
+"""The standard deviations beyond which an answer speaks against a mistake no more: it may be a slip of its own."""
 ANYWHERE = 16.0
 """What a wrong number that is anywhere costs, in twice the logarithm of the probability: a mistake that brings numbers
 more than four standard deviations off explains them no better."""

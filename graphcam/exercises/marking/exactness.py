@@ -13,11 +13,11 @@ from graphcam.exercises.key.scatter import CALCULATED
 from graphcam.exercises.marking.diagnosis import ComparedAnswer
 
 FALSE_ALARMS = 1e-3
-"""At most so many careful hands are remarked on."""
+"""The maximum part of careful hands that are remarked on."""
 TOGETHER = 0.2
 """The limit is set for this part of them: readings of one drawing are not independent, as is assumed here."""
 ROUNDING = 1e-6
-"""Part of the last decimal by which a program's reading may miss by the arithmetic alone."""
+"""The part of the last decimal by which a program's reading may miss by the arithmetic alone."""
 
 
 def too_exact(answer_key: AnswerKey, compared: Sequence[ComparedAnswer]) -> bool:

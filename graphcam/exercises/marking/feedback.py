@@ -8,7 +8,7 @@ from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.marking.record import Diagnosis, Marked
 
 REDUCED = say("To keep within that, the marks of all answers, also of right ones, are reduced in the same proportion.")
-"""Why a right answer may earn only a part of its marks."""
+"""A sentence on why a right answer may earn only a part of its marks."""
 
 
 def feedback(

@@ -47,12 +47,12 @@ class HonestStudents:
         return found
 
     def alarms(self, courses: int) -> int:
-        """In how many of so many courses any pair is named."""
+        """The number of courses, of so many, in which any pair is named."""
         return sum(bool(alike_pairs(self.exercise, self.course(k), self.answer_keys)) for k in range(courses))
 
 
 def honest_students(exercise: Exercise, secret: bytes, students: int) -> HonestStudents:
-    """So many students with a variant each, and their records with every mistake.
+    """Honest students with a variant each, and their records with every mistake.
 
     Raises
     ------

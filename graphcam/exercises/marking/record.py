@@ -78,7 +78,7 @@ class Record:
     memory: int | None = None
 
     def to_dict(self) -> dict[str, Any]:
-        """As strict JSON takes it.
+        """The record as strict JSON takes it.
 
         >>> _strict([[1.0, 2.0], [math.inf, -math.inf]])
         [[1.0, 2.0], [None, None]]

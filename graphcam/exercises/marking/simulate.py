@@ -24,9 +24,9 @@ from graphcam.exercises.marking.record import Diagnosis
 from graphcam.workers import executor_of, in_order
 
 SPARSELY = 5
-"""Of so many variants one is done with the mistakes that are not listed too: there are several times as many."""
+"""The step between variants that are done with the mistakes not listed too: there are several times as many."""
 NOTHING = "none"
-"""In the matrix: no catalogued mistake was named."""
+"""The column of the matrix for no catalogued mistake."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class SimulatedRow:
     named: dict[str, int]
 
     def right(self, name: str) -> float:
-        """Part of the submissions in which the mistake was named."""
+        """The part of the submissions in which the mistake was named."""
         return self.named.get(name, 0) / self.hands
 
 
@@ -59,7 +59,7 @@ class HandCount:
 
     @property
     def rate(self) -> float:
-        """Part of them."""
+        """The part of the hands that lose any point."""
         return self.losing / self.hands if self.hands else 0.0
 
 
@@ -123,7 +123,7 @@ class _VariantTally:
 
     @staticmethod
     def of(exercise: Exercise) -> _VariantTally:
-        """With nothing counted yet."""
+        """An empty tally of the exercise."""
         populations = {name: _Tally() for name in HANDS}
         wrong = {name: _Tally(name) for name in exercise.misconceptions}
         return _VariantTally(_Tally(), populations, wrong, _Tally(), _Tally())
@@ -169,24 +169,24 @@ class Simulation:
 
     @property
     def outside_named(self) -> float:
-        """Part of the wrong submissions with a mistake that is not looked for, to which another one was attributed."""
+        """The part of the submissions with a mistake not looked for, to which another one was attributed."""
         hands = self.outside.hands + self.left_out.hands
         return (self.outside.named + self.left_out.named) / hands if hands else 0.0
 
     @property
     def false_rejections(self) -> float:
-        """Part of the careful hands that lost any point."""
+        """The part of the careful hands that lost any point."""
         return self.losing / self.careful
 
     @property
     def false_acceptances(self) -> float:
-        """Part of the submissions with a mistake that earned all marks."""
+        """The part of the submissions with a mistake that earned all marks."""
         hands = sum(row.hands for row in self.rows.values())
         return sum(row.accepted for row in self.rows.values()) / hands if hands else 0.0
 
     @property
     def right_diagnoses(self) -> float:
-        """Part of the submissions with a mistake in which that mistake was named."""
+        """The part of the submissions with a mistake in which that mistake was named."""
         hands = sum(row.hands for row in self.rows.values())
         return sum(row.named.get(name, 0) for name, row in self.rows.items()) / hands if hands else 1.0
 
@@ -196,7 +196,7 @@ class Simulation:
         return sum(count * draw for draw, count in enumerate(self.issued, 1)) / self.variants
 
     def to_dict(self) -> dict[str, Any]:
-        """As JSON takes it."""
+        """The simulation as JSON takes it."""
         rates = ("false_rejections", "false_acceptances", "right_diagnoses", "outside_named", "draws")
         return asdict(self) | {name: getattr(self, name) for name in rates}
 
@@ -251,14 +251,14 @@ def simulate(
 
 
 def _outside_count(tally: _Tally) -> OutsideCount:
-    """Of those with a wrong answer: what does not show in the answers asked can be given no name."""
+    """Counts of those with a wrong answer: what does not show in the answers asked can be given no name."""
     return OutsideCount(tally.wrong, tally.hands - tally.named[NOTHING])
 
 
 def _counted(
     exercise: Exercise, hands: int, job: tuple[int, tuple[Variant, AnswerKey]]
 ) -> tuple[int, _VariantTally, list[tuple[AnswerKey, Answers]]]:
-    """Of a variant with its number: its draw, what was counted of the students who did it, the work of a careful one.
+    """The counts of a variant with its number: its draw, the students who did it, the work of a careful one.
 
     That work, with the answer key, is there for the first variants alone: it is marked by the keys of all others.
     """

@@ -21,7 +21,7 @@ from graphcam.words import Words, bare, say
 
 FORMAT = 1
 KEPT = "photo-corrections.json"
-"""In the teacher's folder, all corrections of the course."""
+"""The teacher's file of all corrections of the course."""
 LARGEST = 100_000_000
 """Bytes of a file of corrections: a thousand students with a curve each fill a third of it."""
 STRETCH = (0.97, 1.03)
@@ -65,7 +65,7 @@ class StudentCorrections:
 NONE = StudentCorrections()
 """The teacher has said nothing yet."""
 Corrections = Mapping[str, StudentCorrections]
-"""By the student's id."""
+"""The corrections by the student's id."""
 
 
 def kept_corrections(teacher: Path, exercise: Exercise, students: Collection[str]) -> Corrections:
@@ -91,7 +91,7 @@ def keep_corrections(teacher: Path, exercise: Exercise, corrections: Corrections
 
 
 def to_json(exercise: Exercise, corrections: Corrections) -> str:
-    """As text."""
+    """The corrections as JSON text."""
     students = {student: student_said(one) for student, one in corrections.items()}
     said = {"format": FORMAT, "exercise": exercise.name, "students": students}
     return json.dumps(said, allow_nan=False)
@@ -164,7 +164,7 @@ class _Reader:
         return said
 
     def one_of(self, where: str, said: Any, allowed: tuple[Any, ...]) -> Any:
-        """One of some values, of the same type."""
+        """One of the allowed values, of the same type."""
         if not any(type(said) is type(one) and said == one for one in allowed):
             raise self.wrong(where, said, say("one of {names}", names=", ".join(map(str, allowed))))
         return said

@@ -37,15 +37,15 @@ from graphcam.words import Caption, say, say_many
 from graphcam.workers import processes, results
 
 READINGS = "photos"
-"""In the folder of the course, what was read: 'exercise grade' takes it as it takes what was handed in."""
+"""The folder of what was read: 'exercise grade' takes it as it takes what was handed in."""
 TABLE = "report.csv"
-"""In the folder of the readings, a line for each photograph."""
+"""The table of the readings, a line for each photograph."""
 COLUMNS = (
     *("photograph", "student", "page", "status", "marks_found", "marks_printed", "residual_px", "paper"),
     *("answers_read", "least_share_seen", "why", "remedy"),
 )
 LIBRARIES = ("cv2", "zxingcpp", "pypdfium2", "pillow_heif", "PIL")
-"""That the extra ``photo`` brings, and reading needs."""
+"""The libraries that the extra ``photo`` brings, and reading needs."""
 Step = Callable[[int, int], None]
 
 

@@ -24,7 +24,7 @@ MET = 1.0
 ONE_CROSSING = 0.5
 """Crossings nearer than so many mm are one: three lines through a point make three."""
 FAINTER = 0.18
-"""By so much less than sure ones are plotted points like their shapes that are taken where one should be."""
+"""How much less than sure ones plotted points are like their shapes that are taken where one should be."""
 KINDS: Mapping[str, tuple[str, ...]] = {"cross": ("cross", "dot"), "circle": ("ring",), "length": ("cross", "dot")}
 """How the reader calls the marks of an answer; a small cross may be seen as a dot."""
 
@@ -97,7 +97,7 @@ def _points(answer: ReadAnswer, tell: Tell) -> ReadAnswer:
 
 
 def _crossings(lines: Sequence[Segment]) -> Points:
-    """Where lines meet, each place once."""
+    """The places where lines meet, each place once."""
     found: list[complex] = []
     for one, other in combinations(lines, 2):
         try:

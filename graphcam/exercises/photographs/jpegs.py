@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 QUALITY = 80
-"""Of JPEG: a pencil line keeps its edges, and a view of A3 takes 60 kB."""
+"""The quality of JPEG: a pencil line keeps its edges, and a view of A3 takes 60 kB."""
 
 
 def jpeg(pixels: NDArray[np.uint8]) -> bytes:

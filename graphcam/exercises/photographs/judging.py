@@ -50,7 +50,7 @@ def given_by(asked: Asked, points: Points, key: Key | None) -> Given | None:
 def chosen(
     asked: Asked, seen: Points, faint: Points, answer_key: AnswerKey, place: int
 ) -> tuple[Points, Caption | None]:
-    """Of all points that are seen (n,) those that were plotted for the answer, and why these are not marked.
+    """The points that were plotted for the answer, of all that are seen (n,), and why these are not marked.
 
     More is seen on a drawing than is asked: the centre, numbers, other constructions.  What lies outside the band about
     the places of a drawing, the right one or one with a usual mistake, is not meant for it.  Two points near one place
@@ -84,7 +84,7 @@ def _faint_at(places: Points, near: Points, faint: Points) -> Points:
 
 
 def not_taken(exercise: Exercise, asked: Asked, value: Given, answer_key: AnswerKey) -> Caption | None:
-    """Why a value that was read is not marked without a teacher's look; None where it is.
+    """The reason why a value that was read is not marked without a teacher's look; None where it is.
 
     value : in the student's unit, or points (n,) in mm of paper from the view's origin
     """

@@ -16,7 +16,7 @@ from graphcam.words import say
 
 READINGS = "readings.json"
 DIGITS = 32
-"""Of the digest of a file: no two files of a course share so many."""
+"""Digits of the digest of a file: no two files of a course share so many."""
 
 
 @dataclass(frozen=True)

@@ -151,7 +151,7 @@ def _read(
 
 
 def _asked_on(exercise: Exercise, page: PrintedPage, code: SheetCode, secret: bytes) -> dict[str, list[Asked]]:
-    """By the view, the answers that are drawn on a page."""
+    """The answers that are drawn on a page, by the view."""
     chain = board_chain(drawn(exercise, code.student, secret, code.draw).task)
     found: dict[str, list[Asked]] = {}
     for asked in exercise.answers:

@@ -16,7 +16,7 @@ from graphcam.words import say
 
 FORMAT = 2
 DECIMALS = 3
-"""Of a place in mm: a thousandth is far below what a photograph shows."""
+"""Decimals of a place in mm: a thousandth is far below what a photograph shows."""
 REMEDY = say("delete the folder that holds it, and read the photographs again")
 
 
@@ -94,7 +94,7 @@ class ReadPhoto:
 
 
 def to_json(photos: list[ReadPhoto], basis: str) -> str:
-    """As text.
+    """The photographs as JSON text.
 
     basis : tells what the photographs were read with
     """

@@ -27,9 +27,9 @@ MOST_SHOWN = 1000
 FINER = 2
 """A picture that is shown is taken out of the photograph so many times finer, and reduced, so that no line is lost."""
 MOST_PIXELS = 9e6
-"""Of an even picture in which is read: more would not fit the memory, and is finer than a photograph of it."""
+"""The maximum pixels of an even picture that is read: more would not fit the memory, and is finer than a photograph."""
 BESIDE = 4.0
-"""mm about what is read, where paper is looked at."""
+"""The margin about what is read, where paper is looked at [mm]."""
 LEAST_TABLE = 1500.0
 """mm² of the table of answers; nothing else that is printed in black is as large."""
 
@@ -90,7 +90,7 @@ class SeenPage:
         return float(min(abs(ends[1] - ends[0]), abs(ends[3] - ends[2])) / 2)
 
     def shown(self) -> Iterator[tuple[str, tuple[bytes, Edges]]]:
-        """By name JPEGs of the views, of the table of answers and of the bars' written lengths, with their boxes.
+        """JPEGs by name of the views, of the table of answers and of the bars' written lengths, with their boxes.
 
         The box of a view is counted from its origin.
         """

@@ -25,7 +25,7 @@ from graphcam.words import Words, say
 
 Status = Literal["read", "refused", "not seen", "corrected", "confirmed", "left out", "typed", "not typed"]
 COUNTING: tuple[Status, ...] = ("read", "corrected", "confirmed", "typed")
-"""Of an answer that goes into answers.toml."""
+"""The states of an answer that goes into answers.toml."""
 UNSCALED = (1.0, 1.0)
 
 
@@ -121,7 +121,7 @@ class SettledStudent:
 
 
 def best_of(photos: Iterable[ReadPhoto]) -> dict[int, ReadPhoto]:
-    """Of each page the photograph that counts: the one with most answers read, most of them seen, least residual."""
+    """The photograph of each page that counts: the one with most answers read, most of them seen, least residual."""
     best: dict[int, ReadPhoto] = {}
     for photo in sorted(photos, key=_merit, reverse=True):
         if photo.known and not photo.why and not photo.half:

@@ -28,7 +28,7 @@ AS_READ = "readings.toml"
 OURS = re.compile(r"(?:answers|readings)\.toml|report\.json|(?:overlay|traced)-\d+\.jpg")
 """Files of a run before, which go when there are new ones."""
 DECIMALS = 6
-"""Of a number: more than any drawing shows."""
+"""Decimals of a number: more than any drawing shows."""
 
 
 def write_student(

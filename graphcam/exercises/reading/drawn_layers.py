@@ -85,7 +85,7 @@ def _traced(pieces: list[Points], ends: Points, free: NDArray[np.bool_]) -> Poin
 
 
 def _distinct(pieces: list[Points]) -> list[Points]:
-    """Without pieces of no length, and without one that is drawn twice."""
+    """The pieces without those of no length, and without one that is drawn twice."""
     seen: set[tuple[complex, ...]] = set()
     kept: list[Points] = []
     for piece in pieces:
@@ -165,7 +165,7 @@ class CadDrawing:
         return self.layers[name.lower()]
 
     def _origin(self, name: str) -> complex:
-        """Where the origin is marked; the drawing's own zero where it is not."""
+        """The marked origin; the drawing's own zero where none is marked."""
         layer = next((layer for layer in _origin_layers(name) if layer in self.layers), None)
         if layer is None:
             return 0j

@@ -21,7 +21,7 @@ NEAR = 3.0
 FINE = 0.1
 """The shift of a drawing is looked for as finely as that, mm."""
 VERTICES = 400
-"""So many of a curve's vertices are enough to see whether it is moved."""
+"""How many of a curve's vertices are enough to see whether it is moved."""
 ELSEWHERE = say(
     "the drawing on the layer {layer} lies far from where it should be, counted from the POINT on the layer "
     "ORIGIN; check that it marks the origin of this drawing"

@@ -60,7 +60,7 @@ def read_files(
 
 
 def answer_files(there: Iterable[str]) -> tuple[dict[str, str], list[Caption]]:
-    """Which of some files are read, by the names that they should have, and sentences on those called otherwise.
+    """The files that are read, by the names that they should have, and sentences on those called otherwise.
 
     >>> answer_files(["Answers.toml", "answers (1).csv", "answers.dxf.txt", "notes.toml"])[0]
     {'answers.toml': 'Answers.toml', 'answers.csv': 'answers (1).csv', 'answers.dxf': 'answers.dxf.txt'}

@@ -1,4 +1,4 @@
-"""A TOML file that holds more than numbers; of one with a bad line, each statement by itself."""
+"""The statements of a TOML file that holds more than numbers; of one with a bad line, each by itself."""
 
 import re
 import tomllib
@@ -97,7 +97,7 @@ def _each(name: str, text: str) -> tuple[dict[str, Any], dict[str, UnreadableErr
 
 
 def _pieces(text: str) -> list[tuple[int, str, list[str]]]:
-    """The lines from the beginning of a statement to that of the next: its number, its name, the lines."""
+    """The lines from the beginning of a statement to that of the next: number, name, lines."""
     found: list[tuple[int, str, list[str]]] = []
     for number, line in enumerate(text.replace("\r\n", "\n").split("\n"), 1):
         begins = STATEMENT.match(line)

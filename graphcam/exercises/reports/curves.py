@@ -15,7 +15,7 @@ MARGIN = 5.0
 MOST = 600
 """Points of a curve that a picture shows."""
 BAR_ROOM = 3.0
-"""Under what is shown, for the bar that tells the scale [mm of paper]."""
+"""The room under what is shown, for the bar that tells the scale [mm of paper]."""
 DETAIL = 12.0
 """Half the side of the enlarged detail about the worst place [mm of paper]."""
 
@@ -35,7 +35,7 @@ class Window:
 
     @property
     def box(self) -> str:
-        """As SVG has it: left, top, width, height."""
+        """The box as SVG has it: left, top, width, height."""
         return f"{self.left:.1f} {self.top:.1f} {self.width:.1f} {self.height:.1f}"
 
 

@@ -40,7 +40,7 @@ TOLD_BY = (*PASSED_ON, Kind.JOIN)
 """A line is told by its ends as well, though it is a step of its own."""
 GIVEN = (Kind.GIVEN, Kind.DIVIDE)
 FAR = 500.0
-"""Beyond every view [mm of paper]."""
+"""A distance beyond every view [mm of paper]."""
 DECIMALS = re.compile(r"\d+\.\d\d")
 
 

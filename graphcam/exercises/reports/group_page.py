@@ -272,11 +272,11 @@ class _Drawings:
         self.farthest = ranked[:LARGEST_PICTURES]
 
     def bundle(self) -> Bundle:
-        """All of them in one picture."""
+        """The drawings all in one picture."""
         return bundle(self.off, median(self.tolerances))
 
     def pictures(self) -> list[tuple[HandedInDrawing, CurvePicture]]:
-        """Those farthest off, each in a picture of its own."""
+        """The drawings farthest off, each in a picture of its own."""
         return [(each, _picture(each)) for each in self.farthest]
 
 

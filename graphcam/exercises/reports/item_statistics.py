@@ -65,7 +65,7 @@ def cronbach_alpha(marks: Floats) -> float:
 
 
 def item_statistics(records: Sequence[dict[str, Any]]) -> list[ItemStatistics]:
-    """Of every answer, in the order of the exercise; of no record nothing."""
+    """The statistics of every answer, in the order of the exercise; of no record nothing."""
     if not records:
         return []
     parts = earned_parts(records)

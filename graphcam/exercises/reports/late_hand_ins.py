@@ -46,7 +46,7 @@ def late_report(records: Sequence[dict[str, Any]]) -> LateReport | None:
 
 
 def _shown(late: dict[str, Any]) -> dict[str, Any]:
-    """The same with its times as people read them."""
+    """The lateness with its times as people read them."""
     return {**late, "submitted": shown_time(late["submitted"]), "deadline": shown_time(late["deadline"])}
 
 

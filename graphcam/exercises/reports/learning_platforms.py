@@ -15,7 +15,7 @@ from graphcam.exercises.marking.record import is_handed_in
 CANVAS_STUDENT = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 """Canvas's headings before the assignment's; ID is a number of Canvas's own, which is left empty."""
 POINTS_POSSIBLE = "    Points Possible"
-"""Begins Canvas's second row; the spaces are Canvas's."""
+"""The cell that begins Canvas's second row; the spaces are Canvas's."""
 
 
 def moodle_grades(exercise: Exercise, records: Sequence[Mapping[str, Any]]) -> str:

@@ -39,7 +39,7 @@ class ShownNames:
         return {self.of(student): answer_key for student, answer_key in answer_keys.items()}
 
     def pairs(self, pairs: Sequence[AlikePair]) -> list[AlikePair]:
-        """Those who agree, under these names."""
+        """The pairs who agree, under these names."""
         return [replace(pair, student=self.of(pair.student), other=self.of(pair.other)) for pair in pairs]
 
     def requests(self, requests: Sequence[RegradeRequest]) -> list[RegradeRequest]:

@@ -134,7 +134,7 @@ def _remarks(record: dict[str, Any]) -> list[str]:
 
 
 def _begin(answer: dict[str, Any]) -> str:
-    """With what the sentence on an answer begins."""
+    """The words with which the sentence on an answer begins."""
     return f"{answer['name']}: "
 
 

@@ -24,7 +24,7 @@ MOST_LINES = 300
 LEAST_RANGE, GREATEST_RANGE = 2.0, 10.0
 """Deviations that the picture shows at least, and at most [mm of paper]."""
 ONE_STEP = 1.5
-"""So many times the longest part of a drawing is still one step."""
+"""How many times the longest part of a drawing is still one step."""
 SHOWN = 90
 """Percent of all deviations that the picture's range holds, where that lies between these."""
 

@@ -63,7 +63,7 @@ class LevelError(GraphcamError):
 
 @functools.cache
 def missing(level: Level) -> Words:
-    """Why the level is not available here, in one sentence; empty where it is.
+    """The reason why the level is not available here, in one sentence; empty where it is.
 
     A program that does what must be impossible is run once; that it fails is the evidence.
     """

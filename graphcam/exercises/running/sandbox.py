@@ -90,7 +90,7 @@ def _command(level: Level, limits: ResourceLimits) -> list[str]:
 
 
 def _another_user() -> list[str]:
-    """As root, the start of a command line that runs as nobody else does, with none of root's rights."""
+    """The start of root's command line that runs as nobody else does, with none of root's rights."""
     if os.getuid() != 0:
         return []
     program, user = shutil.which("setpriv") or "setpriv", str(_user())

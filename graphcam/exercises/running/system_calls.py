@@ -12,7 +12,7 @@ ALLOW, ERROR, KILL = 0x7FFF0000, 0x00050000, 0x80000000
 NEW_USER = 0x10000000
 """The flag CLONE_NEWUSER."""
 FOREIGN = 0x40000000
-"""From this number on, calls are those of another way to call (x32)."""
+"""The number from which on calls are those of another way to call (x32)."""
 
 REFUSED = {
     # Memory that belongs to no process, or outlives it.
@@ -62,5 +62,5 @@ def _refuse(number: int, error: int) -> list[bytes]:
 
 
 def _step(operation: int, if_true: int, if_false: int, value: int) -> bytes:
-    """One instruction; the jumps count the instructions that are left out."""
+    """One instruction of the filter; the jumps count the instructions that are left out."""
     return struct.pack("=HBBI", operation, if_true, if_false, value)

@@ -8,10 +8,10 @@ KIBIBYTE = 1 << 10
 COUNTED = ("Pss:", "SwapPss:")
 """Shares of pages that several processes have in common: the sum over the processes counts every page once."""
 COUNTED_OTHERWISE = ("RssAnon:", "RssShmem:", "VmSwap:")
-"""Where the shares cannot be read, pages that are no file's; one in common counts in every process."""
+"""Fields of pages that are no file's, where the shares cannot be read; one in common counts in every process."""
 
 IN_MEMORY = ("/tmp", "/dev/shm")
-"""Where the sandbox has file systems of its own; the bytes of their files are bounded there, not how many they are."""
+"""Folders where the sandbox has file systems of its own, whose bytes are bounded, not their number."""
 FILE = 1 << 10
 """Bytes that the kernel takes for a file or folder with nothing in it, measured."""
 

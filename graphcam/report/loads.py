@@ -1,4 +1,4 @@
-"""The note's paragraphs on what presses the follower on the cam: contact, the forces over the turn."""
+"""What the note alone says of the loads of a follower: contact, forces over the turn, contact stress."""
 
 import numpy as np
 
@@ -7,18 +7,18 @@ from graphcam.drafting.units import unit
 from graphcam.given.arm_load import ArmLoad
 from graphcam.given.load_curve import LoadCurve
 from graphcam.given.spring_load import SpringLoad
-from graphcam.report.markdown import blocks, number, table
-from graphcam.report.paragraphs import general, warning
+from graphcam.report.markdown import Block, Equation, Grid, formula, general, number, numbers, warning
 from graphcam.solving.solution import Solution
 from graphcam.solving.spring_design import IDLE, SpringDesign, with_unit
+from graphcam.solving.stress_design import StressDesign, rounded_up
 from graphcam.solving.turn_diagrams import at_side
 from graphcam.words import Caption, Words, joined, say, sequence
 
 FORMULAS = {
-    "slides": r"$$\xi = m\,a\,\omega^2 + F_0 + c\,s<outer>.$$",
-    "slides, not evenly": r"$$\xi = m\,(a\,\omega^2 + v\,\varepsilon) + F_0 + c\,s<outer>.$$",
-    "torsion": r"$$\xi = J\,(a\,\omega^2 + v\,\varepsilon) + F_0 + c\,s<outer>.$$",
-    "at a point": r"$$\xi = J\,(a\,\omega^2 + v\,\varepsilon) + (F_0 + c\,x)\,\frac{dx}{ds}<outer>.$$",
+    "slides": r"\xi = m\,a\,\omega^2 + F_0 + c\,s<outer>.",
+    "slides, not evenly": r"\xi = m\,(a\,\omega^2 + v\,\varepsilon) + F_0 + c\,s<outer>.",
+    "torsion": r"\xi = J\,(a\,\omega^2 + v\,\varepsilon) + F_0 + c\,s<outer>.",
+    "at a point": r"\xi = J\,(a\,\omega^2 + v\,\varepsilon) + (F_0 + c\,x)\,\frac{dx}{ds}<outer>.",
 }
 """The contact function, by what presses."""
 
@@ -37,9 +37,9 @@ def _formula(load: SpringLoad | ArmLoad) -> str:
     return FORMULAS[kind].replace("<outer>", outer if load.load else "")
 
 
-def contact(solution: Solution) -> str:
+def contact(solution: Solution) -> list[Block]:
     """The spring's preload, the least contact force, and where contact is lost."""
-    tell, spring = solution.tell, _spring(solution)
+    spring = _spring(solution)
     load, needed, least, lost = spring.load, spring.least, spring.contact.least_force(), joined(spring.lost)
     along, preload, _ = spring.units
     keeps = say(
@@ -62,7 +62,7 @@ def contact(solution: Solution) -> str:
     if spring.idle:
         said.append(IDLE)
     too_small = say("Contact is lost, φ = {where}: the spring's preload is too small.", where=lost)
-    return blocks(_presses(spring), _formula(load), sequence(said, " "), warning(too_small) if lost else "", tell=tell)
+    return [_presses(spring), Equation(_formula(load)), sequence(said, " "), warning(too_small) if lost else ""]
 
 
 def _presses(spring: SpringDesign) -> Caption:
@@ -120,23 +120,23 @@ def _presses(spring: SpringDesign) -> Caption:
 
 
 NORMAL = {
-    (True, False): r"$$N = \frac{\xi}{\cos\alpha}, \qquad M = N\,v\cos\alpha.$$",
+    (True, False): r"N = \frac{\xi}{\cos\alpha}, \qquad M = N\,v\cos\alpha.",
     (True, True): (
-        r"$$N = \frac{\xi}{\cos\alpha - \mu\sin\alpha}, \qquad "
-        r"M = N\,\bigl(v\,(\cos\alpha - \mu\sin\alpha) + \mu\,w\bigr).$$"
+        r"N = \frac{\xi}{\cos\alpha - \mu\sin\alpha}, \qquad "
+        r"M = N\,\bigl(v\,(\cos\alpha - \mu\sin\alpha) + \mu\,w\bigr)."
     ),
-    (False, False): r"$$N = \frac{\xi}{l\cos\alpha}, \qquad M = N\,v\,l\cos\alpha.$$",
+    (False, False): r"N = \frac{\xi}{l\cos\alpha}, \qquad M = N\,v\,l\cos\alpha.",
     (False, True): (
-        r"$$N = \frac{\xi}{l\cos\alpha - \sigma\mu\,(l\sin\alpha - r)}, \qquad "
-        r"M = v\,\xi + \mu\,N\,w.$$"
+        r"N = \frac{\xi}{l\cos\alpha - \sigma\mu\,(l\sin\alpha - r)}, \qquad "
+        r"M = v\,\xi + \mu\,N\,w."
     ),
 }
 """Normal force and torque, by whether the follower slides, and whether there is friction at the cam."""
 
 
-def forces(solution: Solution) -> str:
+def forces(solution: Solution) -> list[Block]:
     """Normal force and torque: formulas, extremes, and the values at the stations."""
-    tell, spring = solution.tell, _spring(solution)
+    spring = _spring(solution)
     mean, most, fewest = spring.torques
     least, greatest = spring.forces.least_normal(), spring.greatest_normal
     rubs = say(
@@ -157,17 +157,16 @@ def forces(solution: Solution) -> str:
         at_fewest=at_side(fewest, solution.cam.motion),
         mean=with_unit(_zero(mean), "N·mm"),
     )
-    return blocks(
+    return [
         rubs if spring.friction else "",
         say("The cam pushes along the normal with $N$, and the torque on the shaft is $M$:"),
-        NORMAL[isinstance(spring.load, SpringLoad), bool(spring.friction)],
+        Equation(NORMAL[isinstance(spring.load, SpringLoad), bool(spring.friction)]),
         extremes,
         _at_stations(solution, spring),
-        tell=tell,
-    )
+    ]
 
 
-def _at_stations(solution: Solution, spring: SpringDesign) -> str:
+def _at_stations(solution: Solution, spring: SpringDesign) -> Grid:
     """The forces at the stations, as the cam without errors has them."""
     stations, at = solution.chain.board.stations, spring.at_stations()
     header: tuple[Words, ...] = (
@@ -180,9 +179,109 @@ def _at_stations(solution: Solution, spring: SpringDesign) -> str:
         (name, degrees(phi), *(number(_zero(float(column[k])), 1) for column in columns))
         for k, (name, phi) in enumerate(zip(station_names(stations), stations.phi.tolist(), strict=True))
     ]
-    return table(header, rows, solution.tell)
+    return Grid(say("Forces at the stations"), header, rows)
 
 
 def _zero(value: float) -> float:
     """A value without the rounding that is left where it is zero."""
     return round(value, 9) + 0.0
+
+
+SHEAR, DEPTH = 0.300, 0.786
+"""The greatest shear stress under a line contact as a part of the peak pressure, and its depth in half-widths."""
+MODULUS = r"\frac{1}{E'} = \frac{1-\nu_1^2}{E_1} + \frac{1-\nu_2^2}{E_2},\qquad E' = <modulus>\ \text{<unit>}."
+PRESSURE = r"p_0 = \sqrt{\frac{N E'}{\pi\,w\,R}},\qquad b = \sqrt{\frac{4 N R}{\pi\,w\,E'}},\qquad "
+RELATIVE = {
+    "roller": PRESSURE + r"\frac{1}{R} = \frac{1}{\varrho} + \frac{1}{r}.",
+    "face": PRESSURE + r"R = \varrho.",
+}
+IN_NUMBERS = (
+    r"p_0 = \sqrt{\frac{<force> \cdot <modulus>}{\pi \cdot <width> \cdot <relative>}} = <stress>\ \text{<unit>}."
+)
+SHAPES = {
+    "convex": say("There the profile is convex with a radius of $\\varrho = {radius}$ mm."),
+    "concave": say("There the profile is concave with a radius of $|\\varrho| = {radius}$ mm; $\\varrho$ is negative."),
+    "flat": say("There the profile is straight: $\\varrho$ is infinite."),
+}
+WITHOUT = {
+    "knife edge": say(
+        "The follower has a knife edge. It touches the cam along a line without width, so by Hertz the pressure "
+        "is infinite under any force: there is no finite stress to compare. Give the follower a roller."
+    ),
+    "undercut": say("The profile is undercut and ends in an edge: there is no finite stress to compare."),
+    "no force": say("Nothing presses the follower onto the cam, so there is no stress."),
+}
+
+
+def contact_stress(solution: Solution) -> list[Block]:
+    """What presses how hard, the greatest stress, and whether it is permitted."""
+    stress = solution.stress
+    assert stress is not None
+    given = say(
+        "Cam and follower touch over a width of $w = {width:g}$ mm; $E_1 = {young1:g}$ MPa and $\\nu_1 = {poisson1:g}$ "
+        "are those of the cam, $E_2 = {young2:g}$ MPa and $\\nu_2 = {poisson2:g}$ those of the follower.",
+        width=stress.material.width,
+        young1=stress.material.young_cam,
+        young2=stress.material.young_follower,
+        poisson1=stress.material.poisson_cam,
+        poisson2=stress.material.poisson_follower,
+    )
+    modulus = Equation(formula(MODULUS, modulus=number(stress.material().modulus, 0), unit=unit("MPa")))
+    if stress.without:
+        said = WITHOUT[stress.without]
+        return [given, modulus, warning(said) if stress.without != "no force" else said]
+    return [given, modulus, *_found(stress)]
+
+
+def _found(stress: StressDesign) -> list[Block]:
+    """The greatest stress, and the verdict."""
+    roller = stress.forces.cam.roller_radius
+    at, greatest = stress.contact, stress.greatest
+    assert at is not None
+    assert greatest is not None
+    force, half_width, radius = float(at.force), float(at.half_width), float(at.profile_radius)
+    modulus = stress.material().modulus
+    relative = modulus * half_width / 2 / greatest.value
+    law = say(
+        "By Hertz the force $N$ along the normal flattens a strip of half-width $b$; the pressure has its "
+        "maximum in the middle:"
+    )
+    where = say(
+        "The pressure has its maximum {at}, where $N = {force}$ N.",
+        at=at_side(greatest, stress.forces.cam.motion),
+        force=number(force, 1),
+    )
+    in_numbers = formula(
+        f"$${IN_NUMBERS}$$",
+        force=number(force, 1),
+        modulus=number(modulus, 0),
+        width=general(stress.material.width),
+        relative=number(relative, 3),
+        stress=number(greatest.value, 1),
+        unit=unit("MPa"),
+    )
+    below = say(
+        "The strip is {strip} mm wide. The maximum shear stress, {share:.2f} of that pressure or {shear} MPa, "
+        "lies {depth} mm below the surface: there pitting begins.",
+        strip=number(2 * half_width, 3),
+        share=SHEAR,
+        shear=number(SHEAR * greatest.value, 1),
+        depth=number(DEPTH * half_width, 3),
+    )
+    kind = "roller" if roller else "face"
+    shape = SHAPES[stress.shape].where(**numbers(radius=abs(radius)))
+    return [law, Equation(RELATIVE[kind]), where, shape, in_numbers, below, *_verdict(stress)]
+
+
+def _verdict(stress: StressDesign) -> list[Caption]:
+    """Whether the stress is permitted, and what width it takes."""
+    limit = stress.material.permitted_stress
+    if limit is None or stress.greatest is None or stress.least_width is None:
+        return []
+    values = {"limit": limit, "width": number(rounded_up(stress.least_width))}
+    if stress.permitted:
+        kept = say("{limit:g} MPa are permitted: a contact {width} mm wide would be enough.")
+        return [kept.where(**values)]
+    return [
+        warning(say("Only {limit:g} MPa are permitted. A contact {width} mm wide satisfies this.").where(**values)),
+    ]

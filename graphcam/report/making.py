@@ -1,25 +1,24 @@
-"""The note's chapter on the errors of making."""
+"""What the note alone says of the errors of making."""
 
 import numpy as np
 
 from graphcam.constructions.axes import degrees
 from graphcam.drafting.units import unit
 from graphcam.given.making_errors import deviations_within
-from graphcam.report.markdown import blocks, number, table
-from graphcam.report.paragraphs import warning
+from graphcam.report.markdown import Block, Equation, Grid, number, warning
 from graphcam.solving.solution import Solution
 from graphcam.solving.tolerance_design import ERRORS, ToleranceDesign, error_name, most_important, significant
 from graphcam.words import Caption, joined, say
 
 SLIDING = (
-    r"$$\Delta s = \frac{\delta + \Delta r}{\cos\alpha} + \sigma\,\Delta e\,\tan\alpha,\qquad "
-    r"\delta = A\cos(n\varphi + \beta).$$"
+    r"\Delta s = \frac{\delta + \Delta r}{\cos\alpha} + \sigma\,\Delta e\,\tan\alpha,\qquad "
+    r"\delta = A\cos(n\varphi + \beta)."
 )
 SWINGING = (
-    r"$$\Delta s = \frac{1}{l}\left(\frac{\delta + \Delta r}{\cos\alpha} - \Delta c\,\frac{\sin(\psi - \alpha)}"
-    r"{\cos\alpha} - \Delta l\,\tan\alpha\right),\qquad \delta = A\cos(n\varphi + \beta).$$"
+    r"\Delta s = \frac{1}{l}\left(\frac{\delta + \Delta r}{\cos\alpha} - \Delta c\,\frac{\sin(\psi - \alpha)}"
+    r"{\cos\alpha} - \Delta l\,\tan\alpha\right),\qquad \delta = A\cos(n\varphi + \beta)."
 )
-ON_A_FACE = r"$$\Delta s = \delta = A\cos(n\varphi + \beta).$$"
+ON_A_FACE = r"\Delta s = \delta = A\cos(n\varphi + \beta)."
 SPREAD = {
     "normal": say("A size is normally distributed, with three standard deviations on either side within its zone."),
     "uniform": say("A size is uniformly distributed in its zone."),
@@ -27,14 +26,12 @@ SPREAD = {
 MATTERS = say("Most of the variance of ${symbol}$, {part:.0f} %, is due to one tolerance: {name}.")
 
 
-def errors_of_making(solution: Solution) -> str:
+def errors_of_making(solution: Solution) -> list[Block]:
     """How far the follower may be off, which tolerance matters most, and how a sample of solved mechanisms agrees."""
-    design, tell = solution.tolerances, solution.tell
+    design = solution.tolerances
     assert design is not None
     if design.undercut:
-        return blocks(
-            warning(say("The profile is undercut: how errors of making move the follower is not told.")), tell=tell
-        )
+        return [warning(say("The profile is undercut: how errors of making move the follower is not told."))]
     kin = solution.cam.kinematics
     law = SWINGING if kin.swings else SLIDING if kin.takes_roller else ON_A_FACE
     first = say(
@@ -51,15 +48,15 @@ def errors_of_making(solution: Solution) -> str:
         coverage=100 * design.given.coverage,
         deviations=number(deviations_within(design.given.coverage), 2),
     )
-    told = design.table().told(tell)
+    told = design.table()
     below = say(
         "The table says, where each band is widest, how far each tolerance alone moves $s$, $v$ and $a$ at the most, "
         "and which part of the variance is due to it."
     )
     names = design.given().reaches
     sizes = [SPREAD[design.given.distribution]] if names.keys() & ERRORS.keys() else []
-    said = first, law, waves, bands, *sizes, below, table(told.header, told.rows, tell)
-    return blocks(*said, *_matters(design), _solved(design), tell=tell)
+    rows = Grid(told.title, told.header, told.rows)
+    return [first, Equation(law), waves, bands, *sizes, below, rows, *_matters(design), _solved(design)]
 
 
 def _matters(design: ToleranceDesign) -> list[Caption]:

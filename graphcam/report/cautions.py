@@ -1,0 +1,207 @@
+"""What the note alone says of a construction below its steps: what became of a limit and why, what a hand adds."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from graphcam.constructions.acceleration import moving_phases
+from graphcam.constructions.angle_diagram import inside
+from graphcam.constructions.axes import degrees, part_names, phase_title, station_names
+from graphcam.constructions.law_names import law_title
+from graphcam.constructions.time_axis import scale_at_speed
+from graphcam.drafting.units import unit
+from graphcam.errors import DesignError
+from graphcam.given.impact import acceleration_jumps
+from graphcam.given.limits import Limits
+from graphcam.report.markdown import Block, Grid, digits, general, number, numbers, warning
+from graphcam.solving.solution import Solution
+from graphcam.words import Caption, joined, say, sequence
+
+LAST_DIGIT = 0.005
+"""Lengths [mm] and angles [degrees] are told to two decimals; what differs by less does not differ in print."""
+ONE_DEGREE = math.radians(1)
+
+
+def ordinates(solution: Solution) -> Iterator[Block]:
+    """The phases with their laws' factors, and the ordinates that follow."""
+    diagram, motion, stations = solution.drawn["acceleration"], solution.cam.motion, solution.chain.board.stations
+    phases, index = moving_phases(motion, stations), stations.phase[stations.last].tolist()
+    rows = [
+        (
+            *(phase_title(motion, i), law_title(motion, i), general(phase.normalised.peak_acceleration)),
+            *(general(phase.lift), degrees(phase.angle), number(y)),
+        )
+        for i, phase, y in zip(index, phases, diagram.first("greatest"), strict=True)
+    ]
+    lift = say("h, {unit}", unit=unit(diagram.givens.unit))
+    header = (say("phase"), say("law"), "C", lift, "φ", say("y, mm of paper"))
+    yield Grid(say("Maximum ordinates of the phases"), header, rows)
+
+
+def in_degrees(solution: Solution) -> Iterator[Block]:
+    """The lift of an arm and the scale of its displacement, as a protractor has them."""
+    read = solution.drawn["integration"].readings["s"]
+    if read.unit == "rad":
+        yield say(
+            "The displacement $s$ is the angle of the arm: in degrees the lift is {lift}° and $\\mu_s = {mu}$ °/mm.",
+            lift=general(math.degrees(solution.cam.motion.lift)),
+            mu=general(math.degrees(read.per_mm), 5),
+        )
+
+
+def sensitivity(solution: Solution) -> Iterator[Block]:
+    """What an ideal pencil reads, and what one more degree of permitted angle is worth, both drawn again."""
+    chain, limits = solution.chain, solution.chain.board.limits
+    if (least := chain.adopted().least) and not chain.pencil.perfect and not math.isnan(least):
+        yield say("The ideal pencil gives {radius} mm.", radius=number(least))
+    if "pressure_angle" not in solution.drawn:
+        return
+    try:
+        wider = Limits(limits.rise + ONE_DEGREE, limits.return_ and limits.return_ + ONE_DEGREE, limits.rest)
+    except DesignError:
+        yield say("The permitted angle is so large that one degree more cannot be drawn.")
+        return
+    again = replace(chain, board=replace(chain.board, limits=wider)).minimum_radius
+    least, then = (float(c.value("prime_radius")) for c in (chain.minimum_radius, again))
+    if not math.isnan(then - least):
+        yield say(
+            "If every permitted angle is raised by 1°, the minimum radius is {then} mm: it changes by {change} mm "
+            "per degree.",
+            **numbers(then=then, change=then - least),
+        )
+
+
+def permitted_bend(solution: Solution) -> Iterator[Block]:
+    """Under a flat face, the least radius of curvature beside the permitted one."""
+    least = solution.task.limits.min_curvature_radius
+    if "pressure_angle" in solution.drawn or least is None:
+        return
+    if float(solution.drawn["curvature"].value("rho")) < least - LAST_DIGIT:
+        yield warning(say("At least {least:g} mm is required: the condition is not satisfied.", least=least))
+    else:
+        yield say("At least {least:g} mm is required: the condition is satisfied.", least=least)
+
+
+def perfect_roller(solution: Solution) -> Iterator[Block]:
+    """What an ideal pencil makes of the rule."""
+    if not solution.chain.pencil.perfect and solution.chain.board.roller_radius is None:
+        perfect = float(solution.chain.perfect.roller.value("roller_radius"))
+        yield say("The ideal pencil gives {radius} mm.", radius=number(perfect))
+
+
+INSIDE = {
+    "rise": say("Inside the rise, at φ = {at}°, the maximum is {alpha}°; the larger one is at an end of the phase."),
+    "return": say(
+        "Inside the return, at φ = {at}°, the maximum is {alpha}°; the larger one is at an end of the phase."
+    ),
+}
+EXACTLY = {
+    "rise": say("The limit of the rise is satisfied as drawn; exactly the angle is {exact}°, {over}° over."),
+    "return": say("The limit of the return is satisfied as drawn; exactly the angle is {exact}°, {over}° over."),
+}
+EXCEEDED = {
+    "rise": say("On the rise only {limit} are permitted, so the limit is exceeded: {why}."),
+    "return": say("On the return only {limit} are permitted, so the limit is exceeded: {why}."),
+}
+
+
+def greatest_angles(solution: Solution) -> Iterator[Block]:
+    """The maxima inside the phases, and why a limit is exceeded, or by how much the exact angle exceeds it."""
+    plotted, board, extremes = solution.drawn["angle_diagram"], solution.chain.board, solution.cam.extremes()
+    exactly = {"rise": extremes.pressure_angle_rise[0], "return": extremes.pressure_angle_return[0]}
+    for name, limit in (("rise", board.limits.rise), ("return", board.limits.return_)):
+        if other := inside(plotted, name):
+            alpha = math.degrees(other.place.imag * plotted.givens.mu_alpha.per_mm)
+            phi = math.degrees(other.place.real * board.mu_phi.per_mm)
+            yield INSIDE[name].where(at=number(phi, 1), alpha=number(alpha))
+        if limit is None:
+            continue
+        angle, over = float(plotted.value(f"max_{name}")), math.degrees(abs(exactly[name]) - limit)
+        unlimited = name == "rise" and exactly[name] < 0 and not board.limits.rest  # the angle at the low rest
+        if math.degrees(abs(angle)) > math.degrees(limit) + LAST_DIGIT:
+            yield warning(EXCEEDED[name].where(limit=degrees(limit), why=_why_exceeded(name, angle, solution)))
+        elif over > LAST_DIGIT and not unlimited:
+            yield EXACTLY[name].where(exact=number(math.degrees(abs(exactly[name]))), over=number(over))
+
+
+def _why_exceeded(name: str, angle: float, solution: Solution) -> Caption:
+    chain, least = solution.chain, float(solution.drawn["minimum_radius"].value("prime_radius"))
+    given = chain.board.prime_radius
+    if given is not None and given < least:
+        said = say("the given prime radius of {given:g} mm is smaller than the minimum, {least} mm")
+        return said.where(given=given, least=number(least))
+    if name == "rise" and angle < 0 and not chain.board.limits.rest:
+        return say("it is the angle in the lower dwell, which this task does not limit")
+    if not chain.pencil.perfect:
+        return say("the drawing errors exceed the amount by which the prime radius was rounded up")
+    if given is not None:
+        return say("at the adopted offset the given prime radius is too small")
+    return say("with so few parts the diagrams agree no better")
+
+
+def undercut(solution: Solution) -> Iterator[Block]:
+    """Whether the profile is undercut, and what to do."""
+    if "roller" not in solution.drawn:
+        return
+    rho, radius = float(solution.drawn["curvature"].value("rho")), solution.chain.roller_radius
+    lost = ~np.isnan(solution.drawn["working_profile"].first("covered"))
+    if lost.any():
+        names = [name for name, gone in zip(station_names(solution.chain.board.stations), lost, strict=True) if gone]
+        yield warning(
+            say(
+                "The profile is undercut at the stations {stations}: the follower cannot follow the required motion "
+                "there. Take a smaller roller or a larger prime radius.",
+                stations=joined(names),
+            )
+        )
+    elif radius >= rho:
+        said = say(
+            "The roller is not smaller than the minimum radius of curvature, {rho} mm: the profile is undercut "
+            "or pointed there. Take a smaller roller or a larger prime radius."
+        )
+        yield warning(said.where(rho=number(rho)))
+    elif radius and math.isfinite(rho):
+        yield say("The roller is smaller than ρ = {rho} mm, so the profile is not undercut.", rho=number(rho))
+
+
+def jerks(solution: Solution) -> Iterator[Block]:
+    """At a speed the greatest jerk over time; all parts drawn and exact; where the jerk is infinite."""
+    c, board = solution.drawn["jerk"], solution.chain.board
+    read, of_lift = c.readings["j"], board.follower.unit
+    if board.omega is not None:
+        at = scale_at_speed(1.0, "j", board.omega, of_lift)
+        value = general(at.per_mm * float(c.value("max_j")), 4)
+        yield say("At the given speed the maximum finite jerk is {value} {unit}.", value=value, unit=unit(at.unit))
+    phi, drawn, exact = np.degrees(c.value("j_at")).tolist(), c.value("j").tolist(), solution.exact_jerk.tolist()
+    places = digits(read.per_mm)
+    rows = [
+        (name, number(at), number(value, places), number(truth, places + 1))
+        for name, at, value, truth in zip(part_names(board.stations), phi, drawn, exact, strict=True)
+    ]
+    header = (say("part"), "φ", say("{name} drawn", name="j"), say("{name} exact", name="j"))
+    title = say("Jerk in the middles of the parts, in {unit}", unit=unit(f"{of_lift}/rad³"))
+    yield Grid(title, header, rows)
+    jumps = acceleration_jumps(solution.cam.motion)
+    if not jumps:
+        yield say("The acceleration nowhere jumps: the jerk is finite everywhere.")
+        return
+    yield say(
+        "Where the acceleration jumps, at {places}, the jerk is infinite; an arrow stands for it in the diagram. It "
+        "cannot be read off: what counts there is the jump itself, told below with the kind of impact.",
+        places=sequence([degrees(jump.phi) for jump in jumps]),
+    )
+
+
+CAUTIONS: Mapping[str, Callable[[Solution], Iterator[Block]]] = {
+    "acceleration": ordinates,
+    "integration": in_degrees,
+    "minimum_radius": sensitivity,
+    "curvature": permitted_bend,
+    "roller": perfect_roller,
+    "angle_diagram": greatest_angles,
+    "working_profile": undercut,
+    "jerk": jerks,
+}
+"""What is said below the steps, by the name of the construction."""
