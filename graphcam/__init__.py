@@ -44,5 +44,5 @@ def __getattr__(name: str) -> object:
         from graphcam.errors import nearest
 
         near = nearest(name, __all__)
-        told = f"; {near}" if near.endswith("?") else ""
+        told = f"; {near}" if str(near).endswith("?") else ""
         raise AttributeError(f"graphcam has no name {name!r}{told}", name=name) from error

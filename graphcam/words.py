@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import reduce
 from typing import Any
 
 
@@ -127,7 +126,10 @@ def chained(items: Sequence[Words]) -> Words:
     >>> str(chained(["a", "b", "c"])), str(chained(["a"]))
     ('a and b and c', 'a')
     """
-    return reduce(lambda first, last: say("{first} and {last}", first=first, last=last), items)
+    first, *others = items
+    for last in others:
+        first = say("{first} and {last}", first=first, last=last)
+    return first
 
 
 def joined(items: Sequence[Words]) -> Words:

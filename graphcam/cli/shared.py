@@ -50,7 +50,7 @@ def quoted(path: Path) -> str:
     return subprocess.list2cmdline([str(path)]) if sys.platform == "win32" else shlex.quote(str(path))
 
 
-def echo(words: object, *, err: bool = False) -> None:
+def echo(words: Words, *, err: bool = False) -> None:
     """Print a text in the language of the command that is run."""
     typer.echo(tell(words), err=err)
 

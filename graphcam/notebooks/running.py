@@ -33,10 +33,8 @@ class MissingExtraError(GraphcamError):
         """What needs it."""
         return say("{what} needs {library}, which is not installed", what=self.what, library=self.library)
 
-    @property
-    def advice(self) -> Caption:
-        """How to install it."""
-        return install_advice("notebooks")
+    def __post_init__(self) -> None:
+        self.advice = install_advice("notebooks")
 
 
 def needed(library: str, what: str) -> ModuleType:

@@ -118,7 +118,7 @@ def _of_phases(solution: Solution) -> dict[str, tuple[Caption, SizeRange, str]]:
         sizes[f"motion.phases[{k}].angle"] = name, SizeRange(round(least), round(most), 1.0), "°"
     k, lift = next((k, phase.lift) for k, phase in enumerate(phases) if phase.kind == "rise")
     step = step_for(lift)
-    unit = say("mm") if solution.task.motion.lift_unit == 1.0 else "°"
+    unit = "mm" if solution.task.motion.lift_unit == 1.0 else "°"
     return sizes | {f"motion.phases[{k}].lift": (say("Lift"), SizeRange(step, round_up(1.6 * lift), step), unit)}
 
 

@@ -166,7 +166,8 @@ def _check(path: str, exercise: Exercise) -> None:
                 raise DesignError("place", asked.place, limit, meant(asked.place, shown))
         except DesignError as error:
             place = f"answers[{k}].{error.quantity}"
-            raise TaskError(path, place, *error.args[1:3], error.advice or HOW_TO) from None
+            _, value, limit, remedy = error.args
+            raise TaskError(path, place, value, limit, remedy or HOW_TO) from None
 
 
 def _check_text(path: str, exercise: Exercise) -> None:

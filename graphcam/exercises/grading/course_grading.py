@@ -241,8 +241,8 @@ def _graded(
     refused: Sequence[Refused],
     awaiting: Sequence[str],
     step: Callable[[int, int], None],
-) -> str:
-    """Grade what was handed in and write all reports; what was done, in a sentence.
+) -> list[Caption]:
+    """Grade what was handed in and write all reports; what was done, in sentences.
 
     awaiting : students whose photographs nobody has looked at who should
     """

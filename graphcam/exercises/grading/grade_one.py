@@ -83,7 +83,7 @@ class LateError(BaseException):
     """
 
     def __str__(self) -> str:
-        return say("it took more than {args:g} s", args=self.args[0])
+        return str(say("it took more than {seconds:g} s", seconds=self.args[0]))
 
 
 @dataclass(frozen=True)

@@ -63,7 +63,7 @@ def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, 
     about = hashlib.sha256(f"{database} {exercise.name}".encode()).hexdigest()[:16]
     noted = _noted(entered)
     scores: Entered = noted.setdefault(about, {})
-    told: list[str] = []
+    told: list[Caption] = []
     with Gradebook(database, exercise.name) as book:
         book.update_or_create_assignment(exercise.name)
         book.update_or_create_notebook(NOTEBOOK, exercise.name)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import faulthandler
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -26,7 +26,7 @@ Allow = Callable[[float], None]
 
 
 @contextmanager
-def limited(gigabytes: float = GIGABYTES) -> Iterator[Allow]:
+def limited(gigabytes: float = GIGABYTES) -> Generator[Allow]:
     """Within it this process ends where it is past its time, wherever it is, and gets no more memory than its limit.
 
     Where there are no limits of memory, as on Windows, that of time holds alone.
@@ -40,7 +40,7 @@ def limited(gigabytes: float = GIGABYTES) -> Iterator[Allow]:
 
 
 @contextmanager
-def _limited_memory(gigabytes: float) -> Iterator[None]:
+def _limited_memory(gigabytes: float) -> Generator[None]:
     try:
         import resource
 

@@ -53,7 +53,7 @@ class LevelError(GraphcamError):
     """
 
     level: Level
-    why: str
+    why: Words
 
     @property
     def fault(self) -> Caption:
