@@ -104,7 +104,8 @@ def _value(value: Any, form: str | None) -> Words:
         return say("–")
     if form.endswith("f"):
         return number(value, int(form[2:-1]))
-    return Caption("{value" + form + "}", {"value": value + 0.0})
+    # The template is a number alone, without words to translate.
+    return Caption(template="{value" + form + "}", values={"value": value + 0.0})
 
 
 @dataclass(frozen=True)
