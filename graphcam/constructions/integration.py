@@ -423,7 +423,7 @@ _STARTS = (
     say("carry the end of the previous phase, {y:.2f} mm high, horizontally to vertical {name}"),
     say("vertical {name}; the axis, through the lowest dwell, will lie {y:.2f} mm below"),
 )
-_CHANGES = say("it is horizontal"), say("it climbs {rise:.2f} mm"), say("it falls {rise:.2f} mm")
+_CHANGES = say("is horizontal"), say("climbs {rise:.2f} mm"), say("falls {rise:.2f} mm")
 
 
 def _ordinates(c: Integrated, run: _Integrating) -> Iterator[Part]:

@@ -44,10 +44,15 @@ def _step(number: str, step: Step, tell: Tell) -> Iterator[Block]:
     parts = step.parts
     runs = [part for part in parts if len({tell(row.setting) for row in part.rows}) > 1]
     short, long = ([part for part in runs if (len(part.rows) > FEW) is many] for many in (False, True))
-    said = [each for part in parts for each in (part.caption, *(row.caption for row in part.rows if part in short))]
+    said = [each for part in parts for each in (part.caption, *(_beside(part, tell) if part in short else ()))]
     whole = sequence([*said, *([step.why] if str(step.why) else [])], " ")
     yield say("**{number}. {title}.** {said}", number=number, title=step.title, said=whole)
     yield from (_places(step.title, part, tell) for part in long)
+
+
+def _beside(part: Part, tell: Tell) -> Iterator[Caption]:
+    """The rows of a short run, but for the one that its sentence works out."""
+    return (row.caption for row in part.rows if tell(row.caption) not in tell(part.caption))
 
 
 def _places(title: Caption, part: Part, tell: Tell) -> Grid:
