@@ -170,10 +170,15 @@ def _terms(plan: Construction[ArmForcePlanGivens]) -> list[tuple[Caption, float]
     s, v, a = (np.array(float(integrated.value(name)[k])) for name in ("s", "v", "a"))
     phi, psi0 = float(integrated.givens.stations.phi[k]), float(plan.givens.measured.first("psi0"))
     none = replace(load, inertia=0.0, stiffness=0.0, preload=0.0, load=0.0)
+    inertia, spring = say("inertia {torque:.0f} N·mm"), say("spring {torque:.0f} N·mm")
+    if not load.acceleration:
+        inertia = say("inertia J·ω²·a = {inertia:g}·{omega:.5g}²·{a:.4g}/1000 = {torque:.0f} N·mm")
+    if load.at is None:
+        spring = say("spring c·s = {stiffness:g}·{s:.4g} = {torque:.0f} N·mm")
     alone = (
-        (say("inertia {torque:.0f} N·mm"), replace(none, inertia=load.inertia)),
+        (inertia.where(inertia=load.inertia, omega=load.omega, a=float(a)), replace(none, inertia=load.inertia)),
         (say("preload {torque:.0f} N·mm"), replace(none, preload=load.preload)),
-        (say("spring {torque:.0f} N·mm"), replace(none, stiffness=load.stiffness)),
+        (spring.where(stiffness=load.stiffness, s=float(s)), replace(none, stiffness=load.stiffness)),
         (say("load P {torque:.0f} N·mm"), replace(none, load=load.load)),
     )
     reduced = partial(

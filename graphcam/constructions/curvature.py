@@ -218,7 +218,7 @@ def _chords(curved: Curved, detail: Detail) -> Step:
         "Join them with a ruler: the chords measure {first:.2f} mm and {second:.2f} mm. They span {step:.3g}° of the "
         "cam angle."
     ).where(first=first, second=second, step=np.degrees(phi[2] - phi[0]))
-    more = [*_missed(curved), *([ONLY_RESTS] if np.isnan(curved.first("rho_candidates")[0]) else [])]
+    more = [ONLY_RESTS] if np.isnan(curved.first("rho_candidates")[0]) else []
     why = say(
         "Three close points of a curve determine the circle that fits it best, and the roller is limited by the "
         "smallest such circle of the pitch curve."
@@ -334,8 +334,9 @@ def _on_profile(curved: Curved) -> Step:
         Line(np.array([o.place, b.place]), Role.LIMIT).left_by(ob),
         *(o.dots(Role.LIMIT), o.label("O", o.place - b.place), b.label("B", b.place - o.place)),
     )
-    part = Part(said, (ob, o, b))
-    return Step(say("Centre of curvature on the profile"), (part,), PROFILE, marks, reads=("rho",), why=why)
+    missed = _missed(curved)
+    parts = Part(said, (ob, o, b)), *([Part(sequence(missed, " "), (triple[[0, 2]],))] if missed else [])
+    return Step(say("Centre of curvature on the profile"), tuple(parts), PROFILE, marks, reads=("rho",), why=why)
 
 
 def _unreadable(curved: Curved) -> Caption:

@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 import graphcam as gc
+from graphcam.constructions.axes import station_names
 from graphcam.constructions.curvature import CAREFUL
 from graphcam.drafting.acts import Act, Drawn, Kind, Setting
 from graphcam.drafting.hand import COMPASS
@@ -104,9 +105,9 @@ def _unit_of(said: str, spec: str, value: Any) -> float:
     if spec.endswith("f"):
         return 10.0 ** -len(said.partition(".")[2])
     digits = int(spec[1:-1]) if re.fullmatch(r"\.\d+g", spec) else 6
-    # One that was rounded before, as an angle is.
-    if digits == 6 and (decimals := len(said.partition(".")[2])) and abs(value - round(value, decimals)) < 1e-12:
-        return 10.0**-decimals
+    # One that was rounded before, as an angle is to hundredths of a degree.
+    if digits == 6 and abs(value - round(value, 2)) < 1e-12:
+        return 10.0 ** -(len(said.partition(".")[2]) or 2)
     return 10.0 ** (math.floor(math.log10(abs(value))) + 1 - digits) if value else 0.0
 
 
@@ -499,9 +500,22 @@ def not_on_the_board(solution: Any, judged: Judged = unknown) -> Iterator[tuple[
             own = measured(board, [*before, *pieces], marks, board.scales)
             if len(places) == 1:
                 before += [ActPlaces(each.act, (*each.index.tolist(),)) for each in places[0].draws]
+            own.add(_through_named(construction, words), "lengths")
             if name != "scheme":
                 for found in judged(words, data.joined(board.read, own), symbols):
                     yield numbers[number], name, found
+
+
+def _through_named(construction: Construction, words: Words) -> list[float]:
+    """The radius [mm] of the circle through the three stations that a sentence names, from their distances."""
+    named = re.search(r"over (\S+), (\S+), (\S+?),", str(words))
+    if named is None or construction.name != "curvature":
+        return []
+    inverted = construction.givens.inverted
+    stations = station_names(inverted.givens.integrated.givens.stations)
+    a, b, c = (inverted.acts["pitch"].shown[stations.index(each)] for each in named.groups())
+    area = abs(((b - a).conjugate() * (c - a)).imag) / 2
+    return [abs(a - b) * abs(b - c) * abs(c - a) / (4 * area) * inverted.givens.mu_l.per_mm]
 
 
 def _taken(board: Board) -> dict[Act, list[Act]]:
