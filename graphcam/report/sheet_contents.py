@@ -195,6 +195,8 @@ def steps_of(drawn: Mapping[str, Construction]) -> Numbered:
 
 def scales_found(drawn: Mapping[str, Construction], steps: Numbered) -> dict[str, int]:
     """The views whose scales are found by drawing, with the running numbers of the steps that find them."""
+    # A construction may settle the scale of a view that this task has not.
+    seen = {step.view.name for _, _, step in steps}
     reading_in: dict[tuple[str, str], int] = {}
     for number, name, step in steps:
         for read in step.reads:
@@ -204,7 +206,7 @@ def scales_found(drawn: Mapping[str, Construction], steps: Numbered) -> dict[str
         for by in drawn.values()
         if by.meaning.scales_found_by
         for view, reading in by.meaning.scales.items()
-        if (by.name, reading) in reading_in
+        if view in seen and (by.name, reading) in reading_in
     }
 
 

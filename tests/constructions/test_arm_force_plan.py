@@ -123,8 +123,15 @@ def test_the_steps_say_in_sentences_what_was_read(rotation, load):
         assert [row[2] for row in told] == pytest.approx([float(each.value) for each in read], abs=0.051)
         first = str(steps[0].caption)
         assert f"{value(plan, 'load'):.1f} N. At μF" in first
-        terms = [float(each) for each in re.findall(r"(?:inertia|preload|spring|load P) (-?\d+) N·mm", first)]
-        assert sum(terms) == pytest.approx(125 * value(plan, "load"), abs=2.0)
+        terms = re.findall(r"(?:inertia|preload|spring|load P) (?:[^,:=]+ = )?(?:([^,:=]+) = )?(-?\d+) N·mm", first)
+        assert sum(float(torque) for _, torque in terms) == pytest.approx(125 * value(plan, "load"), abs=2.0)
+        # A torque that is told with its factors is their product.
+        told = {reckoned: float(torque) for reckoned, torque in terms if reckoned}
+        assert len(told) == (2 if load is TORSION else 0)
+        for reckoned, torque in told.items():
+            factors = [float(each) for each in re.findall(r"[\d.]+", reckoned.replace("²", "").removesuffix("/1000"))]
+            product = math.prod(factors) * (factors[1] / 1000 if reckoned.endswith("/1000") else 1.0)
+            assert product == pytest.approx(torque, abs=0.51)
         for step in steps:
             assert re.fullmatch(r"(?!Because)[A-Z][^.]+\.", str(step.why))
             assert step.view.name == "forces"

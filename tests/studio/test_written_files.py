@@ -25,8 +25,9 @@ def radius(folder: Path) -> float:
 
 def test_the_note_is_that_of_solve(tmp_path):
     written = WrittenFiles(tmp_path / "page").write({"kind": "note", "task": TASK})
-    assert written == {"files": ["comparison.csv", "comparison.md", "note.md"], "folder": str(tmp_path / "page")}
-    gc.solve(gc.builtin_task()).write(tmp_path / "solve", ["csv", "md", "note"])
+    files = ["comparison.csv", "comparison.md", "note.md", "note.html"]
+    assert written == {"files": files, "folder": str(tmp_path / "page")}
+    gc.solve(gc.builtin_task()).write(tmp_path / "solve", ["csv", "md", "note", "note_html"])
     for name in names(tmp_path / "solve"):
         assert (tmp_path / "page" / name).read_bytes() == (tmp_path / "solve" / name).read_bytes()
 
