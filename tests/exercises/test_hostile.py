@@ -170,7 +170,7 @@ def level(request: pytest.FixtureRequest) -> Level:
     if request.param is Level.L2:
         program("bwrap")
     elif os.getuid() == 0 and missing(request.param):
-        pytest.skip(missing(request.param))
+        pytest.skip(str(missing(request.param)))
     assert missing(request.param) == ""
     return request.param
 

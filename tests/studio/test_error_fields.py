@@ -2,6 +2,7 @@
 
 import ast
 import functools
+import re
 from dataclasses import fields
 from pathlib import Path
 
@@ -98,7 +99,9 @@ PARAMETERS = {
 
 
 def literal(node):
-    """A text, its places as stars; None for what is no text."""
+    """A text or the template of a caption, its places as stars; None for what is no text."""
+    if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "say":
+        return re.sub(r"{[^{}]*}", "*", node.args[0].value)
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         return node.value
     if isinstance(node, ast.JoinedStr):
@@ -129,7 +132,7 @@ def of_variables():
         for file in sorted((PACKAGE / room).rglob("*.py")):
             for function in ast.walk(ast.parse(file.read_text())):
                 if isinstance(function, ast.FunctionDef) and raises_of_variables(function):
-                    found |= {node.value for node in ast.walk(function) if isinstance(node, ast.Constant)}
+                    found |= {literal(node) for node in ast.walk(function)} - {None}
     return found
 
 
