@@ -109,18 +109,37 @@ def literal(node):
     return None
 
 
+def texts_of(node, scope):
+    """The texts that a node may be: its own, or those that the scope gives to its name."""
+    given = [each.value for each in ast.walk(scope) if isinstance(each, ast.Assign) and named(each.targets[0], node)]
+    return {literal(each) for each in (node, *given)} - {None}
+
+
+def named(target, node):
+    return isinstance(target, ast.Name) and isinstance(node, ast.Name) and target.id == node.id
+
+
+def scopes_of(file):
+    """The functions of a file with all their nodes, and the file with its own."""
+    module = ast.parse(file.read_text(encoding="utf-8"))
+    functions = [node for node in ast.walk(module) if isinstance(node, ast.FunctionDef)]
+    inside = {id(node) for function in functions for node in ast.walk(function)}
+    outside = [node for node in ast.walk(module) if id(node) not in inside]
+    return [*((function, list(ast.walk(function))) for function in functions), (ast.Module([], []), outside)]
+
+
 @functools.cache
 def quantities():
     """The texts by which errors of the rooms name a quantity, with where each is raised."""
     found = {}
     for room in ROOMS:
         for file in sorted((PACKAGE / room).rglob("*.py")):
-            for node in ast.walk(ast.parse(file.read_text())):
-                name = getattr(getattr(node, "func", None), "id", "")
-                if name in CHECKS and node.args:
-                    text = literal(node.args[1 if name == "RowError" else 0])
-                    if text is not None:
-                        found.setdefault(text, []).append(f"{room}/{file.name}:{node.lineno}")
+            for scope, nodes in scopes_of(file):
+                for node in nodes:
+                    name = getattr(getattr(node, "func", None), "id", "")
+                    if name in CHECKS and node.args:
+                        for text in texts_of(node.args[1 if name == "RowError" else 0], scope):
+                            found.setdefault(text, []).append(f"{room}/{file.name}:{node.lineno}")
     return found
 
 
