@@ -185,5 +185,5 @@ def test_it_answers_writes_into_its_folder_and_ends_with_ctrl_c(tmp_path):
         assert process.wait(10) == 130
         assert process.stderr.read() == "graphcam: interrupted\n"
     assert sorted(path.name for path in tmp_path.rglob("*") if path.is_file()) == [
-        "comparison.csv", "comparison.md", "note.md", "solution.json",
+        "comparison.csv", "comparison.md", "note.html", "note.md", "solution.json",
     ]  # fmt: skip

@@ -25,6 +25,7 @@ NOT_REACHED = {
     "exact counterpart": "a construction of the package itself names its counterpart",
     "reading of *": "a construction of the package itself names its readings",
     "scale": "scales are made of sizes that were checked",
+    "stations of the displacement": "the package divides the turn of a measured motion itself",
     "side": "named by the package itself",
     "number of points": "only an export asks for a number of points",
     "pencil samples": "one hand draws in the studio",
