@@ -179,7 +179,9 @@ def test_what_must_be_typed_stands_in_every_translation(spoken):
     told = language(spoken).catalog.told
     found = [(text, word) for (_, text), forms in told.items() for word in TYPED.findall(text) if word not in forms[0]]
     assert found == []
-    assert sum(bool(TYPED.search(text)) for _, text in told) > 20
+    # Nearly all of them are messages, which some languages do not have.
+    least = 20 if language(spoken).has_messages else 10
+    assert sum(bool(TYPED.search(text)) for _, text in told) > least
 
 
 def calls_of_the_command_line() -> list[tuple[Path, ast.Call]]:

@@ -12,7 +12,7 @@ import numpy as np
 from graphcam import __version__
 from graphcam.bench.bench_report import SECTIONS, Effort, Report, measure
 from graphcam.bench.hand_errors import SIGMA
-from graphcam.bench.rows import Row, Section, spoken_time
+from graphcam.bench.rows import BenchRow, Section, spoken_time
 from graphcam.bench.timing import Timer
 from graphcam.files import whole_folder
 from graphcam.report.documents import sheet_of
@@ -167,7 +167,7 @@ def _methods(report: Report) -> TextTable:
     )
 
 
-def _figures(section: Section, found: Sequence[Row]) -> TextTable:
+def _figures(section: Section, found: Sequence[BenchRow]) -> TextTable:
     rows: list[list[str]] = []
     for r in found:
         rounding = "" if r.error_eps is None else f"{r.error_eps:.1f}"

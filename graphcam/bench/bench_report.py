@@ -13,7 +13,7 @@ from graphcam.bench.hand_errors import PARTS as PENCIL_PARTS, SIGMA, BudgetRow, 
 from graphcam.bench.load_rows import LOADS
 from graphcam.bench.measured_rows import MEASURED
 from graphcam.bench.peers import Peer, peers
-from graphcam.bench.rows import Gauge, Row, Section
+from graphcam.bench.rows import BenchRow, Gauge, Section
 from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, scene
 from graphcam.bench.solve_rows import WAITING
 from graphcam.bench.studio_rows import STUDIO
@@ -99,7 +99,7 @@ class Report:
     bands: Mapping[str, tuple[float, float]]
     budgets: tuple[BudgetRow, ...]
     methods: tuple[Method, ...]
-    rows: Mapping[str, tuple[Row, ...]]
+    rows: Mapping[str, tuple[BenchRow, ...]]
     peers: tuple[Peer, ...]
     drawing: tuple[DrawingTime, ...]
     rendering: Mapping[str, float]
@@ -141,7 +141,7 @@ def measure(
     progress(say("error against time"))
     methods = tuple(tradeoff(effort.sizes, timer, pair))
     gauge = Gauge(timer, effort.law_stations, effort.cam_stations, effort.swept)
-    rows: dict[str, tuple[Row, ...]] = {}
+    rows: dict[str, tuple[BenchRow, ...]] = {}
     for section in SECTIONS:
         progress(section.title.lower())
         rows[section.key] = tuple(section.measured(gauge))
@@ -154,7 +154,7 @@ def measure(
     return Report(pair, series, hands, *hands_of, methods, rows, others, drawing, rendered)
 
 
-def _without_seconds(row: Row) -> dict[str, Any]:
+def _without_seconds(row: BenchRow) -> dict[str, Any]:
     return {key: value for key, value in asdict(row).items() if key != "seconds"} | {"goal_met": row.goal_met}
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from graphcam.bench.convergence import EXACT
-from graphcam.bench.rows import Gauge, Row, Section
+from graphcam.bench.rows import BenchRow, Gauge, Section
 from graphcam.bench.scenes import scene
 from graphcam.comparison.double_integration import chords
 from graphcam.comparison.quantities import Comparison
@@ -15,14 +15,14 @@ from graphcam.given.laws import LAWS, Floats, law as law_of
 BOUND_PARTS = 12, 48
 
 
-def bound_rows(_: Gauge) -> Iterator[Row]:
+def bound_rows(_: Gauge) -> Iterator[BenchRow]:
     """Rows for the rise of the translating follower, by law, parts and quantity; not where the drawing is exact."""
     for name in LAWS:
         for parts in BOUND_PARTS:
             yield from rows_of_law(name, parts)
 
 
-def rows_of_law(name: str, parts: int) -> Iterator[Row]:
+def rows_of_law(name: str, parts: int) -> Iterator[BenchRow]:
     """The rows of one law and number of parts.
 
     >>> for row in rows_of_law("3-4-5", 12):
@@ -44,7 +44,7 @@ def rows_of_law(name: str, parts: int) -> Iterator[Row]:
         if error >= EXACT * max(1.0, float(np.abs(exact[power]).max()) * per_unit):
             what = f"{quantity} in {parts} parts: off by {error:.1e}, estimate {estimate / error:.2f} times it"
             tight = round(float(bound.max()) / error, 9)  # where it is the error itself, both are rounded
-            yield Row(f"proved bound, {name}", what, tight, "times the error", ">= 1", None, math.nan)
+            yield BenchRow(f"proved bound, {name}", what, tight, "times the error", ">= 1", None, math.nan)
 
 
 def _greatest(values: Floats, span: slice) -> float:

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from graphcam.bench import reference, rivals
-from graphcam.bench.rows import Gauge, Row, Section, Unit
+from graphcam.bench.rows import BenchRow, Gauge, Section, Unit
 from graphcam.bench.scenes import ARM, FOLLOWERS, LIMIT, free_scene, scene
 from graphcam.bench.timing import Timer
 from graphcam.bench.tradeoff import INSIDE, exact_profile_error, inner_places, turn
@@ -74,7 +74,7 @@ def designs(follower: str, law: str, n: int) -> Designs:
     return Designs(prime_radius=radius, rise_law=law, return_law=law, **angles, **own)
 
 
-def exact_rows(gauge: Gauge) -> Iterator[Row]:
+def exact_rows(gauge: Gauge) -> Iterator[BenchRow]:
     """Laws, cam points, extremes, sweeps, and minimum radii beside their rivals."""
     timer, few = gauge.timer, gauge.unit(RIVAL_STATIONS)
     yield from _laws(gauge.unit(gauge.stations), timer)
@@ -87,7 +87,7 @@ def exact_rows(gauge: Gauge) -> Iterator[Row]:
     yield from _three_points(timer)
 
 
-def _laws(unit: Unit, timer: Timer) -> Iterator[Row]:
+def _laws(unit: Unit, timer: Timer) -> Iterator[BenchRow]:
     u, what = np.linspace(0, 1, unit.n), f"f, f', f'', f''' at {unit.n} places"
     for name, goal in GOALS.items():
         growing, mixed = timer.seconds(partial(law(name), u)), timer.seconds(partial(law(name), _mixed(u)))
@@ -112,9 +112,9 @@ def _mixed(places: Floats) -> Floats:
     return np.random.default_rng(2).permutation(places)
 
 
-def _in_any_order(name: str, mixed: float, growing: float) -> Row:
+def _in_any_order(name: str, mixed: float, growing: float) -> BenchRow:
     """The time at places in any order beside that at the same places in growing order."""
-    return Row(name, "places in any order", mixed / growing, "times sorted", "<= 1.5", None, mixed)
+    return BenchRow(name, "places in any order", mixed / growing, "times sorted", "<= 1.5", None, mixed)
 
 
 def _law_error(name: str) -> float | None:
@@ -127,7 +127,7 @@ def _law_error(name: str) -> float | None:
     return float((off[greatest > 0] / greatest[greatest > 0]).max()) / reference.EPS
 
 
-def _cam_points(unit: Unit, few: Unit, timer: Timer) -> Iterator[Row]:
+def _cam_points(unit: Unit, few: Unit, timer: Timer) -> Iterator[BenchRow]:
     where, phi = scene("translating", "3-4-5"), turn(unit.n)
     motion, cam, at = where.board.motion, where.cam, f"at {unit.n} stations"
     growing, mixed = timer.seconds(partial(motion, phi)), _mixed(phi)
@@ -162,7 +162,7 @@ def _bare_cam_points(n: int) -> None:
         np.tan(x, out)
 
 
-def _undercuts(timer: Timer) -> Iterator[Row]:
+def _undercuts(timer: Timer) -> Iterator[BenchRow]:
     """A cam of many loops, which are all sought anew: time and memory."""
     phases = [(Rise, Return)[k % 2](0.5, FULL_TURN / LOBES, "cosine") for k in range(LOBES)]
     knife = Cam(Motion(phases), Translating(), 100.0)
@@ -172,8 +172,8 @@ def _undercuts(timer: Timer) -> Iterator[Row]:
         ("trimmed profile", lambda: replace(cam).trimmed_profile(POINTS)),
     ):
         seconds, what = timer.seconds(work), f"{LOBES} phases, {len(cam.undercuts())} loops"
-        yield Row(name, what, 1e3 * seconds, "ms", "<= 500", None, seconds)
-        yield Row(name, f"{what}: maximum memory", _peak(work) / 1e6, "MB", "<= 120", None, seconds)
+        yield BenchRow(name, what, 1e3 * seconds, "ms", "<= 500", None, seconds)
+        yield BenchRow(name, f"{what}: maximum memory", _peak(work) / 1e6, "MB", "<= 120", None, seconds)
 
 
 def _peak(work: Callable[[], object]) -> float:
@@ -185,13 +185,13 @@ def _peak(work: Callable[[], object]) -> float:
     return peak
 
 
-def _extremes(unit: Unit, timer: Timer) -> Iterator[Row]:
+def _extremes(unit: Unit, timer: Timer) -> Iterator[BenchRow]:
     for follower in FOLLOWERS:
         seconds = timer.seconds(scene(follower, "3-4-5").cam.extremes)
         yield unit.row(f"extremes, {follower}", "pressure angles and minimum convex radius", seconds)
 
 
-def _sweeps(timer: Timer) -> Iterator[Row]:
+def _sweeps(timer: Timer) -> Iterator[BenchRow]:
     """All quantities of a chunk of designs, beside a loop over some of them."""
     unit = Unit(STATIONS, timer.pairs(STATIONS * LOOPED) / LOOPED)
     patient = Timer(timer.budget, max(timer.least_runs, RUNS))
@@ -208,9 +208,9 @@ def _sweeps(timer: Timer) -> Iterator[Row]:
         yield unit.row(name, "all quantities of a design", seconds, "<= 1.6", error_eps)
         off = np.abs(rivals.by_stations(some, STATIONS) / exact - 1).max()
         what = f"beside a loop in plain NumPy, {STATIONS} stations a phase: off by {off:.1e}"
-        yield Row(name, what, plain / seconds, "times faster", ">= 8", None, plain)
+        yield BenchRow(name, what, plain / seconds, "times faster", ">= 8", None, plain)
         what = "beside a loop over Cam.extremes, which finds the places too"
-        yield Row(name, what, looped / seconds, "times faster", "", None, looped)
+        yield BenchRow(name, what, looped / seconds, "times faster", "", None, looped)
 
 
 def _by_loop(some: Designs) -> list[list[float]]:
@@ -219,7 +219,7 @@ def _by_loop(some: Designs) -> list[list[float]]:
     return [[e.pressure_angle_rise[0], e.pressure_angle_return[0], e.min_convex_radius[0]] for e in extremes]
 
 
-def _least_radii(unit: Unit, timer: Timer) -> Iterator[Row]:
+def _least_radii(unit: Unit, timer: Timer) -> Iterator[BenchRow]:
     free, arm, n = free_scene("3-4-5"), scene("arm", "3-4-5"), unit.n
     # The cams alone: what a scene takes to say its limits is not in it.
     sized: list[Callable[[], LeastRadius]] = [
@@ -249,10 +249,10 @@ def _least_radii(unit: Unit, timer: Timer) -> Iterator[Row]:
     for follower, rival, work, goal in beside:
         ours, exact = (exchange, arm_least) if follower == "arm" else (closed, least)
         seconds, what = patient.seconds(work), f"beside {rival}, {n} stations: off by {work() / exact - 1:+.1e}"
-        yield Row(f"minimum prime radius, {follower}", what, seconds / ours, "times faster", goal, None, seconds)
+        yield BenchRow(f"minimum prime radius, {follower}", what, seconds / ours, "times faster", goal, None, seconds)
 
 
-def _sums(timer: Timer) -> Iterator[Row]:
+def _sums(timer: Timer) -> Iterator[BenchRow]:
     """Running sums of values of one sign, beside numpy's own, against the correctly rounded sum."""
     values = np.random.default_rng(0).uniform(0.0, 1.0, SUMMED)
     copied = np.empty_like(values)
@@ -260,12 +260,12 @@ def _sums(timer: Timer) -> Iterator[Row]:
     for name, goal, work in (("accurate", "<= 4", accurate_cumsum), ("plain", "", np.cumsum)):
         seconds, error = timer.seconds(partial(work, values)), abs(float(work(values)[-1]) - exact) / exact
         eps = error / reference.EPS
-        yield Row(f"running sum, {name}", what, seconds / copy, "memory copies", goal, eps, seconds)
+        yield BenchRow(f"running sum, {name}", what, seconds / copy, "memory copies", goal, eps, seconds)
     filled = timer.seconds(lambda: np.empty_like(values).fill(0.0))
-    yield Row("running sum, floor", "new memory for the result", filled / copy, "memory copies", "", None, filled)
+    yield BenchRow("running sum, floor", "new memory for the result", filled / copy, "memory copies", "", None, filled)
 
 
-def _three_points(timer: Timer) -> Iterator[Row]:
+def _three_points(timer: Timer) -> Iterator[BenchRow]:
     """The order of the curvature through three points of the pitch curve, at equal and at unequal chords."""
     cam, at, steps = scene("translating", "3-4-5").cam, 0.6, 0.1 / 2 ** np.arange(HALVINGS)
 
@@ -277,7 +277,7 @@ def _three_points(timer: Timer) -> Iterator[Row]:
         errors = np.abs(curvature(share) - float(cam.pitch_curvature(at)))
         order = float(np.polyfit(np.log(steps), np.log(errors), 1)[0])
         seconds, what = timer.seconds(partial(curvature, share)), f"curvature, {name} chords"
-        yield Row("three points", what, order, "order", goal, None, seconds)
+        yield BenchRow("three points", what, order, "order", goal, None, seconds)
 
 
 EXACT = Section(

@@ -13,7 +13,7 @@ import numpy as np
 from graphcam.bench import reference
 from graphcam.bench.exact_rows import LOOPED, RUNS, STATIONS, designs
 from graphcam.bench.rivals import optional
-from graphcam.bench.rows import Gauge, Row, Section, Unit
+from graphcam.bench.rows import BenchRow, Gauge, Section, Unit
 from graphcam.bench.scenes import ARM, FOLLOWERS, scene
 from graphcam.bench.timing import Timer
 from graphcam.given.arm_load import ArmLoad
@@ -51,7 +51,7 @@ PLACES = 16
 """Places of the motion by conditions at which it is held against 50 digits."""
 
 
-def load_rows(gauge: Gauge) -> Iterator[Row]:
+def load_rows(gauge: Gauge) -> Iterator[BenchRow]:
     """Forces of one cam and of many, spectra, and motions by conditions."""
     few = Unit(STATIONS, gauge.timer.pairs(STATIONS * LOOPED) / LOOPED)
     for follower in FOLLOWERS:
@@ -86,7 +86,7 @@ def sampled_forces(cam: Cam, follower: str, n: int) -> tuple[float, float, float
     return float(np.max(at.normal)), float(np.min(at.normal)), float(np.max(at.torque))
 
 
-def force_rows(follower: str, unit: Unit, timer: Timer) -> Iterator[Row]:
+def force_rows(follower: str, unit: Unit, timer: Timer) -> Iterator[BenchRow]:
     """Rows of one cam: the extremes, beside samples, which always miss them on the unsafe side."""
     cam = scene(follower, "3-4-5").cam
     exact, seconds = extreme_forces(cam, follower), timer.seconds(partial(extreme_forces, cam, follower))
@@ -95,10 +95,10 @@ def force_rows(follower: str, unit: Unit, timer: Timer) -> Iterator[Row]:
         sampled, work = sampled_forces(cam, follower, n), partial(sampled_forces, cam, follower, n)
         off = max(abs(a / b - 1) for a, b in zip(sampled, exact, strict=True))
         slower, what = timer.seconds(work), f"beside samples at {n} stations: off by {off:.1e}"
-        yield Row(f"forces, {follower}", what, slower / seconds, "times faster", "", None, slower)
+        yield BenchRow(f"forces, {follower}", what, slower / seconds, "times faster", "", None, slower)
 
 
-def swept_rows(follower: str, unit: Unit, timer: Timer) -> Iterator[Row]:
+def swept_rows(follower: str, unit: Unit, timer: Timer) -> Iterator[BenchRow]:
     """The forces of a chunk of designs, beside a loop over some of them."""
     many, load = designs(follower, "3-4-5", CHUNK_OF_DESIGNS), load_of(follower)
     some, name = many.part(slice(0, LOOPED)), f"forces in a sweep, {follower}"
@@ -113,7 +113,7 @@ def swept_rows(follower: str, unit: Unit, timer: Timer) -> Iterator[Row]:
     yield unit.row(name, "maximum and minimum normal force of a design", seconds, "<= 2", error_eps)
     yield unit.row(name, "all forces of a design", patient.seconds(every) / CHUNK_OF_DESIGNS)
     what = "beside a loop over CamForces, which finds the places too"
-    yield Row(name, what, looped / seconds, "times faster", "", None, looped)
+    yield BenchRow(name, what, looped / seconds, "times faster", "", None, looped)
 
 
 def looped_forces(some: Designs, follower: str) -> list[tuple[float, float, float]]:
@@ -148,7 +148,7 @@ def stepped_residual(n: float, tolerance: float) -> float:
     return float(omega * np.hypot(omega * y, y1))
 
 
-def spectrum_rows(unit: Unit, timer: Timer) -> Iterator[Row]:
+def spectrum_rows(unit: Unit, timer: Timer) -> Iterator[BenchRow]:
     """The spectrum of the cycloidal law, its residual against the closed form, beside an integrator."""
     work, ratios = partial(shock_spectrum, "cycloidal", RATIOS), RATIOS[RATIOS != 1]
     exact, found = residual_of_cycloid(ratios), shock_spectrum("cycloidal", ratios).residual
@@ -165,7 +165,7 @@ def spectrum_rows(unit: Unit, timer: Timer) -> Iterator[Row]:
         off = np.abs(values - residual_of_cycloid(some)).max() / exact.max()
         what = f"beside DOP853 at a tolerance of {tolerance:g}, the residual alone: off by {off:.1e}"
         slower = stepped / some.size
-        yield Row("shock spectrum", what, slower * RATIOS.size / seconds, "times faster", "", None, slower)
+        yield BenchRow("shock spectrum", what, slower * RATIOS.size / seconds, "times faster", "", None, slower)
 
 
 # --- motions by conditions -------------------------------------------------------------------------------------------
@@ -185,13 +185,13 @@ def conditions_error() -> float | None:
     return float((np.abs(found - exact).max(axis=1) / np.abs(exact).max(axis=1)).max()) / reference.EPS
 
 
-def condition_rows(unit: Unit, timer: Timer) -> Iterator[Row]:
+def condition_rows(unit: Unit, timer: Timer) -> Iterator[BenchRow]:
     """A rise and return by nine conditions, beside scipy's interpolation with the same conditions."""
     motion, phi = by_conditions(), (np.arange(unit.n) + 0.5) * FULL_TURN / unit.n
     seconds, making = timer.seconds(partial(motion, phi)), timer.seconds(by_conditions)
     name = "motion by conditions"
     yield unit.row(name, f"s, v, a, j at {unit.n} stations", seconds, "", conditions_error())
-    yield Row(name, "made of nine conditions, in exact fractions", 1e3 * making, "ms", "", None, making)
+    yield BenchRow(name, "made of nine conditions, in exact fractions", 1e3 * making, "ms", "", None, making)
     interpolate: Any = optional("scipy.interpolate")
     if interpolate is None:
         return
@@ -203,7 +203,7 @@ def condition_rows(unit: Unit, timer: Timer) -> Iterator[Row]:
     exact = np.array(motion(within)[:3])
     off = (np.abs(found - exact).max(axis=1) / np.abs(exact).max(axis=1)).max()
     what = f"beside scipy's KroghInterpolator, s, v, a, j: {off:.1e} apart"
-    yield Row(name, what, slower * unit.n / seconds, "times faster", "", None, slower)
+    yield BenchRow(name, what, slower * unit.n / seconds, "times faster", "", None, slower)
 
 
 LOADS = Section(

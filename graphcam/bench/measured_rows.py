@@ -10,7 +10,7 @@ from functools import cached_property, partial
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.bench.rows import Gauge, Row, Section
+from graphcam.bench.rows import BenchRow, Gauge, Section
 from graphcam.given.laws import BETWEEN_DWELLS, Floats
 from graphcam.given.measured import DEFAULT_TOLERANCE, TOLERANCE_OF_NOISE, MeasuredMotion, measured_motion
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Moving, Phase, Return, Rise
@@ -38,7 +38,7 @@ JERK = 60.0
 """The jerk of the 3-4-5 law where it begins and ends, in h/F^3: what the jerk of a motion changes by over a phase."""
 
 
-def measured_rows(gauge: Gauge) -> Iterator[Row]:
+def measured_rows(gauge: Gauge) -> Iterator[BenchRow]:
     """Rows of random motions with noise: wrong phases, ends and maximum accelerations, beside what noise permits."""
     every = list(sampled_motions(MOTIONS))
     for noise in NOISES:
@@ -47,15 +47,15 @@ def measured_rows(gauge: Gauge) -> Iterator[Row]:
         tolerance = TOLERANCE_OF_NOISE * noise or DEFAULT_TOLERANCE
         seconds = gauge.timer.seconds(partial(measured_motion, first.phi, first.s, tolerance))
         wrong, end = sum(not one.phases_right for one in some), max(one.end_error for one in some)
-        yield Row(name, "phases wrong", wrong, f"of {len(some)}", "<= 0", None, seconds)
-        yield Row(name, "ends off, beside two rows or what noise hides", end, "maximum", "<= 1", None, seconds)
+        yield BenchRow(name, "phases wrong", wrong, f"of {len(some)}", "<= 0", None, seconds)
+        yield BenchRow(name, "ends off, beside two rows or what noise hides", end, "maximum", "<= 1", None, seconds)
         for jumps, what in enumerate(("continuous", "jumps")):
             of_these = [one for one in some if one.jumps == bool(jumps)]
             off = 100 * max(abs(one.peak_error) for one in of_these)
             best = 100 * math.sqrt(np.mean([one.least_scatter**2 for one in of_these])) if noise else 0.0
             what = f"max |a| off, acceleration {what}; sd of the best linear estimate {best:.1f} %"
             goal = "" if math.isinf(PEAKS[noise][jumps]) else f"<= {100 * PEAKS[noise][jumps]:g} %"
-            yield Row(name, what, off, "%", goal, None, seconds)
+            yield BenchRow(name, what, off, "%", goal, None, seconds)
 
 
 @dataclass(frozen=True, eq=False)

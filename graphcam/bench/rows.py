@@ -13,7 +13,7 @@ _GOAL = re.compile(r"(?:(?P<sense>[<>]=) (?P<limit>\S+)|(?P<middle>\S+) ± (?P<r
 
 
 @dataclass(frozen=True)
-class Row:
+class BenchRow:
     """One measured figure.
 
     ratio : in ``unit``, or how many times faster
@@ -35,9 +35,9 @@ class Row:
     def goal_met(self) -> bool | None:
         """Whether the figure keeps to its goal; None without one.
 
-        >>> Row("law", "f", 0.8, "SC(360)", "<= 0.7", None, 4e-6).goal_met
+        >>> BenchRow("law", "f", 0.8, "SC(360)", "<= 0.7", None, 4e-6).goal_met
         False
-        >>> Row("law", "f", 0.8, "SC(360)", "<= 5 µs", None, 4e-6).goal_met
+        >>> BenchRow("law", "f", 0.8, "SC(360)", "<= 5 µs", None, 4e-6).goal_met
         True
 
         Raises
@@ -62,9 +62,9 @@ class Unit:
     n: int
     seconds: float
 
-    def row(self, name: str, what: str, seconds: float, goal: str = "", error_eps: float | None = None) -> Row:
+    def row(self, name: str, what: str, seconds: float, goal: str = "", error_eps: float | None = None) -> BenchRow:
         """A time [s] in this unit."""
-        return Row(name, what, seconds / self.seconds, f"SC({self.n})", goal, error_eps, seconds)
+        return BenchRow(name, what, seconds / self.seconds, f"SC({self.n})", goal, error_eps, seconds)
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,7 @@ class Section:
     key: str
     title: str
     note: str
-    measured: Callable[[Gauge], Iterable[Row]]
+    measured: Callable[[Gauge], Iterable[BenchRow]]
 
 
 def spoken_time(seconds: float) -> str:

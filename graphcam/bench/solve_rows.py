@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from graphcam.bench.rows import Gauge, Row, Section
+from graphcam.bench.rows import BenchRow, Gauge, Section
 from graphcam.plots.step_board import StepBoard
 from graphcam.report.documents import contents_of, drawing_of, sheet_of
 from graphcam.report.step_player import player_of
@@ -29,12 +29,12 @@ STARTED = 3
 PROGRAM = "import sys; from graphcam.cli import main; sys.argv = ['graphcam', 'solve', '--out', sys.argv[1]]; main()"
 
 
-def solve_rows(gauge: Gauge) -> Iterator[Row]:
+def solve_rows(gauge: Gauge) -> Iterator[BenchRow]:
     """A whole run of the built-in task; of every built-in one layout, step player and the slowest of its views."""
     with TemporaryDirectory() as folder:
         libraries, whole = (_processor_seconds(program, Path(folder)) for program in (LIBRARIES, PROGRAM))
     unit = f"s beyond {TIMES:g} times the libraries"
-    yield Row("solve, all files", "coursework", whole - TIMES * libraries, unit, "<= 1", None, whole)
+    yield BenchRow("solve, all files", "coursework", whole - TIMES * libraries, unit, "<= 1", None, whole)
     for name, task in _tasks().items():
         solution = solve(task)
         contents = contents_of(solution)
@@ -46,8 +46,8 @@ def solve_rows(gauge: Gauge) -> Iterator[Row]:
         yield _milliseconds("view after a size changed", f"{name}, {slowest}", times[slowest], 30)
 
 
-def _milliseconds(name: str, what: str, seconds: float, most: int) -> Row:
-    return Row(name, what, 1e3 * seconds, "ms", f"<= {most}", None, seconds)
+def _milliseconds(name: str, what: str, seconds: float, most: int) -> BenchRow:
+    return BenchRow(name, what, 1e3 * seconds, "ms", f"<= {most}", None, seconds)
 
 
 def _processor_seconds(program: str, folder: Path) -> float:

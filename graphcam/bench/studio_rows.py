@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from itertools import count
 from typing import Any
 
-from graphcam.bench.rows import Gauge, Row, Section
+from graphcam.bench.rows import BenchRow, Gauge, Section
 from graphcam.studio.engine import answer
 from graphcam.studio.task_paths import changed, value_at
 from graphcam.studio.task_text import plain_task
@@ -18,13 +18,15 @@ STEP = 1e-3
 """How much a size grows from one picture to the next [mm or degrees]."""
 
 
-def studio_rows(gauge: Gauge) -> Iterator[Row]:
+def studio_rows(gauge: Gauge) -> Iterator[BenchRow]:
     """Every view of every built-in task while one of its sizes is dragged."""
     for name in (*BUILT_IN, "arcs"):
         task = plain_task(builtin_arcs_task() if name == "arcs" else builtin_task(name))
         for view in answer({"task": task, "views": []})["names"]:
             seconds = gauge.timer.seconds(dragging(task, view["name"]))
-            yield Row("view while dragged", f"{name}, {view['name']}", 1e3 * seconds, "ms", f"<= {MOST}", None, seconds)
+            yield BenchRow(
+                "view while dragged", f"{name}, {view['name']}", 1e3 * seconds, "ms", f"<= {MOST}", None, seconds
+            )
 
 
 def dragging(task: dict[str, Any], view: str) -> Callable[[], dict[str, Any]]:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from graphcam.bench.rows import Gauge, Row, Section
+from graphcam.bench.rows import BenchRow, Gauge, Section
 
 SIZES = (10**5, 10**6, 10**7)
 WORKERS = (1, 2, 4)
@@ -57,12 +57,12 @@ class SweptFile:
         return self.designs / self.seconds
 
 
-def curve_rows(gauge: Gauge) -> Iterator[Row]:
+def curve_rows(gauge: Gauge) -> Iterator[BenchRow]:
     """The curve as rows of the report."""
     for run in sweep_curve(gauge.swept):
         memory = "" if run.peak_bytes is None else f", {run.peak_bytes / 2**20:.0f} MiB at most"
         what = f"{run.designs:.0e} designs, workers: {run.workers}; {run.processor_seconds:.1f} s of processors{memory}"
-        yield Row("sweep to Parquet", what, run.rate, "designs/s", "", None, run.seconds)
+        yield BenchRow("sweep to Parquet", what, run.rate, "designs/s", "", None, run.seconds)
 
 
 def sweep_curve(

@@ -110,8 +110,8 @@ class FlatFaced:
 def swing_remedy(lift: float, otherwise: Words) -> Words:
     """What to do about the lift of an arm [rad] that is too large: beyond a turn it was meant in another unit.
 
-    >>> swing_remedy(15, "swing the arm less")
-    "in Python an arm's lift is an angle in radians: math.radians(15)"
+    >>> print(swing_remedy(15, "swing the arm less"))
+    in Python an arm's lift is an angle in radians: math.radians(15)
     """
     if lift > 2 * math.pi:
         return say("in Python an arm's lift is an angle in radians: math.radians({lift:g})", lift=lift)

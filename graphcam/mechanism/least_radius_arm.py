@@ -98,7 +98,7 @@ def _check_lift(motion: Motion, limits: Limits) -> None:
     back = math.pi / 2 if limits.return_ is None else limits.return_
     room = 2 * min(limits.rise, back) if limits.rest else limits.rise + back
     if motion.lift >= room:
-        lift, limit = (f"{math.degrees(angle):g} degrees" for angle in (motion.lift, room))
+        lift, limit = (say("{angle:g} degrees", angle=math.degrees(angle)) for angle in (motion.lift, room))
         remedy = say("permit larger pressure angles or swing the arm less")
         remedy = swing_remedy(motion.lift, remedy)
         raise DesignError("lift", lift, say("less than {limit} for these limits", limit=limit), remedy)

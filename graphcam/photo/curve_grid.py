@@ -38,7 +38,7 @@ LOST = -0.02
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class CurveGrid:
     """Places on the page, by stations along and states across.
 
     base : (stations, 1) from where the states are counted
@@ -86,12 +86,12 @@ class Evidence:
     noise: float
 
 
-def grid_of(view: PrintedView) -> Grid:
+def grid_of(view: PrintedView) -> CurveGrid:
     """The grid of places at which the curve of a view may run."""
     return _round_origin(view) if view.closed else _over_axis(view)
 
 
-def _round_origin(view: PrintedView) -> Grid:
+def _round_origin(view: PrintedView) -> CurveGrid:
     left, bottom, right, top = view.room
     turn = 2 * np.pi / ROUND
     outwards = np.exp(1j * turn * np.arange(ROUND))[:, None]
@@ -102,10 +102,10 @@ def _round_origin(view: PrintedView) -> Grid:
     base = np.full(outwards.shape, view.origin, np.complex128)
     along = 1j * outwards * radius * turn
     steepest = round(STEEPEST_ROUND * turn / relative)
-    return Grid(base, outwards, radius, along, steepest, True, _inside(base + outwards * radius, view))
+    return CurveGrid(base, outwards, radius, along, steepest, True, _inside(base + outwards * radius, view))
 
 
-def _over_axis(view: PrintedView) -> Grid:
+def _over_axis(view: PrintedView) -> CurveGrid:
     _, bottom, _, top = view.room
     step = min(max((view.end - view.start) / ROUND, SHORTEST), LONGEST)
     count = round((view.end - view.start) / step) + 1
@@ -115,7 +115,7 @@ def _over_axis(view: PrintedView) -> Grid:
     upwards = np.full(base.shape, 1j)
     along = np.full((count, offsets.size), complex(base[1, 0] - base[0, 0]))
     steepest = round(STEEPEST_OVER * step / spacing)
-    return Grid(base, upwards, offsets, along, steepest, False, _inside(base + upwards * offsets, view))
+    return CurveGrid(base, upwards, offsets, along, steepest, False, _inside(base + upwards * offsets, view))
 
 
 def _inside(places: Points, view: PrintedView) -> NDArray[np.bool_]:
@@ -126,7 +126,7 @@ def _inside(places: Points, view: PrintedView) -> NDArray[np.bool_]:
     return np.asarray(across & (places.imag > bottom + EDGE) & (places.imag < top - EDGE))
 
 
-def evidence_of(ink: Ink, grid: Grid) -> Evidence:
+def evidence_of(ink: Ink, grid: CurveGrid) -> Evidence:
     """What the pencil says for every place and slope."""
     reduced = ink.pencil.reduced(PER_MM)
     answers = np.empty((DIRECTIONS, *grid.places.shape), np.float32)
@@ -144,6 +144,6 @@ def evidence_of(ink: Ink, grid: Grid) -> Evidence:
     return Evidence(chosen, answers.max(0), spread(np.concatenate(quiet)))
 
 
-def hidden_in(black: Raster, grid: Grid) -> NDArray[np.bool_]:
+def hidden_in(black: Raster, grid: CurveGrid) -> NDArray[np.bool_]:
     """Whether black print lies at each place (stations, states)."""
     return black.at(grid.places, nearest=True) > 0.5

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import maximum_filter1d
 
 from graphcam.photo.bridged_gaps import bridged
-from graphcam.photo.curve_grid import LOST, Evidence, Grid, evidence_of, grid_of, hidden_in
+from graphcam.photo.curve_grid import LOST, CurveGrid, Evidence, evidence_of, grid_of, hidden_in
 from graphcam.photo.curve_refusals import MOST_DARKER, Measures, refusal_of
 from graphcam.photo.flag_runs import Flags, long_runs, longest_run, runs
 from graphcam.photo.pencil_ink import Ink
@@ -94,7 +94,7 @@ class RivalLine:
         return float(self.track.lengths[self.seen].sum() / self.track.lengths.sum())
 
 
-def _found(grid: Grid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[BestWay, Track, float]:
+def _found(grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[BestWay, Track, float]:
     """The curve, and the share of its length along which a far darker line runs."""
     full = max(FULL * evidence.noise, FULL_AT_FIRST)
     strong = track_of(best_way(_rewards(evidence, black, full), grid.wraps), grid, evidence, ink).strong
@@ -107,13 +107,13 @@ def _found(grid: Grid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[Best
     return way, track, darker
 
 
-def _at_strength(strong: float, grid: Grid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[BestWay, Track]:
+def _at_strength(strong: float, grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[BestWay, Track]:
     """The curve, if its strong places are so dark."""
     way = best_way(_rewards(evidence, black, max(FULL * evidence.noise, OF_STRONG * strong)), grid.wraps)
     return way, track_of(way, grid, evidence, ink)
 
 
-def _darker(track: Track, grid: Grid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[float, float]:
+def _darker(track: Track, grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[float, float]:
     """Share of the length along which the darkest line is ``DARKER`` than the curve, and how dark it is there."""
     full = max(FULL * evidence.noise, 2 * DARKER * track.strong)
     line = track_of(best_way(_rewards(evidence, black, full), grid.wraps), grid, evidence, ink)
@@ -134,7 +134,7 @@ def _rewards(evidence: Evidence, black: Flags, full: float) -> NDArray[np.float3
 
 
 def _measures(
-    way: BestWay, track: Track, seen: Flags, grid: Grid, rival: float, twin: float, darker: float
+    way: BestWay, track: Track, seen: Flags, grid: CurveGrid, rival: float, twin: float, darker: float
 ) -> Measures:
     there = ~track.hidden
     length = float(track.lengths[there].sum())
@@ -155,7 +155,7 @@ def _measures(
     )
 
 
-def _rival(track: Track, grid: Grid, evidence: Evidence, black: Flags, ink: Ink) -> RivalLine:
+def _rival(track: Track, grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> RivalLine:
     full = max(RIVAL_FULL * evidence.noise, RIVAL_OF_STRONG * track.strong)
     rewards = _rewards(evidence, black, full)
     room = _room_of(track, grid)
@@ -166,7 +166,7 @@ def _rival(track: Track, grid: Grid, evidence: Evidence, black: Flags, ink: Ink)
     return RivalLine(second, seen)
 
 
-def _by_another_way(track: Track, rival: RivalLine, grid: Grid) -> Flags:
+def _by_another_way(track: Track, rival: RivalLine, grid: CurveGrid) -> Flags:
     """Flags (n,) where a second line leaves the curve and comes back: either may be meant, as about a stain."""
     second = rival.track
     dark = rival.seen & (second.answers > AS_DARK * track.answers)
@@ -177,7 +177,7 @@ def _by_another_way(track: Track, rival: RivalLine, grid: Grid) -> Flags:
     return another
 
 
-def _room_of(track: Track, grid: Grid) -> NDArray[np.float64]:
+def _room_of(track: Track, grid: CurveGrid) -> NDArray[np.float64]:
     """How far (n,) across the grid the curve keeps others away, at stations, which for a steep one is farther."""
     upright = np.abs((track.normal * np.conj(grid.across[:, 0])).real)
     own = APART / np.maximum(upright, STEEPEST)

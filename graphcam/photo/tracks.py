@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from graphcam.photo.curve_grid import Evidence, Grid, hidden_in
+from graphcam.photo.curve_grid import CurveGrid, Evidence, hidden_in
 from graphcam.photo.flag_runs import Flags, long_runs, runs
 from graphcam.photo.pencil_ink import Ink
 from graphcam.photo.printed import Points
@@ -73,7 +73,7 @@ class Track:
     lengths: NDArray[np.float64]
 
 
-def track_of(way: BestWay, grid: Grid, evidence: Evidence, ink: Ink) -> Track:
+def track_of(way: BestWay, grid: CurveGrid, evidence: Evidence, ink: Ink) -> Track:
     """What lies along a way."""
     station = np.arange(way.states.size)
     states = grid.places.shape[1]

@@ -70,7 +70,7 @@ class Format:
     def said(self) -> Words:
         """What a message calls the sheet.
 
-        >>> Format("A3", "iso").said, Format("A4", "gost").said
+        >>> str(Format("A3", "iso").said), str(Format("A4", "gost").said)
         ('A3 landscape', 'A4 portrait')
         """
         return say("{name} portrait", name=self.name) if self.upright else say("{name} landscape", name=self.name)

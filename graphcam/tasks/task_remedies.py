@@ -24,8 +24,9 @@ def key_remedy(key: str, value: Any, known: Iterable[str], data: Mapping[str, An
 
     known : the keys that it has;  data : the whole file
 
-    >>> key_remedy("base_radius", 80, ["prime_radius"], {"follower": {"kind": "translating", "roller_radius": 15}})
-    'graphcam takes the prime radius, of the pitch curve: prime_radius = base_radius + roller_radius = 95'
+    >>> follower = {"kind": "translating", "roller_radius": 15}
+    >>> print(key_remedy("base_radius", 80, ["prime_radius"], {"follower": follower}))
+    graphcam takes the prime radius, of the pitch curve: prime_radius = base_radius + roller_radius = 95
     """
     if key in BASE_RADIUS and "arcs" not in data:
         return _radius_remedy(key, value, data.get("follower"))
@@ -51,8 +52,9 @@ def value_remedy(key: str, value: Any, choices: Iterable[str]) -> Words:
 
     choices : the words that it may be
 
-    >>> value_remedy("format", "a3", ["A3", "A4"]), value_remedy("offset", "auto", ())
-    ("did you mean 'A3'?", 'or leave it out to let it be found')
+    >>> print(value_remedy("format", "a3", ["A3", "A4"]), value_remedy("offset", "auto", ()), sep="\\n")
+    did you mean 'A3'?
+    or leave it out to let it be found
     """
     if not isinstance(value, str):
         return ""
@@ -62,8 +64,8 @@ def value_remedy(key: str, value: Any, choices: Iterable[str]) -> Words:
 def missing_remedy(key: str, data: Mapping[str, Any]) -> Words:
     """The remedy for a key of the file that must be there.
 
-    >>> missing_remedy("rotation", {"follower": {"kind": "flat-faced"}})
-    'write rotation = "cw" or "ccw", as the cam turns in your task'
+    >>> print(missing_remedy("rotation", {"follower": {"kind": "flat-faced"}}))
+    write rotation = "cw" or "ccw", as the cam turns in your task
     """
     if key != "rotation":
         return ""

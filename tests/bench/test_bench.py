@@ -44,7 +44,7 @@ from graphcam.bench.rivals import (
     integrated_error,
     translating_lines,
 )
-from graphcam.bench.rows import Gauge, Row
+from graphcam.bench.rows import BenchRow, Gauge
 from graphcam.bench.scenes import ARM, LIMIT, free_scene, scene
 from graphcam.bench.sweep_curve import swept_file
 from graphcam.bench.timing import Timer
@@ -295,13 +295,13 @@ def test_the_command_writes_the_whole_report(tmp_path, monkeypatch):
     ],
 )
 def test_a_goal_is_met_by_the_ratio_or_by_the_time_where_it_names_one(goal, ratio, seconds, met):
-    assert Row("", "", ratio, "MB", goal, None, seconds).goal_met is met
+    assert BenchRow("", "", ratio, "MB", goal, None, seconds).goal_met is met
 
 
 @pytest.mark.parametrize("goal", ["0.7", "< 0.7", "<= fast", "<= 5 minutes"])
 def test_a_goal_that_cannot_be_read_is_no_goal_met(goal):
     with pytest.raises(ValueError, match=r"goal|float"):
-        _ = Row("", "", 0.0, "SC(1)", goal, None, 0.0).goal_met
+        _ = BenchRow("", "", 0.0, "SC(1)", goal, None, 0.0).goal_met
 
 
 @pytest.mark.parametrize("width", [60, 80, 120])

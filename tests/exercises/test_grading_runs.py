@@ -390,7 +390,7 @@ def test_pages_that_a_killed_run_left_are_cleared_by_the_next(later: str, ours: 
 @pytest.mark.slow
 def test_a_run_that_is_killed_ends_the_code_that_it_runs(tmp_path: Path):
     if os.getuid() == 0 and missing(Level.L1):
-        pytest.skip(missing(Level.L1))
+        pytest.skip(str(missing(Level.L1)))
     scratch, source = tmp_path / "scratch", "import time\nopen('begun', 'w').close()\ntime.sleep(100)"
     cell = {"cell_type": "code", "metadata": {}, "source": source, "outputs": []}
     for student in ("Anna", "Boris", "Clara"):

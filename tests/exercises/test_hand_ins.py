@@ -43,7 +43,8 @@ def answers(student: str) -> str:
 def grade(course: Path, **more: object) -> tuple[str, dict[str, float]]:
     """What the command says, and every student's marks."""
     out = course / "out" / "grades.csv"
-    said = grade_course(Course(course / "packed", course / "secret", out, feedback=course / "pages", **more))  # type: ignore[arg-type]
+    told = grade_course(Course(course / "packed", course / "secret", out, feedback=course / "pages", **more))  # type: ignore[arg-type]
+    said = "\n".join(map(str, told))
     records = json.loads(out.with_suffix(".json").read_text(encoding="utf-8"))
     return said, {record["student"]: record["total"] for record in records}
 
@@ -164,7 +165,7 @@ def packed(course: Path, files: dict[str, str]) -> zipfile.ZipFile:
 
 def graded_zip(course: Path) -> tuple[str, dict[str, float]]:
     out = course / "out" / "grades.csv"
-    said = grade_course(Course(course / "all.zip", course / "secret", out))
+    said = "\n".join(map(str, grade_course(Course(course / "all.zip", course / "secret", out))))
     records = json.loads(out.with_suffix(".json").read_text(encoding="utf-8"))
     return said, {record["student"]: record["total"] for record in records}
 

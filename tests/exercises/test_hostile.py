@@ -170,7 +170,7 @@ def level(request: pytest.FixtureRequest) -> Level:
     if request.param is Level.L2:
         program("bwrap")
     elif os.getuid() == 0 and missing(request.param):
-        pytest.skip(missing(request.param))
+        pytest.skip(str(missing(request.param)))
     assert missing(request.param) == ""
     return request.param
 
@@ -245,7 +245,7 @@ def test_nothing_is_left_behind_at_l1(tmp_path: Path, monkeypatch: pytest.Monkey
     """Neither a process that goes its own way, nor a tree of folders that is too deep for Python to remove."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     if os.getuid() == 0 and missing(Level.L1):
-        pytest.skip(missing(Level.L1))
+        pytest.skip(str(missing(Level.L1)))
     ended = run_cells(Level.L1, [LEAVING.format(left="left")], ["left"])
     assert ended.handed_out == b'{"left": false}\n'
     assert list(tmp_path.iterdir()) == []

@@ -369,7 +369,7 @@ def test_limits_that_stand_in_each_other_s_way_are_both_told():
     with pytest.raises(gc.DesignError) as error:
         gc.size_cam(motion, load, **asked | {"prime_radius": (30, 40.5)})
     assert error.value.quantity == "pressure angle on the rise and stress"
-    angle, stress = re.fullmatch(r"([\d.]+) degrees and ([\d.]+) MPa", error.value.value).groups()
+    angle, stress = re.fullmatch(r"([\d.]+) degrees and ([\d.]+) MPa", str(error.value.value)).groups()
     assert 25 < float(angle) < 26
     assert 1500 < float(stress) < 1550
     assert error.value.limit == "at most 25 degrees and at most 1500 MPa"

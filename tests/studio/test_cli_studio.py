@@ -174,7 +174,7 @@ def test_it_answers_writes_into_its_folder_and_ends_with_ctrl_c(tmp_path):
         found = post(address, "/engine", {"seq": 1, "task": task, "views": [{"name": "profile"}]})
         assert (found["seq"], found["ok"], found["sizes"]["prime_radius"]) == (1, True, 44.0)
         written = post(address, "/write", {"kind": "note", "task": task})
-        assert written == {"files": ["comparison.csv", "comparison.md", "note.md"], "folder": "out"}
+        assert written == {"files": ["comparison.csv", "comparison.md", "note.md", "note.html"], "folder": "out"}
         for kind in ("../note", "/etc", "", None, 3, ["note"], {"folder": "/tmp"}):
             assert "must be one of" in post(address, "/write", {"kind": kind, "task": task})["error"]["message"]
         stolen = {**task, "motion": {"table": "/etc/passwd"}}
@@ -185,5 +185,5 @@ def test_it_answers_writes_into_its_folder_and_ends_with_ctrl_c(tmp_path):
         assert process.wait(10) == 130
         assert process.stderr.read() == "graphcam: interrupted\n"
     assert sorted(path.name for path in tmp_path.rglob("*") if path.is_file()) == [
-        "comparison.csv", "comparison.md", "note.md", "solution.json",
+        "comparison.csv", "comparison.md", "note.html", "note.md", "solution.json",
     ]  # fmt: skip

@@ -2,6 +2,7 @@
 
 import ast
 import functools
+import re
 from dataclasses import fields
 from pathlib import Path
 
@@ -24,6 +25,7 @@ NOT_REACHED = {
     "exact counterpart": "a construction of the package itself names its counterpart",
     "reading of *": "a construction of the package itself names its readings",
     "scale": "scales are made of sizes that were checked",
+    "stations of the displacement": "the package divides the turn of a measured motion itself",
     "side": "named by the package itself",
     "number of points": "only an export asks for a number of points",
     "pencil samples": "one hand draws in the studio",
@@ -98,12 +100,33 @@ PARAMETERS = {
 
 
 def literal(node):
-    """A text, its places as stars; None for what is no text."""
+    """A text or the template of a caption, its places as stars; None for what is no text."""
+    if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "say":
+        return re.sub(r"{[^{}]*}", "*", node.args[0].value)
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         return node.value
     if isinstance(node, ast.JoinedStr):
         return "".join(part.value if isinstance(part, ast.Constant) else "*" for part in node.values)
     return None
+
+
+def texts_of(node, scope):
+    """The texts that a node may be: its own, or those that the scope gives to its name."""
+    given = [each.value for each in ast.walk(scope) if isinstance(each, ast.Assign) and named(each.targets[0], node)]
+    return {literal(each) for each in (node, *given)} - {None}
+
+
+def named(target, node):
+    return isinstance(target, ast.Name) and isinstance(node, ast.Name) and target.id == node.id
+
+
+def scopes_of(file):
+    """The functions of a file with all their nodes, and the file with its own."""
+    module = ast.parse(file.read_text(encoding="utf-8"))
+    functions = [node for node in ast.walk(module) if isinstance(node, ast.FunctionDef)]
+    inside = {id(node) for function in functions for node in ast.walk(function)}
+    outside = [node for node in ast.walk(module) if id(node) not in inside]
+    return [*((function, list(ast.walk(function))) for function in functions), (ast.Module([], []), outside)]
 
 
 @functools.cache
@@ -112,12 +135,12 @@ def quantities():
     found = {}
     for room in ROOMS:
         for file in sorted((PACKAGE / room).rglob("*.py")):
-            for node in ast.walk(ast.parse(file.read_text())):
-                name = getattr(getattr(node, "func", None), "id", "")
-                if name in CHECKS and node.args:
-                    text = literal(node.args[1 if name == "RowError" else 0])
-                    if text is not None:
-                        found.setdefault(text, []).append(f"{room}/{file.name}:{node.lineno}")
+            for scope, nodes in scopes_of(file):
+                for node in nodes:
+                    name = getattr(getattr(node, "func", None), "id", "")
+                    if name in CHECKS and node.args:
+                        for text in texts_of(node.args[1 if name == "RowError" else 0], scope):
+                            found.setdefault(text, []).append(f"{room}/{file.name}:{node.lineno}")
     return found
 
 
@@ -129,7 +152,7 @@ def of_variables():
         for file in sorted((PACKAGE / room).rglob("*.py")):
             for function in ast.walk(ast.parse(file.read_text())):
                 if isinstance(function, ast.FunctionDef) and raises_of_variables(function):
-                    found |= {node.value for node in ast.walk(function) if isinstance(node, ast.Constant)}
+                    found |= {literal(node) for node in ast.walk(function)} - {None}
     return found
 
 

@@ -163,7 +163,7 @@ def test_what_is_said_of_the_offset_and_the_rotation_is_true():
 def _of_rotation() -> str:
     from graphcam.tasks.task_remedies import missing_remedy
 
-    return missing_remedy("rotation", {"follower": {"kind": "translating"}})
+    return str(missing_remedy("rotation", {"follower": {"kind": "translating"}}))
 
 
 @pytest.mark.parametrize(

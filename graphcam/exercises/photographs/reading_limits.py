@@ -31,7 +31,7 @@ def limited(gigabytes: float = GIGABYTES) -> Generator[Allow]:
 
     Where there are no limits of memory, as on Windows, that of time holds alone.
     """
-    with _limited_memory(gigabytes), Path(os.devnull).open("w") as nowhere:
+    with _limited_memory(gigabytes), Path(os.devnull).open("w", encoding="utf-8", newline="\n") as nowhere:
         try:
             # The clock is C's: it needs nothing of Python, which may wait for a library that never comes back.
             yield lambda seconds: faulthandler.dump_traceback_later(seconds, exit=True, file=nowhere)
