@@ -7,6 +7,7 @@ templates stand in ``data/player``.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, field
 from functools import cache
@@ -92,6 +93,10 @@ WORDS: Mapping[str, Caption] = {
     "noscript": say("JavaScript is off: only the finished sheet is shown."),
 }
 """What the page itself says."""
+INDENT = re.compile(r"\n\s+(?=<)")
+"""What stands before an element that begins a line of the template: nothing is seen of it."""
+IDLE = re.compile(r'(?P<text>"(?:[^"\\]|\\.)*")|(?<=\d)\.0(?=[,\]}])')
+"""Texts, which stay as they are, and the idle digits of whole numbers."""
 SCRIPTS = ("gestures.js", "camera.js", "board.js", "lights.js", "player.js")
 """What shows the steps; later ones use the functions of earlier ones."""
 MARGIN = 8.0
@@ -257,7 +262,7 @@ def player(
     lettering = (text.text for text in drawing.texts)
     remark = language_of(language).remark
     said = [drawing.title, remark, *words.values(), *(text for slide in slides for text in _texts(slide))]
-    return _template().render(
+    page = _template().render(
         title=drawing.title,
         language=language,
         remark=remark,
@@ -269,9 +274,9 @@ def player(
         scripts=[whole(name) for name in (*SCRIPTS, *(("mechanism.js", "turning.js") if mechanism else ()))],
         mechanism=mechanism,
         fonts=Markup(font_faces([*said, *lettering])),
-        # No text of a drawing may end the script that holds it.
-        data=Markup(json.dumps(data, ensure_ascii=False, allow_nan=False).replace("<", "\\u003c")),
+        data=Markup(_json(data)),
     )
+    return INDENT.sub("\n", page)
 
 
 @cache
@@ -282,8 +287,19 @@ def _template() -> Template:
     loader = PackageLoader("graphcam", "data/player")
     environment = Environment(autoescape=True, loader=loader, undefined=StrictUndefined)
     environment.filters["indexed"] = _indexed
+    environment.filters["json"] = _json
     environment.trim_blocks = environment.lstrip_blocks = True
     return environment.get_template("page.html")
+
+
+def _json(data: object) -> str:
+    """Plain data without idle spaces and digits; no text of a drawing may end the script that holds it.
+
+    >>> print(_json({"a": [1.0, -20.5, 30.0], "b": "[1.0]</script>"}))
+    {"a":[1,-20.5,30],"b":"[1.0]\\u003c/script>"}
+    """
+    written = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    return IDLE.sub(lambda found: found["text"] or "", written).replace("<", "\\u003c")
 
 
 def _indexed(text: str) -> Markup:

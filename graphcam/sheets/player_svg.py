@@ -33,6 +33,9 @@ MM_PER_POINT = 25.4 / 72
 ANCHORS = {"left": "", "center": " middle", "right": " end"}
 IDLE = re.compile(r"\.00|(?<=\.\d)0")
 """The idle digits of a number with two decimals."""
+UPRIGHT = re.compile(r"M([-\d.]+) ([-\d.]+)L\1 ([-\d.]+)(?=M|$)")
+LEVEL = re.compile(r"M([-\d.]+) ([-\d.]+)L([-\d.]+) \2(?=M|$)")
+"""A single stroke along an axis of the page, of which one number says where it ends."""
 
 
 Numbers = Callable[[Source], tuple[int | None, bool]]
@@ -48,7 +51,7 @@ def group_svg(group: Group, height: float, numbers: Numbers = _unnumbered) -> st
 
     >>> import numpy as np
     >>> print(group_svg(Group("step-01 a", (Strokes(np.array([0, 5j]), np.array([10, 10 + 5j]), "axis"),)), 297.0))
-    <path class="line axis" d="M0 297L10 297M0 292L10 292"/>
+    <path class="line axis" d="M0 297H10M0 292H10"/>
     """
     pieces = ((place, entity) for whole in group.entities for place, entity in _in_pieces(whole, numbers))
     runs = groupby(pieces, key=lambda piece: (piece[0], kind_of(piece[1]), piece[1].role))
@@ -111,7 +114,8 @@ def _size(height: float) -> str:
 def _path(entity: Entity, height: float) -> str:
     match entity:
         case Strokes(starts=starts, ends=ends):
-            return _numbers("M%.2f %.2fL%.2f %.2f" * len(starts), np.column_stack([starts, ends]), height)
+            strokes = _numbers("M%.2f %.2fL%.2f %.2f" * len(starts), np.column_stack([starts, ends]), height)
+            return LEVEL.sub(r"M\1 \2H\3", UPRIGHT.sub(r"M\1 \2V\3", strokes))
         case Stroke(points=points, closed=closed):
             return _numbers("M" + "L".join(["%.2f %.2f"] * len(points)) + "Z" * closed, points, height)
         case Curve(points=points):

@@ -236,7 +236,10 @@ def test_a_run_is_told_once_and_its_rows_are_gone_through(run_page):
 def test_an_address_opens_a_row_and_a_row_is_chosen_with_the_pointer(run_page):
     run_page.evaluate("location.hash = '2.1/4'")
     run_page.wait_for_function("document.querySelector('.row-table [aria-current]') !== null")
-    assert state(run_page)["listed"] == "Chord 2: 4.00 mm.\n2\n4.00 mm"
+    assert state(run_page)["listed"] == "2\n4.00 mm"
+    # Who only hears the page is told the whole sentence, and nothing twice.
+    named = run_page.get_by_role("button", name="Chord 2: 4.00 mm.", exact=True)
+    assert named.get_attribute("aria-current") == "step"
     run_page.locator("article:visible .row-table button").nth(1).click()
     assert state(run_page)["address"] == "2.1/3"
     assert run_page.locator(".row-table .later").count() == 1

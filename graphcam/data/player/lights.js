@@ -58,7 +58,8 @@ function placeBefore([step, part], counts) {
 // The parts of a step stand in a list; those of a run in a list of its own, under what is said of all of them.
 const itemsOf = (slide) => [...slide.querySelectorAll("[data-part]")];
 const runOf = (item) => item?.closest(".run");
-const lineOf = (item) => item.querySelector(".done-here").textContent;
+// What is said of a place of a run stands in its table in short, and as a whole in the name of its button.
+const lineOf = (item) => item.getAttribute("aria-label") ?? item.querySelector(".done-here").textContent;
 
 // What is said of a whole step in parts, where it has no caption of its own.
 const wholeOf = (slide) => (slide.querySelector(".caption") ? [] : [...slide.querySelectorAll(".said")].map((said) => said.textContent));
