@@ -249,14 +249,15 @@ def _missed(curved: Curved) -> list[Caption]:
     hands of ten read it within four times sigma rho/h^2.
     """
     places, mu_l = curved.acts["triple"].first, curved.givens.inverted.givens.mu_l.per_mm
-    chord, rho = float(np.abs(np.diff(places.shown)).mean()), float(curved.value("rho"))
+    chords, rho = np.abs(np.diff(places.shown)), float(curved.value("rho"))
+    chord = float(chords.mean())
     missed = 4 * CAREFUL * rho / mu_l / chord**2
     if _chosen(curved)[1] >= curved.givens.inverted.acts["pitch"].shown.size:
         return []
     said = say(
         "If every point may be off by {careful:g} mm, ρ may be off by {missed}: 4 × {careful:g} mm × ρ/h², with "
-        "h = {chord:.1f} mm and ρ = {rho:.1f} mm on the profile."
-    ).where(careful=CAREFUL, missed=_percent(missed), chord=chord, rho=rho / mu_l)
+        "h = ({first:.2f} + {second:.2f})/2 = {chord:.1f} mm and ρ = {rho:.1f} mm on the profile."
+    ).where(careful=CAREFUL, missed=_percent(missed), chord=chord, rho=rho / mu_l, first=chords[0], second=chords[1])
     wide = _twice_as_wide(curved)
     if wide is None:
         return [said]

@@ -172,9 +172,9 @@ def test_the_captions_carry_the_numbers_of_the_built_in_task():
         "curvature": [
             "station 1′",
             "enlarged to 2 times its size, at 2:1",
-            "may be off by 43 %",
             "OB measures 61.49 mm",
             "ρ = 30.743 mm",
+            "may be off by 43 %",
         ],
         "roller": ["0.4 r₀ = 17.60 mm"],
         "working_profile": [
