@@ -135,7 +135,7 @@ def _of_the_radius(adopted: Adoption, symbol: str) -> list[Caption]:
     >>> [str(said) for said in _of_the_radius(Adoption(17.0, 102.0, 16.248, 102.12, False, 1.0, 16.222), "c")]
     ['Round the minimum radius, 16.222 mm, up to r₀ = 17 mm.']
     >>> [str(said) for said in _of_the_radius(Adoption(18.0, 102.0, 17.02, 102.12, False, 1.0, 16.98), "c")]
-    ['At c = 102 mm the minimum radius is 17.02 mm.', 'Round the minimum radius, 17.02 mm, up to r₀ = 18 mm.']
+    ['Read the minimum radius again at c = 102 mm: 17.02 mm.', 'Round the minimum radius, 17.02 mm, up to r₀ = 18 mm.']
     """
     told = _against(adopted, adopted.least)
     if adopted.proposed is None:
@@ -143,7 +143,7 @@ def _of_the_radius(adopted: Adoption, symbol: str) -> list[Caption]:
     found = _against(adopted, adopted.proposed)
     if found.template == told.template:
         return [found]
-    at = say("At {symbol} = {place:g} mm the minimum radius is {least:.5g} mm.")
+    at = say("Read the minimum radius again at {symbol} = {place:g} mm: {least:.5g} mm.")
     return [at.where(symbol=symbol, place=adopted.place, least=adopted.least), told]
 
 

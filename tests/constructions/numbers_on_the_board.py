@@ -501,9 +501,16 @@ def not_on_the_board(solution: Any, judged: Judged = unknown) -> Iterator[tuple[
             if len(places) == 1:
                 before += [ActPlaces(each.act, (*each.index.tolist(),)) for each in places[0].draws]
             own.add(_through_named(construction, words), "lengths")
+            own.add(_read_again(construction), "lengths")
             if name != "scheme":
                 for found in judged(words, data.joined(board.read, own), symbols):
                     yield numbers[number], name, found
+
+
+def _read_again(construction: Construction) -> list[float]:
+    """The least radius [mm] that is read once more, at the place that was rounded."""
+    adopted = getattr(construction.givens, "adopted", lambda: None)()
+    return [adopted.least] if adopted is not None else []
 
 
 def _through_named(construction: Construction, words: Words) -> list[float]:
