@@ -587,7 +587,10 @@ def test_the_rounding_compares_what_is_adopted_with_the_least_radius_there():
         ),
         (
             Adoption(45.0, -10.0, 44.02, -9.7, False, 1.0, 43.98),
-            "Read the minimum radius again at c = -10 mm: 44.02 mm. Round the minimum radius, 44.02 mm, up to r₀ = 45 mm.",
+            (
+                "Read the minimum radius again at c = -10 mm: 44.02 mm. "
+                "Round the minimum radius, 44.02 mm, up to r₀ = 45 mm."
+            ),
         ),
         (
             Adoption(47.0, -10.0, 43.28, -9.7, False, 1.0),
