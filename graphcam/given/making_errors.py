@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, among, check_number, nearest
 from graphcam.given.laws import Floats
-from graphcam.words import Caption, say
+from graphcam.words import say
 
 Distribution = Literal["normal", "uniform"]
 SIZES = "roller_diameter", "offset", "distance", "arm"
@@ -115,8 +115,7 @@ class MakingErrors:
         if len(self.harmonics) != len(self.waviness):
             found = say("a list of {harmonics}", harmonics=len(self.harmonics))
             wanted = say("a list of {waviness}, as waviness is", waviness=len(self.waviness))
-            quoted = Caption("'{found}'", {"found": found})
-            raise DesignError("harmonics", quoted, wanted, say("give every amplitude its number of waves per turn"))
+            raise DesignError("harmonics", found, wanted, say("give every amplitude its number of waves per turn"))
         for k, harmonic in enumerate(self.harmonics):
             if not 1 <= harmonic <= HIGHEST:
                 limit = say("from 1 to {highest} waves per turn", highest=HIGHEST)
