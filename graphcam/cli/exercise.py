@@ -11,20 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 from typer import Argument, Option
 
-from graphcam.cli.exercise_read import read
-from graphcam.cli.grade_options import (
-    Anonymous,
-    Attempts,
-    Caps,
-    Deadline,
-    FollowThrough,
-    Late,
-    Near,
-    Overrides,
-    Roster,
-    SecretFile,
-    ShowRight,
-)
+from graphcam.cli.exercise_read import SecretFile, read
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     echo,
@@ -304,16 +291,41 @@ def grade(
     trusted: Annotated[
         bool, Option("--i-trust-these-students", help="Allow level L1, where code can change your files.")
     ] = False,
-    roster: Roster = None,
-    overrides: Overrides = None,
-    follow_through: FollowThrough = None,
-    near: Near = None,
-    cap: Caps = None,
-    deadline: Deadline = "",
-    late: Late = "",
-    attempts: Attempts = "last",
-    anonymous: Anonymous = False,
-    show_right: ShowRight = False,
+    roster: Annotated[
+        Path | None,
+        Option(parser=named, metavar="CSV", help="The students, instead of the roster the course was made for."),
+    ] = None,
+    overrides: Annotated[
+        Path | None,
+        Option(parser=named, metavar="CSV", help="Marks by hand, instead of overrides.csv in the teacher's folder."),
+    ] = None,
+    follow_through: Annotated[
+        float | None,
+        Option(
+            metavar="PART",
+            help="Part of an answer's marks for a correct follow-through from the student's own answers.",
+        ),
+    ] = None,
+    near: Annotated[
+        float | None, Option(metavar="K", help="An answer that is up to K tolerances off earns part of its marks.")
+    ] = None,
+    cap: Annotated[
+        list[str] | None,
+        Option(
+            metavar="MISTAKE=PART",
+            help="Maximum part of all marks with this mistake; repeat the option for more mistakes.",
+        ),
+    ] = None,
+    anonymous: Annotated[
+        bool,
+        Option(
+            "--anonymous", help="Pages show names made from the secret instead of ids; a table says whose they are."
+        ),
+    ] = False,
+    show_right: Annotated[
+        bool, Option("--show-right", help="Students' pages show the right answers; not before the last deadline.")
+    ] = False,
+    elsewhere: Annotated[str, Option("--deadline", "--late", "--attempts", hidden=True)] = "",
 ) -> None:
     """Grade the submissions of a course: answers.toml, .csv, .ipynb or .dxf in the folder of each student.
 
@@ -326,24 +338,13 @@ def grade(
     graphcam exercise grade week-5 --out grades.csv --level L2 --feedback pages
 
     graphcam exercise grade week-5 --out grades.csv --near 2 --cap offset-sign=0.5
-
-    graphcam exercise grade week-5 --out grades.csv --deadline 2026-12-01T23:59 --late 0.1/day
     """
-    from graphcam.exercises.definition.marks_policy import policy_changes
-    from graphcam.exercises.grading.attempts import attempt_rule_of
+    # The parameters have the names of the order's fields.
+    options = dict(locals())
     from graphcam.exercises.grading.course_grading import Course, grade_course
-    from graphcam.exercises.grading.deadlines import deadline_of, late_penalty_of
-    from graphcam.exercises.grading.lateness import NO_PENALTY
 
     with one_message(), progress_bar(say("submissions")) as step:
-        marks = policy_changes(follow_through, near, cap or ())
-        course = Course(
-            *(folder, secret_file, out, exercise, level, seconds, workers, cluster, feedback, gradebook, trusted),
-            *(roster, overrides, marks, deadline_of(deadline) if deadline else None),
-            *(late_penalty_of(late) if late else NO_PENALTY, attempt_rule_of(attempts), anonymous),
-            show_right=show_right,
-        )
-        said = grade_course(course, step)
+        said = grade_course(Course(**options), step)
     for line in said:
         echo_line(line)
 

@@ -8,9 +8,13 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from graphcam.cli.grade_options import SecretFile
 from graphcam.cli.shared import echo_line, named, one_message, progress_bar
 from graphcam.words import say
+
+SecretFile = Annotated[
+    Path | None,
+    Option(parser=named, metavar="F", help="The course's secret, if it is not in the course's folder 'teacher'."),
+]
 
 
 def read(

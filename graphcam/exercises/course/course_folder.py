@@ -6,6 +6,7 @@ import hashlib
 import json
 import os
 import secrets
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from typing import Any
 from graphcam.errors import MissingFileError, TaskError, unreadable
 from graphcam.exercises.course.roster import Student, folder_name, is_cut, read_roster, student_of
 from graphcam.exercises.definition.exercise_file import library
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.files import OutputError
 from graphcam.language import ENGLISH
 from graphcam.words import Caption, say, sequence
@@ -219,6 +221,31 @@ class AnswerKeys:
 
     def _path(self, student: str) -> Path:
         return Path(f"{self.folder}/{KEPT}/{folder_name(student)}.json")
+
+
+@dataclass(frozen=True)
+class KeysAsNeeded(Mapping[str, AnswerKey]):
+    """Answer keys by student, read one by one as they are needed: together they would fill the memory.
+
+    Who has none that can be read is left out.
+
+    kept : where they are;  students : whose
+    """
+
+    kept: AnswerKeys
+    students: Sequence[str]
+
+    def __getitem__(self, student: str) -> AnswerKey:
+        try:
+            return AnswerKey.from_json(self.kept.find(student))
+        except TaskError:
+            raise KeyError(student) from None
+
+    def __iter__(self) -> Iterator[str]:
+        return (student for student in self.students if student in self)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
 
 
 def _alone(course: Path, name: str) -> bool:

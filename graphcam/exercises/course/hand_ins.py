@@ -1,10 +1,13 @@
-"""What lies in a folder of submissions: whose each folder or file is, and what is nobody's."""
+"""What lies in a folder of submissions: whose each folder or file is, and what is nobody's.
+
+Of several attempts of a student the newest counts that has answers.
+"""
 
 import os
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from graphcam.drafting.ink import Caption, say
@@ -17,7 +20,7 @@ from graphcam.exercises.reading.answered_files import answers_in
 from graphcam.exercises.reading.submission_files import answer_files
 
 MOST_ATTEMPTS = 10
-"""How many first attempts of a student are read, and as many of the last: students may pack any number of them."""
+"""How many attempts of a student are looked into, the newest first: students may pack any number of them."""
 ATTEMPT = re.compile(r"(?:attempt|попытка)[ _-]*0*([1-9]\d{0,3})", re.IGNORECASE)
 """A folder in a student's own that holds one of several attempts."""
 
@@ -30,8 +33,6 @@ class HandIn:
     path : a folder of the student's own, or the one that holds the student's files among those of others
     names : of files among those of others, by how each was called when it was handed in how it is called there
     notes : sentences for the teacher
-    attempt : its number; 0 where there is but one
-    time : when it was handed in, as the learning system wrote it into the name; empty where it did not
     unread : it has files, and none that can hold answers; the last of the notes says why
     """
 
@@ -40,8 +41,6 @@ class HandIn:
     path: Path
     names: Mapping[str, str] | None = None
     notes: tuple[Caption, ...] = ()
-    attempt: int = 0
-    time: str = ""
     unread: bool = False
 
 
@@ -54,7 +53,7 @@ class Refused:
 
 
 def hand_ins_in(folder: Path, kept: AnswerKeys, roster: Path | None = None) -> tuple[list[HandIn], list[Refused]]:
-    """What was handed in, in the order of the students and of their attempts, and what is not graded.
+    """What was handed in, in the order of the students, and what is not graded.
 
     Whatever stands there but for plain files is somebody's submission, also a link or a pipe in place of a folder;
     names that begin with a point are not.
@@ -69,7 +68,7 @@ def hand_ins_in(folder: Path, kept: AnswerKeys, roster: Path | None = None) -> t
     known = course_students(kept, roster)
     names = _names(folder, lambda name: bool(kept.find(kept.student(name))), lms=known is not None)
     if known is None:
-        return sorted((one for name in names for one in _own(folder, kept.student(name), name)), key=_order), []
+        return sorted((_own(folder, kept.student(name), name) for name in names), key=_order), []
     return _assigned(folder, names, kept.student, known)
 
 
@@ -99,8 +98,8 @@ def _names(folder: Path, known: Callable[[str], bool], *, lms: bool) -> list[str
     )
 
 
-def _own(folder: Path, student: str, name: str) -> list[HandIn]:
-    """What lies in a folder of a student's own: its attempts, or one hand-in where the answers lie in it."""
+def _own(folder: Path, student: str, name: str) -> HandIn:
+    """What lies in a folder of a student's own: the newest of its attempts, or the answers that lie in it."""
     path = folder / name
     listed: list[tuple[str, bool]] = []
     # A link would lead into another student's folder.
@@ -109,23 +108,22 @@ def _own(folder: Path, student: str, name: str) -> list[HandIn]:
             listed = [(entry.name, entry.is_dir(follow_symlinks=False)) for entry in entries]
     numbered = [(int(found[1]), inner) for inner, inside in listed if inside and (found := ATTEMPT.fullmatch(inner))]
     if not numbered:
-        return [HandIn(student, name, path)]
+        return HandIn(student, name, path)
     # The files that were handed out, left empty, hide nothing.
     if answer_files(inner for inner, _ in listed)[0] and answers_in(path):
         note = say("the folders of attempts beside the answers are not read")
-        return [HandIn(student, name, path, notes=(note,))]
-    return _bounded(
-        [HandIn(student, f"{name}/{inner}", path / inner, attempt=number) for number, inner in sorted(numbered)]
-    )
+        return HandIn(student, name, path, notes=(note,))
+    attempts = [inner for _, inner in sorted(numbered, reverse=True)]
+    answered = next((inner for inner in attempts[:MOST_ATTEMPTS] if answers_in(path / inner)), None)
+    chosen = answered or attempts[0]
+    notes = _chosen_of(len(attempts)) if answered else ()
+    return HandIn(student, f"{name}/{chosen}", path / chosen, notes=notes)
 
 
-def _bounded(attempts: list[HandIn]) -> list[HandIn]:
-    """The attempts that are read, of a student's in their order."""
-    if len(attempts) <= 2 * MOST_ATTEMPTS:
-        return attempts
-    note = say("only the first {count} and the last {count} attempts are read", count=MOST_ATTEMPTS)
-    read = [*attempts[:MOST_ATTEMPTS], *attempts[-MOST_ATTEMPTS:]]
-    return [replace(one, notes=(*one.notes, note)) for one in read]
+def _chosen_of(attempts: int) -> tuple[Caption, ...]:
+    """What the teacher and the student are told of the attempt that was chosen."""
+    said = say("{count} attempts were handed in; the last one with answers counts", count=attempts)
+    return (said,) if attempts > 1 else ()
 
 
 def answers_folder(one: HandIn, assignment: str) -> Path:
@@ -140,8 +138,8 @@ def answers_folder(one: HandIn, assignment: str) -> Path:
     return one.path
 
 
-def _order(one: HandIn) -> tuple[str, int, str]:
-    return one.student, one.attempt, one.place
+def _order(one: HandIn) -> tuple[str, str]:
+    return one.student, one.place
 
 
 def _assigned(
@@ -170,9 +168,9 @@ def _assigned(
     found: list[HandIn] = []
     for student, listed in places.items():
         if len(listed) == 1 and _is_folder(folder / listed[0][0], listed[0][1]):
-            found += _own(folder, student, listed[0][0])
+            found.append(_own(folder, student, listed[0][0]))
         elif all(said and not _is_folder(folder / name, said) for name, said in listed):
-            found += _files(folder, student, [(name, said) for name, said in listed if said])
+            found.append(_files(folder, student, [(name, said) for name, said in listed if said]))
         else:
             why = say("several of these belong to {student}; keep one", student=student)
             refused += [Refused(name, why) for name, _ in listed]
@@ -202,12 +200,13 @@ def _nobodys(name: str, known: Recognition, missing: Collection[str]) -> Caption
     )
 
 
-def _files(folder: Path, student: str, listed: list[tuple[str, ExportName]]) -> list[HandIn]:
-    """One student's files among those of others, by attempts."""
-    times = sorted({said.attempt for _, said in listed})
-    found: list[HandIn] = []
-    for number, time in enumerate(times, 1):
-        of_it = [(name, said.file) for name, said in listed if said.attempt == time]
-        files = {file: name for name, file in of_it if file}
-        found.append(HandIn(student, of_it[0][0], folder, files, attempt=number if len(times) > 1 else 0, time=time))
-    return _bounded(found)
+def _files(folder: Path, student: str, listed: list[tuple[str, ExportName]]) -> HandIn:
+    """One student's files among those of others: those of the newest attempt that has answers."""
+    attempts: dict[str, dict[str, str]] = {}
+    for name, said in sorted(listed, key=lambda one: one[1].attempt, reverse=True):
+        attempts.setdefault(said.attempt, {}).update({said.file: name} if said.file else {})
+    made = list(attempts.values())
+    answered = next((files for files in made[:MOST_ATTEMPTS] if answers_in(folder, files)), None)
+    files = made[0] if answered is None else answered
+    place = next(iter(files.values()), listed[0][0])
+    return HandIn(student, place, folder, files, _chosen_of(len(made)) if answered else ())

@@ -12,22 +12,6 @@ MOST_NAMED = 5
 """Students that a line names; the page names all."""
 
 
-def closing_lines(
-    records: Sequence[Mapping[str, Any]],
-    called: Mapping[str, str],
-    unread: Collection[str],
-    pairs: Sequence[AlikePair],
-    awaiting: Sequence[str],
-    stem: str,
-) -> list[Caption]:
-    """Lines on who has not handed in, and on what needs a look.
-
-    called : the students of the course by id;  stem : of the files' names
-    """
-    graded = [record for record in records if is_handed_in(record)]
-    return [*not_handed_in(called, graded, unread), *to_check(records, unread, pairs, awaiting, f"{stem}.html")]
-
-
 def not_handed_in(
     called: Mapping[str, str], graded: Sequence[Mapping[str, Any]], unread: Collection[str]
 ) -> list[Caption]:

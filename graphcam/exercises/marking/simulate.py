@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import partial
+from itertools import permutations
 from typing import Any
 
 from graphcam.constructions.chain import Chain
@@ -15,9 +16,9 @@ from graphcam.exercises.definition.hands import HANDS, HandTable
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.key.coinciding import HALF
 from graphcam.exercises.key.scatter import Drawn, answers_of
-from graphcam.exercises.marking.copy_gain import GROUP, CopyGain, copy_gain
-from graphcam.exercises.marking.course_variants import course_variants
+from graphcam.exercises.marking.course_variants import GROUP, course_variants
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.outside import unlisted, without
 from graphcam.exercises.marking.record import Diagnosis
@@ -61,6 +62,33 @@ class HandCount:
     def rate(self) -> float:
         """The part of the hands that lose any point."""
         return self.losing / self.hands if self.hands else 0.0
+
+
+@dataclass(frozen=True)
+class CopyGain:
+    """Copies of the answers to other variants.
+
+    pairs : how many were marked;  best : the largest part of the marks that one earned
+    above_half : how many earned more than half of the marks
+    """
+
+    pairs: int = 0
+    best: float = 0.0
+    above_half: int = 0
+
+    @property
+    def part_above_half(self) -> float:
+        """The part of the copies that earn more than half of the marks."""
+        return self.above_half / self.pairs if self.pairs else 0.0
+
+
+def copy_gain(exercise: Exercise, done: Sequence[tuple[AnswerKey, Answers]]) -> CopyGain:
+    """The gain by copies of the answers to some variants, each marked by the keys of all others."""
+    parts = [
+        (record := mark(exercise, answer_key, answers)).total / record.of
+        for (answer_key, _), (_, answers) in permutations(done, 2)
+    ]
+    return CopyGain(len(parts), max(parts, default=0.0), sum(part > HALF for part in parts))
 
 
 @dataclass

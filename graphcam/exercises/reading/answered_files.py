@@ -35,12 +35,16 @@ def answers_something(name: str, data: bytes) -> bool:
         return True
 
 
-def answers_in(folder: str | os.PathLike[str]) -> bool:
-    """Whether one of the answer files in a folder says anything."""
+def answers_in(folder: str | os.PathLike[str], names: Mapping[str, str] | None = None) -> bool:
+    """Whether one of the answer files in a folder says anything.
+
+    names : of files among those of others, by how each was called how it is called there; None where all count
+    """
     try:
         with open_folder(folder) as place:
-            chosen, _ = answer_files(os.listdir(place))  # noqa: PTH208
-            return any(_says(name, there, place) for name, there in chosen.items())
+            there = {name: name for name in os.listdir(place)} if names is None else names  # noqa: PTH208
+            chosen, _ = answer_files(there)
+            return any(_says(name, there[called], place) for name, called in chosen.items())
     except OSError:
         return False
 

@@ -17,11 +17,9 @@ from graphcam.exercises.key.answer_key import AnswerKey, Key
 from graphcam.exercises.key.expectation import Floats
 from graphcam.exercises.marking.copies import FALSE_ALARM, AlikePair
 from graphcam.exercises.marking.exactness import FALSE_ALARMS
-from graphcam.exercises.reports.answered_requests import AnsweredRequest
 from graphcam.exercises.reports.curves import CurvePicture, points_of, worst_place
 from graphcam.exercises.reports.drawing_over_key import over_key
 from graphcam.exercises.reports.item_statistics import cronbach_alpha, earned_parts, item_statistics, variant_groups
-from graphcam.exercises.reports.late_hand_ins import earned, late_report, part_left
 from graphcam.exercises.reports.student_rows import StudentRow
 from graphcam.exercises.reports.unrolled_drawings import Bundle, bundle, deviations_along
 from graphcam.exercises.reports.web_pages import page
@@ -158,7 +156,7 @@ def mistakes(records: Sequence[dict[str, Any]]) -> list[Mistake]:
         if diagnosis := record["diagnosis"]:
             found.setdefault(tuple(sorted([diagnosis["misconception"], *diagnosis["alike"]])), []).append(record)
     listed = [
-        Mistake(names, tuple(each["student"] for each in made), sum(each["of"] - earned(each) for each in made))
+        Mistake(names, tuple(each["student"] for each in made), sum(each["of"] - each["total"] for each in made))
         for names, made in found.items()
     ]
     return sorted(listed, key=lambda mistake: (-len(mistake.students), -mistake.lost, mistake.names))
@@ -176,7 +174,6 @@ def group_page(
     answer_keys: Mapping[str, AnswerKey],
     pairs: Sequence[AlikePair] = (),
     refused: Sequence[Refused] = (),
-    requests: Sequence[AnsweredRequest] = (),
     rows: Sequence[StudentRow] = (),
 ) -> str:
     """The report as one HTML page, for the teacher alone: it shows keys.
@@ -184,7 +181,6 @@ def group_page(
     answer_keys : by student, as far as they are known
     pairs : whose numbers agree beyond chance
     refused : what is not graded
-    requests : questions of students
     rows : all students of the course, those who handed nothing in too
     """
     steps, found = step_errors(exercise, records), mistakes(records)
@@ -205,8 +201,6 @@ def group_page(
         weak=sorted((step for step in steps if step.earned < WEAK), key=lambda step: step.earned),
         marks=_marks(exercise, records),
         policies=_policies(records),
-        requests=requests,
-        lateness=late_report(records),
         steps=[(step, _chart(step, bound)) for step in steps],
         items=item_statistics(records),
         alpha=cronbach_alpha(earned_parts(records) * [asked.marks for asked in exercise.answers])
@@ -226,11 +220,10 @@ def _policies(records: Sequence[dict[str, Any]]) -> list[tuple[Caption, float]]:
     """The average marks as they are, and as they would be by another policy, where that pays anyone otherwise."""
     own = [record["total"] for record in records]
     others = [
-        (say("Without follow-through"), [part_left(record) * record["without_follow_through"] for record in records]),
-        (say("Without caps on mistakes"), [part_left(record) * record["without_caps"] for record in records]),
-        (say("Without the late penalty"), [earned(record) for record in records]),
+        (say("Without follow-through"), [record["without_follow_through"] for record in records]),
+        (say("Without caps on mistakes"), [record["without_caps"] for record in records]),
     ]
-    # Marks with a penalty are rounded to hundredths.
+    # Marks under a cap are rounded to hundredths.
     paying = [(said, marks) for said, marks in others if not np.allclose(marks, own, rtol=0, atol=0.01)]
     rows = [(say("This policy"), own), *paying] if paying else []
     return [(said, sum(marks) / len(marks)) for said, marks in rows]

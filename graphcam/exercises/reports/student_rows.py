@@ -1,4 +1,4 @@
-"""All students of a course in one table: marks, lateness, marks by hand, what is remarked, a link to the page."""
+"""All students of a course in one table: marks, marks by hand, what is remarked, a link to the page."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -20,7 +20,6 @@ class StudentRow:
     name: str
     marks: float | None
     of: float
-    late: bool = False
     by_hand: bool = False
     remarks: tuple[Words, ...] = ()
     link: str = ""
@@ -54,9 +53,8 @@ def _row(record: Mapping[str, Any], name: str, link: str) -> StudentRow:
         remarks.append(say("as exact as a program"))
     if is_unanswered(record):
         remarks.insert(0, UNREAD)
-    late = record.get("late", {}).get("hours", 0) > 0
     by_hand = "overrides" in record
-    return StudentRow(record["student"], name, record["total"], record["of"], late, by_hand, tuple(remarks), link)
+    return StudentRow(record["student"], name, record["total"], record["of"], by_hand, tuple(remarks), link)
 
 
 def is_unanswered(record: Mapping[str, Any]) -> bool:
