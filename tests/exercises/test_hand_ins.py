@@ -188,7 +188,7 @@ IN_THE_PLATFORM = "keep deadlines, late penalties, attempts and questions about 
 def test_a_table_that_is_not_read_any_more_is_told_before_anything_is_graded(course: Path, table: str):
     (course / TEACHER / table).write_text("student,deadline\ns-17,2026-12-08T23:59+01:00\n")
     (course / "packed" / "s-17").mkdir()
-    told = rf"{table}: the table is there, but must be left out; {IN_THE_PLATFORM}, and delete the file"
+    told = rf"{table}: the table is given, but must be left out; {IN_THE_PLATFORM}, and delete the file"
     with pytest.raises(TaskError, match=told):
         grade(course)
     assert not (course / "out").exists()

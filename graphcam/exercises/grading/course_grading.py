@@ -306,7 +306,7 @@ def _by_hand(
     for path in (kept.folder / name for name in FORMER_TABLES):
         if path.exists():
             remedy = say("{keep}, and delete the file", keep=OF_THE_PLATFORM)
-            raise TaskError(str(path), say("the table"), say("there"), say("left out"), remedy)
+            raise TaskError(str(path), say("the table"), say("given"), say("left out"), remedy)
     path = course.overrides or kept.folder / OVERRIDES
     return read_overrides(path, exercise, students, handed_in) if course.overrides or path.exists() else []
 
