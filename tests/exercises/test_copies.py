@@ -10,6 +10,7 @@ from statistics import NormalDist
 
 import numpy as np
 import pytest
+from honest_courses import HonestStudents, honest_students
 from issued_variants import SECRET
 
 from graphcam.exercises.definition.exercise import Answers
@@ -23,7 +24,6 @@ from graphcam.exercises.marking.copies import (
     of_another_variant,
     same_wrong_numbers,
 )
-from graphcam.exercises.marking.honest_courses import HonestStudents, honest_students
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.reports.report_files import copies_table, write_reports
 

@@ -5,7 +5,7 @@ from typing import Any
 
 from graphcam.exercises.marking.copies import AlikePair
 from graphcam.exercises.marking.record import is_handed_in
-from graphcam.exercises.reports.student_rows import is_unanswered
+from graphcam.exercises.reports.group_page import is_unanswered
 from graphcam.words import Caption, say
 
 MOST_NAMED = 5

@@ -11,7 +11,7 @@ import numpy as np
 
 from graphcam.exercises.course.page_parts import FIELD
 from graphcam.exercises.photographs.jpegs import jpeg
-from graphcam.exercises.photographs.picture_names import BARS, TABLE
+from graphcam.exercises.photographs.read_photo import BARS, TABLE
 from graphcam.photo.halves import Side
 from graphcam.photo.pencil_ink import Ink, ink_of
 from graphcam.photo.pictures import Photograph

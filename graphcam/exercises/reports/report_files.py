@@ -17,11 +17,10 @@ from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.copies import AlikePair, alike_pairs
 from graphcam.exercises.marking.record import is_handed_in
-from graphcam.exercises.reports.group_page import group_page
+from graphcam.exercises.reports.group_page import group_page, student_rows
 from graphcam.exercises.reports.learning_platforms import canvas_grades, moodle_grades
 from graphcam.exercises.reports.shown_names import ShownNames
 from graphcam.exercises.reports.student_page import student_page
-from graphcam.exercises.reports.student_rows import student_rows
 from graphcam.files import whole_folder
 
 LONG = (
