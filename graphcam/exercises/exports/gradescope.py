@@ -1,7 +1,8 @@
 """Gradescope's ``results.json`` (otter's too), and an autograder that writes it.
 
 The autograder lies in ``/autograder``: it reads ``submission_metadata.json`` and the folder ``submission``.  graphcam
-comes along as a wheel: an index of packages may have something else by that name.
+comes along as a wheel, made of its installed files: an index of packages may have something else by that name, and what
+marks must be what made the variants.  See the binary distribution format of the Python Packaging User Guide.
 """
 
 import base64

@@ -1,4 +1,7 @@
-"""Marking: arithmetic on the answer key, the same result whenever and wherever it is done."""
+"""Marking: arithmetic on the answer key, the same result whenever and wherever it is done.
+
+Outcomes become marks in one place, :func:`earned`.
+"""
 
 import math
 from collections.abc import Mapping, Sequence

@@ -1,14 +1,11 @@
 """The command lines that start the launcher at each level, and what it finds there."""
 
-import errno
 import functools
 import importlib.util
 import json
 import os
-import platform
 import shutil
 import signal
-import struct
 import sys
 import threading
 from contextlib import suppress
@@ -18,68 +15,7 @@ from graphcam.exercises.running import launcher
 from graphcam.exercises.running.levels import MEBIBYTE, Level, ResourceLimits
 from graphcam.exercises.running.process import Ended, run_limited
 from graphcam.exercises.running.scratch import scratch_folder
-
-LOAD, EQUAL, BITS, RETURN = 0x20, 0x15, 0x45, 0x06
-"""Operations: load a word, jump if equal, jump if any bit is set, return."""
-NUMBER, ARCHITECTURE, FLAGS = 0, 4, 16
-"""Bytes into the kernel's ``seccomp_data``; the last is the lower word of the first argument."""
-ALLOW, ERROR, KILL = 0x7FFF0000, 0x00050000, 0x80000000
-NEW_USER = 0x10000000
-"""The flag CLONE_NEWUSER."""
-FOREIGN = 0x40000000
-"""The number from which on calls are those of another way to call (x32)."""
-
-REFUSED = {
-    # Memory that belongs to no process, or outlives it.
-    "memfd_create": (319, 279), "memfd_secret": (447, 447), "shmget": (29, 194), "semget": (64, 190),
-    "msgget": (68, 186), "mq_open": (240, 180),
-    # Keys of whoever grades.
-    "add_key": (248, 217), "request_key": (249, 218), "keyctl": (250, 219),
-    # Name spaces, in which more is allowed.
-    "unshare": (272, 97), "setns": (308, 268), "mount": (165, 40),
-    # Wide doors into the kernel, which no answer needs.
-    "userfaultfd": (323, 282), "bpf": (321, 280), "perf_event_open": (298, 241), "io_uring_setup": (425, 425),
-    "ptrace": (101, 117),
-}  # fmt: skip
-"""Numbers of the refused calls on x86_64 and aarch64."""
-MACHINES = {"x86_64": (0, 0xC000003E, 56), "aarch64": (1, 0xC00000B7, 220)}
-"""Column above, the kernel's number of the architecture, the number of ``clone``."""
-CLONE3 = 435
-KEYCTL = REFUSED["keyctl"]
-
-
-def refusals() -> bytes:
-    """The filter for this machine; empty where its calls are not known.
-
-    >>> len(refusals()) % 8
-    0
-    """
-    if platform.machine() not in MACHINES:
-        return b""
-    column, architecture, clone = MACHINES[platform.machine()]
-    program = [_step(LOAD, 0, 0, ARCHITECTURE), _step(EQUAL, 1, 0, architecture), _step(RETURN, 0, 0, KILL)]
-    program += [_step(LOAD, 0, 0, NUMBER), _step(BITS, 0, 1, FOREIGN), _step(RETURN, 0, 0, KILL)]
-    for numbers in REFUSED.values():
-        program += _refuse(numbers[column], errno.EPERM)
-    # Its flags lie in memory, where a filter cannot look; the C library then takes clone.
-    program += _refuse(CLONE3, errno.ENOSYS)
-    program += [_step(EQUAL, 0, 3, clone), _step(LOAD, 0, 0, FLAGS), _step(BITS, 0, 1, NEW_USER)]
-    return b"".join([*program, _step(RETURN, 0, 0, ERROR | errno.EPERM), _step(RETURN, 0, 0, ALLOW)])
-
-
-def new_keyring() -> int:
-    """The number of the call that joins a new session keyring; 0 where it is not known."""
-    return KEYCTL[MACHINES[platform.machine()][0]] if platform.machine() in MACHINES else 0
-
-
-def _refuse(number: int, error: int) -> list[bytes]:
-    return [_step(EQUAL, 0, 1, number), _step(RETURN, 0, 0, ERROR | error)]
-
-
-def _step(operation: int, if_true: int, if_false: int, value: int) -> bytes:
-    """One instruction of the filter; the jumps count the instructions that are left out."""
-    return struct.pack("=HBBI", operation, if_true, if_false, value)
-
+from graphcam.exercises.running.system_calls import new_keyring, refusals
 
 SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib64", "/lib32")
 SETTINGS = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/fonts")
