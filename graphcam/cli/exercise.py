@@ -35,8 +35,6 @@ SecretFile = Annotated[
     Path | None,
     Option(parser=named, metavar="F", help="The course's secret, if it is not in the course's folder 'teacher'."),
 ]
-
-
 exercise = typer.Typer(
     name="exercise", no_args_is_help=True, help="Exercises that grade themselves: variants, marking, reports."
 )

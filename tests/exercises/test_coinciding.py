@@ -11,9 +11,8 @@ from issued_variants import SECRET, issued
 from graphcam.exercises.definition.exercise import Asked
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.coinciding import HALF, by_one_number
 from graphcam.exercises.key.expectation import Expected
-from graphcam.exercises.key.keying import issue, key_or_reason
+from graphcam.exercises.key.keying import HALF, by_one_number, issue, key_or_reason
 
 
 def with_numbers(values: dict[float, float], *others: Asked) -> float:

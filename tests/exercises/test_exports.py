@@ -98,7 +98,7 @@ def test_an_export_is_in_the_language_of_the_course(target: LearningSystem, tmp_
     assert len(texts) > len(names)
     for text in texts:
         assert english_words(text, [*names, "course", "None", "DXF", "PITCH"]) == set()
-    assert AnswerKeys(tmp_path / "out" / TEACHER).language() == "ru"
+    assert AnswerKeys(tmp_path / "out" / TEACHER).course_exercise().language == "ru"
 
 
 def test_gradescope_tells_the_result_in_the_language_of_the_course():

@@ -13,7 +13,8 @@ from typing import Any
 
 from graphcam.errors import MissingFileError, TaskError, unreadable
 from graphcam.exercises.course.roster import Student, folder_name, is_cut, read_roster, student_of
-from graphcam.exercises.definition.exercise_file import library
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.files import OutputError
 from graphcam.language import ENGLISH
@@ -199,17 +200,17 @@ class AnswerKeys:
         self.check_secret(secret, path)
         return secret
 
-    def language(self) -> str:
-        """The language that the course is noted to be in; English where nothing is."""
-        return str(self.course().get("language", ENGLISH.name))
+    def course_exercise(self, named: str = "") -> Exercise:
+        """The exercise in the language, for the hand and on the paper that the course is noted to be made for.
 
-    def hand(self) -> str:
-        """The hand that the course is noted to be made for; empty where it is the exercise's."""
-        return str(self.course().get("hand", ""))
+        named : another one than the course is noted to be about
 
-    def paper(self) -> str:
-        """The paper that the worksheets are printed on to be photographed; empty where they are not made for it."""
-        return str(self.course().get("paper", ""))
+        Raises
+        ------
+        GraphcamError : it is not there, or its file is wrong
+        """
+        noted = {"language": ENGLISH.name, "hand": "", "paper": ""} | self.course()
+        return find_exercise(named or self.exercise(), *(str(noted[key]) for key in ("language", "hand", "paper")))
 
     def course(self) -> dict[str, Any]:
         """What is noted of the course; empty where nothing is."""

@@ -201,7 +201,8 @@ def _assigned(
             meant = known.meant([name, *(said.whose if said else ())])
             if len(meant) != 1:
                 if meant:
-                    refused.append(Refused(name, _several(meant)))
+                    why = say("it may belong to several students: {students}", students=", ".join(meant))
+                    refused.append(Refused(name, why))
                 else:
                     strays.append(name)
                 continue
@@ -225,10 +226,6 @@ def _assigned(
 def _is_folder(path: Path, said: ExportName | None) -> bool:
     """Whether it counts as a folder of a student's own: also what stands in place of one, to be told about."""
     return said is None or path.is_dir() or not (said.file or said.attempt)
-
-
-def _several(meant: list[str]) -> Caption:
-    return say("it may belong to several students: {students}", students=", ".join(meant))
 
 
 def _nobodys(name: str, known: Recognition, missing: Collection[str]) -> Caption:

@@ -18,7 +18,7 @@ from graphcam.errors import TaskError
 from graphcam.exercises.course.course_folder import SECRET, TEACHER, AnswerKeys, read_secret
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise, library
+from graphcam.exercises.definition.exercise_file import exercise_path, library
 from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.exports.content_package import write_zip
 from graphcam.exercises.grading.grade_one import Assignment, grade, read_submission
@@ -169,7 +169,7 @@ def main(root: Path) -> None:
     metadata = json.loads((root / "submission_metadata.json").read_bytes())
     email = str(metadata["users"][0]["email"])
     kept = AnswerKeys(source / TEACHER)
-    exercise = find_exercise(kept.exercise(), kept.language(), kept.hand(), kept.paper())
+    exercise = kept.course_exercise()
     student = kept.course().get("emails", {}).get(_plain(email))
     if student is None:
         found = _nothing(exercise, email)

@@ -27,14 +27,12 @@ from graphcam.exercises.course.photo_reports import await_review, read_off_photo
 from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.roster import Student, folder_name
 from graphcam.exercises.definition.exercise import Exercise
-from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.marks_policy import caps_of
 from graphcam.exercises.grading.changed_exercise import check_unchanged
 from graphcam.exercises.grading.grade_one import Assignment, Submission, grade, read_hand_in, unmarked
 from graphcam.exercises.grading.gradebook import ENTERED, check_gradebook, enter_scores
-from graphcam.exercises.grading.handed_in import unread, with_absence, with_paper
+from graphcam.exercises.grading.handed_in import not_handed_in, to_check, unread, with_absence, with_paper
 from graphcam.exercises.grading.overrides import OVERRIDES, Override, overridden, read_overrides
-from graphcam.exercises.grading.to_check import not_handed_in, to_check
 from graphcam.exercises.marking.copies import alike_pairs
 from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.report_files import GroupNotes, write_feedback, write_reports
@@ -348,7 +346,7 @@ def _exercise(course: Course, kept: AnswerKeys) -> Exercise:
     if not noted and not course.exercise:
         what = say("the exercise")
         raise TaskError(str(course.folder), what, say("not noted there"), say("known"), say("name it with --exercise"))
-    exercise = find_exercise(course.exercise or noted, kept.language(), kept.hand(), kept.paper())
+    exercise = kept.course_exercise(course.exercise)
     if noted and exercise.name != Path(noted).stem:
         made_for = say("{stem!r}, which {folder} was made for", stem=Path(noted).stem, folder=course.folder)
         raise TaskError("--exercise", say("the exercise"), exercise.name, made_for, say("leave the option out"))

@@ -9,8 +9,7 @@ from functools import partial
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.coinciding import HALF
-from graphcam.exercises.key.keying import issue
+from graphcam.exercises.key.keying import HALF, issue
 from graphcam.exercises.marking.marking import mark
 from graphcam.workers import in_order
 

@@ -20,7 +20,7 @@ from graphcam.exercises.definition.hands import HANDS, HandTable
 from graphcam.exercises.definition.mistakes import CATALOGUE, misconception
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.coinciding import HALF
+from graphcam.exercises.key.keying import HALF
 from graphcam.exercises.key.scatter import Drawn, answers_of
 from graphcam.exercises.marking.course_variants import GROUP, course_variants
 from graphcam.exercises.marking.marking import mark

@@ -15,7 +15,6 @@ from graphcam.errors import MissingFileError, TaskError, installed
 from graphcam.exercises.course.course_folder import COURSE, PRINTED, TEACHER, AnswerKeys, KeysAsNeeded
 from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
-from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.photographs.corrections import (
     NONE,
     Corrections,
@@ -135,7 +134,7 @@ def _course(order: ReadingOrder, kept: AnswerKeys) -> tuple[Exercise, PrintedShe
         wanted, remedy = say("made to be photographed"), say("make the course with --paper A3")
         raise TaskError(str(order.course), say("the worksheet"), say("without marks"), wanted, remedy)
     secret = kept.secret(order.secret_file)
-    exercise = find_exercise(kept.exercise(), kept.language(), kept.hand(), kept.paper())
+    exercise = kept.course_exercise()
     students = [student.id for student in kept.students()]
     return exercise, PrintedSheets(kept.folder, exercise.name, exercise.version, students, secret)
 

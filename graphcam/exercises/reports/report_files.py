@@ -95,8 +95,11 @@ def _texts(
     """The names of the files, each with its text in parts."""
     graded = [record for record in records if is_handed_in(record)]
     yield out.name, [wide_table(records, notes.called)]
-    for name, text in _by_hand(out, records).items():
-        yield name, [text]
+    by_hand = [(record, one) for record in records for one in record.get("overrides", [])]
+    # The table of a former run would go on telling what was taken back.
+    if by_hand or (out.parent / f"{out.stem}-by-hand.csv").exists():
+        rows = ([record["student"], *(one[column] for column in BY_HAND[1:])] for record, one in by_hand)
+        yield f"{out.stem}-by-hand.csv", [table(BY_HAND, rows)]
     # One row an answer, for statistics.
     yield (
         f"{out.stem}-long.csv",
@@ -173,17 +176,6 @@ def write_feedback(
             shown = {**record, "student": name}
             text = student_page(exercise, shown, answer_key, right=right, photographs=photographs)
             (draft / f"{folder_name(name)}.html").write_text(text, encoding="utf-8", newline="\n")
-
-
-def _by_hand(out: Path, records: Sequence[dict[str, Any]]) -> dict[str, str]:
-    """The table of marks given by hand, where there are any, or were when it was written before."""
-    name = f"{out.stem}-by-hand.csv"
-    rows = [
-        [record["student"], *(one[column] for column in BY_HAND[1:])]
-        for record in records
-        for one in record.get("overrides", [])
-    ]
-    return {name: table(BY_HAND, rows)} if rows or (out.parent / name).exists() else {}
 
 
 def wide_table(records: Sequence[dict[str, Any]], called: Mapping[str, str] = NOBODY) -> str:
