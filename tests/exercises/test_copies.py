@@ -25,7 +25,7 @@ from graphcam.exercises.marking.copies import (
     same_wrong_numbers,
 )
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.reports.report_files import copies_table, write_reports
+from graphcam.exercises.reports.report_files import GroupNotes, copies_table, write_reports
 
 NAME, STUDENTS = "acceleration-and-scales", 12
 
@@ -77,11 +77,16 @@ def test_who_handed_in_anothers_variant_is_named_with_its_owner():
 def test_the_pair_stands_in_the_table_beside_the_grades_and_on_the_group_page(tmp_path: Path):
     course = honest()
     records = [each[0] for each in course.careful]
-    names = write_reports(tmp_path / "honest.csv", course.exercise, records, course.answer_keys)
+
+    def written(name: str) -> list[str]:
+        pairs = alike_pairs(course.exercise, records, course.answer_keys)
+        return write_reports(tmp_path / name, course.exercise, records, course.answer_keys, GroupNotes(), pairs)
+
+    names = written("honest.csv")
     assert "honest-copies.csv" in names
     assert (tmp_path / "honest-copies.csv").read_text().count("\n") == 1
     records[3] = handed_in(course, 3, numbers_of(course.careful[2][1]))
-    write_reports(tmp_path / "copied.csv", course.exercise, records, course.answer_keys)
+    written("copied.csv")
     rows = list(csv.DictReader((tmp_path / "copied-copies.csv").read_text().splitlines()))
     assert [(row["student"], row["other"], row["agrees_in"]) for row in rows] == [("student 3", "student 2", "variant")]
     pages = [(tmp_path / name).read_text() for name in ("honest.html", "copied.html")]

@@ -113,8 +113,10 @@ def hand_ins_in(folder: Path, kept: AnswerKeys, roster: Path | None = None) -> t
     known = course_students(kept, roster)
     names = _names(folder, lambda name: bool(kept.find(kept.student(name))), lms=known is not None)
     if known is None:
-        return sorted((_own(folder, kept.student(name), name) for name in names), key=_order), []
-    return _assigned(folder, names, kept.student, known)
+        found, refused = [_own(folder, kept.student(name), name) for name in names], list[Refused]()
+    else:
+        found, refused = _assigned(folder, names, kept.student, known)
+    return sorted(found, key=lambda one: (one.student, one.place)), sorted(refused, key=lambda one: one.place)
 
 
 def course_students(kept: AnswerKeys, roster: Path | None) -> Recognition | None:
@@ -183,10 +185,6 @@ def answers_folder(one: HandIn, assignment: str) -> Path:
     return one.path
 
 
-def _order(one: HandIn) -> tuple[str, str]:
-    return one.student, one.place
-
-
 def _assigned(
     folder: Path, names: Iterable[str], student_of: Callable[[str], str], known: Recognition
 ) -> tuple[list[HandIn], list[Refused]]:
@@ -220,7 +218,7 @@ def _assigned(
         else:
             why = say("several of these belong to {student}; keep one", student=student)
             refused += [Refused(name, why) for name, _ in listed]
-    return sorted(found, key=_order), sorted(refused, key=lambda one: one.place)
+    return found, refused
 
 
 def _is_folder(path: Path, said: ExportName | None) -> bool:

@@ -18,6 +18,7 @@ from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.expectation import Floats
 
 Flags = NDArray[np.bool_]
+Kind = Literal["variant", "wrong numbers"]
 Agreement = tuple[int, int, float, Flags]
 """Two students, the probability of such a pair by chance, and the answers that agree."""
 FALSE_ALARM = 0.005
@@ -62,7 +63,7 @@ class AlikePair:
 
     student: str
     other: str
-    kind: Literal["variant", "wrong numbers"]
+    kind: Kind
     answers: tuple[str, ...]
     probability: float
 
@@ -79,10 +80,14 @@ def alike_pairs(
     students, given, wrong, bound, said, drawn = zip(*rows, strict=True)
     expected, scatter = np.moveaxis(np.array(said, dtype=np.float64), -1, 0)
     numbers = CourseNumbers(np.array(given), np.array(wrong), np.array(bound), expected, scatter, np.any(drawn, axis=0))
+    kinds: dict[Kind, list[Agreement]] = {
+        "variant": of_another_variant(numbers),
+        "wrong numbers": same_wrong_numbers(numbers),
+    }
     found = [
         AlikePair(students[i], students[j], kind, tuple(names[which].tolist()), p)
-        for kind, agreements in (("variant", of_another_variant), ("wrong numbers", same_wrong_numbers))
-        for i, j, p, which in agreements(numbers)
+        for kind, listed in kinds.items()
+        for i, j, p, which in listed
     ]
     return sorted(found, key=lambda pair: (pair.probability, pair.student, pair.other))
 

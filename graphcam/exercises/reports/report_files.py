@@ -5,7 +5,6 @@ import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 from urllib.parse import quote
 
@@ -15,7 +14,7 @@ from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.marking.copies import AlikePair, alike_pairs
+from graphcam.exercises.marking.copies import AlikePair
 from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.group_page import group_page, student_rows
 from graphcam.exercises.reports.learning_platforms import canvas_grades, moodle_grades
@@ -45,20 +44,13 @@ class GroupNotes:
     called: Mapping[str, str] = field(default_factory=dict[str, str])
 
 
-IDS = ShownNames()
-"""The students go by their ids."""
-NO_FOLDERS: Mapping[str, Path] = MappingProxyType({})
-NOTHING_NOTED = GroupNotes()
-NOBODY: Mapping[str, str] = MappingProxyType({})
-
-
 def write_reports(
     out: Path,
     exercise: Exercise,
     records: Sequence[dict[str, Any]],
     answer_keys: Mapping[str, AnswerKey],
-    notes: GroupNotes = NOTHING_NOTED,
-    pairs: Sequence[AlikePair] | None = None,
+    notes: GroupNotes,
+    pairs: Sequence[AlikePair],
 ) -> list[str]:
     """The grades, wide into ``out``; beside it long, for grade books, who agrees, the records, the group's report.
 
@@ -66,7 +58,7 @@ def write_reports(
 
     records : also of those who handed in nothing, who have rows without marks and no part in the statistics
     notes : what is not graded has a table of its own where there is any
-    pairs : who agrees beyond chance; they are looked for where they are not given
+    pairs : who agrees beyond chance
 
     Raises
     ------
@@ -75,8 +67,6 @@ def write_reports(
     names: list[str] = []
     with whole_folder(out.parent) as draft:
         # One after the other, each gone from memory before the next is made.
-        graded = [record for record in records if is_handed_in(record)]
-        pairs = alike_pairs(exercise, graded, answer_keys) if pairs is None else pairs
         for name, parts in _texts(out, exercise, records, answer_keys, notes, pairs):
             with (draft / name).open("w", encoding="utf-8", newline="") as file:
                 file.writelines(parts)
@@ -154,8 +144,8 @@ def write_feedback(
     exercise: Exercise,
     records: Sequence[dict[str, Any]],
     answer_keys: Mapping[str, AnswerKey],
-    names: ShownNames = IDS,
-    folders: Mapping[str, Path] = NO_FOLDERS,
+    names: ShownNames,
+    folders: Mapping[str, Path],
     *,
     right: bool = False,
 ) -> None:
@@ -178,7 +168,7 @@ def write_feedback(
             (draft / f"{folder_name(name)}.html").write_text(text, encoding="utf-8", newline="\n")
 
 
-def wide_table(records: Sequence[dict[str, Any]], called: Mapping[str, str] = NOBODY) -> str:
+def wide_table(records: Sequence[dict[str, Any]], called: Mapping[str, str]) -> str:
     """One row a student: total, marks of every answer, diagnosis, advice, level, remarks, name.
 
     called : the students' own names by id
