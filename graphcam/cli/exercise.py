@@ -11,20 +11,6 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 from typer import Argument, Option
 
-from graphcam.cli.exercise_read import read
-from graphcam.cli.grade_options import (
-    Anonymous,
-    Attempts,
-    Caps,
-    Deadline,
-    FollowThrough,
-    Late,
-    Near,
-    Overrides,
-    Roster,
-    SecretFile,
-    ShowRight,
-)
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     echo,
@@ -45,6 +31,10 @@ from graphcam.words import Caption, Words, say, say_many
 if TYPE_CHECKING:
     from graphcam.exercises.marking.simulate import Simulation
 
+SecretFile = Annotated[
+    Path | None,
+    Option(parser=named, metavar="F", help="The course's secret, if it is not in the course's folder 'teacher'."),
+]
 exercise = typer.Typer(
     name="exercise", no_args_is_help=True, help="Exercises that grade themselves: variants, marking, reports."
 )
@@ -273,7 +263,50 @@ def make(
         echo(say("{file} is a copy of {given}", file=str(out / TEACHER / SECRET_FILE), given=str(secret_file)))
 
 
-exercise.command()(read)
+@exercise.command()
+def read(
+    photographs: Annotated[
+        list[Path] | None,
+        Argument(parser=named, metavar="[PHOTO]...", help="JPEG, PNG, HEIC, TIFF, PDF scans, or folders of them."),
+    ] = None,
+    *,
+    course: Annotated[Path, Option(parser=named, metavar="DIR", help="The course, as 'exercise make' wrote it.")],
+    secret_file: SecretFile = None,
+    out: Annotated[
+        Path | None, Option(parser=named, metavar="DIR", help="Folder for the readings, instead of DIR/photos.")
+    ] = None,
+    review: Annotated[
+        Path | None,
+        Option(parser=named, metavar="FILE.html", help="Write the page on which you check and correct the readings."),
+    ] = None,
+    corrections: Annotated[
+        Path | None,
+        Option(parser=named, metavar="FILE", help="File that this page exported; it is kept for later runs."),
+    ] = None,
+    workers: Annotated[
+        int, Option(min=1, metavar="N", help="Number of processes; the default is one for each core.")
+    ] = os.cpu_count() or 1,
+) -> None:
+    """Read photographs of a course's worksheets, with any file names; then grade DIR/photos.
+
+    Each photograph is read once: an interrupted run continues where it stopped, and later photographs are added.  If
+    you name no photographs, only the corrections are applied.
+
+    [bold]Examples[/bold]
+
+    graphcam exercise read telephone/ --course week-5 --review review.html
+
+    graphcam exercise read --course week-5 --corrections photo-corrections.json
+
+    graphcam exercise grade week-5/photos --out grades.csv --feedback pages
+    """
+    from graphcam.exercises.photographs.course_photographs import ReadingOrder, read_course, summary
+
+    with one_message(), progress_bar(say("photographs")) as step:
+        order = ReadingOrder(photographs or [], course, secret_file, out, review, corrections, workers)
+        lines = list(summary(read_course(order, step)))
+    for line in lines:
+        echo_line(line)
 
 
 @exercise.command()
@@ -304,16 +337,41 @@ def grade(
     trusted: Annotated[
         bool, Option("--i-trust-these-students", help="Allow level L1, where code can change your files.")
     ] = False,
-    roster: Roster = None,
-    overrides: Overrides = None,
-    follow_through: FollowThrough = None,
-    near: Near = None,
-    cap: Caps = None,
-    deadline: Deadline = "",
-    late: Late = "",
-    attempts: Attempts = "last",
-    anonymous: Anonymous = False,
-    show_right: ShowRight = False,
+    roster: Annotated[
+        Path | None,
+        Option(parser=named, metavar="CSV", help="The students, instead of the roster the course was made for."),
+    ] = None,
+    overrides: Annotated[
+        Path | None,
+        Option(parser=named, metavar="CSV", help="Marks by hand, instead of overrides.csv in the teacher's folder."),
+    ] = None,
+    follow_through: Annotated[
+        float | None,
+        Option(
+            metavar="PART",
+            help="Part of an answer's marks for a correct follow-through from the student's own answers.",
+        ),
+    ] = None,
+    near: Annotated[
+        float | None, Option(metavar="K", help="An answer that is up to K tolerances off earns part of its marks.")
+    ] = None,
+    cap: Annotated[
+        list[str] | None,
+        Option(
+            metavar="MISTAKE=PART",
+            help="Maximum part of all marks with this mistake; repeat the option for more mistakes.",
+        ),
+    ] = None,
+    anonymous: Annotated[
+        bool,
+        Option(
+            "--anonymous", help="Pages show names made from the secret instead of ids; a table says whose they are."
+        ),
+    ] = False,
+    show_right: Annotated[
+        bool, Option("--show-right", help="Students' pages show the right answers; not before the last deadline.")
+    ] = False,
+    elsewhere: Annotated[str, Option("--deadline", "--late", "--attempts", hidden=True)] = "",
 ) -> None:
     """Grade the submissions of a course: answers.toml, .csv, .ipynb or .dxf in the folder of each student.
 
@@ -326,24 +384,13 @@ def grade(
     graphcam exercise grade week-5 --out grades.csv --level L2 --feedback pages
 
     graphcam exercise grade week-5 --out grades.csv --near 2 --cap offset-sign=0.5
-
-    graphcam exercise grade week-5 --out grades.csv --deadline 2026-12-01T23:59 --late 0.1/day
     """
-    from graphcam.exercises.definition.marks_policy import policy_changes
-    from graphcam.exercises.grading.attempts import attempt_rule_of
+    # The parameters have the names of the order's fields.
+    options = dict(locals())
     from graphcam.exercises.grading.course_grading import Course, grade_course
-    from graphcam.exercises.grading.deadlines import deadline_of, late_penalty_of
-    from graphcam.exercises.grading.lateness import NO_PENALTY
 
     with one_message(), progress_bar(say("submissions")) as step:
-        marks = policy_changes(follow_through, near, cap or ())
-        course = Course(
-            *(folder, secret_file, out, exercise, level, seconds, workers, cluster, feedback, gradebook, trusted),
-            *(roster, overrides, marks, deadline_of(deadline) if deadline else None),
-            *(late_penalty_of(late) if late else NO_PENALTY, attempt_rule_of(attempts), anonymous),
-            show_right=show_right,
-        )
-        said = grade_course(course, step)
+        said = grade_course(Course(**options), step)
     for line in said:
         echo_line(line)
 
@@ -419,8 +466,7 @@ def speed(
     """
     from graphcam.bench.timing import Timer
     from graphcam.exercises.definition.exercise_file import find_exercise, library
-    from graphcam.exercises.grading.course_speed import course_speed
-    from graphcam.exercises.grading.marking_speed import marking_speed
+    from graphcam.exercises.grading.course_speed import course_speed, marking_speed
 
     progress, timer = progress_lines(quiet=False), Timer(budget=0.5)
     rows: list[list[str]] = []

@@ -10,6 +10,7 @@ from statistics import NormalDist
 
 import numpy as np
 import pytest
+from honest_courses import HonestStudents, honest_students
 from issued_variants import SECRET
 
 from graphcam.exercises.definition.exercise import Answers
@@ -23,9 +24,8 @@ from graphcam.exercises.marking.copies import (
     of_another_variant,
     same_wrong_numbers,
 )
-from graphcam.exercises.marking.honest_courses import HonestStudents, honest_students
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.reports.report_files import copies_table, write_reports
+from graphcam.exercises.reports.report_files import GroupNotes, copies_table, write_reports
 
 NAME, STUDENTS = "acceleration-and-scales", 12
 
@@ -48,8 +48,9 @@ def of_keys(given: np.ndarray, keys: np.ndarray, mistaken: np.ndarray | None = N
     students, answers = keys.shape
     mistaken = np.empty((students, 0, answers)) if mistaken is None else mistaken
     wrong = np.abs(given - keys) > 3 * scatter
-    widths = (np.full(keys.shape, scatter), np.full(students, 3.0), mistaken, np.full(mistaken.shape, scatter))
-    return CourseNumbers(given, wrong, keys, *widths, drawn=np.full(answers, True))
+    expected = np.concatenate([keys[:, None], mistaken], axis=1)
+    widths = (np.full(expected.shape, scatter), np.full(answers, True))
+    return CourseNumbers(given, wrong, np.full(students, 3.0), expected, *widths)
 
 
 def keys_of(students: int, answers: int = 6) -> np.ndarray:
@@ -76,11 +77,16 @@ def test_who_handed_in_anothers_variant_is_named_with_its_owner():
 def test_the_pair_stands_in_the_table_beside_the_grades_and_on_the_group_page(tmp_path: Path):
     course = honest()
     records = [each[0] for each in course.careful]
-    names = write_reports(tmp_path / "honest.csv", course.exercise, records, course.answer_keys)
+
+    def written(name: str) -> list[str]:
+        pairs = alike_pairs(course.exercise, records, course.answer_keys)
+        return write_reports(tmp_path / name, course.exercise, records, course.answer_keys, GroupNotes(), pairs)
+
+    names = written("honest.csv")
     assert "honest-copies.csv" in names
     assert (tmp_path / "honest-copies.csv").read_text().count("\n") == 1
     records[3] = handed_in(course, 3, numbers_of(course.careful[2][1]))
-    write_reports(tmp_path / "copied.csv", course.exercise, records, course.answer_keys)
+    written("copied.csv")
     rows = list(csv.DictReader((tmp_path / "copied-copies.csv").read_text().splitlines()))
     assert [(row["student"], row["other"], row["agrees_in"]) for row in rows] == [("student 3", "student 2", "variant")]
     pages = [(tmp_path / name).read_text() for name in ("honest.html", "copied.html")]
@@ -115,7 +121,7 @@ def test_the_same_key_is_no_copy():
     given[0] = given[1] = np.round(mistaken[0, 0], 1)
     assert same_wrong_numbers(of_keys(given, keys, mistaken)) == []
     # Without the mistake in the catalogue the same digits would be told, so the test can fail.
-    assert [(i, j) for i, j, _ in same_wrong_numbers(of_keys(given + 0.03, keys))] == [(0, 1)]
+    assert [(i, j) for i, j, *_ in same_wrong_numbers(of_keys(given + 0.03, keys))] == [(0, 1)]
 
 
 def test_the_tenth_mistake_counts_as_the_first_does():
@@ -125,14 +131,14 @@ def test_the_tenth_mistake_counts_as_the_first_does():
     given[0] = given[1] = np.round(mistaken[0, 9] + 0.03, 2)
     mistaken[1] = mistaken[0]
     assert same_wrong_numbers(of_keys(given, keys, mistaken)) == []
-    assert [(i, j) for i, j, _ in same_wrong_numbers(of_keys(given, keys, mistaken[:, :9]))] == [(0, 1)]
+    assert [(i, j) for i, j, *_ in same_wrong_numbers(of_keys(given, keys, mistaken[:, :9]))] == [(0, 1)]
 
 
 def plain_ratio(numbers: CourseNumbers, i: int, j: int) -> float:
     """How much likelier the numbers of student i are by the key of j than by the own, a number after the other."""
     density, ratio = NormalDist(0, 1).pdf, 1.0
     for a, given in enumerate(numbers.given[i]):
-        values, scatter = numbers.value[:, a], numbers.scatter[:, a]
+        values, scatter = numbers.expected[:, 0, a], numbers.scatter[:, 0, a]
         by_keys = [density((given - value) / s) / s for value, s in zip(values, scatter, strict=True)]
         by_course = NormalDist(values.mean(), values.std()).pdf(given)
         anywhere = (float(np.mean(by_keys)) + by_course) / 2
@@ -147,12 +153,12 @@ def test_who_is_found_far_off_in_the_course_is_as_probable_as_the_formula_says()
     given[3], given[140] = by_hand(keys, 2)[149], by_hand(keys, 3)[5]
     numbers = of_keys(given, keys)
     found = of_another_variant(numbers)
-    assert [(i, j) for i, j, _ in found] == [(3, 149), (140, 5)]
+    assert [(i, j) for i, j, *_ in found] == [(3, 149), (140, 5)]
     # Ten for answers that go together; two have wrong numbers.
-    for i, j, probability in found:
+    for i, j, probability, _ in found:
         assert probability == pytest.approx(10 * 2 * (students - 1) / plain_ratio(numbers, i, j))
     given[3], given[140] = keys[3] * 1.3713, keys[3] * 1.3713
-    assert [(i, j) for i, j, _ in same_wrong_numbers(of_keys(given, keys))] == [(3, 140)]
+    assert [(i, j) for i, j, *_ in same_wrong_numbers(of_keys(given, keys))] == [(3, 140)]
 
 
 def test_a_mistake_of_ones_own_that_meets_anothers_key_is_no_copy():
@@ -162,7 +168,7 @@ def test_a_mistake_of_ones_own_that_meets_anothers_key_is_no_copy():
     given = by_hand(keys)
     given[0] = by_hand(keys, 2)[5]
     assert of_another_variant(of_keys(given, keys, mistaken)) == []
-    assert [(i, j) for i, j, _ in of_another_variant(of_keys(given, keys))] == [(0, 5)]
+    assert [(i, j) for i, j, *_ in of_another_variant(of_keys(given, keys))] == [(0, 5)]
 
 
 def test_round_numbers_and_those_that_many_say_prove_little():
@@ -171,7 +177,7 @@ def test_round_numbers_and_those_that_many_say_prove_little():
     given[:2] = [10.0, 20.0, 30.0, 40.0, 50.0, 60.0]
     assert same_wrong_numbers(of_keys(given, keys)) == []
     given[:2] = [91.37, 92.41, 93.59, 94.13, 95.77, 96.29]
-    assert [(i, j) for i, j, _ in same_wrong_numbers(of_keys(given, keys))] == [(0, 1)]
+    assert [(i, j) for i, j, *_ in same_wrong_numbers(of_keys(given, keys))] == [(0, 1)]
     given[:20] = given[0]
     assert same_wrong_numbers(of_keys(given, keys)) == []
 
@@ -180,7 +186,7 @@ def test_two_hands_read_the_same_tenth_as_often_as_is_said():
     keys, draw = np.full((2, 1), 50.0), np.random.default_rng(5).standard_normal((2, 200_000))
     a, b = np.round(57.3 + 0.5 * draw, 1)
     numbers = of_keys(np.array([[57.3], [57.3]]), keys, scatter=0.5)
-    assert np.mean(a == b) == pytest.approx(float(chance(numbers, np.array([0]), np.array([1]))[0, 0]), rel=0.05)
+    assert np.mean(a == b) == pytest.approx(float(chance(numbers, 0, np.array([1]))[0, 0]), rel=0.05)
 
 
 def test_the_more_pairs_the_more_it_takes():
@@ -190,7 +196,7 @@ def test_the_more_pairs_the_more_it_takes():
     for keys in (few, many):
         given = by_hand(keys) + np.where(np.arange(len(keys)) > 4, 200, 0)[:, None]
         given[:2] = [91.37, 92.41, 93.59, 94.13, 95.77, 96.29]
-        probability += [p for i, j, p in same_wrong_numbers(of_keys(given, keys)) if (i, j) == (0, 1)]
+        probability += [p for i, j, p, _ in same_wrong_numbers(of_keys(given, keys)) if (i, j) == (0, 1)]
     # Of five 2 are wrong, one pair; of three hundred 297.
     assert probability[1] / probability[0] == pytest.approx(297 * 296 / 2)
 

@@ -31,8 +31,8 @@ from graphcam.exercises.definition.exercise_file import exercise_path, find_exer
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.exports import LearningSystem, gradescope
 from graphcam.exercises.exports.export import export
+from graphcam.exercises.exports.gradescope import write_wheel
 from graphcam.exercises.exports.moodle import moodle_xml
-from graphcam.exercises.exports.package_wheel import write_wheel
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.marking import mark
@@ -98,7 +98,7 @@ def test_an_export_is_in_the_language_of_the_course(target: LearningSystem, tmp_
     assert len(texts) > len(names)
     for text in texts:
         assert english_words(text, [*names, "course", "None", "DXF", "PITCH"]) == set()
-    assert AnswerKeys(tmp_path / "out" / TEACHER).language() == "ru"
+    assert AnswerKeys(tmp_path / "out" / TEACHER).course_exercise().language == "ru"
 
 
 def test_gradescope_tells_the_result_in_the_language_of_the_course():

@@ -199,7 +199,7 @@ def test_after_full_marks_by_hand_nothing_is_called_wrong(course: Path):
     first = EXERCISE.answers[0]
     wrong = {**key(issued(NAME, "s1")[1]), first.name: 1e4}
     hand_in(course, {"s1/answers.toml": answer_lines(wrong)})
-    _, records = grade(course, marks={"follow_through": MarksPolicy().follow_through})
+    _, records = grade(course, follow_through=MarksPolicy().follow_through)
     assert "farther off" in " ".join(records["s1"]["feedback"])
     text = f"student,answer,marks,comment\ns1,{first.name},{first.marks:g},another ordinate\n"
     (course / TEACHER / OVERRIDES).write_text(text)

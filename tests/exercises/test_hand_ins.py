@@ -10,12 +10,14 @@ from pathlib import Path
 
 import pytest
 from issued_variants import course_of, issued, key
+from typer.testing import CliRunner
 
+from graphcam.cli import app
 from graphcam.errors import TaskError
 from graphcam.exercises.course import packed as packed_files
 from graphcam.exercises.course.course_folder import KEPT, ROSTER, TEACHER, AnswerKeys
 from graphcam.exercises.course.hand_ins import hand_ins_in
-from graphcam.exercises.grading.course_grading import Course, grade_course
+from graphcam.exercises.grading.course_grading import FORMER_TABLES, Course, grade_course
 
 NAME = "acceleration-and-scales"
 STUDENTS = """id,name,email
@@ -138,7 +140,69 @@ def test_of_several_attempts_the_last_one_counts_and_it_is_noted(course: Path):
     _, marks = grade(course)
     assert marks == {"s-17": issued(NAME)[0].marks}
     record = json.loads((course / "out" / "grades.json").read_text(encoding="utf-8"))[0]
-    assert "2 attempts were handed in; the last one counts" in record["notes"]
+    assert "2 attempts were handed in; the last one with answers counts" in record["notes"]
+
+
+def attempts(course: Path, made: dict[str, int]) -> dict[str, object]:
+    """The record of a student with folders of attempts, each with so many answers."""
+    for name, right in made.items():
+        folder = course / "packed" / "s-17" / name
+        folder.mkdir(parents=True)
+        (folder / "answers.toml").write_text("".join(answers("s-17").splitlines(keepends=True)[:right]))
+    grade(course)
+    return json.loads((course / "out" / "grades.json").read_text(encoding="utf-8"))[0]
+
+
+def test_the_attempt_with_the_highest_number_counts(course: Path):
+    found = attempts(course, {"Attempt_2": 3, "attempt 1": 1, "attempt 10": 2, "Попытка 3": 99})
+    assert found["notes"] == ["4 attempts were handed in; the last one with answers counts"]
+    assert sum(answer["marks"] > 0 for answer in found["answers"]) == 2
+    assert "4 attempts were handed in" in (course / "pages" / "s-17.html").read_text(encoding="utf-8")
+
+
+def test_of_any_number_of_attempts_the_newest_are_looked_into(course: Path):
+    """Students may pack as many folders as they like, each of which takes time."""
+    made = {f"attempt {k}": 0 for k in range(1, 400)}
+    assert attempts(course, {**made, "attempt 200": 99})["total"] == 0
+    (course / "packed" / "s-17" / "attempt 395" / "answers.toml").write_text(answers("s-17"))
+    assert attempts(course, {})["total"] == issued(NAME)[0].marks
+
+
+def test_folders_of_attempts_beside_answers_are_not_read_and_a_link_is_no_attempt(course: Path):
+    folder = course / "packed" / "s-17"
+    (course / "elsewhere").mkdir()
+    (course / "elsewhere" / "answers.toml").write_text("")
+    folder.mkdir()
+    (folder / "attempt 11").symlink_to(course / "elsewhere")
+    assert attempts(course, {"attempt 1": 1, "attempt 2": 99})["total"] == issued(NAME)[0].marks
+    (folder / "answers.toml").write_text(answers("s-17"))
+    found = attempts(course, {"attempt 3": 1})
+    assert found["total"] == issued(NAME)[0].marks
+    assert "the folders of attempts beside the answers are not read" in found["notes"]
+
+
+IN_THE_PLATFORM = "keep deadlines, late penalties, attempts and questions about marks in your learning platform"
+
+
+@pytest.mark.parametrize("table", FORMER_TABLES)
+def test_a_table_that_is_not_read_any_more_is_told_before_anything_is_graded(course: Path, table: str):
+    (course / TEACHER / table).write_text("student,deadline\ns-17,2026-12-08T23:59+01:00\n")
+    (course / "packed" / "s-17").mkdir()
+    told = rf"{table}: the table is given, but must be left out; {IN_THE_PLATFORM}, and delete the file"
+    with pytest.raises(TaskError, match=told):
+        grade(course)
+    assert not (course / "out").exists()
+
+
+@pytest.mark.parametrize("option", ["--deadline=2026-12-01T23:59", "--late=0.1/day", "--attempts=best:3"])
+def test_an_option_that_went_ends_with_one_message(course: Path, option: str):
+    out = course / "out" / "grades.csv"
+    ran = CliRunner().invoke(app, ["exercise", "grade", str(course / "packed"), "--out", str(out), option])
+    assert ran.exit_code == 2
+    value = option.partition("=")[2]
+    told = f"graphcam: --deadline, --late or --attempts is '{value}', but must be left out; {IN_THE_PLATFORM}\n"
+    assert ran.output == told
+    assert not out.parent.exists()
 
 
 def test_an_attempt_without_a_file_reads_nobody_elses_answers(course: Path):

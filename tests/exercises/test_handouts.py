@@ -22,7 +22,6 @@ from graphcam.cli import app
 from graphcam.drafting.marks import Segments
 from graphcam.errors import TaskError
 from graphcam.exercises.course import make as make_module
-from graphcam.exercises.course.course_advice import other_scale
 from graphcam.exercises.course.handouts import (
     answer_file,
     answer_file_head,
@@ -31,7 +30,7 @@ from graphcam.exercises.course.handouts import (
     notebook,
     worksheet,
 )
-from graphcam.exercises.course.make import make
+from graphcam.exercises.course.make import make, other_scale
 from graphcam.exercises.course.roster import Student, folder_name, read_roster
 from graphcam.exercises.definition.blank_axes import empty_axes
 from graphcam.exercises.definition.drawn_answers import board_chain

@@ -11,14 +11,12 @@ import numpy as np
 import pytest
 from issued_variants import SECRET, answer_lines, course_of, issued
 
-from graphcam.exercises.course import hidden_names as names_module
 from graphcam.exercises.course.course_folder import ROSTER, TEACHER
-from graphcam.exercises.course.hidden_names import hidden_names
-from graphcam.exercises.course.regrade_requests import REQUESTS
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.grading.course_grading import Course, grade_course
-from graphcam.exercises.grading.deadlines import deadline_of
 from graphcam.exercises.grading.overrides import OVERRIDES
+from graphcam.exercises.reports import shown_names
+from graphcam.exercises.reports.shown_names import hidden_names
 from graphcam.files import OutputError
 
 NAME = "inversion-translating"
@@ -45,15 +43,13 @@ def course(tmp_path: Path) -> Path:
     lines = "".join(f"{student},{name}\n" for student, name in NAMES.items())
     (place / TEACHER / ROSTER).write_text(f"id,name\n{lines}", encoding="utf-8")
     (place / TEACHER / OVERRIDES).write_text("student,answer,marks,comment\nanna.berg,s_8,0.5,look\n")
-    (place / TEACHER / REQUESTS).write_text("student,answer,question\nzoe/zimmer,total,Why?\n")
     (place / "students" / "Max Mustermann_12_assignsubmission_file_").mkdir()
     return place
 
 
 def grade(course: Path, pages: str, *, anonymous: bool) -> str:
     out = course / "out" / "grades.csv"
-    deadline, secret = deadline_of("2020-01-01T00:00"), course / "secret"
-    grade_course(Course(course, secret, out, feedback=course / pages, deadline=deadline, anonymous=anonymous))
+    grade_course(Course(course, course / "secret", out, feedback=course / pages, anonymous=anonymous))
     return out.with_suffix(".html").read_text(encoding="utf-8")
 
 
@@ -86,8 +82,8 @@ def test_no_page_tells_who_somebody_is_and_the_table_tells_whose_each_is(course:
     assert whose["clara_copy"] in alike
     assert whose["boris-ivanov"] in alike
     # The group page is in the order of the names, which is not that of the ids.
-    late = group[group.index("Deadlines") : group.index("Errors step by step")]
-    assert sorted(whose.values(), key=late.index) == sorted(whose.values())
+    students = group[group.index('class="students"') : group.index("Errors step by step")]
+    assert sorted(whose.values(), key=students.index) == sorted(whose.values())
 
 
 def test_without_it_the_pages_do_tell_so_the_check_above_would_find_it(course: Path):
@@ -120,7 +116,7 @@ def test_the_name_depends_on_the_secret_the_exercise_and_the_student():
 
 
 def test_names_that_would_be_the_same_become_longer(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(names_module, "SHORTEST", 1)
+    monkeypatch.setattr(shown_names, "SHORTEST", 1)
     students = [f"s{k}" for k in range(200)]
     names = hidden_names(SECRET, NAME, students)
     assert len(set(names.values())) == 200

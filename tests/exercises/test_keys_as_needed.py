@@ -4,8 +4,7 @@ from pathlib import Path
 
 from issued_variants import SECRET
 
-from graphcam.exercises.course.course_folder import AnswerKeys
-from graphcam.exercises.course.keys_as_needed import KeysAsNeeded
+from graphcam.exercises.course.course_folder import AnswerKeys, KeysAsNeeded
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.key.keying import issue
 

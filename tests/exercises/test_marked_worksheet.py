@@ -32,7 +32,7 @@ from graphcam.sheets.styles import CODE, LIGHT
 
 pytest.importorskip("segno")
 
-from graphcam.exercises.course.marked_worksheet import marked_sheets, marked_worksheet
+from graphcam.exercises.course.marked_worksheet import marked_sheets
 
 PAPERS = tuple(MARKED_PAPERS)
 NAMES = ("inversion-translating", "inversion-arm")
@@ -163,7 +163,8 @@ def test_a_page_is_written_down_whole(paper: str):
 @EACH
 def test_it_is_printed_in_its_size(tmp_path: Path, paper: str):
     pdfium = pytest.importorskip("pypdfium2")
-    drawing, _ = marked_worksheet(variant("inversion-translating", paper), Student("Anna"), SECRET, paper, "grey")
+    sheets, _ = marked_sheets(variant("inversion-translating", paper), Student("Anna"), SECRET, paper, "grey")
+    drawing = sheets.printed
     path = tmp_path / "worksheet.pdf"
     write_pdf(drawing, path)
     marked, mm = MARKED_PAPERS[paper], 25.4 / 72
@@ -183,7 +184,8 @@ def test_it_is_printed_in_its_size(tmp_path: Path, paper: str):
 def test_tags_and_code_are_found_where_they_are_said(tmp_path: Path, paper: str):
     cv2, zxingcpp = pytest.importorskip("cv2"), pytest.importorskip("zxingcpp")
     family = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_APRILTAG_36h11)
-    drawing, pages = marked_worksheet(variant(NAMES[0], paper), Student("Anna"), SECRET, paper, "grey")
+    sheets, pages = marked_sheets(variant(NAMES[0], paper), Student("Anna"), SECRET, paper, "grey")
+    drawing = sheets.printed
     marked, tiles = MARKED_PAPERS[paper], 2 if MARKED_PAPERS[paper].seam else 1
     found: set[int] = set()
     for k, page in enumerate(drawing.pages[:tiles]):

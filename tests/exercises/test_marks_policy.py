@@ -19,8 +19,7 @@ from graphcam.exercises.definition.exercise_file import exercise_path, load_exer
 from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.exercises.grading.course_grading import Store
 from graphcam.exercises.grading.grade_one import Assignment
-from graphcam.exercises.marking.earning import Judged, earned
-from graphcam.exercises.marking.marking import mark
+from graphcam.exercises.marking.marking import Judged, earned, mark
 from graphcam.exercises.marking.record import Record
 from graphcam.exercises.reports.group_page import group_page
 

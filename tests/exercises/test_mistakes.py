@@ -14,8 +14,7 @@ from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.keying import issue
-from graphcam.exercises.marking.outside import without
-from graphcam.exercises.marking.simulate import simulate
+from graphcam.exercises.marking.simulate import simulate, without
 
 RISE, BACK, LIFT = 100.0, 80.0, 36.0
 PARAMETERS = {

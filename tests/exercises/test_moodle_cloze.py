@@ -26,7 +26,7 @@ from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.exports.export import export
-from graphcam.exercises.exports.moodle_cloze import cloze_xml, question_text
+from graphcam.exercises.exports.moodle import cloze_xml, question_text
 from graphcam.exercises.exports.question_parts import Issued
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.marking import mark

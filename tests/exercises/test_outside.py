@@ -16,8 +16,7 @@ from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.scatter import Drawn, answers_of
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.marking.outside import unlisted, unlisted_names, without
-from graphcam.exercises.marking.simulate import simulate, submission
+from graphcam.exercises.marking.simulate import simulate, submission, unlisted, unlisted_names, without
 
 HANDS = 12
 

@@ -14,7 +14,6 @@ from browsers import opened
 from issued_variants import SECRET, course_of, issued, key
 from russian import english_words
 
-from graphcam.errors import TaskError
 from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.drawn_answers import board_chain, construction_of, per_mm
@@ -22,7 +21,6 @@ from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.definition.variant import drawn, fill_in
 from graphcam.exercises.grading.course_grading import Course, grade_course
-from graphcam.exercises.grading.deadlines import EXTENSIONS, deadline_of
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.expectation import Expected
 from graphcam.exercises.marking.copies import AlikePair
@@ -185,23 +183,9 @@ def graded(pages: Path, out: Path, **more: object) -> str:
     return words_of((out / "pages" / "Boris.html").read_text(encoding="utf-8"))
 
 
-def test_what_is_right_is_shown_only_when_it_is_asked_for_and_no_deadline_is_ahead(pages: Path, tmp_path: Path):
-    past, ahead = deadline_of("2020-01-01T00:00"), deadline_of("9000-01-01T00:00Z")
-    assert "right: " not in graded(pages, tmp_path / "not asked for", deadline=past)
-    assert "right: " in graded(pages, tmp_path / "after the deadline", deadline=past, show_right=True)
-    assert "right: " in graded(pages, tmp_path / "without a deadline", show_right=True)
-    refused = r"--show-right: the last deadline.* is '9000-01-01 00:00\+00:00', but must be past; wait until then"
-    with pytest.raises(TaskError, match=refused):
-        graded(pages, tmp_path / "before", deadline=ahead, show_right=True)
-    # One student's extension counts as much.
-    extensions = pages / TEACHER / EXTENSIONS
-    extensions.write_text("student,deadline\nClara,9000-01-01T00:00Z\n")
-    try:
-        with pytest.raises(TaskError, match=refused):
-            graded(pages, tmp_path / "before", deadline=past, show_right=True)
-    finally:
-        extensions.unlink()
-    assert not (tmp_path / "before").exists()
+def test_what_is_right_is_shown_only_when_it_is_asked_for(pages: Path, tmp_path: Path):
+    assert "right: " not in graded(pages, tmp_path / "not asked for")
+    assert "right: " in graded(pages, tmp_path / "asked for", show_right=True)
 
 
 def test_the_report_tells_what_to_teach_again(pages: Path):

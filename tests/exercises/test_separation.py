@@ -12,8 +12,9 @@ from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.hands import HandTable
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import Variant
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.expectation import Expected
-from graphcam.exercises.key.keying import draw_key, issue
+from graphcam.exercises.key.keying import TurnedAway, issue, key_or_reason
 from graphcam.exercises.key.scatter import answers_of
 from graphcam.exercises.key.separation import BEYOND, passing
 from graphcam.exercises.marking.simulate import simulate
@@ -52,8 +53,9 @@ def test_limits_swapped_in_a_region_that_begins_almost_on_the_line_of_motion_are
     offset = [asked.name for asked in exercise.answers].index("offset")
     wrong = answers_of(exercise, misconception("limits-swapped").change(drawn))[offset]
     assert abs(wrong.mean()) < (BOUND + BEYOND) * wrong.std()
-    assert draw_key(variant) is None
-    assert draw_key(replace(variant, parameters=parameters | {"limit_up": 35, "limit_down": 60})) is not None
+    assert isinstance(key_or_reason(variant), TurnedAway)
+    other = replace(variant, parameters=parameters | {"limit_up": 35, "limit_down": 60})
+    assert isinstance(key_or_reason(other), AnswerKey)
 
 
 def test_every_mistake_of_the_variant_of_a_student_is_named():

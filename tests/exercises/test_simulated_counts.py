@@ -13,9 +13,8 @@ from graphcam.cli import app
 from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.definition.hands import HANDS
 from graphcam.exercises.marking import simulate as module
-from graphcam.exercises.marking.copy_gain import CopyGain, copy_gain
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.marking.simulate import HandCount, SimulatedRow, Simulation, simulate
+from graphcam.exercises.marking.simulate import CopyGain, HandCount, SimulatedRow, Simulation, copy_gain, simulate
 
 MISTAKES = ("offset-sign", "base-circle")
 CAREFUL = [(8, None, True), (8, None, True), (8, None, False), (7, "base-circle", False), (8, None, False)]

@@ -16,8 +16,8 @@ from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.definition.hands import HANDS as HANDS_OF
 from graphcam.exercises.grading import course_speed
 from graphcam.exercises.grading.course_grading import grade_course
+from graphcam.exercises.grading.course_speed import HANDS, SECRET as SPEED_SECRET, simulated
 from graphcam.exercises.grading.grade_one import Assignment, grade
-from graphcam.exercises.grading.marking_speed import HANDS, SECRET as SPEED_SECRET, simulated
 from graphcam.exercises.marking.simulate import simulate
 
 EXERCISES = Path(__file__).parents[2] / "exercises"

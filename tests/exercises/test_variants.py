@@ -16,7 +16,7 @@ from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.keying import issue
 from graphcam.exercises.key.scatter import answers_of, torn
-from graphcam.exercises.key.separation import perfect_hands, promising
+from graphcam.exercises.key.separation import forbidden, perfect_hands, plainly_alike
 from graphcam.tasks.task import CamTable
 from graphcam.tasks.task_file import builtin_task
 
@@ -214,7 +214,7 @@ def test_what_cannot_be_told_apart_is_not_promising():
     exercise = find_exercise("acceleration-and-scales")
     same = {**exercise.parameters, "law_up": Parameter(choices=("cosine",)), "law_down": Parameter(choices=("cosine",))}
     task = drawn(replace(exercise, parameters=same), "Anna", SECRET, 0).task
-    assert not promising(exercise, perfect_hands(exercise, board_chain(task)))
+    assert forbidden(exercise, plainly_alike(exercise, perfect_hands(exercise, board_chain(task))))
 
 
 def test_an_exercise_without_a_diagnosable_variant_says_so(monkeypatch):

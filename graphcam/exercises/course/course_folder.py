@@ -6,13 +6,16 @@ import hashlib
 import json
 import os
 import secrets
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from graphcam.errors import MissingFileError, TaskError, unreadable
 from graphcam.exercises.course.roster import Student, folder_name, is_cut, read_roster, student_of
-from graphcam.exercises.definition.exercise_file import library
+from graphcam.exercises.definition.exercise import Exercise
+from graphcam.exercises.definition.exercise_file import find_exercise, library
+from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.files import OutputError
 from graphcam.language import ENGLISH
 from graphcam.words import Caption, say, sequence
@@ -197,17 +200,17 @@ class AnswerKeys:
         self.check_secret(secret, path)
         return secret
 
-    def language(self) -> str:
-        """The language that the course is noted to be in; English where nothing is."""
-        return str(self.course().get("language", ENGLISH.name))
+    def course_exercise(self, named: str = "") -> Exercise:
+        """The exercise in the language, for the hand and on the paper that the course is noted to be made for.
 
-    def hand(self) -> str:
-        """The hand that the course is noted to be made for; empty where it is the exercise's."""
-        return str(self.course().get("hand", ""))
+        named : another one than the course is noted to be about
 
-    def paper(self) -> str:
-        """The paper that the worksheets are printed on to be photographed; empty where they are not made for it."""
-        return str(self.course().get("paper", ""))
+        Raises
+        ------
+        GraphcamError : it is not there, or its file is wrong
+        """
+        noted = {"language": ENGLISH.name, "hand": "", "paper": ""} | self.course()
+        return find_exercise(named or self.exercise(), *(str(noted[key]) for key in ("language", "hand", "paper")))
 
     def course(self) -> dict[str, Any]:
         """What is noted of the course; empty where nothing is."""
@@ -219,6 +222,31 @@ class AnswerKeys:
 
     def _path(self, student: str) -> Path:
         return Path(f"{self.folder}/{KEPT}/{folder_name(student)}.json")
+
+
+@dataclass(frozen=True)
+class KeysAsNeeded(Mapping[str, AnswerKey]):
+    """Answer keys by student, read one by one as they are needed: together they would fill the memory.
+
+    Who has none that can be read is left out.
+
+    kept : where they are;  students : whose
+    """
+
+    kept: AnswerKeys
+    students: Sequence[str]
+
+    def __getitem__(self, student: str) -> AnswerKey:
+        try:
+            return AnswerKey.from_json(self.kept.find(student))
+        except TaskError:
+            raise KeyError(student) from None
+
+    def __iter__(self) -> Iterator[str]:
+        return (student for student in self.students if student in self)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
 
 
 def _alone(course: Path, name: str) -> bool:

@@ -11,9 +11,8 @@ from graphcam.drafting.ink import Caption, say
 from graphcam.errors import TaskError
 from graphcam.exercises.course.hand_ins import HandIn, answers_folder
 from graphcam.exercises.course.packed import unpack_one
-from graphcam.exercises.reading.answered_files import answers_in, answers_named
 from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
-from graphcam.exercises.reading.submission_files import CSV, LIMITS, TOML, answer_files
+from graphcam.exercises.reading.submission_files import CSV, LIMITS, TOML, answer_files, answers_in, answers_named
 from graphcam.tasks.task_writer import TASK_FILE
 
 HANDED_OUT = ("worksheet.pdf", "worksheet.dxf", TASK_FILE)

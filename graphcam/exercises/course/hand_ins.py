@@ -1,23 +1,71 @@
-"""What lies in a folder of submissions: whose each folder or file is, and what is nobody's."""
+"""What lies in a folder of submissions: whose each folder or file is, and what is nobody's.
+
+Of several attempts of a student the newest counts that has answers.
+"""
 
 import os
 import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from graphcam.drafting.ink import Caption, say
 from graphcam.errors import unreadable
 from graphcam.exercises.course.course_folder import AnswerKeys
-from graphcam.exercises.course.export_names import ExportName, export_name
 from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.roster import read_roster
-from graphcam.exercises.reading.answered_files import answers_in
-from graphcam.exercises.reading.submission_files import answer_files
+from graphcam.exercises.reading.submission_files import answer_files, answers_in
+
+MOODLE = re.compile(r"(?P<whose>.+)_\d+_assignsubmission_(?:file|onlinetext)(?:_(?P<file>.*))?", re.DOTALL)
+"""Name_1234_assignsubmission_file_, a folder, or with the name of the file behind it; the number is nobody's id."""
+BLACKBOARD = re.compile(
+    r"(?P<whose>.+)_attempt_(?P<attempt>\d{4}(?:-\d\d){5})(?:_(?P<file>.+)|\.(?P<info>txt))?", re.DOTALL
+)
+"""Assignment_username_attempt_2026-11-20-12-30-00_answers.toml; the one that ends .txt tells about the attempt."""
+CANVAS = re.compile(r"(?P<whose>[^_]+)(?:_LATE)?_(?P<number>\d+)_\d+_(?P<file>.+)", re.DOTALL)
+"""lastfirst_12345_67890_answers.toml: the number of the user, then that of the submission."""
+
+
+@dataclass(frozen=True)
+class ExportName:
+    """What the name of a folder or file says.
+
+    whose : texts of which one is the student's id, address or name
+    file : as it was called when it was handed in; empty of a folder, and of a file that holds no answers
+    attempt : greater of a later one; empty where there is but one
+    """
+
+    whose: tuple[str, ...]
+    file: str = ""
+    attempt: str = ""
+
+
+def export_name(name: str) -> ExportName | None:
+    """What the name says; None of one that no learning system gives.
+
+    >>> export_name("Anna Berg_1234_assignsubmission_file_")
+    ExportName(whose=('Anna Berg',), file='', attempt='')
+    >>> export_name("berganna_LATE_12345_67890_answers.toml")
+    ExportName(whose=('berganna', '12345'), file='answers.toml', attempt='')
+    >>> export_name("Cams_1_aberg_attempt_2026-11-20-12-30-00_answers.dxf").whose
+    ('aberg', '1_aberg', 'Cams_1_aberg')
+    >>> export_name("Anna Berg")
+    """
+    if found := MOODLE.fullmatch(name):
+        return ExportName((found["whose"],), found["file"] or "")
+    if found := BLACKBOARD.fullmatch(name):
+        # Both the assignment and the user may have underscores in their names.
+        parts = found["whose"].split("_")
+        whose = tuple("_".join(parts[k:]) for k in reversed(range(len(parts))))
+        return ExportName(whose, found["file"] or "", found["attempt"])
+    if found := CANVAS.fullmatch(name):
+        return ExportName((found["whose"], found["number"]), found["file"])
+    return None
+
 
 MOST_ATTEMPTS = 10
-"""How many first attempts of a student are read, and as many of the last: students may pack any number of them."""
+"""How many attempts of a student are looked into, the newest first: students may pack any number of them."""
 ATTEMPT = re.compile(r"(?:attempt|попытка)[ _-]*0*([1-9]\d{0,3})", re.IGNORECASE)
 """A folder in a student's own that holds one of several attempts."""
 
@@ -30,8 +78,6 @@ class HandIn:
     path : a folder of the student's own, or the one that holds the student's files among those of others
     names : of files among those of others, by how each was called when it was handed in how it is called there
     notes : sentences for the teacher
-    attempt : its number; 0 where there is but one
-    time : when it was handed in, as the learning system wrote it into the name; empty where it did not
     unread : it has files, and none that can hold answers; the last of the notes says why
     """
 
@@ -40,8 +86,6 @@ class HandIn:
     path: Path
     names: Mapping[str, str] | None = None
     notes: tuple[Caption, ...] = ()
-    attempt: int = 0
-    time: str = ""
     unread: bool = False
 
 
@@ -54,7 +98,7 @@ class Refused:
 
 
 def hand_ins_in(folder: Path, kept: AnswerKeys, roster: Path | None = None) -> tuple[list[HandIn], list[Refused]]:
-    """What was handed in, in the order of the students and of their attempts, and what is not graded.
+    """What was handed in, in the order of the students, and what is not graded.
 
     Whatever stands there but for plain files is somebody's submission, also a link or a pipe in place of a folder;
     names that begin with a point are not.
@@ -69,8 +113,10 @@ def hand_ins_in(folder: Path, kept: AnswerKeys, roster: Path | None = None) -> t
     known = course_students(kept, roster)
     names = _names(folder, lambda name: bool(kept.find(kept.student(name))), lms=known is not None)
     if known is None:
-        return sorted((one for name in names for one in _own(folder, kept.student(name), name)), key=_order), []
-    return _assigned(folder, names, kept.student, known)
+        found, refused = [_own(folder, kept.student(name), name) for name in names], list[Refused]()
+    else:
+        found, refused = _assigned(folder, names, kept.student, known)
+    return sorted(found, key=lambda one: (one.student, one.place)), sorted(refused, key=lambda one: one.place)
 
 
 def course_students(kept: AnswerKeys, roster: Path | None) -> Recognition | None:
@@ -99,8 +145,8 @@ def _names(folder: Path, known: Callable[[str], bool], *, lms: bool) -> list[str
     )
 
 
-def _own(folder: Path, student: str, name: str) -> list[HandIn]:
-    """What lies in a folder of a student's own: its attempts, or one hand-in where the answers lie in it."""
+def _own(folder: Path, student: str, name: str) -> HandIn:
+    """What lies in a folder of a student's own: the newest of its attempts, or the answers that lie in it."""
     path = folder / name
     listed: list[tuple[str, bool]] = []
     # A link would lead into another student's folder.
@@ -109,23 +155,22 @@ def _own(folder: Path, student: str, name: str) -> list[HandIn]:
             listed = [(entry.name, entry.is_dir(follow_symlinks=False)) for entry in entries]
     numbered = [(int(found[1]), inner) for inner, inside in listed if inside and (found := ATTEMPT.fullmatch(inner))]
     if not numbered:
-        return [HandIn(student, name, path)]
+        return HandIn(student, name, path)
     # The files that were handed out, left empty, hide nothing.
     if answer_files(inner for inner, _ in listed)[0] and answers_in(path):
         note = say("the folders of attempts beside the answers are not read")
-        return [HandIn(student, name, path, notes=(note,))]
-    return _bounded(
-        [HandIn(student, f"{name}/{inner}", path / inner, attempt=number) for number, inner in sorted(numbered)]
-    )
+        return HandIn(student, name, path, notes=(note,))
+    attempts = [inner for _, inner in sorted(numbered, reverse=True)]
+    answered = next((inner for inner in attempts[:MOST_ATTEMPTS] if answers_in(path / inner)), None)
+    chosen = answered or attempts[0]
+    notes = _chosen_of(len(attempts)) if answered else ()
+    return HandIn(student, f"{name}/{chosen}", path / chosen, notes=notes)
 
 
-def _bounded(attempts: list[HandIn]) -> list[HandIn]:
-    """The attempts that are read, of a student's in their order."""
-    if len(attempts) <= 2 * MOST_ATTEMPTS:
-        return attempts
-    note = say("only the first {count} and the last {count} attempts are read", count=MOST_ATTEMPTS)
-    read = [*attempts[:MOST_ATTEMPTS], *attempts[-MOST_ATTEMPTS:]]
-    return [replace(one, notes=(*one.notes, note)) for one in read]
+def _chosen_of(attempts: int) -> tuple[Caption, ...]:
+    """What the teacher and the student are told of the attempt that was chosen."""
+    said = say("{count} attempts were handed in; the last one with answers counts", count=attempts)
+    return (said,) if attempts > 1 else ()
 
 
 def answers_folder(one: HandIn, assignment: str) -> Path:
@@ -138,10 +183,6 @@ def answers_folder(one: HandIn, assignment: str) -> Path:
         # A link would lead into another student's folder; what may not be looked into is no folder, and no error here.
         return within
     return one.path
-
-
-def _order(one: HandIn) -> tuple[str, int, str]:
-    return one.student, one.attempt, one.place
 
 
 def _assigned(
@@ -158,7 +199,8 @@ def _assigned(
             meant = known.meant([name, *(said.whose if said else ())])
             if len(meant) != 1:
                 if meant:
-                    refused.append(Refused(name, _several(meant)))
+                    why = say("it may belong to several students: {students}", students=", ".join(meant))
+                    refused.append(Refused(name, why))
                 else:
                     strays.append(name)
                 continue
@@ -170,22 +212,18 @@ def _assigned(
     found: list[HandIn] = []
     for student, listed in places.items():
         if len(listed) == 1 and _is_folder(folder / listed[0][0], listed[0][1]):
-            found += _own(folder, student, listed[0][0])
+            found.append(_own(folder, student, listed[0][0]))
         elif all(said and not _is_folder(folder / name, said) for name, said in listed):
-            found += _files(folder, student, [(name, said) for name, said in listed if said])
+            found.append(_files(folder, student, [(name, said) for name, said in listed if said]))
         else:
             why = say("several of these belong to {student}; keep one", student=student)
             refused += [Refused(name, why) for name, _ in listed]
-    return sorted(found, key=_order), sorted(refused, key=lambda one: one.place)
+    return found, refused
 
 
 def _is_folder(path: Path, said: ExportName | None) -> bool:
     """Whether it counts as a folder of a student's own: also what stands in place of one, to be told about."""
     return said is None or path.is_dir() or not (said.file or said.attempt)
-
-
-def _several(meant: list[str]) -> Caption:
-    return say("it may belong to several students: {students}", students=", ".join(meant))
 
 
 def _nobodys(name: str, known: Recognition, missing: Collection[str]) -> Caption:
@@ -202,12 +240,13 @@ def _nobodys(name: str, known: Recognition, missing: Collection[str]) -> Caption
     )
 
 
-def _files(folder: Path, student: str, listed: list[tuple[str, ExportName]]) -> list[HandIn]:
-    """One student's files among those of others, by attempts."""
-    times = sorted({said.attempt for _, said in listed})
-    found: list[HandIn] = []
-    for number, time in enumerate(times, 1):
-        of_it = [(name, said.file) for name, said in listed if said.attempt == time]
-        files = {file: name for name, file in of_it if file}
-        found.append(HandIn(student, of_it[0][0], folder, files, attempt=number if len(times) > 1 else 0, time=time))
-    return _bounded(found)
+def _files(folder: Path, student: str, listed: list[tuple[str, ExportName]]) -> HandIn:
+    """One student's files among those of others: those of the newest attempt that has answers."""
+    attempts: dict[str, dict[str, str]] = {}
+    for name, said in sorted(listed, key=lambda one: one[1].attempt, reverse=True):
+        attempts.setdefault(said.attempt, {}).update({said.file: name} if said.file else {})
+    made = list(attempts.values())
+    answered = next((files for files in made[:MOST_ATTEMPTS] if answers_in(folder, files)), None)
+    files = made[0] if answered is None else answered
+    place = next(iter(files.values()), listed[0][0])
+    return HandIn(student, place, folder, files, _chosen_of(len(made)) if answered else ())

@@ -3,15 +3,17 @@
 import csv
 import importlib
 import math
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import get_args
 
+import numpy as np
+
 from graphcam.errors import TaskError, installed
-from graphcam.exercises.course.course_advice import other_scale, wide_tolerances
 from graphcam.exercises.course.course_folder import (
     KEYS,
     PRINTED,
@@ -25,9 +27,10 @@ from graphcam.exercises.course.course_folder import (
     read_secret,
     write_secret,
 )
-from graphcam.exercises.course.handouts import Sheets, key_rows, key_sheet, write_handouts
+from graphcam.exercises.course.handouts import Sheets, instructions, key_rows, key_sheet, write_handouts
 from graphcam.exercises.course.roster import Student, folder_name, read_roster
 from graphcam.exercises.course.spreadsheet import cell
+from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
 from graphcam.exercises.definition.variant import Variant
@@ -39,6 +42,50 @@ from graphcam.photo.printed import Ink
 from graphcam.tasks.sheet_tables import one_of
 from graphcam.words import Words, say
 from graphcam.workers import executor_of, in_order
+
+WIDE = 0.1
+"""A tolerance is wide that exceeds this part of the value."""
+NUMBER = r"(\d+(?:[.,]\d+)?)"
+STATEMENTS = (
+    (re.compile(rf"{NUMBER} ?° ?(?:to|per|in|=|/|в) ?{NUMBER}? ?(?:mm|мм)"), 1, 2),
+    (re.compile(rf"{NUMBER} ?(?:mm|мм) ?(?:to|=|per|изображает|соответствует|ứng với|表示) ?{NUMBER} ?°"), 2, 1),
+)
+"""How texts state the scale of the cam angle, and which of the numbers are degrees and millimetres."""
+
+
+def wide_tolerances(exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> dict[str, float]:
+    """The numbers, by name, whose tolerance is wide in half of the variants, and which part of the value it is."""
+    found: dict[str, float] = {}
+    for asked in exercise.answers:
+        keys = [each.keys[asked.name] for each in answer_keys]
+        values = [(key.tolerance, abs(key.expected.value)) for key in keys if isinstance(key.expected.value, float)]
+        parts = [tolerance / value if value else math.inf for tolerance, value in values]
+        if parts and (part := float(np.median(parts))) > WIDE:
+            found[asked.name] = part
+    return found
+
+
+def stated_scales(text: str) -> Iterator[tuple[str, float]]:
+    """The scales of the cam angle that a text states, as it says them and in degrees a millimetre.
+
+    >>> list(stated_scales("Lay off the cam angle at 1° to 1 mm; 2 мм изображает 1°."))
+    [('1° to 1 mm', 1.0), ('2 мм изображает 1°', 0.5)]
+    """
+    for pattern, degrees, millimetres in STATEMENTS:
+        for said in pattern.finditer(text):
+            length = float((said[millimetres] or "1").replace(",", "."))
+            if length:
+                yield said[0], float(said[degrees].replace(",", ".")) / length
+
+
+def other_scale(variant: Variant) -> tuple[str, float] | None:
+    """What the text says of the scale of the cam angle where the sheet has another, and that of the sheet [deg/mm]."""
+    drawn = math.degrees(board_chain(variant.task).board.mu_phi.per_mm)
+    for said, scale in stated_scales(instructions(variant)):
+        if not math.isclose(scale, drawn, rel_tol=1e-6):
+            return said, drawn
+    return None
+
 
 UNMARKED = "unmarked"
 """What asks for worksheets that are not made to be photographed."""

@@ -6,12 +6,19 @@ view has its room, and every page the same places.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.constructions.axes import OVERHANG, ordinate
+from graphcam.constructions.chain import Chain
+from graphcam.constructions.views import PROFILE, at_scale
+from graphcam.drafting.marks import Mark, Points
+from graphcam.drafting.scale import Scale
 from graphcam.errors import DesignError
 from graphcam.exercises.course.handouts import Sheets, answer_table, instructions
-from graphcam.exercises.course.marked_views import MarkedView, marked_views
 from graphcam.exercises.course.page_parts import (
     TextColumn,
     bar_captions,
@@ -22,22 +29,138 @@ from graphcam.exercises.course.page_parts import (
     paragraphs,
     standing,
 )
-from graphcam.exercises.course.printed_lines import black_boxes, polylines
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.course.sheet_code import SheetCode
-from graphcam.exercises.definition.drawn_answers import board_chain
+from graphcam.exercises.definition.blank_axes import ROOM, marked_axes, room_of
+from graphcam.exercises.definition.drawn_answers import board_chain, construction_of
+from graphcam.exercises.definition.exercise import Diagram, Exercise
 from graphcam.exercises.definition.variant import Variant
-from graphcam.photo.printed import Ink, PrintedPage
+from graphcam.photo.printed import Edges, Ink, PrintedPage, PrintedView
 from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.expand import Placement, expand
 from graphcam.sheets.formats import Format, Lettering
 from graphcam.sheets.labels import lettered
 from graphcam.sheets.marked_paper import BAR_ROOM, MARKED_PAPERS, PATCH, TITLE, MarkedPaper
-from graphcam.sheets.model import Drawing, Entity, Group, Page, Text
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Page, Stroke, Text
 from graphcam.sheets.page_tiles import in_tiles
+from graphcam.sheets.sampling import box_of, pieces
 from graphcam.sheets.styles import LIGHT
 from graphcam.sheets.tables import Block, table_blocks
-from graphcam.words import Caption, say
+from graphcam.words import Caption, Tell, say
+
+RIGHT_OF_TURN = 1.0
+"""The room beyond the tip of the axis of the cam angle, mm."""
+
+
+@dataclass(frozen=True, eq=False)
+class MarkedView:
+    """A view about its origin.
+
+    name : as in ``Page.origins``
+    room : the box that is kept for what is drawn, nothing black in it
+    marks : the givens
+    title : said above it, or beside one that is a diagram
+    end_title : said at the end of a diagram's axis
+    turn : the length of a diagram's axis [mm], 0 where a curve runs round the origin
+    """
+
+    name: str
+    room: Box
+    marks: tuple[Mark, ...]
+    title: str
+    end_title: str = ""
+    turn: float = 0.0
+
+    def printed(self, origin: complex) -> PrintedView:
+        """The view as it is printed on its page."""
+        room = self.room.moved(origin)
+        edges = room.left, room.bottom, room.right, room.top
+        return PrintedView(origin, edges, closed=not self.turn, end=self.turn)
+
+
+def marked_views(exercise: Exercise, chain: Chain, side: float, tell: Tell) -> list[MarkedView]:
+    """The views of an exercise's worksheet: its diagrams in order, and the profile.
+
+    side : of the room of the profile [mm]
+
+    Raises
+    ------
+    DesignError : the worksheet shows a view for which no room is known
+    """
+    steps = [step for name, count in exercise.sheet.items() for step in construction_of(chain, name).steps()[:count]]
+    for step in steps:
+        if step.view.name != PROFILE.name:
+            limit = say("the profile and empty axes alone where worksheets are photographed")
+            raise DesignError("sheet", step.view.name, limit, say("leave papers out"))
+    views = [_diagram(exercise, chain, name, tell) for name in exercise.axes]
+    marks = [mark for step in steps for mark in step.told(tell).marks]
+    if marks:
+        views.append(_profile(chain, side, marks, tell))
+    return views
+
+
+def _profile(chain: Chain, side: float, marks: Sequence[Mark], tell: Tell) -> MarkedView:
+    """The cam's profile in the room for which its scale was chosen, whatever the cam."""
+    room = Box(-side / 2, -side / 2, side / 2, side / 2)
+    title = tell(at_scale(PROFILE, chain.profile_scale).title)
+    return MarkedView(PROFILE.name, room, tuple(marks), title)
+
+
+def _diagram(exercise: Exercise, chain: Chain, name: Diagram, tell: Tell) -> MarkedView:
+    """Empty axes that reach up to the edges of their room; what they are called stands outside."""
+    (low, high), (view, marks, before) = room_of(exercise, name), marked_axes(exercise, chain, name)
+    mu_phi = chain.board.mu_phi
+    turn = 2 * np.pi / mu_phi.per_mm
+    room = Box(-before, low, turn + OVERHANG + RIGHT_OF_TURN, high)
+    unit = ordinate(ROOM[name][0], chain.board.follower.unit)
+    title = tell(say("{title}: {unit}", title=view.title, unit=unit))
+    return MarkedView(view.name, room, marks, title, _scale_said(mu_phi, tell), turn)
+
+
+def _scale_said(mu_phi: Scale, tell: Tell) -> str:
+    return tell(say("φ, °; μᵩ = {mu:.4g}°/mm", mu=np.degrees(mu_phi.per_mm)))
+
+
+Polyline = NDArray[np.complex128]
+
+
+def black_boxes(groups: Iterable[Group]) -> list[Edges]:
+    """Boxes about all that is printed in black."""
+    light = set(LIGHT.values())
+    boxes = [box_of([e]) for group in groups for e in group.entities if e.role not in light]
+    return [(box.left, box.bottom, box.right, box.top) for box in boxes if box is not None]
+
+
+def polylines(entities: Iterable[Entity]) -> list[Polyline]:
+    """The lines of entities, texts left out.
+
+    >>> [line.tolist() for line in polylines([Stroke(np.array([0, 2, 2j]), "light grey", closed=True)])]
+    [[0j, (2+0j), 2j, 0j]]
+    """
+    return [np.asarray(line, dtype=np.complex128) for entity in entities for line in _lines(entity)]
+
+
+def _lines(entity: Entity) -> Iterable[Points]:
+    match entity:
+        case Text():
+            return []
+        case Stroke(closed=False):
+            return [entity.points]
+        case Stroke() | Curve():
+            return [_closed(entity.points)]
+        case ArcEntity():
+            starts, ends = pieces(entity)
+            return [np.append(starts, ends[-1:])]
+        case Circles(centres=centres):
+            starts, _ = pieces(entity)
+            return [_closed(ring) for ring in starts.reshape(len(centres), -1)]
+        case _:
+            return np.column_stack(pieces(entity))
+
+
+def _closed(points: Points) -> Points:
+    return np.append(points, points[:1])
+
 
 BETWEEN = 3.0
 """The gap between views, and between blocks of text, mm."""
@@ -75,22 +198,6 @@ class PlacedView:
         if self.view.turn:
             return Box(room.left - TITLE, room.bottom, room.right + TITLE, room.top)
         return Box(room.left, room.bottom, room.right, room.top + TITLE)
-
-
-def marked_worksheet(
-    variant: Variant, student: Student, secret: bytes, paper: str, ink: Ink
-) -> tuple[Drawing, list[PrintedPage]]:
-    """The pages to be printed, and what a reader of photographs must know of them.
-
-    paper : a name of ``MARKED_PAPERS``; of tiles two pages of the drawing print one page
-    variant : of an exercise for that paper
-
-    Raises
-    ------
-    DesignError : the worksheet shows a view for which no room is known, or the text is too long for a page
-    """
-    sheets, pages = marked_sheets(variant, student, secret, paper, ink)
-    return sheets.printed, pages
 
 
 def marked_sheets(

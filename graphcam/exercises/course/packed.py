@@ -1,14 +1,12 @@
 """A zip of all submissions, as a learning system gives it: unpacked aside, nothing but what can hold answers."""
 
 import io
-import os
 import stat
 import struct
 import zipfile
 import zlib
 from collections.abc import Generator
-from contextlib import contextmanager, suppress
-from datetime import datetime
+from contextlib import contextmanager
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory
 
@@ -94,7 +92,6 @@ def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path, most: int, most
                 (folder / path).touch()
             else:
                 left -= _write(archive, entry, folder / path)
-                _keep_time(entry, folder / path)
         # What zlib and the checks of the archive say; a name that is too long, or twice there.
         except (OSError, zipfile.BadZipFile, NotImplementedError, EOFError, ValueError, zlib.error):
             refused.append(Refused(entry.filename, say("it cannot be unpacked")))
@@ -102,13 +99,6 @@ def _unpack(archive: zipfile.ZipFile, place: Path, folder: Path, most: int, most
             expected = say("at most {most_bytes} bytes unpacked", most_bytes=most_bytes)
             raise TaskError(str(place), say("the size"), say("larger"), expected, say("look into it by hand"))
     return refused
-
-
-def _keep_time(entry: zipfile.ZipInfo, path: Path) -> None:
-    """Give a file the time that the archive has of it, which is that of the machine's zone."""
-    with suppress(ValueError, OverflowError):
-        changed = datetime(*entry.date_time).timestamp()
-        os.utime(path, (changed, changed))
 
 
 def _unsafe(entry: zipfile.ZipInfo, path: PurePosixPath) -> Caption | None:

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
 
 from graphcam.errors import DesignError
 from graphcam.words import say
@@ -67,22 +66,6 @@ class MarksPolicy:
         (0.5, 1.0, 1.0)
         """
         return max((self.caps.get(name, 1.0) for name in mistakes), default=1.0)
-
-
-def policy_changes(follow_through: float | None, near: float | None, caps: Sequence[str]) -> dict[str, Any]:
-    """What the command line changes of a policy: fields of a :class:`MarksPolicy` by name, without those left out.
-
-    caps : texts such as "offset-sign=0.5"
-
-    Raises
-    ------
-    DesignError : a cap is no mistake with a part
-
-    >>> policy_changes(0.5, None, ["offset-sign=0.5"])
-    {'follow_through': 0.5, 'caps': {'offset-sign': 0.5}}
-    """
-    said = {"follow_through": follow_through, "near": near, "caps": caps_of(caps)}
-    return {name: value for name, value in said.items() if value is not None}
 
 
 def caps_of(texts: Sequence[str]) -> dict[str, float]:

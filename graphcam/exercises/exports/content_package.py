@@ -3,9 +3,24 @@
 See IMS Content Packaging, version 1.1.
 """
 
+import zipfile
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+EARLIEST = (1980, 1, 1, 0, 0, 0)
+"""Date of all files, the first that a zip can tell: the same files make the same zip."""
+
+
+def write_zip(path: Path, files: Mapping[str, bytes]) -> None:
+    """Write files, by their names in it, into a zip."""
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in files.items():
+            file = zipfile.ZipInfo(name, EARLIEST)
+            file.external_attr = 0o644 << 16
+            archive.writestr(file, data, zipfile.ZIP_DEFLATED)
+
 
 MANIFEST = "imsmanifest.xml"
 

@@ -11,8 +11,7 @@ from graphcam.exercises.definition.exercise_file import exercise_path, find_exer
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.exports.canvas import write_quizzes
 from graphcam.exercises.exports.gradescope import student_by_email, write_autograder
-from graphcam.exercises.exports.moodle import moodle_xml
-from graphcam.exercises.exports.moodle_cloze import cloze_xml
+from graphcam.exercises.exports.moodle import cloze_xml, moodle_xml
 from graphcam.exercises.exports.nbgrader import write_course
 from graphcam.exercises.exports.prairielearn import write_question
 from graphcam.exercises.exports.qti import write_package

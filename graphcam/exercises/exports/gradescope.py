@@ -1,25 +1,82 @@
 """Gradescope's ``results.json`` (otter's too), and an autograder that writes it.
 
 The autograder lies in ``/autograder``: it reads ``submission_metadata.json`` and the folder ``submission``.  graphcam
-comes along as a wheel: an index of packages may have something else by that name.
+comes along as a wheel, made of its installed files: an index of packages may have something else by that name, and what
+marks must be what made the variants.  See the binary distribution format of the Python Packaging User Guide.
 """
 
+import base64
+import hashlib
 import json
 import sys
-from collections.abc import Sequence
-from pathlib import Path
+from collections.abc import Iterator, Sequence
+from importlib import metadata, resources
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from graphcam.errors import TaskError
 from graphcam.exercises.course.course_folder import SECRET, TEACHER, AnswerKeys, read_secret
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.definition.exercise_file import find_exercise
+from graphcam.exercises.definition.exercise_file import exercise_path, library
 from graphcam.exercises.definition.variant import sentence
-from graphcam.exercises.exports.package_wheel import write_wheel
+from graphcam.exercises.exports.content_package import write_zip
 from graphcam.exercises.grading.grade_one import Assignment, grade, read_submission
 from graphcam.exercises.reports.student_page import OUTCOMES
 from graphcam.words import say
+
+PACKAGE = "graphcam"
+LIBRARY = f"{PACKAGE}/exercises/library"
+"""The place of the exercises in an installed package; in a checkout they stand at the top level."""
+TAG = "py3-none-any"
+SAYS = f"Wheel-Version: 1.0\nGenerator: {PACKAGE}\nRoot-Is-Purelib: true\nTag: {TAG}\n"
+
+
+def write_wheel(folder: Path) -> Path:
+    """Write the wheel into a folder; its path.
+
+    Raises
+    ------
+    TaskError : graphcam is run from a folder and not installed, so its dependencies are not known
+    """
+    try:
+        distribution = metadata.distribution(PACKAGE)
+    except metadata.PackageNotFoundError:
+        remedy = say("install it with pip, a checkout with 'pip install -e .'")
+        raise TaskError(PACKAGE, say("the package"), say("not installed"), say("installed"), remedy) from None
+    about = f"{PACKAGE}-{distribution.version}.dist-info"
+    held = dict(_package()) | dict(_about(distribution, about))
+    record = [f"{name},sha256={_digest(data)},{len(data)}" for name, data in held.items()]
+    held[f"{about}/RECORD"] = "\n".join([*record, f"{about}/RECORD,,", ""]).encode()
+    wheel = folder / f"{PACKAGE}-{distribution.version}-{TAG}.whl"
+    write_zip(wheel, held)
+    return wheel
+
+
+def _package() -> Iterator[tuple[str, bytes]]:
+    """The files of the package by their names in the wheel, the exercises among them."""
+    root = Path(str(resources.files(PACKAGE)))
+    for path in sorted(root.rglob("*")):
+        if path.is_file() and "__pycache__" not in path.parts:
+            yield str(PurePosixPath(PACKAGE, *path.relative_to(root).parts)), path.read_bytes()
+    for name in library():
+        yield f"{LIBRARY}/{name}.toml", exercise_path(name).read_bytes()
+
+
+def _about(distribution: metadata.Distribution, folder: str) -> Iterator[tuple[str, bytes]]:
+    """The files of the folder of metadata: dependencies, commands and licences, as they were installed."""
+    yield f"{folder}/WHEEL", SAYS.encode()
+    for name in ("METADATA", "entry_points.txt"):
+        if text := distribution.read_text(name):
+            yield f"{folder}/{name}", text.encode()
+    for path in distribution.files or ():
+        if path.parts[0] == folder and "licenses" in path.parts:
+            yield path.as_posix(), path.read_binary()
+
+
+def _digest(data: bytes) -> str:
+    return base64.urlsafe_b64encode(hashlib.sha256(data).digest()).rstrip(b"=").decode()
+
 
 SETUP = """#!/usr/bin/env bash
 set -e
@@ -112,7 +169,7 @@ def main(root: Path) -> None:
     metadata = json.loads((root / "submission_metadata.json").read_bytes())
     email = str(metadata["users"][0]["email"])
     kept = AnswerKeys(source / TEACHER)
-    exercise = find_exercise(kept.exercise(), kept.language(), kept.hand(), kept.paper())
+    exercise = kept.course_exercise()
     student = kept.course().get("emails", {}).get(_plain(email))
     if student is None:
         found = _nothing(exercise, email)

@@ -12,7 +12,7 @@ from xml.etree.ElementTree import Element, SubElement
 from graphcam.exercises.course.handouts import instructions
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.exports.content_package import MANIFEST, Resource, manifest_of, root, xml_bytes
+from graphcam.exercises.exports.content_package import MANIFEST, Resource, manifest_of, root, write_zip, xml_bytes
 from graphcam.exercises.exports.question_parts import (
     APART,
     FAR_OFF,
@@ -26,7 +26,6 @@ from graphcam.exercises.exports.question_parts import (
     variant_identifier,
     worksheet_pdf,
 )
-from graphcam.exercises.exports.repeatable_zip import write_zip
 
 QTI = "http://www.imsglobal.org/xsd/imsqti_v2p1"
 CONTENT = "http://www.imsglobal.org/xsd/imscp_v1p1"

@@ -20,7 +20,6 @@ from graphcam.exercises.course.handouts import instructions
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Asked
-from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.variant import Variant, sentence
 from graphcam.exercises.exports.question_parts import mistaken
 from graphcam.exercises.key.answer_key import AnswerKey
@@ -163,7 +162,7 @@ def write_links(folder: Path, secret_file: Path | None, url: str, *, checks: boo
     check_url(url)
     students, kept = AnswerKeys.of(folder)
     secret = kept.secret(secret_file)
-    exercise = find_exercise(kept.exercise(), kept.language(), kept.hand(), kept.paper())
+    exercise = kept.course_exercise()
     written = 0
     for student in kept.students():
         key = AnswerKey.from_json(kept.find(student.id))

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from graphcam.errors import TaskError
-from graphcam.exercises.course.course_folder import AnswerKeys
+from graphcam.exercises.course.course_folder import AnswerKeys, KeysAsNeeded
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.answer_key import AnswerKey
@@ -42,12 +42,10 @@ def check_unchanged(exercise: Exercise, kept: AnswerKeys, students: Iterable[str
 def _known(kept: AnswerKeys, students: Iterable[str], name: str) -> list[AnswerKey]:
     """The first answer keys that are kept, are of the exercise, and can be read."""
     found: list[AnswerKey] = []
+    keys = KeysAsNeeded(kept, ())
     for student in students:
-        try:
-            known = AnswerKey.from_json(kept.find(student))
-        except TaskError:
-            continue
-        if (known.exercise, known.student) == (name, student):
+        known = keys.get(student)
+        if known is not None and (known.exercise, known.student) == (name, student):
             found.append(known)
         if len(found) == LOOKED_AT:
             break

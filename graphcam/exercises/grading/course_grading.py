@@ -7,10 +7,9 @@ import hashlib
 import json
 import shutil
 import zipfile
-from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
-from dataclasses import dataclass, field, replace
-from datetime import UTC, datetime
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -19,30 +18,25 @@ from typing import Any
 import graphcam
 from graphcam.drafting.ink import say
 from graphcam.drafts import clear_drafts
-from graphcam.errors import MissingFileError, TaskError, installed
-from graphcam.exercises.course.course_folder import AnswerKeys
+from graphcam.errors import DesignError, MissingFileError, TaskError, installed
+from graphcam.exercises.course.course_folder import AnswerKeys, KeysAsNeeded
 from graphcam.exercises.course.found_answers import Look
-from graphcam.exercises.course.hand_ins import HandIn, Refused, hand_ins_in
-from graphcam.exercises.course.hidden_names import hidden_names
-from graphcam.exercises.course.keys_as_needed import KeysAsNeeded
+from graphcam.exercises.course.hand_ins import HandIn, Refused, course_students, hand_ins_in
 from graphcam.exercises.course.packed import unpacked
 from graphcam.exercises.course.photo_reports import await_review, read_off_photographs, with_photo_notes
-from graphcam.exercises.course.roster import folder_name
+from graphcam.exercises.course.recognition import Recognition
+from graphcam.exercises.course.roster import Student, folder_name
 from graphcam.exercises.definition.exercise import Exercise
-from graphcam.exercises.definition.exercise_file import find_exercise
-from graphcam.exercises.grading.attempts import LAST, AttemptRule
+from graphcam.exercises.definition.marks_policy import caps_of
 from graphcam.exercises.grading.changed_exercise import check_unchanged
-from graphcam.exercises.grading.deadlines import LatePenalty
 from graphcam.exercises.grading.grade_one import Assignment, Submission, grade, read_hand_in, unmarked
 from graphcam.exercises.grading.gradebook import ENTERED, check_gradebook, enter_scores
-from graphcam.exercises.grading.handed_in import unread
-from graphcam.exercises.grading.lateness import NO_PENALTY, LateRules
-from graphcam.exercises.grading.teacher_tables import HandedInCourse, TeacherTables, late_rules
-from graphcam.exercises.grading.to_check import closing_lines
+from graphcam.exercises.grading.handed_in import not_handed_in, to_check, unread, with_absence, with_paper
+from graphcam.exercises.grading.overrides import OVERRIDES, Override, overridden, read_overrides
 from graphcam.exercises.marking.copies import alike_pairs
 from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.report_files import GroupNotes, write_feedback, write_reports
-from graphcam.exercises.reports.shown_names import ShownNames
+from graphcam.exercises.reports.shown_names import ShownNames, hidden_names
 from graphcam.exercises.running.levels import Level, ResourceLimits
 from graphcam.exercises.running.probe import LevelError, require
 from graphcam.files import OutputError
@@ -153,11 +147,14 @@ UNTRUSTED = say(
     "grades; choose level L2, or add --i-trust-these-students"
 )
 """What level L1 does not hold."""
+FORMER_TABLES = ("extensions.csv", "submitted.csv", "regrade-requests.csv")
+"""Tables of the teacher that graphcam read once."""
+OF_THE_PLATFORM = say("keep deadlines, late penalties, attempts and questions about marks in your learning platform")
 
 
 @dataclass(frozen=True)
 class Course:
-    """An order to grade.
+    """An order to grade: the options of ``graphcam exercise grade``.
 
     folder : with a folder for every student, or a zip of them
     secret_file : of the course's secret; None for the one in the teacher's folder
@@ -167,15 +164,18 @@ class Course:
     workers, cluster : processes here, or the address of a dask scheduler
     feedback : folder for the students' pages
     gradebook : database of nbgrader that the scores go into too
-    marks : what is to be other than in the exercise's policy, as of a MarksPolicy; caps are added to its own
     trusted : whether the students are trusted, without which level L1 is refused
     roster : of the students, instead of the one that the course was made for
     overrides : marks given by hand, instead of those in the teacher's folder
-    deadline : with its zone, for all without an extension in the teacher's folder; None where there is none
-    late : what a late hand-in loses
-    attempts : which one counts
+    follow_through, near : parts of the exercise's policy that are to be other, as of a MarksPolicy; else None
+    cap : texts such as "offset-sign=0.5", added to the policy's own caps
     anonymous : the pages hide who the students are
-    show_right : the students' pages show what would have been right, which no deadline may still be ahead of
+    show_right : the students' pages show what would have been right
+    elsewhere : a deadline, a penalty or a rule for attempts, which the learning platform has; empty
+
+    Raises
+    ------
+    DesignError : there is one nevertheless
     """
 
     folder: Path
@@ -191,12 +191,16 @@ class Course:
     trusted: bool = False
     roster: Path | None = None
     overrides: Path | None = None
-    marks: Mapping[str, Any] = field(default_factory=dict[str, Any])
-    deadline: datetime | None = None
-    late: LatePenalty = NO_PENALTY
-    attempts: AttemptRule = LAST
+    follow_through: float | None = None
+    near: float | None = None
+    cap: Sequence[str] | None = None
     anonymous: bool = False
     show_right: bool = False
+    elsewhere: str = ""
+
+    def __post_init__(self) -> None:
+        if self.elsewhere:
+            raise DesignError("--deadline, --late or --attempts", self.elsewhere, say("left out"), OF_THE_PLATFORM)
 
 
 def grade_course(course: Course, step: Callable[[int, int], None] = lambda done, total: None) -> list[Caption]:
@@ -247,12 +251,10 @@ def _graded(
     awaiting : students whose photographs nobody has looked at who should
     """
     exercise = assignment.exercise
-    handed_in = HandedInCourse(kept, exercise, hand_ins, course.roster).with_paper(course.overrides)
-    hand_ins = handed_in.hand_ins
-    late = late_rules(handed_in, course.deadline, course.late)
-    if course.show_right:
-        _check_nobody_waits(late, datetime.now(UTC))
-    tables = TeacherTables.read(handed_in, course.overrides, late, course.attempts)
+    # Where nobody said who the students are, they are those who handed in.
+    students = course_students(kept, course.roster) or Recognition(Student(one.student) for one in hand_ins)
+    by_hand = _by_hand(course, exercise, kept, students, {one.student for one in hand_ins})
+    hand_ins = with_paper(hand_ins, by_hand, kept.folder)
     names = _shown_names(course, assignment, hand_ins)
     store = Store.beside(course.out, assignment)
     with store.held():
@@ -260,12 +262,12 @@ def _graded(
         with closing(worker_pool(course.workers, course.cluster, grade.__module__)) as pool:
             records = grade_folder(hand_ins, assignment, pool, store, kept, step)
         # The store stays free of it, so that a line that is taken back leaves the marks that were found.
-        records = tables.settled(records)
+        records = overridden(exercise, with_absence(exercise, hand_ins, records), by_hand)
         answer_keys = KeysAsNeeded(kept, [record["student"] for record in records])
         silent = unread(hand_ins, records)
         refused = [*refused, *(Refused(one.place, one.notes[-1]) for one in silent)]
-        called = {student.id: student.name for student in handed_in.students().ids.values()}
-        notes = GroupNotes(refused, tables.requests, course.feedback, names, called)
+        called = {student.id: student.name for student in students.ids.values()}
+        notes = GroupNotes(refused, course.feedback, names, called)
         graded = [record for record in records if is_handed_in(record)]
         pairs = alike_pairs(exercise, graded, answer_keys)
         files = write_reports(course.out, exercise, records, answer_keys, notes, pairs)
@@ -276,7 +278,9 @@ def _graded(
         told = [say("not graded: {place}: {why}", place=one.place, why=one.why) for one in refused]
         if course.gradebook:
             told += enter_scores(course.gradebook, exercise, graded, kept.folder / ENTERED)
-        told += closing_lines(records, called, {one.student for one in silent}, pairs, awaiting, course.out.stem)
+        unreadable = {one.student for one in silent}
+        told += not_handed_in(called, graded, unreadable)
+        told += to_check(records, unreadable, pairs, awaiting, f"{course.out.stem}.html")
         store.clear()
     # Which of the bounds on memory was in force: the kernel's own are seldom given to users.
     level: Words = f"{course.level}"
@@ -288,17 +292,21 @@ def _graded(
     return [done, *told]
 
 
-def _check_nobody_waits(late: LateRules | None, now: datetime) -> None:
-    """See that the last deadline is past before what is right is shown.
+def _by_hand(
+    course: Course, exercise: Exercise, kept: AnswerKeys, students: Recognition, handed_in: set[str]
+) -> list[Override]:
+    """The marks that the teacher gives by hand.
 
     Raises
     ------
-    TaskError : it is not
+    TaskError : their table cannot be used, or there is one that is not read any more
     """
-    if late is not None and not late.deadlines.past(now):
-        last = late.deadlines.last.isoformat(" ", timespec="minutes")
-        remedy = say("wait until then, or leave the option out")
-        raise TaskError("--show-right", say("the last deadline, extensions included,"), last, say("past"), remedy)
+    for path in (kept.folder / name for name in FORMER_TABLES):
+        if path.exists():
+            remedy = say("{keep}, and delete the file", keep=OF_THE_PLATFORM)
+            raise TaskError(str(path), say("the table"), say("given"), say("left out"), remedy)
+    path = course.overrides or kept.folder / OVERRIDES
+    return read_overrides(path, exercise, students, handed_in) if course.overrides or path.exists() else []
 
 
 def _shown_names(course: Course, assignment: Assignment, hand_ins: Sequence[HandIn]) -> ShownNames:
@@ -338,22 +346,14 @@ def _exercise(course: Course, kept: AnswerKeys) -> Exercise:
     if not noted and not course.exercise:
         what = say("the exercise")
         raise TaskError(str(course.folder), what, say("not noted there"), say("known"), say("name it with --exercise"))
-    exercise = find_exercise(course.exercise or noted, kept.language(), kept.hand(), kept.paper())
+    exercise = kept.course_exercise(course.exercise)
     if noted and exercise.name != Path(noted).stem:
         made_for = say("{stem!r}, which {folder} was made for", stem=Path(noted).stem, folder=course.folder)
         raise TaskError("--exercise", say("the exercise"), exercise.name, made_for, say("leave the option out"))
-    return _with_marks(exercise, course.marks)
-
-
-def _with_marks(exercise: Exercise, changes: Mapping[str, Any]) -> Exercise:
-    """The exercise with parts of its policy changed.
-
-    Raises
-    ------
-    DesignError : to what cannot be
-    """
-    caps = {**exercise.policy.caps, **changes.get("caps", {})}
-    return replace(exercise, policy=replace(exercise.policy, **{**changes, "caps": caps}))
+    given = {"follow_through": course.follow_through, "near": course.near}
+    changed = {name: value for name, value in given.items() if value is not None}
+    caps = {**exercise.policy.caps, **caps_of(course.cap or ())}
+    return replace(exercise, policy=replace(exercise.policy, caps=caps, **changed))
 
 
 def grade_folder(

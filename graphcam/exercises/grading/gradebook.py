@@ -78,10 +78,6 @@ def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, 
             former = scores.setdefault(student, {})
             for answer in record["answers"]:
                 told += _enter(book, exercise.name, record, answer, former)
-            if "late" in record:
-                # nbgrader takes it off the sum of the answers' scores.
-                handed_in = book.find_submission_notebook(NOTEBOOK, exercise.name, student)
-                handed_in.late_submission_penalty = max(record["late"]["earned"] - record["total"], 0.0)
             if any(one["answer"] == TOTAL for one in record.get("overrides", [])):
                 told.append(BY_HAND.where(student=student))
         book.db.commit()

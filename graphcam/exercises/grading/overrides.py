@@ -1,16 +1,18 @@
 """Marks that a teacher gives by hand: a table that is read at every grading, so that they last."""
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from graphcam.drafting.ink import Caption, say
+from graphcam.errors import TaskError
 from graphcam.exercises.course.recognition import Recognition
-from graphcam.exercises.course.student_table import StudentLine, once, student_lines
+from graphcam.exercises.course.spreadsheet import cell, read_table
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.marking.record import is_handed_in
+from graphcam.words import Words
 
 OVERRIDES = "overrides.csv"
 """The teacher's table of marks given by hand."""
@@ -41,12 +43,61 @@ def read_overrides(path: Path, exercise: Exercise, known: Recognition, handed_in
     TaskError : the file cannot be read, or a line of it names a student, an answer or marks that there are not
     """
     possible = {asked.name: asked.marks for asked in exercise.answers} | {TOTAL: exercise.marks}
-    lines = student_lines(path, say("the table of overrides"), COLUMNS, known)
-    single = once(lines, ("answer",), say("give each answer of a student once"))
-    return [_override(line, possible, absent=line.student not in handed_in) for line in single]
+    found: dict[tuple[str, str], Override] = {}
+    for line in _lines(path, known):
+        one = _override(line, possible, absent=line.student not in handed_in)
+        if (one.student, one.answer) in found:
+            raise line.wrong("answer", say("another one"), say("give each answer of a student once"))
+        found[one.student, one.answer] = one
+    return list(found.values())
 
 
-def _override(line: StudentLine, possible: Mapping[str, float], *, absent: bool) -> Override:
+@dataclass(frozen=True)
+class _Line:
+    """One line: where it stands, whose it is, and its cells by the heading of their column."""
+
+    path: str
+    number: int
+    student: str
+    cells: Mapping[str, str]
+
+    def __getitem__(self, column: str) -> str:
+        """What stands in a column, without spaces around it; empty where the line has no such cell."""
+        return self.cells.get(column, "").strip()
+
+    def wrong(self, column: str, expected: Words, remedy: Words) -> TaskError:
+        """The error to raise about a cell of this line."""
+        what = say("line {number}: {column}", number=self.number, column=column)
+        return TaskError(self.path, what, self[column], expected, remedy)
+
+
+def _lines(path: Path, known: Recognition) -> Iterator[_Line]:
+    """The lines of the table, which names students by id, e-mail address or name.
+
+    Raises
+    ------
+    TaskError : the file cannot be read, lacks a column, or a line names nobody, or may mean several students
+    """
+    rows = read_table(path, say("the table of overrides"))
+    head = [name.strip().lower() for name in rows[0][1]] if rows else []
+    if not set(COLUMNS) <= set(head):
+        remedy = say("name the columns in the first line")
+        expected = say("with {names}", names=",".join(COLUMNS))
+        raise TaskError(str(path), say("the first line"), ",".join(head), expected, remedy)
+    for number, row in rows[1:]:
+        cells = dict(zip(head, row, strict=False))
+        said = cells.get("student", "")
+        # An id copied from a table of grades may have the guard of its cell.
+        meant = [student for student in known.ids if said in (student, cell(student))] or known.meant([said])
+        line = _Line(str(path), number, meant[0] if meant else "", cells)
+        if len(meant) != 1:
+            severally = say("it may mean {names}; give the id", names=", ".join(meant))
+            expected = say("one student of the course by id, address or name")
+            raise line.wrong("student", expected, severally if meant else say("check the id"))
+        yield line
+
+
+def _override(line: _Line, possible: Mapping[str, float], *, absent: bool) -> Override:
     """One line.
 
     possible : marks by the answer's name;  absent : the student has not handed in

@@ -90,11 +90,6 @@ def alike(exercise: Exercise, wrong: Mapping[str, Sequence[Expected]]) -> tuple[
     return tuple((a, b) for a, b in combinations(wrong, 2) if not _told(exercise, wrong[a], wrong[b]))
 
 
-def permitted(exercise: Exercise, pairs: Iterable[tuple[str, str]]) -> bool:
-    """Whether the exercise lets all these pairs be alike."""
-    return not forbidden(exercise, pairs)
-
-
 def forbidden(exercise: Exercise, pairs: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
     """The pairs that the exercise does not let be alike."""
     let = {frozenset(pair) for pair in exercise.alike}
@@ -141,14 +136,6 @@ def _gap(asked: Asked, a: Expected, b: Expected) -> NDArray[np.float64]:
     if asked.kind != "number":
         return a.distances(np.asarray(b.value), asked.kind)
     return np.abs(np.asarray(a.value) - np.asarray(b.value))
-
-
-def promising(exercise: Exercise, drawn: PerfectHands) -> bool:
-    """Whether no mistake answers plainly too near to the key or to one that it must be told from, by rounding alone.
-
-    It takes no careful hands, so it costs little; nothing that could be told apart is turned away.
-    """
-    return not endless(drawn) and permitted(exercise, plainly_alike(exercise, drawn))
 
 
 def endless(drawn: PerfectHands) -> list[str]:

@@ -9,12 +9,12 @@ from functools import partial
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.coinciding import HALF
-from graphcam.exercises.key.keying import issue
-from graphcam.exercises.marking.copy_gain import GROUP
+from graphcam.exercises.key.keying import HALF, issue
 from graphcam.exercises.marking.marking import mark
 from graphcam.workers import in_order
 
+GROUP = 40
+"""Students who sit together.  In a simulation of so many every one is marked by every other's key."""
 LUCK = 1.25
 """A copy may be right by luck: an answer counts that is off by so many tolerances."""
 MOST_TIMES = 20

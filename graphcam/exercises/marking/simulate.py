@@ -3,25 +3,74 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
-from dataclasses import asdict, dataclass, field
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, field, replace
 from functools import partial
+from itertools import permutations
 from typing import Any
 
+import numpy as np
+
 from graphcam.constructions.chain import Chain
+from graphcam.errors import GraphcamError
+from graphcam.exercises.definition.catalogue import A_LAW, A_READING
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.hands import HANDS, HandTable
-from graphcam.exercises.definition.mistakes import misconception
+from graphcam.exercises.definition.mistakes import CATALOGUE, misconception
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.key.keying import HALF
 from graphcam.exercises.key.scatter import Drawn, answers_of
-from graphcam.exercises.marking.copy_gain import GROUP, CopyGain, copy_gain
-from graphcam.exercises.marking.course_variants import course_variants
+from graphcam.exercises.marking.course_variants import GROUP, course_variants
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.marking.outside import unlisted, without
 from graphcam.exercises.marking.record import Diagnosis
+from graphcam.given.laws import BETWEEN_DWELLS
 from graphcam.workers import executor_of, in_order
+
+
+def unlisted_names(exercise: Exercise) -> list[str]:
+    """Every catalogued mistake that the exercise does not list, with every argument that has to do with its answers.
+
+    Another law is taken as often as there are laws between dwells.
+    """
+    asked = exercise.answers
+    diagrams = ["integration"] + ["differentiation"] * any(each.construction == "differentiation" for each in asked)
+    lengths = dict.fromkeys(f"{each.construction}.{each.reading}" for each in asked if each.reading)
+    names: list[str] = []
+    for name, entry in CATALOGUE.items():
+        if entry.takes == A_LAW:
+            names += [f"{name}: {law}" for law in BETWEEN_DWELLS]
+        elif entry.takes == A_READING:
+            names += [f"{name}: {length}" for length in lengths]
+        else:
+            names += [f"{name}: {diagram}" for diagram in diagrams] if entry.takes else [name]
+    return [name for name in names if name not in exercise.misconceptions]
+
+
+def unlisted(exercise: Exercise, chain: Chain) -> Iterator[tuple[str, Drawn]]:
+    """The names and the answers of the hands of a drawing with every mistake that its exercise does not list.
+
+    Left out are what cannot be drawn here, and what is stroke by stroke the drawing with a mistake that is listed, such
+    as another law where that is the law of the other phase.
+    """
+    listed = [answers_of(exercise, misconception(name).change(chain)) for name in exercise.misconceptions]
+    for name in unlisted_names(exercise):
+        try:
+            answers = answers_of(exercise, misconception(name).change(chain))
+        except GraphcamError:
+            continue
+        finite = all(np.isfinite(values).all() for values in answers)
+        if finite and not any(all(map(np.array_equal, answers, others)) for others in listed):
+            yield name, answers
+
+
+def without(answer_key: AnswerKey, name: str) -> AnswerKey:
+    """The answer key that knows neither one mistake nor those that it does not tell from it."""
+    unknown = {name, *answer_key.not_told_from(name)}
+    others = {other: each for other, each in answer_key.hypotheses.items() if other not in unknown}
+    return replace(answer_key, hypotheses=others)
+
 
 SPARSELY = 5
 """The step between variants that are done with the mistakes not listed too: there are several times as many."""
@@ -61,6 +110,33 @@ class HandCount:
     def rate(self) -> float:
         """The part of the hands that lose any point."""
         return self.losing / self.hands if self.hands else 0.0
+
+
+@dataclass(frozen=True)
+class CopyGain:
+    """Copies of the answers to other variants.
+
+    pairs : how many were marked;  best : the largest part of the marks that one earned
+    above_half : how many earned more than half of the marks
+    """
+
+    pairs: int = 0
+    best: float = 0.0
+    above_half: int = 0
+
+    @property
+    def part_above_half(self) -> float:
+        """The part of the copies that earn more than half of the marks."""
+        return self.above_half / self.pairs if self.pairs else 0.0
+
+
+def copy_gain(exercise: Exercise, done: Sequence[tuple[AnswerKey, Answers]]) -> CopyGain:
+    """The gain by copies of the answers to some variants, each marked by the keys of all others."""
+    parts = [
+        (record := mark(exercise, answer_key, answers)).total / record.of
+        for (answer_key, _), (_, answers) in permutations(done, 2)
+    ]
+    return CopyGain(len(parts), max(parts, default=0.0), sum(part > HALF for part in parts))
 
 
 @dataclass

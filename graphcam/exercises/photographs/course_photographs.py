@@ -12,11 +12,9 @@ from pathlib import Path
 
 import graphcam
 from graphcam.errors import MissingFileError, TaskError, installed
-from graphcam.exercises.course.course_folder import COURSE, PRINTED, TEACHER, AnswerKeys
+from graphcam.exercises.course.course_folder import COURSE, PRINTED, TEACHER, AnswerKeys, KeysAsNeeded
 from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
-from graphcam.exercises.definition.exercise_file import find_exercise
-from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.photographs.corrections import (
     NONE,
     Corrections,
@@ -106,15 +104,16 @@ def read_course(order: ReadingOrder, step: Step = lambda done, total: None) -> R
     with readings.held():
         refused = _read(order, exercise, sheets, readings, step)
         photos = [*readings.all(), *refused]
-        students = _settled(exercise, sheets.students, photos, kept, corrections)
+        answer_keys = KeysAsNeeded(kept, sheets.students)
+        students = _settled(exercise, photos, answer_keys, corrections)
         # Before anything is written, so that a bar that is measured wrongly changes nothing.
         if order.corrections is not None:
             keep_corrections(kept.folder, exercise, corrections)
         for one in students:
-            write_student(out, exercise, one, _answer_key(kept, one.student), readings)
+            write_student(out, exercise, one, answer_keys.get(one.student), readings)
         _write(out / TABLE, photo_table(photos, students, exercise))
         if order.review is not None:
-            keys = ((one, _answer_key(kept, one.student)) for one in students)
+            keys = ((one, answer_keys.get(one.student)) for one in students)
             _write(order.review, review_page(exercise, keys, readings, photos))
     return ReadCourse(out, photos, students)
 
@@ -135,7 +134,7 @@ def _course(order: ReadingOrder, kept: AnswerKeys) -> tuple[Exercise, PrintedShe
         wanted, remedy = say("made to be photographed"), say("make the course with --paper A3")
         raise TaskError(str(order.course), say("the worksheet"), say("without marks"), wanted, remedy)
     secret = kept.secret(order.secret_file)
-    exercise = find_exercise(kept.exercise(), kept.language(), kept.hand(), kept.paper())
+    exercise = kept.course_exercise()
     students = [student.id for student in kept.students()]
     return exercise, PrintedSheets(kept.folder, exercise.name, exercise.version, students, secret)
 
@@ -193,23 +192,16 @@ def _crashed(name: str, exercise: Exercise) -> ReadPhoto:
     return ReadPhoto(name, "", why=exercise.tell(why), remedy=exercise.tell(remedy))
 
 
-def _answer_key(kept: AnswerKeys, student: str) -> AnswerKey | None:
-    try:
-        return AnswerKey.from_json(kept.find(student))
-    except TaskError:
-        return None
-
-
 def _settled(
-    exercise: Exercise, roster: Sequence[str], photos: Iterable[ReadPhoto], kept: AnswerKeys, corrections: Corrections
+    exercise: Exercise, photos: Iterable[ReadPhoto], answer_keys: KeysAsNeeded, corrections: Corrections
 ) -> list[SettledStudent]:
     """What counts, of each student who has photographs or corrections."""
-    of: dict[str, list[ReadPhoto]] = {student: [] for student in roster}
+    of: dict[str, list[ReadPhoto]] = {student: [] for student in answer_keys.students}
     for photo in photos:
         if photo.student in of:
             of[photo.student].append(photo)
     return [
-        settled(exercise, student, own, _answer_key(kept, student), corrections.get(student, NONE))
+        settled(exercise, student, own, answer_keys.get(student), corrections.get(student, NONE))
         for student, own in of.items()
         if own or student in corrections
     ]

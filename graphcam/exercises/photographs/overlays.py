@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from graphcam.exercises.definition.exercise import Kind
 from graphcam.exercises.key.expectation import Expected, paired
-from graphcam.exercises.photographs.jpegs import jpeg
+from graphcam.exercises.photographs.seen_page import jpeg
 from graphcam.exercises.reports.curves import nearest_places
 from graphcam.exercises.reports.unrolled_drawings import key_line
 from graphcam.photo.printed import Edges, Points

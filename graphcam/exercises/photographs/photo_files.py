@@ -8,7 +8,7 @@ from __future__ import annotations
 import hashlib
 import os
 import stat
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path
@@ -65,18 +65,22 @@ def read_file(job: ReadingJob, file: PhotoFile) -> list[ReadPhoto]:
     It does not raise: one photograph that none foresaw is told like any other that cannot be read.  Past its limits of
     time and memory it ends the process, a worker's.
     """
-    tell = job.exercise.tell
+    return _guarded(job, file.name, lambda allow: _read(job, file, allow))
+
+
+def _guarded(job: ReadingJob, name: str, read: Callable[[Allow], list[ReadPhoto]]) -> list[ReadPhoto]:
+    """What a reading gives back, or why it came to nothing."""
     try:
         # Other workers have the other cores.
         cv2.setNumThreads(1)
         with limited() as allow:
-            return _read(job, file, allow)
+            return read(allow)
     except OutputError as error:
         why, remedy = say("the reading cannot be saved ({error})", error=error.why), error.advice
     except Exception as error:  # noqa: BLE001  # one photograph never stops the others
         why = say("it cannot be read ({error})", error=f"{type(error).__name__}: {error}"[:200])
         remedy = say("photograph the sheet again, and save it as JPEG")
-    return [ReadPhoto(file.name, "", why=tell(why), remedy=tell(remedy))]
+    return [ReadPhoto(name, "", why=job.exercise.tell(why), remedy=job.exercise.tell(remedy))]
 
 
 def _read(job: ReadingJob, file: PhotoFile, allow: Allow) -> list[ReadPhoto]:
@@ -127,18 +131,14 @@ class Halves:
 
 def read_halves_of(job: ReadingJob, halves: Halves) -> list[ReadPhoto]:
     """Read a page off photographs of its two sheets and keep what was read; it does not raise, as :func:`read_file`."""
-    try:
-        cv2.setNumThreads(1)
-        with limited() as allow:
-            of = {"left": halves.left, "right": halves.right}
-            photographs: dict[Side, Photograph] = {side: _picture(*of[side], allow) for side in SIDES}
-            digest = f"{halves.digest}-0"
-            photo, shown = read_halves(job.sheets, job.exercise, photographs, digest, "0-")
-        job.kept.keep(halves.digest, [replace(photo, name=halves.name)], shown)
-    except Exception as error:  # noqa: BLE001  # one page never stops the others
-        why = say("it cannot be read ({error})", error=f"{type(error).__name__}: {error}"[:200])
-        remedy = say("photograph the sheet again, and save it as JPEG")
-        return [ReadPhoto(halves.name, "", why=job.exercise.tell(why), remedy=job.exercise.tell(remedy))]
+    return _guarded(job, halves.name, lambda allow: _read_halves(job, halves, allow))
+
+
+def _read_halves(job: ReadingJob, halves: Halves, allow: Allow) -> list[ReadPhoto]:
+    of = {"left": halves.left, "right": halves.right}
+    photographs: dict[Side, Photograph] = {side: _picture(*of[side], allow) for side in SIDES}
+    photo, shown = read_halves(job.sheets, job.exercise, photographs, f"{halves.digest}-0", "0-")
+    job.kept.keep(halves.digest, [replace(photo, name=halves.name)], shown)
     return []
 
 

@@ -63,9 +63,9 @@ def read_photograph(
         if len(tiles) == 1:
             side, tile = next(iter(tiles.items()))
             return replace(_registered(known, tile.registration), half=side), {}
-        return _of_tiles(sheets, exercise, known, found, tiles, prefix)
     except PhotographError as error:
         return _refused(known, error, exercise), {}
+    return _of_tiles(sheets, exercise, known, found, tiles, prefix)
 
 
 def read_halves(
@@ -86,10 +86,7 @@ def read_halves(
             return _refused(known, error, exercise), {}
         tiles |= {side: both[side]} if side in both else {}
     assert found is not None
-    try:
-        return _of_tiles(sheets, exercise, known, found, tiles, prefix)
-    except PhotographError as error:
-        return _refused(known, error, exercise), {}
+    return _of_tiles(sheets, exercise, known, found, tiles, prefix)
 
 
 def _looked_at(
@@ -125,17 +122,15 @@ def _of_tiles(
     tiles: Mapping[Side, Tile],
     prefix: str,
 ) -> Read:
-    """A page on two sheets, read.
-
-    Raises
-    ------
-    PhotographError : one is missing, or it is not seen how they lie
-    """
-    together = joined(tiles, found.page)
-    worse = max((tile.registration for tile in together.values()), key=lambda one: one.residual)
-    tags = sum(tile.registration.tags for tile in together.values())
-    known = replace(_registered(known, worse), tags=tags)
-    return _read(sheets, exercise, known, found.code, SeenPage.of_tiles(together, found.page), prefix)
+    """A page on two sheets, read; refused where one is missing, or where it is not seen how they lie."""
+    try:
+        together = joined(tiles, found.page)
+        worse = max((tile.registration for tile in together.values()), key=lambda one: one.residual)
+        tags = sum(tile.registration.tags for tile in together.values())
+        known = replace(_registered(known, worse), tags=tags)
+        return _read(sheets, exercise, known, found.code, SeenPage.of_tiles(together, found.page), prefix)
+    except PhotographError as error:
+        return _refused(known, error, exercise), {}
 
 
 def _read(

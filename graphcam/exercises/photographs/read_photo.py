@@ -14,6 +14,12 @@ from graphcam.errors import TaskError
 from graphcam.photo.printed import Edges, Points
 from graphcam.words import say
 
+TABLE = "table of answers"
+"""The picture name of the table; no view is called so."""
+BARS = ("length of the bar across", "length of the bar up")
+"""The picture names of the boxes in which the measured lengths of the scale bars are written."""
+
+
 FORMAT = 2
 DECIMALS = 3
 """Decimals of a place in mm: a thousandth is far below what a photograph shows."""

@@ -16,8 +16,7 @@ from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.photographs.corrections import FORMAT, STRETCH, student_said
 from graphcam.exercises.photographs.kept_photographs import KeptPhotographs
-from graphcam.exercises.photographs.picture_names import BARS, TABLE
-from graphcam.exercises.photographs.read_photo import ReadPhoto, pairs
+from graphcam.exercises.photographs.read_photo import BARS, TABLE, ReadPhoto, pairs
 from graphcam.exercises.photographs.settling import COUNTING, UNSCALED, SettledAnswer, SettledStudent
 from graphcam.exercises.photographs.student_files import right_in_photo
 from graphcam.exercises.reports.unrolled_drawings import key_line

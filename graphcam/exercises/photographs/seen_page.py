@@ -8,10 +8,10 @@ from functools import partial
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.exercises.course.page_parts import FIELD
-from graphcam.exercises.photographs.jpegs import jpeg
-from graphcam.exercises.photographs.picture_names import BARS, TABLE
+from graphcam.exercises.photographs.read_photo import BARS, TABLE
 from graphcam.photo.halves import Side
 from graphcam.photo.pencil_ink import Ink, ink_of
 from graphcam.photo.pictures import Photograph
@@ -19,6 +19,22 @@ from graphcam.photo.printed import Edges, PrintedPage, PrintedView
 from graphcam.photo.rectify import PER_MM, Flat, rectify
 from graphcam.photo.registration import Registration
 from graphcam.photo.tiles import Tile, rectify_tiles
+
+QUALITY = 80
+"""The quality of JPEG: a pencil line keeps its edges, and a view of A3 takes 60 kB."""
+
+
+def jpeg(pixels: NDArray[np.uint8]) -> bytes:
+    """A picture (rows, columns, 3), blue, green, red, as JPEG.
+
+    >>> jpeg(np.zeros((8, 8, 3), np.uint8))[:2].hex()
+    'ffd8'
+    """
+    # Colours as sharp as light, or a thin coloured line would be grey.
+    sharp = [cv2.IMWRITE_JPEG_SAMPLING_FACTOR, cv2.IMWRITE_JPEG_SAMPLING_FACTOR_444]
+    _, data = cv2.imencode(".jpg", pixels, [cv2.IMWRITE_JPEG_QUALITY, QUALITY, *sharp])
+    return data.tobytes()
+
 
 SHOWN_PER_MM = 3.0
 """Pixels a mm of the pictures that are shown: a pencil line is one wide, and a view of A3 takes 60 kB."""

@@ -17,15 +17,68 @@ from graphcam.exercises.key.answer_key import AnswerKey, Key
 from graphcam.exercises.key.expectation import Floats
 from graphcam.exercises.marking.copies import FALSE_ALARM, AlikePair
 from graphcam.exercises.marking.exactness import FALSE_ALARMS
-from graphcam.exercises.reports.answered_requests import AnsweredRequest
+from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.curves import CurvePicture, points_of, worst_place
-from graphcam.exercises.reports.drawing_over_key import over_key
 from graphcam.exercises.reports.item_statistics import cronbach_alpha, earned_parts, item_statistics, variant_groups
-from graphcam.exercises.reports.late_hand_ins import earned, late_report, part_left
-from graphcam.exercises.reports.student_rows import StudentRow
-from graphcam.exercises.reports.unrolled_drawings import Bundle, bundle, deviations_along
+from graphcam.exercises.reports.unrolled_drawings import Bundle, bundle, deviations_along, over_key
 from graphcam.exercises.reports.web_pages import page
-from graphcam.words import Caption, say, sequence
+from graphcam.words import Caption, Words, say, sequence
+
+
+@dataclass(frozen=True)
+class StudentRow:
+    """One student.
+
+    marks : None of one who has not handed in;  of : possible
+    remarks : what a teacher should look at;  link : the student's page; empty where there is none
+    """
+
+    student: str
+    name: str
+    marks: float | None
+    of: float
+    by_hand: bool = False
+    remarks: tuple[Words, ...] = ()
+    link: str = ""
+
+
+NOTHING: Caption = say("not handed in")
+UNREAD: Caption = say("no answer can be read; the student's page says why")
+UNANSWERED = ("missing", "unreadable")
+"""Outcomes of an answer of which nothing can be marked."""
+
+
+def student_rows(
+    records: Sequence[Mapping[str, Any]], names: Mapping[str, str], links: Mapping[str, str], of: float
+) -> list[StudentRow]:
+    """A row a student: of the records, and of those who have a name and no record, by their ids.
+
+    of : the possible marks
+    """
+    rows = {one["student"]: _row(one, names.get(one["student"], ""), links.get(one["student"], "")) for one in records}
+    missing = {student: StudentRow(student, name, None, of, remarks=(NOTHING,)) for student, name in names.items()}
+    return [row for _, row in sorted((missing | rows).items())]
+
+
+def _row(record: Mapping[str, Any], name: str, link: str) -> StudentRow:
+    remarks: list[Words] = list(record["notes"])
+    if not is_handed_in(record):
+        # The last one says that there is no answer; those before it say why.
+        why = tuple(remarks[:-1]) or (NOTHING,)
+        return StudentRow(record["student"], name, None, record["of"], remarks=why, link=link)
+    if record["too_exact"]:
+        remarks.append(say("as exact as a program"))
+    if is_unanswered(record):
+        remarks.insert(0, UNREAD)
+    by_hand = "overrides" in record
+    return StudentRow(record["student"], name, record["total"], record["of"], by_hand, tuple(remarks), link)
+
+
+def is_unanswered(record: Mapping[str, Any]) -> bool:
+    """Whether something was handed in and no answer of it can be marked, nor is anything given by hand."""
+    nothing = all(answer["outcome"] in UNANSWERED for answer in record["answers"])
+    return is_handed_in(record) and nothing and "overrides" not in record
+
 
 WIDTH, HEIGHT, LETTERS = 640, 70, 18
 """Pixels: of the chart, and of the line of labels under it."""
@@ -158,7 +211,7 @@ def mistakes(records: Sequence[dict[str, Any]]) -> list[Mistake]:
         if diagnosis := record["diagnosis"]:
             found.setdefault(tuple(sorted([diagnosis["misconception"], *diagnosis["alike"]])), []).append(record)
     listed = [
-        Mistake(names, tuple(each["student"] for each in made), sum(each["of"] - earned(each) for each in made))
+        Mistake(names, tuple(each["student"] for each in made), sum(each["of"] - each["total"] for each in made))
         for names, made in found.items()
     ]
     return sorted(listed, key=lambda mistake: (-len(mistake.students), -mistake.lost, mistake.names))
@@ -176,7 +229,6 @@ def group_page(
     answer_keys: Mapping[str, AnswerKey],
     pairs: Sequence[AlikePair] = (),
     refused: Sequence[Refused] = (),
-    requests: Sequence[AnsweredRequest] = (),
     rows: Sequence[StudentRow] = (),
 ) -> str:
     """The report as one HTML page, for the teacher alone: it shows keys.
@@ -184,7 +236,6 @@ def group_page(
     answer_keys : by student, as far as they are known
     pairs : whose numbers agree beyond chance
     refused : what is not graded
-    requests : questions of students
     rows : all students of the course, those who handed nothing in too
     """
     steps, found = step_errors(exercise, records), mistakes(records)
@@ -205,8 +256,6 @@ def group_page(
         weak=sorted((step for step in steps if step.earned < WEAK), key=lambda step: step.earned),
         marks=_marks(exercise, records),
         policies=_policies(records),
-        requests=requests,
-        lateness=late_report(records),
         steps=[(step, _chart(step, bound)) for step in steps],
         items=item_statistics(records),
         alpha=cronbach_alpha(earned_parts(records) * [asked.marks for asked in exercise.answers])
@@ -226,11 +275,10 @@ def _policies(records: Sequence[dict[str, Any]]) -> list[tuple[Caption, float]]:
     """The average marks as they are, and as they would be by another policy, where that pays anyone otherwise."""
     own = [record["total"] for record in records]
     others = [
-        (say("Without follow-through"), [part_left(record) * record["without_follow_through"] for record in records]),
-        (say("Without caps on mistakes"), [part_left(record) * record["without_caps"] for record in records]),
-        (say("Without the late penalty"), [earned(record) for record in records]),
+        (say("Without follow-through"), [record["without_follow_through"] for record in records]),
+        (say("Without caps on mistakes"), [record["without_caps"] for record in records]),
     ]
-    # Marks with a penalty are rounded to hundredths.
+    # Marks under a cap are rounded to hundredths.
     paying = [(said, marks) for said, marks in others if not np.allclose(marks, own, rtol=0, atol=0.01)]
     rows = [(say("This policy"), own), *paying] if paying else []
     return [(said, sum(marks) / len(marks)) for said, marks in rows]

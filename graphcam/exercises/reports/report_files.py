@@ -1,28 +1,25 @@
 """All files of a graded course, written together; the grades are CSV that is safe to open in a spreadsheet."""
 
 import json
+import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any
+from urllib.parse import quote
 
 from graphcam.exercises.course.hand_ins import Refused
 from graphcam.exercises.course.photo_reports import photo_pictures
-from graphcam.exercises.course.regrade_requests import RegradeRequest
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.marking.copies import AlikePair, alike_pairs
+from graphcam.exercises.marking.copies import AlikePair
 from graphcam.exercises.marking.record import is_handed_in
-from graphcam.exercises.reports.answered_requests import answered, page_links
-from graphcam.exercises.reports.group_page import group_page
-from graphcam.exercises.reports.late_hand_ins import time_cells, time_columns
+from graphcam.exercises.reports.group_page import group_page, student_rows
 from graphcam.exercises.reports.learning_platforms import canvas_grades, moodle_grades
 from graphcam.exercises.reports.shown_names import ShownNames
 from graphcam.exercises.reports.student_page import student_page
-from graphcam.exercises.reports.student_rows import student_rows
 from graphcam.files import whole_folder
 
 LONG = (
@@ -36,23 +33,15 @@ BY_HAND = ("student", "answer", "found", "marks", "comment")
 class GroupNotes:
     """What the reports tell besides the records.
 
-    refused : what is not graded;  requests : questions of students
+    refused : what is not graded
     pages : the folder of the students' pages, None where none are written
     names : of the students on the pages;  called : the students' own names by id, of all of the course
     """
 
     refused: Sequence[Refused] = ()
-    requests: Sequence[RegradeRequest] = ()
     pages: Path | None = None
     names: ShownNames = field(default_factory=ShownNames)
     called: Mapping[str, str] = field(default_factory=dict[str, str])
-
-
-IDS = ShownNames()
-"""The students go by their ids."""
-NO_FOLDERS: Mapping[str, Path] = MappingProxyType({})
-NOTHING_NOTED = GroupNotes()
-NOBODY: Mapping[str, str] = MappingProxyType({})
 
 
 def write_reports(
@@ -60,8 +49,8 @@ def write_reports(
     exercise: Exercise,
     records: Sequence[dict[str, Any]],
     answer_keys: Mapping[str, AnswerKey],
-    notes: GroupNotes = NOTHING_NOTED,
-    pairs: Sequence[AlikePair] | None = None,
+    notes: GroupNotes,
+    pairs: Sequence[AlikePair],
 ) -> list[str]:
     """The grades, wide into ``out``; beside it long, for grade books, who agrees, the records, the group's report.
 
@@ -69,7 +58,7 @@ def write_reports(
 
     records : also of those who handed in nothing, who have rows without marks and no part in the statistics
     notes : what is not graded has a table of its own where there is any
-    pairs : who agrees beyond chance; they are looked for where they are not given
+    pairs : who agrees beyond chance
 
     Raises
     ------
@@ -78,8 +67,6 @@ def write_reports(
     names: list[str] = []
     with whole_folder(out.parent) as draft:
         # One after the other, each gone from memory before the next is made.
-        graded = [record for record in records if is_handed_in(record)]
-        pairs = alike_pairs(exercise, graded, answer_keys) if pairs is None else pairs
         for name, parts in _texts(out, exercise, records, answer_keys, notes, pairs):
             with (draft / name).open("w", encoding="utf-8", newline="") as file:
                 file.writelines(parts)
@@ -98,8 +85,11 @@ def _texts(
     """The names of the files, each with its text in parts."""
     graded = [record for record in records if is_handed_in(record)]
     yield out.name, [wide_table(records, notes.called)]
-    for name, text in _by_hand(out, records).items():
-        yield name, [text]
+    by_hand = [(record, one) for record in records for one in record.get("overrides", [])]
+    # The table of a former run would go on telling what was taken back.
+    if by_hand or (out.parent / f"{out.stem}-by-hand.csv").exists():
+        rows = ([record["student"], *(one[column] for column in BY_HAND[1:])] for record, one in by_hand)
+        yield f"{out.stem}-by-hand.csv", [table(BY_HAND, rows)]
     # One row an answer, for statistics.
     yield (
         f"{out.stem}-long.csv",
@@ -113,19 +103,33 @@ def _texts(
     not_graded, names = f"{out.stem}-not-graded.csv", notes.names
     shown = names.records(records)
     links = page_links([record["student"] for record in shown], notes.pages, out.parent)
-    requests = list(answered(names.requests(notes.requests), shown, links))
     refused = names.refused(notes.refused, not_graded)
     keys = names.answer_keys(answer_keys)
     # Their own names would tell what is hidden.
     rows = student_rows(shown, {} if names.hidden else notes.called, links, exercise.marks)
     graded = [record for record in shown if is_handed_in(record)]
-    yield f"{out.stem}.html", [group_page(exercise, graded, keys, names.pairs(pairs), refused, requests, rows)]
+    yield f"{out.stem}.html", [group_page(exercise, graded, keys, names.pairs(pairs), refused, rows)]
     if names.hidden:
         rows = sorted([name, one] for one, name in names.hidden.items())
         yield f"{out.stem}-ids.csv", [table(("name", "student"), rows)]
     # The table of a former run would go on telling what is mended.
     if notes.refused or (out.parent / not_graded).exists():
         yield not_graded, [table(("folder", "why"), ([one.place, one.why] for one in notes.refused))]
+
+
+def page_links(students: Sequence[str], pages: Path | None, beside: Path) -> dict[str, str]:
+    """Links to the students' pages in a folder, from a page in another one.
+
+    >>> page_links(["a/b"], Path("out/pages"), Path("out"))
+    {'a/b': 'pages/a%252Fb.html'}
+    >>> page_links(["a"], None, Path("out"))
+    {}
+    """
+    if pages is None:
+        return {}
+    # Absolute, as the one may have been named from elsewhere.
+    way = os.path.relpath(pages.absolute(), beside.absolute())
+    return {student: quote(f"{way}/{folder_name(student)}.html".replace(os.sep, "/")) for student in students}
 
 
 def _json_lines(records: Sequence[dict[str, Any]]) -> Iterator[str]:
@@ -140,8 +144,8 @@ def write_feedback(
     exercise: Exercise,
     records: Sequence[dict[str, Any]],
     answer_keys: Mapping[str, AnswerKey],
-    names: ShownNames = IDS,
-    folders: Mapping[str, Path] = NO_FOLDERS,
+    names: ShownNames,
+    folders: Mapping[str, Path],
     *,
     right: bool = False,
 ) -> None:
@@ -164,29 +168,14 @@ def write_feedback(
             (draft / f"{folder_name(name)}.html").write_text(text, encoding="utf-8", newline="\n")
 
 
-def _by_hand(out: Path, records: Sequence[dict[str, Any]]) -> dict[str, str]:
-    """The table of marks given by hand, where there are any, or were when it was written before."""
-    name = f"{out.stem}-by-hand.csv"
-    rows = [
-        [record["student"], *(one[column] for column in BY_HAND[1:])]
-        for record in records
-        for one in record.get("overrides", [])
-    ]
-    return {name: table(BY_HAND, rows)} if rows or (out.parent / name).exists() else {}
-
-
-def wide_table(records: Sequence[dict[str, Any]], called: Mapping[str, str] = NOBODY) -> str:
-    """One row a student: total, marks of every answer, diagnosis, advice, level, remarks, what a deadline made, name.
+def wide_table(records: Sequence[dict[str, Any]], called: Mapping[str, str]) -> str:
+    """One row a student: total, marks of every answer, diagnosis, advice, level, remarks, name.
 
     called : the students' own names by id
     """
     names = list(dict.fromkeys(answer["name"] for record in records for answer in record["answers"]))
-    times = time_columns(records)
-    head = ["student", "exercise", "total", "of", *names, "diagnosis", "too_exact", "level", "notes", *times, "name"]
-    rows = (
-        [*_wide(record, names), *time_cells(record, times), called.get(record["student"], "")] for record in records
-    )
-    return table(head, rows)
+    head = ["student", "exercise", "total", "of", *names, "diagnosis", "too_exact", "level", "notes", "name"]
+    return table(head, ([*_wide(record, names), called.get(record["student"], "")] for record in records))
 
 
 def copies_table(pairs: Iterable[AlikePair]) -> str:

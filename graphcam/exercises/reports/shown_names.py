@@ -1,11 +1,16 @@
-"""Who is who on the pages: the students' ids, or names that hide them."""
+"""Who is who on the pages: the students' ids, or names that hide them.
 
-from collections.abc import Mapping, Sequence
+Hidden names are made from the course's secret, so that only its keeper can find who it is.
+"""
+
+import base64
+import hashlib
+import hmac
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from graphcam.exercises.course.hand_ins import Refused
-from graphcam.exercises.course.regrade_requests import RegradeRequest
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.copies import AlikePair
 from graphcam.words import say
@@ -42,10 +47,6 @@ class ShownNames:
         """The pairs who agree, under these names."""
         return [replace(pair, student=self.of(pair.student), other=self.of(pair.other)) for pair in pairs]
 
-    def requests(self, requests: Sequence[RegradeRequest]) -> list[RegradeRequest]:
-        """The questions under these names."""
-        return [replace(request, student=self.of(request.student)) for request in requests]
-
     def refused(self, refused: Sequence[Refused], table: str) -> list[Refused]:
         """What is not graded; folders have the names of students, so where those are hidden only their number is told.
 
@@ -54,3 +55,30 @@ class ShownNames:
         if not self.hidden or not refused:
             return list(refused)
         return [Refused(table, say("it lists what was not graded, {count} in total", count=len(refused)))]
+
+
+SHORTEST = 6
+"""Letters of a name: of 3000 students two agree in so many in one course out of 240."""
+
+
+def hidden_names(secret: bytes, exercise: str, students: Iterable[str]) -> dict[str, str]:
+    """A name of small letters and digits for each student, another one in every exercise; no two are the same.
+
+    >>> names = hidden_names(b"secret", "whole-cam", ["s1", "s2"])
+    >>> len(set(names.values())), len(names["s1"])
+    (2, 6)
+    >>> names["s1"] == hidden_names(b"secret", "integration", ["s1"])["s1"]
+    False
+    """
+    whole = {student: _name(secret, exercise, student) for student in students}
+    length = SHORTEST
+    # Of the whole digests no two agree.
+    while len({name[:length] for name in whole.values()}) < len(whole):
+        length += 1
+    return {student: name[:length] for student, name in whole.items()}
+
+
+def _name(secret: bytes, exercise: str, student: str) -> str:
+    # No name of an exercise has a zero in it, so the two parts stand apart.
+    said = f"graphcam hidden name\0{exercise}\0{student}".encode("utf-8", "surrogatepass")
+    return base64.b32encode(hmac.digest(secret, said, hashlib.sha256)).decode("ascii").rstrip("=").lower()

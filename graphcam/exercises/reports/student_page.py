@@ -4,14 +4,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from graphcam.exercises.course.hand_in_times import shown_time
 from graphcam.exercises.definition.exercise import Asked, Exercise
 from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.curves import CurvePicture, picture, points_of, worst_place
-from graphcam.exercises.reports.drawing_over_key import over_key
 from graphcam.exercises.reports.first_step_off import first_step_off
+from graphcam.exercises.reports.unrolled_drawings import over_key
 from graphcam.exercises.reports.web_pages import page
 from graphcam.report.markdown import number
 from graphcam.words import Caption, Words, say
@@ -88,7 +87,6 @@ def student_page(
         photographs=photographs,
         told=right,
         handed_in=is_handed_in(record),
-        attempts=[{**one, "submitted": shown_time(one["submitted"] or "")} for one in record.get("attempts", [])],
         step=first_step_off(exercise, _unsettled(record), right=shown is not None) if is_handed_in(record) else None,
     )
 

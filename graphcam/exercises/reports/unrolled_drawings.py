@@ -5,13 +5,26 @@ Along the picture runs the way round the key's curve, across it the deviation no
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from graphcam.drafting.marks import Points
 from graphcam.exercises.definition.exercise import Kind
 from graphcam.exercises.key.expectation import Expected, Floats, paired
-from graphcam.exercises.reports.curves import nearest_places
+from graphcam.exercises.reports.curves import CurvePicture, nearest_places, picture, points_of
+
+
+def over_key(key: Expected, answer: dict[str, Any], kind: Kind, spot: complex | None) -> CurvePicture:
+    """The picture of a drawn answer of a record, the key's stations as dots, and of a curve its line.
+
+    spot : the place that is circled, None where none is
+    """
+    curves = [("key", np.atleast_1d(np.asarray(key.value)), False), ("own", points_of(answer), kind == "curve")]
+    if kind == "curve":
+        curves.insert(0, ("key", key_line(key), True))
+    return picture(curves, spot)
+
 
 WIDTH, HEIGHT = 640, 200
 """Pixels of the picture, without its labels."""

@@ -18,8 +18,7 @@ from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.photographs.course_photographs import READINGS, ReadCourse, ReadingOrder, read_course
 from graphcam.exercises.photographs.kept_photographs import KeptPhotographs
-from graphcam.exercises.photographs.picture_names import BARS, TABLE
-from graphcam.exercises.photographs.read_photo import KeptPicture, ReadAnswer, ReadPhoto
+from graphcam.exercises.photographs.read_photo import BARS, TABLE, KeptPicture, ReadAnswer, ReadPhoto
 
 # A process that is forked from one in which OpenCV has threads hangs.
 cv2.setNumThreads(1)

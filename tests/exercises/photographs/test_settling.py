@@ -13,8 +13,7 @@ from PIL import Image
 
 from graphcam.errors import TaskError
 from graphcam.exercises.photographs.corrections import KEPT, NONE, Correction, StudentCorrections, stretch_of, to_json
-from graphcam.exercises.photographs.judging import SEARCH_BAND
-from graphcam.exercises.photographs.settling import settled
+from graphcam.exercises.photographs.settling import SEARCH_BAND, settled
 
 NAME = "pitch"
 

@@ -14,8 +14,7 @@ from graphcam.exercises.key.keying import issue
 from graphcam.exercises.key.scatter import answers_of
 from graphcam.exercises.marking.copies import alike_pairs
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.marking.outside import unlisted
-from graphcam.exercises.marking.simulate import submission
+from graphcam.exercises.marking.simulate import submission, unlisted
 
 HANDS = 5
 """Students of each kind who draw each variant; a course takes one of them."""
