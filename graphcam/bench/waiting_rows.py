@@ -1,24 +1,30 @@
-"""Waiting times: a task solved with all its files, and one view of it drawn anew after a size was changed."""
+"""Waiting times: a task solved with all its files, one view drawn anew, and each picture while a size is dragged."""
 
 import os
 import subprocess
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
+from itertools import count
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
-from graphcam.bench.rows import BenchRow, Gauge, Section
+from graphcam.bench.rows import MILLISECONDS, BenchRow, Effort, Section
+from graphcam.bench.timing import seconds_of_programs
 from graphcam.plots.step_board import StepBoard
 from graphcam.report.documents import contents_of, drawing_of, sheet_of
 from graphcam.report.step_player import player_of
 from graphcam.sheets.player import group_svg
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solve import solve
+from graphcam.studio.engine import answer
+from graphcam.studio.task_paths import changed, value_at
+from graphcam.studio.task_text import plain_task
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import BUILT_IN, builtin_arcs_task, builtin_task
+from graphcam.words import say
 
 LIBRARIES = "import numpy, matplotlib.figure, ezdxf"
 """What loading a program that draws takes at least."""
@@ -27,27 +33,39 @@ TIMES = 1.6
 STARTED = 3
 """Times that each program is started, the best of which counts: the first one compiles it."""
 PROGRAM = "import sys; from graphcam.cli import main; sys.argv = ['graphcam', 'solve', '--out', sys.argv[1]]; main()"
+PX_PER_MM = 1.9
+"""How large a view of the studio is shown."""
+STEP = 1e-3
+"""How much a size grows from one picture of a drag to the next [mm or degrees]."""
 
 
-def solve_rows(gauge: Gauge) -> Iterator[BenchRow]:
+def built_in() -> Mapping[str, Task | ArcsTask]:
+    """Every built-in task by its name.
+
+    >>> [*built_in()]
+    ['coursework', 'arm', 'flat', 'measured', 'arcs']
+    """
+    return {name: builtin_task(name) for name in BUILT_IN} | {"arcs": builtin_arcs_task()}
+
+
+# --- a task solved ---------------------------------------------------------------------------------------------------
+
+
+def solve_rows(effort: Effort) -> Iterator[BenchRow]:
     """A whole run of the built-in task; of every built-in one layout, step player and the slowest of its views."""
+    seconds = effort.timer.seconds
     with TemporaryDirectory() as folder:
         libraries, whole = (_processor_seconds(program, Path(folder)) for program in (LIBRARIES, PROGRAM))
     unit = f"s beyond {TIMES:g} times the libraries"
-    yield BenchRow("solve, all files", "coursework", whole - TIMES * libraries, unit, "<= 1", None, whole)
-    for name, task in _tasks().items():
+    yield BenchRow("solve, all files", "coursework", whole - TIMES * libraries, unit, "<= 1", seconds=whole)
+    for name, task in built_in().items():
         solution = solve(task)
         contents = contents_of(solution)
-        drawing = drawing_of(contents)
-        yield _milliseconds("layout", name, gauge.timer.seconds(partial(sheet_of, solution)), 250)
-        yield _milliseconds("step player", name, gauge.timer.seconds(partial(player_of, contents, drawing)), 150)
-        times = {view: gauge.timer.seconds(again) for view, again in _views(solution).items()}
-        slowest = max(times, key=times.__getitem__)
-        yield _milliseconds("view after a size changed", f"{name}, {slowest}", times[slowest], 30)
-
-
-def _milliseconds(name: str, what: str, seconds: float, most: int) -> BenchRow:
-    return BenchRow(name, what, 1e3 * seconds, "ms", f"<= {most}", None, seconds)
+        yield MILLISECONDS.row("layout", name, seconds(sheet_of, solution), "<= 250")
+        yield MILLISECONDS.row("step player", name, seconds(player_of, contents, drawing_of(contents)), "<= 150")
+        again = resized(solution)
+        slowest, view = max((seconds(view_svg, again, view, names), view) for view, names in _views(solution).items())
+        yield MILLISECONDS.row("view after a size changed", f"{name}, {view}", slowest, "<= 30")
 
 
 def _processor_seconds(program: str, folder: Path) -> float:
@@ -57,26 +75,20 @@ def _processor_seconds(program: str, folder: Path) -> float:
     paths = {"PYTHONPYCACHEPREFIX": str(folder / "compiled"), "PYTHONPATH": os.pathsep.join(sys.path)}
     found: list[float] = []
     for run in range(STARTED):
-        before = os.times()
+        before = seconds_of_programs()
         command = [sys.executable, "-c", program, str(folder / str(run))]
         subprocess.run(command, check=True, capture_output=True, env=kept | paths)
-        after = os.times()
-        found.append(after.children_user + after.children_system - before.children_user - before.children_system)
+        found.append(seconds_of_programs() - before)
     return min(found)
 
 
-def _tasks() -> Mapping[str, Task | ArcsTask]:
-    return {name: builtin_task(name) for name in BUILT_IN} | {"arcs": builtin_arcs_task()}
-
-
-def _views(solution: AnySolution) -> Mapping[str, Callable[[], str]]:
-    """What draws each view of a solution anew."""
+def _views(solution: AnySolution) -> Mapping[str, list[str]]:
+    """The constructions that draw each view of a solution."""
     drawn: dict[str, list[str]] = {}
     for name, construction in solution.drawn.items():
         for view in {step.view.name for step in construction.steps() if step.marks}:
             drawn.setdefault(view, []).append(name)
-    task = resized(solution)
-    return {view: partial(view_svg, task, view, names) for view, names in drawn.items()}
+    return drawn
 
 
 def resized(solution: AnySolution) -> Task | ArcsTask:
@@ -108,8 +120,53 @@ def view_svg(task: Task | ArcsTask, view: str, names: Sequence[str]) -> str:
 
 WAITING = Section(
     "waiting",
-    "Waiting times of a user",
+    say("Waiting times of a user"),
     "A whole run is told by what it takes beyond the loading of the libraries that draw, which depends on the disk and "
     "on their versions; everything else in milliseconds of the processor on this machine.",
     solve_rows,
+)
+
+# --- a size dragged in the studio ------------------------------------------------------------------------------------
+
+
+def studio_rows(effort: Effort) -> Iterator[BenchRow]:
+    """Every view of every built-in task while one of its sizes is dragged."""
+    for name, given in built_in().items():
+        task = plain_task(given)
+        for view in answer({"task": task, "views": []})["names"]:
+            seconds = effort.timer.seconds(dragging(task, view["name"]))
+            yield MILLISECONDS.row("view while dragged", f"{name}, {view['name']}", seconds, "<= 30")
+
+
+def dragging(task: dict[str, Any], view: str) -> Callable[[], dict[str, Any]]:
+    """What answers the next picture of a drag: each time with the size a little farther on.
+
+    >>> again = dragging(plain_task(builtin_task()), "profile")
+    >>> again()["ok"], again()["sizes"]["offset"]
+    (True, -9.998)
+    """
+    path = dragged_size(task)
+    asked = [{"name": view, "px_per_mm": PX_PER_MM}]
+    hold, steps = answer({"task": task, "views": asked})["hold"], count(1)
+
+    def next_picture() -> dict[str, Any]:
+        """The answer to the next request."""
+        moved = changed(task, {path: value_at(task, path) + STEP * next(steps)})
+        return answer({"task": moved, "views": asked, "hold": hold})
+
+    return next_picture
+
+
+def dragged_size(task: dict[str, Any]) -> str:
+    """The size that is dragged: the first of some that a task gives, on which every view depends."""
+    sizes = ("follower.offset", "arcs.rho1", "cam.prime_radius", "limits.min_curvature_radius")
+    return next(path for path in sizes if value_at(task, path) is not None)
+
+
+STUDIO = Section(
+    "studio",
+    say("Waiting times in the studio"),
+    "One view, solved and drawn anew while a size is dragged, with its labels and scales held; in milliseconds of "
+    "processor time on this machine.",
+    studio_rows,
 )
