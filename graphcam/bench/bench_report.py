@@ -9,9 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from graphcam import __version__
-from graphcam.bench.bound_rows import BOUNDS
-from graphcam.bench.convergence import CONVERGENCE, PARTS
-from graphcam.bench.drawing_times import DRAWING
+from graphcam.bench.convergence import BOUNDS, CONVERGENCE, PARTS
 from graphcam.bench.exact_rows import EXACT
 from graphcam.bench.hand_errors import BUDGETS, PARTS as PENCIL_PARTS, PENCIL, bands
 from graphcam.bench.load_rows import LOADS
@@ -21,7 +19,7 @@ from graphcam.bench.rows import Effort, Line, Section
 from graphcam.bench.scenes import BENCH_LAWS
 from graphcam.bench.sweep_curve import CURVE, SIZES as SWEPT
 from graphcam.bench.tradeoff import METHODS
-from graphcam.bench.waiting_rows import STUDIO, WAITING
+from graphcam.bench.waiting_rows import DRAWING, STUDIO, WAITING
 from graphcam.files import whole_folder
 from graphcam.report.output_folder import unheard
 from graphcam.words import Words, say

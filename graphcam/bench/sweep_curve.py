@@ -8,11 +8,10 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from graphcam.bench.rows import BenchRow, Effort, Section
+from graphcam.bench.rows import BenchRow, Section
 from graphcam.bench.timing import seconds_of_programs
 from graphcam.words import say
 
@@ -33,43 +32,31 @@ roller_radius = 12
 """
 
 
-@dataclass(frozen=True)
-class SweptFile:
-    """One run.
-
-    seconds : by the clock;  processor_seconds : of all processes, 0 where the system does not tell
-    peak_bytes : of all processes together, pages that they share counted once; None where the system does not tell
-    """
-
-    designs: int
-    workers: int
-    seconds: float
-    processor_seconds: float
-    peak_bytes: int | None
-
-
-def sweep_curve(
-    sizes: Sequence[int], workers: Sequence[int] = WORKERS, longest: float = LONGEST
-) -> Iterator[SweptFile]:
+def curve_rows(sizes: Sequence[int], workers: Sequence[int] = WORKERS, longest: float = LONGEST) -> Iterator[BenchRow]:
     """Every number of designs with every number of workers, the small ones first.
 
-    >>> [(run.designs, run.workers) for run in sweep_curve([1000, 2000], [1], longest=0.0)]
-    [(1000, 1)]
+    >>> [row.what.partition(";")[0] for row in curve_rows([1000, 2000], [1], longest=0.0)]
+    ['1e+03 designs, workers: 1']
     """
     for count in workers:
         seconds_each = 0.0
         for designs in sorted(sizes):
             if designs * seconds_each > longest:
                 break
-            run = swept_file(designs, count)
-            seconds_each = run.seconds / designs
-            yield run
+            seconds, processor_seconds, peak = swept_file(designs, count)
+            seconds_each = seconds / designs
+            memory = "" if peak is None else f", {peak / 2**20:.0f} MiB at most"
+            what = f"{designs:.0e} designs, workers: {count}; {processor_seconds:.1f} s of processors{memory}"
+            yield BenchRow("sweep to Parquet", what, designs / seconds, "designs/s", seconds=seconds)
 
 
-def swept_file(designs: int, workers: int) -> SweptFile:
-    """One run, into a folder that is gone afterwards.
+def swept_file(designs: int, workers: int) -> tuple[float, float, int | None]:
+    """One run, into a folder that is gone afterwards: seconds by the clock, seconds of processors, and maximum memory.
 
     designs : a multiple of 1000
+
+    The memory [bytes] is that of all processes together, pages that they share counted once; None where the system
+    does not tell.
     """
     with TemporaryDirectory() as folder:
         space = Path(folder, "space.toml")
@@ -85,26 +72,18 @@ def swept_file(designs: int, workers: int) -> SweptFile:
         seconds = time.perf_counter() - start
         if run.returncode:
             raise subprocess.CalledProcessError(run.returncode, program)
-    return SweptFile(designs, workers, seconds, seconds_of_programs() - before, peak)
+    return seconds, seconds_of_programs() - before, peak
 
 
 def _memory_of_tree(process: int) -> int:
     """Bytes of a process and of all that it has begun, by Linux's count of proportional shares; 0 for none."""
     try:
-        told = (Path("/proc", str(process)) / "smaps_rollup").read_text(encoding="ascii")
-        begun = [path.read_text(encoding="ascii") for path in (Path("/proc", str(process)) / "task").glob("*/children")]
+        told = Path(f"/proc/{process}/smaps_rollup").read_text(encoding="ascii")
+        begun = [path.read_text(encoding="ascii") for path in Path(f"/proc/{process}/task").glob("*/children")]
     except OSError:
         return 0  # it has ended, or this is no Linux
     own = sum(int(line.split()[1]) for line in told.splitlines() if line.startswith("Pss:")) * 1024
     return own + sum(_memory_of_tree(int(child)) for child in " ".join(begun).split())
-
-
-def curve_rows(effort: Effort) -> Iterator[BenchRow]:
-    """The curve as rows of the report."""
-    for run in sweep_curve(effort.swept):
-        memory = "" if run.peak_bytes is None else f", {run.peak_bytes / 2**20:.0f} MiB at most"
-        what = f"{run.designs:.0e} designs, workers: {run.workers}; {run.processor_seconds:.1f} s of processors{memory}"
-        yield BenchRow("sweep to Parquet", what, run.designs / run.seconds, "designs/s", seconds=run.seconds)
 
 
 CURVE = Section(
@@ -112,5 +91,5 @@ CURVE = Section(
     say("Sweeps into files"),
     "Runs of graphcam sweep into one Parquet file. Designs a second are by the clock, so other work on the machine "
     "counts; peak memory is that of all processes together.",
-    curve_rows,
+    lambda effort: curve_rows(effort.swept),
 )
