@@ -1,7 +1,7 @@
 """The three figures of the bench, log-log, with the curves labelled where they run."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,10 +13,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
 from scipy.optimize import isotonic_regression
 
-from graphcam.bench.bench_report import Report
-from graphcam.bench.convergence import CONVERGENCE, EXACT, Series
-from graphcam.bench.hand_errors import PENCIL, Hands
-from graphcam.bench.tradeoff import METHODS, Method
+from graphcam.bench.convergence import EXACT, Series
+from graphcam.bench.hand_errors import Hands
+from graphcam.bench.tradeoff import Method
 from graphcam.given.laws import Floats
 
 INK, GREY, FAINT, ACCENT = "#1f2328", "#7d858c", "#e7e9eb", "#b3331f"
@@ -34,10 +33,10 @@ DPI = 160
 PLAIN = FuncFormatter("{:g}".format)
 
 
-def save(draw: Callable[[Report], Figure], report: Report, path: Path) -> None:
+def save(draw: Callable[..., Figure], path: Path, *shown: Any) -> None:
     """Write a figure as PDF and PNG beside each other."""
     with mpl.rc_context(SETTINGS):
-        figure = draw(report)
+        figure = draw(*shown)
         figure.savefig(path.with_suffix(".pdf"), metadata={"CreationDate": None})
         # Laid out once for both.
         figure.set_layout_engine("none")
@@ -108,11 +107,11 @@ GUIDE_ABOVE = 3.0
 Labelled = list[tuple[Series, str]]
 
 
-def error_against_parts(report: Report) -> Figure:
+def error_against_parts(series: Sequence[Series]) -> Figure:
     """Every follower under one law, and the other orders that there are."""
     figure = Figure(figsize=(11.5, 8.4), layout="constrained")
     panels = figure.subplots(2, 2)
-    by = {(s.follower, s.law, s.quantity): s for s in report.records[CONVERGENCE.key]}
+    by = {(s.follower, s.law, s.quantity): s for s in series}
     laws = [law for _, law, _ in by]
     law = "3-4-5" if "3-4-5" in laws else laws[0]
     for axes, (follower, title) in zip(panels.flat, TITLES.items(), strict=False):
@@ -179,10 +178,10 @@ ORDERS = {"graphical": 2, "cumulative_simpson": 4}
 """The orders of the methods that have a line of their order in the figure."""
 
 
-def error_against_time(report: Report) -> Figure:
+def error_against_time(methods: Sequence[Method], bands: Mapping[str, tuple[float, float]], pair: float) -> Figure:
     """Graphical, sampled and exact answers to three questions, with floor, order lines and pencil band."""
     figure = Figure(figsize=(12.6, 5.4), layout="constrained")
-    panels, methods = figure.subplots(1, 3, sharey=True), report.records[METHODS.key]
+    panels = figure.subplots(1, 3, sharey=True)
     times = [pairs for m in methods for pairs in m.pairs]
     for axes, (question, title) in zip(panels, QUESTIONS.items(), strict=True):
         axes.set(xscale="log", yscale="log", xlim=(min(times) / 4, max(times) * 5), ylim=(2e-17, 0.6))
@@ -192,8 +191,8 @@ def error_against_time(report: Report) -> Figure:
         axes.yaxis.set_minor_formatter(NullFormatter())
         axes.grid(color=FAINT, lw=0.7)
         axes.set_axisbelow(True)
-        _here(axes, report.pair)
-        _panel_of_time(axes, [m for m in methods if m.question == question], *report.bands[question])
+        _here(axes, pair)
+        _panel_of_time(axes, [m for m in methods if m.question == question], *bands[question])
     panels[0].set_ylabel("relative error")
     return figure
 
@@ -245,10 +244,10 @@ def _curve(axes: Axes, method: Method, t: Floats, error: Floats, **look: Any) ->
 # --- error of the hand -----------------------------------------------------------------------------------------------
 
 
-def error_of_the_hand(report: Report) -> Figure:
+def error_of_the_hand(every: Sequence[Hands]) -> Figure:
     """The mean error of many hands against the number of parts, the method's own error, and the best number."""
     figure = Figure(figsize=(8.6, 5.6), layout="constrained")
-    axes, every = figure.subplots(), report.records[PENCIL.key]
+    axes = figure.subplots()
     axes.set(xscale="log", yscale="log")
     for hands, colour in zip(every, COLOURS, strict=False):
         axes.plot(hands.parts, 100 * np.array(hands.mean), "-", color=colour, lw=2.0)

@@ -118,7 +118,7 @@ def bench(effort: Effort, directory: Path | str, progress: Callable[[Words], Non
     OutputError : the folder cannot be written, which is said before anything is measured
     """
     # matplotlib takes long to load, so it comes when there is something to draw.
-    from graphcam.bench.bench_figures import error_against_parts, error_against_time, error_of_the_hand, save
+    from graphcam.bench import bench_figures as figures
 
     with whole_folder(directory) as folder:
         report = measure(effort, progress)
@@ -131,8 +131,10 @@ def bench(effort: Effort, directory: Path | str, progress: Callable[[Words], Non
         document = {"graphcam": __version__, **report.to_dict()}
         text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
         (folder / "bench.json").write_text(text + "\n", encoding="utf-8", newline="\n")
-        for name, draw in zip(FIGURES, (error_against_parts, error_against_time, error_of_the_hand), strict=True):
-            save(draw, report, folder / name)
+        series, hands, methods = (report.records[each.key] for each in (CONVERGENCE, PENCIL, METHODS))
+        figures.save(figures.error_against_parts, folder / "bench-parts", series)
+        figures.save(figures.error_against_time, folder / "bench-time", methods, report.bands, report.pair)
+        figures.save(figures.error_of_the_hand, folder / "bench-pencil", hands)
     return report
 
 

@@ -1,4 +1,4 @@
-"""How long one waits: for a task with all its files, a view drawn anew, a picture of a drag, a construction, a sheet."""
+"""How long one waits: a task with all its files, a view drawn anew, a picture of a drag, a construction, the sheet."""
 
 import os
 import subprocess
