@@ -96,12 +96,12 @@ SHOWN = (
     *("displacement", "velocity", "minimum prime radius", "pressure angle", "working profile"),
     "minimum radius of curvature",
 )
-OTHERS = (
-    ("translating", "rectangular", "minimum radius of curvature", "curvature at a jump"),
-    ("translating", "rectangular", "working profile", "profile, rectangular"),
-    ("translating", "cosine", "displacement", "displacement, cosine"),
-)
-"""Series with other orders: follower, law, quantity, what it is called in the figure."""
+OTHERS = {
+    ("translating", "rectangular", "minimum radius of curvature"): "curvature at a jump",
+    ("translating", "rectangular", "working profile"): "profile, rectangular",
+    ("translating", "cosine", "displacement"): "displacement, cosine",
+}
+"""What series with other orders are called in the figure: by follower, law, quantity."""
 GUIDE_ABOVE = 3.0
 """Each guide to another order starts so many times above its curve as lets both be seen."""
 Labelled = list[tuple[Series, str]]
@@ -120,7 +120,7 @@ def error_against_parts(series: Sequence[Series]) -> Figure:
         asked = [(follower, law, "pitch curve" if label == "profile" else name) for name, label in names.items()]
         found = [(by[key], label) for key, label in zip(asked, names.values(), strict=True) if key in by]
         _panel_of_parts(axes, f"{title}, {law}", found, None)
-    others = [(by[key], label) for *place, label in OTHERS if (key := tuple(place)) in by]
+    others = [(by[key], label) for key, label in OTHERS.items() if key in by]
     _panel_of_parts(panels.flat[3], "Translating follower, laws with other orders", others, GUIDE_ABOVE)
     for axes in panels[:, 0]:
         axes.set_ylabel("relative error")

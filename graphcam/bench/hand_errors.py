@@ -61,9 +61,11 @@ def by_hand(law: str, hands: int, parts: Sequence[int] = PARTS) -> Hands:
     where = replace(fixed, board=replace(fixed.board, motion=motion_of(law, LIFT, 120, 60, 120)))
     pencil = Pencil.of(SIGMA, hands)
     errors = np.array([shape_errors(where, n, pencil) for n in parts])
-    bands = errors.mean(axis=1), *np.percentile(errors, QUANTILES, axis=1)
+    mean, low, high = (
+        tuple(band.tolist()) for band in (errors.mean(axis=1), *np.percentile(errors, QUANTILES, axis=1))
+    )
     method = [float(shape_errors(where, n, Pencil(samples=1))[0]) for n in parts]
-    return Hands(law, tuple(parts), *(tuple(band.tolist()) for band in bands), tuple(method))
+    return Hands(law, tuple(parts), mean, low, high, tuple(method))
 
 
 def shape_errors(where: TestScene, parts: int, pencil: Pencil) -> Floats:

@@ -120,7 +120,7 @@ class Sampled:
         """The standard deviation of max |a|, as a part of it, in the best linear estimate; see :func:`best_scatter`."""
         u = np.linspace(0, 1, 1001)
         accelerations = np.abs([self.motion.at(k, u)[2] for k in range(len(self.motion.phases))])
-        k, place = np.unravel_index(accelerations.argmax(), accelerations.shape)
+        k, place = divmod(int(accelerations.argmax()), u.size)
         phase, at = self.motion.phases[k], float(self.motion.angle_at(k, u[place]))
         apart = (self.phi - at + math.pi) % FULL_TURN - math.pi
         near = np.sort(apart[np.abs(apart) <= phase.angle])

@@ -3,7 +3,7 @@
 Written from the textbooks' formulas, not from graphcam's own, which are arranged to round little.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
@@ -17,7 +17,7 @@ from graphcam.given.motion_point import MotionPoint
 EPS = float(np.finfo(float).eps)
 DIGITS = 50
 mp: Any = optional("mpmath")
-LIFTS: dict[str, Any] = {
+LIFTS: dict[str, Callable[[Any], Any]] = {
     "rectangular": lambda u: 2 * u**2 if 2 * u < 1 else 1 - 2 * (1 - u) ** 2,
     "cosine": lambda u: (1 - mp.cos(mp.pi * u)) / 2,
     "cycloidal": lambda u: u - mp.sin(2 * mp.pi * u) / (2 * mp.pi),

@@ -88,8 +88,7 @@ def arm_lines(motion: Motion, limit: float, arm: float, n: int) -> Lines:
 def by_optimiser(lines: Lines, start: Point) -> float:
     """The distance from the origin to the permitted region, by scipy's SLSQP with exact derivatives."""
     normals, heights = lines[0], lines[1] / math.hypot(*start)
-    inside = {"type": "ineq", "fun": lambda x: normals @ x - heights, "jac": lambda _: normals}
-    return _least_by_slsqp(start, _square, inside, jac=True)
+    return _least_by_slsqp(start, _square, _kept(lambda x: normals @ x - heights, lambda _: normals), jac=True)
 
 
 def by_linear_constraints(lines: Lines, start: Point) -> float:
@@ -113,12 +112,17 @@ def by_pressure_angles(motion: Motion, limit: float, n: int, start: Point) -> fl
         return np.concatenate([limit - alpha, limit + alpha])
 
     # NumPy's norm takes longer.
-    return _least_by_slsqp(start, lambda x: float(np.hypot(x[0], x[1])), {"type": "ineq", "fun": room})
+    return _least_by_slsqp(start, lambda x: float(np.hypot(x[0], x[1])), _kept(room))
 
 
 def _square(x: Floats) -> tuple[float, Floats]:
     """The squared distance from the origin, and its derivative."""
     return float(x @ x), 2 * x
+
+
+def _kept(room: Callable[[Floats], Floats], slope: Callable[[Floats], Floats] | None = None) -> dict[str, Any]:
+    """The constraint that no room is negative, with its derivative."""
+    return {"type": "ineq", "fun": room, "jac": slope}
 
 
 def _least_by_slsqp(start: Point, size_of: Callable[[Floats], Any], constraint: Any, **given: Any) -> float:

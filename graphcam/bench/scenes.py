@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from math import radians
+from typing import Any
 
 from graphcam.comparison.quantities import Comparison
 from graphcam.constructions.board import Board, DrawnFollower
@@ -60,9 +61,8 @@ class TestScene:
         """The exact minimum prime radius."""
         board = self.board
         follower = board.follower.built(board.follower.place, 0.0)
-        return minimum_radius(
-            board.motion, follower, board.rotation, **asdict(board.limits), **board.follower.conditions
-        )
+        conditions: dict[str, Any] = asdict(board.limits) | dict(board.follower.conditions)
+        return minimum_radius(board.motion, follower, board.rotation, **conditions)
 
 
 def motion_of(law: str, lift: float, rise: float, dwell: float, back: float) -> Motion:

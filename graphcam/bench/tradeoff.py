@@ -62,15 +62,19 @@ def methods(effort: Effort) -> Iterator[Method]:
 
     yield drawn(displacement, "graphical", fixed, "integration", "s")
     for name, integrator in rivals.INTEGRATORS.items():
-        work, error = (partial(of, motion, integrator) for of in (rivals.integrated, rivals.integrated_error))
-        yield sampled(displacement, name, "integrators", work, error)
+        error = partial(rivals.integrated_error, motion, integrator)
+        yield sampled(displacement, name, "integrators", partial(rivals.integrated, motion, integrator), error)
     yield drawn(radius, "graphical", free, "minimum_radius", "prime_radius")
     for name, kind, solve in (
         ("HalfspaceIntersection", "half_planes", rivals.by_half_planes),
         ("SLSQP", "optimiser", rivals.by_optimiser),
     ):
-        found = partial(lambda solve, n: solve(rivals.translating_lines(free_motion, LIMIT, n), INSIDE), solve)
-        yield sampled(radius, name, kind, found, partial(lambda found, n: abs(found(n) / least - 1), found))
+
+        def found(n: int, solve: Callable[[rivals.Lines, rivals.Point], float] = solve) -> float:
+            """The minimum radius of n lines [mm]."""
+            return solve(rivals.translating_lines(free_motion, LIMIT, n), INSIDE)
+
+        yield sampled(radius, name, kind, found, lambda n, found=found: abs(found(n) / least - 1))
     yield drawn(profile, "profile", fixed, "working_profile", "radius")
     if rivals.optional("shapely"):
         buffered = partial(_buffered, fixed)
