@@ -12,8 +12,7 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 import graphcam as gc
-from graphcam.bench.bench_files import bench
-from graphcam.bench.bench_report import QUICK
+from graphcam.bench.bench_report import QUICK, bench
 from graphcam.studio.local_studio import local_studio, opened_address
 
 HERE = Path(__file__).parent

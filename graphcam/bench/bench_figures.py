@@ -1,7 +1,7 @@
 """The three figures of the bench, log-log, with the curves labelled where they run."""
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
 from scipy.optimize import isotonic_regression
 
-from graphcam.bench.bench_report import Report
-from graphcam.bench.convergence import Series
+from graphcam.bench.convergence import EXACT, Series
+from graphcam.bench.hand_errors import Hands
 from graphcam.bench.tradeoff import Method
 from graphcam.given.laws import Floats
 
@@ -33,10 +33,10 @@ DPI = 160
 PLAIN = FuncFormatter("{:g}".format)
 
 
-def save(draw: Callable[[Report], Figure], report: Report, path: Path) -> None:
+def save(draw: Callable[..., Figure], path: Path, *shown: Any) -> None:
     """Write a figure as PDF and PNG beside each other."""
     with mpl.rc_context(SETTINGS):
-        figure = draw(report)
+        figure = draw(*shown)
         figure.savefig(path.with_suffix(".pdf"), metadata={"CreationDate": None})
         # Laid out once for both.
         figure.set_layout_engine("none")
@@ -48,84 +48,12 @@ def _note(axes: Axes, text: str, at: tuple[float, float], away: tuple[float, flo
     axes.annotate(text, at, xytext=away, textcoords="offset points", **look)
 
 
-# --- error against the number of parts -------------------------------------------------------------------------------
-
-TITLES = {"translating": "Translating follower", "arm": "Arm", "flat": "Flat face"}
-SHOWN = (
-    *("displacement", "velocity", "minimum prime radius", "pressure angle", "working profile"),
-    "minimum radius of curvature",
-)
-OTHERS = (
-    ("rectangular", "minimum radius of curvature", "curvature at a jump"),
-    ("rectangular", "working profile", "profile, rectangular"),
-    ("cosine", "displacement", "displacement, cosine"),
-)
-"""Series of the translating follower with other orders: law, quantity, what it is called in the figure."""
-GUIDE_ABOVE = 3.0
-"""Each guide to another order starts so many times above its curve as lets both be seen."""
-Labelled = list[tuple[Series, str]]
-
-
-def error_against_parts(report: Report) -> Figure:
-    """Every follower under one law, and the other orders that there are."""
-    figure = Figure(figsize=(11.5, 8.4), layout="constrained")
-    panels = figure.subplots(2, 2)
-    law = "3-4-5" if any(s.law == "3-4-5" for s in report.series) else report.series[0].law
-    for axes, (follower, title) in zip(panels.flat, TITLES.items(), strict=False):
-        shown = [(law, name, name) for name in SHOWN]
-        if follower == "flat":
-            # Without a roller the pitch curve is the profile.
-            shown[SHOWN.index("working profile")] = law, "pitch curve", "profile"
-        _panel_of_parts(axes, f"{title}, {law}", _labelled(report, follower, shown), {2: 0.0})
-    others = _labelled(report, "translating", OTHERS)
-    guides = {round(s.order): GUIDE_ABOVE * s.errors[0] for s, _ in others if s.order}
-    _panel_of_parts(panels.flat[3], "Translating follower, laws with other orders", others, guides)
-    for axes in panels[:, 0]:
-        axes.set_ylabel("relative error")
-    for axes in panels[1]:
-        axes.set_xlabel("parts a phase, n")
-    return figure
-
-
-def _labelled(report: Report, follower: str, shown: Iterable[tuple[str, str, str]]) -> Labelled:
-    """What there is of some laws and quantities of a follower, each with what it is called."""
-    by = {(s.law, s.quantity): s for s in report.series if s.follower == follower}
-    return [(by[law, name], label) for law, name, label in shown if (law, name) in by]
-
-
-def _panel_of_parts(axes: Axes, title: str, found: Labelled, guides: Mapping[int, float]) -> None:
-    """``guides`` are the lines' orders with their errors at the smallest n, 0 for above all curves."""
-    axes.set_title(title)
-    axes.set(xscale="log", yscale="log")
-    if not found:
-        return
-    parts, errors = found[0][0].parts, [error for series, _ in found for error in series.errors]
-    for (series, _), colour in zip(found, COLOURS, strict=False):
-        axes.plot(series.parts, np.maximum(series.errors, EPS / 4), "o-", color=colour, lw=1.6, ms=3.6)
-    rounded, top = min(errors) < EPS * 100, 2.5 * max(errors)
-    if rounded:
-        axes.axhspan(EPS / 1e6, EPS, color=FAINT, lw=0, zorder=0)
-        axes.text(parts[0], EPS / 1.6, "ε = 2.2·10⁻¹⁶", color=GREY, va="top", fontsize=9)
-    # Room below for the labels of curves that end close together.
-    axes.set_ylim(EPS / 30 if rounded else min(errors) / 12, 3 * top)
-    for order, start in guides.items():
-        _guide(axes, parts, order, start or top)
-    axes.set_xlim(parts[0] / 1.12, parts[-1] * 6.8)
-    _ticks_of_parts(axes, parts)
-    at = [max(series.errors[-1], EPS / 4) for series, _ in found]
-    _labels_at_the_end(axes, parts[-1], at, [f"{label}, {_order_text(series)}" for series, label in found])
-
-
-def _guide(axes: Axes, parts: Sequence[int], order: int, start: float) -> None:
-    """Draw a line of the order beside the curves, so that it is not mistaken for one."""
-    n = np.array([parts[0], parts[-1]], dtype=float)
-    axes.plot(n, start * (n / n[0]) ** -order, color=GREY, lw=0.9, ls=(0, (5, 3)), zorder=1)
-    middle = float(np.sqrt(n[0] * n[1]))
-    axes.text(middle * 1.06, start * (middle / n[0]) ** -order, f"order {order}", color=GREY, fontsize=9, va="bottom")
-
-
-def _order_text(series: Series) -> str:
-    return "exact" if series.exact else f"{series.order:.2f}" if series.order else "no order"
+def _guide(axes: Axes, ends: tuple[float, float], start: float, order: int) -> None:
+    """A line of the order between two places of the axis, with its name."""
+    low, high = ends
+    axes.plot(ends, [start, start * (high / low) ** -order], color=GREY, lw=0.9, ls=(0, (5, 3)), zorder=1)
+    middle = math.sqrt(low * high)
+    _note(axes, f"order {order}", (middle, start * (middle / low) ** -order), (5, 5), color=GREY, fontsize=9)
 
 
 def _ticks_of_parts(axes: Axes, parts: Sequence[int]) -> None:
@@ -154,12 +82,76 @@ def spread(places: Floats, gap: float) -> Floats:
     >>> spread(np.array([0.5, 0.5]), 0.1).round(3).tolist()
     [0.45, 0.55]
     """
-    order = np.argsort(places, kind="stable")
-    steps = gap * np.arange(places.size)
+    order, steps = np.argsort(places, kind="stable"), gap * np.arange(places.size)
     out = np.empty_like(places)
     # What is left after equal steps must not fall.
     out[order] = isotonic_regression(places[order] - steps).x + steps
     return out
+
+
+# --- error against the number of parts -------------------------------------------------------------------------------
+
+TITLES = {"translating": "Translating follower", "arm": "Arm", "flat": "Flat face"}
+SHOWN = (
+    *("displacement", "velocity", "minimum prime radius", "pressure angle", "working profile"),
+    "minimum radius of curvature",
+)
+OTHERS = {
+    ("translating", "rectangular", "minimum radius of curvature"): "curvature at a jump",
+    ("translating", "rectangular", "working profile"): "profile, rectangular",
+    ("translating", "cosine", "displacement"): "displacement, cosine",
+}
+"""What series with other orders are called in the figure: by follower, law, quantity."""
+GUIDE_ABOVE = 3.0
+"""Each guide to another order starts so many times above its curve as lets both be seen."""
+Labelled = list[tuple[Series, str]]
+
+
+def error_against_parts(series: Sequence[Series]) -> Figure:
+    """Every follower under one law, and the other orders that there are."""
+    figure = Figure(figsize=(11.5, 8.4), layout="constrained")
+    panels = figure.subplots(2, 2)
+    by = {(s.follower, s.law, s.quantity): s for s in series}
+    laws = [law for _, law, _ in by]
+    law = "3-4-5" if "3-4-5" in laws else laws[0]
+    for axes, (follower, title) in zip(panels.flat, TITLES.items(), strict=False):
+        # Without a roller the pitch curve is the profile.
+        names = {name: name for name in SHOWN} | ({"working profile": "profile"} if follower == "flat" else {})
+        asked = [(follower, law, "pitch curve" if label == "profile" else name) for name, label in names.items()]
+        found = [(by[key], label) for key, label in zip(asked, names.values(), strict=True) if key in by]
+        _panel_of_parts(axes, f"{title}, {law}", found, None)
+    others = [(by[key], label) for key, label in OTHERS.items() if key in by]
+    _panel_of_parts(panels.flat[3], "Translating follower, laws with other orders", others, GUIDE_ABOVE)
+    for axes in panels[:, 0]:
+        axes.set_ylabel("relative error")
+    for axes in panels[1]:
+        axes.set_xlabel("parts a phase, n")
+    return figure
+
+
+def _panel_of_parts(axes: Axes, title: str, found: Labelled, above: float | None) -> None:
+    """``above`` : how far above each curve the guide to its order starts; None for one of order 2 above all curves."""
+    axes.set_title(title)
+    axes.set(xscale="log", yscale="log")
+    if not found:
+        return
+    parts, errors = found[0][0].parts, [error for series, _ in found for error in series.errors]
+    for (series, _), colour in zip(found, COLOURS, strict=False):
+        axes.plot(series.parts, np.maximum(series.errors, EPS / 4), "o-", color=colour, lw=1.6, ms=3.6)
+    rounded, top = min(errors) < EPS * 100, 2.5 * max(errors)
+    if rounded:
+        axes.axhspan(EPS / 1e6, EPS, color=FAINT, lw=0, zorder=0)
+        axes.text(parts[0], EPS / 1.6, "ε = 2.2·10⁻¹⁶", color=GREY, va="top", fontsize=9)
+    # Room below for the labels of curves that end close together.
+    axes.set_ylim(EPS / 30 if rounded else min(errors) / 12, 3 * top)
+    guides = {2: top} if above is None else {round(s.order): above * s.errors[0] for s, _ in found if s.order}
+    for order, start in guides.items():
+        _guide(axes, (parts[0], parts[-1]), start, order)
+    axes.set_xlim(parts[0] / 1.12, parts[-1] * 6.8)
+    _ticks_of_parts(axes, parts)
+    at = [max(series.errors[-1], EPS / 4) for series, _ in found]
+    orders = ["exact" if s.exact else f"{s.order:.2f}" if s.order else "no order" for s, _ in found]
+    _labels_at_the_end(axes, parts[-1], at, [f"{label}, {o}" for (_, label), o in zip(found, orders, strict=True)])
 
 
 # --- error against time ----------------------------------------------------------------------------------------------
@@ -170,46 +162,37 @@ QUESTIONS = {
     "minimum prime radius": "Minimum prime radius",
     "profile": "Working profile",
 }
-SPOTS = {
-    ("displacement", "graphical"): (0.72, (10, 4), "left"),
-    ("displacement", "cumulative_trapezoid"): (0.5, (-9, 0), "right"),
-    ("displacement", "cumulative_simpson"): (0.6, (-9, 4), "right"),
-    ("displacement", "CubicSpline"): (0.6, (11, 0), "left"),
-    ("minimum prime radius", "graphical"): (0.72, (10, 4), "left"),
-    ("minimum prime radius", "HalfspaceIntersection"): (0.5, (-9, -2), "right"),
-    ("minimum prime radius", "SLSQP"): (0.34, (0, 10), "center"),
-    ("profile", "graphical"): (1.0, (8, 10), "left"),
-    ("profile", "shapely buffer"): (0.5, (-9, -4), "right"),
+LABELS = {
+    ("displacement", "graphical"): ("graphical", 0.72, (10, 4), "left"),
+    ("displacement", "cumulative_trapezoid"): ("cumulative\ntrapezoid", 0.5, (-9, 0), "right"),
+    ("displacement", "cumulative_simpson"): ("cumulative\nSimpson", 0.6, (-9, 4), "right"),
+    ("displacement", "CubicSpline"): ("cubic spline", 0.6, (11, 0), "left"),
+    ("minimum prime radius", "graphical"): ("graphical", 0.72, (10, 4), "left"),
+    ("minimum prime radius", "HalfspaceIntersection"): ("half-space\nintersection", 0.5, (-9, -2), "right"),
+    ("minimum prime radius", "SLSQP"): ("SLSQP", 0.34, (0, 10), "center"),
+    ("profile", "graphical"): ("graphical", 1.0, (8, 10), "left"),
+    ("profile", "shapely buffer"): ("polygon\nbuffer", 0.5, (-9, -4), "right"),
 }
-"""Places of the methods' labels: at which point (0 the first, 1 the last), how far off [pt], how aligned."""
-NAMES = {
-    "cumulative_trapezoid": "cumulative\ntrapezoid",
-    "cumulative_simpson": "cumulative\nSimpson",
-    "CubicSpline": "cubic spline",
-    "HalfspaceIntersection": "half-space\nintersection",
-    "shapely buffer": "polygon\nbuffer",
-}
+"""Names of the methods and their places: at which point (0 the first, 1 the last), how far off [pt], how aligned."""
 ORDERS = {"graphical": 2, "cumulative_simpson": 4}
 """The orders of the methods that have a line of their order in the figure."""
-LOWEST, HIGHEST = 2e-17, 0.6
 
 
-def error_against_time(report: Report) -> Figure:
+def error_against_time(methods: Sequence[Method], bands: Mapping[str, tuple[float, float]], pair: float) -> Figure:
     """Graphical, sampled and exact answers to three questions, with floor, order lines and pencil band."""
     figure = Figure(figsize=(12.6, 5.4), layout="constrained")
     panels = figure.subplots(1, 3, sharey=True)
-    times = [pairs for m in report.methods for pairs in m.pairs]
-    limits = min(times) / 4, max(times) * 5
+    times = [pairs for m in methods for pairs in m.pairs]
     for axes, (question, title) in zip(panels, QUESTIONS.items(), strict=True):
-        axes.set(xscale="log", yscale="log", xlim=limits, ylim=(LOWEST, HIGHEST))
+        axes.set(xscale="log", yscale="log", xlim=(min(times) / 4, max(times) * 5), ylim=(2e-17, 0.6))
         axes.set_title(title, pad=34)
         axes.set_xlabel("time, in sine–cosine pairs")
         axes.yaxis.set_major_locator(LogLocator(100, numticks=12))
         axes.yaxis.set_minor_formatter(NullFormatter())
         axes.grid(color=FAINT, lw=0.7)
         axes.set_axisbelow(True)
-        _here(axes, report.pair)
-        _panel_of_time(axes, report, question)
+        _here(axes, pair)
+        _panel_of_time(axes, [m for m in methods if m.question == question], *bands[question])
     panels[0].set_ylabel("relative error")
     return figure
 
@@ -224,15 +207,15 @@ def _here(axes: Axes, pair: float) -> None:
     top.spines["top"].set_color(FAINT)
 
 
-def _panel_of_time(axes: Axes, report: Report, question: str) -> None:
-    right = axes.get_xlim()[1]
-    low, high = report.bands[question]
+def _panel_of_time(axes: Axes, methods: Sequence[Method], low: float, high: float) -> None:
+    """``low``, ``high`` : the band of the hands."""
+    right = axes.get_xlim()[1] / 1.2
     axes.axhspan(low, high, color=ACCENT, alpha=0.13, lw=0, zorder=0)
-    axes.text(right / 1.2, high * 1.25, "by hand, pencil σ = 0.2 mm", color=ACCENT, ha="right", va="bottom", fontsize=9)
+    axes.text(right, high * 1.25, "by hand, pencil σ = 0.2 mm", color=ACCENT, ha="right", va="bottom", fontsize=9)
     axes.axhline(EPS, color=GREY, lw=1.0, zorder=1)
-    axes.text(right / 1.2, EPS / 1.5, "floor ε", color=GREY, ha="right", va="top", fontsize=9)
+    axes.text(right, EPS / 1.5, "floor ε", color=GREY, ha="right", va="top", fontsize=9)
     blues = iter(BLUES)
-    for method in (m for m in report.methods if m.question == question):
+    for method in methods:
         t, error = np.array(method.pairs), np.maximum(method.errors, EPS / 2)
         if method.kind == "sampled":
             _curve(axes, method, t, error, color=next(blues), lw=1.5, ms=3.4)
@@ -246,51 +229,33 @@ def _panel_of_time(axes: Axes, report: Report, question: str) -> None:
 
 
 def _curve(axes: Axes, method: Method, t: Floats, error: Floats, **look: Any) -> None:
-    """A method's points, joined, and its name."""
+    """A method's points, joined, its name, and the slope to which it tends as its time grows with n."""
     axes.plot(t, error, "o-", zorder=4, **look)
-    if method.name in ORDERS:
-        _order_line(axes, t, error, ORDERS[method.name])
-    place, away, align = SPOTS.get((method.question, method.name), (1.0, (8, 6), "left"))
+    above = np.flatnonzero(error > 100 * EPS)
+    if method.name in ORDERS and above.size:
+        k = int(above[-1])
+        _guide(axes, (t[k], min(4 * t[k], axes.get_xlim()[1] / 2.6)), error[k], ORDERS[method.name])
+    name, place, away, align = LABELS[method.question, method.name]
     at, weight = round(place * (t.size - 1)), "bold" if method.kind == "graphical" else "normal"
     look = {"color": look["color"], "ha": align, "va": "center", "weight": weight, "linespacing": 0.95}
-    _note(axes, NAMES.get(method.name, method.name), (t[at], error[at]), away, fontsize=10, **look)
-
-
-def _order_line(axes: Axes, t: Floats, error: Floats, order: int) -> None:
-    """The slope to which a method tends as its time grows with n, through its last point above the floor."""
-    above = np.flatnonzero(error > 100 * EPS)
-    if above.size == 0:
-        return
-    k = int(above[-1])
-    ends = np.array([t[k], min(t[k] * 4.0, axes.get_xlim()[1] / 2.6)])
-    line = error[k] * (ends / t[k]) ** -order
-    axes.plot(ends, line, color=GREY, lw=1.0, ls=(0, (5, 3)), zorder=2)
-    _note(axes, f"order {order}", (math.sqrt(ends.prod()), math.sqrt(line.prod())), (5, 5), color=GREY, fontsize=9)
+    _note(axes, name, (t[at], error[at]), away, fontsize=10, **look)
 
 
 # --- error of the hand -----------------------------------------------------------------------------------------------
 
 
-def error_of_the_hand(report: Report) -> Figure:
+def error_of_the_hand(every: Sequence[Hands]) -> Figure:
     """The mean error of many hands against the number of parts, the method's own error, and the best number."""
     figure = Figure(figsize=(8.6, 5.6), layout="constrained")
     axes = figure.subplots()
     axes.set(xscale="log", yscale="log")
-    drawn_exactly = 1e-9
-    ends: list[float] = []
-    for k, (hands, colour) in enumerate(zip(report.hands, COLOURS, strict=False)):
-        mean, method = 100 * np.array(hands.mean), 100 * np.array(hands.method)
-        if k == 0:
-            low, high = 100 * np.array(hands.low), 100 * np.array(hands.high)
-            axes.fill_between(hands.parts, low, high, color=colour, alpha=0.12, lw=0)
-        axes.plot(hands.parts, mean, "-", color=colour, lw=2.0)
-        if method.max() > drawn_exactly:
-            axes.plot(hands.parts, method, color=colour, lw=1.1, ls=(0, (4, 3)))
-        best = hands.parts.index(hands.best)
-        axes.plot(hands.best, mean[best], "o", color=colour, ms=8, mec="white", mew=1.2, zorder=5)
-        ends.append(float(mean[-1]))
-    _notes_by_hand(axes, report)
-    parts = report.hands[0].parts
+    for hands, colour in zip(every, COLOURS, strict=False):
+        axes.plot(hands.parts, 100 * np.array(hands.mean), "-", color=colour, lw=2.0)
+        if max(hands.method) > EXACT:
+            axes.plot(hands.parts, 100 * np.array(hands.method), color=colour, lw=1.1, ls=(0, (4, 3)))
+        axes.plot(hands.best_parts, 100 * hands.floor, "o", color=colour, ms=8, mec="white", mew=1.2, zorder=5)
+    _notes_by_hand(axes, every[0], COLOURS[0])
+    parts = every[0].parts
     axes.set(xlim=(parts[0] / 1.1, parts[-1] * 4.2), ylim=(0.1, 12.0))
     _ticks_of_parts(axes, parts)
     axes.yaxis.set_major_locator(FixedLocator([0.1, 0.2, 0.5, 1, 2, 5, 10]))
@@ -299,21 +264,21 @@ def error_of_the_hand(report: Report) -> Figure:
     axes.set_xlabel("parts a phase")
     axes.set_ylabel("maximum error of the displacement, of the lift")
     axes.set_title("Drawn with a pencil of σ = 0.2 mm: the best number of parts")
-    labels = [f"{h.law}: {h.best} parts, {100 * h.floor:.2f} %" for h in report.hands]
-    _labels_at_the_end(axes, parts[-1], ends, labels, gap=0.05)
+    labels = [f"{h.law}: {h.best_parts} parts, {100 * h.floor:.2f} %" for h in every]
+    _labels_at_the_end(axes, parts[-1], [100 * h.mean[-1] for h in every], labels, gap=0.05)
     return figure
 
 
-def _notes_by_hand(axes: Axes, report: Report) -> None:
-    """What band, dashes and dots are, said at the first law."""
-    hands, colour = report.hands[0], COLOURS[0]
-    k = len(hands.parts) * 3 // 4
+def _notes_by_hand(axes: Axes, hands: Hands, colour: str) -> None:
+    """What band, dashes and dots are, said at one law."""
+    high, k = 100 * np.array(hands.high), len(hands.parts) * 3 // 4
+    axes.fill_between(hands.parts, 100 * np.array(hands.low), high, color=colour, alpha=0.12, lw=0)
     band = f"nine drawings in ten, {hands.law}"
-    axes.text(hands.parts[k], 112 * hands.high[k], band, color=colour, ha="right", va="bottom", fontsize=9)
+    axes.text(hands.parts[k], 1.12 * high[k], band, color=colour, ha="right", va="bottom", fontsize=9)
     below = [(n, 100 * error) for n, error in zip(hands.parts, hands.method, strict=True) if error < hands.floor / 3]
     if below:
         without = "ideal pencil:\norder 2"
         _note(axes, without, below[0], (-16, -14), color=colour, ha="right", va="center", fontsize=9)
-    best, floor = hands.best, 100 * hands.floor
+    best, floor = hands.best_parts, 100 * hands.floor
     look = {"color": colour, "ha": "center", "va": "bottom", "weight": "bold"}
     _note(axes, f"{best} parts:\n{floor:.2f} %", (best, floor), (0, 14), **look)

@@ -1,21 +1,25 @@
 """Pencil error against the number of parts: more parts lower the method's error and raise the drawing error."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from graphcam.bench.convergence import distance_from_profile
-from graphcam.bench.scenes import FOLLOWERS, LIFT, TestScene, free_scene, motion_of, scene
+from graphcam.bench.rows import Line, Parts, Section
+from graphcam.bench.scenes import FOLLOWERS, LIFT, MAIN_LAW, TestScene, free_scene, motion_of, scene
 from graphcam.comparison.error_budget import ErrorBudget
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import Floats
+from graphcam.words import say
 
 SIGMA = 0.2
 """The error of a line, of a setting and at the edge of the protractor [mm]."""
 PARTS = (3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 24, 32, 48, 64, 96)
 QUANTILES = (5.0, 95.0)
 """A band of drawings is between these percentiles."""
+LEAST_SHARE = 0.01
+"""The smallest share of the variance that is listed."""
 
 
 @dataclass(frozen=True)
@@ -27,30 +31,28 @@ class Hands:
     """
 
     law: str
-    parts: tuple[int, ...]
+    parts: Parts
     mean: tuple[float, ...]
     low: tuple[float, ...]
     high: tuple[float, ...]
     method: tuple[float, ...]
+    sigma_mm: float = SIGMA
 
     @property
-    def _best(self) -> int:
-        return int(np.argmin(self.mean))
-
-    @property
-    def best(self) -> int:
+    def best_parts(self) -> int:
         """The number of parts with the smallest mean error."""
-        return self.parts[self._best]
+        return self.parts[int(np.argmin(self.mean))]
 
     @property
     def floor(self) -> float:
         """The minimum of the mean errors, which drawing by hand does not improve."""
-        return self.mean[self._best]
+        return min(self.mean)
 
     @property
     def band(self) -> tuple[float, float]:
         """The quantiles at the best number of parts."""
-        return self.low[self._best], self.high[self._best]
+        best = self.parts.index(self.best_parts)
+        return self.low[best], self.high[best]
 
 
 def by_hand(law: str, hands: int, parts: Sequence[int] = PARTS) -> Hands:
@@ -59,9 +61,11 @@ def by_hand(law: str, hands: int, parts: Sequence[int] = PARTS) -> Hands:
     where = replace(fixed, board=replace(fixed.board, motion=motion_of(law, LIFT, 120, 60, 120)))
     pencil = Pencil.of(SIGMA, hands)
     errors = np.array([shape_errors(where, n, pencil) for n in parts])
-    low, high = np.percentile(errors, QUANTILES, axis=1).tolist()
+    mean, low, high = (
+        tuple(band.tolist()) for band in (errors.mean(axis=1), *np.percentile(errors, QUANTILES, axis=1))
+    )
     method = [float(shape_errors(where, n, Pencil(samples=1))[0]) for n in parts]
-    return Hands(law, tuple(parts), tuple(errors.mean(axis=1).tolist()), tuple(low), tuple(high), tuple(method))
+    return Hands(law, tuple(parts), mean, low, high, tuple(method))
 
 
 def shape_errors(where: TestScene, parts: int, pencil: Pencil) -> Floats:
@@ -88,9 +92,8 @@ class BudgetRow:
     parts: Mapping[str, float]
 
 
-def budgets(law: str, parts: int = 12) -> list[BudgetRow]:
+def budgets(law: str = MAIN_LAW, parts: int = 12) -> Iterator[BudgetRow]:
     """The error budget of every reading of every follower."""
-    rows: list[BudgetRow] = []
     for follower in FOLLOWERS:
         chain = scene(follower, law).chain(parts)
         budget = ErrorBudget(chain, Pencil.of(SIGMA))
@@ -98,14 +101,13 @@ def budgets(law: str, parts: int = 12) -> list[BudgetRow]:
             for reading in drawn.meaning.readings:
                 shares = budget.of(name, reading)
                 brought = {kind.value: share for kind, share in shares.of.items()} | {"together": shares.together}
-                rows.append(BudgetRow(follower, name, reading, shares.deviation, brought))
-    return rows
+                yield BudgetRow(follower, name, reading, shares.deviation, brought)
 
 
-def bands(law: str, hands: int, parts: int = 12) -> Mapping[str, tuple[float, float]]:
+def bands(hands: int, parts: int = 12) -> Mapping[str, tuple[float, float]]:
     """The relative errors between which nine drawings in ten are, with the usual number of parts, by question."""
     pencil = Pencil.of(SIGMA, hands)
-    fixed, free = scene("translating", law), free_scene(law)
+    fixed, free = scene("translating", MAIN_LAW), free_scene(MAIN_LAW)
     least = free.chain(parts, pencil)["minimum_radius"].readings["prime_radius"].value
     errors = {
         "displacement": shape_errors(fixed, parts, pencil),
@@ -125,3 +127,60 @@ def _profile_errors(where: TestScene, parts: int, pencil: Pencil) -> Floats:
     distance = np.zeros(touch.shape)
     distance[kept] = distance_from_profile(where.cam, touch[kept], near[kept])
     return distance.max(axis=1) / where.sizes.prime_radius
+
+
+def _texts_of_hands(found: Sequence[Hands], _: float) -> Iterator[list[str]]:
+    yield ["law", "best number of parts", "mean error", "nine drawings in ten"]
+    for h in found:
+        low, high = h.band
+        yield [h.law, str(h.best_parts), f"{100 * h.floor:.2f} %", f"{100 * low:.2f} to {100 * high:.2f} %"]
+
+
+def _lines_of_hands(h: Hands) -> Iterator[Line]:
+    of = {"subject": "translating", "law": h.law, "quantity": "displacement", "error_unit": "of the lift"}
+    for n, mean, method in zip(h.parts, h.mean, h.method, strict=True):
+        yield {**of, "n": n, "error": mean, "remark": f"of the method {method:.3g}" + ", best" * (n == h.best_parts)}
+
+
+PENCIL = Section(
+    "pencil",
+    say("Drawing error"),
+    f"The maximum error of the displacement, as a part of the lift, over many drawings with errors of {SIGMA} mm in "
+    "every line, every setting and at the edge of the protractor: the number of parts at which its mean is smallest, "
+    "this mean, and the range of nine drawings in ten. If the method draws a law exactly, the smallest number of parts "
+    "is the best.",
+    lambda effort: [by_hand(law, effort.hands, effort.pencil_parts) for law in effort.laws],
+    _texts_of_hands,
+    _lines_of_hands,
+    derived=("best_parts", "floor", "band"),
+    words=1,
+)
+
+
+def _texts_of_budgets(found: Sequence[BudgetRow], _: float) -> Iterator[list[str]]:
+    yield ["follower", "reading", "scatter", "due to, %"]
+    for b in found:
+        largest = sorted(b.parts.items(), key=lambda part: -part[1])
+        brought = ", ".join(f"{kind} {100 * part:.0f}" for kind, part in largest if part >= LEAST_SHARE)
+        yield [b.follower, f"{b.construction}: {b.reading}", f"{b.deviation:.3g}", brought]
+
+
+def _lines_of_budget(b: BudgetRow) -> Iterator[Line]:
+    of = {"section": "budget", "subject": b.follower, "quantity": f"{b.construction}: {b.reading}"}
+    for kind, part in b.parts.items():
+        yield {**of, "error": part, "error_unit": "of the variance", "remark": kind}
+
+
+BUDGETS = Section(
+    "error_budgets",
+    say("Error budget of the drawing"),
+    f"With drawing errors of {SIGMA} mm, 12 parts per phase: the standard deviation in mm of paper (for a measured "
+    "angle in radians), and the share of its variance, in percent, that is due to the acts of each kind; "
+    '"together" is the share that errors of several kinds have only in combination.',
+    lambda _: budgets(),
+    _texts_of_budgets,
+    _lines_of_budget,
+    derived=(),
+    words=4,
+    brief=False,
+)

@@ -6,14 +6,14 @@ Each is compared with a user's own alternative: samples of the forces, steps of 
 from collections.abc import Iterator
 from functools import partial
 from math import pi, radians
-from typing import Any
 
 import numpy as np
+from scipy import integrate
+from scipy.interpolate import KroghInterpolator
 
 from graphcam.bench import reference
 from graphcam.bench.exact_rows import LOOPED, RUNS, STATIONS, designs
-from graphcam.bench.rivals import optional
-from graphcam.bench.rows import BenchRow, Gauge, Section, Unit
+from graphcam.bench.rows import MILLISECONDS, BenchRow, Effort, Section, Unit, faster_than
 from graphcam.bench.scenes import ARM, FOLLOWERS, scene
 from graphcam.bench.timing import Timer
 from graphcam.given.arm_load import ArmLoad
@@ -29,6 +29,7 @@ from graphcam.mechanism.shock_response import shock_spectrum
 from graphcam.sweeps.designs import Designs
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, sweep
 from graphcam.sweeps.sweep_forces import FORCES
+from graphcam.words import say
 
 FRICTION = 0.05
 STEM = SpringLoad(mass=0.5, speed_rpm=300.0, stiffness=4.0, preload=400.0)
@@ -51,15 +52,15 @@ PLACES = 16
 """Places of the motion by conditions at which it is held against 50 digits."""
 
 
-def load_rows(gauge: Gauge) -> Iterator[BenchRow]:
+def load_rows(effort: Effort) -> Iterator[BenchRow]:
     """Forces of one cam and of many, spectra, and motions by conditions."""
-    few = Unit(STATIONS, gauge.timer.pairs(STATIONS * LOOPED) / LOOPED)
+    timer, few = effort.timer, effort.unit(STATIONS, LOOPED)
     for follower in FOLLOWERS:
-        yield from force_rows(follower, few, gauge.timer)
+        yield from _force_rows(follower, few, timer)
     for follower in ("translating", "arm"):
-        yield from swept_rows(follower, few, gauge.timer)
-    yield from spectrum_rows(few, gauge.timer)
-    yield from condition_rows(gauge.unit(gauge.stations), gauge.timer)
+        yield from _swept_rows(follower, few, timer)
+    yield from _spectrum_rows(few, timer)
+    yield from condition_rows(effort)
 
 
 # --- forces ----------------------------------------------------------------------------------------------------------
@@ -78,47 +79,44 @@ def extreme_forces(cam: Cam, follower: str) -> tuple[float, float, float]:
 
 def sampled_forces(cam: Cam, follower: str, n: int) -> tuple[float, float, float]:
     """The extremes of the forces among n stations of the turn."""
-    forces, motion = CamForces(cam, load_of(follower), friction=FRICTION), cam.motion
-    phi = (np.arange(n) + 0.5) * FULL_TURN / n
-    phase = np.searchsorted(motion.starts, phi, side="right") - 1
-    angles = np.array([each.angle for each in motion.phases])[phase]
-    at = forces.at(phase, (phi - motion.starts[phase]) / angles)
+    at = CamForces(cam, load_of(follower), friction=FRICTION).at((np.arange(n) + 0.5) * FULL_TURN / n)
     return float(np.max(at.normal)), float(np.min(at.normal)), float(np.max(at.torque))
-
-
-def force_rows(follower: str, unit: Unit, timer: Timer) -> Iterator[BenchRow]:
-    """Rows of one cam: the extremes, beside samples, which always miss them on the unsafe side."""
-    cam = scene(follower, "3-4-5").cam
-    exact, seconds = extreme_forces(cam, follower), timer.seconds(partial(extreme_forces, cam, follower))
-    yield unit.row(f"forces, {follower}", "maximum and minimum normal force, maximum torque", seconds)
-    for n in SAMPLED:
-        sampled, work = sampled_forces(cam, follower, n), partial(sampled_forces, cam, follower, n)
-        off = max(abs(a / b - 1) for a, b in zip(sampled, exact, strict=True))
-        slower, what = timer.seconds(work), f"beside samples at {n} stations: off by {off:.1e}"
-        yield BenchRow(f"forces, {follower}", what, slower / seconds, "times faster", "", None, slower)
-
-
-def swept_rows(follower: str, unit: Unit, timer: Timer) -> Iterator[BenchRow]:
-    """The forces of a chunk of designs, beside a loop over some of them."""
-    many, load = designs(follower, "3-4-5", CHUNK_OF_DESIGNS), load_of(follower)
-    some, name = many.part(slice(0, LOOPED)), f"forces in a sweep, {follower}"
-    patient = Timer(timer.budget, max(timer.least_runs, RUNS))
-    work = partial(sweep, many, ["max_normal_force", "min_normal_force"], load=load, friction=FRICTION)
-    seconds = patient.seconds(work) / CHUNK_OF_DESIGNS
-    every = partial(sweep, many, FORCES, load=load, friction=FRICTION)
-    looped = timer.seconds(partial(looped_forces, some, follower)) / LOOPED
-    swept = sweep(some, FORCES, load=load, friction=FRICTION)
-    found = np.stack([swept[quantity] for quantity in FORCES[:3]], axis=1)
-    error_eps = float(np.abs(found / np.array(looped_forces(some, follower)) - 1).max()) / reference.EPS
-    yield unit.row(name, "maximum and minimum normal force of a design", seconds, "<= 2", error_eps)
-    yield unit.row(name, "all forces of a design", patient.seconds(every) / CHUNK_OF_DESIGNS)
-    what = "beside a loop over CamForces, which finds the places too"
-    yield BenchRow(name, what, looped / seconds, "times faster", "", None, looped)
 
 
 def looped_forces(some: Designs, follower: str) -> list[tuple[float, float, float]]:
     """The extremes of one cam after another."""
     return [extreme_forces(some.cam(k), follower) for k in range(len(some))]
+
+
+def _force_rows(follower: str, unit: Unit, timer: Timer) -> Iterator[BenchRow]:
+    """Rows of one cam: the extremes, beside samples, which always miss them on the unsafe side."""
+    cam, name = scene(follower, "3-4-5").cam, f"forces, {follower}"
+    exact, seconds = np.array(extreme_forces(cam, follower)), timer.seconds(extreme_forces, cam, follower)
+    yield unit.row(name, "maximum and minimum normal force, maximum torque", seconds)
+    for n in SAMPLED:
+        off = np.abs(np.array(sampled_forces(cam, follower, n)) / exact - 1).max()
+        what, sampled = (
+            f"beside samples at {n} stations: off by {off:.1e}",
+            timer.seconds(sampled_forces, cam, follower, n),
+        )
+        yield faster_than(seconds).row(name, what, sampled)
+
+
+def _swept_rows(follower: str, unit: Unit, timer: Timer) -> Iterator[BenchRow]:
+    """The forces of a chunk of designs, beside a loop over some of them."""
+    many, name = designs(follower, "3-4-5", CHUNK_OF_DESIGNS), f"forces in a sweep, {follower}"
+    some, forces = many.part(slice(0, LOOPED)), partial(sweep, load=load_of(follower), friction=FRICTION)
+    normal, every = (
+        timer.patient(RUNS).seconds(forces, many, quantities) / CHUNK_OF_DESIGNS
+        for quantities in (["max_normal_force", "min_normal_force"], FORCES)
+    )
+    swept = forces(some, FORCES)
+    found = np.stack([swept[quantity] for quantity in FORCES[:3]], axis=1)
+    eps = float(np.abs(found / np.array(looped_forces(some, follower)) - 1).max()) / reference.EPS
+    yield unit.row(name, "maximum and minimum normal force of a design", normal, "<= 2", eps)
+    yield unit.row(name, "all forces of a design", every)
+    looped = timer.seconds(looped_forces, some, follower) / LOOPED
+    yield faster_than(normal).row(name, "beside a loop over CamForces, which finds the places too", looped)
 
 
 # --- shock spectra ---------------------------------------------------------------------------------------------------
@@ -137,10 +135,10 @@ def residual_of_cycloid(n: Floats) -> Floats:
 
 def stepped_residual(n: float, tolerance: float) -> float:
     """The residual vibration of one ratio by scipy's integrator of the eighth order."""
-    integrate: Any = optional("scipy.integrate")
     omega = 2 * pi * n
 
     def slope(u: float, state: Floats) -> list[float]:
+        """Of the displacement and the velocity of the mass."""
         return [state[1], -(omega**2) * state[0] - 2 * pi * np.sin(2 * pi * u)]
 
     solved = integrate.solve_ivp(slope, (0, 1), [0.0, 0.0], "DOP853", rtol=tolerance, atol=tolerance / 1000)
@@ -148,24 +146,23 @@ def stepped_residual(n: float, tolerance: float) -> float:
     return float(omega * np.hypot(omega * y, y1))
 
 
-def spectrum_rows(unit: Unit, timer: Timer) -> Iterator[BenchRow]:
+def _spectrum_rows(unit: Unit, timer: Timer) -> Iterator[BenchRow]:
     """The spectrum of the cycloidal law, its residual against the closed form, beside an integrator."""
-    work, ratios = partial(shock_spectrum, "cycloidal", RATIOS), RATIOS[RATIOS != 1]
+    name, ratios = "shock spectrum", RATIOS[RATIOS != 1]
     exact, found = residual_of_cycloid(ratios), shock_spectrum("cycloidal", ratios).residual
-    error_eps, seconds = float(np.abs(found - exact).max() / exact.max()) / reference.EPS, timer.seconds(work)
-    yield unit.row(
-        "shock spectrum", "primary and residual at one ratio", seconds / RATIOS.size, "", error_eps=error_eps
-    )
-    if optional("scipy.integrate") is None:
-        return
+    seconds = timer.seconds(shock_spectrum, "cycloidal", RATIOS) / RATIOS.size
+    eps = reference.rounding(found, exact)
+    yield unit.row(name, "primary and residual at one ratio", seconds, error_eps=eps)
+    some = ratios[::12]
+
+    def stepped(tolerance: float) -> list[float]:
+        """The residuals by the integrator."""
+        return [stepped_residual(n, tolerance) for n in some]
+
     for tolerance in TOLERANCES:
-        some = ratios[::12]
-        stepped = timer.seconds(lambda tolerance=tolerance, some=some: [stepped_residual(n, tolerance) for n in some])
-        values = np.array([stepped_residual(n, tolerance) for n in some])
-        off = np.abs(values - residual_of_cycloid(some)).max() / exact.max()
+        off = np.abs(stepped(tolerance) - residual_of_cycloid(some)).max() / exact.max()
         what = f"beside DOP853 at a tolerance of {tolerance:g}, the residual alone: off by {off:.1e}"
-        slower = stepped / some.size
-        yield BenchRow("shock spectrum", what, slower * RATIOS.size / seconds, "times faster", "", None, slower)
+        yield faster_than(seconds).row(name, what, timer.seconds(stepped, tolerance) / some.size)
 
 
 # --- motions by conditions -------------------------------------------------------------------------------------------
@@ -176,39 +173,32 @@ def by_conditions() -> BoundaryMotion:
     return boundary_motion([PolynomialPart(CONDITIONS)])
 
 
-def conditions_error() -> float | None:
+def conditions_eps() -> float | None:
     """The maximum rounding of s, v and a [eps], each relative to its maximum value."""
-    if not reference.available():
-        return None
-    motion, phi = by_conditions(), CONDITIONS[-1].angle * (np.arange(PLACES) + 0.5) / PLACES
-    exact, found = reference.conditioned(CONDITIONS, phi), np.array(motion(phi)[:3])
-    return float((np.abs(found - exact).max(axis=1) / np.abs(exact).max(axis=1)).max()) / reference.EPS
+    phi = CONDITIONS[-1].angle * (np.arange(PLACES) + 0.5) / PLACES
+    found = np.array(by_conditions()(phi)[:3])
+    return reference.rounding(found, reference.conditioned(CONDITIONS, phi)) if reference.mp else None
 
 
-def condition_rows(unit: Unit, timer: Timer) -> Iterator[BenchRow]:
+def condition_rows(effort: Effort) -> Iterator[BenchRow]:
     """A rise and return by nine conditions, beside scipy's interpolation with the same conditions."""
-    motion, phi = by_conditions(), (np.arange(unit.n) + 0.5) * FULL_TURN / unit.n
-    seconds, making = timer.seconds(partial(motion, phi)), timer.seconds(by_conditions)
-    name = "motion by conditions"
-    yield unit.row(name, f"s, v, a, j at {unit.n} stations", seconds, "", conditions_error())
-    yield BenchRow(name, "made of nine conditions, in exact fractions", 1e3 * making, "ms", "", None, making)
-    interpolate: Any = optional("scipy.interpolate")
-    if interpolate is None:
-        return
-    at = [point.angle for point in CONDITIONS for _ in point.given]
-    values = [value for point in CONDITIONS for value in point.given.values()]
+    timer, n, name, motion = effort.timer, effort.law_stations, "motion by conditions", by_conditions()
+    phi = (np.arange(n) + 0.5) * FULL_TURN / n
     within = phi[phi < CONDITIONS[-1].angle]
-    rival = partial(interpolate.KroghInterpolator(at, values).derivatives, within, der=4)
-    slower, found = timer.seconds(rival) / within.size, rival()[:3]
-    exact = np.array(motion(within)[:3])
-    off = (np.abs(found - exact).max(axis=1) / np.abs(exact).max(axis=1)).max()
-    what = f"beside scipy's KroghInterpolator, s, v, a, j: {off:.1e} apart"
-    yield BenchRow(name, what, slower * unit.n / seconds, "times faster", "", None, slower)
+    seconds = timer.seconds(motion, phi)
+    yield effort.unit(n).row(name, f"s, v, a, j at {n} stations", seconds, error_eps=conditions_eps())
+    made = timer.seconds(by_conditions)
+    yield MILLISECONDS.row(name, "made of nine conditions, in exact fractions", made)
+    at, values = zip(*((point.angle, value) for point in CONDITIONS for value in point.given.values()), strict=True)
+    rival = partial(KroghInterpolator(at, values).derivatives, within, der=4)
+    apart = reference.EPS * reference.rounding(rival()[:3], np.array(motion(within)[:3]))
+    what = f"beside scipy's KroghInterpolator, s, v, a, j: {apart:.1e} apart"
+    yield faster_than(seconds / n).row(name, what, timer.seconds(rival) / within.size)
 
 
 LOADS = Section(
     "loads",
-    "Forces, spectra, motions by conditions",
+    say("Forces, spectra, motions by conditions"),
     "Forces under a spring with friction, to full precision, beside samples; of many designs at once beside one after "
     "another. The residual of the cycloidal law against its closed form. Motions by conditions against 50 digits.",
     load_rows,

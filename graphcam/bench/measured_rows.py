@@ -5,15 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
+from scipy.integrate import cumulative_trapezoid
 
-from graphcam.bench.rows import BenchRow, Gauge, Section
+from graphcam.bench.rows import BenchRow, Effort, Section
 from graphcam.given.laws import BETWEEN_DWELLS, Floats
 from graphcam.given.measured import DEFAULT_TOLERANCE, TOLERANCE_OF_NOISE, MeasuredMotion, measured_motion
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Moving, Phase, Return, Rise
+from graphcam.mechanism.stationary import max_acceleration
+from graphcam.words import say
 
 NOISES = 0.0, 0.003, 0.01, 0.03
 """Standard deviations of the displacements [mm]."""
@@ -32,30 +34,28 @@ CERTAIN = 4.0
 TWO_ROWS = 2 * FULL_TURN / ROWS
 PEAKS = {0.0: (0.02, 0.05), 0.003: (0.15, 0.4), 0.01: (0.15, 0.4), 0.03: (math.inf, math.inf)}
 """Goals of max |a| by noise: of laws whose acceleration is continuous, and of those whose jumps."""
-MOTIONS = 100
-"""The number of motions of the bench; the tests take more."""
 JERK = 60.0
 """The jerk of the 3-4-5 law where it begins and ends, in h/F^3: what the jerk of a motion changes by over a phase."""
 
 
-def measured_rows(gauge: Gauge) -> Iterator[BenchRow]:
+def measured_rows(effort: Effort) -> Iterator[BenchRow]:
     """Rows of random motions with noise: wrong phases, ends and maximum accelerations, beside what noise permits."""
-    every = list(sampled_motions(MOTIONS))
+    every = list(sampled_motions(100))
     for noise in NOISES:
         some = [one for one in every if one.noise == noise]
         name, first = f"measured, noise {noise:g} mm", some[0]
-        tolerance = TOLERANCE_OF_NOISE * noise or DEFAULT_TOLERANCE
-        seconds = gauge.timer.seconds(partial(measured_motion, first.phi, first.s, tolerance))
+        seconds = effort.timer.seconds(measured_motion, first.phi, first.s, first.tolerance)
         wrong, end = sum(not one.phases_right for one in some), max(one.end_error for one in some)
-        yield BenchRow(name, "phases wrong", wrong, f"of {len(some)}", "<= 0", None, seconds)
-        yield BenchRow(name, "ends off, beside two rows or what noise hides", end, "maximum", "<= 1", None, seconds)
-        for jumps, what in enumerate(("continuous", "jumps")):
+        yield BenchRow(name, "phases wrong", wrong, f"of {len(some)}", "<= 0", seconds=seconds)
+        ends = "ends off, beside two rows or what noise hides"
+        yield BenchRow(name, ends, end, "maximum", "<= 1", seconds=seconds)
+        for jumps, (peak, acceleration) in enumerate(zip(PEAKS[noise], ("continuous", "jumps"), strict=True)):
             of_these = [one for one in some if one.jumps == bool(jumps)]
             off = 100 * max(abs(one.peak_error) for one in of_these)
             best = 100 * math.sqrt(np.mean([one.least_scatter**2 for one in of_these])) if noise else 0.0
-            what = f"max |a| off, acceleration {what}; sd of the best linear estimate {best:.1f} %"
-            goal = "" if math.isinf(PEAKS[noise][jumps]) else f"<= {100 * PEAKS[noise][jumps]:g} %"
-            yield BenchRow(name, what, off, "%", goal, None, seconds)
+            what = f"max |a| off, acceleration {acceleration}; sd of the best linear estimate {best:.1f} %"
+            goal = "" if math.isinf(peak) else f"<= {100 * peak:g} %"
+            yield BenchRow(name, what, off, "%", goal, seconds=seconds)
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,36 +71,44 @@ class Sampled:
     phi: Floats
     s: Floats
 
-    @cached_property
-    def measured(self) -> MeasuredMotion:
-        """What was made of the table, with the tolerance that the noise asks for."""
-        return measured_motion(self.phi, self.s, TOLERANCE_OF_NOISE * self.noise or DEFAULT_TOLERANCE)
+    @property
+    def tolerance(self) -> float:
+        """What the noise asks for [mm]."""
+        return TOLERANCE_OF_NOISE * self.noise or DEFAULT_TOLERANCE
 
     @cached_property
+    def measured(self) -> MeasuredMotion:
+        """What was made of the table."""
+        return measured_motion(self.phi, self.s, self.tolerance)
+
+    @property
     def phases_right(self) -> bool:
         """Whether rises, dwells and returns follow one another as in the motion."""
-        return self._turned is not None
+        return math.isfinite(self.end_error)
 
     @cached_property
     def end_error(self) -> float:
-        """The maximum |error| of an end of a phase, beside two rows or what the noise hides, if that is more."""
-        if self._turned is None:
-            return math.inf
-        away = np.abs((self._turned - self.motion.starts + math.pi) % FULL_TURN - math.pi)
-        return float(np.max(away / np.maximum(TWO_ROWS, self._hidden)))
+        """The maximum |error| of an end of a phase, beside two rows or what the noise hides, if that is more.
 
-    @cached_property
-    def ends_beyond(self) -> float:
-        """The part of the ends that are off by more than two rows."""
-        if self._turned is None:
-            return 1.0
-        away = np.abs((self._turned - self.motion.starts + math.pi) % FULL_TURN - math.pi)
-        return float(np.mean(away > TWO_ROWS))
+        Infinite where the measured phases are others.
+        """
+        begin, end = np.array([hidden_angles(phase, self.noise, FULL_TURN / ROWS) for phase in self.motion.phases]).T
+        # A phase may begin, or the one before end, so much later or sooner, unseen.
+        hidden = np.maximum(TWO_ROWS, np.maximum(begin, np.roll(end, 1)))
+        timing = [(kind, start + self.measured.zero) for kind, start, _ in self.measured.timing]
+        if timing[0][0] == timing[-1][0]:
+            timing = [(timing[0][0], timing[-1][1]), *timing[1:-1]]
+        errors = [math.inf]
+        for turned in ([*timing[k:], *timing[:k]] for k in range(len(timing))):
+            if [kind for kind, _ in turned] == [phase.kind for phase in self.motion.phases]:
+                away = (np.array([start for _, start in turned]) - self.motion.starts + math.pi) % FULL_TURN - math.pi
+                errors.append(float(np.max(np.abs(away) / hidden)))
+        return min(errors)
 
     @cached_property
     def peak_error(self) -> float:
         """The relative error of max |a|."""
-        return float(_peaks(self.measured).max() / _peaks(self.motion).max()) - 1
+        return max_acceleration(self.measured) / max_acceleration(self.motion) - 1
 
     @cached_property
     def jumps(self) -> bool:
@@ -110,36 +118,14 @@ class Sampled:
     @cached_property
     def least_scatter(self) -> float:
         """The standard deviation of max |a|, as a part of it, in the best linear estimate; see :func:`best_scatter`."""
-        k = int(_peaks(self.motion).argmax())
         u = np.linspace(0, 1, 1001)
-        acceleration = np.abs(self.motion.at(k, u)[2])
-        phase, at = self.motion.phases[k], float(self.motion.angle_at(k, u[acceleration.argmax()]))
+        accelerations = np.abs([self.motion.at(k, u)[2] for k in range(len(self.motion.phases))])
+        k, place = divmod(int(accelerations.argmax()), u.size)
+        phase, at = self.motion.phases[k], float(self.motion.angle_at(k, u[place]))
         apart = (self.phi - at + math.pi) % FULL_TURN - math.pi
         near = np.sort(apart[np.abs(apart) <= phase.angle])
         change = JERK * phase.lift / phase.angle**3
-        return best_scatter(near, self.noise, change**2 / phase.angle) / float(acceleration.max())
-
-    @cached_property
-    def _turned(self) -> Floats | None:
-        """(k,) where the measured phases begin, in the motion's order; None if they are others."""
-        kinds = [phase.kind for phase in self.motion.phases]
-        timing = [(kind, start + self.measured.zero) for kind, start, _ in self.measured.timing]
-        if timing[0][0] == timing[-1][0]:
-            timing = [(timing[0][0], timing[-1][1]), *timing[1:-1]]
-        found = [
-            np.array([start for _, start in [*timing[k:], *timing[:k]]])
-            for k in range(len(timing))
-            if [kind for kind, _ in [*timing[k:], *timing[:k]]] == kinds
-        ]
-        off = [np.abs((starts - self.motion.starts + math.pi) % FULL_TURN - math.pi).max() for starts in found]
-        return found[int(np.argmin(off))] if found else None
-
-    @cached_property
-    def _hidden(self) -> Floats:
-        """(k,) how much later, or sooner, each phase may begin or the one before end, unseen."""
-        step = FULL_TURN / ROWS
-        begin, end = np.array([hidden_angles(phase, self.noise, step) for phase in self.motion.phases]).T
-        return np.maximum(begin, np.roll(end, 1))
+        return best_scatter(near, self.noise, change**2 / phase.angle) / float(accelerations.max())
 
 
 def hidden_angles(phase: Phase, noise: float, step: float) -> tuple[float, float]:
@@ -155,17 +141,11 @@ def hidden_angles(phase: Phase, noise: float, step: float) -> tuple[float, float
     """
     if isinstance(phase, Dwell):
         return 0.0, 0.0
-    u = np.linspace(0, 0.5, 5001)
-    begin, end = (
-        float(np.interp((2 * CERTAIN * noise) ** 2, _squares(phase.lift * law(u)[0], u) * phase.angle / step, u))
-        for law in (phase.normalised, phase.normalised.reversed)
-    )
-    return begin * phase.angle, end * phase.angle
-
-
-def _squares(s: Floats, u: Floats) -> Floats:
-    """The running integral of s^2."""
-    return np.append(0.0, np.cumsum(np.diff(u) * (s[1:] ** 2 + s[:-1] ** 2) / 2))
+    u, angles = np.linspace(0, 0.5, 5001), list[float]()
+    for law in (phase.normalised, phase.normalised.reversed):
+        squares = phase.angle / step * cumulative_trapezoid((phase.lift * law(u)[0]) ** 2, u, initial=0)
+        angles.append(phase.angle * float(np.interp((2 * CERTAIN * noise) ** 2, squares, u)))
+    return angles[0], angles[1]
 
 
 def best_scatter(x: Floats, noise: float, intensity: float) -> float:
@@ -243,15 +223,9 @@ def _phase(random: np.random.Generator, kind: int, lift: float, angle: float) ->
     return (Rise if kind > 0 else Return)(lift, angle, law, ratio)
 
 
-def _peaks(motion: Motion) -> NDArray[np.floating]:
-    """(k,) max |a| of every phase."""
-    moving = [phase if isinstance(phase, Moving) else None for phase in motion.phases]
-    return np.array([p.lift / p.angle**2 * p.normalised.peak_acceleration if p else 0.0 for p in moving])
-
-
 MEASURED = Section(
     "measured",
-    "Measured motions",
+    say("Measured motions"),
     "Random motions of 2 to 6 phases by all laws, sampled at about 1 degree with noise, against the sampled motions. "
     "Noise hides an end as far as no test can distinguish the motions. The best linear estimate knows the jerk's usual "
     "change.",

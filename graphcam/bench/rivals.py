@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from importlib import import_module
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from scipy.integrate import cumulative_simpson, cumulative_trapezoid
@@ -12,15 +12,14 @@ from scipy.optimize import LinearConstraint, minimize
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 
 from graphcam.given.laws import Floats, law
-from graphcam.given.motion import Dwell, Motion
+from graphcam.given.motion import Motion
 from graphcam.sweeps.designs import Designs
 
 Lines = tuple[Floats, Floats]
 """Normals (m, 2) and heights (m,) of half-planes: what keeps normals @ x >= heights is permitted."""
+Point = tuple[float, float]
 Integrator = Callable[[Floats, Floats], Floats]
 """s of the angles and the accelerations."""
-Solver = Callable[[Lines, tuple[float, float]], float]
-"""The minimum distance of half-planes, from a start inside them."""
 SLSQP = {"ftol": 1e-15, "maxiter": 200}
 """What the optimiser is asked for."""
 
@@ -40,28 +39,25 @@ def optional(name: str) -> Any | None:
 # --- acceleration to displacement ------------------------------------------------------------------------------------
 
 
-def samples(motion: Motion, n: int) -> list[tuple[Floats, Floats]]:
-    """Every moving phase at the ends of n equal parts: cam angles [rad] and accelerations."""
-    u = np.linspace(0, 1, n + 1)
-    moving = [k for k, phase in enumerate(motion.phases) if not isinstance(phase, Dwell)]
-    return [(motion.angle_at(k, u), motion.at(k, u)[2]) for k in moving]
-
-
 INTEGRATORS: dict[str, Integrator] = {
     "cumulative_trapezoid": lambda x, a: cumulative_trapezoid(cumulative_trapezoid(a, x, initial=0), x, initial=0),
     "cumulative_simpson": lambda x, a: cumulative_simpson(cumulative_simpson(a, x=x, initial=0), x=x, initial=0),
     "CubicSpline": lambda x, a: np.asarray(CubicSpline(x, a).antiderivative(2)(x)),
 }
-"""Integrators by the names of scipy, each integrating twice: s less its value at the start."""
+"""By the names of scipy, each integrating twice: s less its value at the start."""
 
 
-def integrated_error(motion: Motion, n: int, method: Integrator) -> float:
-    """The maximum error of s over all phases, relative to the lift."""
-    errors: list[float] = []
-    for k, (phi, a) in zip((0, 2), samples(motion, n), strict=True):
-        exact = motion.at(k, np.linspace(0, 1, n + 1))[0]
-        errors.append(float(np.abs(exact[0] + method(phi, a) - exact).max()) / motion.lift)
-    return max(errors)
+def integrated(motion: Motion, method: Integrator, n: int) -> list[Floats]:
+    """s of rise and return, less its value at their starts, at the ends of n equal parts."""
+    u = np.linspace(0, 1, n + 1)
+    return [method(motion.angle_at(k, u), motion.at(k, u)[2]) for k in (0, 2)]
+
+
+def integrated_error(motion: Motion, method: Integrator, n: int) -> float:
+    """The maximum error of s over both, relative to the lift."""
+    exact = [motion.at(k, np.linspace(0, 1, n + 1))[0] for k in (0, 2)]
+    off = [s[0] + found - s for s, found in zip(exact, integrated(motion, method, n), strict=True)]
+    return float(np.abs(off).max()) / motion.lift
 
 
 # --- least radius ----------------------------------------------------------------------------------------------------
@@ -89,31 +85,34 @@ def arm_lines(motion: Motion, limit: float, arm: float, n: int) -> Lines:
     return normals.reshape(-1, 2), heights.ravel()
 
 
-def by_optimiser(lines: Lines, start: tuple[float, float]) -> float:
+def by_optimiser(lines: Lines, start: Point) -> float:
     """The distance from the origin to the permitted region, by scipy's SLSQP with exact derivatives."""
-    normals, heights = lines
-    size = math.hypot(*start)
+    normals, heights = lines[0], lines[1] / math.hypot(*start)
+    return _least_by_slsqp(start, _square, _kept(lambda x: normals @ x - heights, lambda _: normals), jac=True)
+
+
+def by_linear_constraints(lines: Lines, start: Point) -> float:
+    """The least radius with the half-planes as scipy's linear constraints."""
+    heights: Any = lines[1] / math.hypot(*start)
+    return _least_by_slsqp(start, _square, LinearConstraint(lines[0], heights, np.inf), jac=True)
+
+
+def by_pressure_angles(motion: Motion, limit: float, n: int, start: Point) -> float:
+    """The translating follower's minimum radius as one would first write it: SLSQP on (s0, e') and the pressure angles.
+
+    The angles at n stations of rise and return and at the rest keep the limit; SLSQP takes its derivatives by
+    differences.
+    """
+    u, size = np.linspace(0, 1, n), math.hypot(*start)
+    s, v = (np.concatenate([motion.at(k, u)[i] for k in (0, 2)]) for i in (0, 1))
 
     def room(x: Floats) -> Floats:
-        """How far inside every line."""
-        return normals @ x - heights / size
+        """What the limit leaves at every station."""
+        alpha = np.arctan2(v - size * x[1], size * x[0] + s)
+        return np.concatenate([limit - alpha, limit + alpha])
 
-    def slope(_: Floats) -> Floats:
-        """The derivative of that."""
-        return normals
-
-    kept = {"type": "ineq", "fun": room, "jac": slope}
-    found = minimize(_square, np.array(start) / size, jac=True, method="SLSQP", constraints=[kept], options=SLSQP)
-    return size * float(np.hypot(*found.x))
-
-
-def by_linear_constraints(lines: Lines, start: tuple[float, float]) -> float:
-    """The least radius with the half-planes as scipy's linear constraints."""
-    size = math.hypot(*start)
-    normals, least = lines[0], cast(Any, lines[1] / size)
-    kept = LinearConstraint(normals, least, np.inf)
-    found = minimize(_square, np.array(start) / size, jac=True, method="SLSQP", constraints=[kept], options=SLSQP)
-    return size * float(np.hypot(*found.x))
+    # NumPy's norm takes longer.
+    return _least_by_slsqp(start, lambda x: float(np.hypot(x[0], x[1])), _kept(room))
 
 
 def _square(x: Floats) -> tuple[float, Floats]:
@@ -121,32 +120,19 @@ def _square(x: Floats) -> tuple[float, Floats]:
     return float(x @ x), 2 * x
 
 
-def by_pressure_angles(motion: Motion, limit: float, n: int, start: tuple[float, float]) -> float:
-    """The translating follower's minimum radius as one would first write it: SLSQP on (s0, e') and the pressure angles.
-
-    The angles at n stations of rise and return and at the rest keep the limit; SLSQP takes its derivatives by
-    differences.
-    """
-    u = np.linspace(0, 1, n)
-    s, v = (np.concatenate([motion.at(k, u)[i] for k in (0, 2)]) for i in (0, 1))
-    size = math.hypot(*start)
-
-    def room(x: Floats) -> Floats:
-        """What the limit leaves at every station."""
-        alpha = np.arctan2(v - size * x[1], size * x[0] + s)
-        return np.concatenate([limit - alpha, limit + alpha])
-
-    kept = {"type": "ineq", "fun": room}
-
-    def radius(x: Floats) -> float:
-        """The prime radius, in units of the start's; NumPy's norm takes longer."""
-        return float(np.hypot(x[0], x[1]))
-
-    found = minimize(radius, np.array(start) / size, method="SLSQP", constraints=[kept], options=SLSQP)
-    return size * radius(found.x)
+def _kept(room: Callable[[Floats], Floats], slope: Callable[[Floats], Floats] | None = None) -> dict[str, Any]:
+    """The constraint that no room is negative, with its derivative."""
+    return {"type": "ineq", "fun": room, "jac": slope}
 
 
-def by_half_planes(lines: Lines, inside: tuple[float, float]) -> float:
+def _least_by_slsqp(start: Point, size_of: Callable[[Floats], Any], constraint: Any, **given: Any) -> float:
+    """The distance that scipy's SLSQP finds, from a start whose distance is its unit."""
+    unit = math.hypot(*start)
+    found = minimize(size_of, np.array(start) / unit, method="SLSQP", constraints=[constraint], options=SLSQP, **given)
+    return unit * float(np.hypot(*found.x))
+
+
+def by_half_planes(lines: Lines, inside: Point) -> float:
     """The least radius by scipy's HalfspaceIntersection, boxed in, from a point inside the region."""
     normals, heights = lines
     box = 4 * math.hypot(*inside)
@@ -163,7 +149,6 @@ def by_half_planes(lines: Lines, inside: tuple[float, float]) -> float:
 
 
 # --- many cams -------------------------------------------------------------------------------------------------------
-
 
 _Seen = tuple[Floats, Floats, Floats]
 
@@ -189,9 +174,7 @@ def by_stations(designs: Designs, n: int) -> Floats:
     return found
 
 
-def _seen_by_stem(
-    s: Floats, v: Floats, a: Floats, r0: float, offset: float, *_: float
-) -> tuple[Floats, Floats, Floats]:
+def _seen_by_stem(s: Floats, v: Floats, a: Floats, r0: float, offset: float, *_: float) -> _Seen:
     """Along and across the stem the vector whose argument is the pressure angle, and kappa times its cube."""
     along, across = math.sqrt(r0**2 - offset**2) + s, v - offset
     return along, across, along**2 + across**2 + v * across - a * along

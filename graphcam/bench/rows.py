@@ -1,15 +1,26 @@
-"""Measured figures and their goals: the rows of a module, and their place in the report."""
+"""What the report is made of: sections, and the rows of measured figures with their goals.
+
+A section is declared once, beside what measures it, and so is a row; tables, CSV, JSON and goals follow from them.
+"""
 
 import math
 import re
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from typing import Any
 
 from graphcam.bench.timing import Timer
+from graphcam.words import Caption
 
 SECONDS = {"µs": 1e-6, "ms": 1e-3, "s": 1.0}
 """Seconds of each unit in which a goal that is a time is written."""
-_GOAL = re.compile(r"(?:(?P<sense>[<>]=) (?P<limit>\S+)|(?P<middle>\S+) ± (?P<room>\S+))(?: (?P<unit>.+))?")
+NONE = "–"
+GOAL = re.compile(r"(?P<sense><=|>=|\S+ ±) (?P<limit>\S+)(?: (?P<unit>.+))?")
+Parts = tuple[int, ...]
+"""Numbers of parts a phase, or of stations."""
+Line = Mapping[str, str | int | float | None]
+"""A line of the long table of numbers, by the names of its columns."""
 
 
 @dataclass(frozen=True)
@@ -27,9 +38,9 @@ class BenchRow:
     what: str
     ratio: float
     unit: str
-    goal: str
-    error_eps: float | None
-    seconds: float
+    goal: str = ""
+    error_eps: float | None = None
+    seconds: float = math.nan
 
     @property
     def goal_met(self) -> bool | None:
@@ -46,54 +57,72 @@ class BenchRow:
         """
         if not self.goal:
             return None
-        read = _GOAL.fullmatch(self.goal)
+        read = GOAL.fullmatch(self.goal)
         if read is None or read["unit"] not in (None, self.unit, *SECONDS):
             raise ValueError(f"the goal {self.goal!r} of {self.name!r} cannot be read")
         figure = self.seconds / SECONDS[read["unit"]] if read["unit"] in SECONDS else self.ratio
-        if read["middle"]:
-            return abs(figure - float(read["middle"])) <= float(read["room"])
-        return figure <= float(read["limit"]) if read["sense"] == "<=" else figure >= float(read["limit"])
+        limit = float(read["limit"])
+        match read["sense"]:
+            case "<=":
+                return figure <= limit
+            case ">=":
+                return figure >= limit
+            case middle:
+                return abs(figure - float(middle.removesuffix(" ±"))) <= limit
 
 
 @dataclass(frozen=True)
 class Unit:
-    """The time of n sines and n cosines, which other times are told in."""
+    """What a time is told in: a unit of time, sines and cosines, or the time of what it is compared with."""
 
-    n: int
+    name: str
     seconds: float
 
     def row(self, name: str, what: str, seconds: float, goal: str = "", error_eps: float | None = None) -> BenchRow:
         """A time [s] in this unit."""
-        return BenchRow(name, what, seconds / self.seconds, f"SC({self.n})", goal, error_eps, seconds)
+        return BenchRow(name, what, seconds / self.seconds, self.name, goal, error_eps, seconds)
+
+
+MILLISECONDS = Unit("ms", 1e-3)
+
+
+def faster_than(ours: float) -> Unit:
+    """How many times as long a rival takes."""
+    return Unit("times faster", ours)
 
 
 @dataclass(frozen=True)
-class Gauge:
-    """What rows are measured with.
+class Effort:
+    """How much is measured: parts, laws and hands, stations of laws and of cams, designs of sweeps into files.
 
-    stations : of the motion laws
-    points : of the cam
-    swept : designs of sweeps into files
+    sizes : the numbers of parts or stations in which methods are timed, by the kind of method
+    budget, least_runs : seconds, and runs at least, for every measurement of a time
     """
 
-    timer: Timer
-    stations: int
-    points: int
-    swept: tuple[int, ...] = ()
+    parts: Parts
+    laws: tuple[str, ...]
+    hands: int
+    pencil_parts: Parts
+    sizes: Mapping[str, Parts]
+    law_stations: int
+    cam_stations: int
+    budget: float
+    swept: Parts = ()
+    least_runs: int = 3
 
-    def unit(self, n: int) -> Unit:
-        """The time of n sines and cosines, measured now."""
-        return Unit(n, self.timer.pairs(n))
+    @cached_property
+    def timer(self) -> Timer:
+        """What measures times."""
+        return Timer(self.budget, self.least_runs)
 
+    @cached_property
+    def pair(self) -> float:
+        """The time of one sine and one cosine on this machine [s], the unit of all times."""
+        return self.timer.pairs(100_000) / 100_000
 
-@dataclass(frozen=True)
-class Section:
-    """A table of rows: its key in CSV and JSON, its title, what is said above it, and what measures it."""
-
-    key: str
-    title: str
-    note: str
-    measured: Callable[[Gauge], Iterable[BenchRow]]
+    def unit(self, n: int, times: int = 1) -> Unit:
+        """The time of n sines and cosines, measured now, over several times as many where these are few."""
+        return Unit(f"SC({n})", self.timer.pairs(n * times) / times)
 
 
 def spoken_time(seconds: float) -> str:
@@ -106,3 +135,50 @@ def spoken_time(seconds: float) -> str:
         return ""
     unit = next((unit for unit, size in SECONDS.items() if seconds < 999.5 * size), "s")
     return f"{seconds / SECONDS[unit]:.3g} {unit}"
+
+
+def _told(met: bool | None) -> str:
+    return "" if met is None else "yes" if met else "no"
+
+
+def _texts_of_rows(rows: Sequence[BenchRow], _: float) -> Iterator[list[str]]:
+    yield ["what", "of what", "ratio", "goal", "goal met", "here", "eps"]
+    for r in rows:
+        ratio, rounding = f"{r.ratio:.3g} {r.unit}", "" if r.error_eps is None else f"{r.error_eps:.1f}"
+        yield [r.name, r.what, ratio, r.goal, _told(r.goal_met), spoken_time(r.seconds), rounding]
+
+
+def _line_of_row(r: BenchRow) -> Iterator[Line]:
+    """Of what was measured, these alone have a goal."""
+    found = {"error": r.error_eps, "error_unit": "eps", "ratio": r.ratio, "ratio_unit": r.unit}
+    yield {"subject": r.name, "quantity": r.what, **found, "goal": r.goal, "goal_met": _told(r.goal_met)}
+
+
+@dataclass(frozen=True)
+class Section:
+    """A table of the report, by default one of :class:`BenchRow`.
+
+    key : in JSON and CSV
+    note : what is said above the table
+    measured : gives its records
+    texts : head and rows of the records, told where a pair of a sine and a cosine takes so long [s]
+    lines : the lines of a record in the long table of numbers
+    derived : properties of a record that JSON tells with its fields
+    words : so many first columns hold words, the others numbers
+    brief : whether it goes to the terminal too
+    """
+
+    key: str
+    title: Caption
+    note: str
+    measured: Callable[[Effort], Iterable[Any]]
+    texts: Callable[[Sequence[Any], float], Iterable[list[str]]] = _texts_of_rows
+    lines: Callable[[Any], Iterable[Line]] = _line_of_row
+    derived: tuple[str, ...] = ("goal_met",)
+    words: int = 2
+    brief: bool = True
+
+    def to_dict(self, record: Any) -> dict[str, Any]:
+        """Ratios and errors of a record as plain data: no seconds are kept."""
+        fields = asdict(record) | {name: getattr(record, name) for name in self.derived}
+        return {name: value for name, value in fields.items() if name != "seconds"}

@@ -1,9 +1,10 @@
 """What the bench draws: three followers under four laws, each with its exact counterpart."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from math import radians
+from typing import Any
 
 from graphcam.comparison.quantities import Comparison
 from graphcam.constructions.board import Board, DrawnFollower
@@ -22,6 +23,8 @@ from graphcam.mechanism.least_radius import LeastRadius, minimum_radius
 
 FOLLOWERS = ("translating", "arm", "flat")
 BENCH_LAWS = ("cycloidal", "3-4-5", "rectangular", "cosine")
+MAIN_LAW = "cycloidal"
+"""The law under which times are compared."""
 LIFT = 30.0
 """The lift of the translating and the flat-faced follower [mm]."""
 ARM = 100.0
@@ -56,10 +59,10 @@ class TestScene:
 
     def least(self) -> LeastRadius:
         """The exact minimum prime radius."""
-        board, limits = self.board, self.board.limits
+        board = self.board
         follower = board.follower.built(board.follower.place, 0.0)
-        allowed = board.follower.conditions | {"rise": limits.rise, "return_": limits.return_}
-        return minimum_radius(board.motion, follower, board.rotation, rest=limits.rest, **allowed)
+        conditions: dict[str, Any] = asdict(board.limits) | dict(board.follower.conditions)
+        return minimum_radius(board.motion, follower, board.rotation, **conditions)
 
 
 def motion_of(law: str, lift: float, rise: float, dwell: float, back: float) -> Motion:
@@ -75,17 +78,21 @@ def scene(follower: str, law: str) -> TestScene:
     >>> scene("arm", "3-4-5").cam.follower
     Oscillating(arm=100.0, distance=120.0, roller_radius=10.0)
     """
-    limits = Limits(LIMIT, None, True)
+    rule, mu_phi = roller_rule(DEFAULT_RULE), Scale(radians(1), "rad")
+    # Prime radius and roller radius are left open, and so is what they are rounded to.
+    drawing = None, None, rule, 12, 50.0, (40.0, 40.0), mu_phi, None, Paper(330.0, 330.0, GOST_2_302)
+    motion, drawn, limit, rotation, sizes = _given(follower, law)
+    return TestScene(follower, law, Board(motion, drawn, rotation, Limits(limit, None, True), *drawing), sizes)
+
+
+def _given(follower: str, law: str) -> tuple[Motion, DrawnFollower, float, Rotation, AdoptedSizes]:
     if follower == "translating":
         motion, sizes = motion_of(law, LIFT, 80, 45, 60), AdoptedSizes(46.0, -10.0, 12.0)
-        return TestScene(follower, law, _board(motion, DrawnTranslating(-10.0), limits, "cw"), sizes)
+        return motion, DrawnTranslating(-10.0), LIMIT, "cw", sizes
     if follower == "arm":
-        motion, sizes = motion_of(law, radians(20), 90, 40, 80), AdoptedSizes(50.0, 120.0, 10.0)
-        limits = Limits(radians(45), None, True)
-        arm = DrawnOscillating(ARM, None, Scale(1.0, "mm"))
-        return TestScene(follower, law, _board(motion, arm, limits, "ccw"), sizes)
-    motion, sizes = motion_of(law, LIFT, 120, 30, 100), AdoptedSizes(60.0, 0.0, 0.0)
-    return TestScene(follower, law, _board(motion, DrawnFlatFaced(8.0), limits, "ccw"), sizes)
+        motion, arm = motion_of(law, radians(20), 90, 40, 80), DrawnOscillating(ARM, None, Scale(1.0, "mm"))
+        return motion, arm, radians(45), "ccw", AdoptedSizes(50.0, 120.0, 10.0)
+    return motion_of(law, LIFT, 120, 30, 100), DrawnFlatFaced(8.0), LIMIT, "ccw", AdoptedSizes(60.0, 0.0, 0.0)
 
 
 def free_scene(law: str) -> TestScene:
@@ -93,10 +100,3 @@ def free_scene(law: str) -> TestScene:
     fixed = scene("translating", law)
     board = replace(fixed.board, follower=DrawnTranslating(None), limits=Limits(LIMIT, LIMIT, True))
     return replace(fixed, board=board)
-
-
-def _board(motion: Motion, follower: DrawnFollower, limits: Limits, rotation: Rotation) -> Board:
-    rule, mu_phi = roller_rule(DEFAULT_RULE), Scale(radians(1), "rad")
-    # Prime radius and roller radius are left open, and so is what they are rounded to.
-    drawing = 12, 50.0, (40.0, 40.0), mu_phi, None, Paper(330.0, 330.0, GOST_2_302)
-    return Board(motion, follower, rotation, limits, None, None, rule, *drawing)

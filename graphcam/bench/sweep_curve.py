@@ -4,25 +4,21 @@ Each is a run of ``graphcam sweep`` of its own, start and imports included, so t
 elapsed time counts as well as the processor time, because the workers are processes.
 """
 
-import os
 import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from graphcam.bench.rows import BenchRow, Gauge, Section
+from graphcam.bench.rows import BenchRow, Section
+from graphcam.bench.timing import seconds_of_programs
+from graphcam.words import say
 
 SIZES = (10**5, 10**6, 10**7)
 WORKERS = (1, 2, 4)
 LONGEST = 300.0
 """A run that would take longer [s], at the rate of the one before, is left out."""
-EVERY = 0.02
-"""Seconds between two looks at the memory."""
-RADII = 1000
-"""Prime radii of a space; the offsets make up the number of designs."""
 SPACE = """\
 [motion]
 lift = 30
@@ -30,92 +26,60 @@ rise_angle = 110
 dwell_angle = 40
 return_angle = 90
 [cam]
-prime_radius = {{ start = 40, stop = 80, count = {radii} }}
+prime_radius = {{ start = 40, stop = 80, count = 1000 }}
 offset = {{ start = -20, stop = 20, count = {offsets} }}
 roller_radius = 12
 """
-PROC = Path("/proc")
 
 
-@dataclass(frozen=True)
-class SweptFile:
-    """One run.
-
-    seconds : by the clock;  processor_seconds : of all processes, 0 where the system does not tell
-    peak_bytes : of all processes together, pages that they share counted once; None where the system does not tell
-    """
-
-    designs: int
-    workers: int
-    seconds: float
-    processor_seconds: float
-    peak_bytes: int | None
-
-    @property
-    def rate(self) -> float:
-        """Designs a second."""
-        return self.designs / self.seconds
-
-
-def curve_rows(gauge: Gauge) -> Iterator[BenchRow]:
-    """The curve as rows of the report."""
-    for run in sweep_curve(gauge.swept):
-        memory = "" if run.peak_bytes is None else f", {run.peak_bytes / 2**20:.0f} MiB at most"
-        what = f"{run.designs:.0e} designs, workers: {run.workers}; {run.processor_seconds:.1f} s of processors{memory}"
-        yield BenchRow("sweep to Parquet", what, run.rate, "designs/s", "", None, run.seconds)
-
-
-def sweep_curve(
-    sizes: Sequence[int], workers: Sequence[int] = WORKERS, longest: float = LONGEST
-) -> Iterator[SweptFile]:
+def curve_rows(sizes: Sequence[int], workers: Sequence[int] = WORKERS, longest: float = LONGEST) -> Iterator[BenchRow]:
     """Every number of designs with every number of workers, the small ones first.
 
-    >>> [(run.designs, run.workers) for run in sweep_curve([1000, 2000], [1], longest=0.0)]
-    [(1000, 1)]
+    >>> [row.what.partition(";")[0] for row in curve_rows([1000, 2000], [1], longest=0.0)]
+    ['1e+03 designs, workers: 1']
     """
     for count in workers:
-        rate = None
+        seconds_each = 0.0
         for designs in sorted(sizes):
-            if rate is not None and designs / rate > longest:
+            if designs * seconds_each > longest:
                 break
-            run = swept_file(designs, count)
-            rate = run.rate
-            yield run
+            seconds, processor_seconds, peak = swept_file(designs, count)
+            seconds_each = seconds / designs
+            memory = "" if peak is None else f", {peak / 2**20:.0f} MiB at most"
+            what = f"{designs:.0e} designs, workers: {count}; {processor_seconds:.1f} s of processors{memory}"
+            yield BenchRow("sweep to Parquet", what, designs / seconds, "designs/s", seconds=seconds)
 
 
-def swept_file(designs: int, workers: int) -> SweptFile:
-    """One run, into a folder that is gone afterwards.
+def swept_file(designs: int, workers: int) -> tuple[float, float, int | None]:
+    """One run, into a folder that is gone afterwards: seconds by the clock, seconds of processors, and maximum memory.
 
     designs : a multiple of 1000
+
+    The memory [bytes] is that of all processes together, pages that they share counted once; None where the system
+    does not tell.
     """
     with TemporaryDirectory() as folder:
         space = Path(folder, "space.toml")
-        space.write_text(SPACE.format(radii=RADII, offsets=designs // RADII), encoding="utf-8", newline="\n")
+        space.write_text(SPACE.format(offsets=designs // 1000), encoding="utf-8", newline="\n")
         words = ["sweep", str(space), "--out", str(Path(folder, "results.parquet")), "--workers", str(workers)]
-        before, start, peak = _processor_seconds(), time.perf_counter(), None
+        before, start, peak = seconds_of_programs(), time.perf_counter(), None
         program, quiet = [sys.executable, "-m", "graphcam", *words], subprocess.DEVNULL
         with subprocess.Popen(program, stdout=quiet, stderr=quiet) as run:
             while run.poll() is None:
                 if memory := _memory_of_tree(run.pid):
                     peak = max(peak or 0, memory)
-                time.sleep(EVERY)
+                time.sleep(0.02)
         seconds = time.perf_counter() - start
         if run.returncode:
             raise subprocess.CalledProcessError(run.returncode, program)
-    return SweptFile(designs, workers, seconds, _processor_seconds() - before, peak)
-
-
-def _processor_seconds() -> float:
-    """The processor's seconds of all programs that this one has run to their end."""
-    used = os.times()
-    return used.children_user + used.children_system
+    return seconds, seconds_of_programs() - before, peak
 
 
 def _memory_of_tree(process: int) -> int:
     """Bytes of a process and of all that it has begun, by Linux's count of proportional shares; 0 for none."""
     try:
-        told = (PROC / str(process) / "smaps_rollup").read_text(encoding="ascii")
-        begun = [path.read_text(encoding="ascii") for path in (PROC / str(process) / "task").glob("*/children")]
+        told = Path(f"/proc/{process}/smaps_rollup").read_text(encoding="ascii")
+        begun = [path.read_text(encoding="ascii") for path in Path(f"/proc/{process}/task").glob("*/children")]
     except OSError:
         return 0  # it has ended, or this is no Linux
     own = sum(int(line.split()[1]) for line in told.splitlines() if line.startswith("Pss:")) * 1024
@@ -124,8 +88,8 @@ def _memory_of_tree(process: int) -> int:
 
 CURVE = Section(
     "workers",
-    "Sweeps into files",
+    say("Sweeps into files"),
     "Runs of graphcam sweep into one Parquet file. Designs a second are by the clock, so other work on the machine "
     "counts; peak memory is that of all processes together.",
-    curve_rows,
+    lambda effort: curve_rows(effort.swept),
 )

@@ -1,30 +1,28 @@
 """Error against time, from the task to the result, for graphical, sampled and exact methods of three questions."""
 
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal
 
 import numpy as np
 
-from graphcam.bench import convergence, reference, rivals
-from graphcam.bench.scenes import LIFT, LIMIT, TestScene, free_scene, scene
-from graphcam.bench.timing import Timer
+from graphcam.bench import reference, rivals
+from graphcam.bench.convergence import as_complex, distance_from_profile, error_of, nearest_angles
+from graphcam.bench.rows import Effort, Line, Parts, Section
+from graphcam.bench.scenes import LIFT, LIMIT, MAIN_LAW, TestScene, free_scene, scene
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
+from graphcam.words import say
 
-LAW = "cycloidal"
 INSIDE = (0.0, 3 * LIFT)
 """A point well inside the region for the cam centre [mm]."""
 STATIONS = 360
 """Stations of one turn at which the exact side is asked."""
 ROUNDS = 2
 """How often all points of a method are timed; the minimum time of each counts."""
-CHECKED = 24
-"""Places at which the exact side is held against 50 digits."""
-Kind = Literal["graphical", "sampled", "exact"]
-Parts = tuple[int, ...]
-"""Numbers of parts a phase, or of stations."""
+Work = Callable[[int], object]
+"""What a method does in n parts or stations."""
 
 
 @dataclass(frozen=True)
@@ -36,122 +34,73 @@ class Method:
 
     question: str
     name: str
-    kind: Kind
+    kind: Literal["graphical", "sampled", "exact"]
     n: Parts
-    pairs: tuple[float, ...]
-    errors: tuple[float, ...]
+    pairs: tuple[float, ...] = ()
+    errors: tuple[float, ...] = ()
 
 
-@dataclass(frozen=True)
-class TimedSizes:
-    """The numbers of parts or stations up to which the methods are taken."""
+def methods(effort: Effort) -> Iterator[Method]:
+    """All methods of all questions, each in the numbers of parts or stations that the effort gives for its kind."""
+    fixed, free, sizes = scene("translating", MAIN_LAW), free_scene(MAIN_LAW), effort.sizes
+    motion, cam, free_motion, least = fixed.board.motion, fixed.cam, free.board.motion, free.least().prime_radius
+    displacement, radius, profile = "displacement", "minimum prime radius", "profile"
 
-    graphical: Parts
-    profile: Parts
-    integrators: Parts
-    half_planes: Parts
-    optimiser: Parts
-    buffer: Parts
+    def sampled(question: str, name: str, kind: str, work: Work, error: Callable[[int], float]) -> Method:
+        """A method in all numbers of its kind."""
+        return _timed(effort, Method(question, name, "sampled", sizes[kind]), work, error)
 
+    def drawn(question: str, kind: str, where: TestScene, construction: str, reading: str) -> Method:
+        """A construction, drawn anew with all that it starts from."""
+        method, error = Method(question, "graphical", "graphical", sizes[kind]), partial(error_of, where, construction)
+        return _timed(effort, method, lambda n: where.chain(n)[construction], lambda n: error(reading, where.chain(n)))
 
-@dataclass(frozen=True)
-class Trial:
-    """A method before it is timed: its work in n parts or stations, and the error of what comes out."""
+    def exact(question: str, work: Work, eps: float | None) -> Method:
+        """Without a reference of more digits its own rounding cannot be seen: one eps stands for it."""
+        error = reference.EPS * (1.0 if eps is None else eps)
+        return _timed(effort, Method(question, "exact", "exact", (STATIONS,)), work, lambda _: error)
 
-    question: str
-    name: str
-    kind: Kind
-    counts: Parts
-    work: Callable[[int], object]
-    error: Callable[[int], float]
+    yield drawn(displacement, "graphical", fixed, "integration", "s")
+    for name, integrator in rivals.INTEGRATORS.items():
+        error = partial(rivals.integrated_error, motion, integrator)
+        yield sampled(displacement, name, "integrators", partial(rivals.integrated, motion, integrator), error)
+    yield drawn(radius, "graphical", free, "minimum_radius", "prime_radius")
+    for name, kind, solve in (
+        ("HalfspaceIntersection", "half_planes", rivals.by_half_planes),
+        ("SLSQP", "optimiser", rivals.by_optimiser),
+    ):
 
-
-def tradeoff(sizes: TimedSizes, timer: Timer, pair: float) -> list[Method]:
-    """All methods of all questions; ``pair`` is the time of one sine and one cosine [s]."""
-    fixed, free = scene("translating", LAW), free_scene(LAW)
-    ways = [*_displacement(fixed, sizes), *_least_radius(free, sizes), *_profile(fixed, sizes), *_exact(fixed, free)]
-    return [_timed(way, timer, pair) for way in ways]
-
-
-def _timed(way: Trial, timer: Timer, pair: float) -> Method:
-    # In rounds, so that a disturbance of the machine spoils no point in all of them.
-    rounds = [[timer.seconds(partial(way.work, n)) / pair for n in way.counts] for _ in range(ROUNDS)]
-    times, errors = np.min(rounds, axis=0).tolist(), map(way.error, way.counts)
-    return Method(way.question, way.name, way.kind, way.counts, tuple(times), tuple(errors))
-
-
-def _drawn(question: str, counts: Parts, where: TestScene, construction: str, reading: str) -> Trial:
-    """The trial of a construction, drawn anew with all that it starts from."""
-
-    def work(n: int) -> object:
-        """The construction in n parts."""
-        return where.chain(n)[construction]
-
-    error = partial(convergence.error_of, where, construction, reading)
-    return Trial(question, "graphical", "graphical", counts, work, lambda n: error(where.chain(n)))
-
-
-def _displacement(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
-    motion = where.board.motion
-    yield _drawn("displacement", sizes.graphical, where, "integration", "s")
-    for name, method in rivals.INTEGRATORS.items():
-
-        def work(n: int, method: rivals.Integrator = method) -> object:
-            """Every phase integrated from n samples."""
-            return [method(phi, a) for phi, a in rivals.samples(motion, n)]
-
-        error = partial(rivals.integrated_error, motion, method=method)
-        yield Trial("displacement", name, "sampled", sizes.integrators, work, error)
-
-
-def _least_radius(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
-    motion, exact = where.board.motion, where.least().prime_radius
-    yield _drawn("minimum prime radius", sizes.graphical, where, "minimum_radius", "prime_radius")
-    solvers = (
-        ("HalfspaceIntersection", rivals.by_half_planes, sizes.half_planes),
-        ("SLSQP", rivals.by_optimiser, sizes.optimiser),
-    )
-    for name, solve, counts in solvers:
-
-        def work(n: int, solve: rivals.Solver = solve) -> float:
+        def found(n: int, solve: Callable[[rivals.Lines, rivals.Point], float] = solve) -> float:
             """The minimum radius of n lines [mm]."""
-            return solve(rivals.translating_lines(motion, LIMIT, n), INSIDE)
+            return solve(rivals.translating_lines(free_motion, LIMIT, n), INSIDE)
 
-        yield Trial(
-            "minimum prime radius", name, "sampled", counts, work, lambda n, work=work: abs(work(n) / exact - 1)
-        )
-
-
-def _profile(where: TestScene, sizes: TimedSizes) -> Iterator[Trial]:
-    cam = where.cam
-    yield _drawn("profile", sizes.profile, where, "working_profile", "radius")
-
-    def work(n: int) -> Floats:
-        """The corners of the profile about n points of the pitch curve [mm]."""
-        return rivals.buffered(cam.pitch_curve(turn(n)), where.sizes.roller_radius)
-
-    def error(n: int) -> float:
-        """How far corners lie off the profile at most, as a part of the prime radius."""
-        corners = convergence.as_complex(work(n))
-        some = corners[:: max(1, corners.size // 2000)]
-        off = convergence.distance_from_profile(cam, some, convergence.nearest_angles(cam, some))
-        return float(off.max()) / where.sizes.prime_radius
-
+        yield sampled(radius, name, kind, found, lambda n, found=found: abs(found(n) / least - 1))
+    yield drawn(profile, "profile", fixed, "working_profile", "radius")
     if rivals.optional("shapely"):
-        yield Trial("profile", "shapely buffer", "sampled", sizes.buffer, work, error)
+        buffered = partial(_buffered, fixed)
+        yield sampled(profile, "shapely buffer", "buffer", buffered, partial(_buffered_error, fixed))
+    yield exact(displacement, lambda n: motion(turn(n)), reference.displacement_eps(fixed))
+    yield exact(radius, lambda _: free.least(), reference.least_radius_eps(free))
+    yield exact(profile, lambda n: cam.profile(turn(n)), reference.profile_eps(fixed))
 
 
-def _exact(fixed: TestScene, free: TestScene) -> Iterator[Trial]:
-    motion, cam = fixed.board.motion, fixed.cam
-    exact: list[tuple[str, Callable[[int], object], Callable[[], float]]] = [
-        ("displacement", lambda n: motion(turn(n)), partial(exact_displacement_error, fixed)),
-        ("minimum prime radius", lambda _: free.least(), partial(exact_least_radius_error, free)),
-        ("profile", lambda n: cam.profile(turn(n)), partial(exact_profile_error, fixed)),
-    ]
-    for question, work, error in exact:
-        # Without a reference of more digits the exact side's own rounding cannot be seen: one eps stands for it.
-        shown = error() if reference.available() else reference.EPS
-        yield Trial(question, "exact", "exact", (STATIONS,), work, lambda _, shown=shown: shown)
+def _timed(effort: Effort, method: Method, work: Work, error: Callable[[int], float]) -> Method:
+    # In rounds, so that a disturbance of the machine spoils no point in all of them.
+    rounds = [[effort.timer.seconds(work, n) / effort.pair for n in method.n] for _ in range(ROUNDS)]
+    return replace(method, pairs=tuple(np.min(rounds, axis=0).tolist()), errors=tuple(map(error, method.n)))
+
+
+def _buffered(where: TestScene, n: int) -> Floats:
+    """The corners of the profile about n points of the pitch curve [mm]."""
+    return rivals.buffered(where.cam.pitch_curve(turn(n)), where.sizes.roller_radius)
+
+
+def _buffered_error(where: TestScene, n: int) -> float:
+    """How far corners lie off the profile at most, as a part of the prime radius."""
+    corners = as_complex(_buffered(where, n))
+    some = corners[:: max(1, corners.size // 2000)]
+    off = distance_from_profile(where.cam, some, nearest_angles(where.cam, some))
+    return float(off.max()) / where.sizes.prime_radius
 
 
 def turn(n: int) -> Floats:
@@ -159,24 +108,28 @@ def turn(n: int) -> Floats:
     return np.linspace(0, FULL_TURN, n, endpoint=False)
 
 
-def exact_displacement_error(where: TestScene) -> float:
-    """The maximum error of the exact s on the rise, relative to the lift; needs mpmath."""
-    u = inner_places()
-    return float(np.abs(where.board.motion.at(0, u)[0] / LIFT - reference.law_values(where.law, u)[0]).max())
+def _texts(found: Sequence[Method], _: float) -> Iterator[list[str]]:
+    yield ["question", "method", "n", "time, pairs", "relative error"]
+    for m in found:
+        for n, pairs, error in zip(m.n, m.pairs, m.errors, strict=True):
+            yield [m.question, m.name, str(n), f"{pairs:.3g}", f"{error:.1e}"]
 
 
-def exact_least_radius_error(where: TestScene) -> float:
-    """The relative error of the exact minimum radius; needs mpmath."""
-    return abs(where.least().prime_radius / reference.least_radius(where) - 1)
+def _lines(m: Method) -> Iterator[Line]:
+    of = {"section": "time", "subject": m.name, "quantity": m.question, "remark": m.kind}
+    for n, pairs, error in zip(m.n, m.pairs, m.errors, strict=True):
+        times = {"ratio": pairs, "ratio_unit": "sine-cosine pairs"}
+        yield {**of, "n": n, "error": error, "error_unit": "relative", **times}
 
 
-def exact_profile_error(where: TestScene) -> float:
-    """The maximum error of an exact coordinate on the rise, relative to the prime radius; needs mpmath."""
-    u = inner_places()
-    exact = where.cam.profile(where.board.motion.angle_at(0, u))
-    return float(np.abs(exact - reference.profile_points(where, u)).max()) / where.sizes.prime_radius
-
-
-def inner_places() -> Floats:
-    """Places inside a phase, the same in every run."""
-    return np.random.default_rng(0).uniform(0.01, 0.99, CHECKED)
+METHODS = Section(
+    "error_against_time",
+    say("Error against time"),
+    "From the task to the result, including everything in between. Times are in pairs of a sine and a cosine: one pair "
+    "took {pair_ns:.1f} ns on this machine.",
+    methods,
+    _texts,
+    _lines,
+    derived=(),
+    brief=False,
+)

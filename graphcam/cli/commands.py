@@ -80,15 +80,14 @@ def bench(
 
     graphcam bench --out bench
     """
-    from graphcam.bench import bench_report as report
-    from graphcam.bench.bench_files import FILES, bench as measure, tables
+    from graphcam.bench import bench_report as bench
 
     with one_message():
-        measured = measure(report.QUICK if quick else report.FULL, out, progress_lines(quiet=False))
-    for table in tables(measured):
-        if table.brief:
-            print_table(table.columns, table.rows, table.words, title=f"\n{table.title}")
-    typer.echo(f"{out}: " + ", ".join(FILES))
+        report = bench.bench(bench.QUICK if quick else bench.FULL, out, progress_lines(quiet=False))
+    for section, head, rows in report.tables():
+        if section.brief:
+            print_table(head, rows, section.words, title=f"\n{section.title}")
+    typer.echo(f"{out}: " + ", ".join(bench.FILES))
 
 
 def sweep(

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import pytest
 
 import graphcam as gc
-from graphcam.bench.rows import Gauge
-from graphcam.bench.solve_rows import resized, solve_rows, view_svg
-from graphcam.bench.timing import Timer
+from graphcam.bench.bench_report import QUICK
+from graphcam.bench.waiting_rows import built_in, dragging, resized, solve_rows, studio_rows, view_svg
 from graphcam.plots.step_board import StepBoard
 from graphcam.sheets.player import group_svg
+from graphcam.studio.task_text import plain_task
 
+ONCE = replace(QUICK, budget=0.0, least_runs=1)
 VIEWS = {
     "acceleration": ["acceleration", "integration"],
     "profile": ["inversion", "curvature", "working_profile"],
@@ -33,15 +35,21 @@ def test_a_view_drawn_alone_is_that_of_the_whole_solution(view, names):
     assert (svg != view_svg(gc.builtin_task(), view, names)) == (view == "profile")
 
 
+def test_every_picture_of_a_drag_is_another_one():
+    again = dragging(plain_task(gc.builtin_task()), "combined")
+    first, second = (again()["sizes"]["offset"] for _ in range(2))
+    assert first != second
+
+
 @pytest.mark.slow
 def test_the_rows_name_what_is_waited_for_with_a_unit_and_a_goal_each():
-    rows = list(solve_rows(Gauge(Timer(0.0, least_runs=1), 0, 0)))
-    whole, *others = rows
+    whole, *others = solve_rows(ONCE)
     assert (whole.name, whole.goal, whole.seconds > whole.ratio) == ("solve, all files", "<= 1", True)
-    assert {row.name: row.goal for row in others} == {
-        "layout": "<= 250",
-        "step player": "<= 150",
-        "view after a size changed": "<= 30",
-    }
-    assert all(row.unit == "ms" and row.ratio == 1e3 * row.seconds > 0 for row in others)
-    assert len(others) == 3 * len({row.what.partition(",")[0] for row in others})
+    goals = {"layout": "<= 250", "step player": "<= 150", "view after a size changed": "<= 30"}
+    assert {row.name: row.goal for row in others} == goals
+    dragged = list(studio_rows(ONCE))
+    assert len(dragged) == 9 + 10 + 6 + 12 + 8
+    for rows in (others, dragged):
+        assert all(row.unit == "ms" and row.ratio == pytest.approx(1e3 * row.seconds) and row.ratio > 0 for row in rows)
+        assert {row.what.partition(",")[0] for row in rows} == {*built_in()}
+    assert len(others) == 3 * len(built_in())
