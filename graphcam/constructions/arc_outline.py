@@ -5,9 +5,7 @@ P, the centre of the third arc is as far from P as from C1: the perpendicular bi
 Laid off the other way it gives the other root.
 """
 
-from collections.abc import Mapping, Sequence
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 
@@ -21,6 +19,7 @@ from graphcam.drafting.marks import Dimension, Label, Line, Mark, Role
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import UNLIMITED, Paper, Scale, ratio_text
+from graphcam.drafting.telling import Move, in_parts
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.plane import dot
 from graphcam.words import joined, sequence
@@ -128,22 +127,6 @@ def _touching(hand: Hand, name: str, centres: Drawn, about_c1: Drawn, rho3: Sett
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
-
-Move = tuple[Caption, *tuple[Drawn, ...]]
-"""What is done, and what it leaves."""
-
-
-def in_parts(
-    moves: Sequence[Move], values: Mapping[str, Any], first: Sequence[Caption] = (), last: Sequence[Caption] = ()
-) -> tuple[Part, ...]:
-    """A part for each move, with the values in its places.
-
-    first, last : what else is said in the first part, before it, and in the last one, after it
-    """
-    told = [[said] for said, *_ in moves]
-    told[0][:0], told[-1][len(told[-1]) :] = first, last
-    captions = [sequence([each.where(**values) for each in said], " ") for said in told]
-    return tuple(Part(caption, tuple(draws)) for caption, (_, *draws) in zip(captions, moves, strict=True))
 
 
 def unreadable(title: Caption, said: Caption, view: View) -> Step:

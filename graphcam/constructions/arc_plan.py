@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from graphcam.constructions.arc_outline import Move, in_parts, unreadable
+from graphcam.constructions.arc_outline import unreadable
 from graphcam.constructions.arc_profile import run
 from graphcam.constructions.arc_stations import ARCS, CENTRES, ROLLER, ArcStations, RollerOnArcs
 from graphcam.constructions.velocity_plan import VelocityScale
@@ -19,6 +19,7 @@ from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Part, Row, Step, View, say
 from graphcam.drafting.marks import Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
+from graphcam.drafting.telling import Move, in_parts
 from graphcam.drafting.units import NOTHING, unit as unit_named
 from graphcam.given.laws import Floats
 
@@ -135,10 +136,7 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -
             say("Draw the follower's line vertical, and on it O and B above it: OB = {ob:.2f} mm."),
             *(acts[name] for name in ("O", "B", "follower")),
         ),
-        (
-            say("{centre}: with the dividers {oc:.2f} mm from O and {bc:.2f} mm from B, {side} of the line."),
-            acts["C"],
-        ),
+        (say("{centre}: with the dividers {oc:.2f} mm from O and {bc:.2f} mm from B, {side} of the line."), acts["C"]),
         (
             say("Draw the rod from B through {centre} as far as the horizontal line through O: they meet in K."),
             *(acts[name] for name in ("rod", "across", "K")),

@@ -16,12 +16,7 @@ from graphcam.constructions.arm_positions import along_the_arm, arc_through, arm
 from graphcam.constructions.arm_region_detail import adopted_enlarged, detail_scale
 from graphcam.constructions.axes import numbers, station_names, turning
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.pressure_angle import (
-    ANGLES,
-    MeasuredGivens,
-    read_angles,
-    shown_station,
-)
+from graphcam.constructions.pressure_angle import ANGLES, MeasuredGivens, read_angles, shown_station
 from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import ARM_ANGLES, PLAN, REGION, at_scale
 from graphcam.drafting.acts import Floats, Setting

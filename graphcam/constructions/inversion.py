@@ -158,11 +158,7 @@ def _positions(inverted: OffsetInverted) -> Step:
     lines = Segments(motion.shown, starts.shown, Role.CONSTRUCTION).left_by(motion)
     numbered = feet if abs(e) / inverted.givens.mu_l.per_mm >= NUMBERED else starts
     phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
-    marks = (
-        lines,
-        *numbers(numbered, stations, -unit(numbered.shown)),
-        *phases,
-    )
+    marks = (lines, *numbers(numbered, stations, -unit(numbered.shown)), *phases)
     said = say(
         "The cam turns {rotation}; hold it still and turn the follower the other way, {against}. Set the protractor on "
         "A and count {against} from {line}, from station to station {steps}, so station {name} at {angle}; draw and "

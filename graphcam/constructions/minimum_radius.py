@@ -13,24 +13,9 @@ import numpy as np
 
 from graphcam.constructions.adoption import ToldByChain
 from graphcam.constructions.axes import degrees, pieces_of
-from graphcam.constructions.combined_diagram import (
-    aside,
-    joined_up,
-    laid_off,
-    offset_caption,
-    offset_line,
-    velocities,
-)
+from graphcam.constructions.combined_diagram import aside, joined_up, laid_off, offset_caption, offset_line, velocities
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.region import (
-    LEAST_RADIUS,
-    ON_THE_LINE,
-    Boundary,
-    binding,
-    boundary,
-    highest_on,
-    nearest,
-)
+from graphcam.constructions.region import LEAST_RADIUS, ON_THE_LINE, Boundary, binding, boundary, highest_on, nearest
 from graphcam.constructions.region_picture import RegionPicture, picture_of
 from graphcam.constructions.touched_station import touched
 from graphcam.constructions.views import COMBINED

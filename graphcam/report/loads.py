@@ -282,6 +282,4 @@ def _verdict(stress: StressDesign) -> list[Caption]:
     if stress.permitted:
         kept = say("{limit:g} MPa are permitted: a contact {width} mm wide would be enough.")
         return [kept.where(**values)]
-    return [
-        warning(say("Only {limit:g} MPa are permitted. A contact {width} mm wide satisfies this.").where(**values)),
-    ]
+    return [warning(say("Only {limit:g} MPa are permitted. A contact {width} mm wide satisfies this.").where(**values))]

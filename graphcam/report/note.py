@@ -206,9 +206,7 @@ def _at_speed(solution: Solution) -> list[Block]:
         say("For the phase {phase}", phase=phase_title(motion, k)),
         formula(f"$${IN_NUMBERS}$$", omega=omega, **values),
         Grid(
-            say("Times, maximum velocities and accelerations of the phases"),
-            (say("phase"), *AT_SPEED[of_lift]),
-            rows,
+            say("Times, maximum velocities and accelerations of the phases"), (say("phase"), *AT_SPEED[of_lift]), rows
         ),
     ]
 
