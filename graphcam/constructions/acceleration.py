@@ -278,7 +278,6 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
 
 
 def _ordinates(diagram: AccelerationDiagram, laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> Step:
-    """The largest ordinates: that of the first rise is chosen, the others follow."""
     chosen = next(k for k, law in enumerate(laws) if law.phase.direction > 0)
     numbers = [say("{c:.5g} ({phase})", c=law.phase.normalised.peak_acceleration, phase=law.title) for law in laws]
     choice = say("Choose {y:.1f} mm for the maximum ordinate of {phase}; its scale is found at the end.")
@@ -353,7 +352,6 @@ class _LawOverPhase:
 
 
 def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
-    """The ordinates between the stations."""
     stations, axis, middles = diagram.givens.stations, diagram.acts["axis"], diagram.acts["middles"]
     x = axis.shown
     marks = (

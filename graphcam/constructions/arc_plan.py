@@ -119,7 +119,6 @@ def _far(hand: Hand, start: str, end: str) -> float:
 
 
 def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -> Step:
-    """The rod from B to its centre, and K."""
     arcs, acts, station, centre = rolled.givens.arcs, hand.acts, rolled.givens.stations.names[at], CENTRES[SHOWN[0]]
     mu, ok = scale.mu_l.per_mm, _far(hand, "O", "K")
     c, m, b, side = acts["C"].place, acts["M"].place, acts["B"].place, -float(run(arcs))
@@ -164,7 +163,6 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -
 
 
 def _acceleration(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -> Step:
-    """The right angle that cuts N′ off, N, and M."""
     acts, station, centre = hand.acts, rolled.givens.stations.names[at], CENTRES[SHOWN[0]]
     a, side = float(rolled.value("a")[at]), -float(run(rolled.givens.arcs))
     directed = say("it is directed towards the cam centre, because M lies on the side of B")

@@ -190,7 +190,6 @@ def _radii(circle: Drawn) -> list[float]:
 
 
 def _paths(rolled: RollerOnArcs) -> Step:
-    """The cam, and the path of the roller's centre."""
     arcs, acts, trace, roller = rolled.givens.arcs, rolled.acts, rolled.acts["trace"], rolled.givens.roller_radius
     axis, o, lines, prime = middle_of_dwell(arcs), acts["O"], acts["lines of centres"].first, _prime(rolled)
     profile, joints = cam(arcs, axis), [arcs.acts[name] for name in "AGFD"]
@@ -256,7 +255,6 @@ def _arcs(rolled: RollerOnArcs, circles: list[Drawn]) -> Part:
 
 
 def _joints(rolled: RollerOnArcs) -> Step:
-    """The cam angles of the joints."""
     lines, trace, sigma = rolled.acts["to the joints"].first, rolled.acts["trace"].first, run(rolled.givens.arcs)
     angles = np.abs(rolled.first("edges"))
     base, reads = float(np.angle(trace.shown[0])), ("phi_G", "phi_F", "rise")
@@ -281,7 +279,6 @@ def _joints(rolled: RollerOnArcs) -> Step:
 
 
 def _stations(rolled: RollerOnArcs) -> Step:
-    """The rays, and the roller's centre on each."""
     arcs, stations, b, rays = rolled.givens.arcs, rolled.givens.stations, rolled.acts["B"], rolled.acts["rays"].first
     reach, ray = float(np.abs(rolled.first("trace")[-1])) + BEYOND, rolled.first("ray")
     ends, mu_l = rays.shown + reach * ray, arcs.givens.mu_l.per_mm

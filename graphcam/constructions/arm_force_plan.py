@@ -163,7 +163,6 @@ def _terms(plan: Construction[ArmForcePlanGivens]) -> list[tuple[Caption, float]
 
 
 def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
-    """The load, reduced to the arm's end, square to the arm."""
     givens, mu = plan.givens.measured.givens, plan.givens.mu_force.per_mm
     terms, integrated, k = _terms(plan), givens.integrated, plan.givens.station
     s, a = float(integrated.value("s")[k]), float(integrated.value("a")[k])
@@ -195,7 +194,6 @@ def _beside(plan: Construction[ArmForcePlanGivens]) -> complex:
 
 
 def _line_of_force(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
-    """The line of the contact force through the head of the load."""
     normal, up = plan.acts["line of F"].first, -complex(unit(plan.acts["line of Q"].first.directions))
     said = say(
         "In the arm positions lay the set squares along the line from A to D of station {name}. Carry it to the "
@@ -207,7 +205,6 @@ def _line_of_force(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
 
 
 def _line_of_reaction(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
-    """The line of the reaction, along the arm."""
     line, side = plan.acts["line of R"].first, _beside(plan)
     size = float(plan.first("reaction"))
     reach = STROKE if math.isnan(size) else max(STROKE, size + plain.BEYOND)
@@ -229,7 +226,6 @@ def _not_pressed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
 
 
 def _closed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
-    """The triangle, and what is measured on it."""
     foot, corner, force, reaction = (plan.acts[name].first for name in ("foot", "corner", "F", "R"))
     corner, side, down = corner[0], _beside(plan), complex(unit(plan.acts["line of Q"].first.directions))
     sides = say(

@@ -321,7 +321,6 @@ def _adopted(region: ArmRegion) -> list[complex]:
 
 
 def _shaded(region: ArmRegion, picture: RegionPicture, hatched: Points) -> Step:
-    """The permitted places, down to a little below the cam centre."""
     corners = picture.corners
     edges = showing(region).given("edges of the picture", corners, np.diff([*corners, corners[0]]))
     bounds = showing(region).take("bounds", region.acts["lines"].first, edges)

@@ -175,7 +175,6 @@ def plan_scale(measured: ArmAngles, k: int) -> Scale:
 
 
 def _centre(measured: ArmAngles) -> Step:
-    """The cam centre of the adopted sizes, and the angle of the line of centres."""
     givens, acts, length = measured.givens, measured.acts, measured.givens.mu_l.paper
     pivot, start, tips, centre = (acts[name] for name in ("pivot", "start", "tips", "centre"))
     circles, sides = (acts["circle of the centre"], acts["prime circle"]), np.exp([-1j * ACROSS, 1j * ACROSS])
@@ -253,7 +252,6 @@ def _plan(measured: ArmAngles, k: int, scale: Scale) -> Hand:
 
 
 def _mechanism(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> Step:
-    """The arm and the cam centre at the shown station, and the velocity along the arm."""
     givens, (a, b, c, d) = measured.givens, (plan.acts[each] for each in "ABCD")
     ab, bd, cb = (plan.acts[each] for each in ("AB", "BD", "CB"))
     integrated, names = givens.integrated, station_names(givens.integrated.givens.stations)
@@ -288,7 +286,6 @@ def _mechanism(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -
 
 
 def _velocities(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> Step:
-    """The velocity plan at the shown station, and how its sides are turned from those of the mechanism."""
     names, rotation = station_names(measured.givens.integrated.givens.stations), measured.givens.rotation
     pole, v1, v2, v21 = (plan.acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
     across, along = v1.place - pole.place, v2.place - pole.place
@@ -315,7 +312,6 @@ def _velocities(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) 
 
 
 def _angle(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> Step:
-    """The angle between the arm's normal and DA at the shown station."""
     normal, ray, d = (plan.acts[name] for name in ("normal", "DA", "D"))
     name, reading = station_names(measured.givens.integrated.givens.stations)[k], plan.readings["alpha"]
     alpha, length, tip = float(np.degrees(reading.paper)), abs(d[k].place), d[k].place
@@ -340,7 +336,6 @@ def _angle(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> St
 
 
 def _everywhere(measured: ArmAngles, k: int) -> Step:
-    """The rays and the normals at all stations."""
     names, alpha = station_names(measured.givens.integrated.givens.stations), np.degrees(measured.first("alpha"))
     rays, normals = measured.acts["rays"], measured.acts["normals"]
     # At the shown station as far as the arc of its angle, at the others only their direction.

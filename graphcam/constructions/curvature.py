@@ -204,7 +204,6 @@ def _draw(curved: Curved) -> list[Step]:
 
 
 def _chords(curved: Curved, detail: Detail) -> Step:
-    """Three points of the sharpest place and their chords, in the detail."""
     (before, after), triple = _neighbours_named(curved), detail.triple
     first, second = np.abs(np.diff(triple.shown))
     phi, points = curved.first("phi"), say("B and both ends of the arc")
@@ -290,7 +289,6 @@ def _twice_as_wide(curved: Curved) -> tuple[list[str], float] | None:
 
 
 def _bisected(curved: Curved, detail: Detail) -> Step:
-    """The perpendicular bisectors of the chords, and O where they meet."""
     lines, settings = _bisectors(curved, detail)
     first = say(
         "Set the compass to {setting:.1f} mm ({share:g} of the first chord), strike arcs about both of its ends that "
@@ -307,7 +305,6 @@ def _bisected(curved: Curved, detail: Detail) -> Step:
 
 
 def _measured(curved: Curved, detail: Detail) -> Step:
-    """The radius, and the arc that shows how well it fits."""
     said = say(
         "Join O to B with a ruler: OB measures {paper:.2f} mm, at {ratio}, so the minimum radius of curvature of "
         "the pitch curve is ρ = {rho:.3f} mm."
@@ -323,7 +320,6 @@ def _measured(curved: Curved, detail: Detail) -> Step:
 
 
 def _on_profile(curved: Curved) -> Step:
-    """O and B where they lie on the profile."""
     triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], showing(curved)
     ob, b = hand.join("OB", o, triple[1]), triple[1]
     said = say(

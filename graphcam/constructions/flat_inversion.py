@@ -149,13 +149,11 @@ def _on_profile(inverted: profile_view.Inverted, name: str) -> dict[str, float |
 
 
 def _circle(inverted: profile_view.Inverted) -> Step:
-    """The prime circle."""
     why = say("The face is r₀ from the cam centre before the follower rises.")
     return profile_view.prime_step(inverted, say("Prime circle"), profile_view.start_of_turn(inverted), why=why)
 
 
 def _rays(inverted: profile_view.Inverted) -> Step:
-    """The follower's line in its inverted positions, numbered, up to the prime circle."""
     rays, starts = (inverted.acts[name].first for name in ("inverted positions", "starts"))
     phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
     said = say(
@@ -174,7 +172,6 @@ def _rays(inverted: profile_view.Inverted) -> Step:
 
 
 def _faces(inverted: profile_view.Inverted) -> Step:
-    """The displacements on the rays, and the faces there."""
     starts, feet, faces = (inverted.acts[name].first for name in ("starts", "feet", "faces"))
     contact, across = inverted.first("contact"), -unit(faces.directions)
     left = faces.shown + across * (np.minimum(contact, 0) - FACE_BEYOND)
@@ -194,7 +191,6 @@ def _faces(inverted: profile_view.Inverted) -> Step:
 
 
 def _contacts(inverted: profile_view.Inverted) -> Step:
-    """Where the profile touches the faces, and how far that wanders."""
     pitch, mu_l, v = inverted.acts["pitch"].first, inverted.givens.mu_l.per_mm, inverted.givens.integrated.first("v")
     sigma = sense(inverted.givens.rotation)
 

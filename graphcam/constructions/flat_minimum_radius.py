@@ -212,7 +212,6 @@ def _draw(region: FlatRegion) -> list[Step]:
 
 
 def _laid_off(region: FlatRegion) -> Step:
-    """The displacements on an upright axis, and the accelerations level from there."""
     integrated, names = region.givens.integrated, ("displacements", "accelerations", "before the jumps")
     heights, after, near = (region.acts[name].first for name in names)
     stations, jumps = integrated.givens.stations, _jumps(integrated).tolist()
@@ -280,7 +279,6 @@ def _level(a: float, region: FlatRegion) -> Caption:
 
 
 def _joined(region: FlatRegion) -> Step:
-    """The smooth curves through the ends, and the dwells."""
     integrated, smooth, curve = region.givens.integrated, showing(region), region.acts["curve"].first
     stations, rests, marks, rows = integrated.givens.stations, region.acts["rests"].first, list[Mark](), list[Row]()
     names = station_names(stations)
@@ -341,7 +339,6 @@ def nearest_station(region: FlatRegion) -> str:
 
 
 def _found(region: FlatRegion) -> Step:
-    """The least prime radius, laid off."""
     centre, least, mu = region.acts["A"].first, region.givens.least_curvature, region.readings["prime_radius"].per_mm
     r0, need = (float(region.value(name)) for name in ("prime_radius", "need"))
     if r0 > 0:

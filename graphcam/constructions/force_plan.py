@@ -301,7 +301,6 @@ def leaning(line: Drawn, reach: float, alpha: float, up: complex = UP) -> tuple[
 
 
 def _line_of_force(plan: Construction[ForcePlanGivens], view: View) -> Step:
-    """The line of the contact force through the head of the load."""
     normal, alpha = plan.acts["line of F"].first, alpha_at(plan)
     said = say(
         "At the head of Q set the protractor to α = {alpha:.2f}° from the vertical {side}, and draw the line of "
@@ -384,7 +383,6 @@ def triangle_step(
 
 
 def _closed(plan: Construction[ForcePlanGivens], view: View) -> Step:
-    """The triangle, and what is measured on it."""
     foot, corner, force, reaction = (plan.acts[name].first for name in ("foot", "corner", "F", "R"))
     corner, shown, side = corner[0], showing(plan), side_of(plan)
     level = shown.project("level", corner, shown.given("line of Q", 0j, UP))

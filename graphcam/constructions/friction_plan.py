@@ -113,7 +113,6 @@ def _draw(plan: Construction[FrictionPlanGivens]) -> list[Step]:
 
 
 def _normal(plan: Construction[FrictionPlanGivens], view: View) -> Step:
-    """The contact normal through the head of the load."""
     normal, length, alpha = plan.acts["normal"].first, float(plan.first("normal")), plain.alpha_at(plan)
     said = say(
         "At the head of Q set the protractor to α = {alpha:.2f}° from the vertical {side}, and draw the contact "
@@ -125,7 +124,6 @@ def _normal(plan: Construction[FrictionPlanGivens], view: View) -> Step:
 
 
 def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
-    """The line of the contact force, turned from the normal by the angle of friction."""
     base, incline, line = (plan.acts[name].first for name in ("base", "incline", "line of F"))
     sigma, mu, length = sense(plan.givens.measured.givens.rotation), plan.givens.mu, float(plan.first("contact"))
     values = {"base": BASE, "mu": mu, "height": BASE * mu, "side": towards(-float(sigma))}
@@ -147,7 +145,6 @@ def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
 
 
 def _closed(plan: Construction[FrictionPlanGivens], view: View) -> Step:
-    """The triangle, the contact force in its parts, and what is measured on it."""
     names = ("foot", "corner", "F", "R", "square", "tip of N", "N", "T")
     foot, corner, force, reaction, square, tip, normal, friction = (plan.acts[name].first for name in names)
     corner, shown, side = corner[0], showing(plan), plain.side_of(plan)

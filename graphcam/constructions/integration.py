@@ -31,6 +31,7 @@ from graphcam.constructions.axes import (
 )
 from graphcam.constructions.curve_over_phi import curve_over_phi
 from graphcam.constructions.graduation import graduated
+from graphcam.constructions.pole_scales import PoleTerms, pole_formula
 from graphcam.constructions.time_axis import graduated_at_speed, scale_said, times_below
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
@@ -70,16 +71,14 @@ class IntegrationGivens(AccelerationGivens):
 Integrated = Construction[IntegrationGivens]
 
 
-def _values(drawn: Integrated) -> Values:
-    """The scales, and the greatest ordinates with what they stand for."""
-    scales = {f"mu_{name}": drawn.readings[name].per_mm for name in "sva"}
-    units = {f"of_{name}": per_mm(drawn.readings[name].unit) for name in "sva"}
-    tops = {f"max_{name}": float(drawn.value(f"max_{name}")) for name in "va"}
-    papers = {name: float(drawn.first(f"max_{name}")) for name in "va"}
-    of_tops = {f"unit_{name}": unit(drawn.readings[name].unit) for name in "va"}
-    (h1, h2), lift, mu = drawn.givens.poles, drawn.givens.motion.lift, drawn.givens.mu_phi.per_mm
-    named = {"h1": h1, "h2": h2, "mu_phi": mu, "lift": lift, "paper": lift / scales["mu_s"]}
-    yield {**scales, **units, **tops, **papers, **of_tops, **named}
+def _of_the_lift(drawn: Integrated) -> Values:
+    """The scale of s, from the known lift."""
+    read, lift = drawn.readings["s"], drawn.givens.motion.lift
+    yield {"lift": lift, "paper": lift / read.per_mm, "mu_s": read.per_mm, "of_s": per_mm(read.unit)}
+
+
+def _by_pole(drawn: Integrated, source: str, pole: int) -> PoleTerms:
+    return PoleTerms(drawn.readings[source].per_mm, drawn.givens.mu_phi.per_mm, drawn.givens.poles[pole - 1])
 
 
 FORMULAS = (
@@ -95,7 +94,7 @@ FORMULAS = (
     Formula(
         r"\mu_s = \frac{h}{y_s}",
         r"\mu_s = \frac{<lift:.6g>}{<paper:.2f>} = <mu_s:.5g>\ \text{<of_s>}",
-        _values,
+        _of_the_lift,
         (
             Symbol(r"\mu_s", say("the scale of the displacement"), "lift/mm"),
             LIFT,
@@ -103,28 +102,8 @@ FORMULAS = (
         ),
         of="s",
     ),
-    Formula(
-        r"\mu_v = \frac{\mu_s}{\mu_\varphi H_2}, \qquad v_{\max} = \mu_v\,y_v",
-        r"\mu_v = \frac{<mu_s:.5g>}{<mu_phi:.6f> \cdot <h2:g>} = <mu_v:.5g>\ \text{<of_v>}, \qquad "
-        r"v_{\max} = <mu_v:.5g> \cdot <v:.2f> = <max_v:.5g>\ \text{<unit_v>}",
-        _values,
-        (
-            Symbol(r"\mu_v", say("the scale of the velocity"), "(lift/rad)/mm"),
-            Symbol("y_v", say("the maximum ordinate of v"), "mm of paper"),
-        ),
-        of="v",
-    ),
-    Formula(
-        r"\mu_a = \frac{\mu_v}{\mu_\varphi H_1}, \qquad a_{\max} = \mu_a\,y_a",
-        r"\mu_a = \frac{<mu_v:.5g>}{<mu_phi:.6f> \cdot <h1:g>} = <mu_a:.5g>\ \text{<of_a>}, \qquad "
-        r"a_{\max} = <mu_a:.5g> \cdot <a:.2f> = <max_a:.5g>\ \text{<unit_a>}",
-        _values,
-        (
-            Symbol(r"\mu_a", say("the scale of the acceleration"), "(lift/rad²)/mm"),
-            Symbol("y_a", say("the maximum ordinate of a"), "mm of paper"),
-        ),
-        of="a",
-    ),
+    pole_formula("v", "s", 2, _by_pole),
+    pole_formula("a", "v", 1, _by_pole),
 )
 
 
@@ -354,7 +333,6 @@ def _draw_rays(c: Integrated, run: _Integrating) -> Step:
 
 
 def _draw_chords(c: Integrated, run: _Integrating) -> Step:
-    """The chords, each parallel to the ray of its part, and the ordinates of the curve at their ends."""
     stations, (source, target) = c.givens.stations, run.symbols
     polygon, curve = c.acts[f"{target}_chords"], c.acts[f"{target}_curve"]
     y, left = polygon.shown.imag, float(np.max(np.abs(c.first(f"closing_{target}"))))
@@ -462,7 +440,6 @@ def _draw_curve(c: Integrated, run: _Integrating) -> Step:
 
 
 def _draw_scales(c: Integrated) -> Iterator[Step]:
-    """The scale of s from the known lift, and those of v and a through the poles."""
     at, (h1, h2), lift = _top(c.givens.motion, c.givens.stations), c.givens.poles, c.givens.motion.lift
     top, mu = c.acts["s_curve"].first[[at]], {name: c.readings[name].per_mm for name in "sva"}
     values = {"unit": unit(c.givens.unit), "paper": top.place.imag, "lift": lift, "mu_phi": c.givens.mu_phi.per_mm}
@@ -482,7 +459,6 @@ def _draw_scales(c: Integrated) -> Iterator[Step]:
 
 
 def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, marks: tuple[Mark, ...] = ()) -> Step:
-    """How the scale of a diagram is found, what is read with it at a station, and the divisions of its ordinates."""
     view, title, why, reads = _SCALES[name]
     stations, mu, turn = c.givens.stations, c.readings[name].per_mm, phase_ends(c.givens.motion, c.givens.mu_phi)[-1]
     k = int(stations.left[min(3, stations.left.size - 1)]) + 1

@@ -114,7 +114,6 @@ def _side(inverted: OffsetInverted) -> Caption:
 
 
 def _circles(inverted: OffsetInverted) -> Step:
-    """The prime circle, the offset circle, and the follower's line at the start of the turn."""
     mu_l, e = inverted.givens.mu_l.per_mm, inverted.givens.offset
     start, hand = profile_view.start_of_turn(inverted), showing(inverted)
     foot = hand.lay_off("foot of the line", hand.given("cam centre"), RIGHT, e / mu_l)
@@ -152,7 +151,6 @@ def _first_line(inverted: OffsetInverted) -> Caption:
 
 
 def _positions(inverted: OffsetInverted) -> Step:
-    """The follower's line in its inverted positions, numbered."""
     stations, e = inverted.givens.integrated.givens.stations, inverted.givens.offset
     motion, starts, feet = (inverted.acts[name] for name in ("motion", "starts", "feet"))
     lines = Segments(motion.shown, starts.shown, Role.CONSTRUCTION).left_by(motion)
@@ -185,7 +183,6 @@ def _positions(inverted: OffsetInverted) -> Step:
 
 
 def _laid_off(inverted: OffsetInverted) -> Step:
-    """The displacements along the follower's lines, from the prime circle."""
     integrated, starts, pitch = inverted.givens.integrated, inverted.acts["starts"], inverted.acts["pitch"]
     stations, mu_l = integrated.givens.stations, inverted.givens.mu_l.per_mm
     at, moved = profile_view.worked_station(stations), np.flatnonzero(_lengths(inverted))

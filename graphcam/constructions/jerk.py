@@ -27,13 +27,13 @@ from graphcam.constructions.axes import (
 )
 from graphcam.constructions.graduation import graduated
 from graphcam.constructions.integration import Integrated
+from graphcam.constructions.pole_scales import PoleTerms, pole_formula
 from graphcam.constructions.slope_numbers import falling_together, raised, run_of_chord
 from graphcam.constructions.time_axis import graduated_at_speed, scale_said, times_below
 from graphcam.constructions.views import ACCELERATION, JERK
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.formulas import Formula, Symbol, Values, per_mm
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import Arrow, Label, Mark, Role, Segments
@@ -68,25 +68,9 @@ def _parts(drawn: DrawnJerk) -> list[Caption]:
     return part_titles(drawn.givens.integrated)
 
 
-def _scale_values(drawn: DrawnJerk) -> Values:
-    """How the scale follows from that of the acceleration."""
-    integrated, read = drawn.givens.integrated, drawn.readings["j"]
-    mu = {"mu_a": integrated.readings["a"].per_mm, "mu_phi": integrated.givens.mu_phi.per_mm, "mu": read.per_mm}
-    yield {**mu, "h3": drawn.givens.pole, "of_j": per_mm(read.unit)}
-
-
-FORMULAS = (
-    Formula(
-        r"\mu_j = \frac{\mu_a}{\mu_\varphi H_3}",
-        r"\mu_j = \frac{<mu_a:.5g>}{<mu_phi:.6f> \cdot <h3:g>} = <mu:.5g>\ \text{<of_j>}",
-        _scale_values,
-        (
-            Symbol(r"\mu_j", say("the scale of the jerk"), "(lift/rad³)/mm"),
-            Symbol("H_3", say("the pole distance of the differentiation"), "mm of paper"),
-        ),
-        of="j",
-    ),
-)
+def _by_pole(drawn: DrawnJerk, source: str, _: int) -> PoleTerms:
+    integrated = drawn.givens.integrated
+    return PoleTerms(integrated.readings[source].per_mm, integrated.givens.mu_phi.per_mm, drawn.givens.pole)
 
 
 MEANING = Meaning(
@@ -102,7 +86,7 @@ MEANING = Meaning(
             say("maximum j"), "max j", "lift/rad³", (Compared("max_j"),), Converges("maximum jerk", "max_j")
         ),
     },
-    FORMULAS,
+    (pole_formula("j", "a", 3, _by_pole, greatest=False),),
     scales={JERK.name: "j"},
     scales_found_by="integration",
 )
@@ -232,7 +216,6 @@ def _with_rays(c: DrawnJerk) -> Step:
 
 
 def _joined(c: DrawnJerk) -> Step:
-    """The curve between jumps and corners, and arrows where the acceleration jumps."""
     givens, curve, hand = c.givens.integrated.givens, c.acts["curve"].first, showing(c)
     names, marks, rows = station_names(givens.stations), list[Mark](), list[Row]()
     for piece, stretch in zip(curve_pieces(givens.stations), givens.stations.stretches, strict=True):
@@ -269,7 +252,6 @@ def _arrows(c: DrawnJerk) -> list[Mark]:
 
 
 def _scale(c: DrawnJerk) -> Step:
-    """The scale of the jerk, its greatest finite value, and the divisions of its ordinates."""
     givens, read = c.givens.integrated.givens, c.readings["j"]
     mu, lift, mu_a = read.per_mm, unit(givens.unit), c.givens.integrated.readings["a"].per_mm
     values = {"mu_a": mu_a, "mu_phi": givens.mu_phi.per_mm, "pole": c.givens.pole, "mu": mu, "unit": lift}

@@ -236,7 +236,6 @@ def _adopted(region: LeastRadius) -> list[complex]:
 
 
 def _touching(region: LeastRadius, picture: RegionPicture) -> Step:
-    """The lines that bound the region, each at its permitted angle."""
     hand, limits = showing(region), region.givens.limits
     lines = [_limit_line(region, hand, line, picture) for line in _shown(region)]
     parts = [part for part, _ in lines]
@@ -316,7 +315,6 @@ def _at_zero_lift(region: LeastRadius) -> Caption:
 
 
 def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
-    """The region, and the places that textbooks take."""
     hand, lines, others = showing(region), _shown(region), _alternatives(region)
     permitted = hand.given("permitted places", picture.permitted(lines))
     sides = [
@@ -360,7 +358,6 @@ def _unreadable() -> Step:
 
 
 def _result(region: LeastRadius) -> Step:
-    """The cam centre in the region, and its distance from the start of the lift."""
     offset, centre, start = region.givens.offset, region.acts["centre"].first, region.acts["start of the lift"].first
     hand, mu = showing(region), region.readings["prime_radius"].per_mm
     reads = ("prime_radius", "offset", "s0")

@@ -293,7 +293,6 @@ def _stroke(drawn: Drawn, start: complex, end: complex, role: Role) -> Line:
 
 
 def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
-    """The cam centre, which the compass finds on the upright of the offset."""
     mu, offset, r0 = measured.readings["s0"].per_mm, measured.givens.offset, measured.givens.prime_radius
     centre, prime, line = (measured.acts[name].first for name in ("centre", "prime circle", "line of the offset"))
     displacements, ends = measured.acts["displacements"].first, measured.acts["ends"].first
@@ -322,7 +321,6 @@ def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
 
 
 def _mechanism(shown: _Shown) -> Step:
-    """A and B of the mechanism, and the guide through B."""
     measured, acts, k = shown.measured, shown.acts, shown.station
     a, b, guide, offset = acts["A"], acts["B"], acts["guide"], measured.givens.offset
     taken = say(
@@ -355,7 +353,6 @@ def _mechanism(shown: _Shown) -> Step:
 
 
 def _velocities(shown: _Shown) -> Step:
-    """The velocity plan, with the angular velocity divided out."""
     pole, v1, v2, v21 = (shown.acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
     one, two = v1.place - pole.place, v2.place - pole.place
     combined = abs(shown.measured.acts["ends"].first[shown.station].place.real)
@@ -387,7 +384,6 @@ def _velocities(shown: _Shown) -> Step:
 
 
 def _normal(shown: _Shown) -> Step:
-    """The normal through B, and C where it meets the level through A."""
     b, c, normal, ac = (shown.acts[name] for name in ("B", "C", "normal", "AC"))
     square = say("With two set squares draw through B the normal, square to v₂₁.")
     level = say(
@@ -408,7 +404,6 @@ def _normal(shown: _Shown) -> Step:
 
 
 def _angle(shown: _Shown) -> Step:
-    """A C laid off from B to D, and the angle of D A with the motion."""
     acts, height, reading = shown.acts, shown.acts["B"].place.imag, shown.hand.readings["alpha"]
     d, bd, da, motion = (acts[name] for name in ("D", "BD", "DA", "motion"))
     alpha = float(np.degrees(reading.paper))
@@ -436,7 +431,6 @@ def _angle(shown: _Shown) -> Step:
 
 
 def _everywhere(measured: Construction[PressureAngleGivens], shown: int) -> Step:
-    """The rays from the cam centre to all ends, and the angle of each."""
     integrated, rays = measured.givens.integrated, measured.acts["rays"]
     names, alpha = station_names(integrated.givens.stations), np.degrees(measured.first("alpha"))
     sigma, most = sense(measured.givens.rotation), int(np.argmax(np.abs(alpha)))

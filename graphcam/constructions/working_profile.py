@@ -176,7 +176,6 @@ def _draw(profile: Profile) -> list[Step]:
 
 
 def _rounded(profile: Profile, rolled: Rolled) -> Step:
-    """The proposed radius becomes a round one."""
     proposed, adopted = float(rolled.value("roller_radius")), profile.givens.roller_radius
     if math.isclose(proposed, adopted, rel_tol=1e-9):
         said = say("The proposed radius of {adopted:g} mm is adopted unchanged.")
@@ -198,7 +197,6 @@ def _names(profile: Profile) -> list[str]:
 
 
 def _circles(profile: Profile) -> Step:
-    """The roller's circle about every point of the pitch curve."""
     roller, mu_l = profile.givens.roller_radius, profile.givens.inverted.givens.mu_l.per_mm
     circles, names = profile.acts["roller circles"].first, _names(profile)
     each = say_in("drawn", "the circle of the roller about every point of the pitch curve, from {first} to {last}")
@@ -210,7 +208,6 @@ def _circles(profile: Profile) -> Step:
 
 
 def _touched(profile: Profile) -> Step:
-    """Where each circle touches the profile."""
     paper = profile.givens.roller_radius / profile.givens.inverted.givens.mu_l.per_mm
     found, names = profile.acts["touch points"].first, _names(profile)
     said = say(
@@ -226,7 +223,6 @@ def _touched(profile: Profile) -> Step:
 
 
 def _envelope(profile: Profile) -> Step:
-    """The curve through the touch points that no other circle covers."""
     covered, measured = profile.acts["covered"].first, profile.value("radius")
     curve = piecewise_curve("working profile", profile.givens.inverted, profile.acts["touch"])
     marks: list[Mark] = [curve.whole.line(Role.RESULT, closed=True)]

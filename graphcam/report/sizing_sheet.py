@@ -171,7 +171,6 @@ def _long(span: Span, greatest: float) -> Span:
 
 
 def _front_step(sized: SizedCam, front: Sequence[SizedCam], size: complex) -> Step:
-    """The stress of the cams of a front over their radius."""
     problem = sized.problem
     radii, stresses = np.array([(cam.radius, cam.stress) for cam in front]).T
     low, high = stresses.min(), max(stresses.max(), sized.stress)
