@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from graphcam.constructions.acceleration import AccelerationGivens
 from graphcam.constructions.axes import station_names
+from graphcam.constructions.turn_board import TurnGivens
 from graphcam.drafting import euclid
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
@@ -33,7 +33,7 @@ _LEVEL = say("In the dwells draw it horizontally with the T-square.")
 
 
 def curve_over_phi(
-    givens: AccelerationGivens, hand: Hand, name: str, curve: Drawn, met: Caption
+    givens: TurnGivens, hand: Hand, name: str, curve: Drawn, met: Caption
 ) -> tuple[tuple[Line, ...], tuple[Part, ...]]:
     """The lines of the curve of that ``name``, and how they are drawn: piece by piece, then in the dwells.
 
@@ -61,7 +61,7 @@ def _on_one_line(points: Points) -> bool:
     return bool(np.abs(dot(way * UP, points - points[0])).max() < STRAIGHT)
 
 
-def _rests(givens: AccelerationGivens, hand: Hand, curve: Drawn) -> tuple[Drawn, tuple[Line, ...]]:
+def _rests(givens: TurnGivens, hand: Hand, curve: Drawn) -> tuple[Drawn, tuple[Line, ...]]:
     """The levels of a curve before the dwells, and its level lines from each to the next phase."""
     stations = givens.stations
     ends = [k for span in stations.phases for k in (span.start, span.stop - 1)]

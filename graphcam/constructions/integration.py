@@ -11,28 +11,23 @@ from functools import partial
 
 import numpy as np
 
-from graphcam.constructions.acceleration import AccelerationDiagram, AccelerationGivens
+from graphcam.constructions.acceleration import AccelerationDiagram
 from graphcam.constructions.axes import (
     SUBSCRIPTS,
     as_high,
-    degrees_below,
     height_names,
     numbers,
-    ordinate,
-    phase_ends,
     phase_names,
     phase_title,
-    phases_below,
-    phi_axes,
     pole_marks,
-    reach,
     station_names,
     together,
 )
 from graphcam.constructions.curve_over_phi import curve_over_phi
 from graphcam.constructions.graduation import graduated
 from graphcam.constructions.pole_scales import PoleTerms, pole_formula
-from graphcam.constructions.time_axis import graduated_at_speed, scale_said, times_below
+from graphcam.constructions.time_axis import graduated_at_speed, scale_said
+from graphcam.constructions.turn_board import TurnGivens
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
@@ -57,7 +52,7 @@ FLAT = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class IntegrationGivens(AccelerationGivens):
+class IntegrationGivens(TurnGivens):
     """What lies on the board of the diagram, the diagram itself, and the distances of the two poles [mm of paper].
 
     lowest : whether no diagram follows below that of s, so that the phases' angles stand there
@@ -336,15 +331,13 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
     stations, (source, target) = c.givens.stations, run.symbols
     polygon, curve = c.acts[f"{target}_chords"], c.acts[f"{target}_curve"]
     y, left = polygon.shown.imag, float(np.max(np.abs(c.first(f"closing_{target}"))))
-    motion, mu_phi, heights, far = c.givens.motion, c.givens.mu_phi, curve.shown.imag, np.abs(y) >= 0
-    axes = phi_axes(motion, mu_phi, heights, ordinate(target, c.givens.unit))
-    end, low, omega = float(phase_ends(motion, mu_phi)[-1]), reach(heights)[0], c.givens.omega
-    under = (*degrees_below(end, mu_phi, low), *times_below(end, mu_phi, low, omega, phases=False))
+    heights, far = curve.shown.imag, np.abs(y) >= 0
+    axes, under = c.givens.axes(target, heights), c.givens.degrees_under(heights)
     if run.index == 2:
         # What is near the numbers of the axis needs none of its own.
         axes, far = (*axes, *numbers(c.acts["acceleration: axis"], stations, -UP)), np.abs(y) > NEAR
         if c.givens.lowest:
-            axes, under = (*axes, *phases_below(motion, mu_phi, low), *times_below(end, mu_phi, low, omega)), ()
+            axes, under = (*axes, *c.givens.phases_under(heights)), ()
     marks = (
         *(polygon.first[span].line(Role.CONSTRUCTION) for span in stations.phases),
         curve.from_(curve.shown.real + 0j, Role.CONSTRUCTION),
@@ -460,7 +453,7 @@ def _draw_scales(c: Integrated) -> Iterator[Step]:
 
 def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, marks: tuple[Mark, ...] = ()) -> Step:
     view, title, why, reads = _SCALES[name]
-    stations, mu, turn = c.givens.stations, c.readings[name].per_mm, phase_ends(c.givens.motion, c.givens.mu_phi)[-1]
+    stations, mu, turn = c.givens.stations, c.readings[name].per_mm, c.givens.end
     k = int(stations.left[min(3, stations.left.size - 1)]) + 1
     read = {"y": c.first(name)[k], "value": c.value(name)[k], "unit": unit(c.readings[name].unit)}
     told = say("Station {name}: {symbol} = {y:.2f} mm × {mu:.5g} = {value:.5g} {unit}; repeat for the others.")
@@ -468,14 +461,12 @@ def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, ma
     # From the pole rays run to the axis on the left.
     heights = np.concatenate([c.first("a"), c.first("a_before")]) if name == "a" else c.acts[f"{name}_curve"].shown.imag
     lift_unit = c.readings[name].unit
-    divided = graduated(heights, mu, None if name == "s" else float(turn), c.readings[name].act, lift_unit)
+    divided = graduated(heights, mu, None if name == "s" else turn, c.readings[name].act, lift_unit)
     if lift_unit == "rad":
         told = sequence([told, say("In degrees {mu:.4g}°/mm.", mu=np.degrees(mu))], " ")
     if c.givens.omega is not None and name != "s":
         told = sequence([told, scale_said(mu, name, c.givens.omega, c.givens.unit)], " ")
-        divided += graduated_at_speed(
-            heights, mu, name, c.givens.omega, c.givens.unit, float(turn), c.readings[name].act
-        )
+        divided += graduated_at_speed(heights, mu, name, c.givens.omega, c.givens.unit, turn, c.readings[name].act)
     parts = Part(found, () if of is None else (of,)), Part(told)
     return Step(title, parts, view, (*marks, *divided), reads, why=why)
 

@@ -13,13 +13,9 @@ import numpy as np
 
 from graphcam.constructions.axes import (
     degrees,
-    degrees_below,
     height_names,
-    ordinate,
     part_names,
     part_titles,
-    phase_ends,
-    phi_axes,
     pole_marks,
     reach,
     station_names,
@@ -29,7 +25,7 @@ from graphcam.constructions.graduation import graduated
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.pole_scales import PoleTerms, pole_formula
 from graphcam.constructions.slope_numbers import falling_together, raised, run_of_chord
-from graphcam.constructions.time_axis import graduated_at_speed, scale_said, times_below
+from graphcam.constructions.time_axis import graduated_at_speed, scale_said
 from graphcam.constructions.views import ACCELERATION, JERK
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
@@ -193,7 +189,7 @@ def _with_rays(c: DrawnJerk) -> Step:
     pole = pole_marks(c.acts["P3"], distance, "₃", heights.shown.imag)
     groups = falling_together(heights)
     kept = [int(group[0]) for group in groups]
-    axes = (*phi_axes(givens.motion, givens.mu_phi, _heights(c), ordinate("j", givens.unit)), *pole)
+    axes = (*givens.axes("j", _heights(c)), *pole)
     told = [together(group.tolist(), givens.stations) for group in groups]
     marks = (
         Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act, index=rays.index[kept]),
@@ -208,10 +204,7 @@ def _with_rays(c: DrawnJerk) -> Step:
     ).where(distance=distance, name=names[k], height=ends[k])
     part = telling.run(said, say("Ray {name}"), names, rays, heights, found, settings=ends.__getitem__)
     why = say("The triangle of pole, origin and height has the slope of the chord, so the height is H₃ times it.")
-    title = say("Pole and rays, a to j")
-    end, low = float(phase_ends(givens.motion, givens.mu_phi)[-1]), reach(_heights(c))[0]
-    under = degrees_below(end, givens.mu_phi, low)
-    under += times_below(end, givens.mu_phi, low, givens.omega, phases=False)
+    title, under = say("Pole and rays, a to j"), givens.degrees_under(_heights(c))
     return Step(title, (part,), JERK, (*axes, *marks), given=axes, why=why, under=under)
 
 
@@ -261,7 +254,7 @@ def _scale(c: DrawnJerk) -> Step:
         found = say("Between its jumps the acceleration is constant, so the finite jerk is zero.")
     gives = say("The pole gives μⱼ = μₐ/(μᵩ·H₃) = {mu_a:.5g}/({mu_phi:.5g}·{pole:g}) = {mu:.5g} ({unit}/rad³)/mm.")
     told = [gives.where(**values), found.where(**values)]
-    heights, end = c.acts["curve"].first.shown.imag, float(phase_ends(givens.motion, givens.mu_phi)[-1])
+    heights, end = c.acts["curve"].first.shown.imag, givens.end
     # At the end of the turn an arrow may stand.
     end += ASIDE if any(not jump.phi for jump in acceleration_jumps(givens.motion)) else 0.0
     marks = list(graduated(heights, mu, end, read.act)) if reach(heights) != (0.0, 0.0) else []
