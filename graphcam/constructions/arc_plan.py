@@ -268,10 +268,8 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
         """What is drawn and read at a station."""
         if np.isnan(om[j]):
             return UNREAD
-        a, n_at = (
-            float(rolled.value("a")[j]),
-            say("{centre}N = {cn:.2f} mm") if cn[j] > NOTHING else say("N in {centre}"),
-        )
+        n_at = say("{centre}N = {cn:.2f} mm") if cn[j] > NOTHING else say("N in {centre}")
+        a = float(rolled.value("a")[j])
         way, named = say("beyond O") if a > 0 else say("towards B"), {"centre": centre[j], "cn": cn[j]}
         said = say(
             "{centre}E = {centre}K = {ck:.2f} mm, {n_at}, OM = {om:.2f} mm {way}, × {mu:g}: a = {a:.3f} mm/rad²"

@@ -168,14 +168,8 @@ def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     s, a = float(integrated.value("s")[k]), float(integrated.value("a")[k])
     torque = sum(each for _, each in terms)
     told = sequence([said.where(torque=each) for said, each in terms if abs(each) >= plain.READABLE_FORCE * givens.arm])
-    values = {
-        "name": plain.station_name(plan),
-        "s": math.degrees(s),
-        "a": a,
-        "torque": torque,
-        "terms": told,
-        "arm": givens.arm,
-    }
+    values = {"name": plain.station_name(plan), "s": math.degrees(s), "a": a, "arm": givens.arm}
+    values |= {"torque": torque, "terms": told}
     values |= {"load": torque / givens.arm, "mu": mu, "paper": abs(torque) / givens.arm / mu}
     values["way"] = say("against the rise") if torque > 0 else say("in the sense of the rise")
     said = say(

@@ -383,11 +383,7 @@ def _bisectors(curved: Curved, detail: Detail) -> tuple[list[Bisected], list[flo
     """
     hand, triple = detail.hand, detail.triple
     best = int(np.ravel(curved.acts["centre"].act.takes["which"])[0])
-    origin, found, settings = (
-        curved.acts["triple"].first[1],
-        list[tuple[list[Mark], tuple[Drawn, ...]]](),
-        list[float](),
-    )
+    origin, found, settings = curved.acts["triple"].first[1], list[Bisected](), list[float]()
     bisectors = [curved.acts[f"{which} bisectors"].first[best] for which in ("first", "second")]
     lines = [hand.enlarged(line.act.name, line, origin, detail.times) for line in bisectors]
     hub = hand.cross("O", *lines).place

@@ -173,11 +173,8 @@ def _positions(inverted: OffsetInverted) -> Step:
         "Only the motion relative to the cam shapes it: a frame that turns {against} about the fixed cam "
         "is the same as a cam that turns {rotation} in the frame."
     ).where(rotation=turning(inverted.givens.rotation), against=profile_view.against(inverted))
-    title, rays, names = (
-        say("Inverted positions of the follower's line"),
-        inverted.acts["inverted positions"],
-        station_names(stations),
-    )
+    title, rays = say("Inverted positions of the follower's line"), inverted.acts["inverted positions"]
+    names = station_names(stations)
     turned = run((tangents if e else said).where(**values), STATION, names, rays, feet, starts, motion)
     return Step(title, (turned, last), PROFILE, marks, why=why)
 

@@ -356,6 +356,7 @@ def _velocities(shown: _Shown) -> Step:
     pole, v1, v2, v21 = (shown.acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
     one, two = v1.place - pole.place, v2.place - pole.place
     combined = abs(shown.measured.acts["ends"].first[shown.station].place.real)
+    mu_s = shown.measured.readings["s0"].per_mm
     turned = say(
         "Divide all speeds by ω, so 1 mm of the plan is {mu:.5g} mm/rad. From the pole p draw v₁ = AB = {across:.2f} "
         "mm, with set squares square to AB, turned from it {rotation}."
@@ -363,13 +364,7 @@ def _velocities(shown: _Shown) -> Step:
     up = say(
         "From p draw v₂ straight up: v of station {name} in the combined diagram, {combined:.2f} mm × {mu_s:.5g} = "
         "{v:.2f} mm/rad, is {paper:.2f} mm here."
-    ).where(
-        name=shown.name,
-        combined=combined,
-        mu_s=shown.measured.readings["s0"].per_mm,
-        v=abs(two) * shown.mu,
-        paper=abs(two),
-    )
+    ).where(name=shown.name, combined=combined, mu_s=mu_s, v=abs(two) * shown.mu, paper=abs(two))
     closing = say("Join the tip of v₁ to the tip of v₂: v₂₁ measures {closing:.2f} mm.", closing=abs(two - one))
     closing = sequence([closing, *shown.scales.told(pole, v1, v2)], " ")
     parts = Part(turned, (pole, v1)), Part(up, (v2,)), Part(closing, (v21,))
@@ -440,14 +435,8 @@ def _everywhere(measured: Construction[PressureAngleGivens], shown: int) -> Step
         "{angle:.2f}°. The angle of maximum magnitude is {greatest:.2f}°, at {name}; there the transmission angle "
         "90° - |α| has its minimum, {transmission:.2f}°. The maximum angle between stations is read from the angle "
         "diagram."
-    ).where(
-        side=aside(-sigma),
-        shown=names[shown],
-        angle=alpha[shown],
-        greatest=alpha[most],
-        name=names[most],
-        transmission=90 - abs(alpha[most]),
-    )
+    ).where(side=aside(-sigma), shown=names[shown], angle=alpha[shown], greatest=alpha[most], name=names[most])
+    said = said.where(transmission=90 - abs(alpha[most]))
     joined = run(said, say("Ray {name}"), names, rays, settings=lambda k: say("{alpha:z.2f}°", alpha=alpha[k]))
     why = say("The ray from A to an end is parallel to the normal at its station, as DA is.")
     title, reads = say("The pressure angle at every station"), ("alpha", "transmission")

@@ -115,9 +115,8 @@ def _measure_dwells(hand: Hand, inverted: Inverted, touch: Drawn) -> None:
     )
     angles = hand.angle("angles of the radii", first, last, -sense(inverted.givens.rotation))
     given = np.array([motion.phases[k].angle for k in numbers])
-    hand.read(
-        "low_dwells", reckoned(partial(_beyond_a_half_turn, given), hand.carry(angles)), 1.0, "rad", rounded=False
-    )
+    found = reckoned(partial(_beyond_a_half_turn, given), hand.carry(angles))
+    hand.read("low_dwells", found, 1.0, "rad", rounded=False)
 
 
 def _beyond_a_half_turn(given: Floats, measured: Floats) -> Floats:
@@ -273,10 +272,8 @@ def _angles(profile: Profile) -> Step:
             apart = max(apart, abs(degrees - planned))
         marks += found.marks
         rows.append(Row(STATION.where(name=name), shown, found.draws))
-    title, why = (
-        say("Pressure angles on the profile"),
-        say("The roller presses along the common normal, which runs through its centre."),
-    )
+    title = say("Pressure angles on the profile")
+    why = say("The roller presses along the common normal, which runs through its centre.")
     if not rows:
         none = say(
             "All contact points of the moving phases lie inside other circles: no pressure angle can be measured."
