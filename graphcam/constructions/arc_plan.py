@@ -286,8 +286,9 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
     )
     at = worked(stations, om)
     said = say(
-        "Do the same at every station in the drawing of the roller; only the rays, B, N and M are shown here, at "
-        "{ratio}, and the lengths given are those in the drawing of the roller. Station {name}: {there}."
+        "Do the same at every station in the drawing of the roller, with E laid off square to the rod; only the rays, "
+        "B, N and M are shown here, at {ratio}, and the lengths given are those in the drawing of the roller. Station "
+        "{name}: {there}."
     ).where(ratio=ratio_text(scale.per_mm), name=stations.titles[at], there=told(at))
     why = say(
         "Where two arcs meet, the length of the rod changes suddenly, so the acceleration jumps, and such a "

@@ -268,7 +268,7 @@ def _mechanism(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -
         ),
         say("Join A to B."),
         say(
-            "From B lay off l·ds/dφ along the arm, {side}, with the dividers: {v:.2f} mm × {factor:.4g} = {bd:.2f} mm, "
+            "From B lay off l·ds/dφ along the arm, {side}, with the dividers: {v:.2f} mm × {factor:.5g} = {bd:.2f} mm, "
             "to D."
         ),
     )

@@ -385,8 +385,9 @@ def _chord_rows(c: Integrated, run: _Integrating, phase: int) -> Iterator[Row]:
         rise = y[k] - y[k - 1]
         change = _CHANGES[0 if abs(rise) < NOTHING else 1 if rise > 0 else 2].where(rise=abs(rise))
         # The first chord of v starts at rest, where the phase does.
-        drawn = [k - 1, k] if k == span.start + 1 and run.index == 1 else [k]
-        yield Row(say("Chord {name}", name=names[k]), change, (polygon.first[drawn],))
+        first = k == span.start + 1 and run.index == 1
+        said = say("{change} from {before} on the axis", before=names[k - 1], change=change) if first else change
+        yield Row(say("Chord {name}", name=names[k]), said, (polygon.first[[k - 1, k] if first else [k]],))
 
 
 _STARTS = (

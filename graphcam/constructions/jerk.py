@@ -199,8 +199,8 @@ def _with_rays(c: DrawnJerk) -> Step:
     ends = [raised(y, say("at the origin")) for y in heights.shown.imag.tolist()]
     said = say(
         "Over a new axis mark the pole P₃, H₃ = {distance:g} mm to the left of 0. Slide the set square from each chord "
-        "to P₃; carry the level at which the ray ends on the vertical axis to the vertical in the middle of the part. "
-        "Ray {name} ends {height}."
+        "to P₃ and draw the ray, parallel to the chord, as far as the vertical axis; with the T-square carry the level "
+        "of its end to the vertical in the middle of the part. Ray {name} ends {height}."
     ).where(distance=distance, name=names[k], height=ends[k])
     part = telling.run(said, say("Ray {name}"), names, rays, heights, found, settings=ends.__getitem__)
     why = say("The triangle of pole, origin and height has the slope of the chord, so the height is H₃ times it.")

@@ -371,11 +371,8 @@ def _velocities(shown: _Shown) -> Step:
     why = say(
         "B of the follower moves with the point of the cam under it and also slides along the profile: v₂ = v₁ + v₂₁."
     )
-    title, plan = (
-        say("Velocity plan at station {name}", name=shown.name),
-        velocity_plan(pole, v1, v2, v21, shown.scales),
-    )
-    return Step(title, parts, shown.view, plan, why=why)
+    title = say("Velocity plan at station {name}", name=shown.name)
+    return Step(title, parts, shown.view, velocity_plan(pole, v1, v2, v21, shown.scales), why=why)
 
 
 def _normal(shown: _Shown) -> Step:

@@ -41,7 +41,7 @@ def setting(drawn: Drawn) -> Words:
     if isinstance(length, Setting) and length.reading is not None and length.value is None:
         factor = abs(float(np.ravel(length.factor)[0]))
         if factor != 1:
-            said = say("{paper:.2f} mm × {factor:.4g} = {mm:.2f} mm")
+            said = say("{paper:.2f} mm × {factor:.5g} = {mm:.2f} mm")
             return said.where(paper=mm / factor, factor=factor, mm=mm)
     return say("{mm:.2f} mm", mm=mm)
 

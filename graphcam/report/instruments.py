@@ -127,7 +127,7 @@ def _source(length: object, amount: float) -> Caption | None:
         said = say("{value:.6g} {unit} : {scale:.5g}")
         return said.where(value=abs(length.value), unit=units.unit(length.reading.unit), scale=scale)
     factor = abs(float(np.ravel(length.factor)[0]))
-    return say("{paper:.2f} mm × {factor:.4g}", paper=amount / factor, factor=factor) if factor != 1 else None
+    return say("{paper:.2f} mm × {factor:.5g}", paper=amount / factor, factor=factor) if factor != 1 else None
 
 
 def _turned_by(instrument: Caption, degrees: Floats) -> Caption | None:
