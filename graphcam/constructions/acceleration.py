@@ -209,7 +209,7 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
     laws = [_LawOverPhase(*each) for each in moving]
     curves = [law.drawn(showing(diagram), k) for k, law in enumerate(laws)]
     lines = tuple(curve.line(Role.RESULT) for curve in curves)
-    shape = say("The law of a phase gives the shape of its acceleration, and its maximum ordinate gives the height.")
+    shape = say("The maximum ordinate of a phase is known now, and all others are in proportion to it.")
     return [
         _axis(diagram, np.concatenate([curve.shown.imag for curve in curves])),
         _ordinates(diagram, laws, curves),

@@ -22,12 +22,14 @@ import numpy as np
 from graphcam.constructions import force_plan as plain
 from graphcam.constructions.arm_pressure_angle import ArmAngles
 from graphcam.drafting.euclid import unit
+from graphcam.drafting.formulas import ALPHA, ARM, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Label, Line, Mark, Role
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
+from graphcam.drafting.units import unit as unit_named
 from graphcam.given.arm_load import ArmLoad, PlacedArmLoad
 from graphcam.given.laws import Floats
 from graphcam.plane import dot
@@ -44,6 +46,33 @@ class ArmForcePlanGivens:
     mu_force: Scale
 
 
+def _in_equilibrium(plan: Construction[ArmForcePlanGivens]) -> Values:
+    """The torque and the pressure angle at the station, where the triangle closes."""
+    load, alpha = float(plan.value("load")), math.radians(abs(plain.alpha_at(plan)))
+    arm = plan.givens.measured.givens.arm
+    if not math.isnan(float(plan.first("normal"))):
+        forces = {"load": load, "normal": load / math.cos(alpha), "reaction": load * math.tan(alpha)}
+        yield {**forces, "torque": load * arm, "l": arm, "alpha": math.degrees(alpha), "N": unit_named("N")}
+
+
+FORMULAS = (
+    Formula(
+        r"Q = \frac{M}{l}, \qquad F = \frac{Q}{\cos\alpha}, \qquad R = Q\tan|\alpha|",
+        r"Q = \frac{<torque:.0f>}{<l:.6g>} = <load:.1f>\ \text{<N>}, \qquad "
+        r"F = \frac{<load:.1f>}{\cos <alpha:.2f>^\circ} = <normal:.1f>\ \text{<N>}, \qquad "
+        r"R = <load:.1f>\tan <alpha:.2f>^\circ = <reaction:.1f>\ \text{<N>}",
+        _in_equilibrium,
+        (
+            Symbol("Q", say("the load reduced to the arm's end"), "N"),
+            Symbol("M", say("the torque about the pivot"), "N·mm"),
+            *(ARM, plain.CONTACT_FORCE, ALPHA),
+            Symbol("R", say("the reaction of the pivot"), "N"),
+        ),
+        of="normal",
+    ),
+)
+
+
 MEANING = Meaning(
     "force_plan",
     say("Force plan"),
@@ -58,6 +87,7 @@ MEANING = Meaning(
         "side": ReadingMeaning(say("F sin α"), "F sin α", "N"),
         "reaction": ReadingMeaning(say("reaction R"), "R", "N"),
     },
+    FORMULAS,
 )
 
 

@@ -175,7 +175,7 @@ def velocities_step(drawn: ArmPositions) -> Step:
     stations, v, k = integrated.givens.stations, integrated.first("v"), example(integrated, tips)
     names, mu, arm = station_names(stations), integrated.readings["v"].per_mm, drawn.givens.mu_l.paper(drawn.givens.arm)
     said = say(
-        "Multiply every ordinate of the velocity by l·μᵥ = {arm:.1f} mm × {mu:.4g}/mm = {factor:.5g} and lay it off "
+        "Multiply every ordinate of the velocity by l·μᵥ = {arm:.1f} mm × {mu:.5g}/mm = {factor:.5g} and lay it off "
         "with dividers along the arm from its end, to D: on the rise {rise}, on the return {back}. Station {name}: "
         "{length}."
     ).where(arm=arm, mu=mu, factor=arm * mu, rise=along_the_arm(sigma), back=along_the_arm(-sigma), name=names[k])

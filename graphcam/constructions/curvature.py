@@ -219,8 +219,7 @@ def _chords(curved: Curved, detail: Detail) -> Step:
     ).where(first=first, second=second, step=np.degrees(phi[2] - phi[0]))
     more = [ONLY_RESTS] if np.isnan(curved.first("rho_candidates")[0]) else []
     why = say(
-        "Three close points of a curve determine the circle that fits it best, and the roller is limited by the "
-        "smallest such circle of the pitch curve."
+        "The circle through three points is found by two of its chords, and it is smallest where the curve bends most."
     )
     chords = detail.hand.join("chords", triple[:2], triple[1:])
     marks = (

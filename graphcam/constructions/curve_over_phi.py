@@ -41,15 +41,16 @@ def curve_over_phi(
     """
     stations, names = givens.stations, station_names(givens.stations)
     begins = {span.start for span in stations.phases}
-    straight, lines, rows = list[bool](), list[Line](), list[Row]()
-    for piece in stations.pieces:
-        straight.append(_on_one_line(curve.shown[piece]))
-        ends, tool = from_to(names[piece.start], names[piece.stop - 1]), RULER if straight[-1] else FRENCH_CURVE
+    straight, lines, rows = [_on_one_line(curve.shown[piece]) for piece in stations.pieces], list[Line](), list[Row]()
+    either = any(straight) and not all(straight)
+    for piece, by_ruler in zip(stations.pieces, straight, strict=True):
+        tool = [RULER if by_ruler else FRENCH_CURVE] if either else []
+        corner = [] if piece.start in begins else [met.where(first=names[piece.start])]
         faired = hand.fair(name, curve.first, [piece])
-        setting = tool if piece.start in begins else sequence([tool, met.where(first=names[piece.start])], "; ")
-        rows.append(Row(ends, setting, (faired,)))
+        ends = from_to(names[piece.start], names[piece.stop - 1])
+        rows.append(Row(ends, sequence([*tool, *corner], "; ") if tool or corner else "", (faired,)))
         lines.append(faired.line(Role.RESULT))
-    told = _ALL_STRAIGHT if all(straight) else _EITHER if any(straight) else _ALL_BENT
+    told = _ALL_STRAIGHT if all(straight) else _EITHER if either else _ALL_BENT
     level, resting = _rests(givens, hand, curve)
     rests = (Part(_LEVEL, (level,)),) if resting else ()
     return (*lines, *resting), (Part(told, rows=tuple(rows)), *rests)

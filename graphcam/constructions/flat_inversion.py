@@ -178,7 +178,7 @@ def _faces(inverted: profile_view.Inverted) -> Step:
     right = faces.shown + across * (np.maximum(contact, 0) + FACE_BEYOND)
     said = say(
         "On each ray lay off the displacement with the dividers, outward from the prime circle: its ordinate times "
-        "μₛ/μₗ = {mu:.4g}/{mu_l:g} = {factor:.5g}. Station {name}: {length}. With two set squares draw the face there, "
+        "μₛ/μₗ = {mu:.5g}/{mu_l:g} = {factor:.5g}. Station {name}: {length}. With two set squares draw the face there, "
         "square to the ray."
     ).where(length=setting(feet[profile_view.worked_station(_stations(inverted))]), **_on_profile(inverted, "s"))
     marks = (
@@ -201,7 +201,7 @@ def _contacts(inverted: profile_view.Inverted) -> Step:
 
     said = say(
         "From the end of each ray lay off the velocity along the face with the dividers: its ordinate times μᵥ/μₗ = "
-        "{mu:.4g}/{mu_l:g} = {factor:.5g}, on a rise {side}, seen from the cam centre, and on a return to the other "
+        "{mu:.5g}/{mu_l:g} = {factor:.5g}, on a rise {side}, seen from the cam centre, and on a return to the other "
         "side. Station {name}: {length}. The ends are the contact points: number them."
     ).where(side=_side(sigma), length=laid_off(profile_view.worked_station(_stations(inverted))))
     widths = {side: float(inverted.value(f"face_{side}")) for side in ("left", "right")}

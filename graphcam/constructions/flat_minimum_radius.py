@@ -227,7 +227,7 @@ def _laid_off(region: FlatRegion) -> Step:
     worked = int(np.argmax(np.round(np.abs(after.shown.real) * after.shown.imag, 3)))
     said = say(
         "With the T-square carry each displacement across to a vertical axis. From there lay off the acceleration "
-        "horizontally with the dividers, in the scale of s: times μₐ/μₛ = {mu_a:.4g}/{mu_s:.4g} = {factor:.4f}, to the "
+        "horizontally with the dividers, in the scale of s: times μₐ/μₛ = {mu_a:.5g}/{mu_s:.5g} = {factor:.4f}, to the "
         "right where it is positive. Station {name}: {there}. Number the ends."
     ).where(name=named[worked], there=_station(region, worked), factor=_factor(region))
     said = said.where(**{f"mu_{name}": integrated.readings[name].per_mm for name in "as"})

@@ -24,7 +24,8 @@ from graphcam.constructions.graduation import round_up
 from graphcam.constructions.pressure_angle import MeasuredAngles, moving_up, shown_station
 from graphcam.constructions.views import FORCES
 from graphcam.drafting.acts import Drawn, Setting
-from graphcam.drafting.euclid import NOWHERE, RIGHT, UP, unit
+from graphcam.drafting.euclid import NOWHERE, RIGHT, UP, unit as unit_along
+from graphcam.drafting.formulas import ALPHA, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Reading, Step, View, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role, angle_at
@@ -32,6 +33,7 @@ from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.telling import Move, in_parts
+from graphcam.drafting.units import unit
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
 from graphcam.given.spring_load import Guide, SpringLoad
@@ -59,6 +61,34 @@ class ForcePlanGivens:
     mu_force: Scale
 
 
+CONTACT_FORCE = Symbol("F", say("the contact force"), "N")
+
+
+def _in_equilibrium(plan: Construction[ForcePlanGivens]) -> Values:
+    """The load and the pressure angle at the station, where the triangle closes and the guide is without friction."""
+    load, alpha = float(plan.value("load")), math.radians(abs(alpha_at(plan)))
+    if not (plan.givens.guide or math.isnan(float(plan.first("normal")))):
+        forces = {"load": load, "normal": load / math.cos(alpha), "reaction": load * math.tan(alpha)}
+        yield {**forces, "alpha": math.degrees(alpha), "N": unit("N")}
+
+
+FORMULAS = (
+    Formula(
+        r"F = \frac{Q}{\cos\alpha}, \qquad R = Q\tan|\alpha|",
+        r"F = \frac{<load:.1f>}{\cos <alpha:.2f>^\circ} = <normal:.1f>\ \text{<N>}, \qquad "
+        r"R = <load:.1f>\tan <alpha:.2f>^\circ = <reaction:.1f>\ \text{<N>}",
+        _in_equilibrium,
+        (
+            CONTACT_FORCE,
+            Symbol("Q", say("the load on the follower"), "N"),
+            ALPHA,
+            Symbol("R", say("the reaction of the guide"), "N"),
+        ),
+        of="normal",
+    ),
+)
+
+
 MEANING = Meaning(
     "force_plan",
     say("Force plan"),
@@ -74,6 +104,7 @@ MEANING = Meaning(
         "friction": ReadingMeaning(say("friction in the guide"), "T", "N"),
         "reaction": ReadingMeaning(say("reaction R"), "R", "N"),
     },
+    FORMULAS,
 )
 
 
@@ -291,7 +322,7 @@ def beyond(length: float) -> float:
 
 def leaning(line: Drawn, reach: float, alpha: float, up: complex = UP) -> tuple[Mark, ...]:
     """A line of a length through the head of the load, and the angle [degrees] that it makes with ``up`` there."""
-    radius, foot, way = 0.4 * min(reach, LOAD_LENGTH), line.place, complex(unit(line.directions))
+    radius, foot, way = 0.4 * min(reach, LOAD_LENGTH), line.place, complex(unit_along(line.directions))
     start, named = cmath.phase(up), say("α = {alpha:.1f}°", alpha=alpha)
     return (
         Line(np.array([foot, foot + reach * way]), Role.CONSTRUCTION).left_by(line),

@@ -18,6 +18,7 @@ from graphcam.constructions import force_plan as plain
 from graphcam.constructions.force_plan import BASE, BEYOND, LOAD_LENGTH, jammed_step, load_step, reaction_step, towards
 from graphcam.constructions.pressure_angle import MeasuredAngles
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import ALPHA, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arrow, Label, Line, Mark, Role
@@ -25,6 +26,7 @@ from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.telling import in_parts
+from graphcam.drafting.units import unit
 from graphcam.given.follower import sense
 from graphcam.given.spring_load import SpringLoad
 
@@ -37,6 +39,33 @@ class FrictionPlanGivens(plain.ForcePlanGivens):
     """
 
     mu: float
+
+
+def _in_equilibrium(plan: Construction[FrictionPlanGivens]) -> Values:
+    """The load, the pressure angle and the friction at the station, where the triangle closes."""
+    load, alpha, mu = float(plan.value("load")), math.radians(plain.alpha_at(plan)), plan.givens.mu
+    if not math.isnan(float(plan.first("normal"))):
+        normal = load / (math.cos(alpha) - mu * math.sin(alpha))
+        forces = {"load": load, "normal": normal, "friction": mu * normal}
+        yield {**forces, "alpha": math.degrees(alpha), "mu": mu, "N": unit("N")}
+
+
+FORMULAS = (
+    Formula(
+        r"N = \frac{Q}{\cos\alpha - \mu\sin\alpha}, \qquad T = \mu N",
+        r"N = \frac{<load:.1f>}{\cos(<alpha:.2f>^\circ) - <mu:g>\sin(<alpha:.2f>^\circ)} = <normal:.1f>\ \text{<N>}, "
+        r"\qquad T = <mu:g> \cdot <normal:.1f> = <friction:.1f>\ \text{<N>}",
+        _in_equilibrium,
+        (
+            Symbol("N", say("the normal force"), "N"),
+            Symbol("Q", say("the load on the follower"), "N"),
+            ALPHA,
+            Symbol(r"\mu", say("the coefficient of friction between cam and follower")),
+            Symbol("T", say("the friction at the cam"), "N"),
+        ),
+        of="normal",
+    ),
+)
 
 
 MEANING = Meaning(
@@ -55,6 +84,7 @@ MEANING = Meaning(
         "side": ReadingMeaning(say("N sin α"), "N sin α", "N"),
         "reaction": plain.MEANING.readings["reaction"],
     },
+    FORMULAS,
 )
 
 

@@ -464,7 +464,7 @@ def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, ma
     lift_unit = c.readings[name].unit
     divided = graduated(heights, mu, None if name == "s" else turn, c.readings[name].act, lift_unit)
     if lift_unit == "rad":
-        told = sequence([told, say("In degrees {mu:.4g}°/mm.", mu=np.degrees(mu))], " ")
+        told = sequence([told, say("In degrees the scale is {mu:.5g}°/mm.", mu=np.degrees(mu))], " ")
     if c.givens.omega is not None and name != "s":
         told = sequence([told, scale_said(mu, name, c.givens.omega, c.givens.unit)], " ")
         divided += graduated_at_speed(heights, mu, name, c.givens.omega, c.givens.unit, turn, c.readings[name].act)

@@ -132,8 +132,8 @@ def _circles(inverted: OffsetInverted) -> Step:
         told = circle_drawn(say_in("drawn", "the offset circle about A"), "|e|", abs(e), mu_l)
         circles, parts = (circle.drawn_circle(Role.CONSTRUCTION),), [Part(told, (circle, *of_arrow))]
         upright = say(
-            "With e = {e:g} mm draw the vertical from the {side} end of the horizontal diameter of the offset circle up "
-            "to the prime circle: {line}."
+            "With e = {e:g} mm draw the vertical from the {side} end of the horizontal diameter of the offset circle "
+            "up to the prime circle: {line}."
         ).where(e=e, side=_side(inverted))
         why = say(
             "The follower's line passes the cam centre at the distance e in every position, so it always touches the "
@@ -186,7 +186,7 @@ def _laid_off(inverted: OffsetInverted) -> Step:
     drawn = pitch.first[moved].from_(starts.first[moved], Role.CONSTRUCTION)
     mu_s, names = integrated.readings["s"].per_mm, station_names(stations)
     said = say(
-        "Take s at every station from the displacement diagram with dividers; 1 mm there is {mu_s:.4g} mm × {times:g} "
+        "Take s at every station from the displacement diagram with dividers; 1 mm there is {mu_s:.5g} mm × {times:g} "
         "= {factor:.5g} mm here. Lay it off along the line of that station, from the prime circle outward: station "
         "{name}: {length}. The ends are points of the pitch curve."
     ).where(mu_s=mu_s, times=round(1 / mu_l, 6), factor=mu_s / mu_l, name=names[at], length=setting(pitch.first[at]))

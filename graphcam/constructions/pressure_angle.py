@@ -405,7 +405,7 @@ def _angle(shown: _Shown) -> Step:
     joining = say("Join D to A: DA is parallel to the normal BC.")
     measuring = say(
         "Draw a vertical at D and measure its angle to DA with the protractor: at station {name} the pressure "
-        "angle is α = {alpha:.2f}°, and the transmission angle 90° - |α| = {transmission:.2f}°."
+        "angle is α = {alpha:.2f}°, and the transmission angle 90° − |α| = {transmission:.2f}°."
     ).where(name=shown.name, alpha=alpha, transmission=90 - abs(alpha))
     parts = Part(laid_off, (d, bd)), Part(joining, (da,)), Part(measuring, (motion,))
     label = say("α = {alpha:.1f}°", alpha=alpha)
@@ -430,7 +430,7 @@ def _everywhere(measured: Construction[PressureAngleGivens], shown: int) -> Step
         "In the combined diagram join A to every end with the ruler, and measure with the protractor the angle "
         "of each ray to the vertical, positive where it leans {side} going up. Ray {shown}, the one of the plan: "
         "{angle:.2f}°. The angle of maximum magnitude is {greatest:.2f}°, at {name}; there the transmission angle "
-        "90° - |α| has its minimum, {transmission:.2f}°. The maximum angle between stations is read from the angle "
+        "90° − |α| has its minimum, {transmission:.2f}°. The maximum angle between stations is read from the angle "
         "diagram."
     ).where(side=aside(-sigma), shown=names[shown], angle=alpha[shown], greatest=alpha[most], name=names[most])
     said = said.where(transmission=90 - abs(alpha[most]))

@@ -164,7 +164,7 @@ def drawn_how(pencil: Pencil) -> Caption:
 
 IN_GENERAL = (
     r"t = \frac{\varphi}{\omega}, \qquad v_{\max} = C_v\,h\,\frac{\omega}{\varphi}, \qquad "
-    r"a_{\max} = C_a\,h\,\frac{\omega^2}{\varphi^2}"
+    r"a_{\max} = C_a\,h\,\frac{\omega^2}{\varphi^2}."
 )
 IN_NUMBERS = (
     r"t = \frac{<angle>}{<omega>} = <time>\ \text{<s>}, \qquad v_{\max} = <cv> \cdot <lift> \cdot "
@@ -203,7 +203,7 @@ def _at_speed(solution: Solution) -> list[Block]:
     return [
         said.where(rpm=rpm, omega=omega),
         Equation(IN_GENERAL),
-        say("For the phase {phase}", phase=phase_title(motion, k)),
+        say("For the phase {phase}:", phase=phase_title(motion, k)),
         formula(f"$${IN_NUMBERS}$$", omega=omega, **values),
         Grid(
             say("Times, maximum velocities and accelerations of the phases"), (say("phase"), *AT_SPEED[of_lift]), rows
