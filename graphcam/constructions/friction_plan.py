@@ -46,7 +46,7 @@ def _in_equilibrium(plan: Construction[FrictionPlanGivens]) -> Values:
     load, alpha, mu = float(plan.value("load")), math.radians(plain.alpha_at(plan)), plan.givens.mu
     if not math.isnan(float(plan.first("normal"))):
         normal = load / (math.cos(alpha) - mu * math.sin(alpha))
-        forces = {"load": load, "normal": normal, "friction": mu * normal}
+        forces = {"load": load, "normal": normal, "contact_friction": mu * normal}
         yield {**forces, "alpha": math.degrees(alpha), "mu": mu, "N": unit("N")}
 
 
@@ -54,7 +54,7 @@ FORMULAS = (
     Formula(
         r"N = \frac{Q}{\cos\alpha - \mu\sin\alpha}, \qquad T = \mu N",
         r"N = \frac{<load:.1f>}{\cos(<alpha:.2f>^\circ) - <mu:g>\sin(<alpha:.2f>^\circ)} = <normal:.1f>\ \text{<N>}, "
-        r"\qquad T = <mu:g> \cdot <normal:.1f> = <friction:.1f>\ \text{<N>}",
+        r"\qquad T = <mu:g> \cdot <normal:.1f> = <contact_friction:.1f>\ \text{<N>}",
         _in_equilibrium,
         (
             Symbol("N", say("the normal force"), "N"),

@@ -50,8 +50,10 @@ def pole_formula(name: str, source: str, pole: int, terms: Terms, *, greatest: b
     name : of the reading that is drawn in that scale
     greatest : whether the greatest value follows, the reading ``max_`` of that name
     """
-    texts = [scale + most for scale, most in zip(SCALE, GREATEST, strict=True)] if greatest else SCALE
-    return Formula(*texts, partial(_values, name, source, pole, terms), SYMBOLS[name], of=name)
+    general, numbers = SCALE
+    if greatest:
+        general, numbers = general + GREATEST[0], numbers + GREATEST[1]
+    return Formula(general, numbers, partial(_values, name, source, pole, terms), SYMBOLS[name], of=name)
 
 
 def _values(name: str, source: str, pole: int, terms: Terms, drawn: Construction) -> Values:
