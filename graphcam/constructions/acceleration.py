@@ -50,7 +50,6 @@ AccelerationDiagram = Construction[TurnGivens]
 
 
 def _scale_of_angle(diagram: AccelerationDiagram) -> Values:
-    """Of the axis."""
     yield {"base": float(diagram.first("base")), "mu": diagram.givens.mu_phi.per_mm}
 
 

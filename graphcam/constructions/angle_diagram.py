@@ -162,7 +162,6 @@ def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
 
 
 def _outward(top: Drawn) -> complex:
-    """Away from the axis."""
     return complex(np.sign(top.place.imag) * UP)
 
 

@@ -357,7 +357,6 @@ def _profile(arcs: ArcOutline) -> Step:
 
 
 def _primed(name: str) -> str:
-    """What a point is called on the paper."""
     return name.removeprefix("other_") + "′" * name.startswith("other_")
 
 
@@ -388,7 +387,6 @@ def _at(arcs: ArcOutline, name: str) -> Caption:
 
 
 def _xy(name: str) -> tuple[str, str]:
-    """The names of a point's two readings."""
     return f"{name}_x", f"{name}_y"
 
 

@@ -108,7 +108,6 @@ def _crank_drive(hand: Hand, rolled: RollerOnArcs, at: int, times: complex) -> N
 
 
 def _segment(hand: Hand, line: str, start: str, end: str, role: Role = Role.CONSTRUCTION) -> Line:
-    """The part of a line between two places on it."""
     drawn = hand.acts[line]
     ends = np.array([hand.acts[name].place for name in (start, end)])
     return Line(ends, role).left_by(drawn)

@@ -201,7 +201,6 @@ def _draw(rolled: RollerOnArcs) -> list[Step]:
 
 
 def _prime(rolled: RollerOnArcs) -> Drawn:
-    """The prime circle."""
     return rolled.acts["dwells of the roller's centre"].first[1]
 
 
@@ -249,7 +248,6 @@ def _paths(rolled: RollerOnArcs) -> Step:
 
 
 def _outward(rolled: RollerOnArcs, values: dict[str, float]) -> Part:
-    """From each joint to the roller's centre."""
     lines, trace = rolled.acts["lines of centres"].first, rolled.acts["trace"].first
     said = say(
         "The roller's centre moves along arcs about the same centres, with radii larger by r = {roller:g} mm: from "
@@ -260,7 +258,6 @@ def _outward(rolled: RollerOnArcs, values: dict[str, float]) -> Part:
 
 
 def _arcs(rolled: RollerOnArcs, circles: list[Drawn]) -> Part:
-    """The path arc by arc, but for the lower dwell."""
     radii, about = [_radii(circle)[0] for circle in circles], say("about {centre}, compass {radius:.2f} mm")
     rows = [Row(ARCS[k], about.where(centre=CENTRES[k], radius=radii[k]), (circles[k],)) for k in range(3)]
     if rolled.givens.arcs.givens.dwell:

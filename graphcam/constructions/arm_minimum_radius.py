@@ -374,7 +374,6 @@ def _named(region: ArmRegion) -> list[tuple[int, Caption]]:
 
 
 def _at_rest(region: ArmRegion) -> tuple[str, str]:
-    """Where the two lines of a dwell begin."""
     return "B₀", highest_arm(region)
 
 

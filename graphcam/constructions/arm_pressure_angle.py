@@ -57,7 +57,6 @@ def _at_start(measured: ArmAngles) -> Values:
 
 
 def _worked(measured: ArmAngles) -> Values:
-    """The station of the velocity plan."""
     givens, k, (at_start,) = measured.givens, shown_station(measured), _at_start(measured)
     s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
     along, psi = sense(givens.rotation) * v, math.radians(at_start["psi0"]) + s
@@ -209,7 +208,6 @@ def _centre(measured: ArmAngles) -> Step:
 
 
 def _named(givens: ArmPressureAngleGivens) -> Caption:
-    """The adopted cam centre with its sizes."""
     return say("A (r₀ = {r0:g}, c = {c:g})", r0=givens.prime_radius, c=givens.distance)
 
 

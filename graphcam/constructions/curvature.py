@@ -61,7 +61,6 @@ LEAST_CURVATURE = {
 
 
 def _three_points(_: object) -> tuple[Words, ...]:
-    """What the points are called."""
     return say("before B"), "B", say("after B")
 
 
@@ -231,7 +230,6 @@ def _chords(curved: Curved, detail: Detail) -> Step:
 
 
 def _copied(detail: Detail) -> Caption:
-    """How large the detail is beside the profile."""
     ratio = ratio_text(detail.per_mm)
     if math.isclose(detail.times, 1):
         return say("at the same scale, {ratio}", ratio=ratio)
@@ -270,7 +268,6 @@ def _missed(curved: Curved) -> list[Caption]:
 
 
 def _percent(part: float) -> Caption:
-    """An error as part of what is measured."""
     return say("{part:.0f} %", part=100 * part) if part < 1 else say("more than ρ itself")
 
 
@@ -351,7 +348,6 @@ def _chosen(curved: Curved) -> list[int]:
 
 
 def _place(curved: Curved) -> Caption:
-    """What the middle place of three is called."""
     integrated, k = curved.givens.inverted.givens.integrated.givens, _chosen(curved)[1]
     motion, stations = integrated.motion, integrated.stations
     names = station_names(stations)

@@ -450,7 +450,6 @@ def _joined(run: _Pass) -> Step:
 
 
 def _view(c: Construction[DifferentiationGivens], symbol: str) -> View:
-    """The view, with its scale in the title."""
     view = VIEWS[symbol]
     scale = c.givens.mu_s.per_mm if symbol == "s" else c.readings[symbol].scale
     per = unit(c.givens.mu_s.unit) if symbol == "s" else sequence(["(", unit(c.readings[symbol].unit), ")"], "")

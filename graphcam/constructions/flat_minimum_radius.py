@@ -166,7 +166,6 @@ def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pe
 
 
 def _jumps(integrated: Integrated) -> NDArray[np.intp]:
-    """The stations where the acceleration jumps."""
     a, before = (integrated.readings[name].paper for name in ("a", "a_before"))
     return np.flatnonzero((a != before).reshape(-1, a.shape[-1]).any(axis=0))
 

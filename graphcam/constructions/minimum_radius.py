@@ -61,7 +61,6 @@ def _touched(side: str, drawn: LeastRadius) -> Values:
 
 
 def _rests(drawn: LeastRadius) -> Values:
-    """Whether the rest line is drawn."""
     if "rest" in drawn.points:
         yield {"angle": math.degrees(drawn.givens.limits.rise)}
 
@@ -297,7 +296,6 @@ def _limit_line(
 
 
 def _touch(region: LeastRadius, name: str, touch: complex) -> Caption:
-    """Which station a tangent touches at, or between which."""
     direction = 1 if name == "rise" else -1
     first, *last = touched(region.givens.integrated, region.acts["ends"].shown, touch, direction)
     if not last:

@@ -81,7 +81,6 @@ def _centre_height(measured: Construction[PressureAngleGivens]) -> Values:
 
 
 def _worked(measured: Construction[PressureAngleGivens]) -> Values:
-    """The station of the velocity plan."""
     givens, k = measured.givens, shown_station(measured)
     s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
     across = sense(givens.rotation) * givens.offset
@@ -288,7 +287,6 @@ def _plan(measured: Construction[PressureAngleGivens], k: int, times: float) -> 
 
 
 def _stroke(drawn: Drawn, start: complex, end: complex, role: Role) -> Line:
-    """So much of a line as is drawn out."""
     return Line(np.array([start, end]), role).left_by(drawn)
 
 

@@ -248,7 +248,6 @@ def _envelope(profile: Profile) -> Step:
 
 
 def _undercut(lost: Sequence[str]) -> Caption:
-    """Which touch points are lost."""
     return say_many(
         "At {count} station ({names}) the contact point lies inside another roller circle and is left out: the "
         "profile is undercut and cannot be made.",

@@ -354,7 +354,6 @@ class Hand:
         return self.readings[name]
 
     def _size(self, values: Points | Floats) -> int:
-        """How many values there are on one sheet."""
         return math.prod(values.shape[self.pencil.samples is not None :])
 
     # --- errors ------------------------------------------------------------------------------------------------------

@@ -175,7 +175,6 @@ IN_NUMBERS = (
 
 
 def _at_speed(solution: Solution) -> list[Block]:
-    """Phase times, velocities and accelerations."""
     motion, rpm, of_lift = solution.cam.motion, solution.task.speed_rpm or 0.0, solution.chain.board.follower.unit
     speeds = solution.comparison.phases(rpm)
     rows = [
@@ -237,7 +236,6 @@ def told_jumps(jumps: list[Jump], symbol: str, of_symbol: str) -> Grid:
 
 
 def _result(solution: Solution) -> list[Block]:
-    """The sizes of the cam that is built."""
     built = [say("{name} {value} ({by})", name=name, value=value, by=by) for name, value, by in sizes(solution)]
     said = say("The cam is made with these sizes: {sizes}.", sizes=joined(built))
     return [said, *_face(solution), *map(warning, solution.warnings)]
