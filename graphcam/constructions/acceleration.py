@@ -8,7 +8,7 @@ known only after two integrations, when the known lift fixes the scale.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import isclose
 from typing import Any
@@ -18,20 +18,17 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.axes import (
     degrees,
-    degrees_below,
     numbers,
-    ordinate,
     part_titles,
     phase_ends,
     phase_names,
     phase_title,
-    phi_axes,
-    reach,
     station_names,
     together,
 )
 from graphcam.constructions.law_names import law_name
-from graphcam.constructions.time_axis import axis_said, times_below
+from graphcam.constructions.time_axis import axis_said
+from graphcam.constructions.turn_board import TurnGivens
 from graphcam.constructions.views import ACCELERATION
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
@@ -49,24 +46,10 @@ from graphcam.given.spline_law import MEASURED
 from graphcam.given.stations import Stations
 from graphcam.words import Caption, joined, sequence
 
-
-@dataclass(frozen=True, eq=False)
-class AccelerationGivens:
-    """What lies on the board; see :func:`acceleration_diagram`."""
-
-    motion: Motion
-    stations: Stations
-    ordinate: float
-    mu_phi: Scale
-    unit: str
-    omega: float | None = field(default=None, kw_only=True)
-
-
-AccelerationDiagram = Construction[AccelerationGivens]
+AccelerationDiagram = Construction[TurnGivens]
 
 
 def _scale_of_angle(diagram: AccelerationDiagram) -> Values:
-    """Of the axis."""
     yield {"base": float(diagram.first("base")), "mu": diagram.givens.mu_phi.per_mm}
 
 
@@ -175,7 +158,7 @@ def acceleration_diagram(
     hand.read("base", between(origin, turn), mu_phi.per_mm, rounded=False)
     # What a chord between neighbouring stations is drawn from and to.
     plotted, nearer = hand.take("plotted", plotted), hand.take("near side", nearer)
-    givens = AccelerationGivens(motion, stations, ordinate, mu_phi, unit, omega=omega)
+    givens = TurnGivens(motion, stations, ordinate, mu_phi, unit, omega=omega)
     return hand.finished(givens, _draw, {"axis": axis, "plotted": plotted, "near side": nearer})
 
 
@@ -225,7 +208,7 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
     laws = [_LawOverPhase(*each) for each in moving]
     curves = [law.drawn(showing(diagram), k) for k, law in enumerate(laws)]
     lines = tuple(curve.line(Role.RESULT) for curve in curves)
-    shape = say("The law of a phase gives the shape of its acceleration, and its maximum ordinate gives the height.")
+    shape = say("The maximum ordinate of a phase is known now, and all others are in proportion to it.")
     return [
         _axis(diagram, np.concatenate([curve.shown.imag for curve in curves])),
         _ordinates(diagram, laws, curves),
@@ -264,21 +247,18 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
         "the set square."
     ).where(ends=sequence([say("{end:.1f}", end=end) for end in ends[1:]]))
     cuts = diagram.acts["axis"].first[[k for span in stations.phases for k in (span.start, span.stop - 1)]]
-    across, up, thin, *others = phi_axes(motion, mu_phi, heights, ordinate("a", diagram.givens.unit))
+    across, up, thin, *others = diagram.givens.axes("a", heights)
     # A thin line belongs to the cut that it stands on; that at the end of the turn goes with the last one.
     nearest = [int(np.argmin(np.abs(cuts.shown.real - end))) for end in ends[1:]]
     thin = replace(thin, of=cuts.act, index=cuts.index[nearest])
     axes = (across, up, thin, *others, turn.line_from(0j, Role.RESULT))
     title = say("Axis of the cam angle")
     why = say("All diagrams are drawn over the cam angle, so one axis with one scale serves them all.")
-    parts = Part(level, (turn.first,)), Part(upright, (cuts,))
-    under = degrees_below(ends[-1], mu_phi, low := reach(heights)[0])
-    under += times_below(ends[-1], mu_phi, low, omega, phases=False)
+    parts, under = (Part(level, (turn.first,)), Part(upright, (cuts,))), diagram.givens.degrees_under(heights)
     return Step(title, parts, ACCELERATION, axes, ("base",), given=axes, why=why, under=under)
 
 
 def _ordinates(diagram: AccelerationDiagram, laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> Step:
-    """The largest ordinates: that of the first rise is chosen, the others follow."""
     chosen = next(k for k, law in enumerate(laws) if law.phase.direction > 0)
     numbers = [say("{c:.5g} ({phase})", c=law.phase.normalised.peak_acceleration, phase=law.title) for law in laws]
     choice = say("Choose {y:.1f} mm for the maximum ordinate of {phase}; its scale is found at the end.")
@@ -353,7 +333,6 @@ class _LawOverPhase:
 
 
 def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
-    """The ordinates between the stations."""
     stations, axis, middles = diagram.givens.stations, diagram.acts["axis"], diagram.acts["middles"]
     x = axis.shown
     marks = (

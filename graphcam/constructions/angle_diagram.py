@@ -4,20 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.axes import (
-    numbers,
-    ordinate,
-    phase_ends,
-    phases_below,
-    phi_axes,
-    pieces_of,
-    reach,
-    station_names,
-)
+from graphcam.constructions.axes import numbers, pieces_of, station_names
 from graphcam.constructions.curve_over_phi import curve_over_phi
 from graphcam.constructions.graduation import graduated
 from graphcam.constructions.pressure_angle import MeasuredAngles
-from graphcam.constructions.time_axis import times_below
 from graphcam.constructions.views import ANGLE
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
@@ -119,13 +109,12 @@ def _draw(plotted: Construction[AngleDiagramGivens]) -> list[Step]:
 
 def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
     givens = plotted.givens.measured.givens.integrated.givens
-    motion, stations, mu_phi, curve = givens.motion, givens.stations, givens.mu_phi, plotted.acts["curve"]
+    stations, curve = givens.stations, plotted.acts["curve"]
     axis, heights = plotted.acts["acceleration: axis"].first, curve.shown.imag
     axes = (
-        *phi_axes(motion, mu_phi, heights, ordinate("α", givens.unit)),
+        *givens.axes("α", heights),
         *graduated(heights, float(np.degrees(plotted.givens.mu_alpha.per_mm))),
-        *phases_below(motion, mu_phi, reach(heights)[0]),
-        *times_below(phase_ends(motion, mu_phi)[-1], mu_phi, reach(heights)[0], givens.omega),
+        *givens.phases_under(heights),
         *numbers(axis, stations, np.where(heights < 0, UP, -UP)),
     )
     met = say("at {first}, where the acceleration jumps, it has a corner")
@@ -173,7 +162,6 @@ def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
 
 
 def _outward(top: Drawn) -> complex:
-    """Away from the axis."""
     return complex(np.sign(top.place.imag) * UP)
 
 

@@ -282,7 +282,6 @@ def _lengths(plotted: Construction[ArcDiagramsGivens], name: str) -> list[Words]
 
 
 def _edges(ends: Drawn, limits: Drawn) -> Part:
-    """The ends of arcs and phases on the axis."""
     # Without an upper dwell the return begins where the rise ends.
     places = sequence([say("{at:.2f}", at=x) for x in np.unique(ends.shown[1:].real.round(6)).tolist()])
     said = say("On the axis mark the ends of arcs and phases from 0, at {places} mm, and draw a thin vertical in each.")

@@ -5,22 +5,21 @@ P, the centre of the third arc is as far from P as from C1: the perpendicular bi
 Laid off the other way it gives the other root.
 """
 
-from collections.abc import Mapping, Sequence
 from itertools import combinations
-from typing import Any
 
 import numpy as np
 
 from graphcam.constructions.arc_profile import SENSE, ArcOutline, ThreeArcsGivens, arc, cam, middle_of_dwell, run
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP, unit
-from graphcam.drafting.formulas import Formula, Symbol
+from graphcam.drafting.formulas import Formula, Symbol, Values
 from graphcam.drafting.hand import COMPASS, Hand, between
 from graphcam.drafting.ink import Caption, Part, Step, View, say
 from graphcam.drafting.marks import Dimension, Label, Line, Mark, Role
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import UNLIMITED, Paper, Scale, ratio_text
+from graphcam.drafting.telling import Move, in_parts
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.plane import dot
 from graphcam.words import joined, sequence
@@ -30,6 +29,15 @@ OVERHANG = 6.0
 """How far a line runs on beyond the point that it was drawn for [mm]."""
 SAME_RADIUS = 1e-6
 """Lengths this near to one another [mm of paper] are the same: rounding."""
+
+
+def _centres_apart(arcs: ArcOutline) -> Values:
+    """The radius that is found, and how far its centre lies from C1."""
+    c1, c3 = (complex(arcs.first(name)) for name in ("C1", "C3"))
+    if not np.isnan(c3):
+        apart = abs(c3 - c1) * arcs.givens.mu_l.per_mm
+        yield {"rho1": arcs.givens.given.rho1, "rho3": float(arcs.value("rho3")), "apart": apart}
+
 
 MEANING = Meaning(
     "three_arcs",
@@ -59,8 +67,13 @@ MEANING = Meaning(
     (
         Formula(
             r"C_3C_1 = \rho_3 - \rho_1, \qquad C_3G = \rho_3",
-            symbols=(Symbol(r"\rho_1, \rho_3", say("the radii of the arcs about C1 and C3"), "mm"),),
-            of="rho3",
+            r"C_3C_1 = <rho3:.3f> - <rho1:g> = <apart:.3f>\ \text{<mm>}, \qquad C_3G = <rho3:.3f>\ \text{<mm>}",
+            _centres_apart,
+            (
+                Symbol(r"\rho_1", say("the radius of the arc about C1"), "mm"),
+                Symbol(r"\rho_3", say("the radius of the arc about C3"), "mm"),
+            ),
+            "rho3",
         ),
     ),
     scales={"arcs": "base"},
@@ -129,22 +142,6 @@ def _touching(hand: Hand, name: str, centres: Drawn, about_c1: Drawn, rho3: Sett
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-Move = tuple[Caption, *tuple[Drawn, ...]]
-"""What is done, and what it leaves."""
-
-
-def in_parts(
-    moves: Sequence[Move], values: Mapping[str, Any], first: Sequence[Caption] = (), last: Sequence[Caption] = ()
-) -> tuple[Part, ...]:
-    """A part for each move, with the values in its places.
-
-    first, last : what else is said in the first part, before it, and in the last one, after it
-    """
-    told = [[said] for said, *_ in moves]
-    told[0][:0], told[-1][len(told[-1]) :] = first, last
-    captions = [sequence([each.where(**values) for each in said], " ") for said in told]
-    return tuple(Part(caption, tuple(draws)) for caption, (_, *draws) in zip(captions, moves, strict=True))
-
 
 def unreadable(title: Caption, said: Caption, view: View) -> Step:
     """A step that cannot be drawn, for lines cross at less than a degree."""
@@ -211,7 +208,7 @@ def _first_centre(arcs: ArcOutline) -> Step:
         *(about.drawn_circle(Role.CONSTRUCTION), c1.dots(), d.dots(), _named(arcs, "C1", d.place)),
         outer.drawn_circle(Role.CONSTRUCTION),
     )
-    why = say("Where two circles touch, their centres and the point of contact lie on one line: here O, C1 and D.")
+    why = say("The outer circle and the arc about C1 touch in D, so O, C1 and D lie on one line.")
     parts = in_parts(moves, values)
     return Step(say("The first centre"), parts, ARCS, marks, (*_xy("C1"), "outer"), why=why)
 
@@ -303,7 +300,7 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
         parts = in_parts([*to_c3, *to_f], values, last=[orders])
         return [Step(title, parts, ARCS, (*centre, *line), (*_xy(c3), *_xy(f)), why=why)]
     why = say("C3 lies on the line G C2, and as C3 P and C3 C1 both are ρ₃ − ρ₁, on the bisector of C1 P.")
-    touch = say("Where two circles touch, their centres and the point of contact lie on one line: here C3, C1 and F.")
+    touch = say("The arcs about C3 and C1 touch in F, so C3, C1 and F lie on one line.")
     first, last = in_parts(to_c3, values), in_parts(to_f, values, last=[orders])
     return [
         Step(title, first, ARCS, centre, (*_xy("C3"), "rho3"), why=why),
@@ -360,7 +357,6 @@ def _profile(arcs: ArcOutline) -> Step:
 
 
 def _primed(name: str) -> str:
-    """What a point is called on the paper."""
     return name.removeprefix("other_") + "′" * name.startswith("other_")
 
 
@@ -391,7 +387,6 @@ def _at(arcs: ArcOutline, name: str) -> Caption:
 
 
 def _xy(name: str) -> tuple[str, str]:
-    """The names of a point's two readings."""
     return f"{name}_x", f"{name}_y"
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from graphcam.constructions.arc_outline import Move, in_parts, unreadable
+from graphcam.constructions.arc_outline import unreadable
 from graphcam.constructions.arc_profile import run
 from graphcam.constructions.arc_stations import ARCS, CENTRES, ROLLER, ArcStations, RollerOnArcs
 from graphcam.constructions.velocity_plan import VelocityScale
@@ -19,6 +19,7 @@ from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Part, Row, Step, View, say
 from graphcam.drafting.marks import Label, Line, Mark, Points, Role, Segments
 from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
+from graphcam.drafting.telling import Move, in_parts
 from graphcam.drafting.units import NOTHING, unit as unit_named
 from graphcam.given.laws import Floats
 
@@ -107,7 +108,6 @@ def _crank_drive(hand: Hand, rolled: RollerOnArcs, at: int, times: complex) -> N
 
 
 def _segment(hand: Hand, line: str, start: str, end: str, role: Role = Role.CONSTRUCTION) -> Line:
-    """The part of a line between two places on it."""
     drawn = hand.acts[line]
     ends = np.array([hand.acts[name].place for name in (start, end)])
     return Line(ends, role).left_by(drawn)
@@ -118,7 +118,6 @@ def _far(hand: Hand, start: str, end: str) -> float:
 
 
 def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -> Step:
-    """The rod from B to its centre, and K."""
     arcs, acts, station, centre = rolled.givens.arcs, hand.acts, rolled.givens.stations.names[at], CENTRES[SHOWN[0]]
     mu, ok = scale.mu_l.per_mm, _far(hand, "O", "K")
     c, m, b, side = acts["C"].place, acts["M"].place, acts["B"].place, -float(run(arcs))
@@ -135,10 +134,7 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -
             say("Draw the follower's line vertical, and on it O and B above it: OB = {ob:.2f} mm."),
             *(acts[name] for name in ("O", "B", "follower")),
         ),
-        (
-            say("{centre}: with the dividers {oc:.2f} mm from O and {bc:.2f} mm from B, {side} of the line."),
-            acts["C"],
-        ),
+        (say("{centre}: with the dividers {oc:.2f} mm from O and {bc:.2f} mm from B, {side} of the line."), acts["C"]),
         (
             say("Draw the rod from B through {centre} as far as the horizontal line through O: they meet in K."),
             *(acts[name] for name in ("rod", "across", "K")),
@@ -166,7 +162,6 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -
 
 
 def _acceleration(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -> Step:
-    """The right angle that cuts N′ off, N, and M."""
     acts, station, centre = hand.acts, rolled.givens.stations.names[at], CENTRES[SHOWN[0]]
     a, side = float(rolled.value("a")[at]), -float(run(rolled.givens.arcs))
     directed = say("it is directed towards the cam centre, because M lies on the side of B")
@@ -272,10 +267,8 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
         """What is drawn and read at a station."""
         if np.isnan(om[j]):
             return UNREAD
-        a, n_at = (
-            float(rolled.value("a")[j]),
-            say("{centre}N = {cn:.2f} mm") if cn[j] > NOTHING else say("N in {centre}"),
-        )
+        n_at = say("{centre}N = {cn:.2f} mm") if cn[j] > NOTHING else say("N in {centre}")
+        a = float(rolled.value("a")[j])
         way, named = say("beyond O") if a > 0 else say("towards B"), {"centre": centre[j], "cn": cn[j]}
         said = say(
             "{centre}E = {centre}K = {ck:.2f} mm, {n_at}, OM = {om:.2f} mm {way}, × {mu:g}: a = {a:.3f} mm/rad²"
@@ -292,8 +285,9 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
     )
     at = worked(stations, om)
     said = say(
-        "Do the same at every station in the drawing of the roller; only the rays, B, N and M are shown here, at "
-        "{ratio}, and the lengths given are those in the drawing of the roller. Station {name}: {there}."
+        "Do the same at every station in the drawing of the roller, with E laid off square to the rod; only the rays, "
+        "B, N and M are shown here, at {ratio}, and the lengths given are those in the drawing of the roller. Station "
+        "{name}: {there}."
     ).where(ratio=ratio_text(scale.per_mm), name=stations.titles[at], there=told(at))
     why = say(
         "Where two arcs meet, the length of the rod changes suddenly, so the acceleration jumps, and such a "

@@ -12,19 +12,19 @@ from functools import partial
 import numpy as np
 
 from graphcam.constructions.arc_outline import unreadable
-from graphcam.constructions.arc_plan import UNREAD, plans, worked
+from graphcam.constructions.arc_plan import UNREAD, plans, shown, worked
 from graphcam.constructions.arc_profile import SENSE, ArcOutline, cam, middle_of_dwell, mirror_line, outline, run
 from graphcam.constructions.arc_stations import ARCS, CENTRES, ROLLER, ArcRollerGivens, ArcStations, RollerOnArcs
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP, unit
-from graphcam.drafting.formulas import A, Formula, Symbol, V
+from graphcam.drafting.formulas import A, Formula, Symbol, V, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.units import NOTHING
+from graphcam.drafting.units import NOTHING, unit as unit_named
 from graphcam.given.laws import Floats
 from graphcam.words import joined
 
@@ -37,25 +37,45 @@ ENDS = {
     "a_D": say("a in {point}", point="D"),
 }
 """The accelerations at the first and the last station of every arc, in order."""
+
+
+def _worked(rolled: RollerOnArcs) -> Values:
+    """The station of the plan: its lengths in the drawing of the roller, and what they stand for."""
+    k, mu = shown(rolled.givens.stations), rolled.givens.arcs.givens.mu_l.per_mm
+    b, c, k_, m, n = (complex(rolled.first(name)[k]) for name in "BCKMN")
+    if not np.isnan(m):
+        lengths = {"ok": abs(k_), "ck": abs(k_ - c), "cb": abs(b - c), "cn": abs(n - c), "om": abs(m)}
+        values = {name: abs(float(rolled.value(name)[k])) for name in "va"}
+        units = {f"of_{name}": unit_named(rolled.readings[name].unit) for name in "va"}
+        yield {"k": rolled.givens.stations.names[k], "mu": mu, **lengths, **values, **units}
+
+
 FORMULAS = (
     Formula(
         r"v = \mu_l \cdot OK",
-        symbols=(
+        r"v_{<k>} = <mu:g> \cdot <ok:.2f> = <v:.3f>\ \text{<of_v>}",
+        _worked,
+        (
             V,
             Symbol(r"\mu_l", say("the scale of the drawing"), "mm/mm"),
             Symbol("OK", say("what the rod cuts off the line through O square to the ray"), "mm of paper"),
         ),
-        of="v",
+        "v",
     ),
     Formula(
         r"CN = \frac{CK^2}{CB}, \qquad |a| = \mu_l \cdot OM",
-        symbols=(
+        r"CN_{<k>} = \frac{<ck:.2f>^2}{<cb:.2f>} = <cn:.2f>\ \text{<mm>}, \qquad "
+        r"|a_{<k>}| = <mu:g> \cdot <om:.2f> = <a:.3f>\ \text{<of_a>}",
+        _worked,
+        (
             A,
             Symbol("C", say("the centre of the arc on which the roller runs")),
+            Symbol("CN", say("the distance of N from C"), "mm of paper"),
+            Symbol("CK", say("the distance of K from C"), "mm of paper"),
             Symbol("CB", say("the rod"), "mm of paper"),
             Symbol("OM", say("what the line through N square to the rod cuts off the ray"), "mm of paper"),
         ),
-        of="a",
+        "a",
     ),
 )
 MEANING = Meaning(
@@ -181,7 +201,6 @@ def _draw(rolled: RollerOnArcs) -> list[Step]:
 
 
 def _prime(rolled: RollerOnArcs) -> Drawn:
-    """The prime circle."""
     return rolled.acts["dwells of the roller's centre"].first[1]
 
 
@@ -190,7 +209,6 @@ def _radii(circle: Drawn) -> list[float]:
 
 
 def _paths(rolled: RollerOnArcs) -> Step:
-    """The cam, and the path of the roller's centre."""
     arcs, acts, trace, roller = rolled.givens.arcs, rolled.acts, rolled.acts["trace"], rolled.givens.roller_radius
     axis, o, lines, prime = middle_of_dwell(arcs), acts["O"], acts["lines of centres"].first, _prime(rolled)
     profile, joints = cam(arcs, axis), [arcs.acts[name] for name in "AGFD"]
@@ -230,7 +248,6 @@ def _paths(rolled: RollerOnArcs) -> Step:
 
 
 def _outward(rolled: RollerOnArcs, values: dict[str, float]) -> Part:
-    """From each joint to the roller's centre."""
     lines, trace = rolled.acts["lines of centres"].first, rolled.acts["trace"].first
     said = say(
         "The roller's centre moves along arcs about the same centres, with radii larger by r = {roller:g} mm: from "
@@ -241,7 +258,6 @@ def _outward(rolled: RollerOnArcs, values: dict[str, float]) -> Part:
 
 
 def _arcs(rolled: RollerOnArcs, circles: list[Drawn]) -> Part:
-    """The path arc by arc, but for the lower dwell."""
     radii, about = [_radii(circle)[0] for circle in circles], say("about {centre}, compass {radius:.2f} mm")
     rows = [Row(ARCS[k], about.where(centre=CENTRES[k], radius=radii[k]), (circles[k],)) for k in range(3)]
     if rolled.givens.arcs.givens.dwell:
@@ -256,7 +272,6 @@ def _arcs(rolled: RollerOnArcs, circles: list[Drawn]) -> Part:
 
 
 def _joints(rolled: RollerOnArcs) -> Step:
-    """The cam angles of the joints."""
     lines, trace, sigma = rolled.acts["to the joints"].first, rolled.acts["trace"].first, run(rolled.givens.arcs)
     angles = np.abs(rolled.first("edges"))
     base, reads = float(np.angle(trace.shown[0])), ("phi_G", "phi_F", "rise")
@@ -281,7 +296,6 @@ def _joints(rolled: RollerOnArcs) -> Step:
 
 
 def _stations(rolled: RollerOnArcs) -> Step:
-    """The rays, and the roller's centre on each."""
     arcs, stations, b, rays = rolled.givens.arcs, rolled.givens.stations, rolled.acts["B"], rolled.acts["rays"].first
     reach, ray = float(np.abs(rolled.first("trace")[-1])) + BEYOND, rolled.first("ray")
     ends, mu_l = rays.shown + reach * ray, arcs.givens.mu_l.per_mm

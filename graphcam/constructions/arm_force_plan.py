@@ -16,36 +16,20 @@ Source: reduction of a torque to a point of its link, as in force plans of linka
 import math
 from dataclasses import dataclass, replace
 from functools import partial
-from operator import itemgetter
 
 import numpy as np
 
+from graphcam.constructions import force_plan as plain
 from graphcam.constructions.arm_pressure_angle import ArmAngles
-from graphcam.constructions.force_plan import (
-    BACK,
-    BEYOND,
-    CORNER,
-    LEAST_LOAD,
-    READABLE_FORCE,
-    UP_TO_CORNER,
-    beyond,
-    leaning,
-    loaded,
-    not_closed,
-    round_scale,
-    station_name,
-    third_corner,
-    triangle_step,
-)
-from graphcam.constructions.pressure_angle import moving_up, shown_station
-from graphcam.constructions.views import FORCES
 from graphcam.drafting.euclid import unit
+from graphcam.drafting.formulas import ALPHA, ARM, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
-from graphcam.drafting.marks import Arrow, Label, Line, Mark, Role
+from graphcam.drafting.marks import Label, Line, Mark, Role
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
+from graphcam.drafting.units import unit as unit_named
 from graphcam.given.arm_load import ArmLoad, PlacedArmLoad
 from graphcam.given.laws import Floats
 from graphcam.plane import dot
@@ -62,6 +46,33 @@ class ArmForcePlanGivens:
     mu_force: Scale
 
 
+def _in_equilibrium(plan: Construction[ArmForcePlanGivens]) -> Values:
+    """The torque and the pressure angle at the station, where the triangle closes."""
+    load, alpha = float(plan.value("load")), math.radians(abs(plain.alpha_at(plan)))
+    arm = plan.givens.measured.givens.arm
+    if not math.isnan(float(plan.first("normal"))):
+        forces = {"load": load, "normal": load / math.cos(alpha), "reaction": load * math.tan(alpha)}
+        yield {**forces, "torque": load * arm, "l": arm, "alpha": math.degrees(alpha), "N": unit_named("N")}
+
+
+FORMULAS = (
+    Formula(
+        r"Q = \frac{M}{l}, \qquad F = \frac{Q}{\cos\alpha}, \qquad R = Q\tan|\alpha|",
+        r"Q = \frac{<torque:.0f>}{<l:.6g>} = <load:.1f>\ \text{<N>}, \qquad "
+        r"F = \frac{<load:.1f>}{\cos <alpha:.2f>^\circ} = <normal:.1f>\ \text{<N>}, \qquad "
+        r"R = <load:.1f>\tan <alpha:.2f>^\circ = <reaction:.1f>\ \text{<N>}",
+        _in_equilibrium,
+        (
+            Symbol("Q", say("the load reduced to the arm's end"), "N"),
+            Symbol("M", say("the torque about the pivot"), "N·mm"),
+            *(ARM, plain.CONTACT_FORCE, ALPHA),
+            Symbol("R", say("the reaction of the pivot"), "N"),
+        ),
+        of="normal",
+    ),
+)
+
+
 MEANING = Meaning(
     "force_plan",
     say("Force plan"),
@@ -76,6 +87,7 @@ MEANING = Meaning(
         "side": ReadingMeaning(say("F sin α"), "F sin α", "N"),
         "reaction": ReadingMeaning(say("reaction R"), "R", "N"),
     },
+    FORMULAS,
 )
 
 
@@ -90,14 +102,11 @@ def arm_force_plan(
     Readings are NaN where the load does not press.
     """
     hand, k = Hand(pencil, MEANING), _plan_station(measured, load) if station is None else station
-    givens, integrated = measured.givens, measured.givens.integrated
-    stations = integrated.givens.stations
-    direction, phi = integrated.givens.motion.phases[stations.phase[k]].direction, float(stations.phi[k])
-    read = (integrated.readings[name] for name in ("s", "v", "a"))
-    s, v, a = (reckoned(itemgetter((..., k)), hand.carry(each, np.asarray(each.scale))) for each in read)
-    psi0 = hand.carry(measured.readings["psi0"])
-    force = reckoned(partial(_reduced, load, givens.arm, givens.distance, direction, phi), s, v, a, psi0)
-    mu = mu_force or round_scale(float(np.median(np.abs(force.amount))))
+    givens, direction = measured.givens, plain.direction_at(measured, k)
+    phi, psi0 = float(givens.integrated.givens.stations.phi[k]), hand.carry(measured.readings["psi0"])
+    reduced = partial(_reduced, load, givens.arm, givens.distance, direction, phi)
+    force = reckoned(reduced, *plain.read_at(hand, measured, k, "s", "v", "a"), psi0)
+    mu = mu_force or plain.round_scale(float(np.median(np.abs(force.amount))))
 
     # Of the arm positions: the arm C B, and A D.
     pivot, centre = hand.given("pivot"), hand.found(measured, "centre")
@@ -108,7 +117,7 @@ def arm_force_plan(
     foot = hand.lay_off("foot", origin, down, reckoned(partial(np.multiply, 1 / mu.per_mm), force))
     normal = hand.parallel("line of F", ray, foot)
     along_arm = hand.parallel("line of R", arm, origin)
-    corner = third_corner(hand, foot, normal, along_arm, dot(foot.points, down.directions) > 0)
+    corner = plain.third_corner(hand, foot, normal, along_arm, dot(foot.points, down.directions) > 0)
     hand.join("F", foot, corner)
     hand.join("R", corner, origin)
     lengths = {
@@ -146,9 +155,7 @@ def _plan_station(measured: ArmAngles, load: ArmLoad) -> int:
     givens, integrated = measured.givens, measured.givens.integrated
     s, v, a = (integrated.value(name) for name in ("s", "v", "a"))
     phi, psi0 = integrated.givens.stations.phi, float(measured.first("psi0"))
-    force = _reduced(load, givens.arm, givens.distance, 1, phi, s, v, a, psi0)
-    force, k = np.where(moving_up(measured), force, 0.0), shown_station(measured)
-    return k if abs(force[k]) >= LEAST_LOAD * np.max(force) else int(np.argmax(force))
+    return plain.where_it_presses(measured, _reduced(load, givens.arm, givens.distance, 1, phi, s, v, a, psi0))
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -158,9 +165,7 @@ STROKE = 30.0
 
 
 def _draw(plan: Construction[ArmForcePlanGivens]) -> list[Step]:
-    view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=plan.givens.mu_force.per_mm))
-    last = _not_pressed if math.isnan(float(plan.first("normal"))) else _closed
-    return [draw(plan, view) for draw in (_load, _line_of_force, _line_of_reaction, last)]
+    return plain.plan_steps(plan, _load, _line_of_force, _line_of_reaction, _not_pressed, _closed)
 
 
 def _terms(plan: Construction[ArmForcePlanGivens]) -> list[tuple[Caption, float]]:
@@ -188,20 +193,13 @@ def _terms(plan: Construction[ArmForcePlanGivens]) -> list[tuple[Caption, float]
 
 
 def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
-    """The load, reduced to the arm's end, square to the arm."""
     givens, mu = plan.givens.measured.givens, plan.givens.mu_force.per_mm
     terms, integrated, k = _terms(plan), givens.integrated, plan.givens.station
     s, a = float(integrated.value("s")[k]), float(integrated.value("a")[k])
     torque = sum(each for _, each in terms)
-    told = sequence([said.where(torque=each) for said, each in terms if abs(each) >= READABLE_FORCE * givens.arm])
-    values = {
-        "name": station_name(plan),
-        "s": math.degrees(s),
-        "a": a,
-        "torque": torque,
-        "terms": told,
-        "arm": givens.arm,
-    }
+    told = sequence([said.where(torque=each) for said, each in terms if abs(each) >= plain.READABLE_FORCE * givens.arm])
+    values = {"name": plain.station_name(plan), "s": math.degrees(s), "a": a, "arm": givens.arm}
+    values |= {"torque": torque, "terms": told}
     values |= {"load": torque / givens.arm, "mu": mu, "paper": abs(torque) / givens.arm / mu}
     values["way"] = say("against the rise") if torque > 0 else say("in the sense of the rise")
     said = say(
@@ -210,7 +208,7 @@ def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
         "set the dividers to {paper:.1f} mm, and lay Q off from its tail square to the arm of this station, {way}."
     )
     why = say("A torque about the pivot has the same effect as a force at the arm's end, square to the arm.")
-    return loaded(plan, view, said.where(**values), -_beside(plan), why)
+    return plain.loaded(plan, view, said.where(**values), -_beside(plan), why)
 
 
 def _beside(plan: Construction[ArmForcePlanGivens]) -> complex:
@@ -220,28 +218,25 @@ def _beside(plan: Construction[ArmForcePlanGivens]) -> complex:
 
 
 def _line_of_force(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
-    """The line of the contact force through the head of the load."""
     normal, up = plan.acts["line of F"].first, -complex(unit(plan.acts["line of Q"].first.directions))
-    alpha = float(plan.givens.measured.first("alpha")[plan.givens.station])
     said = say(
         "In the arm positions lay the set squares along the line from A to D of station {name}. Carry it to the "
         "head of Q and draw the line of the contact force F there; it makes α = {alpha:.1f}° with Q."
-    ).where(name=station_name(plan), alpha=abs(math.degrees(alpha)))
-    marks = leaning(normal, beyond(float(plan.first("normal"))), alpha, up)
+    ).where(name=plain.station_name(plan), alpha=abs(plain.alpha_at(plan)))
+    marks = plain.leaning(normal, plain.beyond(float(plan.first("normal"))), plain.alpha_at(plan), up)
     why = say("The contact normal passes through the centre of relative rotation, and A D is parallel to it.")
     return Step(say("The line of the contact force"), (Part(said, (normal,)),), view, marks, why=why)
 
 
 def _line_of_reaction(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
-    """The line of the reaction, along the arm."""
     line, side = plan.acts["line of R"].first, _beside(plan)
     size = float(plan.first("reaction"))
-    reach = STROKE if math.isnan(size) else max(STROKE, size + BEYOND)
+    reach = STROKE if math.isnan(size) else max(STROKE, size + plain.BEYOND)
     ends = line.place + side * np.array([-0.3 * STROKE, reach])
     said = say(
         "With the set squares draw the line of the reaction R through the tail of Q, parallel to the arm CB of station "
         "{name}.",
-        name=station_name(plan),
+        name=plain.station_name(plan),
     )
     why = say("F and Q act at B and are in equilibrium about C, so the reaction to both passes through B and C.")
     mark = Line(ends, Role.CONSTRUCTION).left_by(line)
@@ -251,23 +246,20 @@ def _line_of_reaction(plan: Construction[ArmForcePlanGivens], view: View) -> Ste
 def _not_pressed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     """The last step where there is no third corner."""
     said = say("The two lines do not meet where the cam could push: the load does not press the arm onto the cam.")
-    return not_closed(view, said)
+    return plain.not_closed(view, said)
 
 
 def _closed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
-    """The triangle, and what is measured on it."""
     foot, corner, force, reaction = (plan.acts[name].first for name in ("foot", "corner", "F", "R"))
     corner, side, down = corner[0], _beside(plan), complex(unit(plan.acts["line of Q"].first.directions))
     sides = say(
         "Square to the arm F cos α measures {along_mm:.1f} mm × {mu:g} = {along:.1f} N, and along the arm F sin α "
         "{side_mm:.1f} mm × {mu:g} = {side:.1f} N."
     )
-    told = ((CORNER,), (corner,)), ((UP_TO_CORNER,), (force,)), ((BACK, sides), (reaction,))
     marks: tuple[Mark, ...] = (
-        Arrow(foot.place, corner.place, Role.RESULT).left_by(force),
-        Arrow(corner.place, 0j, Role.RESULT).left_by(reaction),
         corner.dots(),
         Label((foot.place + corner.place) / 2, "F", towards=side + down / 2).left_by(force),
         Label(corner.place / 2, "R", towards=-down).left_by(reaction),
     )
-    return triangle_step(plan, view, told, marks)
+    moves = [(plain.CORNER, corner), (plain.UP_TO_CORNER, force), (plain.BACK, reaction)]
+    return plain.triangle_step(plan, view, moves, marks, sides)

@@ -117,7 +117,6 @@ def _draw(inverted: ArmInverted) -> list[Step]:
 
 
 def _circles(inverted: ArmInverted) -> Step:
-    """The prime circle and the circle of the pivot."""
     mu_l, c = inverted.givens.mu_l.per_mm, inverted.givens.distance
     start, circle = profile_view.start_of_turn(inverted), inverted.acts["pivot circle"]
     pivots = circle_drawn(say_in("drawn", "the circle of the pivot about A"), "c", c, mu_l)
@@ -127,7 +126,6 @@ def _circles(inverted: ArmInverted) -> Step:
 
 
 def _pivots(inverted: ArmInverted) -> Step:
-    """The places of the pivot on its circle, numbered."""
     pivots, positions = (inverted.acts[name] for name in ("pivots", "inverted positions"))
     stations = inverted.givens.integrated.givens.stations
     said = say(
@@ -146,7 +144,6 @@ def _pivots(inverted: ArmInverted) -> Step:
 
 
 def _starts(inverted: ArmInverted) -> Step:
-    """The arcs of the arm from all pivots, and where they meet the prime circle."""
     integrated, starts, arcs = inverted.givens.integrated, inverted.acts["starts"], inverted.acts["arcs of the arm"]
     names, k = station_names(integrated.givens.stations), example(integrated, inverted.acts["pivots"])
     arm, pitch = inverted.givens.mu_l.paper(inverted.givens.arm), inverted.acts["pitch"]
@@ -165,7 +162,6 @@ def _starts(inverted: ArmInverted) -> Step:
 
 
 def _turned(inverted: ArmInverted) -> Step:
-    """The arms turned about their pivots by the displacement."""
     integrated, arms, pitch = inverted.givens.integrated, inverted.acts["arms"], inverted.acts["pitch"]
     names, k = station_names(integrated.givens.stations), example(integrated, inverted.acts["pivots"])
     s, factor = integrated.first("s"), np.degrees(integrated.readings["s"].per_mm)

@@ -321,7 +321,6 @@ def _adopted(region: ArmRegion) -> list[complex]:
 
 
 def _shaded(region: ArmRegion, picture: RegionPicture, hatched: Points) -> Step:
-    """The permitted places, down to a little below the cam centre."""
     corners = picture.corners
     edges = showing(region).given("edges of the picture", corners, np.diff([*corners, corners[0]]))
     bounds = showing(region).take("bounds", region.acts["lines"].first, edges)
@@ -375,7 +374,6 @@ def _named(region: ArmRegion) -> list[tuple[int, Caption]]:
 
 
 def _at_rest(region: ArmRegion) -> tuple[str, str]:
-    """Where the two lines of a dwell begin."""
     return "B₀", highest_arm(region)
 
 
@@ -410,10 +408,8 @@ def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
     why = say("The prime circle goes through B₀, so the nearest permitted cam centre gives the smallest cam.")
     if not found:
         return Step(title, (*parts, Part(NO_CENTRE[c is not None])), view, tuple(arcs), why=why)
-    line, reads = (
-        showing(region).join("line of centres", acts["pivot"].first, centre.first),
-        ("prime_radius", "distance"),
-    )
+    line = showing(region).join("line of centres", acts["pivot"].first, centre.first)
+    reads = ("prime_radius", "distance")
     r0, away = (float(region.value(name)) for name in reads)
     joining = say(
         "Join A₀ to B₀ and C and measure: A₀B₀ = {paper:.2f} mm, so r₀ = {r0:.3f} mm, and A₀C = {away:.2f} mm, so c = "

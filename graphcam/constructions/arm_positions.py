@@ -120,7 +120,7 @@ def positions_step(drawn: ArmPositions) -> Step:
         "and with the compass an arc of {arm:.1f} mm about C."
     ).where(ratio=ratio_text(mu_l.per_mm), arm=arm)
     said = say(
-        "Multiply every ordinate of the displacement by {factor:.4g}°/mm, set the angle off at C with the protractor, "
+        "Multiply every ordinate of the displacement by {factor:.5g}°/mm, set the angle off at C with the protractor, "
         "upwards from CB₀ (clockwise), draw the arm there as far as the arc and number it. Station {name}: {angle}. "
         "The largest angle is {most:.2f}°."
     ).where(factor=factor, name=names[k], angle=turning_angle(s[k], factor), most=s.max() * factor)
@@ -157,7 +157,7 @@ def turning_angle(paper: float, factor: float) -> Words:
     """By which angle [degrees] an arm is turned for an ordinate of the displacement [mm of paper]."""
     if abs(paper * factor) < NOTHING:
         return "0°"
-    return say("{paper:.2f} mm × {factor:.4g}°/mm = {angle:.2f}°", paper=paper, factor=factor, angle=paper * factor)
+    return say("{paper:.2f} mm × {factor:.5g}°/mm = {angle:.2f}°", paper=paper, factor=factor, angle=paper * factor)
 
 
 def _first_here(ends: Drawn, start: Drawn, stations: Stations) -> NDArray[np.bool_]:
@@ -175,7 +175,7 @@ def velocities_step(drawn: ArmPositions) -> Step:
     stations, v, k = integrated.givens.stations, integrated.first("v"), example(integrated, tips)
     names, mu, arm = station_names(stations), integrated.readings["v"].per_mm, drawn.givens.mu_l.paper(drawn.givens.arm)
     said = say(
-        "Multiply every ordinate of the velocity by l·μᵥ = {arm:.1f} mm × {mu:.4g}/mm = {factor:.4g} and lay it off "
+        "Multiply every ordinate of the velocity by l·μᵥ = {arm:.1f} mm × {mu:.5g}/mm = {factor:.5g} and lay it off "
         "with dividers along the arm from its end, to D: on the rise {rise}, on the return {back}. Station {name}: "
         "{length}."
     ).where(arm=arm, mu=mu, factor=arm * mu, rise=along_the_arm(sigma), back=along_the_arm(-sigma), name=names[k])

@@ -16,12 +16,7 @@ from graphcam.constructions.arm_positions import along_the_arm, arc_through, arm
 from graphcam.constructions.arm_region_detail import adopted_enlarged, detail_scale
 from graphcam.constructions.axes import numbers, station_names, turning
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.pressure_angle import (
-    ANGLES,
-    MeasuredGivens,
-    read_angles,
-    shown_station,
-)
+from graphcam.constructions.pressure_angle import ANGLES, MeasuredGivens, read_angles, shown_station
 from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import ARM_ANGLES, PLAN, REGION, at_scale
 from graphcam.drafting.acts import Floats, Setting
@@ -62,7 +57,6 @@ def _at_start(measured: ArmAngles) -> Values:
 
 
 def _worked(measured: ArmAngles) -> Values:
-    """The station of the velocity plan."""
     givens, k, (at_start,) = measured.givens, shown_station(measured), _at_start(measured)
     s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
     along, psi = sense(givens.rotation) * v, math.radians(at_start["psi0"]) + s
@@ -180,7 +174,6 @@ def plan_scale(measured: ArmAngles, k: int) -> Scale:
 
 
 def _centre(measured: ArmAngles) -> Step:
-    """The cam centre of the adopted sizes, and the angle of the line of centres."""
     givens, acts, length = measured.givens, measured.acts, measured.givens.mu_l.paper
     pivot, start, tips, centre = (acts[name] for name in ("pivot", "start", "tips", "centre"))
     circles, sides = (acts["circle of the centre"], acts["prime circle"]), np.exp([-1j * ACROSS, 1j * ACROSS])
@@ -215,7 +208,6 @@ def _centre(measured: ArmAngles) -> Step:
 
 
 def _named(givens: ArmPressureAngleGivens) -> Caption:
-    """The adopted cam centre with its sizes."""
     return say("A (r₀ = {r0:g}, c = {c:g})", r0=givens.prime_radius, c=givens.distance)
 
 
@@ -258,7 +250,6 @@ def _plan(measured: ArmAngles, k: int, scale: Scale) -> Hand:
 
 
 def _mechanism(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> Step:
-    """The arm and the cam centre at the shown station, and the velocity along the arm."""
     givens, (a, b, c, d) = measured.givens, (plan.acts[each] for each in "ABCD")
     ab, bd, cb = (plan.acts[each] for each in ("AB", "BD", "CB"))
     integrated, names = givens.integrated, station_names(givens.integrated.givens.stations)
@@ -275,7 +266,7 @@ def _mechanism(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -
         ),
         say("Join A to B."),
         say(
-            "From B lay off l·ds/dφ along the arm, {side}, with the dividers: {v:.2f} mm × {factor:.4g} = {bd:.2f} mm, "
+            "From B lay off l·ds/dφ along the arm, {side}, with the dividers: {v:.2f} mm × {factor:.5g} = {bd:.2f} mm, "
             "to D."
         ),
     )
@@ -293,7 +284,6 @@ def _mechanism(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -
 
 
 def _velocities(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> Step:
-    """The velocity plan at the shown station, and how its sides are turned from those of the mechanism."""
     names, rotation = station_names(measured.givens.integrated.givens.stations), measured.givens.rotation
     pole, v1, v2, v21 = (plan.acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
     across, along = v1.place - pole.place, v2.place - pole.place
@@ -320,7 +310,6 @@ def _velocities(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) 
 
 
 def _angle(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> Step:
-    """The angle between the arm's normal and DA at the shown station."""
     normal, ray, d = (plan.acts[name] for name in ("normal", "DA", "D"))
     name, reading = station_names(measured.givens.integrated.givens.stations)[k], plan.readings["alpha"]
     alpha, length, tip = float(np.degrees(reading.paper)), abs(d[k].place), d[k].place
@@ -345,7 +334,6 @@ def _angle(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> St
 
 
 def _everywhere(measured: ArmAngles, k: int) -> Step:
-    """The rays and the normals at all stations."""
     names, alpha = station_names(measured.givens.integrated.givens.stations), np.degrees(measured.first("alpha"))
     rays, normals = measured.acts["rays"], measured.acts["normals"]
     # At the shown station as far as the arc of its angle, at the others only their direction.

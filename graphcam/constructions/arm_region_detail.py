@@ -56,10 +56,7 @@ def region_enlarged(
     picture = RegionPicture(float(left), float(right), float(bottom), 0.0)
     enlarged = [Boundary("", (line.touch - start.place) * times, line.inward) for line in lines]
     permitted = hand.given("permitted places", picture.permitted(enlarged))
-    marks: list[Mark] = [
-        Region(permitted.points).left_by(permitted),
-        *(b.dots(Role.CONSTRUCTION), b.label("B₀", UP)),
-    ]
+    marks: list[Mark] = [Region(permitted.points).left_by(permitted), *(b.dots(Role.CONSTRUCTION), b.label("B₀", UP))]
     through = list[Drawn]()
     for k, (line, name) in enumerate(bind):
         drawn = hand.enlarged(f"line {k} through A₀", line, start, times)

@@ -61,7 +61,6 @@ LEAST_CURVATURE = {
 
 
 def _three_points(_: object) -> tuple[Words, ...]:
-    """What the points are called."""
     return say("before B"), "B", say("after B")
 
 
@@ -204,7 +203,6 @@ def _draw(curved: Curved) -> list[Step]:
 
 
 def _chords(curved: Curved, detail: Detail) -> Step:
-    """Three points of the sharpest place and their chords, in the detail."""
     (before, after), triple = _neighbours_named(curved), detail.triple
     first, second = np.abs(np.diff(triple.shown))
     phi, points = curved.first("phi"), say("B and both ends of the arc")
@@ -220,8 +218,7 @@ def _chords(curved: Curved, detail: Detail) -> Step:
     ).where(first=first, second=second, step=np.degrees(phi[2] - phi[0]))
     more = [ONLY_RESTS] if np.isnan(curved.first("rho_candidates")[0]) else []
     why = say(
-        "Three close points of a curve determine the circle that fits it best, and the roller is limited by the "
-        "smallest such circle of the pitch curve."
+        "The circle through three points is found by two of its chords, and it is smallest where the curve bends most."
     )
     chords = detail.hand.join("chords", triple[:2], triple[1:])
     marks = (
@@ -233,7 +230,6 @@ def _chords(curved: Curved, detail: Detail) -> Step:
 
 
 def _copied(detail: Detail) -> Caption:
-    """How large the detail is beside the profile."""
     ratio = ratio_text(detail.per_mm)
     if math.isclose(detail.times, 1):
         return say("at the same scale, {ratio}", ratio=ratio)
@@ -272,7 +268,6 @@ def _missed(curved: Curved) -> list[Caption]:
 
 
 def _percent(part: float) -> Caption:
-    """An error as part of what is measured."""
     return say("{part:.0f} %", part=100 * part) if part < 1 else say("more than ρ itself")
 
 
@@ -290,7 +285,6 @@ def _twice_as_wide(curved: Curved) -> tuple[list[str], float] | None:
 
 
 def _bisected(curved: Curved, detail: Detail) -> Step:
-    """The perpendicular bisectors of the chords, and O where they meet."""
     lines, settings = _bisectors(curved, detail)
     first = say(
         "Set the compass to {setting:.1f} mm ({share:g} of the first chord), strike arcs about both of its ends that "
@@ -307,7 +301,6 @@ def _bisected(curved: Curved, detail: Detail) -> Step:
 
 
 def _measured(curved: Curved, detail: Detail) -> Step:
-    """The radius, and the arc that shows how well it fits."""
     said = say(
         "Join O to B with a ruler: OB measures {paper:.2f} mm, at {ratio}, so the minimum radius of curvature of "
         "the pitch curve is ρ = {rho:.3f} mm."
@@ -323,7 +316,6 @@ def _measured(curved: Curved, detail: Detail) -> Step:
 
 
 def _on_profile(curved: Curved) -> Step:
-    """O and B where they lie on the profile."""
     triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], showing(curved)
     ob, b = hand.join("OB", o, triple[1]), triple[1]
     said = say(
@@ -356,7 +348,6 @@ def _chosen(curved: Curved) -> list[int]:
 
 
 def _place(curved: Curved) -> Caption:
-    """What the middle place of three is called."""
     integrated, k = curved.givens.inverted.givens.integrated.givens, _chosen(curved)[1]
     motion, stations = integrated.motion, integrated.stations
     names = station_names(stations)
@@ -387,11 +378,7 @@ def _bisectors(curved: Curved, detail: Detail) -> tuple[list[Bisected], list[flo
     """
     hand, triple = detail.hand, detail.triple
     best = int(np.ravel(curved.acts["centre"].act.takes["which"])[0])
-    origin, found, settings = (
-        curved.acts["triple"].first[1],
-        list[tuple[list[Mark], tuple[Drawn, ...]]](),
-        list[float](),
-    )
+    origin, found, settings = curved.acts["triple"].first[1], list[Bisected](), list[float]()
     bisectors = [curved.acts[f"{which} bisectors"].first[best] for which in ("first", "second")]
     lines = [hand.enlarged(line.act.name, line, origin, detail.times) for line in bisectors]
     hub = hand.cross("O", *lines).place

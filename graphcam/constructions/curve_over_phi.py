@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from graphcam.constructions.acceleration import AccelerationGivens
 from graphcam.constructions.axes import station_names
+from graphcam.constructions.turn_board import TurnGivens
 from graphcam.drafting import euclid
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
@@ -33,7 +33,7 @@ _LEVEL = say("In the dwells draw it horizontally with the T-square.")
 
 
 def curve_over_phi(
-    givens: AccelerationGivens, hand: Hand, name: str, curve: Drawn, met: Caption
+    givens: TurnGivens, hand: Hand, name: str, curve: Drawn, met: Caption
 ) -> tuple[tuple[Line, ...], tuple[Part, ...]]:
     """The lines of the curve of that ``name``, and how they are drawn: piece by piece, then in the dwells.
 
@@ -41,15 +41,16 @@ def curve_over_phi(
     """
     stations, names = givens.stations, station_names(givens.stations)
     begins = {span.start for span in stations.phases}
-    straight, lines, rows = list[bool](), list[Line](), list[Row]()
-    for piece in stations.pieces:
-        straight.append(_on_one_line(curve.shown[piece]))
-        ends, tool = from_to(names[piece.start], names[piece.stop - 1]), RULER if straight[-1] else FRENCH_CURVE
+    straight, lines, rows = [_on_one_line(curve.shown[piece]) for piece in stations.pieces], list[Line](), list[Row]()
+    either = any(straight) and not all(straight)
+    for piece, by_ruler in zip(stations.pieces, straight, strict=True):
+        tool = [RULER if by_ruler else FRENCH_CURVE] if either else []
+        corner = [] if piece.start in begins else [met.where(first=names[piece.start])]
         faired = hand.fair(name, curve.first, [piece])
-        setting = tool if piece.start in begins else sequence([tool, met.where(first=names[piece.start])], "; ")
-        rows.append(Row(ends, setting, (faired,)))
+        ends = from_to(names[piece.start], names[piece.stop - 1])
+        rows.append(Row(ends, sequence([*tool, *corner], "; ") if tool or corner else "", (faired,)))
         lines.append(faired.line(Role.RESULT))
-    told = _ALL_STRAIGHT if all(straight) else _EITHER if any(straight) else _ALL_BENT
+    told = _ALL_STRAIGHT if all(straight) else _EITHER if either else _ALL_BENT
     level, resting = _rests(givens, hand, curve)
     rests = (Part(_LEVEL, (level,)),) if resting else ()
     return (*lines, *resting), (Part(told, rows=tuple(rows)), *rests)
@@ -61,7 +62,7 @@ def _on_one_line(points: Points) -> bool:
     return bool(np.abs(dot(way * UP, points - points[0])).max() < STRAIGHT)
 
 
-def _rests(givens: AccelerationGivens, hand: Hand, curve: Drawn) -> tuple[Drawn, tuple[Line, ...]]:
+def _rests(givens: TurnGivens, hand: Hand, curve: Drawn) -> tuple[Drawn, tuple[Line, ...]]:
     """The levels of a curve before the dwells, and its level lines from each to the next phase."""
     stations = givens.stations
     ends = [k for span in stations.phases for k in (span.start, span.stop - 1)]

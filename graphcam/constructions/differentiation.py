@@ -15,6 +15,7 @@ import numpy as np
 
 from graphcam.constructions.axes import EVERY, SUBSCRIPTS, axes_over_phi, degrees_below, ordinate, pole_marks, reach
 from graphcam.constructions.graduation import graduated
+from graphcam.constructions.pole_scales import PoleTerms, pole_formula
 from graphcam.constructions.slope_numbers import (
     every_kth,
     falling_together,
@@ -26,6 +27,7 @@ from graphcam.constructions.slope_numbers import (
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP, divided
+from graphcam.drafting.formulas import Formula, Symbol
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Line, Mark, Points, Role, Segments
@@ -76,6 +78,26 @@ def _cam_angles(at: str, drawn: Construction[DifferentiationGivens]) -> list[Cap
     return [say("φ = {phi:.4g}°", phi=phi) for phi in np.degrees(drawn.value(at))]
 
 
+def _by_pole(drawn: Construction[DifferentiationGivens], source: str, pole: int) -> PoleTerms:
+    givens = drawn.givens
+    mu = givens.mu_s.per_mm if source == "s" else drawn.readings[source].per_mm
+    return PoleTerms(mu, givens.mu_phi.per_mm, givens.poles[pole - 1])
+
+
+FORMULAS = (
+    Formula(
+        r"y = H\,\frac{\Delta y}{\Delta x}",
+        symbols=(
+            Symbol("y", say("the height at which a ray ends on the vertical axis"), "mm of paper"),
+            Symbol(r"\frac{\Delta y}{\Delta x}", say("the slope of its chord or tangent on the paper")),
+            Symbol("H", say("the pole distance: H₁ of the first differentiation, H₂ of the second"), "mm of paper"),
+        ),
+    ),
+    pole_formula("v", "s", 1, _by_pole),
+    pole_formula("a", "v", 2, _by_pole),
+)
+
+
 MEANING = Meaning(
     "differentiation",
     say("Velocity and acceleration by differentiation"),
@@ -89,6 +111,7 @@ MEANING = Meaning(
         "max_v": ReadingMeaning(say("maximum v"), "max v", "lift/rad"),
         "max_a": ReadingMeaning(say("maximum a"), "max a", "lift/rad²"),
     },
+    FORMULAS,
     scales={VIEWS["s"].name: "rise", VIEWS["v"].name: "v", VIEWS["a"].name: "a"},
     scales_found_by="integration",
 )
@@ -340,7 +363,6 @@ def _shown_rows(c: Construction[DifferentiationGivens]) -> tuple[Drawn, ...]:
 
 
 def _traced(run: _Pass) -> Step:
-    """The chords, or short pieces of the tangents."""
     c, slopes = run.c, run.drawn("slopes")
     places, along, outward = slopes.shown, slopes.directions, np.where(slopes.shown.imag < 0, -UP, UP)
     more = [say("Repeat for the others, {count} in all.")]
@@ -380,7 +402,6 @@ def _traced(run: _Pass) -> Step:
 
 
 def _with_rays(run: _Pass) -> Step:
-    """The pole, the rays through it, and what they cut off, carried across."""
     c, rays, heights, derived = run.c, run.drawn("rays"), run.drawn("heights"), run.c.acts[run.target].first
     groups, distance = falling_together(heights), c.givens.poles[run.number - 1]
     kept, index = [int(group[0]) for group in groups], f"{run.number}".translate(SUBSCRIPTS)
@@ -417,7 +438,6 @@ def _with_rays(run: _Pass) -> Step:
 
 
 def _joined(run: _Pass) -> Step:
-    """The curve through the points."""
     c, target, heights = run.c, run.target, run.c.acts[run.target].shown.imag
     up, down = (abs(c.acts[f"{way} {target}"].place.imag) for way in ("highest", "lowest"))
     near, longest = int(np.argmax(heights if up >= down else -heights)), float(c.first(f"max_{target}"))
@@ -430,7 +450,6 @@ def _joined(run: _Pass) -> Step:
 
 
 def _view(c: Construction[DifferentiationGivens], symbol: str) -> View:
-    """The view, with its scale in the title."""
     view = VIEWS[symbol]
     scale = c.givens.mu_s.per_mm if symbol == "s" else c.readings[symbol].scale
     per = unit(c.givens.mu_s.unit) if symbol == "s" else sequence(["(", unit(c.readings[symbol].unit), ")"], "")
@@ -462,7 +481,6 @@ def _degrees(c: Construction[DifferentiationGivens], symbol: str) -> tuple[Mark,
 
 
 def _scale(run: _Pass) -> Step:
-    """The scale of a derivative, its greatest value, and the divisions of its ordinates, away from the rays."""
     c, name = run.c, run.target
     said = say(
         "The first pole gives μᵥ = μₛ/(μᵩ·H₁) = {mu_s:.4g}/({mu_phi:.4g} · {pole:g}) = {mu_v:.5g} ({unit}/rad)/mm: "

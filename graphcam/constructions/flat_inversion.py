@@ -149,13 +149,11 @@ def _on_profile(inverted: profile_view.Inverted, name: str) -> dict[str, float |
 
 
 def _circle(inverted: profile_view.Inverted) -> Step:
-    """The prime circle."""
     why = say("The face is r₀ from the cam centre before the follower rises.")
     return profile_view.prime_step(inverted, say("Prime circle"), profile_view.start_of_turn(inverted), why=why)
 
 
 def _rays(inverted: profile_view.Inverted) -> Step:
-    """The follower's line in its inverted positions, numbered, up to the prime circle."""
     rays, starts = (inverted.acts[name].first for name in ("inverted positions", "starts"))
     phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
     said = say(
@@ -174,14 +172,13 @@ def _rays(inverted: profile_view.Inverted) -> Step:
 
 
 def _faces(inverted: profile_view.Inverted) -> Step:
-    """The displacements on the rays, and the faces there."""
     starts, feet, faces = (inverted.acts[name].first for name in ("starts", "feet", "faces"))
     contact, across = inverted.first("contact"), -unit(faces.directions)
     left = faces.shown + across * (np.minimum(contact, 0) - FACE_BEYOND)
     right = faces.shown + across * (np.maximum(contact, 0) + FACE_BEYOND)
     said = say(
         "On each ray lay off the displacement with the dividers, outward from the prime circle: its ordinate times "
-        "μₛ/μₗ = {mu:.4g}/{mu_l:g} = {factor:.4g}. Station {name}: {length}. With two set squares draw the face there, "
+        "μₛ/μₗ = {mu:.5g}/{mu_l:g} = {factor:.5g}. Station {name}: {length}. With two set squares draw the face there, "
         "square to the ray."
     ).where(length=setting(feet[profile_view.worked_station(_stations(inverted))]), **_on_profile(inverted, "s"))
     marks = (
@@ -194,7 +191,6 @@ def _faces(inverted: profile_view.Inverted) -> Step:
 
 
 def _contacts(inverted: profile_view.Inverted) -> Step:
-    """Where the profile touches the faces, and how far that wanders."""
     pitch, mu_l, v = inverted.acts["pitch"].first, inverted.givens.mu_l.per_mm, inverted.givens.integrated.first("v")
     sigma = sense(inverted.givens.rotation)
 
@@ -205,7 +201,7 @@ def _contacts(inverted: profile_view.Inverted) -> Step:
 
     said = say(
         "From the end of each ray lay off the velocity along the face with the dividers: its ordinate times μᵥ/μₗ = "
-        "{mu:.4g}/{mu_l:g} = {factor:.4g}, on a rise {side}, seen from the cam centre, and on a return to the other "
+        "{mu:.5g}/{mu_l:g} = {factor:.5g}, on a rise {side}, seen from the cam centre, and on a return to the other "
         "side. Station {name}: {length}. The ends are the contact points: number them."
     ).where(side=_side(sigma), length=laid_off(profile_view.worked_station(_stations(inverted))))
     widths = {side: float(inverted.value(f"face_{side}")) for side in ("left", "right")}

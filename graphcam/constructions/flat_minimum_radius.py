@@ -166,7 +166,6 @@ def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pe
 
 
 def _jumps(integrated: Integrated) -> NDArray[np.intp]:
-    """The stations where the acceleration jumps."""
     a, before = (integrated.readings[name].paper for name in ("a", "a_before"))
     return np.flatnonzero((a != before).reshape(-1, a.shape[-1]).any(axis=0))
 
@@ -212,7 +211,6 @@ def _draw(region: FlatRegion) -> list[Step]:
 
 
 def _laid_off(region: FlatRegion) -> Step:
-    """The displacements on an upright axis, and the accelerations level from there."""
     integrated, names = region.givens.integrated, ("displacements", "accelerations", "before the jumps")
     heights, after, near = (region.acts[name].first for name in names)
     stations, jumps = integrated.givens.stations, _jumps(integrated).tolist()
@@ -228,7 +226,7 @@ def _laid_off(region: FlatRegion) -> Step:
     worked = int(np.argmax(np.round(np.abs(after.shown.real) * after.shown.imag, 3)))
     said = say(
         "With the T-square carry each displacement across to a vertical axis. From there lay off the acceleration "
-        "horizontally with the dividers, in the scale of s: times μₐ/μₛ = {mu_a:.4g}/{mu_s:.4g} = {factor:.4f}, to the "
+        "horizontally with the dividers, in the scale of s: times μₐ/μₛ = {mu_a:.5g}/{mu_s:.5g} = {factor:.4f}, to the "
         "right where it is positive. Station {name}: {there}. Number the ends."
     ).where(name=named[worked], there=_station(region, worked), factor=_factor(region))
     said = said.where(**{f"mu_{name}": integrated.readings[name].per_mm for name in "as"})
@@ -280,7 +278,6 @@ def _level(a: float, region: FlatRegion) -> Caption:
 
 
 def _joined(region: FlatRegion) -> Step:
-    """The smooth curves through the ends, and the dwells."""
     integrated, smooth, curve = region.givens.integrated, showing(region), region.acts["curve"].first
     stations, rests, marks, rows = integrated.givens.stations, region.acts["rests"].first, list[Mark](), list[Row]()
     names = station_names(stations)
@@ -341,7 +338,6 @@ def nearest_station(region: FlatRegion) -> str:
 
 
 def _found(region: FlatRegion) -> Step:
-    """The least prime radius, laid off."""
     centre, least, mu = region.acts["A"].first, region.givens.least_curvature, region.readings["prime_radius"].per_mm
     r0, need = (float(region.value(name)) for name in ("prime_radius", "need"))
     if r0 > 0:

@@ -10,10 +10,11 @@ Source: the equilibrium of a follower in two bearings, H. A. Rothbart, *Cam Desi
 
 import cmath
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from operator import itemgetter
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,14 +23,17 @@ from graphcam.constructions.axes import station_names
 from graphcam.constructions.graduation import round_up
 from graphcam.constructions.pressure_angle import MeasuredAngles, moving_up, shown_station
 from graphcam.constructions.views import FORCES
-from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import NOWHERE, RIGHT, UP, unit
+from graphcam.drafting.acts import Drawn, Setting
+from graphcam.drafting.euclid import NOWHERE, RIGHT, UP, unit as unit_along
+from graphcam.drafting.formulas import ALPHA, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
-from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
+from graphcam.drafting.ink import Caption, Construction, Part, Reading, Step, View, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role, angle_at
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
+from graphcam.drafting.telling import Move, in_parts
+from graphcam.drafting.units import unit
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
 from graphcam.given.spring_load import Guide, SpringLoad
@@ -57,6 +61,34 @@ class ForcePlanGivens:
     mu_force: Scale
 
 
+CONTACT_FORCE = Symbol("F", say("the contact force"), "N")
+
+
+def _in_equilibrium(plan: Construction[ForcePlanGivens]) -> Values:
+    """The load and the pressure angle at the station, where the triangle closes and the guide is without friction."""
+    load, alpha = float(plan.value("load")), math.radians(abs(alpha_at(plan)))
+    if not (plan.givens.guide or math.isnan(float(plan.first("normal")))):
+        forces = {"load": load, "normal": load / math.cos(alpha), "reaction": load * math.tan(alpha)}
+        yield {**forces, "alpha": math.degrees(alpha), "N": unit("N")}
+
+
+FORMULAS = (
+    Formula(
+        r"F = \frac{Q}{\cos\alpha}, \qquad R = Q\tan|\alpha|",
+        r"F = \frac{<load:.1f>}{\cos <alpha:.2f>^\circ} = <normal:.1f>\ \text{<N>}, \qquad "
+        r"R = <load:.1f>\tan <alpha:.2f>^\circ = <reaction:.1f>\ \text{<N>}",
+        _in_equilibrium,
+        (
+            CONTACT_FORCE,
+            Symbol("Q", say("the load on the follower"), "N"),
+            ALPHA,
+            Symbol("R", say("the reaction of the guide"), "N"),
+        ),
+        of="normal",
+    ),
+)
+
+
 MEANING = Meaning(
     "force_plan",
     say("Force plan"),
@@ -72,6 +104,7 @@ MEANING = Meaning(
         "friction": ReadingMeaning(say("friction in the guide"), "T", "N"),
         "reaction": ReadingMeaning(say("reaction R"), "R", "N"),
     },
+    FORMULAS,
 )
 
 
@@ -92,23 +125,13 @@ def force_plan(
     Readings are NaN where the load does not press, or the guide jams.
     """
     hand, k = Hand(pencil, MEANING), plan_station(measured, load) if station is None else station
-    integrated, sigma = measured.givens.integrated, sense(measured.givens.rotation)
-    direction = integrated.givens.motion.phases[integrated.givens.stations.phase[k]].direction
-    read = (*(integrated.readings[name] for name in ("s", "v", "a")), measured.readings["alpha"])
-    s, v, a, alpha = (reckoned(itemgetter((..., k)), hand.carry(each, np.asarray(each.scale))) for each in read)
-    phi = float(integrated.givens.stations.phi[k])
-    force = reckoned(partial(force_at, load, direction, phi), s, v, a)
-    mu = mu_force or round_scale(float(np.median(np.abs(force.amount))))
-
-    origin = hand.given("origin")
-    foot = hand.lay_off("foot", origin, -UP, reckoned(partial(np.multiply, 1 / mu.per_mm), force))
-    # A turn by alpha in the sense of the rotation: against it the cam pushes the stem along.
-    turn = reckoned(partial(np.multiply, sigma), alpha)
-    normal = hand.protractor("line of F", foot, UP, turn)
+    mu, foot, turn = load_laid_off(hand, measured, load, k, mu_force)
+    origin, normal = hand.acts["origin"], hand.protractor("line of F", foot, UP, turn)
     if guide is None:
         across = hand.erect("line of R", origin, RIGHT)
     else:
         base = hand.lay_off("base", origin, -RIGHT, reckoned(partial(np.copysign, BASE), turn))
+        (s,), direction = read_at(hand, measured, k, "s"), direction_at(measured, k)
         incline = hand.lay_off("incline", base, UP, reckoned(partial(_incline, guide, direction), s))
         across = hand.join("line of R", origin, incline)
     corner = third_corner(hand, foot, normal, across, foot.points.imag < 0)
@@ -121,6 +144,40 @@ def force_plan(
     directions = {"contact_normal": normal.directions, "across": across.directions}
     givens, points = ForcePlanGivens(measured, load, guide, k, mu), {"foot": foot, "corner": corner}
     return hand.finished(givens, _draw, {**points, **directions})
+
+
+def load_laid_off(
+    hand: Hand, measured: MeasuredAngles, load: SpringLoad, k: int, mu_force: Scale | None
+) -> tuple[Scale, Drawn, Setting]:
+    """The load of a stem at a station, straight down from its tail: its scale, its head, and how the normal is turned.
+
+    mu_force : N/mm; None for a round one
+    """
+    phi = float(measured.givens.integrated.givens.stations.phi[k])
+    s, v, a = read_at(hand, measured, k, "s", "v", "a")
+    force = reckoned(partial(force_at, load, direction_at(measured, k), phi), s, v, a)
+    mu = mu_force or round_scale(float(np.median(np.abs(force.amount))))
+    alpha = at_station(hand, measured.readings["alpha"], k)
+    length = reckoned(partial(np.multiply, 1 / mu.per_mm), force)
+    # A turn by alpha in the sense of the rotation: against it the cam pushes the stem along.
+    turn = reckoned(partial(np.multiply, sense(measured.givens.rotation)), alpha)
+    return mu, hand.lay_off("foot", hand.given("origin"), -UP, length), turn
+
+
+def at_station(hand: Hand, reading: Reading, k: int) -> Setting:
+    """The machine value of a reading at one station."""
+    return reckoned(itemgetter((..., k)), hand.carry(reading, np.asarray(reading.scale)))
+
+
+def read_at(hand: Hand, measured: Construction, k: int, *names: str) -> list[Setting]:
+    """Displacement and derivatives at one station, by their names."""
+    return [at_station(hand, measured.givens.integrated.readings[name], k) for name in names]
+
+
+def direction_at(measured: Construction, k: int) -> int:
+    """1 at a station on a rise, -1 on a return."""
+    integrated = measured.givens.integrated.givens
+    return integrated.motion.phases[integrated.stations.phase[k]].direction
 
 
 def third_corner(hand: Hand, foot: Drawn, line: Drawn, across: Drawn, presses: NDArray[np.bool_]) -> Drawn:
@@ -149,9 +206,13 @@ def plan_station(measured: MeasuredAngles, load: SpringLoad) -> int:
     With the least preload hardly any load may be left just there: then the station on the rises where it is greatest.
     """
     integrated = measured.givens.integrated
-    s, v, a = (integrated.value(name) for name in ("s", "v", "a"))
-    force = np.where(moving_up(measured), force_at(load, 1, integrated.givens.stations.phi, s, v, a), 0.0)
-    k = shown_station(measured)
+    s, v, a = (integrated.value(name) for name in "sva")
+    return where_it_presses(measured, force_at(load, 1, integrated.givens.stations.phi, s, v, a))
+
+
+def where_it_presses(measured: MeasuredAngles, force: Floats) -> int:
+    """The station of the velocity plan, or that of the greatest force [N] on the rises if hardly any is left there."""
+    force, k = np.where(moving_up(measured), force, 0.0), shown_station(measured)
     return k if abs(force[k]) >= LEAST_LOAD * np.max(force) else int(np.argmax(force))
 
 
@@ -173,9 +234,15 @@ READABLE_FORCE = 0.05
 
 
 def _draw(plan: Construction[ForcePlanGivens]) -> list[Step]:
+    return plan_steps(plan, load_step, _line_of_force, reaction_step, jammed_step, _closed)
+
+
+def plan_steps(plan: Construction, *draws: Callable[[Any, View], Step]) -> list[Step]:
+    """The steps of a plan in their view: the last but one where the triangle does not close, the last where it does."""
     view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=plan.givens.mu_force.per_mm))
-    last = jammed_step if math.isnan(float(plan.first("normal"))) else _closed
-    return [draw(plan, view) for draw in (load_step, _line_of_force, reaction_step, last)]
+    *first, not_closed, closed = draws
+    last = not_closed if math.isnan(float(plan.first("normal"))) else closed
+    return [draw(plan, view) for draw in (*first, last)]
 
 
 def side_of(plan: Construction[ForcePlanGivens]) -> float:
@@ -194,10 +261,9 @@ def _values(plan: Construction[ForcePlanGivens], *names: str) -> list[float]:
     return [float(integrated.value(name)[plan.givens.station]) for name in names]
 
 
-def _direction(plan: Construction[ForcePlanGivens]) -> int:
-    """1 on a rise, -1 on a return."""
-    integrated = plan.givens.measured.givens.integrated
-    return integrated.givens.motion.phases[integrated.givens.stations.phase[plan.givens.station]].direction
+def alpha_at(plan: Construction) -> float:
+    """The drawn pressure angle at the station [degrees]."""
+    return math.degrees(plan.givens.measured.first("alpha")[plan.givens.station])
 
 
 def _terms(plan: Construction[ForcePlanGivens]) -> list[tuple[Caption, float]]:
@@ -211,8 +277,9 @@ def _terms(plan: Construction[ForcePlanGivens]) -> list[tuple[Caption, float]]:
         (say("friction {force:.1f} N"), replace(none, friction=load.friction)),
         (say("load P {force:.1f} N"), replace(none, load=load.load)),
     )
-    phi = float(plan.givens.measured.givens.integrated.givens.stations.phi[plan.givens.station])
-    return [(said, float(force_at(part, _direction(plan), phi, *values))) for said, part in alone]
+    k = plan.givens.station
+    phi = float(plan.givens.measured.givens.integrated.givens.stations.phi[k])
+    return [(said, float(force_at(part, direction_at(plan.givens.measured, k), phi, *values))) for said, part in alone]
 
 
 def load_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
@@ -254,9 +321,9 @@ def beyond(length: float) -> float:
 
 
 def leaning(line: Drawn, reach: float, alpha: float, up: complex = UP) -> tuple[Mark, ...]:
-    """A line of a length through the head of the load, and the pressure angle [rad] that it makes with ``up`` there."""
-    radius, foot, way = 0.4 * min(reach, LOAD_LENGTH), line.place, complex(unit(line.directions))
-    start, named = cmath.phase(up), say("α = {alpha:.1f}°", alpha=math.degrees(alpha))
+    """A line of a length through the head of the load, and the angle [degrees] that it makes with ``up`` there."""
+    radius, foot, way = 0.4 * min(reach, LOAD_LENGTH), line.place, complex(unit_along(line.directions))
+    start, named = cmath.phase(up), say("α = {alpha:.1f}°", alpha=alpha)
     return (
         Line(np.array([foot, foot + reach * way]), Role.CONSTRUCTION).left_by(line),
         Line(np.array([foot, foot + (radius + BEYOND) * up]), Role.AXIS),
@@ -265,12 +332,11 @@ def leaning(line: Drawn, reach: float, alpha: float, up: complex = UP) -> tuple[
 
 
 def _line_of_force(plan: Construction[ForcePlanGivens], view: View) -> Step:
-    """The line of the contact force through the head of the load."""
-    normal, alpha = plan.acts["line of F"].first, float(plan.givens.measured.first("alpha")[plan.givens.station])
+    normal, alpha = plan.acts["line of F"].first, alpha_at(plan)
     said = say(
         "At the head of Q set the protractor to α = {alpha:.2f}° from the vertical {side}, and draw the line of "
         "the contact force F there, parallel to the contact normal of this station."
-    ).where(alpha=abs(math.degrees(alpha)), side=towards(side_of(plan)))
+    ).where(alpha=abs(alpha), side=towards(side_of(plan)))
     marks = leaning(normal, beyond(float(plan.first("normal"))), alpha)
     why = say("The cam pushes along the contact normal, which makes the pressure angle with the motion.")
     return Step(say("The line of the contact force"), (Part(said, (normal,)),), view, marks, why=why)
@@ -290,7 +356,7 @@ def reaction_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
         why = say("A guide without friction can push only square to the motion.")
         return Step(title, (Part(said, (line,)),), view, (across,), why=why)
     base, incline, (s,) = plan.acts["base"].first, plan.acts["incline"].first, _values(plan, "s")
-    height = float(_incline(guide, _direction(plan), np.array(s)))
+    height = float(_incline(guide, direction_at(plan.givens.measured, plan.givens.station), np.array(s)))
     values = {"base": BASE, "side": towards(side), "mu": guide.friction, "length": guide.length, "height": abs(height)}
     values |= {"overhang": guide.overhang - s, "way": say("up") if height > 0 else say("down")}
     laid = say("With the dividers lay off {base:g} mm from the tail of Q horizontally {side}, for l = {length:g} mm.")
@@ -299,7 +365,7 @@ def reaction_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
         "{overhang:.2f})/{length:g} = {height:.2f} mm straight {way}."
     )
     join = say("Join the tail of Q to this point with the ruler: on this line lies the reaction R of the guide.")
-    parts = (Part(laid.where(**values), (base,)), Part(inclined.where(**values), (incline,)), Part(join, (line,)))
+    parts = in_parts([(laid, base), (inclined, incline), (join, line)], values)
     marks = (across, base.line_from(0j, Role.CONSTRUCTION), incline.line_from(base, Role.CONSTRUCTION))
     why = say(
         "The nearer bearing carries (l + b)/l of the side force and the farther one b/l, so friction is μ(l + 2b)/l of "
@@ -328,21 +394,26 @@ UP_TO_CORNER = say("F runs from the head of Q up to this corner: {normal_mm:.1f}
 BACK = say("R runs from the corner back to the tail of Q: {reaction_mm:.1f} mm × {mu:g} = {reaction:.1f} N.")
 
 
-Told = tuple[tuple[Caption, ...], tuple[Drawn, ...]]
-"""Sentences with the readings of a plan in their places, and what is drawn."""
+def triangle_step(
+    plan: Construction, view: View, moves: Sequence[Move], marks: tuple[Mark, ...], *last: Caption
+) -> Step:
+    """The closed triangle of forces, and what is measured on it.
 
-
-def triangle_step(plan: Construction, view: View, told: Sequence[Told], marks: tuple[Mark, ...]) -> Step:
-    """The closed triangle of forces, and what is measured on it; of a reading there is also ``{name_mm}`` on paper."""
+    moves, last : what is done, and what is said at the end; with the readings in their places, on paper ``{name_mm}``
+    marks : besides the two forces that are found
+    """
+    foot, corner, force, reaction = (plan.acts[name].first for name in ("foot", "corner", "F", "R"))
+    corner = corner[0]
+    arrows = Arrow(foot.place, corner.place, Role.RESULT), Arrow(corner.place, 0j, Role.RESULT)
+    marks = arrows[0].left_by(force), arrows[1].left_by(reaction), *marks
     values = {name: float(plan.value(name)) for name in plan.readings} | {"mu": plan.givens.mu_force.per_mm}
     values |= {f"{name}_mm": float(plan.first(name)) for name in plan.readings}
-    parts = tuple(Part(sequence([each.where(**values) for each in said], " "), draws) for said, draws in told)
     reads, why = tuple(plan.readings)[1:], say("Forces in equilibrium, drawn head to tail, form a closed polygon.")
+    parts = in_parts(moves, values, last=last)
     return Step(say("The triangle of forces"), parts, view, marks, reads, why=why)
 
 
 def _closed(plan: Construction[ForcePlanGivens], view: View) -> Step:
-    """The triangle, and what is measured on it."""
     foot, corner, force, reaction = (plan.acts[name].first for name in ("foot", "corner", "F", "R"))
     corner, shown, side = corner[0], showing(plan), side_of(plan)
     level = shown.project("level", corner, shown.given("line of Q", 0j, UP))
@@ -352,15 +423,10 @@ def _closed(plan: Construction[ForcePlanGivens], view: View) -> Step:
     )
     friction = say("The friction in the guide is {friction_mm:.1f} mm × {mu:g} = {friction:.1f} N.")
     borne = (friction,) if float(plan.value("friction")) >= READABLE_FORCE else ()
-    told = (
-        *(((CORNER,), (corner,)), ((UP_TO_CORNER,), (force,)), ((BACK,), (reaction,))),
-        ((sides, *borne), (level,)),
-    )
     marks: tuple[Mark, ...] = (
-        Arrow(foot.place, corner.place, Role.RESULT).left_by(force),
-        Arrow(corner.place, 0j, Role.RESULT).left_by(reaction),
         *(level.line_from(corner, Role.CONSTRUCTION), corner.dots()),
         Label((foot.place + corner.place) / 2, "F", towards=side - 0.5j).left_by(force),
         Label(corner.place / 2, "R", towards=UP).left_by(reaction),
     )
-    return triangle_step(plan, view, told, marks)
+    moves = [(CORNER, corner), (UP_TO_CORNER, force), (BACK, reaction), (sides, level)]
+    return triangle_step(plan, view, moves, marks, *borne)

@@ -10,46 +10,29 @@ Source: the equilibrium of a follower with friction at the cam, I. Voloder, M. C
 """
 
 import math
-from dataclasses import dataclass, replace
-from functools import partial
-from operator import itemgetter
+from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.force_plan import (
-    BACK,
-    BASE,
-    BEYOND,
-    LOAD_LENGTH,
-    MEANING as WITHOUT,
-    ForcePlanGivens,
-    force_at,
-    jammed_step,
-    leaning,
-    load_step,
-    plan_station,
-    reaction_step,
-    round_scale,
-    side_of,
-    third_corner,
-    towards,
-    triangle_step,
-)
+from graphcam.constructions import force_plan as plain
+from graphcam.constructions.force_plan import BASE, BEYOND, LOAD_LENGTH, jammed_step, load_step, reaction_step, towards
 from graphcam.constructions.pressure_angle import MeasuredAngles
-from graphcam.constructions.views import FORCES
 from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.formulas import ALPHA, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arrow, Label, Line, Mark, Role
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
+from graphcam.drafting.telling import in_parts
+from graphcam.drafting.units import unit
 from graphcam.given.follower import sense
 from graphcam.given.spring_load import SpringLoad
 
 
 @dataclass(frozen=True, eq=False)
-class FrictionPlanGivens(ForcePlanGivens):
+class FrictionPlanGivens(plain.ForcePlanGivens):
     """What lies on the board; see :func:`friction_plan`.
 
     mu : the coefficient of friction between cam and follower
@@ -58,22 +41,50 @@ class FrictionPlanGivens(ForcePlanGivens):
     mu: float
 
 
+def _in_equilibrium(plan: Construction[FrictionPlanGivens]) -> Values:
+    """The load, the pressure angle and the friction at the station, where the triangle closes."""
+    load, alpha, mu = float(plan.value("load")), math.radians(plain.alpha_at(plan)), plan.givens.mu
+    if not math.isnan(float(plan.first("normal"))):
+        normal = load / (math.cos(alpha) - mu * math.sin(alpha))
+        forces = {"load": load, "normal": normal, "contact_friction": mu * normal}
+        yield {**forces, "alpha": math.degrees(alpha), "mu": mu, "N": unit("N")}
+
+
+FORMULAS = (
+    Formula(
+        r"N = \frac{Q}{\cos\alpha - \mu\sin\alpha}, \qquad T = \mu N",
+        r"N = \frac{<load:.1f>}{\cos(<alpha:.2f>^\circ) - <mu:g>\sin(<alpha:.2f>^\circ)} = <normal:.1f>\ \text{<N>}, "
+        r"\qquad T = <mu:g> \cdot <normal:.1f> = <contact_friction:.1f>\ \text{<N>}",
+        _in_equilibrium,
+        (
+            Symbol("N", say("the normal force"), "N"),
+            Symbol("Q", say("the load on the follower"), "N"),
+            ALPHA,
+            Symbol(r"\mu", say("the coefficient of friction between cam and follower")),
+            Symbol("T", say("the friction at the cam"), "N"),
+        ),
+        of="normal",
+    ),
+)
+
+
 MEANING = Meaning(
     "force_plan",
-    WITHOUT.title,
+    plain.MEANING.title,
     say(
         "Load, contact force and the reaction of the guide are in equilibrium. With friction the contact force "
         "is inclined to the normal. Three directions and one magnitude are known, which determine a triangle."
     ),
     {
-        "load": WITHOUT.readings["load"],
+        "load": plain.MEANING.readings["load"],
         "contact": ReadingMeaning(say("contact force F"), "F", "N"),
         "normal": ReadingMeaning(say("normal force N"), "N", "N"),
         "contact_friction": ReadingMeaning(say("friction at the cam T"), "T", "N"),
         "along": ReadingMeaning(say("N cos α"), "N cos α", "N"),
         "side": ReadingMeaning(say("N sin α"), "N sin α", "N"),
-        "reaction": WITHOUT.readings["reaction"],
+        "reaction": plain.MEANING.readings["reaction"],
     },
+    FORMULAS,
 )
 
 
@@ -93,24 +104,16 @@ def friction_plan(
 
     Readings are NaN where the load does not press, or the follower jams.
     """
-    hand, k = Hand(pencil, MEANING), plan_station(measured, load) if station is None else station
-    integrated, sigma = measured.givens.integrated, sense(measured.givens.rotation)
-    stations = integrated.givens.stations
-    direction, phi = integrated.givens.motion.phases[stations.phase[k]].direction, float(stations.phi[k])
-    read = (*(integrated.readings[name] for name in ("s", "v", "a")), measured.readings["alpha"])
-    s, v, a, alpha = (reckoned(itemgetter((..., k)), hand.carry(each, np.asarray(each.scale))) for each in read)
-    force = reckoned(partial(force_at, load, direction, phi), s, v, a)
-    mu = mu_force or round_scale(float(np.median(np.abs(force.amount))))
-
-    origin = hand.given("origin")
-    foot = hand.lay_off("foot", origin, -UP, reckoned(partial(np.multiply, 1 / mu.per_mm), force))
-    normal = hand.protractor("normal", foot, UP, reckoned(partial(np.multiply, sigma), alpha))
+    hand, k = Hand(pencil, MEANING), plain.plan_station(measured, load) if station is None else station
+    mu, foot, turn = plain.load_laid_off(hand, measured, load, k, mu_force)
+    origin, sigma = hand.acts["origin"], sense(measured.givens.rotation)
+    normal = hand.protractor("normal", foot, UP, turn)
     # The cam drags the follower in its own sense: the line of F is turned on from the normal in that sense.
     base = hand.lay_off("base", normal, normal, BASE)
     incline = hand.lay_off("incline", base, normal.turned(sigma * UP), BASE * friction)
     line = hand.join("line of F", foot, incline)
     across = hand.erect("line of R", origin, RIGHT)
-    corner = third_corner(hand, foot, line, across, foot.points.imag < 0)
+    corner = plain.third_corner(hand, foot, line, across, foot.points.imag < 0)
     hand.join("F", foot, corner)
     hand.join("R", corner, origin)
     tip = hand.cross("tip of N", normal, hand.perpendicular("square", normal, corner))
@@ -136,26 +139,21 @@ def friction_plan(
 
 
 def _draw(plan: Construction[FrictionPlanGivens]) -> list[Step]:
-    view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=plan.givens.mu_force.per_mm))
-    last = jammed_step if math.isnan(float(plan.first("normal"))) else _closed
-    return [draw(plan, view) for draw in (load_step, _normal, _line_of_force, reaction_step, last)]
+    return plain.plan_steps(plan, load_step, _normal, _line_of_force, reaction_step, jammed_step, _closed)
 
 
 def _normal(plan: Construction[FrictionPlanGivens], view: View) -> Step:
-    """The contact normal through the head of the load."""
-    normal, length = plan.acts["normal"].first, float(plan.first("normal"))
-    alpha = float(plan.givens.measured.first("alpha")[plan.givens.station])
+    normal, length, alpha = plan.acts["normal"].first, float(plan.first("normal")), plain.alpha_at(plan)
     said = say(
         "At the head of Q set the protractor to α = {alpha:.2f}° from the vertical {side}, and draw the contact "
         "normal of this station there."
-    ).where(alpha=abs(math.degrees(alpha)), side=towards(-1.0 if normal.directions.real < 0 else 1.0))
+    ).where(alpha=abs(alpha), side=towards(-1.0 if normal.directions.real < 0 else 1.0))
     reach = max(BASE, 2 * LOAD_LENGTH if math.isnan(length) else length) + BEYOND
     why = say("Without friction the cam would push along the contact normal.")
-    return Step(say("The contact normal"), (Part(said, (normal,)),), view, leaning(normal, reach, alpha), why=why)
+    return Step(say("The contact normal"), (Part(said, (normal,)),), view, plain.leaning(normal, reach, alpha), why=why)
 
 
 def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
-    """The line of the contact force, turned from the normal by the angle of friction."""
     base, incline, line = (plan.acts[name].first for name in ("base", "incline", "line of F"))
     sigma, mu, length = sense(plan.givens.measured.givens.rotation), plan.givens.mu, float(plan.first("contact"))
     values = {"base": BASE, "mu": mu, "height": BASE * mu, "side": towards(-float(sigma))}
@@ -164,7 +162,7 @@ def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
         "From there lay off {base:g} · μ = {base:g} · {mu:g} = {height:.2f} mm square to the normal, {side}."
     )
     join = say("Join the head of Q to this point with the ruler: on this line lies the contact force F.")
-    parts = (Part(laid.where(**values), (base,)), Part(inclined.where(**values), (incline,)), Part(join, (line,)))
+    parts = in_parts([(laid, base), (inclined, incline), (join, line)], values)
     along = complex(line.directions) / abs(complex(line.directions))
     reach = max(abs(complex(line.directions)), 2 * LOAD_LENGTH if math.isnan(length) else length) + BEYOND
     run = Line(np.array([line.place, line.place + reach * along]), Role.CONSTRUCTION).left_by(line)
@@ -177,10 +175,9 @@ def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
 
 
 def _closed(plan: Construction[FrictionPlanGivens], view: View) -> Step:
-    """The triangle, the contact force in its parts, and what is measured on it."""
     names = ("foot", "corner", "F", "R", "square", "tip of N", "N", "T")
     foot, corner, force, reaction, square, tip, normal, friction = (plan.acts[name].first for name in names)
-    corner, shown, side = corner[0], showing(plan), side_of(plan)
+    corner, shown, side = corner[0], showing(plan), plain.side_of(plan)
     level = shown.project("level", tip, shown.given("line of Q", 0j, UP))
     meet = say("Mark where the line of F meets that of R: the third corner.")
     up = say("F runs from the head of Q up to this corner: {contact_mm:.1f} mm × {mu:g} = {contact:.1f} N.")
@@ -193,13 +190,7 @@ def _closed(plan: Construction[FrictionPlanGivens], view: View) -> Step:
         "With the T-square carry the tip of N horizontally to the line of Q. Along the motion N cos α measures "
         "{along_mm:.1f} mm × {mu:g} = {along:.1f} N, and across it N sin α {side_mm:.1f} mm × {mu:g} = {side:.1f} N."
     )
-    told = (
-        *(((meet,), (corner,)), ((up,), (force,)), ((BACK,), (reaction,))),
-        *(((parted,), (square, tip, normal, friction)), ((sides,), (level,))),
-    )
     marks: tuple[Mark, ...] = (
-        Arrow(foot.place, corner.place, Role.RESULT).left_by(force),
-        Arrow(corner.place, 0j, Role.RESULT).left_by(reaction),
         Arrow(foot.place, tip.place, Role.CURVE).left_by(normal),
         Arrow(tip.place, corner.place, Role.CURVE).left_by(friction),
         *(level.line_from(tip, Role.CONSTRUCTION), corner.dots(), tip.dots()),
@@ -208,4 +199,5 @@ def _closed(plan: Construction[FrictionPlanGivens], view: View) -> Step:
         Label((foot.place + tip.place) / 2, "N", towards=-side + 0j).left_by(normal),
         Label((tip.place + corner.place) / 2, "T", towards=UP).left_by(friction),
     )
-    return triangle_step(plan, view, told, marks)
+    found = [(meet, corner), (up, force), (plain.BACK, reaction)]
+    return plain.triangle_step(plan, view, [*found, (parted, square, tip, normal, friction), (sides, level)], marks)

@@ -11,27 +11,23 @@ from functools import partial
 
 import numpy as np
 
-from graphcam.constructions.acceleration import AccelerationDiagram, AccelerationGivens
+from graphcam.constructions.acceleration import AccelerationDiagram
 from graphcam.constructions.axes import (
     SUBSCRIPTS,
     as_high,
-    degrees_below,
     height_names,
     numbers,
-    ordinate,
-    phase_ends,
     phase_names,
     phase_title,
-    phases_below,
-    phi_axes,
     pole_marks,
-    reach,
     station_names,
     together,
 )
 from graphcam.constructions.curve_over_phi import curve_over_phi
 from graphcam.constructions.graduation import graduated
-from graphcam.constructions.time_axis import graduated_at_speed, scale_said, times_below
+from graphcam.constructions.pole_scales import PoleTerms, pole_formula
+from graphcam.constructions.time_axis import graduated_at_speed, scale_said
+from graphcam.constructions.turn_board import TurnGivens
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
@@ -56,7 +52,7 @@ FLAT = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class IntegrationGivens(AccelerationGivens):
+class IntegrationGivens(TurnGivens):
     """What lies on the board of the diagram, the diagram itself, and the distances of the two poles [mm of paper].
 
     lowest : whether no diagram follows below that of s, so that the phases' angles stand there
@@ -70,16 +66,14 @@ class IntegrationGivens(AccelerationGivens):
 Integrated = Construction[IntegrationGivens]
 
 
-def _values(drawn: Integrated) -> Values:
-    """The scales, and the greatest ordinates with what they stand for."""
-    scales = {f"mu_{name}": drawn.readings[name].per_mm for name in "sva"}
-    units = {f"of_{name}": per_mm(drawn.readings[name].unit) for name in "sva"}
-    tops = {f"max_{name}": float(drawn.value(f"max_{name}")) for name in "va"}
-    papers = {name: float(drawn.first(f"max_{name}")) for name in "va"}
-    of_tops = {f"unit_{name}": unit(drawn.readings[name].unit) for name in "va"}
-    (h1, h2), lift, mu = drawn.givens.poles, drawn.givens.motion.lift, drawn.givens.mu_phi.per_mm
-    named = {"h1": h1, "h2": h2, "mu_phi": mu, "lift": lift, "paper": lift / scales["mu_s"]}
-    yield {**scales, **units, **tops, **papers, **of_tops, **named}
+def _of_the_lift(drawn: Integrated) -> Values:
+    """The scale of s, from the known lift."""
+    read, lift = drawn.readings["s"], drawn.givens.motion.lift
+    yield {"lift": lift, "paper": lift / read.per_mm, "mu_s": read.per_mm, "of_s": per_mm(read.unit)}
+
+
+def _by_pole(drawn: Integrated, source: str, pole: int) -> PoleTerms:
+    return PoleTerms(drawn.readings[source].per_mm, drawn.givens.mu_phi.per_mm, drawn.givens.poles[pole - 1])
 
 
 FORMULAS = (
@@ -95,7 +89,7 @@ FORMULAS = (
     Formula(
         r"\mu_s = \frac{h}{y_s}",
         r"\mu_s = \frac{<lift:.6g>}{<paper:.2f>} = <mu_s:.5g>\ \text{<of_s>}",
-        _values,
+        _of_the_lift,
         (
             Symbol(r"\mu_s", say("the scale of the displacement"), "lift/mm"),
             LIFT,
@@ -103,28 +97,8 @@ FORMULAS = (
         ),
         of="s",
     ),
-    Formula(
-        r"\mu_v = \frac{\mu_s}{\mu_\varphi H_2}, \qquad v_{\max} = \mu_v\,y_v",
-        r"\mu_v = \frac{<mu_s:.5g>}{<mu_phi:.6f> \cdot <h2:g>} = <mu_v:.5g>\ \text{<of_v>}, \qquad "
-        r"v_{\max} = <mu_v:.5g> \cdot <v:.2f> = <max_v:.5g>\ \text{<unit_v>}",
-        _values,
-        (
-            Symbol(r"\mu_v", say("the scale of the velocity"), "(lift/rad)/mm"),
-            Symbol("y_v", say("the maximum ordinate of v"), "mm of paper"),
-        ),
-        of="v",
-    ),
-    Formula(
-        r"\mu_a = \frac{\mu_v}{\mu_\varphi H_1}, \qquad a_{\max} = \mu_a\,y_a",
-        r"\mu_a = \frac{<mu_v:.5g>}{<mu_phi:.6f> \cdot <h1:g>} = <mu_a:.5g>\ \text{<of_a>}, \qquad "
-        r"a_{\max} = <mu_a:.5g> \cdot <a:.2f> = <max_a:.5g>\ \text{<unit_a>}",
-        _values,
-        (
-            Symbol(r"\mu_a", say("the scale of the acceleration"), "(lift/rad²)/mm"),
-            Symbol("y_a", say("the maximum ordinate of a"), "mm of paper"),
-        ),
-        of="a",
-    ),
+    pole_formula("v", "s", 2, _by_pole),
+    pole_formula("a", "v", 1, _by_pole),
 )
 
 
@@ -354,19 +328,16 @@ def _draw_rays(c: Integrated, run: _Integrating) -> Step:
 
 
 def _draw_chords(c: Integrated, run: _Integrating) -> Step:
-    """The chords, each parallel to the ray of its part, and the ordinates of the curve at their ends."""
     stations, (source, target) = c.givens.stations, run.symbols
     polygon, curve = c.acts[f"{target}_chords"], c.acts[f"{target}_curve"]
     y, left = polygon.shown.imag, float(np.max(np.abs(c.first(f"closing_{target}"))))
-    motion, mu_phi, heights, far = c.givens.motion, c.givens.mu_phi, curve.shown.imag, np.abs(y) >= 0
-    axes = phi_axes(motion, mu_phi, heights, ordinate(target, c.givens.unit))
-    end, low, omega = float(phase_ends(motion, mu_phi)[-1]), reach(heights)[0], c.givens.omega
-    under = (*degrees_below(end, mu_phi, low), *times_below(end, mu_phi, low, omega, phases=False))
+    heights, far = curve.shown.imag, np.abs(y) >= 0
+    axes, under = c.givens.axes(target, heights), c.givens.degrees_under(heights)
     if run.index == 2:
         # What is near the numbers of the axis needs none of its own.
         axes, far = (*axes, *numbers(c.acts["acceleration: axis"], stations, -UP)), np.abs(y) > NEAR
         if c.givens.lowest:
-            axes, under = (*axes, *phases_below(motion, mu_phi, low), *times_below(end, mu_phi, low, omega)), ()
+            axes, under = (*axes, *c.givens.phases_under(heights)), ()
     marks = (
         *(polygon.first[span].line(Role.CONSTRUCTION) for span in stations.phases),
         curve.from_(curve.shown.real + 0j, Role.CONSTRUCTION),
@@ -414,8 +385,9 @@ def _chord_rows(c: Integrated, run: _Integrating, phase: int) -> Iterator[Row]:
         rise = y[k] - y[k - 1]
         change = _CHANGES[0 if abs(rise) < NOTHING else 1 if rise > 0 else 2].where(rise=abs(rise))
         # The first chord of v starts at rest, where the phase does.
-        drawn = [k - 1, k] if k == span.start + 1 and run.index == 1 else [k]
-        yield Row(say("Chord {name}", name=names[k]), change, (polygon.first[drawn],))
+        first = k == span.start + 1 and run.index == 1
+        said = say("{change} from {before} on the axis", before=names[k - 1], change=change) if first else change
+        yield Row(say("Chord {name}", name=names[k]), said, (polygon.first[[k - 1, k] if first else [k]],))
 
 
 _STARTS = (
@@ -462,7 +434,6 @@ def _draw_curve(c: Integrated, run: _Integrating) -> Step:
 
 
 def _draw_scales(c: Integrated) -> Iterator[Step]:
-    """The scale of s from the known lift, and those of v and a through the poles."""
     at, (h1, h2), lift = _top(c.givens.motion, c.givens.stations), c.givens.poles, c.givens.motion.lift
     top, mu = c.acts["s_curve"].first[[at]], {name: c.readings[name].per_mm for name in "sva"}
     values = {"unit": unit(c.givens.unit), "paper": top.place.imag, "lift": lift, "mu_phi": c.givens.mu_phi.per_mm}
@@ -482,9 +453,8 @@ def _draw_scales(c: Integrated) -> Iterator[Step]:
 
 
 def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, marks: tuple[Mark, ...] = ()) -> Step:
-    """How the scale of a diagram is found, what is read with it at a station, and the divisions of its ordinates."""
     view, title, why, reads = _SCALES[name]
-    stations, mu, turn = c.givens.stations, c.readings[name].per_mm, phase_ends(c.givens.motion, c.givens.mu_phi)[-1]
+    stations, mu, turn = c.givens.stations, c.readings[name].per_mm, c.givens.end
     k = int(stations.left[min(3, stations.left.size - 1)]) + 1
     read = {"y": c.first(name)[k], "value": c.value(name)[k], "unit": unit(c.readings[name].unit)}
     told = say("Station {name}: {symbol} = {y:.2f} mm × {mu:.5g} = {value:.5g} {unit}; repeat for the others.")
@@ -492,14 +462,12 @@ def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, ma
     # From the pole rays run to the axis on the left.
     heights = np.concatenate([c.first("a"), c.first("a_before")]) if name == "a" else c.acts[f"{name}_curve"].shown.imag
     lift_unit = c.readings[name].unit
-    divided = graduated(heights, mu, None if name == "s" else float(turn), c.readings[name].act, lift_unit)
+    divided = graduated(heights, mu, None if name == "s" else turn, c.readings[name].act, lift_unit)
     if lift_unit == "rad":
-        told = sequence([told, say("In degrees {mu:.4g}°/mm.", mu=np.degrees(mu))], " ")
+        told = sequence([told, say("In degrees the scale is {mu:.5g}°/mm.", mu=np.degrees(mu))], " ")
     if c.givens.omega is not None and name != "s":
         told = sequence([told, scale_said(mu, name, c.givens.omega, c.givens.unit)], " ")
-        divided += graduated_at_speed(
-            heights, mu, name, c.givens.omega, c.givens.unit, float(turn), c.readings[name].act
-        )
+        divided += graduated_at_speed(heights, mu, name, c.givens.omega, c.givens.unit, turn, c.readings[name].act)
     parts = Part(found, () if of is None else (of,)), Part(told)
     return Step(title, parts, view, (*marks, *divided), reads, why=why)
 

@@ -114,7 +114,6 @@ def _side(inverted: OffsetInverted) -> Caption:
 
 
 def _circles(inverted: OffsetInverted) -> Step:
-    """The prime circle, the offset circle, and the follower's line at the start of the turn."""
     mu_l, e = inverted.givens.mu_l.per_mm, inverted.givens.offset
     start, hand = profile_view.start_of_turn(inverted), showing(inverted)
     foot = hand.lay_off("foot of the line", hand.given("cam centre"), RIGHT, e / mu_l)
@@ -133,8 +132,8 @@ def _circles(inverted: OffsetInverted) -> Step:
         told = circle_drawn(say_in("drawn", "the offset circle about A"), "|e|", abs(e), mu_l)
         circles, parts = (circle.drawn_circle(Role.CONSTRUCTION),), [Part(told, (circle, *of_arrow))]
         upright = say(
-            "With e = {e:g} mm draw the vertical from the {side} end of the offset circle up to the prime circle: "
-            "{line}."
+            "With e = {e:g} mm draw the vertical from the {side} end of the horizontal diameter of the offset circle "
+            "up to the prime circle: {line}."
         ).where(e=e, side=_side(inverted))
         why = say(
             "The follower's line passes the cam centre at the distance e in every position, so it always touches the "
@@ -152,17 +151,12 @@ def _first_line(inverted: OffsetInverted) -> Caption:
 
 
 def _positions(inverted: OffsetInverted) -> Step:
-    """The follower's line in its inverted positions, numbered."""
     stations, e = inverted.givens.integrated.givens.stations, inverted.givens.offset
     motion, starts, feet = (inverted.acts[name] for name in ("motion", "starts", "feet"))
     lines = Segments(motion.shown, starts.shown, Role.CONSTRUCTION).left_by(motion)
     numbered = feet if abs(e) / inverted.givens.mu_l.per_mm >= NUMBERED else starts
     phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
-    marks = (
-        lines,
-        *numbers(numbered, stations, -unit(numbered.shown)),
-        *phases,
-    )
+    marks = (lines, *numbers(numbered, stations, -unit(numbered.shown)), *phases)
     said = say(
         "The cam turns {rotation}; hold it still and turn the follower the other way, {against}. Set the protractor on "
         "A and count {against} from {line}, from station to station {steps}, so station {name} at {angle}; draw and "
@@ -179,25 +173,21 @@ def _positions(inverted: OffsetInverted) -> Step:
         "Only the motion relative to the cam shapes it: a frame that turns {against} about the fixed cam "
         "is the same as a cam that turns {rotation} in the frame."
     ).where(rotation=turning(inverted.givens.rotation), against=profile_view.against(inverted))
-    title, rays, names = (
-        say("Inverted positions of the follower's line"),
-        inverted.acts["inverted positions"],
-        station_names(stations),
-    )
+    title, rays = say("Inverted positions of the follower's line"), inverted.acts["inverted positions"]
+    names = station_names(stations)
     turned = run((tangents if e else said).where(**values), STATION, names, rays, feet, starts, motion)
     return Step(title, (turned, last), PROFILE, marks, why=why)
 
 
 def _laid_off(inverted: OffsetInverted) -> Step:
-    """The displacements along the follower's lines, from the prime circle."""
     integrated, starts, pitch = inverted.givens.integrated, inverted.acts["starts"], inverted.acts["pitch"]
     stations, mu_l = integrated.givens.stations, inverted.givens.mu_l.per_mm
     at, moved = profile_view.worked_station(stations), np.flatnonzero(_lengths(inverted))
     drawn = pitch.first[moved].from_(starts.first[moved], Role.CONSTRUCTION)
     mu_s, names = integrated.readings["s"].per_mm, station_names(stations)
     said = say(
-        "Take s at every station from the displacement diagram with dividers; 1 mm there is {mu_s:.4g} mm × {times:g} "
-        "= {factor:.4g} mm here. Lay it off along the line of that station, from the prime circle outward: station "
+        "Take s at every station from the displacement diagram with dividers; 1 mm there is {mu_s:.5g} mm × {times:g} "
+        "= {factor:.5g} mm here. Lay it off along the line of that station, from the prime circle outward: station "
         "{name}: {length}. The ends are points of the pitch curve."
     ).where(mu_s=mu_s, times=round(1 / mu_l, 6), factor=mu_s / mu_l, name=names[at], length=setting(pitch.first[at]))
     lengths = _lengths(inverted)

@@ -13,13 +13,9 @@ import numpy as np
 
 from graphcam.constructions.axes import (
     degrees,
-    degrees_below,
     height_names,
-    ordinate,
     part_names,
     part_titles,
-    phase_ends,
-    phi_axes,
     pole_marks,
     reach,
     station_names,
@@ -27,13 +23,13 @@ from graphcam.constructions.axes import (
 )
 from graphcam.constructions.graduation import graduated
 from graphcam.constructions.integration import Integrated
+from graphcam.constructions.pole_scales import PoleTerms, pole_formula
 from graphcam.constructions.slope_numbers import falling_together, raised, run_of_chord
-from graphcam.constructions.time_axis import graduated_at_speed, scale_said, times_below
+from graphcam.constructions.time_axis import graduated_at_speed, scale_said
 from graphcam.constructions.views import ACCELERATION, JERK
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.formulas import Formula, Symbol, Values, per_mm
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import Arrow, Label, Mark, Role, Segments
@@ -68,25 +64,9 @@ def _parts(drawn: DrawnJerk) -> list[Caption]:
     return part_titles(drawn.givens.integrated)
 
 
-def _scale_values(drawn: DrawnJerk) -> Values:
-    """How the scale follows from that of the acceleration."""
-    integrated, read = drawn.givens.integrated, drawn.readings["j"]
-    mu = {"mu_a": integrated.readings["a"].per_mm, "mu_phi": integrated.givens.mu_phi.per_mm, "mu": read.per_mm}
-    yield {**mu, "h3": drawn.givens.pole, "of_j": per_mm(read.unit)}
-
-
-FORMULAS = (
-    Formula(
-        r"\mu_j = \frac{\mu_a}{\mu_\varphi H_3}",
-        r"\mu_j = \frac{<mu_a:.5g>}{<mu_phi:.6f> \cdot <h3:g>} = <mu:.5g>\ \text{<of_j>}",
-        _scale_values,
-        (
-            Symbol(r"\mu_j", say("the scale of the jerk"), "(lift/rad³)/mm"),
-            Symbol("H_3", say("the pole distance of the differentiation"), "mm of paper"),
-        ),
-        of="j",
-    ),
-)
+def _by_pole(drawn: DrawnJerk, source: str, _: int) -> PoleTerms:
+    integrated = drawn.givens.integrated
+    return PoleTerms(integrated.readings[source].per_mm, integrated.givens.mu_phi.per_mm, drawn.givens.pole)
 
 
 MEANING = Meaning(
@@ -102,7 +82,7 @@ MEANING = Meaning(
             say("maximum j"), "max j", "lift/rad³", (Compared("max_j"),), Converges("maximum jerk", "max_j")
         ),
     },
-    FORMULAS,
+    (pole_formula("j", "a", 3, _by_pole, greatest=False),),
     scales={JERK.name: "j"},
     scales_found_by="integration",
 )
@@ -209,7 +189,7 @@ def _with_rays(c: DrawnJerk) -> Step:
     pole = pole_marks(c.acts["P3"], distance, "₃", heights.shown.imag)
     groups = falling_together(heights)
     kept = [int(group[0]) for group in groups]
-    axes = (*phi_axes(givens.motion, givens.mu_phi, _heights(c), ordinate("j", givens.unit)), *pole)
+    axes = (*givens.axes("j", _heights(c)), *pole)
     told = [together(group.tolist(), givens.stations) for group in groups]
     marks = (
         Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act, index=rays.index[kept]),
@@ -219,20 +199,16 @@ def _with_rays(c: DrawnJerk) -> Step:
     ends = [raised(y, say("at the origin")) for y in heights.shown.imag.tolist()]
     said = say(
         "Over a new axis mark the pole P₃, H₃ = {distance:g} mm to the left of 0. Slide the set square from each chord "
-        "to P₃; carry the level at which the ray ends on the vertical axis to the vertical in the middle of the part. "
-        "Ray {name} ends {height}."
+        "to P₃ and draw the ray, parallel to the chord, as far as the vertical axis; with the T-square carry the level "
+        "of its end to the vertical in the middle of the part. Ray {name} ends {height}."
     ).where(distance=distance, name=names[k], height=ends[k])
     part = telling.run(said, say("Ray {name}"), names, rays, heights, found, settings=ends.__getitem__)
     why = say("The triangle of pole, origin and height has the slope of the chord, so the height is H₃ times it.")
-    title = say("Pole and rays, a to j")
-    end, low = float(phase_ends(givens.motion, givens.mu_phi)[-1]), reach(_heights(c))[0]
-    under = degrees_below(end, givens.mu_phi, low)
-    under += times_below(end, givens.mu_phi, low, givens.omega, phases=False)
+    title, under = say("Pole and rays, a to j"), givens.degrees_under(_heights(c))
     return Step(title, (part,), JERK, (*axes, *marks), given=axes, why=why, under=under)
 
 
 def _joined(c: DrawnJerk) -> Step:
-    """The curve between jumps and corners, and arrows where the acceleration jumps."""
     givens, curve, hand = c.givens.integrated.givens, c.acts["curve"].first, showing(c)
     names, marks, rows = station_names(givens.stations), list[Mark](), list[Row]()
     for piece, stretch in zip(curve_pieces(givens.stations), givens.stations.stretches, strict=True):
@@ -269,7 +245,6 @@ def _arrows(c: DrawnJerk) -> list[Mark]:
 
 
 def _scale(c: DrawnJerk) -> Step:
-    """The scale of the jerk, its greatest finite value, and the divisions of its ordinates."""
     givens, read = c.givens.integrated.givens, c.readings["j"]
     mu, lift, mu_a = read.per_mm, unit(givens.unit), c.givens.integrated.readings["a"].per_mm
     values = {"mu_a": mu_a, "mu_phi": givens.mu_phi.per_mm, "pole": c.givens.pole, "mu": mu, "unit": lift}
@@ -279,7 +254,7 @@ def _scale(c: DrawnJerk) -> Step:
         found = say("Between its jumps the acceleration is constant, so the finite jerk is zero.")
     gives = say("The pole gives μⱼ = μₐ/(μᵩ·H₃) = {mu_a:.5g}/({mu_phi:.5g}·{pole:g}) = {mu:.5g} ({unit}/rad³)/mm.")
     told = [gives.where(**values), found.where(**values)]
-    heights, end = c.acts["curve"].first.shown.imag, float(phase_ends(givens.motion, givens.mu_phi)[-1])
+    heights, end = c.acts["curve"].first.shown.imag, givens.end
     # At the end of the turn an arrow may stand.
     end += ASIDE if any(not jump.phi for jump in acceleration_jumps(givens.motion)) else 0.0
     marks = list(graduated(heights, mu, end, read.act)) if reach(heights) != (0.0, 0.0) else []

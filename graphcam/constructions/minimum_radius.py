@@ -13,24 +13,9 @@ import numpy as np
 
 from graphcam.constructions.adoption import ToldByChain
 from graphcam.constructions.axes import degrees, pieces_of
-from graphcam.constructions.combined_diagram import (
-    aside,
-    joined_up,
-    laid_off,
-    offset_caption,
-    offset_line,
-    velocities,
-)
+from graphcam.constructions.combined_diagram import aside, joined_up, laid_off, offset_caption, offset_line, velocities
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.region import (
-    LEAST_RADIUS,
-    ON_THE_LINE,
-    Boundary,
-    binding,
-    boundary,
-    highest_on,
-    nearest,
-)
+from graphcam.constructions.region import LEAST_RADIUS, ON_THE_LINE, Boundary, binding, boundary, highest_on, nearest
 from graphcam.constructions.region_picture import RegionPicture, picture_of
 from graphcam.constructions.touched_station import touched
 from graphcam.constructions.views import COMBINED
@@ -76,7 +61,6 @@ def _touched(side: str, drawn: LeastRadius) -> Values:
 
 
 def _rests(drawn: LeastRadius) -> Values:
-    """Whether the rest line is drawn."""
     if "rest" in drawn.points:
         yield {"angle": math.degrees(drawn.givens.limits.rise)}
 
@@ -251,7 +235,6 @@ def _adopted(region: LeastRadius) -> list[complex]:
 
 
 def _touching(region: LeastRadius, picture: RegionPicture) -> Step:
-    """The lines that bound the region, each at its permitted angle."""
     hand, limits = showing(region), region.givens.limits
     lines = [_limit_line(region, hand, line, picture) for line in _shown(region)]
     parts = [part for part, _ in lines]
@@ -313,7 +296,6 @@ def _limit_line(
 
 
 def _touch(region: LeastRadius, name: str, touch: complex) -> Caption:
-    """Which station a tangent touches at, or between which."""
     direction = 1 if name == "rise" else -1
     first, *last = touched(region.givens.integrated, region.acts["ends"].shown, touch, direction)
     if not last:
@@ -331,7 +313,6 @@ def _at_zero_lift(region: LeastRadius) -> Caption:
 
 
 def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
-    """The region, and the places that textbooks take."""
     hand, lines, others = showing(region), _shown(region), _alternatives(region)
     permitted = hand.given("permitted places", picture.permitted(lines))
     sides = [
@@ -375,7 +356,6 @@ def _unreadable() -> Step:
 
 
 def _result(region: LeastRadius) -> Step:
-    """The cam centre in the region, and its distance from the start of the lift."""
     offset, centre, start = region.givens.offset, region.acts["centre"].first, region.acts["start of the lift"].first
     hand, mu = showing(region), region.readings["prime_radius"].per_mm
     reads = ("prime_radius", "offset", "s0")

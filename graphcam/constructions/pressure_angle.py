@@ -81,7 +81,6 @@ def _centre_height(measured: Construction[PressureAngleGivens]) -> Values:
 
 
 def _worked(measured: Construction[PressureAngleGivens]) -> Values:
-    """The station of the velocity plan."""
     givens, k = measured.givens, shown_station(measured)
     s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
     across = sense(givens.rotation) * givens.offset
@@ -288,12 +287,10 @@ def _plan(measured: Construction[PressureAngleGivens], k: int, times: float) -> 
 
 
 def _stroke(drawn: Drawn, start: complex, end: complex, role: Role) -> Line:
-    """So much of a line as is drawn out."""
     return Line(np.array([start, end]), role).left_by(drawn)
 
 
 def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
-    """The cam centre, which the compass finds on the upright of the offset."""
     mu, offset, r0 = measured.readings["s0"].per_mm, measured.givens.offset, measured.givens.prime_radius
     centre, prime, line = (measured.acts[name].first for name in ("centre", "prime circle", "line of the offset"))
     displacements, ends = measured.acts["displacements"].first, measured.acts["ends"].first
@@ -322,7 +319,6 @@ def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
 
 
 def _mechanism(shown: _Shown) -> Step:
-    """A and B of the mechanism, and the guide through B."""
     measured, acts, k = shown.measured, shown.acts, shown.station
     a, b, guide, offset = acts["A"], acts["B"], acts["guide"], measured.givens.offset
     taken = say(
@@ -355,10 +351,10 @@ def _mechanism(shown: _Shown) -> Step:
 
 
 def _velocities(shown: _Shown) -> Step:
-    """The velocity plan, with the angular velocity divided out."""
     pole, v1, v2, v21 = (shown.acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
     one, two = v1.place - pole.place, v2.place - pole.place
     combined = abs(shown.measured.acts["ends"].first[shown.station].place.real)
+    mu_s = shown.measured.readings["s0"].per_mm
     turned = say(
         "Divide all speeds by ω, so 1 mm of the plan is {mu:.5g} mm/rad. From the pole p draw v₁ = AB = {across:.2f} "
         "mm, with set squares square to AB, turned from it {rotation}."
@@ -366,28 +362,18 @@ def _velocities(shown: _Shown) -> Step:
     up = say(
         "From p draw v₂ straight up: v of station {name} in the combined diagram, {combined:.2f} mm × {mu_s:.5g} = "
         "{v:.2f} mm/rad, is {paper:.2f} mm here."
-    ).where(
-        name=shown.name,
-        combined=combined,
-        mu_s=shown.measured.readings["s0"].per_mm,
-        v=abs(two) * shown.mu,
-        paper=abs(two),
-    )
+    ).where(name=shown.name, combined=combined, mu_s=mu_s, v=abs(two) * shown.mu, paper=abs(two))
     closing = say("Join the tip of v₁ to the tip of v₂: v₂₁ measures {closing:.2f} mm.", closing=abs(two - one))
     closing = sequence([closing, *shown.scales.told(pole, v1, v2)], " ")
     parts = Part(turned, (pole, v1)), Part(up, (v2,)), Part(closing, (v21,))
     why = say(
         "B of the follower moves with the point of the cam under it and also slides along the profile: v₂ = v₁ + v₂₁."
     )
-    title, plan = (
-        say("Velocity plan at station {name}", name=shown.name),
-        velocity_plan(pole, v1, v2, v21, shown.scales),
-    )
-    return Step(title, parts, shown.view, plan, why=why)
+    title = say("Velocity plan at station {name}", name=shown.name)
+    return Step(title, parts, shown.view, velocity_plan(pole, v1, v2, v21, shown.scales), why=why)
 
 
 def _normal(shown: _Shown) -> Step:
-    """The normal through B, and C where it meets the level through A."""
     b, c, normal, ac = (shown.acts[name] for name in ("B", "C", "normal", "AC"))
     square = say("With two set squares draw through B the normal, square to v₂₁.")
     level = say(
@@ -408,7 +394,6 @@ def _normal(shown: _Shown) -> Step:
 
 
 def _angle(shown: _Shown) -> Step:
-    """A C laid off from B to D, and the angle of D A with the motion."""
     acts, height, reading = shown.acts, shown.acts["B"].place.imag, shown.hand.readings["alpha"]
     d, bd, da, motion = (acts[name] for name in ("D", "BD", "DA", "motion"))
     alpha = float(np.degrees(reading.paper))
@@ -418,7 +403,7 @@ def _angle(shown: _Shown) -> Step:
     joining = say("Join D to A: DA is parallel to the normal BC.")
     measuring = say(
         "Draw a vertical at D and measure its angle to DA with the protractor: at station {name} the pressure "
-        "angle is α = {alpha:.2f}°, and the transmission angle 90° - |α| = {transmission:.2f}°."
+        "angle is α = {alpha:.2f}°, and the transmission angle 90° − |α| = {transmission:.2f}°."
     ).where(name=shown.name, alpha=alpha, transmission=90 - abs(alpha))
     parts = Part(laid_off, (d, bd)), Part(joining, (da,)), Part(measuring, (motion,))
     label = say("α = {alpha:.1f}°", alpha=alpha)
@@ -436,7 +421,6 @@ def _angle(shown: _Shown) -> Step:
 
 
 def _everywhere(measured: Construction[PressureAngleGivens], shown: int) -> Step:
-    """The rays from the cam centre to all ends, and the angle of each."""
     integrated, rays = measured.givens.integrated, measured.acts["rays"]
     names, alpha = station_names(integrated.givens.stations), np.degrees(measured.first("alpha"))
     sigma, most = sense(measured.givens.rotation), int(np.argmax(np.abs(alpha)))
@@ -444,16 +428,10 @@ def _everywhere(measured: Construction[PressureAngleGivens], shown: int) -> Step
         "In the combined diagram join A to every end with the ruler, and measure with the protractor the angle "
         "of each ray to the vertical, positive where it leans {side} going up. Ray {shown}, the one of the plan: "
         "{angle:.2f}°. The angle of maximum magnitude is {greatest:.2f}°, at {name}; there the transmission angle "
-        "90° - |α| has its minimum, {transmission:.2f}°. The maximum angle between stations is read from the angle "
+        "90° − |α| has its minimum, {transmission:.2f}°. The maximum angle between stations is read from the angle "
         "diagram."
-    ).where(
-        side=aside(-sigma),
-        shown=names[shown],
-        angle=alpha[shown],
-        greatest=alpha[most],
-        name=names[most],
-        transmission=90 - abs(alpha[most]),
-    )
+    ).where(side=aside(-sigma), shown=names[shown], angle=alpha[shown], greatest=alpha[most], name=names[most])
+    said = said.where(transmission=90 - abs(alpha[most]))
     joined = run(said, say("Ray {name}"), names, rays, settings=lambda k: say("{alpha:z.2f}°", alpha=alpha[k]))
     why = say("The ray from A to an end is parallel to the normal at its station, as DA is.")
     title, reads = say("The pressure angle at every station"), ("alpha", "transmission")

@@ -114,7 +114,6 @@ def _step_of(motion: Motion, stations: Stations, span: slice) -> Caption:
 
 
 def _turn(angle: float) -> Caption:
-    """An angle in radians, to hundredths of a degree."""
     return say("{angle:g}°", angle=round(math.degrees(angle), 2))
 
 

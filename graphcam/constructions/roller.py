@@ -34,7 +34,6 @@ Rolled = Construction[RollerGivens]
 
 
 def _terms(rolled: Construction[RollerGivens]) -> list[Caption]:
-    """The terms of the rule, or where the radius comes from."""
     givens = rolled.givens
     return [say("given")] if givens.given is not None else [term.said for term in givens.rule]
 

@@ -115,9 +115,8 @@ def _measure_dwells(hand: Hand, inverted: Inverted, touch: Drawn) -> None:
     )
     angles = hand.angle("angles of the radii", first, last, -sense(inverted.givens.rotation))
     given = np.array([motion.phases[k].angle for k in numbers])
-    hand.read(
-        "low_dwells", reckoned(partial(_beyond_a_half_turn, given), hand.carry(angles)), 1.0, "rad", rounded=False
-    )
+    found = reckoned(partial(_beyond_a_half_turn, given), hand.carry(angles))
+    hand.read("low_dwells", found, 1.0, "rad", rounded=False)
 
 
 def _beyond_a_half_turn(given: Floats, measured: Floats) -> Floats:
@@ -176,7 +175,6 @@ def _draw(profile: Profile) -> list[Step]:
 
 
 def _rounded(profile: Profile, rolled: Rolled) -> Step:
-    """The proposed radius becomes a round one."""
     proposed, adopted = float(rolled.value("roller_radius")), profile.givens.roller_radius
     if math.isclose(proposed, adopted, rel_tol=1e-9):
         said = say("The proposed radius of {adopted:g} mm is adopted unchanged.")
@@ -198,7 +196,6 @@ def _names(profile: Profile) -> list[str]:
 
 
 def _circles(profile: Profile) -> Step:
-    """The roller's circle about every point of the pitch curve."""
     roller, mu_l = profile.givens.roller_radius, profile.givens.inverted.givens.mu_l.per_mm
     circles, names = profile.acts["roller circles"].first, _names(profile)
     each = say_in("drawn", "the circle of the roller about every point of the pitch curve, from {first} to {last}")
@@ -210,7 +207,6 @@ def _circles(profile: Profile) -> Step:
 
 
 def _touched(profile: Profile) -> Step:
-    """Where each circle touches the profile."""
     paper = profile.givens.roller_radius / profile.givens.inverted.givens.mu_l.per_mm
     found, names = profile.acts["touch points"].first, _names(profile)
     said = say(
@@ -226,7 +222,6 @@ def _touched(profile: Profile) -> Step:
 
 
 def _envelope(profile: Profile) -> Step:
-    """The curve through the touch points that no other circle covers."""
     covered, measured = profile.acts["covered"].first, profile.value("radius")
     curve = piecewise_curve("working profile", profile.givens.inverted, profile.acts["touch"])
     marks: list[Mark] = [curve.whole.line(Role.RESULT, closed=True)]
@@ -253,7 +248,6 @@ def _envelope(profile: Profile) -> Step:
 
 
 def _undercut(lost: Sequence[str]) -> Caption:
-    """Which touch points are lost."""
     return say_many(
         "At {count} station ({names}) the contact point lies inside another roller circle and is left out: the "
         "profile is undercut and cannot be made.",
@@ -277,10 +271,8 @@ def _angles(profile: Profile) -> Step:
             apart = max(apart, abs(degrees - planned))
         marks += found.marks
         rows.append(Row(STATION.where(name=name), shown, found.draws))
-    title, why = (
-        say("Pressure angles on the profile"),
-        say("The roller presses along the common normal, which runs through its centre."),
-    )
+    title = say("Pressure angles on the profile")
+    why = say("The roller presses along the common normal, which runs through its centre.")
     if not rows:
         none = say(
             "All contact points of the moving phases lie inside other circles: no pressure angle can be measured."

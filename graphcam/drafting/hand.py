@@ -185,13 +185,7 @@ class Hand:
         return self._through(Kind.PERPENDICULAR, name, {"to": to, "through": through}, through, to, euclid.UP)
 
     def _through(
-        self,
-        kind: Kind,
-        name: str,
-        takes: Mapping[str, Any],
-        places: Drawn,
-        to: Direction,
-        turn: complex,
+        self, kind: Kind, name: str, takes: Mapping[str, Any], places: Drawn, to: Direction, turn: complex
     ) -> Drawn:
         points, along = np.broadcast_arrays(*_aligned(_places(places), _way(to)))
         along = along * turn
@@ -360,7 +354,6 @@ class Hand:
         return self.readings[name]
 
     def _size(self, values: Points | Floats) -> int:
-        """How many values there are on one sheet."""
         return math.prod(values.shape[self.pencil.samples is not None :])
 
     # --- errors ------------------------------------------------------------------------------------------------------

@@ -155,24 +155,21 @@ class FollowedBoard:
 
     def followed(self, step: Step, readings: Iterable[Reading] = ()) -> list[Moves]:
         """The parts of a step as moves; a step that has none is one.  What it reads is read at its end."""
-        read = [all_of(each.act) for each in readings if each.act is not None]
-        shown = [_shown(mark) for mark in step.marks if isinstance(mark.of, Act)]
+        shown = _all_shown(step)
         parts = [pieces_of(part.draws) for part in step.places] or [[]]
         found: list[Moves] = []
         for k, draws in enumerate(parts):
             # What lies there already was found before.
             new = [piece for piece in draws if _without(piece, self.lies.get(piece.act, frozenset[int]()))]
             done = tuple(self._needed(draws))
-            closing = tuple(self._needed([*shown, *read])) if k == len(parts) - 1 else ()
+            closing = tuple(self._needed([*shown, *_all_read(readings)])) if k == len(parts) - 1 else ()
             found.append(Moves(tuple(draws), done, tuple(self.beside(new if parts != [[]] else shown)), closing))
         return found
 
     def passed(self, step: Step, readings: Iterable[Reading] = ()) -> None:
         """A step of which nothing is told: afterwards all that it draws and reads lies on the board."""
         drawn = [piece for part in step.places for piece in pieces_of(part.draws)]
-        shown = [_shown(mark) for mark in step.marks if isinstance(mark.of, Act)]
-        read = [all_of(each.act) for each in readings if each.act is not None]
-        for _ in self._needed([*drawn, *shown, *read]):
+        for _ in self._needed([*drawn, *_all_shown(step), *_all_read(readings)]):
             pass
 
     def _needed(self, pieces: Iterable[ActPlaces]) -> Iterator[ActPlaces]:
@@ -227,6 +224,14 @@ def _divides(act: Act) -> bool:
 def _without(piece: ActPlaces, known: Set[int]) -> ActPlaces | None:
     new = tuple(k for k in piece.at if k not in known)
     return ActPlaces(piece.act, new) if new else None
+
+
+def _all_shown(step: Step) -> list[ActPlaces]:
+    return [_shown(mark) for mark in step.marks if isinstance(mark.of, Act)]
+
+
+def _all_read(readings: Iterable[Reading]) -> list[ActPlaces]:
+    return [all_of(each.act) for each in readings if each.act is not None]
 
 
 def _shown(mark: Mark) -> ActPlaces:

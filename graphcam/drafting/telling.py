@@ -1,7 +1,8 @@
 """What acts tell of themselves: to what an instrument is set at every place, and runs of like moves as tables."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -40,7 +41,7 @@ def setting(drawn: Drawn) -> Words:
     if isinstance(length, Setting) and length.reading is not None and length.value is None:
         factor = abs(float(np.ravel(length.factor)[0]))
         if factor != 1:
-            said = say("{paper:.2f} mm × {factor:.4g} = {mm:.2f} mm")
+            said = say("{paper:.2f} mm × {factor:.5g} = {mm:.2f} mm")
             return said.where(paper=mm / factor, factor=factor, mm=mm)
     return say("{mm:.2f} mm", mm=mm)
 
@@ -74,6 +75,23 @@ def led_by(said: Caption, parts: Sequence[Part]) -> tuple[Part, ...]:
     if not parts:
         return (Part(said),)
     return replace(parts[0], caption=sequence([said, parts[0].caption], " ")), *parts[1:]
+
+
+Move = tuple[Caption, *tuple[Drawn, ...]]
+"""What is done, and what it leaves."""
+
+
+def in_parts(
+    moves: Sequence[Move], values: Mapping[str, Any], first: Sequence[Caption] = (), last: Sequence[Caption] = ()
+) -> tuple[Part, ...]:
+    """A part for each move, with the values in its places.
+
+    first, last : what else is said in the first part, before it, and in the last one, after it
+    """
+    told = [[said] for said, *_ in moves]
+    told[0][:0], told[-1][len(told[-1]) :] = first, last
+    captions = [sequence([each.where(**values) for each in said], " ") for said in told]
+    return tuple(Part(caption, tuple(draws)) for caption, (_, *draws) in zip(captions, moves, strict=True))
 
 
 def alike(_: int) -> Words:

@@ -62,7 +62,6 @@ def _radius(length: float) -> Caption:
 
 
 def _data(solution: ArcsSolution) -> Table:
-    """What is given, and what was drawn."""
     given, task, arcs = solution.task.arcs(), solution.task, solution.drawn["three_arcs"]
     points = {name: getattr(given, name) for name in ("A", "D", "G", "C1", "C2")}
     found = [name for name, point in points.items() if point is None and name != "A"] + ["C3", "F"]

@@ -41,14 +41,10 @@ def ordinates(solution: Solution) -> Iterator[Block]:
 
 
 def in_degrees(solution: Solution) -> Iterator[Block]:
-    """The lift of an arm and the scale of its displacement, as a protractor has them."""
-    read = solution.drawn["integration"].readings["s"]
-    if read.unit == "rad":
-        yield say(
-            "The displacement $s$ is the angle of the arm: in degrees the lift is {lift}° and $\\mu_s = {mu}$ °/mm.",
-            lift=general(math.degrees(solution.cam.motion.lift)),
-            mu=general(math.degrees(read.per_mm), 5),
-        )
+    """The lift of an arm, as a protractor has it."""
+    if solution.drawn["integration"].readings["s"].unit == "rad":
+        said = say("The displacement $s$ is the angle of the arm: in degrees the lift is {lift}°.")
+        yield said.where(lift=general(math.degrees(solution.cam.motion.lift)))
 
 
 def sensitivity(solution: Solution) -> Iterator[Block]:

@@ -51,8 +51,13 @@ def _step(number: str, step: Step, tell: Tell) -> Iterator[Block]:
 
 
 def _beside(part: Part, tell: Tell) -> Iterator[Caption]:
-    """The rows of a short run, but for the one that its sentence works out."""
-    return (row.caption for row in part.rows if tell(row.caption) not in tell(part.caption))
+    """The rows of a short run, but for those without a setting and those whose numbers its sentence has."""
+    said = tell(part.caption)
+    for row in part.rows:
+        setting = tell(row.setting)
+        measured = any(letter.isdigit() for letter in setting)
+        if setting and not (tell(row.caption) in said or (measured and f" {setting}" in said)):
+            yield row.caption
 
 
 def _places(title: Caption, part: Part, tell: Tell) -> Grid:

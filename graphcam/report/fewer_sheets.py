@@ -84,7 +84,6 @@ def _said(contents: Contents, task: Task, now: _Laid, tried: DrawingTable) -> Ca
 
 
 def _open(drawing: DrawingTable) -> bool:
-    """Whether the task leaves the sizes of the diagrams open."""
     return drawing.ordinate is None and drawing.poles is None
 
 

@@ -8,6 +8,7 @@ from graphcam.drafting import units
 from graphcam.drafting.acts import Act, Drawn, Floats, Kind, Setting
 from graphcam.drafting.euclid import unit
 from graphcam.drafting.moves import ActPlaces
+from graphcam.drafting.telling import SET
 from graphcam.drafting.units import NOTHING
 from graphcam.plane import cross
 from graphcam.words import Caption, say
@@ -23,8 +24,6 @@ INSTRUMENTS: Mapping[str, Caption] = {
     "curve template": say("French curve"),
 }
 """The instruments by the names that kinds of acts give them."""
-LENGTHS = {Kind.LAY_OFF: "length", Kind.CIRCLE: "radius"}
-"""What dividers or a compass are set to, by what its act calls it."""
 REACH = 150.0
 """Dividers open so far [mm]; longer lengths are set off with the ruler."""
 STRAIGHT = 0.02
@@ -60,8 +59,8 @@ def _instrument(piece: ActPlaces) -> Caption | None:
         return INSTRUMENTS["T-square"]
     if kind is Kind.LAY_OFF and _swung(piece):
         instrument = INSTRUMENTS["compass"]
-    if kind in LENGTHS:
-        return _set_to(instrument, act.takes[LENGTHS[kind]], piece)
+    if kind in SET:
+        return _set_to(instrument, act.takes[SET[kind]], piece)
     if kind is Kind.PROTRACTOR:
         return _turned_by(instrument, np.degrees(_amounts(act.takes["angle"], piece)))
     return instrument
@@ -128,7 +127,7 @@ def _source(length: object, amount: float) -> Caption | None:
         said = say("{value:.6g} {unit} : {scale:.5g}")
         return said.where(value=abs(length.value), unit=units.unit(length.reading.unit), scale=scale)
     factor = abs(float(np.ravel(length.factor)[0]))
-    return say("{paper:.2f} mm × {factor:.4g}", paper=amount / factor, factor=factor) if factor != 1 else None
+    return say("{paper:.2f} mm × {factor:.5g}", paper=amount / factor, factor=factor) if factor != 1 else None
 
 
 def _turned_by(instrument: Caption, degrees: Floats) -> Caption | None:

@@ -167,7 +167,6 @@ def forces(solution: Solution) -> list[Block]:
 
 
 def _at_stations(solution: Solution, spring: SpringDesign) -> Grid:
-    """The forces at the stations, as the cam without errors has them."""
     stations, at = solution.chain.board.stations, spring.at_stations()
     header: tuple[Words, ...] = (
         *(say("station"), "φ", say("ξ, {unit}", unit=unit(spring.units[0]))),
@@ -234,7 +233,6 @@ def contact_stress(solution: Solution) -> list[Block]:
 
 
 def _found(stress: StressDesign) -> list[Block]:
-    """The greatest stress, and the verdict."""
     roller = stress.forces.cam.roller_radius
     at, greatest = stress.contact, stress.greatest
     assert at is not None
@@ -282,6 +280,4 @@ def _verdict(stress: StressDesign) -> list[Caption]:
     if stress.permitted:
         kept = say("{limit:g} MPa are permitted: a contact {width} mm wide would be enough.")
         return [kept.where(**values)]
-    return [
-        warning(say("Only {limit:g} MPa are permitted. A contact {width} mm wide satisfies this.").where(**values)),
-    ]
+    return [warning(say("Only {limit:g} MPa are permitted. A contact {width} mm wide satisfies this.").where(**values))]

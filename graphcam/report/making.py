@@ -60,7 +60,6 @@ def errors_of_making(solution: Solution) -> list[Block]:
 
 
 def _matters(design: ToleranceDesign) -> list[Caption]:
-    """Which tolerance matters most for s, for v and for a."""
     shares = design.bands.table()
     if len(shares) == 1:
         return []

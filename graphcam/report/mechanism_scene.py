@@ -113,5 +113,4 @@ def arcs_scene(solution: ArcsSolution) -> MechanismScene:
 
 
 def _turn() -> Floats:
-    """The cam angles of the positions."""
     return np.linspace(0.0, 2 * math.pi, POSITIONS + 1)

@@ -87,7 +87,6 @@ def _guide(scene: MechanismScene, unit: float) -> tuple[list[dict[str, Any]], fl
 
 
 def _pivot(scene: MechanismScene, unit: float) -> list[dict[str, Any]]:
-    """The bearing of an arm."""
     at, foot = scene.pivot, np.array([-1.6 - 3.4j, 1.6 - 3.4j]) * unit
     ticks = at + np.arange(-2.2, 2.3, 1.1) * unit - 3.4j * unit
     return [

@@ -164,7 +164,7 @@ def drawn_how(pencil: Pencil) -> Caption:
 
 IN_GENERAL = (
     r"t = \frac{\varphi}{\omega}, \qquad v_{\max} = C_v\,h\,\frac{\omega}{\varphi}, \qquad "
-    r"a_{\max} = C_a\,h\,\frac{\omega^2}{\varphi^2}"
+    r"a_{\max} = C_a\,h\,\frac{\omega^2}{\varphi^2}."
 )
 IN_NUMBERS = (
     r"t = \frac{<angle>}{<omega>} = <time>\ \text{<s>}, \qquad v_{\max} = <cv> \cdot <lift> \cdot "
@@ -175,7 +175,6 @@ IN_NUMBERS = (
 
 
 def _at_speed(solution: Solution) -> list[Block]:
-    """Phase times, velocities and accelerations."""
     motion, rpm, of_lift = solution.cam.motion, solution.task.speed_rpm or 0.0, solution.chain.board.follower.unit
     speeds = solution.comparison.phases(rpm)
     rows = [
@@ -203,12 +202,10 @@ def _at_speed(solution: Solution) -> list[Block]:
     return [
         said.where(rpm=rpm, omega=omega),
         Equation(IN_GENERAL),
-        say("For the phase {phase}", phase=phase_title(motion, k)),
+        say("For the phase {phase}:", phase=phase_title(motion, k)),
         formula(f"$${IN_NUMBERS}$$", omega=omega, **values),
         Grid(
-            say("Times, maximum velocities and accelerations of the phases"),
-            (say("phase"), *AT_SPEED[of_lift]),
-            rows,
+            say("Times, maximum velocities and accelerations of the phases"), (say("phase"), *AT_SPEED[of_lift]), rows
         ),
     ]
 
@@ -239,7 +236,6 @@ def told_jumps(jumps: list[Jump], symbol: str, of_symbol: str) -> Grid:
 
 
 def _result(solution: Solution) -> list[Block]:
-    """The sizes of the cam that is built."""
     built = [say("{name} {value} ({by})", name=name, value=value, by=by) for name, value, by in sizes(solution)]
     said = say("The cam is made with these sizes: {sizes}.", sizes=joined(built))
     return [said, *_face(solution), *map(warning, solution.warnings)]

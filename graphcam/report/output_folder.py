@@ -151,12 +151,7 @@ def _write_texts(solution: AnySolution, folder: Path, wanted: Collection[str]) -
 
 
 def _write_list(
-    solution: AnySolution,
-    folder: Path,
-    files: Mapping[str, str | None],
-    facts: Mapping[str, Any],
-    *,
-    finished: bool,
+    solution: AnySolution, folder: Path, files: Mapping[str, str | None], facts: Mapping[str, Any], *, finished: bool
 ) -> None:
     """``solution.json`` with ``facts`` about its files, and the digest of every file that the folder holds besides."""
     document = {**solution.to_dict(), "files": files, **facts}

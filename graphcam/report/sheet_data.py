@@ -122,10 +122,7 @@ def _limits(solution: Solution) -> list[Row]:
     if "pressure_angle" not in solution.drawn:
         return [(say("permitted radius of curvature"), mm(least or 0), LIMIT)]
     back = degrees(limits.return_) if limits.return_ else say("force closure")
-    return [
-        (say("permitted angle, rise"), degrees(limits.rise), LIMIT),
-        (say("permitted angle, return"), back, LIMIT),
-    ]
+    return [(say("permitted angle, rise"), degrees(limits.rise), LIMIT), (say("permitted angle, return"), back, LIMIT)]
 
 
 def phases(solution: Solution) -> Table:

@@ -105,13 +105,8 @@ class _Chart:
         view = View(
             "sizing", OVER_WHAT[across].where(radius=radius), across=f"sizing {across}", up=f"sizing {problem.measure}"
         )
-        values = {
-            "measure": radius,
-            "radius": self.sized.radius,
-            "across": SIZES[across],
-            "value": self._value,
-            "active": sequence([BINDING[name] for name in self.sized.active]),
-        }
+        values = {"measure": radius, "radius": self.sized.radius, "across": SIZES[across], "value": self._value}
+        values["active"] = sequence([BINDING[name] for name in self.sized.active])
         return [
             Step(say("The limits"), (Part(ABOVE),), view, (*self.axes.marks(), *self._limits())),
             Step(title, (Part(OVER.where(**values)),), view, self._best()),
@@ -120,12 +115,9 @@ class _Chart:
     @property
     def _value(self) -> float:
         """Of the best cam, of the size on the axis [mm]."""
-        return (
-            dict(zip(self.sized.problem.ranges, self.sized.problem.values(self.sized.sizes), strict=True))[
-                self.region.across
-            ]
-            + 0.0
-        )
+        problem = self.sized.problem
+        values = dict(zip(problem.ranges, problem.values(self.sized.sizes), strict=True))
+        return values[self.region.across] + 0.0
 
     def _limits(self) -> tuple[Mark, ...]:
         """The line of every limit, with its name, and the ends of the ranges that bind."""
@@ -171,7 +163,6 @@ def _long(span: Span, greatest: float) -> Span:
 
 
 def _front_step(sized: SizedCam, front: Sequence[SizedCam], size: complex) -> Step:
-    """The stress of the cams of a front over their radius."""
     problem = sized.problem
     radii, stresses = np.array([(cam.radius, cam.stress) for cam in front]).T
     low, high = stresses.min(), max(stresses.max(), sized.stress)

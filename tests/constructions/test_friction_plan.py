@@ -96,6 +96,17 @@ def test_a_trembling_hand_keeps_near_its_bound():
         assert abs(off.mean()) < 0.1
 
 
+def test_the_formulas_come_to_what_is_drawn():
+    angles = measured()
+    for plan in (force_plan(angles, LOAD, Pencil()), friction_plan(angles, LOAD, Pencil(), MU)):
+        (formula,) = plan.meaning.formulas
+        (told,) = formula.values(plan)
+        drawn = told.keys() & plan.readings.keys()
+        assert len(drawn) == 3
+        for name in drawn:
+            assert told[name] == pytest.approx(value(plan, name), rel=1e-9)
+
+
 def test_as_the_friction_vanishes_the_plan_becomes_that_without():
     angles = measured()
     smooth, rubbing = force_plan(angles, LOAD, Pencil()), friction_plan(angles, LOAD, Pencil(), 1e-12)

@@ -412,7 +412,7 @@ def test_every_face_is_told_with_the_displacement_that_is_laid_off(name):
     s, factor = readings["s"].paper, float(readings["s"].scale) / mu
     assert len(step.parts) == 1
     assert len(step.places) == len(names)
-    assert f"μₛ/μₗ = {float(readings['s'].scale):.4g}/{mu:g} = {factor:.4g}. Station " in str(step.caption)
+    assert f"μₛ/μₗ = {float(readings['s'].scale):.5g}/{mu:g} = {factor:.5g}. Station " in str(step.caption)
     assert laid_off_at(step) in [laid_off_at(place) for place in step.places]
     for k, part in enumerate(step.places):
         assert str(part.caption).startswith(f"Station {names[k]}: ")

@@ -194,13 +194,13 @@ def test_the_displacement_lies_between_the_prime_circle_and_the_end(name, hand):
         assert abs(end - foot) == pytest.approx(start + s / mu, abs=close(hand, 3))
         assert (k in drawn) == (abs(s / mu) >= 0.005)
         assert [each.index.tolist() for each in part.draws] == [[k]]
-        factor = "" if math.isclose(mu_s, mu) else f"{abs(paper):.2f} mm × {mu_s / mu:.4g} = "
+        factor = "" if math.isclose(mu_s, mu) else f"{abs(paper):.2f} mm × {mu_s / mu:.5g} = "
         said = f"{factor}{abs(s) / mu:.2f} mm" + ("." if s > 0 else " inward.")
         expected = said if k in drawn else "s is zero, so the point lies on the prime circle."
         assert str(part.caption) == f"Station {at}: {expected}"
-    assert f"{mu_s:.4g} mm × {1 / mu:g} = {mu_s / mu:.4g} mm here" in str(ends.caption)
+    assert f"{mu_s:.5g} mm × {1 / mu:g} = {mu_s / mu:.5g} mm here" in str(ends.caption)
     s, paper = integrated.value("s")[4], integrated.readings["s"].paper[4]
-    assert f"from the prime circle outward: station 4: {paper:.2f} mm × {mu_s / mu:.4g} = {s / mu:.2f} mm." in str(
+    assert f"from the prime circle outward: station 4: {paper:.2f} mm × {mu_s / mu:.5g} = {s / mu:.2f} mm." in str(
         ends.caption
     )
 

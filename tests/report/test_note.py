@@ -11,12 +11,12 @@ import pytest
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import LAWS
 from graphcam.language import ENGLISH
-from graphcam.report.documents import contents_of
+from graphcam.report.documents import contents_of, note_of
 from graphcam.report.note import comparison_file, note
 from graphcam.solving.solve import solve
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.task import CamTable, LimitsTable, SpringTable, Task, TitleTable, TranslatingTable
-from graphcam.tasks.task_file import builtin_task
+from graphcam.tasks.task_file import builtin_arcs_task, builtin_task
 
 WARNING = re.compile(r"^\*\*(?!\d)", re.MULTILINE)
 NOT_NUMBERS = re.compile(r"\b(nan|inf|None)\b|-0\.0+\b")
@@ -123,12 +123,13 @@ def test_every_step_of_the_drawing_is_told_once(builtin_note, builtin):
 
 def test_every_place_of_a_run_with_settings_of_its_own_is_told(builtin_note, builtin):
     cells = {cell.strip() for cell in re.split(r"[|\n]", builtin_note)}
-    for step in (step for construction in builtin.drawn.values() for step in construction.steps()):
-        for row in (
-            row for part in step.parts if len({str(row.setting) for row in part.rows}) > 1 for row in part.rows
-        ):
-            alone = ENGLISH.text(row.caption) in builtin_note
-            assert alone or {ENGLISH.text(row.name), ENGLISH.text(row.setting)} <= cells
+    steps = (step for construction in builtin.drawn.values() for step in construction.steps())
+    runs = (part for step in steps for part in step.parts if len({str(row.setting) for row in part.rows}) > 1)
+    for run, row in ((run, row) for run in runs for row in run.rows):
+        name, setting = ENGLISH.text(row.name), ENGLISH.text(row.setting)
+        # What is set nowhere but as is said of all places needs no sentence of its own.
+        told = not setting or ENGLISH.text(row.caption) in builtin_note or f" {setting}" in ENGLISH.text(run.caption)
+        assert told or {name, setting} <= cells
 
 
 def test_no_sentence_tells_of_nothing(builtin_note):
@@ -154,6 +155,18 @@ def test_a_step_has_the_number_that_it_has_on_the_sheet_and_its_chapter_that_of_
     chapters = re.findall(r"^## (.*)", said, re.MULTILINE)
     assert chapters[0] == "1. Kinematic diagram"
     assert chapters[10:13] == ["11. Contact force", "12. Forces over the turn", "13. Force plan"]
+
+
+def test_short_runs_are_told_beside_their_sentence_but_for_what_it_tells_itself():
+    said = note_of(solve(builtin_arcs_task()))
+    (angles,) = re.findall(r"^\*\*2\.2\. .*", said, re.MULTILINE)
+    assert "26.888° at G" in angles
+    assert "Line O" not in angles
+    (joints,) = re.findall(r"^\*\*2\.1\. .*", said, re.MULTILINE)
+    assert "From G: on the line from C3." in joints
+    # OK of the station of the plan, and a normal acceleration of the rod: 76.42 mm squared over 54 mm.
+    assert "$$v_{10} = 0.5 \\cdot 19.26 = 9.629\\ \\text{mm/rad}.$$" in said
+    assert "$$CN_{10} = \\frac{76.42^2}{54.00} = 108.16\\ \\text{mm}" in said
 
 
 def test_of_a_hand_the_note_says_what_was_adopted_instead():
