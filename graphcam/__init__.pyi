@@ -4,12 +4,15 @@ from .drafting.ink import Construction as Construction, Reading as Reading, Step
 from .drafting.pencil import Pencil as Pencil
 from .drafting.scale import Scale as Scale
 from .errors import DesignError as DesignError, GraphcamError as GraphcamError, TaskError as TaskError
-from .given.arm_load import ArmLoad as ArmLoad, ArmSpring as ArmSpring
 from .given.boundary_motion import BoundaryMotion as BoundaryMotion, boundary_motion as boundary_motion
-from .given.boundary_parts import PolynomialPart as PolynomialPart, SplinePart as SplinePart
-from .given.follower import FlatFaced as FlatFaced, Oscillating as Oscillating, Translating as Translating
+from .given.boundary_parts import MotionPoint as MotionPoint, PolynomialPart as PolynomialPart, SplinePart as SplinePart
+from .given.follower import (
+    FlatFaced as FlatFaced,
+    Limits as Limits,
+    Oscillating as Oscillating,
+    Translating as Translating,
+)
 from .given.laws import LAWS as LAWS, law as law
-from .given.limits import Limits as Limits
 from .given.load_curve import LoadCurve as LoadCurve
 from .given.making_errors import Deviations as Deviations, MakingErrors as MakingErrors
 from .given.measured import (
@@ -20,11 +23,10 @@ from .given.measured import (
 )
 from .given.motion import Dwell as Dwell, Motion as Motion, Return as Return, Rise as Rise, cam_angle as cam_angle
 from .given.motion_law import Law as Law
-from .given.motion_point import MotionPoint as MotionPoint
 from .given.polynomial_law import boundary_law as boundary_law, constant_velocity_law as constant_velocity_law
 from .given.roller_contact import RollerContact as RollerContact
 from .given.spline_law import sampled_law as sampled_law
-from .given.spring_load import Guide as Guide, SpringLoad as SpringLoad
+from .given.spring_load import ArmLoad as ArmLoad, ArmSpring as ArmSpring, Guide as Guide, SpringLoad as SpringLoad
 from .mechanism.arc_motion import ArcMotion as ArcMotion
 from .mechanism.arcs import ThreeArcCam as ThreeArcCam, three_arc_cam as three_arc_cam
 from .mechanism.cam import Cam as Cam, largest_roller as largest_roller
@@ -40,7 +42,7 @@ from .mechanism.follower_train import (
     TrainMotion as TrainMotion,
     VibratingFollower as VibratingFollower,
 )
-from .mechanism.forces import CamForces as CamForces
+from .mechanism.forces import CamForces as CamForces, mean_torque as mean_torque
 from .mechanism.hertz import (
     ContactStress as ContactStress,
     LineContact as LineContact,
@@ -54,7 +56,6 @@ from .mechanism.least_radius import (
 )
 from .mechanism.least_radius_arm import ArmMinimumRadius as ArmMinimumRadius
 from .mechanism.made_cam import MadeCam as MadeCam
-from .mechanism.mean_torque import mean_torque as mean_torque
 from .mechanism.motion_bands import MotionBands as MotionBands, motion_bands as motion_bands
 from .mechanism.shock_response import (
     FollowerResponse as FollowerResponse,

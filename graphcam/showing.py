@@ -60,7 +60,7 @@ def by_parts(self: Any) -> str:
 
 
 class Shown:
-    """A value that is drawn by ``plot`` of the module ``_drawn_in`` of :mod:`graphcam.plots`; a notebook shows that."""
+    """A value that is drawn by the function ``_drawn_in`` of :mod:`graphcam.plots`; a notebook shows that."""
 
     _drawn_in: ClassVar[str]
 
@@ -76,7 +76,7 @@ class Shown:
         >>> [diagram.get_ylabel() for diagram in motion.plot().child_axes]
         ['lift s', 'v = ds/dφ', 'a = dv/dφ', 'j = da/dφ']
         """
-        return from_above(f"plots.{self._drawn_in}.plot")(self, axes)
+        return from_above(f"plots.{self._drawn_in}")(self, axes)
 
     def _repr_svg_(self) -> str | None:
         try:

@@ -11,7 +11,7 @@ from babel.messages.pofile import read_po, write_po
 from hypothesis import given, strategies as st
 
 import graphcam
-from graphcam.catalog import read_catalog
+from graphcam.language import read_catalog
 
 RUSSIAN = Path(graphcam.__file__).parent / "data" / "languages" / "ru.po"
 TEXTS = st.text(st.characters(codec="utf-8", exclude_categories=["Cc", "Zl", "Zp", "Cs"]) | st.sampled_from('\n\t\\"'))

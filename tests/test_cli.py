@@ -18,8 +18,7 @@ from typer.testing import CliRunner
 
 import graphcam
 from graphcam.cli import app
-from graphcam.cli.shared import WRONG_INPUT
-from graphcam.cli.telling_files import about, tell_files
+from graphcam.cli.shared import WRONG_INPUT, about, tell_files
 from graphcam.errors import DesignError
 from graphcam.files import whole_folder
 from graphcam.report.output_folder import written_files

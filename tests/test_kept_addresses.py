@@ -20,7 +20,7 @@ from graphcam.drafting.ink import Step
 from graphcam.drafting.moves import pieces_of
 from graphcam.report.documents import contents_of
 from graphcam.studio.address import place_of
-from graphcam.studio.plain_tasks import built_in_tasks
+from graphcam.studio.task_text import built_in_tasks
 from graphcam.tasks.task_file import load_task
 
 KEPT = Path(__file__).parent / "data" / "kept"

@@ -14,12 +14,11 @@ from russian import english_words
 from typer.testing import CliRunner
 
 import graphcam
-from graphcam.catalog import read_catalog
 from graphcam.cli import app
 from graphcam.cli.voice import Voice, language_of_machine
 from graphcam.errors import DesignError, GraphcamError, MissingFileError, TaskError, meant
 from graphcam.files import OutputError
-from graphcam.language import ENGLISH, Language, language, languages
+from graphcam.language import ENGLISH, Language, language, languages, read_catalog
 from graphcam.words import bare, either, say
 
 PACKAGE = Path(graphcam.__file__).parent

@@ -22,8 +22,8 @@ from graphcam.exercises.running.probe import LevelError
 from graphcam.files import OutputError
 from graphcam.given.measured import RowError
 from graphcam.notebooks.running import MissingExtraError, NotebookError
-from graphcam.photo.refusal import PhotographError
-from graphcam.sheets.runs import TooLargeError
+from graphcam.photo.pictures import PhotographError
+from graphcam.sheets.filling import TooLargeError
 from graphcam.words import say
 
 WORDS_OF = {"DesignError": (1, 2, 3), "TaskError": (2, 3, 4), "RowError": (2, 3, 4), "OutputError": (1, 2)}
@@ -222,7 +222,7 @@ main()
 @pytest.mark.parametrize(
     ("module", "words"),
     [
-        ("graphcam.sweeps.sweep_file", ["sweep", "space.toml", "--out", "out.csv"]),
+        ("graphcam.sweeps.dataset", ["sweep", "space.toml", "--out", "out.csv"]),
         ("graphcam.exercises.marking.simulate", ["exercise", "simulate", "pressure-angle"]),
         ("graphcam.notebooks.notebook_folder", ["notebook", "--out", "out"]),
     ],

@@ -16,8 +16,8 @@ import pytest
 import typer
 
 import graphcam
-from graphcam.catalog import read_catalog
 from graphcam.cli import app
+from graphcam.language import read_catalog
 
 ROOT = Path(__file__).parent.parent
 CATALOG = Path(graphcam.__file__).parent / "data" / "languages" / "ru.po"

@@ -8,7 +8,7 @@ import numpy as np
 from graphcam.bench.convergence import distance_from_profile
 from graphcam.bench.rows import Line, Parts, Section
 from graphcam.bench.scenes import FOLLOWERS, LIFT, MAIN_LAW, TestScene, free_scene, motion_of, scene
-from graphcam.comparison.error_budget import ErrorBudget
+from graphcam.comparison.bounds import ErrorBudget
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import Floats
 from graphcam.words import say

@@ -16,13 +16,11 @@ from graphcam.bench.exact_rows import LOOPED, RUNS, STATIONS, designs
 from graphcam.bench.rows import MILLISECONDS, BenchRow, Effort, Section, Unit, faster_than
 from graphcam.bench.scenes import ARM, FOLLOWERS, scene
 from graphcam.bench.timing import Timer
-from graphcam.given.arm_load import ArmLoad
 from graphcam.given.boundary_motion import BoundaryMotion, boundary_motion
-from graphcam.given.boundary_parts import PolynomialPart
+from graphcam.given.boundary_parts import MotionPoint, PolynomialPart
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
-from graphcam.given.motion_point import MotionPoint
-from graphcam.given.spring_load import SpringLoad
+from graphcam.given.spring_load import ArmLoad, SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.shock_response import shock_spectrum

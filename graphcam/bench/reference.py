@@ -11,8 +11,8 @@ import numpy as np
 
 from graphcam.bench.rivals import optional
 from graphcam.bench.scenes import LIFT, LIMIT, TestScene
+from graphcam.given.boundary_parts import MotionPoint
 from graphcam.given.laws import Floats, law as law_of
-from graphcam.given.motion_point import MotionPoint
 
 EPS = float(np.finfo(float).eps)
 DIGITS = 50

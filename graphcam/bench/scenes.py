@@ -14,8 +14,7 @@ from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import GOST_2_302, Paper, Scale
-from graphcam.given.follower import Rotation
-from graphcam.given.limits import Limits
+from graphcam.given.follower import Limits, Rotation
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.mechanism.cam import Cam

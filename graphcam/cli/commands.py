@@ -9,17 +9,18 @@ from typing import Annotated
 import typer
 from typer import Argument, Option
 
-from graphcam.cli.given_task import errors_name, read_task
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     TaskFile,
     echo,
+    errors_name,
     named,
     one_message,
     print_table,
     progress_bar,
     progress_lines,
     quoted,
+    read_task,
     said,
 )
 from graphcam.cli.voice import voice
@@ -119,8 +120,8 @@ def sweep(
     # Loads NumPy.
     from graphcam.cli.sweep_summary import tell_sweep, write_front
     from graphcam.sweeps import dataset
+    from graphcam.sweeps.dataset import is_file, sweep_to_file
     from graphcam.sweeps.space import load_space
-    from graphcam.sweeps.sweep_file import is_file, sweep_to_file
     from graphcam.workers import executor_of, worker_pool
 
     with one_message(), progress_bar(say("designs")) as step:

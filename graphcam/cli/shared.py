@@ -1,5 +1,7 @@
 """What the commands share: how they end on wrong input, and how they say what they are doing."""
 
+from __future__ import annotations
+
 import re
 import shlex
 import shutil
@@ -8,16 +10,23 @@ import sys
 import textwrap
 import time
 import warnings
-from collections.abc import Callable, Generator, Iterable, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Generator, Iterable, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+import graphcam
 from graphcam.cli.voice import tell, voice
-from graphcam.errors import GraphcamError, LetteringWarning
-from graphcam.words import Caption, Words, say
+from graphcam.errors import DesignError, GraphcamError, LetteringWarning, TaskError
+from graphcam.words import Caption, Words, say, say_many
+
+if TYPE_CHECKING:
+    from rich.text import Text
+
+    from graphcam.tasks.arcs_task import ArcsTask
+    from graphcam.tasks.task import Task
 
 WRONG_INPUT = 2
 """Exit status when the input is wrong."""
@@ -187,3 +196,125 @@ def progress_bar(things: Words) -> Generator[Callable[[int, int], None]]:
     with Progress(*columns, console=Console(stderr=True), transient=True, auto_refresh=False) as progress:
         bar = progress.add_task(str(things), total=None)
         yield step
+
+
+_LANGUAGE = re.compile(r"^[^#\n]*\blanguage\s*=\s*[\"']([\w-]+)[\"']", re.MULTILINE)
+"""Where a task file names its language: the table ``[drawing]`` alone has such a key."""
+
+OF_COMMAND = ("upto", "dxf", "files", "working_drawing")
+"""What is wrong with a choice of the command line is no matter of the file."""
+
+
+def read_task(path: Path | None, builtin: str = "coursework") -> Task | ArcsTask:
+    """The task in a file, or without one the built-in task of that name.
+
+    Raises
+    ------
+    TaskError : the file is no task; the language that it names is spoken by then
+    """
+    if path is None:
+        return graphcam.builtin_task(builtin)
+    voice().hear(language_in(path))
+    return graphcam.load_task(path)
+
+
+def language_in(path: Path) -> str:
+    """The language that a file names, whether or not the rest of it is a task, or TOML; empty where it names none."""
+    with suppress(OSError, ValueError):
+        found = _LANGUAGE.search(path.read_bytes().decode("utf-8", errors="replace"))
+        return found[1] if found else ""
+    return ""
+
+
+@contextmanager
+def errors_name(path: Path | None) -> Generator[None]:
+    """What is wrong with a task as a design is told with the name of its file too, where it has one."""
+    try:
+        yield
+    except DesignError as error:
+        if path is None or error.quantity in OF_COMMAND:
+            raise
+        raise TaskError(str(path), *error.args) from None
+
+
+ABOUT: Mapping[str, Caption] = {
+    "player": say("step by step in a browser, and the mechanism turning"),
+    "sheet": say("the sheet, true to scale"),
+    "worksheet": say("the sheet to be finished, true to scale"),
+    "note": say("the calculation with formulas and numbers"),
+    "comparison": say("drawn values beside exact ones"),
+    "profile": say("the exact working profile, for CAD and machines"),
+    "working-drawing": say("the cam as a part"),
+    "solution": say("all of it, for programs"),
+}
+"""What the files of a solution are, by their names without page number and ending; in the order they are told."""
+FIRST: Mapping[str, Caption] = {
+    "player.html": say("in a browser"),
+    "sheet.pdf": say("print at 100 %"),
+    "worksheet.pdf": say("print at 100 %"),
+}
+"""What to open first, and how."""
+
+
+def about(name: str) -> str:
+    """Of which kind a file is, by its name.
+
+    >>> about("sheet-12.svg"), about("working-drawing.pdf"), about("mine.txt")
+    ('sheet', 'working-drawing', '')
+    """
+    stem = Path(name).stem
+    first, dash, number = stem.rpartition("-")
+    stem = first if dash and number.isdecimal() else stem
+    return stem if stem in ABOUT else ""
+
+
+def grouped(names: Iterable[str]) -> list[tuple[Caption | str, list[str]]]:
+    """The files of each kind and what they are, in the order of ``ABOUT``; pages by their numbers.
+
+    >>> for what, names in grouped(["solution.json", "sheet-10.svg", "sheet-2.svg", "sheet.svg"]):
+    ...     print(what, names)
+    the sheet, true to scale ['sheet.svg', 'sheet-2.svg', 'sheet-10.svg']
+    all of it, for programs ['solution.json']
+    """
+    kinds: dict[str, list[str]] = {kind: [] for kind in (*ABOUT, "")}
+    for name in sorted(names, key=lambda name: (Path(name).suffix, len(name), name)):
+        kinds[about(name)].append(name)
+    return [(ABOUT.get(kind, ""), found) for kind, found in kinds.items() if found]
+
+
+def tell_files(folder: Path, names: Sequence[str]) -> None:
+    """Print all files that were written into a folder, by kind, and which to open first."""
+    # A terminal's abilities are rich's business.
+    from rich.console import Console
+    from rich.text import Text
+
+    console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
+    count = tell(say_many("{count} file", "{count} files", len(names)))
+    console.print(Text.assemble("\n", linked(folder, str(folder)), f": {count}"))
+    for what, found in grouped(names):
+        links = Text(", ").join(linked(folder / name, name) for name in found)
+        console.print(Text.assemble("  ", links, f": {tell(what)}" if what else ""))
+    first = [
+        Text.assemble(linked(folder / name, str(folder / name)), f" ({tell(how)})")
+        for name, how in FIRST.items()
+        if name in names
+    ]
+    if first:
+        begin, then = tell(say("Open first: ")), tell(say(", then "))
+        console.print(Text.assemble(begin, Text(then).join(first)))
+
+
+def tell_file(path: Path, what: Caption) -> None:
+    """Print that a file was written, and what it is."""
+    from rich.console import Console
+
+    console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
+    console.print(linked(path, str(path)) + f": {tell(what)}")
+
+
+def linked(path: Path, words: str) -> Text:
+    """Words that open a file or folder when they are clicked; plain ones where nobody could."""
+    from rich.style import Style
+    from rich.text import Text
+
+    return Text(words, Style(link=path.resolve().as_uri()))

@@ -11,8 +11,17 @@ import typer
 from typer import Argument, Option
 
 import graphcam
-from graphcam.cli.given_task import errors_name, read_task
-from graphcam.cli.shared import DEFAULT_FOLDER, echo, named, one_message, print_table, progress_lines, warnings_told
+from graphcam.cli.shared import (
+    DEFAULT_FOLDER,
+    echo,
+    errors_name,
+    named,
+    one_message,
+    print_table,
+    progress_lines,
+    read_task,
+    warnings_told,
+)
 from graphcam.cli.voice import helped, tell, voice
 from graphcam.language import languages
 from graphcam.words import say, sequence

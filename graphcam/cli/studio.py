@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from typer import Option
 
-from graphcam.cli.given_task import read_task
-from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, echo, named, one_message, warnings_told
+from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, echo, named, one_message, read_task, warnings_told
 from graphcam.cli.voice import helped, voice
 from graphcam.errors import DesignError
 from graphcam.language import languages
@@ -90,8 +89,7 @@ def _read(path: Path | None, spoken: str | None) -> Task | ArcsTask:
 
 def _written(task: Task | ArcsTask, html: Path | None, site: Path | None, pyodide: Path) -> Path:
     """Write the studio that needs no server: where to."""
-    from graphcam.studio.one_file import write_one_file
-    from graphcam.studio.site_folder import write_site
+    from graphcam.studio.worker_page import write_one_file, write_site
 
     if html is not None:
         write_one_file(html, pyodide, task, task.drawing.language)

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphcam.cli.shared import echo, print_table
-from graphcam.cli.telling_files import tell_file
+from graphcam.cli.shared import echo, print_table, tell_file
 from graphcam.cli.voice import tell
 from graphcam.files import whole_file
 from graphcam.sweeps.front import ANGLE, FEASIBLE, SIZE, FoundBest, front_csv
@@ -73,8 +72,8 @@ def write_front(space: Space, out: str, front: Columns | None) -> None:
     ------
     OutputError : a file cannot be written
     """
+    from graphcam.sweeps.dataset import is_file
     from graphcam.sweeps.shared_folder import SharedFolder
-    from graphcam.sweeps.sweep_file import is_file
 
     if front is None or not front[SIZE].size:
         return

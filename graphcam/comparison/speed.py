@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from graphcam.given.angular_velocity import MM_PER_M, omega_of
+from graphcam.given.follower import MM_PER_M, omega_of
 from graphcam.given.motion import Motion, Moving
 
 PER_SPEED = {"mm": MM_PER_M, "rad": 1.0}

@@ -26,17 +26,16 @@ from graphcam.constructions.axes import (
     station_names,
     together,
 )
+from graphcam.constructions.graduation import axis_said
 from graphcam.constructions.law_names import law_name
-from graphcam.constructions.time_axis import axis_said
 from graphcam.constructions.turn_board import TurnGivens
 from graphcam.constructions.views import ACCELERATION
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.formulas import LIFT, MU_PHI, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Construction, Part, Step, say
 from graphcam.drafting.marks import Dimension, Role, Segments
-from graphcam.drafting.meaning import Meaning, ReadingMeaning
+from graphcam.drafting.meaning import LIFT, MU_PHI, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.telling import FRENCH_CURVE, RULER, led_by

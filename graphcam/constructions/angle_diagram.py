@@ -18,7 +18,7 @@ from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeani
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.telling import STATION, led_by, run
-from graphcam.given.limits import Limits
+from graphcam.given.follower import Limits
 
 
 @dataclass(frozen=True, eq=False)

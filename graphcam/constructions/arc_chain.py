@@ -9,8 +9,8 @@ from functools import cached_property
 
 from graphcam.constructions.arc_diagrams import HEIGHTS, arc_diagrams
 from graphcam.constructions.arc_outline import ARCS, three_arcs
+from graphcam.constructions.arc_profile import ArcStations, divide_arcs
 from graphcam.constructions.arc_roller import arc_roller
-from graphcam.constructions.arc_stations import ArcStations, divide_arcs
 from graphcam.constructions.drawings import Drawings, DrawnOnce
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil

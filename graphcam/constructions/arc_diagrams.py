@@ -11,7 +11,7 @@ import numpy as np
 
 from graphcam.constructions.arc_outline import unreadable
 from graphcam.constructions.arc_plan import worked
-from graphcam.constructions.arc_stations import RollerOnArcs
+from graphcam.constructions.arc_profile import RollerOnArcs
 from graphcam.constructions.axes import NUMBER_ROOM, PHASES_BELOW, axes_over_phi, degrees_below, ordinate, reach
 from graphcam.constructions.graduation import graduated
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
@@ -23,8 +23,7 @@ from graphcam.drafting.ink import Construction, Part, Step, View, Words, say
 from graphcam.drafting.marks import Dimension, Label, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import GOST_2_302, Scale, standard_scale
-from graphcam.drafting.units import NOTHING
+from graphcam.drafting.scale import GOST_2_302, NOTHING, Scale, standard_scale
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.words import sequence

@@ -12,11 +12,10 @@ import numpy as np
 from graphcam.constructions.arc_profile import SENSE, ArcOutline, ThreeArcsGivens, arc, cam, middle_of_dwell, run
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP, unit
-from graphcam.drafting.formulas import Formula, Symbol, Values
 from graphcam.drafting.hand import COMPASS, Hand, between
 from graphcam.drafting.ink import Caption, Part, Step, View, say
 from graphcam.drafting.marks import Dimension, Label, Line, Mark, Role
-from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import Compared, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import UNLIMITED, Paper, Scale, ratio_text
 from graphcam.drafting.telling import Move, in_parts

@@ -9,8 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from graphcam.constructions.arc_outline import unreadable
-from graphcam.constructions.arc_profile import run
-from graphcam.constructions.arc_stations import ARCS, CENTRES, ROLLER, ArcStations, RollerOnArcs
+from graphcam.constructions.arc_profile import ARCS, CENTRES, ROLLER, ArcStations, RollerOnArcs, run
 from graphcam.constructions.velocity_plan import VelocityScale
 from graphcam.constructions.views import at_scale
 from graphcam.drafting import telling
@@ -18,9 +17,8 @@ from graphcam.drafting.euclid import UP, unit
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Part, Row, Step, View, say
 from graphcam.drafting.marks import Label, Line, Mark, Points, Role, Segments
-from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
+from graphcam.drafting.scale import NOTHING, Scale, coarsest, ratio_text, standard_scale, unit as unit_named
 from graphcam.drafting.telling import Move, in_parts
-from graphcam.drafting.units import NOTHING, unit as unit_named
 from graphcam.given.laws import Floats
 
 PLAN = View("plan", say("Velocity and acceleration"), across="plan", up="plan")

@@ -13,18 +13,30 @@ import numpy as np
 
 from graphcam.constructions.arc_outline import unreadable
 from graphcam.constructions.arc_plan import UNREAD, plans, shown, worked
-from graphcam.constructions.arc_profile import SENSE, ArcOutline, cam, middle_of_dwell, mirror_line, outline, run
-from graphcam.constructions.arc_stations import ARCS, CENTRES, ROLLER, ArcRollerGivens, ArcStations, RollerOnArcs
+from graphcam.constructions.arc_profile import (
+    ARCS,
+    CENTRES,
+    ROLLER,
+    SENSE,
+    ArcOutline,
+    ArcRollerGivens,
+    ArcStations,
+    RollerOnArcs,
+    cam,
+    middle_of_dwell,
+    mirror_line,
+    outline,
+    run,
+)
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP, unit
-from graphcam.drafting.formulas import A, Formula, Symbol, V, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Label, Line, Mark, Role, Segments
-from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import A, Compared, Formula, Meaning, ReadingMeaning, Symbol, V, Values
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.units import NOTHING, unit as unit_named
+from graphcam.drafting.scale import NOTHING, unit as unit_named
 from graphcam.given.laws import Floats
 from graphcam.words import joined
 

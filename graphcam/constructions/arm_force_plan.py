@@ -22,16 +22,14 @@ import numpy as np
 from graphcam.constructions import force_plan as plain
 from graphcam.constructions.arm_pressure_angle import ArmAngles
 from graphcam.drafting.euclid import unit
-from graphcam.drafting.formulas import ALPHA, ARM, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Label, Line, Mark, Role
-from graphcam.drafting.meaning import Meaning, ReadingMeaning
+from graphcam.drafting.meaning import ALPHA, ARM, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
-from graphcam.drafting.units import unit as unit_named
-from graphcam.given.arm_load import ArmLoad, PlacedArmLoad
+from graphcam.drafting.scale import Scale, unit as unit_named
 from graphcam.given.laws import Floats
+from graphcam.given.spring_load import ArmLoad, PlacedArmLoad
 from graphcam.plane import dot
 from graphcam.words import sequence
 

@@ -11,15 +11,13 @@ from graphcam.constructions.axes import numbers, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import RIGHT, UP, circles_meet, unit
-from graphcam.drafting.formulas import ARM, DISTANCE, PSI0, RADIUS, Formula, S, Values
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import Construction, Part, Step, Words, say
 from graphcam.drafting.marks import Role
-from graphcam.drafting.meaning import Meaning
+from graphcam.drafting.meaning import ARM, DISTANCE, PSI0, RADIUS, Formula, Meaning, S, Values
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import NOTHING, Scale
 from graphcam.drafting.telling import STATION, alike, circle_drawn, run
-from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation
 from graphcam.words import say_in
 

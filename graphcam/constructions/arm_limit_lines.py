@@ -16,8 +16,7 @@ from graphcam.drafting.hand import showing
 from graphcam.drafting.ink import Part, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Line, Points, Role, Segments
 from graphcam.drafting.telling import run
-from graphcam.given.follower import sense
-from graphcam.given.limits import Limits
+from graphcam.given.follower import Limits, sense
 from graphcam.plane import dot
 from graphcam.words import say_in, sequence
 

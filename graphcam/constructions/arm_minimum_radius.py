@@ -19,29 +19,48 @@ from graphcam.constructions.arm_positions import (
     arc_through,
     arm_positions,
     cam_centre,
+    detail_scale,
     directions,
     positions_step,
+    region_enlarged,
     velocities_step,
 )
-from graphcam.constructions.arm_region_detail import detail_scale, region_enlarged
 from graphcam.constructions.axes import pieces_of, station_names
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.region import LEAST_RADIUS, ON_THE_LINE, Boundary, nearest_of_many
-from graphcam.constructions.region_picture import RegionPicture, picture_of
-from graphcam.constructions.touched_station import touched
+from graphcam.constructions.region import (
+    LEAST_RADIUS,
+    ON_THE_LINE,
+    Boundary,
+    RegionPicture,
+    nearest_of_many,
+    picture_of,
+    touched,
+)
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import NOWHERE, UP, circles_meet, turned, unit
-from graphcam.drafting.formulas import ALPHA, ARM, DISTANCE, PSI0, R0, SIGMA, Formula, S, V, Values
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Dimension, Label, Line, Mark, Points, Region, Role
-from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import (
+    ALPHA,
+    ARM,
+    DISTANCE,
+    PSI0,
+    R0,
+    SIGMA,
+    Compared,
+    Formula,
+    Meaning,
+    ReadingMeaning,
+    S,
+    V,
+    Values,
+)
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.given.follower import Rotation, sense
+from graphcam.given.follower import Limits, Rotation, sense
 from graphcam.given.laws import Floats
-from graphcam.given.limits import Limits
 from graphcam.plane import dot
 from graphcam.words import joined, sequence
 

@@ -12,8 +12,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphcam.constructions.adoption import adoption_step
-from graphcam.constructions.arm_positions import along_the_arm, arc_through, arm_positions, cam_centre, stroke
-from graphcam.constructions.arm_region_detail import adopted_enlarged, detail_scale
+from graphcam.constructions.arm_positions import (
+    adopted_enlarged,
+    along_the_arm,
+    arc_through,
+    arm_positions,
+    cam_centre,
+    detail_scale,
+    stroke,
+)
 from graphcam.constructions.axes import numbers, station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.pressure_angle import ANGLES, MeasuredGivens, read_angles, shown_station
@@ -21,11 +28,24 @@ from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import ARM_ANGLES, PLAN, REGION, at_scale
 from graphcam.drafting.acts import Floats, Setting
 from graphcam.drafting.euclid import RIGHT, UP, unit
-from graphcam.drafting.formulas import ALPHA, ARM, DISTANCE, PSI0, R0, SIGMA, Formula, S, Symbol, V, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Points, Role, Segments, angle_at
-from graphcam.drafting.meaning import Meaning, ReadingMeaning
+from graphcam.drafting.meaning import (
+    ALPHA,
+    ARM,
+    DISTANCE,
+    PSI0,
+    R0,
+    SIGMA,
+    Formula,
+    Meaning,
+    ReadingMeaning,
+    S,
+    Symbol,
+    V,
+    Values,
+)
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
 from graphcam.drafting.telling import STATION, run

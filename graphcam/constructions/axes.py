@@ -13,8 +13,7 @@ from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Caption, Construction, Words, say
 from graphcam.drafting.marks import Arrow, Dimension, Label, Line, Mark, Points, Role, Segments
-from graphcam.drafting.scale import Scale
-from graphcam.drafting.units import unit
+from graphcam.drafting.scale import Scale, unit
 from graphcam.given.follower import Rotation
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Motion

@@ -12,13 +12,11 @@ from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Mark
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Paper, Scale
-from graphcam.given.arm_load import ArmLoad
-from graphcam.given.follower import Follower, Rotation
+from graphcam.given.follower import Follower, Limits, Rotation
 from graphcam.given.laws import Floats
-from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.given.roller_rule import Candidate
-from graphcam.given.spring_load import SpringLoad
+from graphcam.given.spring_load import ArmLoad, SpringLoad
 from graphcam.given.stations import Stations, divide
 
 FollowerLoads = SpringLoad | ArmLoad

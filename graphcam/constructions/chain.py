@@ -33,8 +33,8 @@ from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest, standard_scale
 from graphcam.errors import DesignError
+from graphcam.given.follower import PERMITTED
 from graphcam.given.laws import Floats
-from graphcam.given.limits import PERMITTED
 from graphcam.given.measured import MeasuredMotion
 from graphcam.words import chained, say
 

@@ -18,8 +18,8 @@ from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Reading, Row, Step, say
 from graphcam.drafting.marks import Line, Role
+from graphcam.drafting.scale import NOTHING
 from graphcam.drafting.telling import STATION, from_to, run, setting
-from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation, sense
 from graphcam.words import say_in, sequence
 

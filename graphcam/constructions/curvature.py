@@ -18,11 +18,20 @@ from graphcam.constructions.sharpest_bend import centres_of, neighbours, resting
 from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.formulas import RHO, Formula, Symbol, Values
 from graphcam.drafting.hand import COMPASS, Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Role
-from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning, sharpness
+from graphcam.drafting.meaning import (
+    RHO,
+    Compared,
+    Converges,
+    Formula,
+    Meaning,
+    ReadingMeaning,
+    Symbol,
+    Values,
+    sharpness,
+)
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.follower import sense

@@ -14,27 +14,25 @@ from typing import Literal
 import numpy as np
 
 from graphcam.constructions.axes import EVERY, SUBSCRIPTS, axes_over_phi, degrees_below, ordinate, pole_marks, reach
-from graphcam.constructions.graduation import graduated
-from graphcam.constructions.pole_scales import PoleTerms, pole_formula
-from graphcam.constructions.slope_numbers import (
+from graphcam.constructions.graduation import (
     every_kth,
     falling_together,
+    graduated,
     raised,
     ray_numbers,
     row_numbers,
     run_of_chord,
 )
+from graphcam.constructions.pole_scales import PoleTerms, pole_formula
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP, divided
-from graphcam.drafting.formulas import Formula, Symbol
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Line, Mark, Points, Role, Segments
-from graphcam.drafting.meaning import Meaning, ReadingMeaning
+from graphcam.drafting.meaning import Formula, Meaning, ReadingMeaning, Symbol
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
-from graphcam.drafting.units import unit
+from graphcam.drafting.scale import Scale, unit
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion

@@ -50,7 +50,7 @@ class Drawings(Shown, Mapping[str, Construction]):
     done: Mapping[str, Construction] = field(default_factory=dict[str, Construction], kw_only=True)
     lying: dict[str, Construction] = field(default_factory=dict[str, Construction], init=False)
     own: ClassVar[Mapping[str, Draw]] = {}
-    _drawn_in = "construction_drawing"
+    _drawn_in = "construction_drawing.plot"
 
     def __post_init__(self) -> None:
         self.lying.update(self.done)

@@ -20,11 +20,10 @@ from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.given.arm_load import ArmLoad
-from graphcam.given.follower import Oscillating, Rotation, sense
+from graphcam.given.follower import Limits, Oscillating, Rotation, sense
 from graphcam.given.laws import Floats
-from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
+from graphcam.given.spring_load import ArmLoad
 
 ARM_ON_PAPER = 130.0
 """The arm positions are usually drawn at the largest standard scale at which the arm is not longer [mm]."""

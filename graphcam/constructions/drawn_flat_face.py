@@ -15,9 +15,8 @@ from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Label, Line, Mark, Role
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.given.follower import FlatFaced, Rotation, sense
+from graphcam.given.follower import FlatFaced, Limits, Rotation, sense
 from graphcam.given.laws import Floats
-from graphcam.given.limits import Limits
 from graphcam.given.motion import FULL_TURN, Motion
 
 STEM, GUIDE, HALF_FACE = 34.0, 12.0, 17.0

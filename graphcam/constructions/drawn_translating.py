@@ -18,9 +18,8 @@ from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Mark
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.given.follower import Rotation, Translating, sense
+from graphcam.given.follower import Limits, Rotation, Translating, sense
 from graphcam.given.laws import Floats
-from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.given.spring_load import SpringLoad
 

@@ -14,11 +14,10 @@ from graphcam.constructions.axes import numbers, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, unit
-from graphcam.drafting.formulas import R0, RADIUS, Formula, S, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned
 from graphcam.drafting.ink import Caption, Part, Step, Words, say
 from graphcam.drafting.marks import Role, Segments
-from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import R0, RADIUS, Compared, Formula, Meaning, ReadingMeaning, S, Symbol, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.telling import STATION, run, setting

@@ -22,14 +22,13 @@ from graphcam.constructions.region import LEAST_RADIUS
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.formulas import R0, RHO, A, Formula, S, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Label, Line, Mark, Points, Role
-from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import R0, RHO, A, Compared, Formula, Meaning, ReadingMeaning, S, Symbol, Values
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import NOTHING
 from graphcam.drafting.telling import STATION, from_to
-from graphcam.drafting.units import NOTHING
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell
 from graphcam.words import sequence

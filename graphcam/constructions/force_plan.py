@@ -25,15 +25,13 @@ from graphcam.constructions.pressure_angle import MeasuredAngles, moving_up, sho
 from graphcam.constructions.views import FORCES
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import NOWHERE, RIGHT, UP, unit as unit_along
-from graphcam.drafting.formulas import ALPHA, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Reading, Step, View, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role, angle_at
-from graphcam.drafting.meaning import Meaning, ReadingMeaning
+from graphcam.drafting.meaning import ALPHA, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import Scale, unit
 from graphcam.drafting.telling import Move, in_parts
-from graphcam.drafting.units import unit
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
 from graphcam.given.spring_load import Guide, SpringLoad

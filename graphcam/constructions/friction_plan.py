@@ -18,15 +18,13 @@ from graphcam.constructions import force_plan as plain
 from graphcam.constructions.force_plan import BASE, BEYOND, LOAD_LENGTH, jammed_step, load_step, reaction_step, towards
 from graphcam.constructions.pressure_angle import MeasuredAngles
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.formulas import ALPHA, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arrow, Label, Line, Mark, Role
-from graphcam.drafting.meaning import Meaning, ReadingMeaning
+from graphcam.drafting.meaning import ALPHA, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import Scale, unit
 from graphcam.drafting.telling import in_parts
-from graphcam.drafting.units import unit
 from graphcam.given.follower import sense
 from graphcam.given.spring_load import SpringLoad
 

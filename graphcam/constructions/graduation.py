@@ -1,15 +1,24 @@
-"""Round values along the ordinate axis of a diagram: strokes, and numbers where there is room."""
+"""Round values along the axes of a diagram: strokes, numbers where there is room; seconds where the cam has a speed.
+
+Over time the curves stay as they are.  As t = phi/omega, the scale of the time is mu_t = mu_phi/omega, and those of
+velocity, acceleration and jerk are mu_v omega, mu_a omega^2 and mu_j omega^3.
+"""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
-from graphcam.constructions.axes import LONG_TICK, TICK, TICKS_ROOM, reach
+from graphcam.constructions.axes import EVERY, LONG_TICK, PHASES_BELOW, TICK, TICKS_ROOM, in_runs, reach
+from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.ink import say
-from graphcam.drafting.marks import Label, Mark, Origin, Role, Segments
+from graphcam.drafting.ink import Caption, say
+from graphcam.drafting.marks import Label, Line, Mark, Origin, Points, Role, Segments
+from graphcam.drafting.scale import NOTHING, Scale, unit
+from graphcam.given.follower import MM_PER_M
 from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN
 
 NUMBERS_APART = 10.0, 5.0
 """The numbers of a graduation stand at least so far apart [mm of paper], in a low diagram so far."""
@@ -69,3 +78,181 @@ def round_up(least: float, leads: Sequence[float]) -> tuple[float, float]:
     power = 10.0 ** math.floor(math.log10(least))
     lead = next(n for n in leads if n * power >= least)
     return lead * power, lead
+
+
+TIMES_APART = 16.0
+"""Numbers of seconds stand at least so far apart [mm of paper]."""
+UNDER_PHASES, UNDER_DEGREES = 6.0, 10.0
+"""The times stand so far below the angles of the phases, and below a line of degrees without them [mm of paper]."""
+BESIDE = 17.0
+"""The second graduation of an ordinate stands so far beside the first one [mm of paper]."""
+PER_SECOND = {"mm": ("m/s", "m/s²", "m/s³"), "rad": ("rad/s", "rad/s²", "rad/s³")}
+"""The units of velocity, acceleration and jerk at a speed, by that of the lift."""
+SYMBOLS = "vaj"
+
+
+def time_scale(mu_phi: Scale, omega: float) -> Scale:
+    """Seconds for a millimetre of the axis, at an angular velocity [rad/s].
+
+    >>> round(time_scale(Scale(math.radians(1), "rad"), 2 * math.pi).per_mm * 360, 12)
+    1.0
+    """
+    return Scale(mu_phi.per_mm / omega, "s")
+
+
+def scale_at_speed(per_mm: float, symbol: str, omega: float, lift_unit: str) -> Scale:
+    """The scale of v, a or j at an angular velocity [rad/s], from that per radian of the cam.
+
+    >>> scale_at_speed(2.0, "a", 10.0, "mm")
+    Scale(per_mm=0.2, unit='m/s²')
+    """
+    order = SYMBOLS.index(symbol) + 1
+    per_unit = MM_PER_M if lift_unit == "mm" else 1.0
+    return Scale(per_mm * omega**order / per_unit, PER_SECOND[lift_unit][order - 1])
+
+
+def times_below(end: float, mu_phi: Scale, low: float, omega: float | None, *, phases: bool = True) -> tuple[Mark, ...]:
+    """A line graduated in seconds under a diagram that reaches down to ``low`` [mm of paper]; none without a speed.
+
+    phases : whether the angles of the phases stand above it, or degrees alone
+    """
+    if omega is None:
+        return ()
+    mu_t, level = time_scale(mu_phi, omega), low - (PHASES_BELOW + UNDER_PHASES if phases else UNDER_DEGREES + LOWER)
+    every, lead = round_up(TIMES_APART * mu_t.per_mm, ROUND)
+    parts = 4 if lead == 2 else 5
+    parts = parts if every / mu_t.per_mm / parts >= TICKS_ROOM else 1
+    counts = np.arange(math.floor(end * mu_t.per_mm / every * parts * (1 + 1e-12)) + 1)
+    whole = counts % parts == 0
+    x = counts * (every / parts / mu_t.per_mm) + level * UP
+    below = x - np.where(whole, LONG_TICK, TICK) * UP
+    named = zip(below[whole].tolist(), (counts[whole] // parts).tolist(), strict=True)
+    return (
+        Line(np.array([0.0, end]) + level * UP, Role.SCALE),
+        Segments(x, below, Role.SCALE),
+        *(Label(at, say("{t:.6g}", t=n * every), towards=-UP, small=True) for at, n in named),
+        # The scale stands over the line, in the last phase: beside it there may be another view.
+        Label(complex(end, level), say("t, {unit}", unit=unit("s")), 1 + 0j),
+        Label(complex(end, level), say("μₜ = {mu:.4g} {unit}/mm", unit=unit("s"), mu=mu_t.per_mm), -1 + 1j, small=True),
+    )
+
+
+LOWER = 11.0
+"""So far below the lowest place of a diagram a line of degrees ends, with its numbers [mm of paper]."""
+
+
+def axis_said(mu_phi: Scale, omega: float) -> Caption:
+    """How the axis of the cam angle becomes one of time."""
+    return say(
+        "At ω = {omega:.5g} rad/s one revolution takes T = 2π/ω = {turn:.4g} s, so the same axis is one of time: μₜ = "
+        "μᵩ/ω = {mu:.4g} s/mm."
+    ).where(omega=omega, turn=FULL_TURN / omega, mu=time_scale(mu_phi, omega).per_mm)
+
+
+_FACTORS = say("ω"), say("ω²"), say("ω³")
+
+
+def scale_said(per_mm: float, symbol: str, omega: float, lift_unit: str) -> Caption:
+    """The scale of v, a or j in metres and seconds, beside that per radian of the cam."""
+    at = scale_at_speed(per_mm, symbol, omega, lift_unit)
+    said = say("Over time a millimetre is {mu:.5g}·{factor} = {value:.4g} {unit}: the graduation farther to the right.")
+    factor = _FACTORS[SYMBOLS.index(symbol)]
+    if lift_unit == "mm":
+        said = say(
+            "Over time a millimetre is {mu:.5g}·{factor}/1000 = {value:.4g} {unit}: the graduation farther to the "
+            "right."
+        )
+    return said.where(mu=per_mm, factor=factor, value=at.per_mm, unit=unit(at.unit))
+
+
+def graduated_at_speed(
+    heights: Floats, per_mm: float, symbol: str, omega: float, lift_unit: str, end: float, of: Origin | None
+) -> tuple[Mark, ...]:
+    """The second graduation of the ordinates of v, a or j, beside the one at the ``end`` of the turn [mm of paper]."""
+    at, x = scale_at_speed(per_mm, symbol, omega, lift_unit), end + BESIDE
+    low, high = reach(heights)
+    return (
+        Line(x + UP * np.array([low, high]), Role.SCALE, of=of),
+        *graduated(heights, at.per_mm, x, of),
+        Label(x + high * UP, say("{symbol}, {unit}", symbol=symbol, unit=unit(at.unit)), towards=UP, of=of),
+    )
+
+
+NUMBERS_ROOM = 12.0
+"""Places stand at least so far apart that are numbered [mm]: points and chords have numbers beside one another."""
+RAYS_ROOM = 5.0
+"""Heights of rays stand at least so far apart that are numbered [mm]."""
+SAME_HEIGHT = 3
+"""Decimals of a millimetre: rays that end no farther apart fall on one line, and are drawn once."""
+
+
+def every_kth(places: Points) -> int:
+    """Every how many of places in a row have room for a number.
+
+    >>> every_kth(5 * np.arange(24) + 0j)
+    3
+    """
+    spacing = float(np.median(np.abs(np.diff(places.real))))
+    return next((k for k in EVERY if k * spacing >= NUMBERS_ROOM), places.size)
+
+
+def row_numbers(places: Drawn, first: int, towards: Points) -> tuple[Label, ...]:
+    """The numbers of places in a row, counted from ``first``, of every k-th where there is no room for all.
+
+    towards : (n,) where each number stands, seen from its place
+    """
+    every = every_kth(places.shown)
+    kept = [k for k in range(places.shown.size) if (first + k) % every == 0]
+    return tuple(places[k].label(f"{first + k}", complex(towards[k]), small=True) for k in kept)
+
+
+def falling_together(heights: Drawn) -> list[NDArray[np.intp]]:
+    """Which of heights on an axis fall on one another, from the lowest to the highest."""
+    levels, of = np.unique(np.round(heights.shown.imag, SAME_HEIGHT), return_inverse=True)
+    return [np.flatnonzero(of == level) for level in range(levels.size)]
+
+
+def ray_numbers(heights: Drawn, first: int, groups: Sequence[NDArray[np.intp]], every: int) -> Iterator[Label]:
+    """The numbers of rays where they end, as far as there is room: a ray has those of all that fall on it.
+
+    first : the number of the first ray;  groups : as :func:`falling_together` finds them
+    every : so many-th are numbered elsewhere: rays of other numbers have none
+    """
+    below = -math.inf
+    for group in groups:
+        end = heights[int(group[0])]
+        if end.place.imag - below >= RAYS_ROOM and np.any((first + group) % every == 0):
+            yield end.label(ranges(first + group), -1 + 0j, small=True)
+            below = end.place.imag
+
+
+def ranges(numbers: NDArray[np.intp]) -> str:
+    """Growing numbers; of three or more that follow one another the first and the last.
+
+    >>> ranges(np.array([3, 4, 5, 9, 11, 12]))
+    '3-5, 9, 11, 12'
+    """
+    runs = np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)
+    return in_runs([str(number) for number in run] for run in runs)
+
+
+def raised(mm: float, nothing: Caption) -> Caption:
+    """How far up or down a place lies; ``nothing`` where it does neither.
+
+    >>> str(raised(-1.5, say("at the origin"))), str(raised(0.001, say("at the origin")))
+    ('1.50 mm down', 'at the origin')
+    """
+    if abs(mm) < NOTHING:
+        return nothing
+    return say("{mm:.2f} mm up", mm=mm) if mm > 0 else say("{mm:.2f} mm down", mm=-mm)
+
+
+def run_of_chord(way: complex) -> Caption:
+    """How far across and how far up or down a chord runs.
+
+    >>> str(run_of_chord(7.5 + 2j))
+    '7.50 mm across, 2.00 mm up'
+    """
+    if abs(way.imag) < NOTHING:
+        return say("{run:.2f} mm level", run=way.real)
+    return say("{run:.2f} mm across, {climb}", run=way.real, climb=raised(way.imag, Caption("")))

@@ -24,21 +24,29 @@ from graphcam.constructions.axes import (
     together,
 )
 from graphcam.constructions.curve_over_phi import curve_over_phi
-from graphcam.constructions.graduation import graduated
+from graphcam.constructions.graduation import graduated, graduated_at_speed, scale_said
 from graphcam.constructions.pole_scales import PoleTerms, pole_formula
-from graphcam.constructions.time_axis import graduated_at_speed, scale_said
 from graphcam.constructions.turn_board import TurnGivens
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.formulas import LIFT, Formula, Symbol, Values, per_mm
 from graphcam.drafting.hand import Hand, between, reckoned, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, View, say
 from graphcam.drafting.marks import Dimension, Mark, Points, Role, Segments
-from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import (
+    LIFT,
+    Compared,
+    Converges,
+    Formula,
+    Meaning,
+    ReadingMeaning,
+    Symbol,
+    Values,
+    per_mm,
+)
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import NOTHING, unit
 from graphcam.drafting.telling import led_by
-from graphcam.drafting.units import NOTHING, unit
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion

@@ -10,15 +10,13 @@ from graphcam.constructions.axes import numbers, station_names, turning
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import RIGHT, UP, unit
-from graphcam.drafting.formulas import OFFSET, RADIUS, S0, Formula, S, Values
 from graphcam.drafting.hand import Hand, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Line, Mark, Role, Segments
-from graphcam.drafting.meaning import Meaning
+from graphcam.drafting.meaning import OFFSET, RADIUS, S0, Formula, Meaning, S, Values
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import NOTHING, Scale
 from graphcam.drafting.telling import STATION, circle_drawn, run, setting
-from graphcam.drafting.units import NOTHING
 from graphcam.given.follower import Rotation
 from graphcam.given.laws import Floats
 from graphcam.words import Words, say_in, sequence

@@ -21,11 +21,16 @@ from graphcam.constructions.axes import (
     station_names,
     together,
 )
-from graphcam.constructions.graduation import graduated
+from graphcam.constructions.graduation import (
+    falling_together,
+    graduated,
+    graduated_at_speed,
+    raised,
+    run_of_chord,
+    scale_said,
+)
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.pole_scales import PoleTerms, pole_formula
-from graphcam.constructions.slope_numbers import falling_together, raised, run_of_chord
-from graphcam.constructions.time_axis import graduated_at_speed, scale_said
 from graphcam.constructions.views import ACCELERATION, JERK
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
@@ -35,7 +40,7 @@ from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import Arrow, Label, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.units import NOTHING, unit
+from graphcam.drafting.scale import NOTHING, unit
 from graphcam.given.impact import acceleration_jumps
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN

@@ -15,22 +15,29 @@ from graphcam.constructions.adoption import ToldByChain
 from graphcam.constructions.axes import degrees, pieces_of
 from graphcam.constructions.combined_diagram import aside, joined_up, laid_off, offset_caption, offset_line, velocities
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.region import LEAST_RADIUS, ON_THE_LINE, Boundary, binding, boundary, highest_on, nearest
-from graphcam.constructions.region_picture import RegionPicture, picture_of
-from graphcam.constructions.touched_station import touched
+from graphcam.constructions.region import (
+    LEAST_RADIUS,
+    ON_THE_LINE,
+    Boundary,
+    RegionPicture,
+    binding,
+    boundary,
+    highest_on,
+    nearest,
+    picture_of,
+    touched,
+)
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.formulas import OFFSET, R0, S0, SIGMA, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import AngleMark, Dimension, Line, Mark, Region, Role, Segments
-from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import OFFSET, R0, S0, SIGMA, Compared, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import NOTHING
 from graphcam.drafting.telling import led_by
-from graphcam.drafting.units import NOTHING
-from graphcam.given.follower import Rotation, sense
-from graphcam.given.limits import Limits
+from graphcam.given.follower import Limits, Rotation, sense
 from graphcam.words import joined, say_in, sequence
 
 

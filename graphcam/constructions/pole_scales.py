@@ -4,9 +4,9 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any, NamedTuple
 
-from graphcam.drafting.formulas import Formula, Symbol, Values, per_mm
 from graphcam.drafting.ink import Construction, say
-from graphcam.drafting.units import unit
+from graphcam.drafting.meaning import Formula, Symbol, Values, per_mm
+from graphcam.drafting.scale import unit
 
 
 class PoleTerms(NamedTuple):

@@ -22,11 +22,24 @@ from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import COMBINED, PLAN
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.formulas import ALPHA, OFFSET, R0, S0, SIGMA, Formula, S, Symbol, V, Values
 from graphcam.drafting.hand import Direction, Hand, between, reckoned, showing
 from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arc, Line, Mark, Role, angle_at
-from graphcam.drafting.meaning import Converges, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import (
+    ALPHA,
+    OFFSET,
+    R0,
+    S0,
+    SIGMA,
+    Converges,
+    Formula,
+    Meaning,
+    ReadingMeaning,
+    S,
+    Symbol,
+    V,
+    Values,
+)
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
 from graphcam.drafting.telling import run

@@ -7,7 +7,7 @@ import numpy as np
 from graphcam.constructions.arc_roller import ArcStations
 from graphcam.constructions.axes import station_names
 from graphcam.drafting.ink import Caption, Construction, Step, say
-from graphcam.drafting.units import unit
+from graphcam.drafting.scale import unit
 from graphcam.given.laws import Floats
 from graphcam.given.stations import Stations
 from graphcam.words import Words

@@ -1,21 +1,26 @@
-"""Where the cam centre may lie: lines that bound a region, and the places of the region that textbooks take.
+"""Where the cam centre may lie: lines that bound a region, places that textbooks take, how far it is drawn.
 
 Every place is found with ruler and compass on lines of the paper; all of it works on arrays, one region a sample.
 """
 
-from collections.abc import Sequence
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.constructions.axes import station_names
+from graphcam.constructions.integration import Integrated
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import NOWHERE, UP, crossing, foot
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import say
 from graphcam.drafting.marks import Points
 from graphcam.drafting.meaning import Compared, Converges, ReadingMeaning
+from graphcam.drafting.scale import NOTHING
 from graphcam.given.laws import Floats
 from graphcam.plane import dot
 
@@ -164,3 +169,106 @@ def _cut(polygon: list[complex], line: Boundary) -> list[complex]:
         if inside * outside < 0:
             kept.append(start + (end - start) * inside / (inside - outside))
     return kept
+
+
+MARGIN = 14.0
+"""So far beyond the places that it shows the picture ends [mm]."""
+SHORTEST = 60.0
+"""A line that bounds the region elsewhere is drawn at least so far down, for its angle to be seen [mm]."""
+
+
+@dataclass(frozen=True)
+class RegionPicture:
+    """The part of the paper in which the lines that bound the region are drawn [mm]."""
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+
+    @property
+    def corners(self) -> list[complex]:
+        """Anticlockwise from the lower left one."""
+        low, high = self.bottom * UP, self.top * UP
+        return [self.left + low, self.right + low, self.right + high, self.left + high]
+
+    def permitted(self, lines: Sequence[Boundary]) -> Points:
+        """The corners of what every boundary permits of it.
+
+        >>> picture = RegionPicture(-9.0, 9.0, -4.0, 0.0)
+        >>> below = Boundary("below", np.asarray(-1j), np.asarray(-1j))
+        >>> picture.permitted([below]).tolist()
+        [(-9-4j), (9-4j), (9-1j), (-9-1j)]
+        """
+        return permitted_part(lines, self.corners)
+
+    def end(self, line: Boundary, others: Sequence[Boundary]) -> complex:
+        """Where a boundary is drawn to, down from its touch: the picture's edge, if it bounds the region there.
+
+        Else it ends a little below where it crosses the last of the other boundaries.
+
+        >>> flat, steep = (Boundary("", np.asarray(0j), np.exp(turn)) for turn in (-1.4j, -0.4j))
+        >>> picture = RegionPicture(-9.0, 9.0, -400.0, 0.0)
+        >>> leaves, ends = picture.end(flat, []), picture.end(flat, [steep])
+        >>> round(leaves.real), round(abs(ends))
+        (-9, 9)
+        """
+        touch, along = complex(line.touch), complex(line.along)
+        sideways = (self.right if along.real > 0 else self.left) - touch.real
+        leaves = (self.bottom - touch.imag) / along.imag
+        if abs(along.real) * leaves > abs(sideways):
+            leaves = sideways / along.real
+        edge = touch + leaves * along
+        if all(other.clearance(np.asarray(edge)) > -ON_THE_LINE for other in others):
+            return edge
+        with np.errstate(divide="ignore", invalid="ignore"):
+            crossed = [
+                float(other.clearance(np.asarray(touch)) / -dot(other.inward, np.asarray(along))) for other in others
+            ]
+        last = max((way for way in crossed if 0 < way < leaves), default=0.0)
+        return touch + min(leaves, max(last + MARGIN, SHORTEST)) * along
+
+
+def picture_of(places: Iterable[complex], lines: Sequence[Boundary] = ()) -> RegionPicture:
+    """A picture that shows places not above the start of the lift, and the lines that bound their region.
+
+    Lines that lean at up to 45 degrees end on its lower edge: only what is flatter is cut off at the sides.
+
+    >>> line = Boundary("rise", np.asarray(5j), np.exp(-0.25j * np.pi))
+    >>> picture_of([0j, -20j, 3 - 6j], [line])
+    RegionPicture(left=-53.0, right=56.0, bottom=-34.0, top=0.0)
+    """
+    shown: Points = np.array(
+        [*(place for place in places if np.isfinite(place)), *(complex(each.touch) for each in lines)]
+    )
+    bottom = float(shown.imag.min()) - MARGIN
+    aside = MARGIN + max(0.0, *shown.imag.tolist()) - bottom
+    return RegionPicture(float(shown.real.min()) - aside, float(shown.real.max()) + aside, bottom, 0.0)
+
+
+ON_A_STATION = 0.05
+"""A line that touches this near to a station, in parts of the way to the next one, touches at it."""
+
+
+def touched(integrated: Integrated, plotted: Points, place: complex, direction: int) -> list[str]:
+    """The name of the station that a curve is touched at, or the names of those between which it is.
+
+    plotted : (n,) the curve's points at the stations;  direction : 1 for the curve of the rises, -1 of the returns
+
+    >>> import graphcam as gc
+    >>> integrated = gc.solve(gc.builtin_task()).drawn["integration"]
+    >>> curve = np.arange(integrated.first("s").size) + 0j
+    >>> touched(integrated, curve, 4.02 + 0j, 1), touched(integrated, curve, 4.3 + 0j, 1)
+    (['4'], ['4', '5'])
+    """
+    motion, stations = integrated.givens.motion, integrated.givens.stations
+    names, moving = station_names(stations), np.array([phase.direction for phase in motion.phases])
+    left = stations.left[moving[stations.phase[stations.left]] == direction]
+    ways = plotted[left + 1] - plotted[left]
+    # A part that has no length, where the follower stays, is touched nowhere.
+    along = np.clip(dot(ways, place - plotted[left]) / np.maximum(np.abs(ways) ** 2, NOTHING), 0.0, 1.0)
+    part = int(np.argmin(np.abs(plotted[left] + along * ways - place)))
+    first, share = int(left[part]), float(along[part])
+    if min(share, 1 - share) < ON_A_STATION:
+        return [names[first + (share > 0.5)]]
+    return [names[first], names[first + 1]]

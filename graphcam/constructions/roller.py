@@ -9,11 +9,10 @@ import numpy as np
 from graphcam.constructions.curvature import Curved, detail_of
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.formulas import R0, RHO, Formula, Symbol, Values
 from graphcam.drafting.hand import Hand, between, reckoned
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, Words, say
 from graphcam.drafting.marks import Mark, Role
-from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import R0, RHO, Compared, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.telling import led_by
 from graphcam.given.laws import Floats

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from graphcam.constructions.axes import degrees_below, ordinate, phase_ends, phases_below, phi_axes, reach
-from graphcam.constructions.time_axis import times_below
+from graphcam.constructions.graduation import times_below
 from graphcam.drafting.marks import Mark
 from graphcam.drafting.scale import Scale
 from graphcam.given.laws import Floats

@@ -7,9 +7,8 @@ from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Caption, View, Words, say
 from graphcam.drafting.marks import Arrow, Label, Mark, Role
-from graphcam.drafting.scale import Scale, ratio_text
-from graphcam.drafting.units import unit
-from graphcam.given.angular_velocity import MM_PER_M
+from graphcam.drafting.scale import Scale, ratio_text, unit
+from graphcam.given.follower import MM_PER_M
 from graphcam.plane import dot
 
 SPEED = say("{symbol} = {speed:.3g} {unit}")

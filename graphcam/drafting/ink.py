@@ -95,7 +95,7 @@ class Step(Shown):
     under : further marks of a diagram under which no other stands on its page: the numbers of their common axis
     """
 
-    _drawn_in = "construction_drawing"
+    _drawn_in = "construction_drawing.plot"
 
     title: Caption
     parts: tuple[Part, ...]
@@ -243,7 +243,7 @@ class Construction(Shown, Generic[G]):
     .readings[name], .steps(); .plot(step) draws it up to a step, .plot() all of it
     """
 
-    _drawn_in = "construction_drawing"
+    _drawn_in = "construction_drawing.plot"
 
     meaning: Meaning
     givens: G

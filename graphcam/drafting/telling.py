@@ -8,8 +8,7 @@ import numpy as np
 
 from graphcam.drafting.acts import Drawn, Kind, Setting
 from graphcam.drafting.ink import Part, Row
-from graphcam.drafting.scale import ratio_text
-from graphcam.drafting.units import NOTHING
+from graphcam.drafting.scale import NOTHING, ratio_text
 from graphcam.words import Caption, Words, say, sequence
 
 SET = {Kind.LAY_OFF: "length", Kind.CIRCLE: "radius"}

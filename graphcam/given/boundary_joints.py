@@ -7,10 +7,8 @@ from fractions import Fraction
 from itertools import pairwise
 
 from graphcam.errors import DesignError
-from graphcam.given.boundary_parts import Part
-from graphcam.given.exact_pieces import ExactPiece
-from graphcam.given.exact_polynomials import PI
-from graphcam.given.motion_point import told
+from graphcam.given.boundary_parts import Part, told
+from graphcam.given.exact_polynomials import PI, ExactPiece
 from graphcam.words import say
 
 TURN = 2 * PI

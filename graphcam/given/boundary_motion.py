@@ -15,8 +15,7 @@ import numpy as np
 from graphcam.errors import DesignError
 from graphcam.given.boundary_joints import SAME, TURN, joined_turn
 from graphcam.given.boundary_parts import Part, SplinePart
-from graphcam.given.exact_pieces import ExactPiece, between
-from graphcam.given.exact_polynomials import derivative, sign_changes
+from graphcam.given.exact_polynomials import ExactPiece, between, derivative, sign_changes
 from graphcam.given.local_polynomials import LocalPolynomials, cells
 from graphcam.given.measured import from_zero
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise

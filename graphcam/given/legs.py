@@ -2,19 +2,26 @@
 
 A rise or return of less than the tolerance hides is no leg.  What keeps to a level as far as the noise can tell is
 looked at once, as a whole; so no leg begins between two rests that noise cannot tell apart.
+
+A law of motion leaves its level L as a power of the way: s = L + c z^p (1 + b z), with z the cam angle since it left,
+and p = 2 where the acceleration jumps, 3 where the jerk does, 4 where both are continuous.  Before and after a stop L
+is the same; all else, and the places where the motion arrives and leaves, is sought by linear least squares for every p
+on places that are refined.  It rests if two places explain the rows better than one.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
+from graphcam.given.fixed_order import summed
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
-from graphcam.given.rests import Stop, Surroundings, find_stop
 from graphcam.words import Words, say
 
 DEPTH = 2.0
@@ -29,6 +36,177 @@ FEWEST = 5
 """The minimum number of rows on either side by which a stop is judged."""
 SLOW = 2.0
 """A motion on its way may rest where it is so many times slower than on average."""
+
+
+POWERS, RARER = np.array([2, 3, 4]), np.array([1.4, 0.0, 3.6])
+"""Of ten laws three, six and one leave their rest so; less twice the logarithm of it, beside the most usual."""
+PLACES, ROUNDS = 13, 7
+"""Places tried at a time, and rounds in which they close in on the best one and its neighbours."""
+EVIDENCE = 16.0
+"""A rest takes at least so much from the sum of squares [variances of the noise] that a turning leaves."""
+SNAP = 4.0
+"""A rest ends at a row if that adds no more than this to the sum of squares [variances of the noise]."""
+NO_WAY, SINGULAR = 1e-9, 1e-12
+"""A way [rad] of less is none; a determinant of less than this beside its terms says that rows are missing."""
+
+
+@dataclass(frozen=True)
+class Stop:
+    """A stop: from where to where a motion rests, or where it turns (then start = end).
+
+    start, end : cam angles [rad]
+    powers : p before and after
+    misfit : the mean square of what is left [variances of the noise]
+    """
+
+    start: float
+    end: float
+    powers: tuple[int, int]
+    misfit: float
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """The rows about a place at which a motion may stop, 0.
+
+    x, y : (n,) cam angles [rad] that grow, and displacements
+    directions : of the displacement away from the stop, before and after
+    reach : how far before and after 0 it may arrive and leave [rad]
+    noise : standard deviation of the displacements
+    """
+
+    x: Floats
+    y: Floats
+    directions: tuple[int, int]
+    reach: tuple[float, float]
+    noise: float
+
+    def leaving(self, side: int, places: Floats, since: Floats, powers: Floats) -> _Squares:
+        """The least squares of rows from ``since`` on, for a motion that leaves at the places; backwards before 0."""
+        x, y = (self.x, self.y) if side else (-self.x[::-1], self.y[::-1])
+        way = np.maximum(x[-1] - places, NO_WAY)[:, None]
+        z = np.maximum(x - places[:, None], 0.0) / way
+        rows = (x >= since[:, None]).astype(np.float64)
+        square = z * z
+        first = rows * np.choose(powers[:, None] - POWERS[0], [square, square * z, square * square])
+        return _least_squares(np.stack([rows, first, first * z]), y, self.directions[side], powers)
+
+
+class _Squares(NamedTuple):
+    """The least sums of squares as functions of the level L: least + weight (L - level)^2."""
+
+    least: Floats
+    weight: Floats
+    level: Floats
+
+    def at(self, level: float) -> Floats:
+        """The sums of squares if the rest lies at a level."""
+        return self.least + self.weight * (level - self.level) ** 2
+
+
+def find_stop(rows: Surroundings, shortest: float) -> Stop:
+    """The stop among some rows; a rest that is shorter than ``shortest`` [rad] is a turning.
+
+    >>> x = np.radians(np.arange(-20.0, 21.0))
+    >>> y = np.maximum(np.abs(x) - np.radians(7), 0) ** 3
+    >>> stop = find_stop(Surroundings(x, y, (1, 1), (0.2, 0.2), 1e-6), 0.02)
+    >>> np.degrees([stop.start, stop.end]).round(3).tolist(), stop.powers
+    ([-7.0, 7.0], (3, 3))
+    """
+    variance = rows.noise**2
+    freedom = variance * max(rows.x.size - 7, 1)
+    turning, place, powers = _turning(rows)
+    resting, (before, after), left_by = _rest(rows)
+    if not resting + EVIDENCE * variance < turning or before + after < shortest:
+        place = place if np.isfinite(turning) else 0.0
+        return Stop(place, place, powers, turning / freedom)
+    return Stop(-before, after, left_by, resting / freedom)
+
+
+def _turning(rows: Surroundings) -> tuple[float, float, tuple[int, int]]:
+    """The least sum of squares of a motion that turns at one place, the place, and its powers."""
+    before, after = (powers.ravel() for powers in np.meshgrid(POWERS, POWERS))
+    low, high = np.full(before.size, -rows.reach[0]), np.full(before.size, rows.reach[1])
+    squares = centre = low
+    for _ in range(ROUNDS):
+        places = np.linspace(low, high, PLACES)
+        flat = places.ravel()
+        come = rows.leaving(0, -flat, -flat, np.tile(before, PLACES))
+        leave = rows.leaving(1, flat, flat, np.tile(after, PLACES))
+        together = come.least + leave.least
+        together += come.weight * leave.weight / (come.weight + leave.weight) * (come.level - leave.level) ** 2
+        best = together.reshape(places.shape).argmin(axis=0)
+        squares = together.reshape(places.shape).min(axis=0)
+        low, centre, high = _closer(places, best)
+    k = int(np.argmin(squares))
+    return float(squares[k]), float(centre[k]), (int(before[k]), int(after[k]))
+
+
+def _rest(rows: Surroundings) -> tuple[float, list[float], tuple[int, int]]:
+    """The least sum of squares of a motion that rests at 0, how long before and after, and its powers."""
+    level = float(rows.y[np.argmin(np.abs(rows.x))])
+    low: list[Floats] = [np.zeros(POWERS.size)] * 2
+    high: list[Floats] = [np.full(POWERS.size, far) for far in rows.reach]
+    found: list[tuple[float, float, float, int]] = []
+    for _ in range(ROUNDS):
+        found = []
+        for side in (0, 1):
+            places = np.linspace(low[side], high[side], PLACES)
+            flat = places.ravel()
+            squares = rows.leaving(side, flat, np.zeros(flat.size), np.tile(POWERS, PLACES))
+            at_level = squares.at(level).reshape(places.shape) + (RARER * rows.noise**2)
+            best = at_level.argmin(axis=0)
+            low[side], centre, high[side] = _closer(places, best)
+            k = int(np.argmin(at_level.min(axis=0)))
+            pick = best[k] * POWERS.size + k
+            found.append((float(squares.weight[pick]), float(squares.level[pick]), float(centre[k]), int(POWERS[k])))
+        weights, levels, _, _ = zip(*found, strict=True)
+        level = float(np.average(levels, weights=weights))
+    ends = [_at_row(rows, side, end, power, level) for side, (_, _, end, power) in enumerate(found)]
+    return sum(cost for cost, _ in ends), [end for _, end in ends], (found[0][3], found[1][3])
+
+
+def _closer(places: Floats, best: NDArray[np.intp]) -> tuple[Floats, Floats, Floats]:
+    """The best of the places in every column, and its neighbours on both sides."""
+    column = np.arange(places.shape[1])
+    low, high = np.maximum(best - 1, 0), np.minimum(best + 1, PLACES - 1)
+    return places[low, column], places[best, column], places[high, column]
+
+
+def _at_row(rows: Surroundings, side: int, end: float, power: int, level: float) -> tuple[float, float]:
+    """The sum of squares, and an end of a rest: at a row if it may be, because most phases end where a table has one.
+
+    level : of the rest
+    """
+    x = np.abs(rows.x[rows.x * (side - 0.5) > 0])
+    places = np.array([end, x[np.argmin(np.abs(x - end))]])
+    squares = rows.leaving(side, places, np.zeros(2), np.full(2, power)).at(level)
+    k = int(squares[1] <= squares[0] + SNAP * rows.noise**2)
+    return float(squares[k]), float(places[k])
+
+
+def _least_squares(columns: Floats, y: Floats, direction: int, powers: Floats) -> _Squares:
+    """The sums of squares for the columns 1, z^p, z^(p + 1); infinite where these would lead the other way.
+
+    columns : (3, m, n), zero in rows that do not count
+    """
+    one, first, second = columns
+    (n, p, q), (y_n, y_p, y_q) = summed(columns), summed(columns * y)
+    a, b, c = summed(first * first), summed(first * second), summed(second * second)
+    determinant = a * c - b * b
+    sound = determinant > SINGULAR * a * c
+    determinant = np.where(sound, determinant, 1.0)
+    # What z^p and z^(p + 1) explain of the level's column, and of the rows.
+    level_p, level_q = (c * p - b * q) / determinant, (a * q - b * p) / determinant
+    rows_p, rows_q = (c * y_p - b * y_q) / determinant, (a * y_q - b * y_p) / determinant
+    weight = n - (level_p * p + level_q * q)
+    sound &= weight > NO_WAY
+    weight = np.where(sound, weight, 1.0)
+    level = (y_n - (level_p * y_p + level_q * y_q)) / weight
+    times_p, times_q = direction * (rows_p - level_p * level), direction * (rows_q - level_q * level)
+    sound &= (times_p > 0) & (powers * times_p + (powers + 1) * times_q > 0)
+    least = summed(one * (y * y)) - (rows_p * y_p + rows_q * y_q) - weight * level**2
+    return _Squares(np.where(sound, np.maximum(least, 0.0), np.inf), weight, level)
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.given.exact_pieces import ExactPiece
-from graphcam.given.exact_polynomials import Exact, derivative
+from graphcam.given.exact_polynomials import Exact, ExactPiece, derivative
 from graphcam.given.pieces import Floats, Side
 
 ORDERS = 4

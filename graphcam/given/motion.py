@@ -192,7 +192,7 @@ class Motion(Shown):
     [15.0, 30.0]
     """
 
-    _drawn_in = "motion_curves"
+    _drawn_in = "motion_curves.plot"
 
     phases: Sequence[Phase]
     starts: Floats = field(init=False)

@@ -10,12 +10,10 @@ from itertools import pairwise
 
 from graphcam.errors import DesignError, check_kind
 from graphcam.given.boundary_joints import check_joint, greatest_lift
-from graphcam.given.boundary_parts import Part, PolynomialPart, SplinePart
-from graphcam.given.exact_pieces import ExactPiece, between
-from graphcam.given.exact_polynomials import derivative, rounded, shortest
+from graphcam.given.boundary_parts import MotionPoint, Part, PolynomialPart, SplinePart
+from graphcam.given.exact_polynomials import ExactPiece, between, derivative, rounded, shortest
 from graphcam.given.local_polynomials import LocalPolynomials, cells
 from graphcam.given.motion_law import Fourth, Law
-from graphcam.given.motion_point import MotionPoint
 from graphcam.given.pieces import Floats
 from graphcam.words import say
 

@@ -1,21 +1,71 @@
-"""What presses a follower that slides on its cam: its inertia, a spring, a load, friction in the guide.
+"""What presses a follower on its cam: its inertia, a spring, a load, friction in the guide of one that slides.
 
 Source: I. Voloder, M. Cohodar, S. Karic, *Annals of DAAAM* (2007): contact is kept while m (a omega^2 + v eps) + F0 +
 c s is not negative.
+
+Along the motion means in the direction in which the coordinate s shrinks: of a follower that slides a force in N, of an
+arm, whose s is an angle, a torque about its pivot in N mm.
+
+What presses an arm turns it about its pivot, towards the cam, with the torque
+
+    M = J (a omega^2 + v eps) + M_spring + l P
+
+of the inertia J about the pivot and of a load P at the arm's end, along its path.  A torsion spring has M_spring = F0 +
+c s, with F0 in N mm and c in N mm/rad.  A spring between a point of the arm and an anchor in the frame has the length
+L(s); with x = L - L(0), or L(0) - L of one that is pressed together as the arm rises, its force is F0 + c x, and by
+virtual work M_spring = (F0 + c x) dx/ds.
 """
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
 
 import numpy as np
 
-from graphcam.errors import check_kind, check_number
-from graphcam.given.angular_velocity import MM_PER_M, omega_of
-from graphcam.given.follower_load import Values
+from graphcam.errors import DesignError, check_kind, check_number
+from graphcam.given.follower import MM_PER_M, omega_of
 from graphcam.given.laws import Floats
 from graphcam.given.load_curve import Load, check_load, knots_of, largest, load_at, load_slope
 from graphcam.given.ranges import NUMBER, bounded
 from graphcam.words import say
+
+Values = tuple[Floats, Floats, Floats, Floats]
+"""(s, v, a, j)"""
+
+
+class FollowerLoad(Protocol):
+    """A load on a follower, as it stands beside its cam."""
+
+    @property
+    def preload(self) -> float:
+        """The preload of the spring at the lowest place."""
+        ...
+
+    @property
+    def knots(self) -> tuple[float, ...]:
+        """The cam angles [rad] inside a phase at which the force's slope may jump."""
+        ...
+
+    def force(self, values: Values, direction: Floats | float = 0.0, phi: Floats | float = ...) -> Floats:
+        """The force along the motion [N; of an arm N mm] that the cam must bear, from (s, v, a, j).
+
+        direction : +1 on a rise, -1 on a return, 0 in a dwell;  phi : cam angles [rad], for a load that depends on them
+        returns : negative where the cam would have to pull
+        """
+        ...
+
+    def slope(self, values: Values, phi: Floats | float = ...) -> Floats:
+        """The derivative of the load by phi inside a phase."""
+        ...
+
+    def size(self, values: Values) -> Floats:
+        """The sum of the magnitudes of its terms: what its rounding is a part of."""
+        ...
+
+    def leverage(self, values: Values) -> tuple[Floats, Floats]:
+        """How much the force grows with the spring's preload, and the derivative of that by phi."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -128,3 +178,202 @@ class Guide:
             limit = say("a finite number of 0{unit} or more", unit=unit)
             check_number(quantity, getattr(self, quantity), limit, least=0)
         check_number("length", self.length, say("a finite number greater than 0 mm"), above=0)
+
+
+DEAD = 1e-9
+"""A spring that is so near to its dead point [rad] turns nothing."""
+
+
+@dataclass(frozen=True)
+class ArmSpring:
+    """Where a spring acts on an arm: between a point of the arm and an anchor in the frame.
+
+    arm : distance of the point from the pivot, on the line to the arm's end [mm]; negative on the far side of the pivot
+    anchor : (x, y) of the other end in the frame [mm]; the cam centre is (0, 0), the pivot (distance, 0)
+
+    Raises
+    ------
+    DesignError : a size is not finite, or the spring acts on the pivot
+
+    >>> import graphcam as gc
+    >>> gc.ArmSpring(arm=60, anchor=(90, -40))
+    ArmSpring(arm=60, anchor=(90, -40))
+    """
+
+    arm: float
+    anchor: tuple[float, float]
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.arm) and self.arm != 0):
+            limit = say("a finite length in mm, other than 0")
+            raise DesignError("at.arm", self.arm, limit, say("at the pivot it turns nothing"))
+        if len(self.anchor) != 2 or not all(map(math.isfinite, self.anchor)):
+            raise DesignError("at.anchor", self.anchor, say("two finite coordinates in mm"))
+
+
+@dataclass(frozen=True)
+class ArmLoad:
+    """The load on an oscillating follower, as a torque about its pivot.
+
+    inertia : J of the arm and all that swings with it, about the pivot [kg mm^2]
+    speed_rpm : of the cam at the instant [rpm];  acceleration : eps of the cam at the instant [rad/s^2]
+    stiffness : c, of a torsion spring [N mm/rad], of a spring at a point [N/mm]
+    preload : F0 in the lowest position, of a torsion spring [N mm], of a spring at a point [N]
+    load : P, the force on the arm's end along its path [N], positive towards the cam: a number, or a
+        :class:`~graphcam.LoadCurve` over the turn
+    at : where a spring at a point acts; None for a torsion spring about the pivot
+
+    Raises
+    ------
+    DesignError : a value is negative where it cannot be, or not finite
+
+    >>> import graphcam as gc
+    >>> gc.ArmLoad(inertia=900, speed_rpm=300, stiffness=4000, preload=500).at is None
+    True
+    """
+
+    inertia: float
+    speed_rpm: float
+    stiffness: float
+    preload: float = 0.0
+    acceleration: float = 0.0
+    load: Load = 0.0
+    at: ArmSpring | None = None
+
+    def __post_init__(self) -> None:
+        per = "N mm/rad" if self.at is None else "N/mm"
+        for quantity, unit in (("inertia", say("kg mm^2")), ("speed_rpm", "rpm"), ("stiffness", per)):
+            limit = say("a finite number of 0 {unit} or more", unit=unit)
+            check_number(quantity, getattr(self, quantity), limit, least=0)
+        bounded("speed_rpm", self.speed_rpm, "rpm")
+        for quantity, unit in (("preload", self.preload_unit), ("acceleration", "rad/s^2")):
+            value = getattr(self, quantity)
+            if isinstance(value, tuple):  # all that is said of the preload, in place of the number alone
+                limit = say("a number of {unit}", unit=unit)
+                check_kind(quantity, value, NUMBER, limit, say("write spring_preload(...).preload"))
+            check_number(quantity, value, say("a finite number of {unit}", unit=unit))
+        check_load(self.load)
+
+    @property
+    def preload_unit(self) -> str:
+        """What the preload is measured in."""
+        return "N mm" if self.at is None else "N"
+
+    @property
+    def omega(self) -> float:
+        """Speed of the cam [rad/s]."""
+        return omega_of(self.speed_rpm)
+
+    def placed(self, arm: float, distance: float, psi0: float, swing: float) -> "PlacedArmLoad":
+        """The load on an arm of a length whose pivot is at a distance [mm], from the low angle over a swing [rad].
+
+        Raises
+        ------
+        DesignError : a spring at a point passes its dead point, where it has no torque
+        """
+        placed = PlacedArmLoad(self, arm, distance, psi0)
+        placed.check(swing)
+        return placed
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedArmLoad:
+    """A load on an arm beside its cam: a torque about the pivot [N mm], positive towards the cam.
+
+    arm, distance : l and c [mm];  psi0 : angle between arm and line of centres at the lower dwell [rad]; each may
+        be an array, of many arms at once
+    """
+
+    given: ArmLoad
+    arm: Any
+    distance: Any
+    psi0: Any
+
+    @property
+    def preload(self) -> float:
+        """The preload of the spring in the lowest position [N mm, or N of a spring at a point]."""
+        return self.given.preload
+
+    @property
+    def knots(self) -> tuple[float, ...]:
+        """The cam angles [rad] at which the load's slope may jump inside a phase."""
+        return knots_of(self.given.load)
+
+    def force(self, values: Values, direction: Floats | float = 0.0, phi: Floats | float = math.nan) -> Floats:
+        """The torque [N mm] that the cam must bear, from (s, v, a, j); the pivot is without friction."""
+        _, v, a, _ = values
+        given, (x, x1, _) = self.given, self._spring(values)
+        inertia = given.inertia / MM_PER_M * (a * given.omega**2 + v * given.acceleration)
+        return inertia + (given.preload + given.stiffness * x) * x1 + self.arm * load_at(given.load, phi)
+
+    def slope(self, values: Values, phi: Floats | float = math.nan) -> Floats:
+        """The derivative of the load by phi inside a phase [N mm/rad]."""
+        _, v, a, j = values
+        given, (x, x1, x2) = self.given, self._spring(values)
+        inertia = given.inertia / MM_PER_M * (j * given.omega**2 + a * given.acceleration)
+        spring = given.stiffness * x1 * x1 + (given.preload + given.stiffness * x) * x2
+        return inertia + spring * v + self.arm * load_slope(given.load, phi)
+
+    def size(self, values: Values) -> Floats:
+        """The sum of the magnitudes of the torque's terms [N mm]."""
+        _, v, a, _ = values
+        given, (x, x1, _) = self.given, self._spring(values)
+        inertia = given.inertia / MM_PER_M * (abs(a) * given.omega**2 + abs(v * given.acceleration))
+        return inertia + (abs(given.preload) + given.stiffness * abs(x)) * abs(x1) + self.arm * largest(given.load)
+
+    def leverage(self, values: Values) -> tuple[Floats, Floats]:
+        """dx/ds, the lever of a spring at a point [mm], 1 of a torsion spring; and its derivative by phi."""
+        _, x1, x2 = self._spring(values)
+        return x1, x2 * values[1]
+
+    def spring_force(self, values: Values) -> Floats:
+        """F0 + c x of the spring [N], or [N mm] of a torsion spring."""
+        return self.given.preload + self.given.stiffness * self._spring(values)[0]
+
+    def check(self, swing: float) -> None:
+        """Check that a spring at a point presses the arm on the cam over the whole swing [rad]."""
+        if self.given.at is None or self.presses(swing):
+            return
+        if self._anchor == 0:
+            remedy = say("anchor the spring beside the pivot")
+            found = say("at the pivot")
+            raise DesignError("at.anchor", found, say("elsewhere, for there the spring turns nothing"), remedy)
+        limit = say("beside the line on which the spring passes over the pivot, after {degrees:.4g} degrees")
+        limit = limit.where(degrees=math.degrees(self._left))
+        remedy = say("move the anchor round the pivot, or the spring's point to the other side of it")
+        anchor = say("({anchor:g}, {anchor2:g})", anchor=self.given.at.anchor[0], anchor2=self.given.at.anchor[1])
+        raise DesignError("at.anchor", anchor, limit, remedy)
+
+    def presses(self, swing: Any) -> Any:
+        """Whether the spring turns the arm towards the cam over the whole swing [rad]."""
+        return self.given.at is None or (np.abs(self._anchor) > 0) & (self._left > swing + DEAD)
+
+    @property
+    def _left(self) -> Any:
+        """How far the arm swings until the spring's point, the pivot and the anchor lie on one line [rad]."""
+        turned = np.mod(np.angle(self._anchor) + self.psi0, math.pi)
+        return np.where(turned < DEAD, 0.0, math.pi - turned)[()]
+
+    @cached_property
+    def _anchor(self) -> Any:
+        """The anchor seen from the pivot, turned so that the spring's point lies at psi0 = 0 on the positive axis."""
+        at = self.given.at
+        assert at is not None
+        return -(complex(*at.anchor) - self.distance)
+
+    def _spring(self, values: Values) -> tuple[Floats, Floats, Floats]:
+        """x, dx/ds and d2x/ds2 of the spring."""
+        s, at = values[0], self.given.at
+        if at is None:
+            return s, np.ones_like(s), np.zeros_like(s)
+        # From the pivot the point is -b exp(-i psi): with the anchor at -r exp(i beta) the angle between is psi + beta.
+        b, r = at.arm, np.abs(self._anchor)
+        start = self.psi0 + np.angle(self._anchor)
+        angle, low = start + s, np.sqrt(b * b + r * r - 2 * b * r * np.cos(start))
+        length = np.sqrt(b * b + r * r - 2 * b * r * np.cos(angle))
+        first = b * r * np.sin(angle) / length
+        second = (b * r * np.cos(angle) - first * first) / length
+        way = np.copysign(1.0, b * np.sin(start))
+        # The difference of lengths by that of their squares: it keeps its digits near the lowest place.
+        stretch = 4 * b * r * np.sin(s / 2) * np.sin((start + angle) / 2) / (length + low)
+        return way * stretch, way * first, way * second

@@ -19,8 +19,7 @@ import numpy as np
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.three_arcs import Point, ThreeArcs
-from graphcam.mechanism.arc_flank import ArcFlank
-from graphcam.mechanism.arc_motion import ArcMotion
+from graphcam.mechanism.arc_motion import ArcFlank, ArcMotion
 from graphcam.plane import dot
 from graphcam.showing import WIDTH, Shown, in_lines
 from graphcam.words import Caption, say, sequence
@@ -32,7 +31,7 @@ ROUNDING = 4 * float(np.finfo(np.float64).eps)
 class ThreeArcCam(ArcFlank, Shown):
     """One root of a three-arc cam: its flank, and the motion of a follower on it."""
 
-    _drawn_in = "arcs_outline"
+    _drawn_in = "cam_outline.plot_arcs"
 
     def __repr__(self) -> str:
         radii = f"radii {self.rho1:.6g}, {self.rho2:.6g} and {self.rho3:.6g} mm about C1, C2 and C3"

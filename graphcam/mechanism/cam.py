@@ -108,7 +108,7 @@ class Cam(Shown):
     (14.9781, 55.8179)
     """
 
-    _drawn_in = "cam_outline"
+    _drawn_in = "cam_outline.plot"
 
     motion: Motion
     follower: Follower

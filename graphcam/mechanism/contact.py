@@ -14,23 +14,21 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError, check_kind
-from graphcam.given.arm_load import ArmLoad
-from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.roots import roots
-from graphcam.given.spring_load import SpringLoad
+from graphcam.given.spring_load import ArmLoad, FollowerLoad, SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.stationary import (
     ROUNDING,
     Places,
     ValueAt,
     greatest_of,
+    over_turn,
     places_in,
     places_of,
     smooth_pieces,
 )
-from graphcam.mechanism.turn_curve import over_turn
 from graphcam.showing import by_parts
 from graphcam.words import say
 

@@ -10,9 +10,8 @@ from typing import Any, Literal, Self
 import numpy as np
 
 from graphcam.errors import check_number
-from graphcam.given.follower import FlatFaced, Rotation, sense
+from graphcam.given.follower import FlatFaced, Limits, Rotation, sense
 from graphcam.given.laws import Floats
-from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.mechanism.kinematics import Appearance, Complexes, Contour, Kinematics, Pair, Values
 from graphcam.mechanism.stationary import stationary_places, velocity_range

@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, check_number
-from graphcam.given.angular_velocity import MM_PER_M, omega_of
+from graphcam.given.follower import MM_PER_M, omega_of
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, wrap
 from graphcam.given.roots import roots
@@ -155,7 +155,7 @@ class VibratingFollower(Shown):
     [0.001, 14.8542]
     """
 
-    _drawn_in = "response_curves"
+    _drawn_in = "response_curves.plot"
 
     motion: AnyMotion
     train: FollowerTrain

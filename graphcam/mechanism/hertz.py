@@ -18,8 +18,7 @@ from graphcam.given.laws import Floats, Side
 from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG, RollerContact
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.kinematics import Kinematics, Values
-from graphcam.mechanism.stationary import Places, ValueAt, greatest_of, places_told
-from graphcam.mechanism.turn_curve import TurnCurve, over_turn
+from graphcam.mechanism.stationary import Places, TurnCurve, ValueAt, greatest_of, over_turn, places_told
 from graphcam.showing import by_parts
 from graphcam.words import say
 

@@ -19,10 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import check_kind
-from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
-from graphcam.given.spring_load import SpringLoad
+from graphcam.given.spring_load import FollowerLoad, SpringLoad
 from graphcam.words import say
 
 Complexes = NDArray[np.complexfloating[Any, Any]]

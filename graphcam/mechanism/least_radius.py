@@ -8,8 +8,7 @@ import math
 from typing import overload
 
 from graphcam.errors import DesignError, check_kind
-from graphcam.given.follower import KINDS, FlatFaced, Follower, Oscillating, Rotation, Translating, sense
-from graphcam.given.limits import Limits
+from graphcam.given.follower import KINDS, FlatFaced, Follower, Limits, Oscillating, Rotation, Translating, sense
 from graphcam.given.motion import Motion
 from graphcam.mechanism.flat_faced import FlatMinimumRadius
 from graphcam.mechanism.followers import EXACT, LeastRadius

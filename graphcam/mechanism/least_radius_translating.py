@@ -17,9 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.errors import check_number
-from graphcam.given.follower import Translating
+from graphcam.given.follower import Limits, Translating
 from graphcam.given.laws import Floats
-from graphcam.given.limits import Limits
 from graphcam.given.motion import Motion
 from graphcam.given.motion_law import Law
 from graphcam.given.roots import roots

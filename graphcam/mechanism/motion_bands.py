@@ -93,7 +93,7 @@ class MotionBands(Shown):
     samples, seed : of :attr:`sample`, which is solved when it is first asked for
     """
 
-    _drawn_in = "band_curves"
+    _drawn_in = "motion_curves.plot_bands"
 
     cam: Cam
     errors: MakingErrors

@@ -14,12 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError, check_kind
-from graphcam.given.arm_load import ArmLoad
 from graphcam.given.follower import Oscillating, swing_remedy
-from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.pieces import sine_cosine
+from graphcam.given.spring_load import ArmLoad, FollowerLoad
 from graphcam.mechanism.kinematics import Appearance, Contour, Pair, RollerKinematics, Values
 from graphcam.words import say
 

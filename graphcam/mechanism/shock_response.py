@@ -151,7 +151,7 @@ class FollowerResponse(Shown):
     event : what the cam does
     """
 
-    _drawn_in = "response_curves"
+    _drawn_in = "response_curves.plot"
 
     event: Event
     n: float
@@ -251,7 +251,7 @@ class ShockSpectrum(Shown):
     peak : the maximum |f''| of the cam itself, C_a [lifts/rise time^2]
     """
 
-    _drawn_in = "spectrum_curves"
+    _drawn_in = "response_curves.plot_spectrum"
 
     law: str
     damping: float

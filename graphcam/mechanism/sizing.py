@@ -1,4 +1,4 @@
-"""The smallest cam within given ranges, or that of the minimum stress, and the front between both.
+"""The smallest cam within given ranges, or that of the minimum stress, the front between both, and their region.
 
 The unknowns are the cam's radius, offset and roller radius.  Limits are the pressure angles, the roller's rule and the
 contact stress.  Hertz's stress falls as 1/sqrt(width), so the minimum stress with the widest face and the minimum width
@@ -11,31 +11,102 @@ Source of the problem: Tran Minh Quang, Nguyen Quang Hung (2015).
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Literal, cast
+from typing import Literal, NoReturn, cast
 
 import numpy as np
 
 from graphcam.errors import DesignError, check_kind
 from graphcam.given.follower import Rotation
+from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.ranges import NUMBER
 from graphcam.given.roller_contact import RollerContact
 from graphcam.given.roller_rule import roller_rule as terms_of
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.sizing_limits import Sizes, SizingLimits
-from graphcam.mechanism.sizing_problem import BINDS, Measure, Range, SizingProblem
-from graphcam.mechanism.sizing_refusal import refuse
-from graphcam.mechanism.sizing_search import Watched, best, exchange, polished
+from graphcam.mechanism.sizing_limits import (
+    BINDS,
+    CURVATURE,
+    NO_UNDERCUT,
+    RETURN,
+    RISE,
+    SHARE,
+    STRESS,
+    Measure,
+    Range,
+    Sizes,
+    SizingLimits,
+    SizingProblem,
+    TurnPlaces,
+)
+from graphcam.mechanism.sizing_search import Watched, best, exchange, nearest, polished
 from graphcam.showing import in_lines
-from graphcam.words import either, say
+from graphcam.words import Caption, Words, chained, either, say
 
 Objective = Literal["size", "stress"]
 OBJECTIVES: tuple[Objective, ...] = ("size", "stress")
 """The minimum radius, and at it the narrowest face; or the minimum stress, with the widest face."""
 DOMINATED = 1e-6
 """A cam of the front whose stress is less by no more than this part is no gain."""
+
+
+ALIKE = 1e-3
+"""Limits that the nearest cam exceeds by parts that differ by less stand in each other's way."""
+MANY = say("no cam in the ranges keeps them all")
+
+
+def refuse(problem: SizingProblem) -> NoReturn:
+    """Say which limit no cam of the ranges keeps, or which of them not together, and where they come nearest.
+
+    Raises
+    ------
+    DesignError : always
+    """
+    near = nearest(problem)
+    left = problem.exact_margins(near)
+    worst = min(left.values())
+    together = [name for name in problem.limits.kept if left[name] <= worst + ALIKE and left[name] < -BINDS]
+    for name in together:
+        alone = nearest(problem, [name])
+        if problem.exact_margins(alone)[name] < -BINDS:
+            raise _error(problem, alone, [name], say("no cam in the ranges keeps it, even without the other limits"))
+    raise _error(problem, near, together, say("no cam in the ranges keeps both") if len(together) == 2 else MANY)
+
+
+def _error(problem: SizingProblem, near: Sizes, names: list[str], why: Words) -> DesignError:
+    said = [_told(problem, near, name) for name in names]
+    found, limit = map(chained, zip(*said, strict=True))
+    sizes = zip(problem.ranges, problem.values(near), strict=True)
+    at = ", ".join(f"{name} {value:.6g}" for name, value in sizes)
+    remedy = say("{why}: the nearest has {at} mm; widen the ranges or permit more", why=why, at=at)
+    return DesignError(chained(names), found, limit, remedy)
+
+
+def _told(problem: SizingProblem, near: Sizes, name: str) -> tuple[Caption, Caption]:
+    """What the cam has of a limit, and what is permitted."""
+    limits = problem.limits
+    if name in (RISE, RETURN):
+        permitted = limits.rise if name == RISE else limits.return_ or math.inf
+        steepness = math.tan(permitted) * (1 - problem.exact_margins(near)[name])
+        return say("{degrees:.4g} degrees", degrees=math.degrees(math.atan(steepness))), say(
+            "at most {degrees:.4g} degrees", degrees=math.degrees(permitted)
+        )
+    if name in (CURVATURE, SHARE):
+        rho = problem.stress(near).forces.cam.extremes().min_convex_radius[0]
+        kind = "rho" if name == CURVATURE else "r0"
+        terms = [term for term in (*limits.rule, NO_UNDERCUT) if term.of == kind]
+        most = min(terms, key=lambda term: term(rho, near.radius))
+        least = say("{radius:.4g} mm of prime radius", radius=near.radius)
+        if name == CURVATURE:
+            least = say("{rho:.4g} mm of curvature", rho=rho)
+        return say("a roller of {roller:.4g} mm on {least}", roller=near.roller, least=least), say(
+            "a roller of at most {text}", text=most.text
+        )
+    assert name == STRESS
+    stress = limits.stress * math.sqrt(problem.exact_width(near) / near.width)
+    return say("{stress:.5g} MPa", stress=stress), say("at most {stress:.5g} MPa", stress=limits.stress)
 
 
 @dataclass(frozen=True, repr=False)
@@ -269,3 +340,77 @@ def sized(problem: SizingProblem, sizes: Sizes) -> SizedCam:
 def _no_room(problem: SizingProblem, sizes: Sizes) -> list[str]:
     """The limits of which a cam leaves nothing."""
     return [name for name, margin in problem.exact_margins(sizes).items() if margin <= BINDS]
+
+
+HALVINGS = 20
+"""The borders are found by halving the range of the radius so often."""
+ROLLERS = 25
+"""Rollers that are tried on every cam."""
+FINER = 3
+"""How many times as many places as in the search the region begins with."""
+ALL = "all limits"
+Across = Literal["offset", "roller radius", "face width"]
+"""The size over which a region is drawn."""
+
+
+@dataclass(frozen=True, eq=False)
+class FeasibleRegion:
+    """The least radius over another size, with the best roller and the widest face where these are not that size.
+
+    It is for a drawing: limits are looked at at places of the turn, and rollers are tried, which leaves about 0.01 mm.
+
+    across : the other size;  values : of it (n,) [mm]
+    by_limit : (n,) mm by the names of the limits, each for itself; NaN where no radius of the range keeps it
+    least : (n,) mm, where all limits are kept together
+    """
+
+    across: Across
+    values: Floats
+    by_limit: dict[str, Floats]
+    least: Floats
+
+
+def across_of(problem: SizingProblem) -> Across:
+    """The first size that has a range; the offset where all others are given."""
+    ranges = problem.offset, problem.roller_radius, problem.face_width
+    names: tuple[Across, Across, Across] = ("offset", "roller radius", "face width")
+    for name, (low, high) in zip(names, ranges, strict=True):
+        if low < high:
+            return name
+    return "offset"
+
+
+def feasible_region(problem: SizingProblem, parts: int = 60) -> FeasibleRegion:
+    """The borders of the region at ``parts + 1`` values of the size of :func:`across_of`.
+
+    A larger radius is taken to be better for every limit, as it is wherever the load does not depend on it.
+    """
+    places, across = TurnPlaces.spread(problem.motion, problem.load, FINER), across_of(problem)
+    values = np.linspace(*problem.ranges[across], parts + 1)
+    tried = values[:, None, None]
+    low, high = problem.roller_radius
+    rollers = np.linspace(low, high, ROLLERS if low < high else 1)[:, None]
+    offset = tried if across == "offset" else problem.offset[0]
+    roller = tried if across == "roller radius" else rollers
+    width = tried if across == "face width" else problem.face_width[1]
+
+    def left(radius: Floats) -> dict[str, Floats]:
+        """Of every limit with the best roller, and of all together."""
+        sizes = problem.sizes(radius[:, None, None], offset, roller, width)
+        worst = {name: margin.min(axis=-1) for name, margin in problem.margins(places, sizes).items()}
+        together = np.minimum.reduce(np.broadcast_arrays(*worst.values()))
+        return {name: margin.max(axis=-1) for name, margin in (*worst.items(), (ALL, together))}
+
+    borders = {name: _border(problem, left, name, parts + 1) for name in problem.limits.kept}
+    return FeasibleRegion(across, values, borders, _border(problem, left, ALL, parts + 1))
+
+
+def _border(problem: SizingProblem, left: Callable[[Floats], dict[str, Floats]], name: str, count: int) -> Floats:
+    """The least radius of the range that keeps a limit, by halving; NaN where none does."""
+    low, high = (np.full(count, end, dtype=np.float64) for end in problem.radius)
+    none, kept_at_once = left(high)[name] < 0, left(low)[name] >= 0
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        kept = left(middle)[name] >= 0
+        low, high = np.where(kept, low, middle), np.where(kept, middle, high)
+    return np.where(none, np.nan, np.where(kept_at_once, problem.radius[0], high))

@@ -15,8 +15,7 @@ from typing import Literal
 import numpy as np
 
 from graphcam.given.laws import Floats
-from graphcam.mechanism.sizing_limits import LIMITS, Sizes, TurnPlaces
-from graphcam.mechanism.sizing_problem import SizingProblem
+from graphcam.mechanism.sizing_limits import LIMITS, Sizes, SizingProblem, TurnPlaces
 
 Goal = Literal["radius", "width", "room"]
 """What is sought: the least radius with the widest face, the least face width that bears the load, which has the least

@@ -1,4 +1,4 @@
-"""The extremes of a motion: of its velocity and acceleration, and of any quantity of it, one that jumps included.
+"""The extremes of a motion and of any quantity of it, one that jumps included, and its curve over the turn.
 
 An extreme lies at an end of a smooth piece, or where the slope vanishes.  Source of v_max = C_v h/F and a_max =
 C_a h/F^2: R. L. Norton, *Cam Design and Manufacturing Handbook* (2009), chapter 3.
@@ -235,3 +235,37 @@ def max_jerk(motion: Motion) -> float:
     225.0
     """
     return max(p.normalised.peak_jerk * p.lift / p.angle**3 for p in motion.phases if not isinstance(p, Dwell))
+
+
+@dataclass(frozen=True, eq=False)
+class TurnCurve:
+    """Dense points of a curve over the turn, (n,), in order, at a jump one on either side.
+
+    phi : rad;  values : of the quantity, NaN where it has none
+    """
+
+    phi: Floats
+    values: Floats
+
+
+def over_turn(
+    motion: Motion, quantity: Callable[[Places], Floats], knots: Sequence[float] = (), parts: int = 60
+) -> TurnCurve:
+    """A quantity over the turn, with ``parts`` points on every smooth piece and both its ends.
+
+    quantity : at places that belong to phases, shaped like them
+    knots : cam angles [rad] at which its slope jumps inside a phase
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, pi, "rectangular"), gc.Return(30, pi, "rectangular")])
+    >>> curve = over_turn(motion, lambda places: places.values[2], parts=1)
+    >>> curve.values.round(2).tolist()  # the acceleration, on both sides of its jumps
+    [12.16, 12.16, -12.16, -12.16, -12.16, -12.16, 12.16, 12.16]
+    """
+    phase, u0, u1 = smooth_pieces(motion, knots)
+    share = np.linspace(0, 1, parts + 1)
+    inside = places_in(motion, phase[:, None], u0[:, None] * (1 - share) + u1[:, None] * share)
+    values = np.array(quantity(inside))
+    values[:, -1] = quantity(places_in(motion, phase, u1, "left"))
+    return TurnCurve(inside.phi.ravel(), values.ravel())

@@ -1,7 +1,7 @@
 """Notebooks: what a step-by-step notebook shows, and how one is written, executed and turned into pages.
 
 In a notebook: :func:`~graphcam.notebooks.stages.show_steps` and :func:`~graphcam.notebooks.stages.drawing`,
-:func:`~graphcam.notebooks.shown_tables.compared`, :func:`~graphcam.notebooks.picture.chart`,
+:func:`~graphcam.notebooks.shown_tables.compared`, :func:`~graphcam.notebooks.stages.chart`,
 :class:`~graphcam.notebooks.question.Question`, :func:`~graphcam.notebooks.explore.explore` and
 :func:`~graphcam.notebooks.explore.changed`.
 
@@ -9,10 +9,9 @@ The drawings are those of :mod:`graphcam.sheets`: the same marks, the same rende
 """
 
 from graphcam.notebooks.explore import Slider, changed, explore
-from graphcam.notebooks.picture import Picture, chart, picture_of, picture_of_page
 from graphcam.notebooks.question import Question
 from graphcam.notebooks.shown_tables import compared, error_budget, table
-from graphcam.notebooks.stages import drawing, player, show_steps
+from graphcam.notebooks.stages import Picture, chart, drawing, picture_of, picture_of_page, player, show_steps
 
 __all__ = [
     "Picture",

@@ -85,7 +85,7 @@ class Exploration:
 def side_by_side(stills: Mapping[str, ShownPosition]) -> str:
     """Still pictures as part of a web page, each under what is said of it.
 
-    >>> from graphcam.notebooks.picture import Picture
+    >>> from graphcam.notebooks.stages import Picture
     >>> side_by_side({"4 parts": Picture("<svg/>", "a square")})[:47]
     '<div class="stills"><div class="still"><p>4 par'
     """
@@ -102,7 +102,7 @@ def explore(draw: Callable[..., ShownPosition], **sliders: Slider) -> Exploratio
 
     draw : makes what is shown of the sliders' values, by their names
 
-    >>> from graphcam.notebooks.picture import Picture
+    >>> from graphcam.notebooks.stages import Picture
     >>> parts = Slider("parts", range(4, 25, 4), 12, shown=(4, 12))
     >>> shown = explore(lambda n: Picture("<svg/>", f"{n} parts"), n=parts)
     >>> shown.html.count("<img"), 'alt="4 parts"' in shown.html

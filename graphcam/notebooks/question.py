@@ -10,7 +10,7 @@ from html import escape
 
 from graphcam.comparison.quantities import Quantity
 from graphcam.drafting.ink import Reading
-from graphcam.drafting.units import UNITS
+from graphcam.drafting.scale import UNITS
 from graphcam.language import MINUS
 from graphcam.words import Caption, Tell, Words, say
 

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.units import unit
+from graphcam.drafting.scale import unit
 from graphcam.report import markdown
-from graphcam.report.budget_table import budget_table
 from graphcam.report.markdown import number
+from graphcam.report.note_tables import budget_table
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.words import say
 

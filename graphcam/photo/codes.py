@@ -10,7 +10,7 @@ import numpy as np
 import zxingcpp
 from numpy.typing import NDArray
 
-from graphcam.photo.light import LINEAR
+from graphcam.photo.pictures import LINEAR
 from graphcam.photo.tags import CELLS, Grey, Places, Tags
 
 Photograph = NDArray[np.uint8]

@@ -2,26 +2,26 @@
 
 Of a closed curve r(theta) about the view's origin is read, else y(x) over its axis; both are the best way through a
 grid of places, looked for by lines in the pencil, then looked at station by station.
+
+How often the limits of a refusal decide wrongly is measured by the trial of simulated photographs
+(tests/photos/trial.py).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import maximum_filter1d
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
-from graphcam.photo.bridged_gaps import bridged
-from graphcam.photo.curve_grid import LOST, CurveGrid, Evidence, evidence_of, grid_of, hidden_in
-from graphcam.photo.curve_refusals import MOST_DARKER, Measures, refusal_of
-from graphcam.photo.flag_runs import Flags, long_runs, longest_run, runs
+from graphcam.photo.curve_grid import LOST, BestWay, CurveGrid, Evidence, best_way, evidence_of, grid_of, hidden_in
+from graphcam.photo.flag_runs import LONGEST_GAP, Flags, bridged, long_runs, longest_run, runs
 from graphcam.photo.pencil_ink import Ink
 from graphcam.photo.printed import Points, PrintedView
-from graphcam.photo.tracks import STRONG, TRUE_GAP, Track, is_stroke, placed, seen_on, track_of
-from graphcam.photo.trellis import BestWay, best_way
-from graphcam.photo.twins import twin_share
-from graphcam.words import Words
+from graphcam.photo.tracks import SHORTEST_RUN, STRONG, TRUE_GAP, Track, is_stroke, placed, seen_on, track_of
+from graphcam.words import Words, say
 
 FULL = 12.0
 """Standard deviations of noise from which on more contrast is no better."""
@@ -45,6 +45,153 @@ STEEPEST = 0.2
 """Cosine of the steepest slope for which this is reckoned."""
 RIVAL = 0.45
 """Share of the curve's strong places that a second curve must pass, to be one that was meant."""
+
+
+LEAST_SHARE = 0.90
+"""Share of its length on which a curve is seen: a half has far less, a faint but whole one more."""
+LEAST_COHERENCE = 0.80
+"""Median share of the best direction's answer that the curve's own direction has: through a scribble the way jumps."""
+MOST_RIVAL = 0.25
+"""Share of its length over which a second curve is seen; rays and digits beside a lone curve make less."""
+MOST_BEND = 3.5
+"""Degrees by which the direction changes from station to station, on average: the way through a scribble turns much."""
+MOST_TWIN = 0.06
+"""Share of its length along which a second crest runs beside the first."""
+MOST_DARKER = 0.10
+"""Share of its length along which a line far darker than the curve runs, on it or elsewhere."""
+MOST_HIDDEN = 0.10
+"""Share of its length that lies under black print, where nothing is seen."""
+EMPTY = 0.25
+"""Below this share there is nothing that looks like a curve."""
+
+
+REACH = 2.2
+"""Half the profile [mm] in which a second crest is looked for."""
+STEP = 0.1
+"""The step along the profile [mm]."""
+CENTRAL = 0.7
+"""The curve's own crest lies so near to its path [mm]."""
+NEAREST = 0.55
+"""Two crests are at least so far apart [mm]; nearer ones a photograph shows as one."""
+SECOND = 0.45
+"""Share of the first crest's height that a second one has: what an eraser leaves has less."""
+VALLEY = 0.8
+"""Share of the second crest's height below which the profile falls between the two."""
+ALONG = 1.5
+"""Deviation over which profiles are smoothed along the curve [stations], against crosses and digits."""
+
+
+def twin_share(track: Track, seen: Flags, ink: Ink, wraps: bool) -> float:
+    """Share of the seen length along which there are two crests, over at least ``SHORTEST_RUN`` at once."""
+    offsets = np.arange(-REACH, REACH + STEP / 2, STEP)
+    profiles = ink.at(track.path[:, None] + track.normal[:, None] * offsets)
+    profiles = gaussian_filter1d(profiles, ALONG, axis=0, mode="wrap" if wraps else "nearest")
+    double = long_runs(seen & _two_crests(profiles, offsets), track.lengths, SHORTEST_RUN, wraps)
+    return float(track.lengths[double].sum() / max(float(track.lengths[seen].sum()), 1e-6))
+
+
+def _two_crests(profiles: NDArray[Any], offsets: NDArray[np.float64]) -> Flags:
+    """Whether profiles (n, m) have a second crest."""
+    station = np.arange(profiles.shape[0])
+    central = np.flatnonzero(np.abs(offsets) < CENTRAL)
+    crest = central[profiles[:, central].argmax(1)]
+    height = profiles[station, crest]
+    found = np.zeros(station.size, np.bool_)
+    for k in range(1, offsets.size - 1):
+        second = profiles[:, k]
+        is_crest = (second >= profiles[:, k - 1]) & (second >= profiles[:, k + 1])
+        apart = np.abs(offsets[k] - offsets[crest]) > NEAREST
+        high = is_crest & apart & (second > SECOND * height)
+        for row in np.flatnonzero(high):
+            low, top = sorted((k, int(crest[row])))
+            found[row] |= profiles[row, low:top].min() < VALLEY * second[row]
+    return found
+
+
+@dataclass(frozen=True)
+class Measures:
+    """How well a curve is seen.
+
+    share : of its length that is seen
+    gap : the longest piece that is not seen, mm
+    coherence : median share of the best direction's answer that its own direction has
+    rival : share of its length over which a second curve is seen elsewhere
+    bend : mean change of its direction from station to station, degrees
+    twin : share of its length along which a second line runs within 2 mm
+    hidden : share of its length under black print
+    contrast : density of its strong places against their surroundings
+    length : mm
+    darker : share of its length along which a far darker line runs, on it or elsewhere
+    """
+
+    share: float
+    gap: float
+    coherence: float
+    rival: float
+    bend: float
+    twin: float
+    hidden: float
+    contrast: float
+    length: float
+    darker: float
+
+
+def refusal_of(measures: Measures) -> tuple[Words, Words] | None:
+    """The reason why a curve cannot be used, and the remedy; None if it can.
+
+    >>> from dataclasses import replace
+    >>> good = Measures(.98, 3, .95, .05, 1.5, 0, 0, .3, 300, 0)
+    >>> refusal_of(good) is None
+    True
+    >>> str(refusal_of(replace(good, share=.6, gap=40))[0])
+    '60 % of the curve can be seen, and 90 % are needed'
+    """
+    again = say("draw it as one clear line, or enter it in the review page")
+    share = say(
+        "{share:.0f} % of the curve can be seen, and {least:.0f} % are needed",
+        share=100 * measures.share,
+        least=100 * LEAST_SHARE,
+    )
+    over = say("draw over the faint parts, also along printed lines, and take the photograph again in even light")
+    cases = [
+        (measures.rival > MOST_RIVAL, _rival_refusal(measures), say("erase the one that is not meant")),
+        (
+            measures.darker > MOST_DARKER,
+            _darker_refusal(measures),
+            say("draw over the whole curve, or erase what is not meant"),
+        ),
+        (measures.share < EMPTY, say("no curve can be seen"), say("check that this is the right page and in focus")),
+        (measures.twin > MOST_TWIN, _twin_refusal(measures), say("erase the one that is not meant")),
+        (
+            measures.coherence < LEAST_COHERENCE or measures.bend > MOST_BEND,
+            say("the lines do not form one curve"),
+            again,
+        ),
+        (measures.hidden > MOST_HIDDEN, _hidden_refusal(measures), say("enter it in the review page")),
+        (measures.share < LEAST_SHARE, share, over),
+        (measures.gap > LONGEST_GAP, _gap_refusal(measures), over),
+    ]
+    return next(((why, remedy) for applies, why, remedy in cases if applies), None)
+
+
+def _rival_refusal(measures: Measures) -> Words:
+    return say("a second curve is drawn along {share:.0f} % of the first", share=100 * measures.rival)
+
+
+def _twin_refusal(measures: Measures) -> Words:
+    return say("two lines run side by side along {share:.0f} % of the curve", share=100 * measures.twin)
+
+
+def _darker_refusal(measures: Measures) -> Words:
+    return say("a line far darker than the curve is drawn along {share:.0f} % of it", share=100 * measures.darker)
+
+
+def _hidden_refusal(measures: Measures) -> Words:
+    return say("{share:.0f} % of the curve lies under black print", share=100 * measures.hidden)
+
+
+def _gap_refusal(measures: Measures) -> Words:
+    return say("a piece of {gap:.0f} mm of the curve cannot be seen", gap=measures.gap)
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,16 +9,31 @@ from __future__ import annotations
 import errno
 import os
 import stat
+import struct
+import warnings
 from collections.abc import Iterator, Sequence
+from contextlib import closing
+from ctypes import c_float, c_uint
 from dataclasses import dataclass
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
+
+import numpy as np
+import pillow_heif
+from PIL import Image, UnidentifiedImageError
+from pypdfium2 import PdfDocument, PdfiumError, PdfPage, raw
 
 from graphcam.descriptors import READ
-from graphcam.photo.images import HEIF_BRANDS, image_pictures
-from graphcam.photo.pictures import Photograph
-from graphcam.photo.refusal import PhotographError
-from graphcam.photo.scans import scanned_pages
+from graphcam.photo.pictures import (
+    KEPT_PIXELS,
+    WIDE,
+    Photograph,
+    PhotographError,
+    bounded,
+    check_size,
+    focal_length,
+    picture_of,
+)
 from graphcam.words import Words, say
 
 MOST_BYTES = 200_000_000
@@ -31,6 +46,89 @@ FOLDERS_DEEP = 1
 """Folders within a folder that are looked into."""
 
 __all__ = ["Photograph", "Unopened", "pictures_in"]
+
+
+POINTS = 72.0
+"""Points of an inch."""
+DPI = 300.0
+"""The resolution of a page that is more than one picture."""
+WHOLE = 0.9
+"""The part of a page that its one picture covers at least."""
+NESTED = 8
+"""Groups within groups in which pictures are looked for."""
+
+
+def scanned_pages(file: BinaryIO, name: str) -> Iterator[Photograph | PhotographError]:
+    """The pages of a PDF, or why one is none.
+
+    Raises
+    ------
+    PhotographError : there is none
+    """
+    try:
+        document = PdfDocument(file)
+    except PdfiumError as error:
+        if "password" in str(error).lower():
+            raise PhotographError(say("the PDF is locked with a password"), say("save it without one")) from None
+        raise PhotographError(say("the PDF is damaged or incomplete"), say("send it again")) from None
+    with closing(document):
+        count = len(document)
+        if not count:
+            raise PhotographError(say("the PDF has no pages"), say("send it again"))
+        if count > MOST_PAGES:
+            raise PhotographError(
+                say("the PDF has more than {most} pages", most=MOST_PAGES), say("send fewer pages in a file")
+            )
+        for number in range(count):
+            page_name = name if count == 1 else f"{name}, {number + 1}"
+            try:
+                yield _picture(document, number, page_name)
+            except PhotographError as error:
+                yield error
+            except PdfiumError:
+                yield PhotographError(say("page {number} is damaged", number=number + 1), say("scan it again"))
+
+
+def _picture(document: PdfDocument, number: int, name: str) -> Photograph:
+    with closing(document[number]) as page:
+        width, height = page.get_size()
+        if not (width > 0 and height > 0):
+            raise PhotographError(say("page {number} is empty", number=number + 1), say("scan it again"))
+        scale: Any = min(_scale(page, width * height), float(np.sqrt(KEPT_PIXELS / (width * height))))
+        with closing(page.render(scale=scale)) as bitmap:
+            pixels = np.asarray(bitmap.to_numpy())
+            if pixels.ndim == 2 or pixels.shape[2] == 1:
+                pixels = np.repeat(pixels.reshape(*pixels.shape[:2], 1), 3, axis=2)
+            return Photograph(name, np.ascontiguousarray(pixels[..., :3], np.uint8))
+
+
+def _scale(page: PdfPage, area: float) -> float:
+    """Pixels a point: those of the page's one picture, or the usual ones.
+
+    Raises
+    ------
+    PhotographError : a picture in it is too large
+    """
+    found = [_measured(picture.raw) for picture in page.get_objects([raw.FPDF_PAGEOBJ_IMAGE], max_depth=NESTED)]
+    for columns, rows, _ in found:
+        check_size(columns, rows, WIDE)
+    if len(found) == 1:
+        columns, rows, covered = found[0]
+        if covered >= WHOLE * area:
+            return float(np.sqrt(columns * rows / covered))
+    return DPI / POINTS
+
+
+def _measured(picture: Any) -> tuple[int, int, float]:
+    """Columns and rows of a picture in a PDF, and the area of the page that it covers.
+
+    The library's own methods for it are called differently in its versions 4 and 5.
+    """
+    columns, rows = c_uint(), c_uint()
+    left, bottom, right, top = (c_float() for _ in range(4))
+    raw.FPDFImageObj_GetImagePixelSize(picture, columns, rows)
+    raw.FPDFPageObj_GetBounds(picture, left, bottom, right, top)
+    return columns.value, rows.value, (right.value - left.value) * (top.value - bottom.value)
 
 
 @dataclass(frozen=True)
@@ -147,3 +245,93 @@ def _why(error: OSError) -> tuple[Words, Words]:
         errno.ELOOP: (say("it is a link that leads back to itself"), say("send the picture itself")),
     }
     return known.get(error.errno, (say("it cannot be read"), say("send it again")))
+
+
+FORMATS = ("JPEG", "PNG", "TIFF")
+"""The formats that Pillow is to read; the fewer its readers, the fewer doors for a hostile file."""
+HEIF_BRANDS = tuple(b"ftyp" + brand for brand in (b"heic", b"heix", b"hevc", b"heim", b"heis", b"mif1", b"msf1"))
+"""The brands with which a HEIC file begins, after four bytes."""
+MOST_PAGES = 500
+"""The maximum number of pages of a file."""
+UNPACKED_AT_ONCE = 6
+"""Bytes a pixel that a HEIC takes while it is unpacked."""
+BROKEN = (OSError, SyntaxError, ValueError, TypeError, KeyError, IndexError, OverflowError, EOFError, struct.error)
+"""What Pillow raises for broken files, all of it seen in its readers."""
+
+
+def image_pictures(file: BinaryIO, name: str) -> Iterator[Photograph]:
+    """The pictures of a file, of a TIFF's many pages one after another.
+
+    Raises
+    ------
+    PhotographError : it is broken, or too large
+    """
+    if file.read(12)[4:12] in HEIF_BRANDS:
+        file.seek(0)
+        yield _heif(file, name)
+        return
+    file.seek(0)
+    with warnings.catch_warnings():
+        # Sizes are looked at here, and strange tags are no matter.
+        warnings.simplefilter("ignore")
+        with _image_of(file) as image:
+            yield _page(image, name)
+            if image.format != "TIFF":
+                return
+            for number in range(1, MOST_PAGES):
+                if not _turned_to(image, number):
+                    return
+                yield _page(image, f"{name}, {number + 1}")
+
+
+def _image_of(file: BinaryIO) -> Image.Image:
+    try:
+        return Image.open(file, formats=FORMATS)
+    except Image.DecompressionBombError:
+        raise PhotographError(
+            say("the picture is too large"), say("send it with 12 megapixels, or scan it at 300 dpi")
+        ) from None
+    except (UnidentifiedImageError, *BROKEN):
+        raise _broken() from None
+
+
+def _page(image: Image.Image, name: str) -> Photograph:
+    try:
+        return picture_of(image, name)
+    except Image.DecompressionBombError:
+        check_size(*image.size)
+        raise _broken() from None
+    except BROKEN:
+        raise _broken() from None
+
+
+def _turned_to(image: Image.Image, page: int) -> bool:
+    try:
+        image.seek(page)
+    except EOFError:
+        return False
+    except (Image.DecompressionBombError, *BROKEN):
+        raise _broken() from None
+    return True
+
+
+def _heif(file: BinaryIO, name: str) -> Photograph:
+    try:
+        image = pillow_heif.open_heif(file, convert_hdr_to_8bit=True)
+        check_size(*image.size, UNPACKED_AT_ONCE)
+        exif = Image.Exif()
+        said = image.info.get("exif")
+        if isinstance(said, bytes):
+            exif.load(said)
+        size = image.size
+        pixels = np.asarray(image)
+    except (RuntimeError, *BROKEN):
+        raise _broken() from None
+    # The file's own turns have been made, and what EXIF says of them has been heeded.
+    grey = pixels.ndim == 2 or pixels.shape[2] < 3
+    colours = pixels.reshape(*pixels.shape[:2], -1)[..., 0] if grey else pixels[..., :3]
+    return bounded(np.ascontiguousarray(colours), name, focal_length(exif, size), max(size))
+
+
+def _broken() -> PhotographError:
+    return PhotographError(say("the file is damaged or incomplete"), say("send it again"))

@@ -13,10 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.photo.pencil_ink import Ink
+from graphcam.photo.pictures import PhotographError
 from graphcam.photo.printed import Points, PrintedView
-from graphcam.photo.raster import Raster
-from graphcam.photo.refusal import PhotographError
-from graphcam.photo.ridges import DIRECTIONS, PER_MM, ridges, spread
+from graphcam.photo.raster import DIRECTIONS, PER_MM, Raster, ridges, spread
 from graphcam.photo.tracks import above_foot
 from graphcam.words import say
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from graphcam.photo.refusal import PhotographError
-from graphcam.words import say
+from graphcam.errors import GraphcamError
+from graphcam.words import Words, say
 
 Pixels = NDArray[np.uint8]
 MOST_PIXELS = 120_000_000
@@ -37,6 +37,36 @@ DIAGONAL_35 = 43.27
 """mm of the film to which focal lengths are compared."""
 FOCALS = (0.4, 4.0)
 """Focal lengths that are believed, in diagonals of the picture."""
+
+
+class PhotographError(GraphcamError):
+    """A photograph, or what is drawn on it, that is not read; nothing of it is marked.
+
+    why : a sentence without its full stop ("only 2 of 8 marks are seen")
+    remedy : what to do about it ("take in the whole sheet")
+
+    >>> print(PhotographError("the picture is blurred", "hold still"))
+    the picture is blurred; hold still
+    """
+
+    def __init__(self, why: Words, remedy: Words) -> None:
+        super().__init__(why, remedy)
+        self.why = why
+        self.advice = remedy
+
+    @property
+    def fault(self) -> Words:
+        """Why it is not read."""
+        return self.why
+
+
+def _linear() -> NDArray[np.float32]:
+    said = np.arange(256) / 255
+    return np.where(said <= 0.04045, said / 12.92, ((said + 0.055) / 1.055) ** 2.4).astype(np.float32)
+
+
+LINEAR = _linear()
+"""Light (256,) in parts of all of it, by the value of a pixel."""
 
 
 @dataclass(frozen=True, eq=False)

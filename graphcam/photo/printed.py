@@ -1,4 +1,4 @@
-"""What a reader of photographs must know of a printed page: its tags, its bars, what is printed and where is drawn.
+"""What a reader of photographs must know of a printed page: its tags and bars, what is printed, where is drawn.
 
 It is written down when the page is printed, since paper does not change with the program.  Lengths are mm of paper, and
 places are complex, x to the right and y up from the lower left corner of the page.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -126,3 +126,34 @@ def _pair(place: complex) -> tuple[float, float]:
 
 def _pairs(places: Any) -> list[tuple[float, float]]:
     return [_pair(place) for place in places]
+
+
+Side = Literal["left", "right"]
+SIDES: tuple[Side, Side] = ("left", "right")
+
+
+def half(page: PrintedPage, side: Side) -> PrintedPage:
+    """One sheet of a page with a seam, in the page's own millimetres: its tags, and its parts of the views."""
+    seam = _seam(page)
+    low, high = (-np.inf, seam) if side == "left" else (seam, np.inf)
+    tags = {number: corner for number, corner in page.tags.items() if low <= corner.real < high}
+    views = {name: view for name, whole in page.views.items() if (view := _part(whole, low, high)) is not None}
+    return replace(page, tags=tags, views=views, seam=None)
+
+
+def side_seen(numbers: NDArray[np.int64], page: PrintedPage) -> Side:
+    """The sheet of a page with a seam of which more tags are seen."""
+    counts = [np.isin(numbers, list(half(page, side).tags)).sum() for side in SIDES]
+    return SIDES[int(np.argmax(counts))]
+
+
+def _part(view: PrintedView, low: float, high: float) -> PrintedView | None:
+    left, bottom, right, top = view.room
+    room: Edges = (max(left, low), bottom, min(right, high), top)
+    return replace(view, room=room) if room[0] < room[2] else None
+
+
+def _seam(page: PrintedPage) -> float:
+    if page.seam is None:
+        raise ValueError("the page has no seam")
+    return page.seam

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
-from graphcam.photo.light import LINEAR
+from graphcam.photo.pictures import LINEAR
 from graphcam.photo.printed import Edges
 from graphcam.photo.registration import Registration
 

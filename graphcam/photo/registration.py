@@ -8,11 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.photo.fitting import Numbers
-from graphcam.photo.halves import half, side_seen
-from graphcam.photo.laying import EXPECTED, LEAST_TAGS, Kind, Laid, Sight, Surface, laid_surfaces
-from graphcam.photo.planes import Frame
-from graphcam.photo.printed import Edges, PrintedPage
-from graphcam.photo.refusal import PhotographError
+from graphcam.photo.laying import EXPECTED, LEAST_TAGS, Frame, Kind, Laid, Sight, Surface, laid_surfaces
+from graphcam.photo.pictures import PhotographError
+from graphcam.photo.printed import Edges, PrintedPage, half, side_seen
 from graphcam.photo.tags import Tags
 from graphcam.words import say
 

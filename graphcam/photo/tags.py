@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.photo.light import LINEAR
+from graphcam.photo.pictures import LINEAR
 from graphcam.photo.tag_family import CELLS, COUNT, dark_cells
 
 Places = NDArray[np.complex128]

@@ -13,11 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.photo.fitting import Numbers, Prior
-from graphcam.photo.halves import SIDES, Side, half
 from graphcam.photo.laying import Surface
-from graphcam.photo.printed import Edges, PrintedPage
+from graphcam.photo.pictures import PhotographError
+from graphcam.photo.printed import SIDES, Edges, PrintedPage, Side, half
 from graphcam.photo.rectify import PER_MM, Flat, rectify
-from graphcam.photo.refusal import PhotographError
 from graphcam.photo.registration import OUTWARD, Registration, register
 from graphcam.photo.tags import Tags
 from graphcam.words import say

@@ -9,13 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from graphcam.photo.curve_grid import CurveGrid, Evidence, hidden_in
+from graphcam.photo.curve_grid import BestWay, CurveGrid, Evidence, hidden_in
 from graphcam.photo.flag_runs import Flags, long_runs, runs
 from graphcam.photo.pencil_ink import Ink
 from graphcam.photo.printed import Points
-from graphcam.photo.raster import Raster
-from graphcam.photo.ridges import ALONG
-from graphcam.photo.trellis import BestWay
+from graphcam.photo.raster import ALONG, Raster
 
 SURE = 6.0
 """Standard deviations of noise that a line passes."""

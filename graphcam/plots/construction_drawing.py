@@ -11,7 +11,9 @@ from graphcam.drafting.ink import Construction, Step
 from graphcam.errors import DesignError
 from graphcam.plots.figures import axes_on
 from graphcam.plots.step_board import StepBoard, board_of
+from graphcam.report.documents import sheet_of
 from graphcam.sheets.matplotlib_renderer import INCH, draw_on
+from graphcam.solving.arcs_solution import AnySolution
 from graphcam.words import say
 
 AROUND = 1.0
@@ -49,4 +51,13 @@ def plot(
     axes.set(xlabel="mm of paper", ylabel="mm of paper")
     if len(board.views) == 1:
         axes.set_title(str(*(view.title for view in board.views.values())), fontsize="medium")
+    return axes
+
+
+def plot_sheet(solution: AnySolution, on: Axes | Figure | None = None) -> Axes:
+    """Draw the first page of the finished sheet on axes in mm of paper, from its lower left corner."""
+    page = sheet_of(solution).pages[0]
+    axes = axes_on(on, page.width / INCH, page.height / INCH)
+    draw_on(axes, page)
+    axes.set_axis_off()  # the sheet has a frame of its own
     return axes

@@ -10,13 +10,11 @@ from functools import cached_property
 from graphcam.drafting.ink import Construction, Step, View
 from graphcam.drafting.marks import Origin
 from graphcam.drafting.moves import pieces_of
-from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.expand import Placement, expand
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.labels import lettered, shading_parted
-from graphcam.sheets.model import Entity, Group, Page, Source
+from graphcam.sheets.model import Box, Entity, Group, Page, Source, around_all, by_place
 from graphcam.sheets.panels import Panel, clusters, panels, stand
-from graphcam.sheets.places import by_place
 from graphcam.sheets.styles import CURRENT_PART, CURRENT_STEP, FORMER_STEP, in_progress
 from graphcam.words import Tell
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from graphcam.comparison.speed import PER_SPEED
 from graphcam.constructions.axes import turning
-from graphcam.given.angular_velocity import omega_of
+from graphcam.given.follower import omega_of
 from graphcam.given.laws import Floats
 from graphcam.mechanism.arcs import ThreeArcCam
 from graphcam.report.markdown import Block, Grid, number

@@ -1,18 +1,130 @@
-"""The documents that a solution gets, whichever kind of task it solves."""
+"""The documents that a solution gets, whichever kind of task it solves, at a scale that a page takes."""
 
+import re
+from dataclasses import replace
+from html import escape
+from importlib import resources
+
+from graphcam.constructions.views import PROFILE
+from graphcam.drafting.scale import ratio_text
+from graphcam.errors import DesignError
 from graphcam.report.arcs_report import arcs_contents, arcs_note
-from graphcam.report.given_profile_scale import check_profile_hopeful, check_profile_size
-from graphcam.report.mechanism_scene import MechanismScene, arcs_scene, cam_scene
+from graphcam.report.markdown import FORMULA
+from graphcam.report.mechanism_view import MechanismScene, arcs_scene, cam_scene
 from graphcam.report.note import note
-from graphcam.report.note_page import note_page
-from graphcam.report.sheet_contents import Contents, motion_contents
+from graphcam.report.sheet_contents import Contents, all_drawn, motion_contents, scaled_steps
+from graphcam.sheets.filling import GAPS, TooLargeError
 from graphcam.sheets.layout import compose_parts
+from graphcam.sheets.leaves import fits
 from graphcam.sheets.model import Drawing
-from graphcam.sheets.runs import TooLargeError
+from graphcam.sheets.panels import panels
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
-from graphcam.solving.sheet_papers import format_of
-from graphcam.solving.solution import Solution
-from graphcam.solving.task_board import check_given_sizes
+from graphcam.solving.solution import Solution, solved_on
+from graphcam.solving.task_board import HOPELESS, board_of, check_given_sizes, format_of, given_profile_scale
+from graphcam.words import say
+
+COMMA = re.compile(r"<mn>(\d+)</mn><mrow><mo>&#x0002C;</mo></mrow><mn>(\d+)</mn>")
+"""A decimal comma, which is no operator with a gap behind it."""
+TAG = re.compile(r"\\tag\{(\d+)\}")
+TABLE = re.compile("<table>(?=(.*?)</thead>)", re.DOTALL)
+WIDE = 7
+"""Tables that have more of "<th" than this in their heads, the head itself counted, have smaller letters."""
+
+
+def mathml(latex: str, display: str = "inline") -> str:
+    r"""A formula in LaTeX as MathML; display : "inline" or "block".
+
+    >>> mathml(r"0{,}5")
+    '<math xmlns="http://www.w3.org/1998/Math/MathML" display="inline"><mrow><mn>0,5</mn></mrow></math>'
+    """
+    # The engine of the studio runs where there is no such library.
+    from latex2mathml.converter import convert
+
+    return COMMA.sub(r"<mn>\1,\2</mn>", convert(latex.strip(), display=display))
+
+
+def note_page(note: str, language: str) -> str:
+    """A note in Markdown as a page that stands alone.
+
+    >>> page = note_page("# Cam\\n\\nWith $r$:\\n\\n$$s = r \\\\tag{1}$$\\n", "en")
+    >>> "<h1>Cam</h1>" in page, page.count("<math"), '<span class="number">(1)</span>' in page
+    (True, 2, True)
+    """
+    import mistune
+
+    parts = FORMULA.split(note)
+    source = "".join(_formula(part) if k % 2 else part for k, part in enumerate(parts))
+    body = str(mistune.create_markdown(escape=False, plugins=["table"])(source))
+    body = TABLE.sub(lambda found: '<table class="wide">' if found[1].count("<th") > WIDE else "<table>", body)
+    css = resources.files("graphcam").joinpath("data", "note", "note.css").read_text(encoding="utf-8")
+    title = escape(re.sub(r"\\(.)", r"\1", note.partition("\n")[0].removeprefix("# ")))
+    head = f'<meta charset="utf-8"><title>{title}</title>\n<style>\n{css}</style>'
+    return f'<!DOCTYPE html>\n<html lang="{language}">\n<head>\n{head}\n</head>\n<body>\n{body}</body>\n</html>\n'
+
+
+def _formula(tex: str) -> str:
+    """A formula between its dollars: within a line, or on lines of its own with its number."""
+    if not tex.startswith("$$"):
+        return mathml(tex.strip("$"))
+    tex = tex.strip("$")
+    number = "".join(f'<span class="number">({found})</span>' for found in TAG.findall(tex))
+    # What stands side by side may also stand one below the other.
+    lines = "".join(mathml(r"\displaystyle " + part) for part in TAG.sub("", tex).split(r"\qquad"))
+    return f'<div class="formula"><span class="lines">{lines}</span>{number}</div>'
+
+
+def check_profile_size(solution: Solution) -> None:
+    """That a page takes the profile at the scale that the task gives.
+
+    A profile that is far too large is refused without being drawn, for its strokes alone would fill the memory.
+
+    Raises
+    ------
+    DesignError : none does
+
+    >>> import graphcam as gc
+    >>> task = gc.builtin_task()
+    >>> check_profile_size(gc.solve(replace(task, drawing=replace(task.drawing, profile_scale="5:1"))))
+    Traceback (most recent call last):
+    graphcam.errors.DesignError: drawing.profile_scale is 5:1, but must be at most 2.5:1 on A1 landscape; take ...
+    """
+    task = solution.task
+    if (given := given_profile_scale(task.drawing)) is None or _fits(solution, given):
+        return
+    smaller = (1 / ratio for ratio in solution.chain.board.paper.ratios if 1 / ratio > given)
+    largest = next(mu for mu in smaller if _fits(solution, mu))
+    value = ratio_text(given)
+    limit = say("at most {ratio_text} on {said}", ratio_text=ratio_text(largest), said=format_of(task.drawing).said)
+    raise DesignError("drawing.profile_scale", value, limit, say("take a larger format, or leave it out"))
+
+
+def check_profile_hopeful(solution: Solution) -> None:
+    """The same of a profile that is so large that its strokes alone would fill the memory.
+
+    Raises
+    ------
+    DesignError : it is
+    """
+    given = given_profile_scale(solution.task.drawing)
+    if given is not None and _hopeless(solution, given):
+        check_profile_size(solution)
+
+
+def _hopeless(solution: Solution, per_mm: float) -> bool:
+    """Whether a scale is many times that at which the profile fits its room."""
+    board = board_of(replace(solution.task, drawing=replace(solution.task.drawing, profile_scale=None)))
+    return HOPELESS * per_mm < solved_on(board, solution.task).chain.profile_scale.per_mm
+
+
+def _fits(solution: Solution, per_mm: float) -> bool:
+    """Whether a page takes the profile at a scale [mm/mm]."""
+    if _hopeless(solution, per_mm):
+        return False
+    board, sheet = solution.chain.board, format_of(solution.task.drawing)
+    held = {**board.paper.held, PROFILE.name: per_mm}
+    tried = solved_on(replace(board, paper=replace(board.paper, held=held)), solution.task)
+    steps = (step for _, _, step in scaled_steps(all_drawn(tried)) if step.view.name == PROFILE.name)
+    return all(fits(sheet, [panel], GAPS[-1]) for panel in panels(steps, sheet.lettering))
 
 
 def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:

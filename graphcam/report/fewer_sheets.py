@@ -13,12 +13,11 @@ from graphcam.constructions.views import ACCELERATION, COMBINED, DISPLACEMENT, V
 from graphcam.drafting.ink import Caption, say
 from graphcam.errors import DesignError
 from graphcam.report.sheet_contents import Contents, scaled_steps
+from graphcam.sheets.filling import ONE_PAGE
 from graphcam.sheets.layout import SheetPart, fewest_pages, views_of_pages
-from graphcam.sheets.runs import ONE_PAGE
 from graphcam.solving.diagram_sizes import ORDINATES, POLES, USUAL_POLE
-from graphcam.solving.sheet_papers import format_of
 from graphcam.solving.solution import Solution
-from graphcam.solving.task_board import board_of
+from graphcam.solving.task_board import board_of, format_of
 from graphcam.tasks.task import DrawingTable, Task
 
 CARRIED_OVER = ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name, COMBINED.name

@@ -3,7 +3,7 @@
 import numpy as np
 
 from graphcam.constructions.axes import degrees
-from graphcam.drafting.units import unit
+from graphcam.drafting.scale import unit
 from graphcam.given.making_errors import deviations_within
 from graphcam.report.markdown import Block, Equation, Grid, number, warning
 from graphcam.solving.solution import Solution

@@ -7,14 +7,11 @@ from graphcam.comparison.bounds import CHANGE_TO_ERROR, DEVIATIONS, FINER, HANDS
 from graphcam.comparison.speed import PER_SPEED
 from graphcam.constructions.axes import phase_title
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.units import unit
-from graphcam.given.angular_velocity import omega_of
+from graphcam.drafting.scale import unit
+from graphcam.given.follower import omega_of
 from graphcam.given.impact import Jump, acceleration_jumps, velocity_jumps
 from graphcam.given.motion import Moving
-from graphcam.report.budget_table import budget_table
-from graphcam.report.cautions import CAUTIONS
-from graphcam.report.chapters import Known, chapter
-from graphcam.report.conditions_table import conditions
+from graphcam.report.cautions import CAUTIONS, Known, chapter
 from graphcam.report.loads import contact, contact_stress, forces
 from graphcam.report.making import errors_of_making
 from graphcam.report.markdown import (
@@ -30,9 +27,9 @@ from graphcam.report.markdown import (
     text,
     warning,
 )
-from graphcam.report.note_tables import at_stations, compared, polar_coordinates
+from graphcam.report.note_tables import at_stations, budget_table, compared, polar_coordinates
 from graphcam.report.sheet_contents import all_drawn
-from graphcam.report.sheet_data import ADOPTED, AT_SPEED, data, phases, sizes
+from graphcam.report.sheet_data import ADOPTED, AT_SPEED, conditions, data, phases, sizes
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution

@@ -10,15 +10,13 @@ from itertools import count
 import numpy as np
 
 from graphcam.drafting.ink import Construction, Step, say
-from graphcam.drafting.scale import ratio_text
-from graphcam.drafting.units import unit
+from graphcam.drafting.scale import ratio_text, unit
 from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam
-from graphcam.report.conditions_table import on_sheet
-from graphcam.report.sheet_data import comparison, data, phases_at_speed
+from graphcam.report.sheet_data import comparison, data, on_sheet, phases_at_speed
+from graphcam.sheets.frame import TitleBlock
 from graphcam.sheets.layout import Numbered, SheetPart
 from graphcam.sheets.tables import Table
-from graphcam.sheets.title_block import TitleBlock
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
 from graphcam.solving.task_board import HOPELESS, check_given_sizes

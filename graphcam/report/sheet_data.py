@@ -5,13 +5,14 @@ from itertools import product
 
 from graphcam.comparison.quantities import Quantity
 from graphcam.constructions.axes import degrees, phase_title, turning
-from graphcam.constructions.law_names import law_title
-from graphcam.drafting.units import unit
+from graphcam.constructions.law_names import LAW_TITLES, law_title
+from graphcam.drafting.scale import unit
 from graphcam.given.boundary_motion import BoundaryMotion
+from graphcam.given.boundary_parts import ORDERS
 from graphcam.given.measured import MeasuredMotion
 from graphcam.report.markdown import number
 from graphcam.sheets.tables import Table
-from graphcam.solving.face_design import FaceDesign
+from graphcam.solving.adopted_sizes import FaceDesign
 from graphcam.solving.solution import Solution
 from graphcam.words import Caption, Words, say, sequence
 
@@ -24,6 +25,41 @@ AT_SPEED: Mapping[str, tuple[Caption, ...]] = {
     "rad": (say("t, s"), say("v, rad/s"), say("a, rad/s²")),
 }
 """What is told of a phase at a speed, by the unit of the lift: v and a are the greatest."""
+
+
+MOST_ON_SHEET = 16
+"""A longer table stands in the note only."""
+IN_MM, IN_DEGREES = say("Conditions of the motion, mm and rad"), say("Conditions of the motion, degrees and rad")
+
+
+def conditions(solution: Solution) -> Table | None:
+    """The points of all parts, in the units of the task file; None where the motion has another source.
+
+    >>> import graphcam as gc
+    >>> conditions(gc.solve(gc.builtin_task())) is None
+    True
+    """
+    motion, tables = solution.chain.board.motion, solution.task.motion.parts
+    if not isinstance(motion, BoundaryMotion) or tables is None:
+        return None
+    points = [point for table in tables for point in table.points]
+    asked = [name for name in ORDERS if any(getattr(point, name) is not None for point in points)]
+    rows: list[tuple[Words, ...]] = []
+    for table, part in zip(tables, motion.parts, strict=True):
+        named: Words = say("{name}, degree {degree}", name=LAW_TITLES[part.name], degree=part.highest_power)
+        for point in table.points:
+            given = (getattr(point, name) for name in asked)
+            values = ("" if x is None else say("{x:g}", x=x) for x in given)
+            rows.append((named, say("{angle:g}°", angle=point.angle), *values))
+            named = ""
+    swings = solution.task.follower.column == "s_deg"
+    return Table(IN_DEGREES if swings else IN_MM, (say("part of the motion"), "φ", *asked), tuple(rows))
+
+
+def on_sheet(solution: Solution) -> tuple[Table, ...]:
+    """The same where there is room for it."""
+    table = conditions(solution)
+    return () if table is None or len(table.rows) > MOST_ON_SHEET else (table,)
 
 
 def sizes(solution: Solution) -> list[Row]:

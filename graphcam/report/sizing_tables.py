@@ -24,7 +24,7 @@ SIZES: Mapping[str, Caption] = {
     str(words): words
     for words in (say("prime radius"), say("base radius"), say("offset"), say("roller radius"), say("face width"))
 }
-"""The sizes by their names in :class:`~graphcam.mechanism.sizing_problem.SizingProblem`."""
+"""The sizes by their names in :class:`~graphcam.mechanism.sizing_limits.SizingProblem`."""
 SMALLEST, CALMEST = say("The smallest cam"), say("The cam under the minimum stress")
 TITLES = {"size": SMALLEST, "stress": CALMEST}
 """By the objective."""

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from graphcam.errors import DesignError, among
-from graphcam.sheets.box import Box
+from graphcam.sheets.model import Box
 from graphcam.words import Words, say
 
 SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0), "A3": (420.0, 297.0), "A4": (297.0, 210.0)}

@@ -18,17 +18,15 @@ from dataclasses import dataclass, field, replace
 from graphcam.drafting.ink import Step
 from graphcam.drafting.scale import ratio_text
 from graphcam.sheets.expand import Drawn, Placement, expand
-from graphcam.sheets.filling import fewest, fill
+from graphcam.sheets.filling import ONE_PAGE, fewest, fill
 from graphcam.sheets.formats import Format
-from graphcam.sheets.frame import frame as empty_sheet, title_box
+from graphcam.sheets.frame import TitleBlock, frame as empty_sheet, title_box
 from graphcam.sheets.labels import lettered, shading_parted
 from graphcam.sheets.leaves import BORDER, Leaf
 from graphcam.sheets.model import Drawing, Entity, Group, Page
 from graphcam.sheets.packing import MESH
 from graphcam.sheets.panels import panels
-from graphcam.sheets.runs import ONE_PAGE
 from graphcam.sheets.tables import Block, Table, notes_block, table_blocks
-from graphcam.sheets.title_block import TitleBlock
 from graphcam.words import Tell
 
 NOTES_WIDTH = 180.0

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import product
 
-from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.formats import Format
 from graphcam.sheets.frame import taken
+from graphcam.sheets.model import Box, around_all
 from graphcam.sheets.packing import Preference, Room, high, middle
 from graphcam.sheets.panels import AIR, Panel, apart, shares, stand
 from graphcam.sheets.tables import Block

@@ -11,8 +11,14 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.drafting.marks import Points
 from graphcam.photo.tag_family import CELLS
-from graphcam.sheets.box import Box
+from graphcam.sheets.model import Box, Drawing, Entity, Group, Page, Polygons, Strokes, moved
+from graphcam.sheets.sampling import box_of
+from graphcam.sheets.styles import CODE
 
 PATCH = 7.0
 """The side of a patch that is filled with the ink of the givens, mm."""
@@ -173,3 +179,69 @@ MARKED_PAPERS = {
     ),
 }
 """The papers by name."""
+
+
+RULED = 10.0
+"""From one stroke of a bar to the next, mm."""
+STROKE, END = 1.5, 3.0
+"""Lengths of the strokes of a bar, mm: of all, and of those at its ends."""
+
+
+def cells(dark: NDArray[np.bool_], corner: complex, cell: float) -> Polygons:
+    """The dark cells (rows from above, columns), ``cell`` mm wide, with their lower left ``corner``.
+
+    Neighbours are joined, so that no renderer leaves a seam between them.
+
+    >>> cells(np.array([[True, True], [True, False]]), 0j, 1.0).corners.tolist()
+    [[1j, (2+1j), (2+2j), 2j], [0j, (1+0j), (1+1j), 1j]]
+    """
+    rows = len(dark)
+    boxes: list[Points] = []
+    for row, bits in enumerate(dark):
+        ends = np.flatnonzero(np.diff(np.concatenate([[0], bits.astype(np.int8), [0]])))
+        for start, stop in ends.reshape(-1, 2).tolist():
+            low, high = 1j * (rows - row - 1), 1j * (rows - row)
+            boxes.append(np.array([start + low, stop + low, stop + high, start + high]))
+    return Polygons(corner + cell * np.array(boxes), CODE)
+
+
+def square(corner: complex, side: float, role: str) -> Polygons:
+    """A filled square."""
+    return Polygons(corner + side * np.array([[0, 1, 1 + 1j, 1j]]), role)
+
+
+def bar(start: complex, end: complex) -> list[Entity]:
+    """A ruled bar of a multiple of 10 mm, its strokes to the left of the way from ``start`` to ``end``."""
+    way = (end - start) / abs(end - start)
+    at = start + way * np.arange(0.0, abs(end - start) + RULED / 2, RULED)
+    long = np.full(len(at), STROKE)
+    long[[0, -1]] = END
+    return [Strokes(np.array([start]), np.array([end]), "gauge"), Strokes(at, at + 1j * way * long, "ruling")]
+
+
+LINE = 0.5
+"""What a line may reach beyond its middle, mm."""
+
+
+def in_tiles(drawing: Drawing, seam: float) -> Drawing:
+    """Every page as two, left and right of the seam; a page shows what of its entities lies on it."""
+    pages: list[Page] = []
+    for page in drawing.pages:
+        for left, right in ((0.0, seam), (seam, page.width)):
+            pages.append(_tile(page, Box(left, 0.0, right, page.height)))
+    return Drawing(drawing.title, tuple(pages))
+
+
+def _tile(page: Page, part: Box) -> Page:
+    def seen(entity: Entity) -> bool:
+        """Whether any of it lies on the part."""
+        box = box_of([entity])
+        return box is not None and box.grown(LINE).meets(part)
+
+    groups = [
+        Group(group.name, tuple(moved(entity, -part.corner) for entity in group.entities if seen(entity)))
+        for group in page.groups
+    ]
+    frame = Box(0.0, 0.0, part.width, part.height).grown(-page.frame.left)
+    origins = {name: origin - part.corner for name, origin in page.origins.items()}
+    return Page(part.width, part.height, frame, tuple(groups), origins)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.box import Box
+from graphcam.sheets.model import Box
 
 Grid = NDArray[np.float64]
 Preference = Callable[[Grid, Grid], Grid]

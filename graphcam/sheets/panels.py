@@ -9,11 +9,10 @@ import numpy as np
 
 from graphcam.drafting.ink import Step, View
 from graphcam.drafting.marks import Mark, Points
-from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.expand import Placement, expand
 from graphcam.sheets.fonts import width, wrap
 from graphcam.sheets.formats import Lettering
-from graphcam.sheets.model import Entity, Text
+from graphcam.sheets.model import Box, Entity, Text, around_all
 from graphcam.sheets.packing import Room
 from graphcam.sheets.sampling import around, box_of_lines, linework, outermost, sampled
 

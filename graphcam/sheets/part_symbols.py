@@ -15,10 +15,9 @@ from itertools import pairwise
 import numpy as np
 
 from graphcam.drafting.marks import Role
-from graphcam.sheets.box import Box
 from graphcam.sheets.expand import head
 from graphcam.sheets.fonts import width
-from graphcam.sheets.model import ArcEntity, Entity, Heads, Strokes, Text, moved
+from graphcam.sheets.model import ArcEntity, Box, Entity, Heads, Strokes, Text, moved
 
 LINE = Role.DIMENSION
 """The role of all lines and letters of symbols."""

@@ -19,14 +19,15 @@ from graphcam.drafting.ink import Caption, say
 from graphcam.drafting.written_acts import WrittenActs
 from graphcam.indices import in_html
 from graphcam.language import language as language_of
-from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.model import (
+    Box,
     Drawing,
     Entity,
     Group,
     Page,
     Source,
     Text,
+    around_all,
 )
 from graphcam.sheets.player_svg import group_svg, roles_css
 from graphcam.sheets.sampling import box_of

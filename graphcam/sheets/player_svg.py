@@ -23,9 +23,9 @@ from graphcam.sheets.model import (
     Stroke,
     Strokes,
     Text,
+    by_place,
     kind_of,
 )
-from graphcam.sheets.places import by_place
 from graphcam.sheets.smooth import bezier
 from graphcam.sheets.styles import STYLES, Style
 

@@ -9,9 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.box import Box
 from graphcam.sheets.fonts import extent, start_of
-from graphcam.sheets.model import ArcEntity, Circles, Curve, Entity, Polygons, Stroke, Strokes, Text
+from graphcam.sheets.model import ArcEntity, Box, Circles, Curve, Entity, Polygons, Stroke, Strokes, Text
 
 Floats = NDArray[np.float64]
 FLATNESS = 0.02

@@ -7,10 +7,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from graphcam.sheets.box import Box
 from graphcam.sheets.fonts import broken, width, words_of, wrap
-from graphcam.sheets.model import Entity, Text, moved
-from graphcam.sheets.title_block import Ruling, outline, rules, stacked
+from graphcam.sheets.frame import Ruling, outline, rules, stacked
+from graphcam.sheets.model import Box, Entity, Text, moved
 from graphcam.words import Tell, Words
 
 ROW = 2.2

@@ -2,21 +2,23 @@
 
 Each character has one face, by which it is measured and drawn.  The first two are measured by a table, so that only
 what they lack, and drawing in them, needs Matplotlib.
+
+The table is a file beside the letters; it follows from the fonts, to the unit of their design.
 """
 
 from __future__ import annotations
 
 import base64
+import json
 import struct
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from functools import cache, lru_cache
 from importlib.resources import files
 from importlib.util import find_spec
 from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-from graphcam.sheets.glyph_table import Design, Glyph, glyph_table
+from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
     from matplotlib.ft2font import FT2Font
@@ -31,6 +33,76 @@ ALPHABET = "".join(map(chr, (*range(0x20, 0x7F), *range(0xA0, 0x100), *range(0x3
 """What nearly every sheet is lettered with, in any language that the program speaks."""
 UPRIGHT = "regular", "medium", "book", "roman"
 """How files are named that hold neither bold nor slanted letters."""
+
+
+FILE = "glyphs.json"
+"""Beside the letters; ``tests/sheets/measured_glyphs.py`` writes it."""
+
+
+@dataclass(frozen=True)
+class Glyph:
+    """Advance, depth below and height above the base line, in heights of the family's capitals.
+
+    left, right : what stays blank of the advance at either side
+    """
+
+    advance: float
+    below: float
+    above: float
+    left: float
+    right: float
+
+
+class Design(NamedTuple):
+    """A character as its face was designed, in the units of the face.
+
+    left, bottom, right, top : of its box
+    """
+
+    advance: int
+    left: int
+    bottom: int
+    right: int
+    top: int
+
+    def glyph(self, capital: float) -> Glyph:
+        """The measures of a character by a height of capitals in the units of the face.
+
+        >>> Design(200, 20, -10, 170, 100).glyph(100)
+        Glyph(advance=2.0, below=0.1, above=1.0, left=0.2, right=0.3)
+        """
+        blank = self.left / capital, (self.advance - self.right) / capital
+        return Glyph(self.advance / capital, -self.bottom / capital, self.top / capital, *blank)
+
+
+@dataclass(frozen=True)
+class GlyphTable:
+    """The designs of the characters of osifont, and of those that DejaVu Sans has besides.
+
+    ems : units of an em, alike in both faces
+    capital : height of the first face's capitals in the same units
+    """
+
+    ems: int
+    capital: int
+    faces: tuple[dict[str, Design], ...]
+
+    def face(self, character: str) -> int | None:
+        """Which face has a character; None where neither has it."""
+        return next((number for number, designs in enumerate(self.faces) if character in designs), None)
+
+
+@cache
+def glyph_table() -> GlyphTable:
+    """The table.
+
+    >>> table = glyph_table()
+    >>> table.faces[0]["H"].top == table.capital, table.face("H"), table.face("√"), table.face("漢")
+    (True, 0, 1, None)
+    """
+    said = json.loads((files("graphcam") / "data" / "fonts" / FILE).read_text(encoding="utf-8"))
+    faces = ({character: Design(*row) for character, row in face.items()} for face in said["faces"])
+    return GlyphTable(said["ems"], said["capital"], tuple(faces))
 
 
 def lettering_file() -> Path:

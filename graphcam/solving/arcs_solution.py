@@ -15,14 +15,12 @@ from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import NOTHING_HELD, Scale
 from graphcam.errors import DesignError
-from graphcam.given.angular_velocity import omega_of
-from graphcam.given.follower import Rotation
+from graphcam.given.follower import Rotation, omega_of
 from graphcam.mechanism.arc_motion import ArcMotion
 from graphcam.mechanism.arcs import ThreeArcCam, three_arc_cam
-from graphcam.solving.sheet_papers import largest_drawn, profile_paper
 from graphcam.solving.shown_solution import FILES, ShownSolution, plain_number, plain_quantities, plain_stations
 from graphcam.solving.solution import Solution
-from graphcam.solving.task_board import diagram_room
+from graphcam.solving.task_board import diagram_room, largest_drawn, profile_paper
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.words import Tell, say
 

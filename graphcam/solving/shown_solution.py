@@ -27,7 +27,7 @@ GIVEN = "graphcam", "task", "files"
 class ShownSolution(Shown):
     """A solution that plots its sheet and writes its files."""
 
-    _drawn_in = "sheet_page"
+    _drawn_in = "construction_drawing.plot_sheet"
 
     def write(
         self,

@@ -19,8 +19,7 @@ from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import least_preload
 from graphcam.mechanism.sizing import Objective, SizedCam, best_cam, pareto_front, sized
-from graphcam.mechanism.sizing_limits import Sizes, SizingLimits
-from graphcam.mechanism.sizing_problem import Measure, SizingProblem
+from graphcam.mechanism.sizing_limits import Measure, Sizes, SizingLimits, SizingProblem
 from graphcam.showing import from_above, in_lines
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.sizing_table import SizingTable

@@ -12,7 +12,7 @@ from graphcam import __version__
 from graphcam.comparison.quantities import Comparison, transmission_deg
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
-from graphcam.constructions.time_axis import SYMBOLS, scale_at_speed, time_scale
+from graphcam.constructions.graduation import SYMBOLS, scale_at_speed, time_scale
 from graphcam.constructions.working_profile import low_dwells
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
@@ -21,8 +21,7 @@ from graphcam.given.impact import acceleration_jumps
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.spline import ProfileSpline, profile_spline
-from graphcam.solving.adopted_sizes import adopted_cautions
-from graphcam.solving.face_design import FaceDesign, face_design
+from graphcam.solving.adopted_sizes import FaceDesign, adopted_cautions, face_design
 from graphcam.solving.shown_solution import FILES, ShownSolution, plain_number, plain_quantities, plain_stations
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.stress_design import StressDesign

@@ -13,18 +13,15 @@ from graphcam.constructions.axes import degrees, phase_kind
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.meaning import Meaning
-from graphcam.drafting.units import unit
-from graphcam.given.arm_load import ArmLoad
+from graphcam.drafting.scale import unit
 from graphcam.given.laws import Floats
 from graphcam.given.load_curve import LoadCurve
-from graphcam.given.spring_load import SpringLoad
+from graphcam.given.spring_load import ArmLoad, SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import Contact, SpringPreload, least_preload
-from graphcam.mechanism.forces import CamForces, Forces
+from graphcam.mechanism.forces import CamForces, Forces, mean_torque
 from graphcam.mechanism.jamming import jamming_margin
-from graphcam.mechanism.mean_torque import mean_torque
-from graphcam.mechanism.stationary import Places, ValueAt, places_in, smooth_pieces
-from graphcam.mechanism.turn_curve import TurnCurve, over_turn
+from graphcam.mechanism.stationary import Places, TurnCurve, ValueAt, over_turn, places_in, smooth_pieces
 from graphcam.sheets.tables import Table
 from graphcam.showing import by_parts
 from graphcam.solving.turn_diagrams import TurnDiagram, at_side, plain_place, turn_diagrams

@@ -13,11 +13,10 @@ from graphcam.constructions.axes import degrees
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.meaning import Meaning
-from graphcam.drafting.units import unit
+from graphcam.drafting.scale import unit
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.hertz import ContactStress, Stresses
-from graphcam.mechanism.stationary import ValueAt
-from graphcam.mechanism.turn_curve import TurnCurve
+from graphcam.mechanism.stationary import TurnCurve, ValueAt
 from graphcam.sheets.tables import Table
 from graphcam.showing import by_parts
 from graphcam.solving.shown_solution import plain_number

@@ -11,12 +11,11 @@ from graphcam.constructions.axes import degrees
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.meaning import Meaning
-from graphcam.drafting.units import unit
+from graphcam.drafting.scale import unit
 from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.motion_bands import MotionBands, Share, effects_of, half_widths, motion_bands
-from graphcam.mechanism.stationary import Places
-from graphcam.mechanism.turn_curve import over_turn
+from graphcam.mechanism.stationary import Places, over_turn
 from graphcam.sheets.tables import Table
 from graphcam.showing import by_parts
 from graphcam.solving.turn_diagrams import TurnDiagram, plain_place, turn_diagrams

@@ -20,8 +20,7 @@ from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.motion import FULL_TURN, Motion
-from graphcam.mechanism.stationary import ValueAt
-from graphcam.mechanism.turn_curve import TurnCurve
+from graphcam.mechanism.stationary import TurnCurve, ValueAt
 
 WIDTH = 120.0
 """A turn is this long on paper [mm]."""

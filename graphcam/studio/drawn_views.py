@@ -10,18 +10,15 @@ from itertools import chain
 from graphcam.drafting.ink import Step
 from graphcam.drafting.marks import AngleMark, Dimension, Label
 from graphcam.errors import DesignError
-from graphcam.sheets.box import Box
 from graphcam.sheets.expand import Drawn, Placement, expand
 from graphcam.sheets.fonts import points_size
 from graphcam.sheets.formats import Lettering
-from graphcam.sheets.held_labels import held_places, label_places
-from graphcam.sheets.labels import places_of, shading_parted, with_texts
-from graphcam.sheets.model import Entity, Group
+from graphcam.sheets.labels import held_places, label_places, places_of, shading_parted, with_texts
+from graphcam.sheets.model import Box, Entity, Group
 from graphcam.sheets.panels import AIR
 from graphcam.sheets.player_svg import MM_PER_POINT, Numbers, group_svg
 from graphcam.sheets.sampling import box_of
-from graphcam.studio.held_board import TALLEST
-from graphcam.studio.hold import HeldView
+from graphcam.studio.held_board import TALLEST, HeldView
 from graphcam.studio.request import AskedView
 from graphcam.studio.view_steps import NamedStep
 from graphcam.words import Caption, Tell, say

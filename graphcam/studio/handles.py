@@ -16,8 +16,7 @@ from graphcam.studio import (
     handles_profile as profile,
     handles_region as region,
 )
-from graphcam.studio.handle import Changes, Handle, HandleState, phi_axis
-from graphcam.studio.point_on_curve import point_on_curve
+from graphcam.studio.handle import Changes, Handle, HandleState, phi_axis, point_on_curve
 from graphcam.studio.size_ranges import has_angles, sizes_of
 from graphcam.words import Tell, say
 

@@ -6,13 +6,21 @@ from collections.abc import Iterator
 import numpy as np
 
 from graphcam.constructions.arc_outline import ARCS
-from graphcam.constructions.arc_stations import ROLLER
+from graphcam.constructions.arc_profile import ROLLER
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.studio.form_fields import POINTS, must_agree
-from graphcam.studio.handle import Changes, Handle, HandleAxis, HandleState, phi_axis, snapped
+from graphcam.studio.handle import (
+    Changes,
+    Handle,
+    HandleAxis,
+    HandleState,
+    in_degrees,
+    nearest_station,
+    phi_axis,
+    snapped,
+)
 from graphcam.studio.handles_diagrams import cursor
-from graphcam.studio.over_turn import in_degrees, nearest_station
 from graphcam.studio.size_ranges import ranges
 from graphcam.words import say
 

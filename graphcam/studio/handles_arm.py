@@ -13,9 +13,8 @@ from graphcam.drafting.euclid import circles_meet
 from graphcam.drafting.marks import Points
 from graphcam.plane import dot
 from graphcam.solving.solution import Solution
-from graphcam.studio.handle import PULL, Changes, Handle, HandleAxis, HandleState, snapped
+from graphcam.studio.handle import PULL, Changes, Handle, HandleAxis, HandleState, point_on_curve, snapped
 from graphcam.studio.handles_profile import scale_of
-from graphcam.studio.point_on_curve import point_on_curve
 from graphcam.studio.size_ranges import SizeRange, above, lift_of, ranges, round_up, sizes_of, step_for, third_side
 from graphcam.words import say
 

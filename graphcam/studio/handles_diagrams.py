@@ -10,8 +10,7 @@ from graphcam.constructions.axes import phase_ends, phase_title
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.solving.solution import Solution
-from graphcam.studio.handle import Changes, Handle, HandleAxis, HandleState, phi_axis, snapped
-from graphcam.studio.over_turn import over_stations
+from graphcam.studio.handle import Changes, Handle, HandleAxis, HandleState, over_stations, phi_axis, snapped
 from graphcam.studio.size_ranges import LEAST_ANGLE, SizeRange, ranges
 from graphcam.words import Caption, say
 

@@ -10,8 +10,7 @@ from graphcam.constructions.views import PLAN
 from graphcam.drafting.marks import Points
 from graphcam.given.follower import sense
 from graphcam.solving.solution import Solution
-from graphcam.studio.handle import Changes, Handle, HandleAxis
-from graphcam.studio.over_turn import nearest_station
+from graphcam.studio.handle import Changes, Handle, HandleAxis, nearest_station
 from graphcam.studio.size_ranges import SizeRange, sizes_of
 from graphcam.words import say
 

@@ -10,8 +10,18 @@ from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP
 from graphcam.given.follower import sense
 from graphcam.solving.solution import Solution
-from graphcam.studio.handle import PULL, Changes, Handle, HandleAxis, HandleState, phi_axis, snapped
-from graphcam.studio.over_turn import in_degrees, nearest_station, over_stations
+from graphcam.studio.handle import (
+    PULL,
+    Changes,
+    Handle,
+    HandleAxis,
+    HandleState,
+    in_degrees,
+    nearest_station,
+    over_stations,
+    phi_axis,
+    snapped,
+)
 from graphcam.studio.size_ranges import SizeRange, lift_of, ranges, sizes_of, step_for, third_side
 from graphcam.words import say
 

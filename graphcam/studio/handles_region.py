@@ -15,8 +15,18 @@ from graphcam.drafting.marks import Points
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
 from graphcam.solving.solution import Solution
-from graphcam.studio.handle import PULL, Changes, Handle, HandleAxis, HandleState, phi_axis, snapped
-from graphcam.studio.over_turn import in_degrees, nearest_station, over_stations
+from graphcam.studio.handle import (
+    PULL,
+    Changes,
+    Handle,
+    HandleAxis,
+    HandleState,
+    in_degrees,
+    nearest_station,
+    over_stations,
+    phi_axis,
+    snapped,
+)
 from graphcam.studio.size_ranges import LIMITS, SizeRange, above, lift_of, ranges, round_up, step_for
 from graphcam.words import say
 

@@ -1,9 +1,15 @@
-"""Solving a task for the studio: on the board that is held while the hand is down, once while nothing changes."""
+"""What stays while the hand is down, and solving a task on the board that is held, once while nothing changes.
+
+The hold goes to the page with every answer, and comes back with the next request while a handle is dragged.  So the
+engine keeps nothing itself, and any engine can go on where another one was.
+"""
+
+from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Any
 
@@ -13,11 +19,12 @@ from graphcam.constructions.views import REGION
 from graphcam.drafting.ink import Construction
 from graphcam.errors import DesignError
 from graphcam.given.motion import Motion, Rise
+from graphcam.sheets.labels import LabelPlace
+from graphcam.sheets.model import Box
 from graphcam.solving.arcs_solution import AnySolution, solve_arcs
 from graphcam.solving.diagram_sizes import DrawnHeights
 from graphcam.solving.solution import Solution, solved_on
 from graphcam.solving.task_board import board_of
-from graphcam.studio.hold import HeldDiagrams, Hold, hold_of, known
 from graphcam.studio.request import pencil_in, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
@@ -25,6 +32,172 @@ from graphcam.words import say
 
 TALLEST = 2000.0
 """The maximum height of the diagrams and of every view [mm of paper]; no sheet takes a fifth of it."""
+
+
+DIGITS = 3
+"""Decimals of places [mm] and of angles [rad]: a thousandth is not seen."""
+Plain = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class HeldView:
+    """What a view keeps.
+
+    frame : the box that is shown, y upwards [mm]
+    drawn_by, settled_by : the constructions that draw in it, and those that settle its scale
+    labels : where its labels stand, by their names
+    """
+
+    frame: Box
+    drawn_by: tuple[str, ...]
+    settled_by: tuple[str, ...]
+    labels: Mapping[str, LabelPlace]
+
+    def plain(self) -> Plain:
+        """The held view as plain data."""
+        labels = {name: [*_rounded(at.centre), round(at.angle, DIGITS)] for name, at in self.labels.items()}
+        corners = [self.frame.left, self.frame.bottom, self.frame.right, self.frame.top]
+        constructions = {"drawn": list(self.drawn_by), "settled": list(self.settled_by)}
+        return {"frame": corners, **constructions, "labels": labels}
+
+
+@dataclass(frozen=True)
+class HeldDiagrams:
+    """What the diagrams over the cam angle keep, so that their scales stay.
+
+    ordinate : of the first rise [mm of paper], at the greatest acceleration ``peak``
+    poles : [mm of paper]
+    asked : the ordinate and the poles that the task gave then, None for what it left open
+    """
+
+    ordinate: float
+    peak: float
+    poles: tuple[float, float]
+    asked: tuple[float | None, tuple[float, float] | None]
+
+    def plain(self) -> Plain:
+        """The held diagrams as plain data."""
+        asked = [self.asked[0], self.asked[1] and list(self.asked[1])]
+        return {"ordinate": self.ordinate, "peak": self.peak, "poles": list(self.poles), "asked": asked}
+
+
+@dataclass(frozen=True)
+class Hold:
+    """What an answer leaves to the next one.
+
+    scales : that views keep [mm/mm], by name;  diagrams : what the diagrams keep; a cam of arcs has none of these
+    station : whose velocity plan is drawn
+    views : by name and by whether they have labels
+    names : what the answer says of all views of the task
+    """
+
+    scales: Mapping[str, float] = field(default_factory=dict[str, float])
+    diagrams: HeldDiagrams | None = None
+    station: int | None = None
+    views: Mapping[str, HeldView] = field(default_factory=dict[str, HeldView])
+    names: tuple[Plain, ...] = ()
+
+    def plain(self) -> Plain:
+        """The hold as plain data."""
+        return {
+            "scales": dict(self.scales),
+            "diagrams": self.diagrams and self.diagrams.plain(),
+            "station": self.station,
+            "views": {key: view.plain() for key, view in self.views.items()},
+            "names": list(self.names),
+        }
+
+    def needs(self, keys: Iterable[str]) -> tuple[set[str], set[str]] | None:
+        """The constructions that draw in the views of these keys, and others that settle their scales.
+
+        It is None if one of the views is not known.
+        """
+        views = [self.views.get(key) for key in keys]
+        if any(view is None for view in views):
+            return None
+        drawing = {name for view in views if view for name in view.drawn_by}
+        return drawing, {name for view in views if view for name in view.settled_by} - drawing
+
+
+def hold_of(data: Mapping[str, Any]) -> Hold:
+    """What an earlier answer left, from its plain data.
+
+    Raises
+    ------
+    DesignError : they are not what an answer left
+
+    >>> hold_of(Hold(scales={"profile": 0.5}).plain()).scales
+    {'profile': 0.5}
+    """
+    try:
+        return _hold(data)
+    except (TypeError, ValueError, KeyError, AttributeError):
+        raise DesignError("hold", say("unknown data"), say("what an earlier answer left, or left out")) from None
+
+
+def _hold(data: Mapping[str, Any]) -> Hold:
+    diagrams, names = data["diagrams"], tuple(_name(each) for each in data["names"])
+    scales = {str(name): _positive(scale) for name, scale in data["scales"].items()}
+    views = {str(key): _view(view) for key, view in data["views"].items()}
+    station = None if data["station"] is None else int(data["station"])
+    return Hold(scales, None if diagrams is None else _diagrams(diagrams), station, views, names)
+
+
+def _view(data: Mapping[str, Any]) -> HeldView:
+    left, bottom, right, top = map(_finite, data["frame"])
+    labels = {
+        str(name): LabelPlace(complex(_finite(x), _finite(y)), _finite(angle))
+        for name, (x, y, angle) in data["labels"].items()
+    }
+    frame = Box(left, bottom, right, top)
+    return HeldView(frame, tuple(map(str, data["drawn"])), tuple(map(str, data["settled"])), labels)
+
+
+def _diagrams(data: Mapping[str, Any]) -> HeldDiagrams:
+    first, second = map(_positive, data["poles"])
+    ordinate, poles = data["asked"]
+    asked = None if ordinate is None else _positive(ordinate), None if poles is None else _pair(poles)
+    return HeldDiagrams(_positive(data["ordinate"]), _positive(data["peak"]), (first, second), asked)
+
+
+def _pair(values: Iterable[Any]) -> tuple[float, float]:
+    first, second = map(_positive, values)
+    return first, second
+
+
+def _name(data: Mapping[str, Any]) -> Plain:
+    return {
+        **{key: str(data[key]) for key in ("name", "title", "short")},
+        "steps": int(data["steps"]),
+    }
+
+
+def _finite(value: Any) -> float:
+    """A number, or an error that :func:`hold_of` tells."""
+    number = float(value)
+    if not abs(number) < LARGEST:
+        raise ValueError(value)
+    return number
+
+
+LARGEST = 1e9
+"""No place on paper is farther away [mm], and no scale coarser."""
+
+
+def _positive(value: Any) -> float:
+    number = _finite(value)
+    if not number > 1 / LARGEST:
+        raise ValueError(value)
+    return number
+
+
+def _rounded(at: complex) -> tuple[float, float]:
+    return round(at.real, DIGITS) + 0.0, round(at.imag, DIGITS) + 0.0
+
+
+def known(value: float) -> bool:
+    """Whether a scale can be kept."""
+    return math.isfinite(value) and 1 / LARGEST < value < LARGEST
 
 
 def solved(

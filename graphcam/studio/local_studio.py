@@ -1,19 +1,112 @@
-"""The studio of this machine: the page, the engine and the folder, behind the local server."""
+"""The studio of this machine: the page, the engine and the files that it writes, behind the local server."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from graphcam.language import ENGLISH
+from graphcam.errors import DesignError, GraphcamError, among
+from graphcam.language import ENGLISH, language
+from graphcam.showing import from_above
+from graphcam.solving.shown_solution import CUTTING, USUAL
+from graphcam.solving.solve import solve
 from graphcam.studio.address import StudioPlace, address_of
 from graphcam.studio.engine import answer
 from graphcam.studio.page import page
-from graphcam.studio.plain_tasks import built_in_tasks, nearest_built_in, plain_task
+from graphcam.studio.request import task_data, task_in
 from graphcam.studio.server import StudioServer
-from graphcam.studio.written_files import NOTEBOOK, PART, WrittenFiles
+from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
+from graphcam.words import message
+
+TABLE = "measured.csv"
+"""What the file of a measured table is called, for the page can name no file."""
+PART, NOTEBOOK = "working drawing", "notebook"
+KINDS: Mapping[str, tuple[str, ...]] = {
+    "sheet": ("pdf", "svg", "png", "dxf", "player"),
+    "note": ("csv", "md", "note", "note_html"),
+    NOTEBOOK: (),
+    PART: ("profile_dxf", "profile_csv", "profile_xyz", *CUTTING),
+    "all": USUAL,
+}
+"""What can be asked for, and the kinds of files of a solution that it is."""
+
+
+@dataclass
+class WrittenFiles:
+    """The files of a session, in one folder that holds one cam: what was asked for before comes along anew.
+
+    folder : where they go; the page cannot choose another
+    language : of what is written, where the task says none
+    """
+
+    folder: Path
+    language: str = "en"
+    kinds: frozenset[str] = field(default=frozenset(), init=False)
+
+    def write(self, request: Mapping[str, Any]) -> dict[str, Any]:
+        """Write the files of a request's "kind" for its "task": their names and the folder, or what is wrong.
+
+        >>> WrittenFiles(Path("out")).write({"kind": "../notes", "task": {}})["error"]["message"]
+        "kind is '../notes', but must be one of sheet, note, notebook, working drawing, all"
+        """
+        try:
+            folder, names = self._written(_kind(request), self._task(request))
+        except GraphcamError as error:
+            tell = language(self.language).text
+            said = {"message": tell(message(error.fault)), "remedy": tell(message(error.advice))}
+            return {"error": {"field": "", **said}}
+        except OSError as error:
+            return {"error": {"field": "", "message": str(error), "remedy": ""}}
+        return {"files": names, "folder": str(folder)}
+
+    def _task(self, request: Mapping[str, Any]) -> Task | ArcsTask:
+        data = task_data(request)
+        drawing = data.get("drawing")
+        said = drawing.get("language") if isinstance(drawing, dict) else None
+        task = task_in(data, self.language if said is None else said)
+        if isinstance(task, ArcsTask) or task.motion.table is None:
+            return task
+        return replace(task, motion=replace(task.motion, table=replace(task.motion.table, file=TABLE)))
+
+    def _written(self, kind: str, task: Task | ArcsTask) -> tuple[Path, list[str]]:
+        if kind == NOTEBOOK:
+            folder = self.folder / NOTEBOOK
+            return folder, from_above("notebooks.notebook_folder.write_folder")(task, folder)
+        solution, kinds = solve(task), self.kinds | {kind}
+        part = PART in kinds
+        if part and kind != PART:
+            part = _has_part(solution)
+        wanted = _files(kinds if part else kinds - {PART})
+        names = solution.write(self.folder, wanted, working_drawing=part)
+        self.kinds = kinds
+        return self.folder, [name for name in names.values() if name]
+
+
+def _kind(request: Mapping[str, Any]) -> str:
+    kind = request.get("kind")
+    if not isinstance(kind, str) or kind not in KINDS:
+        raise DesignError("kind", kind, *among(kind, KINDS))
+    return kind
+
+
+def _has_part(solution: Any) -> bool:
+    """Whether there can be a working drawing of another cam than that for which it was asked."""
+    from graphcam.report.output_folder import check_choices
+
+    try:
+        check_choices(solution, working_drawing=True)
+    except DesignError:
+        return False
+    return True
+
+
+def _files(kinds: Iterable[str]) -> list[str]:
+    return list(dict.fromkeys(file for kind in kinds for file in KINDS[kind]))
+
 
 WRITES = "sheet", "note", NOTEBOOK, PART
 """What the page offers to write."""

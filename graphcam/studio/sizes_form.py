@@ -1,34 +1,35 @@
-"""The form of a task's sizes: what can be typed or moved, in the order shown, in the words of the field."""
+"""The form of a task's sizes: what can be typed, moved, added or chosen, in order, in the words of the field."""
 
+import math
 from collections.abc import Iterator, Sequence
 from typing import Any, get_args
 
 from graphcam.constructions.axes import phase_symbol
 from graphcam.constructions.law_names import LAW_TITLES
-from graphcam.given.arm_load import ArmLoad
 from graphcam.given.laws import LAWS
 from graphcam.given.load_curve import LoadCurve
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY
 from graphcam.given.roller_rule import DEFAULT_RULE, NAMED_RULES
+from graphcam.given.spring_load import ArmLoad
 from graphcam.language import languages
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solution import Solution
 from graphcam.solving.spring_design import SpringDesign
-from graphcam.studio.follower_kinds import kind_choices
 from graphcam.studio.form_fields import DEGREES, DRAWING, FOLLOWER, LIMITS, MOTION, Field, FieldMaker, must_agree
-from graphcam.studio.phase_edits import with_dwell, with_step, without
 from graphcam.studio.size_ranges import (
     LEAST_ANGLE,
     MOST_PHASES,
     SizeRange,
     has_angles,
+    lift_of,
     ranges,
     round_up,
     sizes_of,
     step_for,
 )
-from graphcam.tasks.sheet_tables import Format, Frame
-from graphcam.words import Tell, Words, say, say_in
+from graphcam.tasks.sheet_tables import Format, Frame, plain
+from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
+from graphcam.words import Caption, Tell, Words, say, say_in
 
 PENCIL = SizeRange(0.0, 0.5, 0.05)
 """Standard deviation of a line [mm]; 0.2 is a careful student's."""
@@ -43,6 +44,94 @@ AT_REST = {True: say("within the limit"), False: say("not limited")}
 LANGUAGES = {"en": "English", "ru": "русский", "vi": "tiếng Việt", "zh": "简体中文"}
 """Each in itself; another one by its sign."""
 FRAMES = {"gost": say("frame by GOST"), "iso": say("frame by ISO")}
+
+
+PhaseData = dict[str, Any]
+"""A phase as the task file says it."""
+PhaseList = list[PhaseData]
+
+
+def without(phases: Sequence[PhaseData], k: int) -> PhaseList | None:
+    """The phases without one of them; None where it must stay.
+
+    The angle of a dwell goes to the phase before it; angle and lift of a rise or return to another one of its kind.
+
+    >>> turn = [{"kind": "rise", "angle": 100, "lift": 9}, {"kind": "dwell", "angle": 80},
+    ...     {"kind": "return", "angle": 180, "lift": 9}]
+    >>> [phase["angle"] for phase in without(turn, 1)], without(turn, 0)
+    ([180, 180], None)
+    """
+    left = [dict(phase) for phase in phases]
+    gone = left.pop(k)
+    heirs = left[k - 1 : k or None] if gone["kind"] == "dwell" else [p for p in left if p["kind"] == gone["kind"]]
+    if not heirs:
+        return None
+    heir = heirs[0]
+    heir["angle"] += gone["angle"]
+    if gone["kind"] != "dwell":
+        heir["lift"] += gone["lift"]
+    return left
+
+
+def with_dwell(phases: Sequence[PhaseData], k: int) -> PhaseList | None:
+    """The phases with a dwell after one of them, out of half its angle; None where there is no room.
+
+    >>> turn = [{"kind": "rise", "angle": 101, "lift": 9}, {"kind": "return", "angle": 259, "lift": 9}]
+    >>> [(phase["kind"], phase["angle"]) for phase in with_dwell(turn, 0)]
+    [('rise', 51), ('dwell', 50), ('return', 259)]
+    """
+    angles = _parts(phases, k, 2)
+    beside = phases[(k + 1) % len(phases)]
+    if angles is None or "dwell" in (phases[k]["kind"], beside["kind"]):
+        return None
+    return [*_copies(phases[:k]), phases[k] | {"angle": angles[0]}, _dwell(angles[1]), *_copies(phases[k + 1 :])]
+
+
+def with_step(phases: Sequence[PhaseData], k: int) -> PhaseList | None:
+    """The phases with a rise or return done in two, a dwell between them, or a rise and a return within a dwell.
+
+    >>> turn = [{"kind": "rise", "angle": 100, "lift": 8, "law": "cosine"},
+    ...     {"kind": "return", "angle": 260, "lift": 8, "law": "cosine"}]
+    >>> [(phase["kind"], phase["angle"], phase.get("lift")) for phase in with_step(turn, 0)]
+    [('rise', 34, 4.0), ('dwell', 33, None), ('rise', 33, 4.0), ('return', 260, 8)]
+    """
+    phase = phases[k]
+    within = phase["kind"] == "dwell"
+    angles = _parts(phases, k, 4 if within else 3)
+    if angles is None:
+        return None
+    if within:
+        law = next(dict(each) for each in phases if each["kind"] == "rise")
+        halved = law | {"lift": law["lift"] / 2}
+        between = [halved | {"kind": kind} for kind in ("rise", "return")]
+        new = [
+            _dwell(angles[0]),
+            between[0] | {"angle": angles[1]},
+            between[1] | {"angle": angles[2]},
+            _dwell(angles[3]),
+        ]
+    else:
+        half = phase | {"lift": phase["lift"] / 2}
+        new = [half | {"angle": angles[0]}, _dwell(angles[1]), half | {"angle": angles[2]}]
+    return [*_copies(phases[:k]), *new, *_copies(phases[k + 1 :])]
+
+
+def _dwell(angle: float) -> PhaseData:
+    return {"kind": "dwell", "angle": angle}
+
+
+def _copies(phases: Sequence[PhaseData]) -> PhaseList:
+    return [dict(phase) for phase in phases]
+
+
+def _parts(phases: Sequence[PhaseData], k: int, count: int) -> list[float] | None:
+    """The angle of a phase in parts of whole degrees but one; None if these, or so many phases, are too many."""
+    angle = phases[k]["angle"]
+    part = angle // count
+    if part < LEAST_ANGLE or len(phases) + count - 1 > MOST_PHASES:
+        return None
+    # The first takes what is left; one degree more goes to each of the next while there are some.
+    return [angle - (count - 1) * part, *[part] * (count - 1)]
 
 
 def form_of(solution: AnySolution, tell: Tell) -> list[Field]:
@@ -191,3 +280,86 @@ def _sheet(make: FieldMaker) -> Iterator[Field]:
     yield make.choice("drawing.frame", DRAWING, say("Frame"), [(each, FRAMES[each]) for each in get_args(Frame)])
     spoken = [(each, LANGUAGES.get(each, each)) for each in languages()]
     yield make.choice("drawing.language", DRAWING, say("Language of the sheet"), spoken)
+
+
+KINDS: dict[str, Caption] = {
+    "translating": say_in("a kind of follower", "translating"),
+    "oscillating": say_in("a kind of follower", "oscillating"),
+    "flat-faced": say_in("a kind of follower", "flat-faced"),
+}
+ARM_OVER_LIFT = 4.0
+"""An arm about so many times as long as its tip's path swings by some 14 degrees."""
+ARM = 100.0
+"""One whose lifts are angles [mm]."""
+PLACES = 4
+"""Digits of the sizes of a spring that goes with another kind of follower."""
+
+
+def kind_choices(solution: Solution, tell: Tell) -> list[dict[str, Any]]:
+    """The kinds that the task's motion goes with; ``table`` is a follower of that kind, ``changes`` all that changes.
+
+    >>> import graphcam as gc
+    >>> [choice["value"] for choice in kind_choices(gc.solve(gc.builtin_task()), str)]
+    ['translating', 'oscillating', 'flat-faced']
+    """
+    tables = {kind: _table(solution, kind) for kind in KINDS}
+    return [
+        {"value": kind, "name": tell(KINDS[kind]), "table": table, "changes": _changes(solution, table)}
+        for kind, table in tables.items()
+        if _follows(solution, table)
+    ]
+
+
+def _table(solution: Solution, kind: str) -> dict[str, Any]:
+    """The present follower if it is of that kind; else one whose place and roller are found."""
+    present = plain(solution.task.follower)
+    if kind == present["kind"]:
+        return present
+    # Lifts in mm stay what they are: they are the arc that the tip of the arm describes.
+    in_mm = solution.task.follower.column == "s_mm"
+    arm = round_up(ARM_OVER_LIFT * lift_of(solution)) if in_mm else ARM
+    return {"kind": kind, **{"oscillating": {"arm": arm, "lift": "arc"}}.get(kind, {})}
+
+
+def _follows(solution: Solution, table: dict[str, Any]) -> bool:
+    """Whether a follower can do what was measured: angles of an arm are nothing for a stem."""
+    measured = solution.task.motion.table
+    in_mm = table.get("lift") != "angle"
+    return measured is None or measured.column == "a" or (measured.column == "s_mm") == in_mm
+
+
+def _changes(solution: Solution, follower: dict[str, Any]) -> dict[str, Any]:
+    """The follower, sizes of the cam found anew, its spring, and no limits, ranges or tolerances that it lacks."""
+    if follower == plain(solution.task.follower):
+        return {"follower": follower}
+    angles = dict.fromkeys(("limits.pressure_angle_rise", "limits.pressure_angle_return"))
+    other: dict[str, Any] = {"follower": follower, "cam.prime_radius": None, **angles}
+    fixed = {"limits.min_curvature_radius": None, "tolerances": None, "sizing": None}
+    return other | fixed | _spring_of_kind(solution, follower)
+
+
+def _spring_of_kind(solution: Solution, follower: dict[str, Any]) -> dict[str, Any]:
+    """The spring as the other kind has it; what presses besides, the friction and the material stay as they are.
+
+    At the end of an arm a mass m and a spring c do what the moment of inertia m l^2 and the torsion spring c l^2 do.
+    """
+    spring, swings = solution.task.spring, follower["kind"] == "oscillating"
+    if spring is None or spring.swings == swings:
+        return {}
+    present = plain(solution.task.follower)
+    lever = float((follower if swings else present)["arm"])
+    said = plain(spring)
+    kept = {key: said[key] for key in ("acceleration", "friction", "load")}
+    if isinstance(spring, SpringTable):
+        turned = {"inertia": spring.mass * lever**2, "stiffness": spring.stiffness * lever**2}
+        turned |= {} if spring.preload is None else {"preload": spring.preload * lever}
+    else:
+        turned = _straightened(spring, lever)
+    return {"spring": {**{key: float(f"{value:.{PLACES}g}") for key, value in turned.items()}, **kept}}
+
+
+def _straightened(spring: ArmSpringTable, lever: float) -> dict[str, float]:
+    """The spring of an arm of that length [mm] as that of a stem; one at a point is taken as it is."""
+    square = lever**2 if spring.at is None else 1.0
+    straight = {"mass": spring.inertia / lever**2, "stiffness": spring.stiffness / square}
+    return straight | ({} if spring.preload is None else {"preload": spring.preload / math.sqrt(square)})

@@ -6,7 +6,7 @@ from typing import Any
 from graphcam.comparison.quantities import Quantity
 from graphcam.constructions.views import ANGLE, PROFILE
 from graphcam.drafting.ink import Construction
-from graphcam.drafting.units import unit
+from graphcam.drafting.scale import unit
 from graphcam.language import Language
 from graphcam.report.markdown import number
 from graphcam.solving.arcs_solution import AnySolution

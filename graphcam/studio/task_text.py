@@ -1,18 +1,54 @@
-"""Task files in and out of the studio: TOML text, no file of this machine."""
+"""Tasks as the page has them, in plain data, and as task files: TOML text, no file of this machine."""
 
 from collections.abc import Mapping
+from functools import cache
 from typing import Any
 
 from graphcam.given.table_file import CurveTable, table_in
 from graphcam.studio.request import some, task_data, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
-from graphcam.tasks.task_file import parse_toml
+from graphcam.tasks.task_file import BUILT_IN, builtin_arcs_task, builtin_task, parse_toml
 from graphcam.tasks.task_writer import TASK_FILE, task_files
 
 Plain = dict[str, Any]
 LONGEST = 500_000
 """Characters of a task file."""
+
+
+ARCS = "arcs"
+"""The built-in task of a cam of three circular arcs."""
+
+
+@cache
+def built_in_tasks() -> dict[str, dict[str, Any]]:
+    """The tasks that come with graphcam, by their names; nobody changes them.
+
+    >>> list(built_in_tasks())
+    ['coursework', 'arm', 'flat', 'measured', 'arcs']
+    """
+    return {name: plain_task(builtin_task(name)) for name in BUILT_IN} | {ARCS: plain_task(builtin_arcs_task())}
+
+
+def nearest_built_in(task: Task | ArcsTask) -> str:
+    """The built-in task that is most like another: of the same kind of motion and follower.
+
+    >>> import graphcam as gc
+    >>> nearest_built_in(gc.builtin_task("flat")), nearest_built_in(gc.builtin_arcs_task())
+    ('flat', 'arcs')
+    """
+    if isinstance(task, ArcsTask):
+        return ARCS
+    alike = {name: builtin_task(name) for name in BUILT_IN}
+    kind, measured = task.follower.kind, task.motion.table is not None
+
+    def likeness(name: str) -> int:
+        """How much is the same."""
+        other = alike[name]
+        same = other == task, (other.motion.table is not None) == measured, other.follower.kind == kind
+        return sum(2**k * part for k, part in enumerate(reversed(same)))
+
+    return max(alike, key=likeness)
 
 
 def plain_task(task: Task | ArcsTask) -> Plain:

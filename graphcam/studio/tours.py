@@ -7,25 +7,86 @@ view, step : what it shows
 changes : of the tour's built-in task, by paths, for this card;  phi : the cam angle at which it starts [degrees]
 ask : the question, or what is to be done;  why : said when it is answered
 choices, answer : of which one is right, if it is a question
-goal : what answers it by being done, as :mod:`graphcam.studio.goals` reads it
+goal : what answers it by being done: a size that reaches a value, told as ``motion.phases[0].angle >= 90``
 rests : by which quantity of a solved task the answer is found, for who checks the cards
 """
 
 import io
 import json
-from collections.abc import Iterator, Mapping, Sequence
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 from typing import Any
 
+from graphcam.errors import DesignError
 from graphcam.language import language
-from graphcam.studio.goals import goal_of
-from graphcam.studio.task_paths import changed
+from graphcam.studio.task_paths import changed, steps_of, value_at
 from graphcam.tasks.task_file import builtin_task
-from graphcam.words import Caption, Tell
+from graphcam.words import Caption, Tell, say
 
 TEXTS = ("title", "about", "ask", "why", "choices")
 """The keys under which texts stand that are translated."""
+
+
+GOAL = re.compile(r"\s*([\w.\[\]]+)\s*(<=|>=|==|<|>)\s*(-?\d+(?:\.\d+)?)\s*")
+SAME = 1e-9
+"""Numbers that differ by less are equal."""
+OPERATORS: Mapping[str, Callable[[float, float], bool]] = {
+    "<=": lambda size, value: size <= value + SAME,
+    ">=": lambda size, value: size >= value - SAME,
+    "==": lambda size, value: math.isclose(size, value, abs_tol=SAME),
+    "<": lambda size, value: size < value,
+    ">": lambda size, value: size > value,
+}
+
+
+@dataclass(frozen=True)
+class Goal:
+    """A size at a path of the task, or ``phi``, compared with a number.
+
+    >>> goal_of("follower.offset >= 0").reached({"follower": {"offset": -10.0}})
+    False
+    >>> goal_of("phi >= 40").reached({}, phi=40.0)
+    True
+    """
+
+    path: str
+    operator: str
+    value: float
+
+    def reached(self, task: Mapping[str, Any], phi: float = 0.0) -> bool:
+        """Whether a task, or the cam angle [degrees], has reached it; what is open has not."""
+        size = phi if self.path == "phi" else value_at(task, self.path)
+        if isinstance(size, bool) or not isinstance(size, int | float):
+            return False
+        return OPERATORS[self.operator](float(size), self.value)
+
+    @property
+    def plain(self) -> dict[str, Any]:
+        """The goal as plain data for the page."""
+        return {"path": self.path, "operator": self.operator, "value": self.value}
+
+
+def goal_of(text: str) -> Goal:
+    """The goal that a text tells.
+
+    Raises
+    ------
+    DesignError : it is not a path, an operator and a number
+
+    >>> goal_of("__import__('os')")
+    Traceback (most recent call last):
+    graphcam.errors.DesignError: goal is "__import__('os')", but must be a path, one of <=, >=, ==, <, > and a number
+    """
+    found = GOAL.fullmatch(text)
+    if found is None:
+        raise DesignError("goal", text, say("a path, one of {names} and a number", names=", ".join(OPERATORS)))
+    path, operator, value = found.groups()
+    steps_of(path)
+    return Goal(path, operator, float(value))
 
 
 @cache

@@ -10,21 +10,60 @@ from graphcam.report.documents import scene_of
 from graphcam.report.mechanism_view import mechanism_view
 from graphcam.sheets.formats import Lettering
 from graphcam.solving.arcs_solution import AnySolution
-from graphcam.solving.sheet_papers import format_of
 from graphcam.solving.solution import Solution
+from graphcam.solving.task_board import format_of
 from graphcam.studio.drawn_views import DrawnView, digest, drawn_view, key_of
-from graphcam.studio.handles import MECHANISM, handles_of
-from graphcam.studio.held_board import diagrams_of, scales_of, station_of
-from graphcam.studio.hold import Hold, hold_of
-from graphcam.studio.moved_task import MovedTask, moved_task
+from graphcam.studio.handle import Changes
+from graphcam.studio.handles import MECHANISM, dragged_within, handles_of
+from graphcam.studio.held_board import Hold, diagrams_of, hold_of, scales_of, solved, station_of
 from graphcam.studio.request import AskedView, ViewsRequest, views_request
 from graphcam.studio.sizes_form import form_of
 from graphcam.studio.studio_values import compared_in, given_sizes, sizes, values, warnings
-from graphcam.studio.told_steps import ToldSteps, told_steps
-from graphcam.studio.view_steps import ViewSteps, view_steps
+from graphcam.studio.task_paths import changed
+from graphcam.studio.view_steps import ToldSteps, ViewSteps, told_steps, view_steps
 
 T = TypeVar("T")
 Plain = dict[str, Any]
+
+
+SHOWN = "phi", "station"
+"""What a handle may change that is no size of the task."""
+
+
+@dataclass(frozen=True)
+class MovedTask:
+    """A task as it is drawn, with the sizes of a dragged handle.
+
+    solution : of the task with the changes
+    changes : by the dragged handle, by their paths
+    phi, station : the cam angle [degrees] and the station that are shown
+    """
+
+    solution: AnySolution
+    changes: Changes
+    phi: float
+    station: int | None
+
+
+def moved_task(request: ViewsRequest, hold: Hold | None) -> MovedTask:
+    """The solution of a request's task, its handle dragged if one is.
+
+    Raises
+    ------
+    GraphcamError : the task has no solution, or no such handle
+    """
+
+    def with_changes(changes: Changes) -> AnySolution:
+        """The solution with other sizes; what is only shown changes nothing."""
+        sizes: dict[str, Any] = {path: value for path, value in changes.items() if path not in SHOWN}
+        task = changed(request.task, sizes) if sizes else request.task
+        return solved(task, request.language, hold, changes.get("station", request.station))
+
+    if request.drag is None:
+        return MovedTask(with_changes({}), {}, request.phi, request.station)
+    grabbed = with_changes({})
+    changes, solution = dragged_within(grabbed, request.drag, with_changes, request.phi, request.station)
+    return MovedTask(solution, changes, changes.get("phi", request.phi), changes.get("station", request.station))
 
 
 @dataclass

@@ -1,24 +1,28 @@
-"""The studio as a widget of a notebook: the page in a frame, the engine in the kernel, the task shared by both.
+"""The studio as a widget of a notebook: the page in a frame, the engine in the kernel; a picture without one.
 
 It needs the extra ``notebooks``.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any
 
 import anywidget
 import traitlets
 
+from graphcam.sheets.player_svg import roles_css
+from graphcam.sheets.typefaces import FAMILY, font_faces
 from graphcam.showing import from_above
 from graphcam.studio.address import differences
 from graphcam.studio.engine import answer
 from graphcam.studio.page import WORDS, page
-from graphcam.studio.plain_tasks import built_in_tasks, nearest_built_in, plain_task
-from graphcam.studio.still_picture import still_picture
 from graphcam.studio.task_paths import changed
+from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
+from graphcam.studio.views_answer import views_answer
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import task_from
@@ -30,6 +34,65 @@ ID = "widget"
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 Plain = dict[str, Any]
 AnyTask = Task | ArcsTask | Mapping[str, Any]
+
+
+PX_PER_MM = 1.2
+"""How large it is shown at least: two of them side by side on a page; it settles how large the letters are."""
+FIRST = "combined", "profile"
+"""The view that is shown if none is named; where there is none of these, the first."""
+INKS = f"""
+.line, .opaque {{ fill: none; stroke: var(--print); stroke-width: var(--width); stroke-linejoin: round }}
+.page .opaque {{ fill: #fff }}
+.filled, .text {{ fill: var(--print, #000); font-family: {FAMILY} }}
+.middle {{ text-anchor: middle }}
+.end {{ text-anchor: end }}
+"""
+"""Everything in print, as on a sheet."""
+
+
+@dataclass(frozen=True)
+class StillPicture:
+    """A view of a task, all of its steps drawn.
+
+    svg : the picture, with its letters
+    title : of the view
+    caption : what the last of its steps says
+    """
+
+    svg: str
+    title: str
+    caption: str
+
+
+def still_picture(task: Mapping[str, Any], view: str | None = None, language: str = "en") -> StillPicture:
+    """The picture of a view.
+
+    task : as plain data
+    view : its name; by default the region, or the profile
+
+    Raises
+    ------
+    GraphcamError : the task has no cam, or no such view
+
+    >>> import graphcam as gc
+    >>> picture = still_picture(gc.builtin_task().to_dict(), "profile")
+    >>> picture.title, picture.svg.startswith("<svg")
+    ('Cam profile, 2:1', True)
+    """
+    asked = {"task": task, "language": language, "told": True}
+    if view is None:
+        names = [each["name"] for each in views_answer({**asked, "told": False})["names"]]
+        view = next((name for name in FIRST if name in names), names[0])
+    (drawn,) = views_answer({**asked, "views": [{"name": view, "px_per_mm": PX_PER_MM}]})["views"]
+    steps = [drawn["steps"][name] for name in drawn["order"]]
+    lines = "".join(step["svg"] for step in steps)
+    frame = " ".join(f"{number:g}" for number in drawn["frame"])
+    letters = font_faces(re.findall(r">([^<]+)<", lines))
+    svg = (
+        f'<svg xmlns="http://www.w3.org/2000/svg" class="page" viewBox="{frame}">'
+        f"<style>{letters}{roles_css()}{INKS}</style>{lines}</svg>"
+    )
+    return StillPicture(svg, drawn["title"], steps[-1]["caption"])
 
 
 class _PlainTask(traitlets.Dict):
@@ -96,7 +159,7 @@ class StudioWidget(anywidget.AnyWidget):
     def _still(self, changes: Mapping[str, Any]) -> Any:
         """A picture of the task with other values."""
         still = still_picture(changed(self._start if changes else self.task, changes), self.view, self._language)
-        return from_above("notebooks.picture.Picture")(still.svg, f"{still.title}. {still.caption}", still.title)
+        return from_above("notebooks.stages.Picture")(still.svg, f"{still.title}. {still.caption}", still.title)
 
     def _repr_mimebundle_(self, **_: Any) -> tuple[Plain, Plain]:
         view = {"version_major": 2, "version_minor": 0, "model_id": self.model_id}

@@ -1,19 +1,22 @@
-"""The page whose engine runs in the browser: what it is made of, and what it may do."""
+"""The page whose engine runs in the browser, in one file of HTML or as a folder for any web server."""
 
 from __future__ import annotations
 
+import base64
 import gzip
+import hashlib
+import json
 from collections.abc import Mapping
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from graphcam.files import whole_file, whole_folder
+from graphcam.language import ENGLISH
 from graphcam.studio.engine import answer
-from graphcam.studio.page import page
-from graphcam.studio.plain_tasks import built_in_tasks, nearest_built_in, plain_task
-from graphcam.studio.pyodide_parts import pyodide_parts
-from graphcam.studio.script_names import script_names
-from graphcam.studio.wasm_archives import engine_archive
+from graphcam.studio.page import page, script_names
+from graphcam.studio.pyodide_parts import engine_archive, pyodide_parts
+from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 
@@ -79,3 +82,80 @@ def first_answer(task: Mapping[str, Any], language: str) -> dict[str, Any]:
     name = next((name for name in FIRST_VIEWS if name in names), names[0])
     wanted = dict.fromkeys(("told", "values", "warnings", "form", "mechanism"), True)
     return answer({**asked, **wanted, "views": [{"name": name, "px_per_mm": PX_PER_MM}]})
+
+
+FILE_POLICY = (
+    "default-src 'none'; script-src {scripts} 'wasm-unsafe-eval' blob:; worker-src blob:; style-src 'unsafe-inline'; "
+    "font-src data:; img-src data:; base-uri 'none'; form-action 'none'"
+)
+"""The content policy of the file: its own scripts and a worker made of them; no connection of any kind."""
+
+
+def write_one_file(path: Path, pyodide: Path, task: Task | ArcsTask, language: str = ENGLISH.name) -> None:
+    """Write the studio as one file.
+
+    pyodide : folder with Pyodide and NumPy, see :mod:`graphcam.studio.pyodide_parts`
+    task : with which it opens
+    language : of the page
+
+    Raises
+    ------
+    TaskError : a part of Pyodide is not there, or not known
+    OutputError : the file cannot be written
+    """
+    parts = engine_parts(pyodide)
+    text = worker_page(task, language, FILE_POLICY, own_script("start_engine.js"), {"engine": own_script("worker.js")})
+    carried = "\n".join(
+        f'<script type="text/plain" data-part="{name}">{base64.b64encode(part).decode()}</script>'
+        for name, part in parts.items()
+    )
+    before, end, after = text.rpartition("</body>")
+    with whole_file(path) as draft:
+        draft.write_text(f"{before}<!--\n{LICENCES}-->\n{carried}\n{end}{after}", encoding="utf-8", newline="\n")
+
+
+SITE_POLICY = (
+    "default-src 'none'; script-src {scripts} 'self'; worker-src 'self'; connect-src 'self'; "
+    "style-src 'unsafe-inline'; font-src data:; img-src data:; base-uri 'none'; form-action 'none'"
+)
+"""The content policy of the site: its own scripts, and what lies in the same folder."""
+BUILD_DIGITS = 12
+"""Digits of the sum that names a build."""
+
+
+def write_site(folder: Path, pyodide: Path, task: Task | ArcsTask, language: str = ENGLISH.name) -> None:
+    """Write the studio as a folder: ``index.html``, and beside it the files of this build, named by their sum.
+
+    pyodide : folder with Pyodide and NumPy, see :mod:`graphcam.studio.pyodide_parts`
+    task : with which it opens
+    language : of the page
+
+    Raises
+    ------
+    TaskError : a part of Pyodide is not there, or not known
+    OutputError : the folder cannot be written
+    """
+    beside = {f"{name}.gz": part for name, part in engine_parts(pyodide).items()}
+    beside["worker.js"] = own_script("worker.js").encode()
+    build = _build(beside)
+    named = {f"{build}-{name}": content for name, content in beside.items()}
+    more = {"worker": f"{build}-worker.js"}
+    text = worker_page(task, language, SITE_POLICY, own_script("keep_site.js"), more)
+    # The page belongs to the build too, although its name stays.
+    kept = f"{build}-{_build({'index.html': text.encode()})}"
+    files = json.dumps(list(named))
+    service = f"const BUILD = {json.dumps(kept)}, FILES = {files};\n{own_script('service_worker.js')}"
+    with whole_folder(folder) as draft:
+        for name, content in named.items():
+            (draft / name).write_bytes(content)
+        (draft / "index.html").write_text(text, encoding="utf-8", newline="\n")
+        (draft / "service-worker.js").write_text(service, encoding="utf-8", newline="\n")
+        (draft / "licences.txt").write_text(LICENCES, encoding="utf-8", newline="\n")
+
+
+def _build(contents: dict[str, bytes]) -> str:
+    """The sum of some files."""
+    total = hashlib.sha256()
+    for name, content in contents.items():
+        total.update(f"{name} {len(content)}\n".encode() + content)
+    return total.hexdigest()[:BUILD_DIGITS]

@@ -9,8 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, nearest
 from graphcam.given.follower import FOLLOWERS, Follower, swing_remedy
-from graphcam.given.law_words import LAW_WORDS
-from graphcam.given.laws import LAWS, Floats
+from graphcam.given.laws import LAW_WORDS, LAWS, Floats
 from graphcam.given.motion import CLOSURE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.cam import Cam

@@ -13,9 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, nearest
-from graphcam.given.follower import FOLLOWERS
+from graphcam.given.follower import FOLLOWERS, Limits
 from graphcam.given.laws import LAWS
-from graphcam.given.limits import Limits
 from graphcam.given.ranges import bounded, positive
 from graphcam.sweeps.designs import Designs, Kind
 from graphcam.sweeps.sweep import computed, usual_limit

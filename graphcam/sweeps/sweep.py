@@ -10,16 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, check_kind, nearest
-from graphcam.given.arm_load import ArmLoad
-from graphcam.given.follower import FOLLOWERS
-from graphcam.given.limits import Limits
+from graphcam.given.follower import FOLLOWERS, Limits
 from graphcam.given.making_errors import MakingErrors
-from graphcam.given.spring_load import SpringLoad
+from graphcam.given.spring_load import ArmLoad, SpringLoad
 from graphcam.mechanism.motion_bands import COVERAGE
 from graphcam.sweeps.designs import Designs
-from graphcam.sweeps.sweep_bands import BANDS, SweptErrors
 from graphcam.sweeps.sweep_forces import FORCES, SweptLoad
-from graphcam.sweeps.sweep_quantities import QUANTITIES, Chunk
+from graphcam.sweeps.sweep_quantities import BANDS, QUANTITIES, Chunk, SweptErrors
 from graphcam.words import say
 from graphcam.workers import in_order
 

@@ -6,11 +6,9 @@ from typing import Any, Self
 import numpy as np
 
 from graphcam.errors import DesignError, check_kind
-from graphcam.given.arm_load import ArmLoad, PlacedArmLoad
-from graphcam.given.follower_load import FollowerLoad
 from graphcam.given.laws import Floats
 from graphcam.given.load_curve import LoadCurve
-from graphcam.given.spring_load import SpringLoad
+from graphcam.given.spring_load import ArmLoad, FollowerLoad, PlacedArmLoad, SpringLoad
 from graphcam.mechanism.jamming import check_friction, lever_about_cam, transmitted
 from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.sweeps.greatest import Numbers, Sought

@@ -4,22 +4,24 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.given.arm_load import PlacedArmLoad
-from graphcam.given.follower import FOLLOWERS
+from graphcam.errors import DesignError
+from graphcam.given.follower import FOLLOWERS, Limits
 from graphcam.given.laws import Floats, law, law_of_return
-from graphcam.given.limits import Limits
+from graphcam.given.making_errors import MakingErrors, deviations_within
 from graphcam.given.motion_law import Law
+from graphcam.given.spring_load import PlacedArmLoad
 from graphcam.mechanism.followers import EXACT
 from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
+from graphcam.mechanism.motion_bands import check_sizes, position_band, position_band_slope
 from graphcam.sweeps.designs import OWN, Designs
 from graphcam.sweeps.greatest import Legs, Numbers, Sought, greatest
-from graphcam.sweeps.sweep_bands import SoughtBand, SweptErrors
 from graphcam.sweeps.sweep_forces import SOUGHT, Rubbing, SoughtForce, SweptLoad
+from graphcam.words import say
 
 QUANTITIES = (
     *("max_pressure_angle_rise", "max_pressure_angle_return", "min_pitch_curvature_radius"),
@@ -28,6 +30,58 @@ QUANTITIES = (
 
 JAMS = "max_normal_force", "min_normal_force", "max_torque"
 """What does not exist where the follower jams."""
+
+
+BANDS = ("position_band",)
+
+
+@dataclass(frozen=True)
+class SweptErrors:
+    """The tolerances to which all cams of a sweep are made, and the part of all mechanisms that a band holds.
+
+    Raises
+    ------
+    DesignError : the part is not between 0 and 1
+    """
+
+    errors: MakingErrors
+    coverage: float
+
+    def __post_init__(self) -> None:
+        _ = self.within
+
+    @property
+    def within(self) -> float:
+        """How many standard deviations a band holds on either side."""
+        return deviations_within(self.coverage)
+
+    def check(self, kin: Kinematics, roller: Any) -> None:
+        """Check that the followers have the sizes with a tolerance."""
+        check_sizes(kin, self.errors)
+        if self.errors.roller_diameter and not np.all(np.asarray(roller) > 0):
+            limit = say("left out where a follower has a knife edge")
+            remedy = say("or give every follower a roller_radius")
+            raise DesignError("roller_diameter", self.errors.roller_diameter, limit, remedy)
+
+
+@dataclass(frozen=True, eq=False)
+class SoughtBand(Sought):
+    """The half-width of the band of s [mm; rad of an arm], to the first order."""
+
+    swept: SweptErrors
+
+    def part(self, which: Numbers | slice) -> Self:
+        """The band of some of the cams."""
+        return type(self)(self.kin.part(which), self.swept)
+
+    def reading(self, values: Values) -> Floats:
+        """The half-width."""
+        return position_band(self.kin, self.swept.errors, self.swept.within, values)
+
+    def with_slope(self, values: Values) -> tuple[Floats, Floats]:
+        """The half-width, and what has the sign of its derivative."""
+        slope = position_band_slope(self.kin, self.swept.errors, self.swept.within, values)
+        return self.reading(values), slope
 
 
 class Steepness(Sought):

@@ -4,10 +4,9 @@ import math
 from dataclasses import dataclass
 
 from graphcam.errors import DesignError, check_number
-from graphcam.given.arm_load import ArmLoad, ArmSpring
 from graphcam.given.load_curve import Load, LoadCurve
 from graphcam.given.ranges import bounded, positive
-from graphcam.given.spring_load import SpringLoad
+from graphcam.given.spring_load import ArmLoad, ArmSpring, SpringLoad
 from graphcam.words import say
 
 LoadTable = float | tuple[tuple[float, float], ...]

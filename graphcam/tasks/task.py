@@ -13,8 +13,7 @@ from textwrap import shorten
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from graphcam.errors import DesignError
-from graphcam.given.follower import FlatFaced, Oscillating, Rotation, Translating, sense
-from graphcam.given.limits import PERMITTED, Limits
+from graphcam.given.follower import PERMITTED, FlatFaced, Limits, Oscillating, Rotation, Translating, sense
 from graphcam.given.ranges import bounded, positive
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.showing import WIDTH, in_lines

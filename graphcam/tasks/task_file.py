@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 
 from graphcam.errors import DesignError, MissingFileError, TaskError, among, unreadable
 from graphcam.given.table_file import read_table
-from graphcam.tasks import arcs_task as arcs, motion_tables, parts_tables, spring_tables, task as tables
+from graphcam.tasks import arcs_task as arcs, motion_tables, spring_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.dataclass_reader import (
     Fault,
@@ -28,9 +28,8 @@ from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.task import Task
-from graphcam.tasks.task_remedies import key_remedy, missing_remedy, value_remedy
+from graphcam.tasks.task_remedies import key_remedy, missing_remedy, toml_fault, value_remedy
 from graphcam.tasks.tolerances_table import TolerancesTable
-from graphcam.tasks.toml_faults import toml_fault
 from graphcam.words import Caption, Words, bare, chained, say
 
 BUILT_IN = ("coursework", "arm", "flat", "measured")
@@ -48,10 +47,10 @@ _CLASSES: Classes = {
     ("motion", "phases", "rise"): motion_tables.RiseTable,
     ("motion", "phases", "dwell"): motion_tables.DwellTable,
     ("motion", "phases", "return"): motion_tables.ReturnTable,
-    ("motion", "parts", "polynomial"): parts_tables.PolynomialTable,
-    ("motion", "parts", "polynomial", "points"): parts_tables.PointTable,
-    ("motion", "parts", "spline"): parts_tables.SplineTable,
-    ("motion", "parts", "spline", "points"): parts_tables.PointTable,
+    ("motion", "parts", "polynomial"): motion_tables.PolynomialTable,
+    ("motion", "parts", "polynomial", "points"): motion_tables.PointTable,
+    ("motion", "parts", "spline"): motion_tables.SplineTable,
+    ("motion", "parts", "spline", "points"): motion_tables.PointTable,
     ("follower", "translating"): tables.TranslatingTable,
     ("follower", "oscillating"): tables.OscillatingTable,
     ("follower", "flat-faced"): tables.FlatFacedTable,

@@ -8,8 +8,14 @@ from dataclasses import dataclass
 from graphcam.errors import DesignError
 from graphcam.tasks.part_table import PartTable
 from graphcam.words import Words, say
-from graphcam.workshop.keyways import STANDARDS, THICKEST_SHAFT, THINNEST_SHAFT, KeySection, key_section
-from graphcam.workshop.limits_and_fits import standard_diameters
+from graphcam.workshop.limits_and_fits import (
+    STANDARDS,
+    THICKEST_SHAFT,
+    THINNEST_SHAFT,
+    KeySection,
+    key_section,
+    standard_diameters,
+)
 
 USUAL_WALL, LEAST_WALL = 0.3, 0.15
 """Between the keyway's bottom and the profile or the hub, as parts of the bore: where the bore is chosen; at least."""

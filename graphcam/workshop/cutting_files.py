@@ -10,8 +10,7 @@ from graphcam import __version__
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.tasks.part_table import PartTable
 from graphcam.workshop.cam_part import CamPart, profile_tolerance
-from graphcam.workshop.cutter_path import cutter_path
-from graphcam.workshop.gcode import LEAST_TOLERANCE, cutting_program
+from graphcam.workshop.cutter_path import LEAST_TOLERANCE, cutter_path, cutting_program
 from graphcam.workshop.outline import Outline
 from graphcam.workshop.part_contents import PartContents
 from graphcam.workshop.plane_loops import Loop, spline_loop

@@ -1,8 +1,16 @@
-"""Standard tolerances of ISO 286 (GOST 25346), and standard diameters of ISO 3 and GOST 6636, series R20."""
+"""Standards of bores: tolerances, diameters (ISO 3, GOST 6636, series R20) and keyways of parallel keys.
+
+DIN 6885-1 form A and GOST 23360-78 give a keyway the same width and depths (ISO/R 773) by the shaft's diameter, so
+there is one table.
+"""
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_left
+from dataclasses import dataclass
+
+from graphcam.words import say
 
 # Up to [mm]: IT6, IT7, IT8, IT9 [micrometres].
 _GRADES = (
@@ -43,3 +51,78 @@ def standard_diameters() -> list[float]:
     [20.0, 22.0, 25.0, 28.0, 32.0]
     """
     return [value * 10.0**decade if decade >= 0 else value / 10.0**-decade for decade in _DECADES for value in _R20]
+
+
+# d up to [mm], width b of the key, its height h, depth t2 in the hub; each row holds from the one before on.
+_SECTIONS = (
+    (8.0, 2.0, 2.0, 1.0),
+    (10.0, 3.0, 3.0, 1.4),
+    (12.0, 4.0, 4.0, 1.8),
+    (17.0, 5.0, 5.0, 2.3),
+    (22.0, 6.0, 6.0, 2.8),
+    (30.0, 8.0, 7.0, 3.3),
+    (38.0, 10.0, 8.0, 3.3),
+    (44.0, 12.0, 8.0, 3.3),
+    (50.0, 14.0, 9.0, 3.8),
+    (58.0, 16.0, 10.0, 4.3),
+    (65.0, 18.0, 11.0, 4.4),
+    (75.0, 20.0, 12.0, 4.9),
+    (85.0, 22.0, 14.0, 5.4),
+    (95.0, 25.0, 14.0, 5.4),
+    (110.0, 28.0, 16.0, 6.4),
+    (130.0, 32.0, 18.0, 7.4),
+    (150.0, 36.0, 20.0, 8.4),
+    (170.0, 40.0, 22.0, 9.4),
+    (200.0, 45.0, 25.0, 10.4),
+    (230.0, 50.0, 28.0, 11.4),
+    (260.0, 56.0, 32.0, 12.4),
+    (290.0, 63.0, 32.0, 12.4),
+    (330.0, 70.0, 36.0, 14.4),
+    (380.0, 80.0, 40.0, 15.4),
+    (440.0, 90.0, 45.0, 17.4),
+    (500.0, 100.0, 50.0, 19.5),
+)
+THINNEST_SHAFT, THICKEST_SHAFT = 6.0, 500.0
+"""Diameters for which the standards have keys: over the first, up to the second, mm."""
+STANDARDS = {"din6885": "DIN 6885-1", "gost23360": say("GOST 23360-78")}
+"""What a standard of a task file is called on a drawing."""
+
+
+@dataclass(frozen=True)
+class KeySection:
+    """A keyway in a bore: width of the key, its height, the depth in the hub over the bore, and that depth's tolerance.
+
+    All in mm; the depth may be greater by ``depth_over`` and not less.
+    """
+
+    width: float
+    height: float
+    depth: float
+
+    @property
+    def depth_over(self) -> float:
+        """Upper deviation of the depth, by the standards."""
+        return 0.1 if self.width <= 6 else 0.2 if self.width <= 32 else 0.3
+
+    def area(self, bore: float) -> float:
+        """What the keyway takes away beyond the bore [mm^2].
+
+        >>> round(KeySection(6, 6, 2.8).area(20), 3)
+        17.713
+        """
+        radius, half = bore / 2, self.width / 2
+        # The circle between the keyway's sides, from its middle up.
+        circle = half * math.sqrt(radius**2 - half**2) + radius**2 * math.asin(half / radius)
+        return self.width * (radius + self.depth) - circle
+
+
+def key_section(bore: float) -> KeySection | None:
+    """The keyway for a bore [mm]; None where the standards have no key.
+
+    >>> key_section(22.0), key_section(5.0)
+    (KeySection(width=6.0, height=6.0, depth=2.8), None)
+    """
+    if not THINNEST_SHAFT < bore <= THICKEST_SHAFT:
+        return None
+    _, width, height, depth = _SECTIONS[bisect_left(_SECTIONS, (bore,))]
+    return KeySection(width, height, depth)

@@ -1,19 +1,26 @@
-"""What the working drawing tells: the part, its exact outline, its polar table, and the title block."""
+"""What the working drawing tells: the part, its exact outline, its polar table, words, and the title block."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 
+import numpy as np
+
+from graphcam.constructions.axes import degrees, turning
 from graphcam.drafting.scale import ratio_text
-from graphcam.sheets.title_block import TitleBlock
-from graphcam.solving.arcs_solution import AnySolution
+from graphcam.given.follower import Rotation
+from graphcam.sheets.frame import TitleBlock
+from graphcam.sheets.tables import Table
+from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import UNNAMED
-from graphcam.words import Tell, say
-from graphcam.workshop.cam_part import CamPart, cam_part
+from graphcam.words import Caption, Tell, Words, say
+from graphcam.workshop.cam_part import CamPart, cam_part, radius_decimals
 from graphcam.workshop.outline import Outline, outline_of
+from graphcam.workshop.part_views import size
 from graphcam.workshop.polar_table import PolarTable, polar_table
 
 
@@ -104,3 +111,154 @@ class PartContents:
             scale=tell(ratio_text(1 / scale)),
             remark=self.solution.task.drawing.remark,
         )
+
+
+GENERAL = {
+    "iso": say("General tolerances ISO 2768-mK."),
+    "gost": say("General tolerances GOST 30893.1: H14, h14, ±IT14/2."),
+}
+"""What holds for sizes without a tolerance, by the frame."""
+MOST_PHASES = 8
+"""The maximum number of phases of a motion that the table of data names."""
+PHASES = {"rise": say("rise"), "dwell": say("dwell"), "return": say("return")}
+"""What kinds of phases are called."""
+
+
+def requirements(
+    solution: AnySolution, part: CamPart, outline: Outline, table: PolarTable, frame: str
+) -> list[Caption]:
+    """The notes over the title block."""
+    return [
+        *([say("Profile hardened to {hardness}.", hardness=part.table.hardness)] if part.table.hardness else []),
+        GENERAL[frame],
+        say("Break sharp edges 0.3 × 45°, not the corners of the profile.")
+        if outline.corners
+        else say("Break sharp edges 0.3 × 45°."),
+        *_keyway(part),
+        say("Both ends of the bore are chamfered {chamfer} × 45°.", chamfer=size(part.chamfer)),
+        _zero(part, outline),
+        say("θ is counted against the rotation, so the follower meets the profile in the order of the table."),
+        say(
+            "The radii of the table are exact: computed, not measured on a drawing. Interpolated linearly, they "
+            "are within {bound:g} mm of the exact profile before rounding.",
+            bound=round(table.bound, 6),
+        ),
+        *_cutter(part),
+        _runs_on(solution),
+        *([say("The profile is the part that can be cut: an undercut leaves a corner.")] if outline.corners else []),
+        say(
+            "In the files of the profile the zero mark lies at {angle} from the x axis.",
+            angle=degrees(round(outline.zero % (2 * math.pi), 7)),
+        ),
+    ]
+
+
+def _keyway(part: CamPart) -> list[Caption]:
+    if part.keyway is None:
+        return []
+    b, h = size(part.keyway.width), size(part.keyway.height)
+    return [say("Keyway {standard} for a key {b} × {h}.", standard=part.key_standard, b=b, h=h)]
+
+
+def _zero(part: CamPart, outline: Outline) -> Caption:
+    if not outline.zero_met:
+        return say(
+            "The zero mark, θ = 0°, is scribed on the face, over the middle of a keyway; the point at which the "
+            "follower would meet the cam at cam angle 0 is lost to the undercut."
+        )
+    if part.keyway is None:
+        return say("The zero mark, θ = 0°, is scribed on the face; there the follower meets the cam at cam angle 0.")
+    return say(
+        "The zero mark, θ = 0°, is scribed on the face over the middle of the keyway; there the follower meets the cam "
+        "at cam angle 0."
+    )
+
+
+def _cutter(part: CamPart) -> list[Caption]:
+    radius = part.table.cutter_radius
+    if radius is None:
+        return []
+    told = say("R is the radius of the centre of a cutter of radius {radius} mm at the same θ.", radius=size(radius))
+    return [told]
+
+
+def _runs_on(solution: AnySolution) -> Caption:
+    """What the profile is made for."""
+    if not isinstance(solution, ArcsSolution) and not solution.cam.kinematics.takes_roller:
+        return say("The profile works with a flat-faced follower.")
+    roller = solution.motion.roller_radius if isinstance(solution, ArcsSolution) else solution.cam.roller_radius
+    if not roller:
+        return say("The profile works with a knife edge.")
+    return say("The profile works with a roller of radius {radius} mm, and with no other.", radius=size(roller))
+
+
+def cam_data(solution: AnySolution, outline: Outline) -> Table:
+    """The data of the cam that belong to the profile."""
+    rows: list[tuple[Words, Words]] = [*_sizes(solution)]
+    rows += [(say("lift"), _lift(solution)), (say("rotation"), turning(_rotation(solution)))]
+    if solution.task.speed_rpm:
+        rows.append((say("speed"), say("{rpm:g} rpm", rpm=solution.task.speed_rpm)))
+    decimals = radius_decimals(solution.task.part or PartTable(), outline.greatest_radius)
+    rows.append((say("minimum radius of the profile"), _mm(round(outline.least_radius, decimals))))
+    rows.append((say("maximum radius of the profile"), _mm(round(outline.greatest_radius, decimals))))
+    timing = solution.motion.timing if isinstance(solution, ArcsSolution) else solution.cam.motion.timing
+    rows += [(PHASES[kind], degrees(round(end - start, 9))) for kind, start, end in timing[:MOST_PHASES]]
+    return Table(say("Data of the cam"), ("", ""), tuple(rows))
+
+
+def tolerance_data(solution: AnySolution) -> list[Table]:
+    """What the tolerances of profile and follower do to the motion, which one matters most first, if there are some."""
+    design = None if isinstance(solution, ArcsSolution) else solution.tolerances
+    return [replace(design.table(), answers=frozenset())] if design and not design.undercut else []
+
+
+def _mm(length: float) -> Caption:
+    return say("{length} mm", length=size(length))
+
+
+def _rotation(solution: AnySolution) -> Rotation:
+    return solution.rotation if isinstance(solution, ArcsSolution) else solution.cam.rotation
+
+
+def _lift(solution: AnySolution) -> Words:
+    if isinstance(solution, ArcsSolution):
+        return _mm(solution.motion.lift)
+    if solution.chain.board.follower.unit == "rad":
+        return degrees(solution.cam.motion.lift)
+    return _mm(solution.cam.motion.lift)
+
+
+def _sizes(solution: AnySolution) -> list[tuple[Words, Words]]:
+    """Prime radius and the follower's sizes."""
+    if isinstance(solution, ArcsSolution):
+        motion = solution.motion
+        return [(say("prime radius r₀"), _mm(motion.prime_radius)), (say("roller radius"), _mm(motion.roller_radius))]
+    follower = solution.chain.board.follower.sizes(solution.chain.place, solution.cam.roller_radius)
+    told = [(each.title, _mm(each.value)) for each in follower if each.value is not None]
+    return [(say("prime radius r₀"), _mm(solution.cam.prime_radius)), *told]
+
+
+def polar_rows(table: PolarTable, tell: Tell) -> list[tuple[str, ...]]:
+    """The head of the polar table and its rows, in the language of the drawing."""
+    columns = [table.radii] if table.cutter is None else [table.radii, table.cutter]
+    told = [[tell(_angle(angle)) for angle in table.angles]]
+    told += [[tell(_radius(radius, table.decimals)) for radius in radii] for radii in columns]
+    head = tuple(tell(name) for name in ("θ", "r", "R")[: len(told)])
+    return [head, *zip(*told, strict=True)]
+
+
+def beside_each_other(rows: Sequence[tuple[str, ...]], columns: int, tell: Tell) -> Table:
+    """A table of some of the rows, the head first, in so many columns."""
+    head, *cells = rows
+    high = math.ceil(len(cells) / columns)
+    cells += [("",) * len(head)] * (high * columns - len(cells))
+    parted = (tuple(cell for k in range(columns) for cell in cells[k * high + j]) for j in range(high))
+    return Table(tell(say("Polar table (θ in °, radii in mm)")), head * columns, tuple(parted))
+
+
+def _angle(angle: float) -> Caption:
+    return say("{angle:g}", angle=float(np.round(angle, 6)))
+
+
+def _radius(radius: float, decimals: int) -> Caption:
+    return say("{radius:.{decimals}f}", radius=radius, decimals=decimals)

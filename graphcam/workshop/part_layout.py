@@ -13,18 +13,22 @@ from functools import cached_property
 from itertools import takewhile
 
 from graphcam.errors import DesignError
-from graphcam.sheets.box import Box
 from graphcam.sheets.formats import Format
 from graphcam.sheets.frame import taken, title_box
-from graphcam.sheets.model import Entity
+from graphcam.sheets.model import Box, Entity
 from graphcam.sheets.packing import MESH, Room, least, top_left
 from graphcam.sheets.part_symbols import PartSymbol, other_faces
 from graphcam.sheets.tables import Block, notes_block, table_block
 from graphcam.words import Tell, say
-from graphcam.workshop.bore_view import bore_box
-from graphcam.workshop.part_contents import PartContents
-from graphcam.workshop.part_notes import beside_each_other, cam_data, polar_rows, requirements, tolerance_data
-from graphcam.workshop.part_views import ShownPart, front_box, section_box
+from graphcam.workshop.part_contents import (
+    PartContents,
+    beside_each_other,
+    cam_data,
+    polar_rows,
+    requirements,
+    tolerance_data,
+)
+from graphcam.workshop.part_views import ShownPart, bore_box, front_box, section_box
 
 BORDER = 5.0
 """Free along the frame and between what stands on the sheet, mm."""

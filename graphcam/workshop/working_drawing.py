@@ -1,4 +1,4 @@
-"""The working drawing of the cam: from it alone a machinist can make the part.
+"""The working drawing of the cam with its callouts: from it alone a machinist can make the part.
 
 It takes the smallest sheet on which everything stands side by side at a standard scale; what is too long even for the
 largest goes on with the polar table on further pages.
@@ -6,22 +6,151 @@ largest goes on with the polar table on further pages.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphcam.drafting.marks import Points
 from graphcam.drafting.scale import ratio_text
 from graphcam.sheets.expand import Drawn
 from graphcam.sheets.frame import frame as empty_sheet
 from graphcam.sheets.labels import lettered, shading_parted
-from graphcam.sheets.model import Drawing, Entity, Group, Page, Text
-from graphcam.workshop.bore_view import bore_box, bore_view
-from graphcam.workshop.part_callouts import called_out
+from graphcam.sheets.model import Box, Drawing, Entity, Group, Page, Text
+from graphcam.sheets.packing import MESH, Grid, Preference, Room
+from graphcam.sheets.part_symbols import (
+    PERPENDICULAR,
+    PROFILE_OF_A_LINE,
+    PartSymbol,
+    leader,
+    nearest,
+    roughness,
+    shelf_leader,
+    tolerance_frame,
+)
+from graphcam.sheets.sampling import linework, sampled
+from graphcam.words import say
+from graphcam.workshop.cam_part import profile_tolerance
 from graphcam.workshop.part_contents import PartContents
 from graphcam.workshop.part_layout import PartLayout, Placed, drawn_blocks, laid_out, table_pages
 from graphcam.workshop.part_views import (
+    DATUM,
     DETAIL,
     SECTION,
+    ShownPart,
+    bore_box,
+    bore_view,
+    front_box,
     front_view,
+    heights,
     section_box,
     section_view,
+    told_radii,
 )
+
+SIDE = 30.0
+"""The distance from the left face of the section to the symbols of it, mm."""
+EDGE = 4.0
+"""The distance from the edges of a face at which a line ends on it, mm, or a third of its height."""
+
+
+BESIDE_RADIUS = math.radians(10)
+"""The angle between the line of a radius and the end of another line on the profile, seen from the axis."""
+
+
+@dataclass(frozen=True, eq=False)
+class Callout:
+    """A symbol of a view, with a line to a face.
+
+    wanted : where the lower left corner of its box would stand best;  face : places on the face
+    lead : draws the line from the symbol's box to the nearest of these
+    """
+
+    view: str
+    symbol: PartSymbol
+    wanted: complex
+    face: Points
+    lead: Callable[[Box, complex], list[Entity]]
+
+
+def called_out(contents: PartContents, layout: PartLayout, lines: Iterable[Entity]) -> dict[str, list[Entity]]:
+    """The symbols with their lines, by the view; ``lines`` are all that stands on the page."""
+    room = Room(layout.sheet.content.grown(-2))
+    room.take_points(sampled(*linework(lines), 1.0), 2.0)
+    found: dict[str, list[Entity]] = {}
+    for asked in _callouts(contents, layout):
+        symbol, wanted = asked.symbol, asked.wanted
+        found_room = room.find([symbol.box.grown(1.0)], _near((wanted - room.corner) / MESH))
+        by = wanted if found_room is None else found_room
+        box = symbol.box.moved(by)
+        room.take(box.grown(2))
+        middle = complex((box.left + box.right) / 2, (box.bottom + box.top) / 2)
+        place = complex(asked.face[np.argmin(np.abs(asked.face - middle))])
+        found.setdefault(asked.view, []).extend([*symbol.drawn(by), *asked.lead(box, place)])
+    return found
+
+
+def _near(wanted: complex) -> Preference:
+    def distance(x: Grid, y: Grid) -> Grid:
+        """In cells, squared."""
+        return (x - wanted.real) ** 2 + (y - wanted.imag) ** 2
+
+    return distance
+
+
+def _callouts(contents: PartContents, layout: PartLayout) -> list[Callout]:
+    """The callouts of the profile, of the side and of the bore."""
+    shown, table, tell = layout.shown, contents.part.table, contents.tell
+    height = layout.sheet.lettering.label
+    value, datum = tell(say("{value:g}", value=profile_tolerance(table, contents.outline.greatest_radius))), tell(DATUM)
+
+    def ra(micrometres: float) -> PartSymbol:
+        """The symbol of a roughness."""
+        return roughness(tell(say("Ra {ra:g}", ra=micrometres)), height)
+
+    line, square = (tolerance_frame(kind, value, datum, height) for kind in (PROFILE_OF_A_LINE, PERPENDICULAR))
+    front, bore = front_box(shown), bore_box(shown)
+    # On the side away from the arrow of the angle.
+    across = front.right - line.box.width if shown.outline.sense > 0 else front.left
+    upper, lower = _side(shown, 1), _side(shown, -1)
+    on_bore = layout.bore + _bore_face(shown)
+    above = complex(-SIDE, float(upper.imag.mean()))
+    below = complex(-SIDE, float(lower.imag.mean()) - 2 * height)
+    of_profile, of_bore = ra(table.profile_roughness), ra(table.bore_roughness)
+    corners = complex(across, front.top - 16), complex(front.left, front.bottom + 10)
+    boxes = line.box.moved(corners[0]), of_profile.box.moved(corners[1])
+    on_profile = [layout.front + _profile_face(shown, nearest(box, 0j)) for box in boxes]
+    return [
+        Callout("front", line, layout.front + corners[0], on_profile[0], leader),
+        Callout("front", of_profile, layout.front + corners[1], on_profile[1], shelf_leader),
+        Callout("section", square, layout.section + above, layout.section + upper, leader),
+        Callout("section", of_bore, layout.section + below, layout.section + lower, shelf_leader),
+        Callout("bore", of_bore, layout.bore + complex(bore.left, bore.top - 12), on_bore, shelf_leader),
+    ]
+
+
+def _profile_face(shown: ShownPart, start: complex) -> Points:
+    """Places on the profile that a line from a start reaches without crossing those of the radii or their heads."""
+    free = np.full(shown.profile.shape, True)
+    for at, _ in told_radii(shown):
+        side = math.copysign(1.0, (start / at).imag)
+        free &= side * np.angle(shown.profile / at) > BESIDE_RADIUS
+    return shown.profile[free] if free.any() else shown.profile
+
+
+def _side(shown: ShownPart, way: int) -> Points:
+    """Places on the left face of the section above or below the bore, as far as the face is seen."""
+    *_, low, high = heights(shown)
+    inner, outer = shown.scale * shown.part.keyway_top, high if way > 0 else -low
+    edge = min(EDGE, (outer - inner) / 3)
+    return 1j * way * np.linspace(inner + edge, outer - edge, 50)
+
+
+def _bore_face(shown: ShownPart) -> Points:
+    """Places on the bore, at its upper left."""
+    ways: Points = np.exp(1j * np.linspace(2.4, 3.0, 30))
+    return shown.bore_scale * shown.part.bore / 2 * ways
 
 
 def working_drawing_of(contents: PartContents) -> Drawing:

@@ -7,7 +7,7 @@ from typing import Any
 from docutils import nodes
 from sphinx.application import Sphinx
 
-from graphcam.report.note_page import mathml
+from graphcam.report.documents import mathml
 
 
 def _inline(page: Any, node: nodes.math) -> None:

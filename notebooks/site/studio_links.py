@@ -7,8 +7,8 @@ from html import escape
 from typing import Any
 
 from graphcam.studio.address import StudioPlace, address_of
-from graphcam.studio.plain_tasks import built_in_tasks
 from graphcam.studio.task_paths import changed
+from graphcam.studio.task_text import built_in_tasks
 
 FOLDER = "studio"
 """Where the studio stands on the site."""

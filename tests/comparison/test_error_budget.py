@@ -10,7 +10,7 @@ import pytest
 from boards import SIZES, coursework
 
 import graphcam as gc
-from graphcam.comparison.error_budget import ErrorBudget
+from graphcam.comparison.bounds import ErrorBudget
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.acts import Kind
 from graphcam.drafting.slips import SLIPS

@@ -10,8 +10,7 @@ from boards import arm_board, arm_motion_of, limits
 
 import graphcam as gc
 from graphcam.constructions.chain import Chain
-from graphcam.given.follower import Rotation
-from graphcam.given.limits import Limits
+from graphcam.given.follower import Limits, Rotation
 from graphcam.given.motion import Motion
 
 AS_DRAWN = math.radians(0.1)

@@ -18,10 +18,9 @@ from graphcam.drafting.scale import Scale
 from graphcam.drafting.slips import SQUARE
 from graphcam.errors import DesignError
 from graphcam.given.boundary_motion import boundary_motion
-from graphcam.given.boundary_parts import PolynomialPart, SplinePart
+from graphcam.given.boundary_parts import MotionPoint, PolynomialPart, SplinePart
 from graphcam.given.measured import measured_motion
 from graphcam.given.motion import FULL_TURN
-from graphcam.given.motion_point import MotionPoint
 from graphcam.given.roller_rule import roller_rule
 
 TURN = 360.0

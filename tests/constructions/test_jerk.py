@@ -14,18 +14,17 @@ from replay import followed, off
 import graphcam as gc
 from graphcam.comparison.quantities import Comparison
 from graphcam.constructions.chain import Chain
+from graphcam.constructions.graduation import SYMBOLS, scale_at_speed, time_scale
 from graphcam.constructions.jerk import curve_pieces
-from graphcam.constructions.time_axis import SYMBOLS, scale_at_speed, time_scale
 from graphcam.constructions.working_profile import low_dwells
 from graphcam.drafting.marks import AngleMark, Arrow, Label
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.boundary_motion import boundary_motion
-from graphcam.given.boundary_parts import PolynomialPart
+from graphcam.given.boundary_parts import MotionPoint, PolynomialPart
 from graphcam.given.impact import acceleration_jumps
 from graphcam.given.laws import BETWEEN_DWELLS, law
 from graphcam.given.motion import FULL_TURN
-from graphcam.given.motion_point import MotionPoint
 
 PARTS = (12, 24, 48, 96)
 SMOOTH = ("cosine", "cycloidal", "3-4-5", "4-5-6-7", "modified-sine", "modified-trapezoidal")

@@ -28,8 +28,7 @@ from graphcam.constructions.axes import (
     station_names,
     together,
 )
-from graphcam.constructions.graduation import graduated
-from graphcam.constructions.slope_numbers import falling_together
+from graphcam.constructions.graduation import falling_together, graduated
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import say
 from graphcam.drafting.marks import Arrow, Dimension, Role, Segments

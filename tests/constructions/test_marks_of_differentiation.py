@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 
 import graphcam as gc
 from graphcam.constructions.differentiation import TANGENT, differentiation
-from graphcam.constructions.slope_numbers import NUMBERS_ROOM, RAYS_ROOM
+from graphcam.constructions.graduation import NUMBERS_ROOM, RAYS_ROOM
 from graphcam.drafting.acts import Act, Kind
 from graphcam.drafting.ink import Construction, Step
 from graphcam.drafting.marks import Arrow, Dimension, Dots, Label, Line, Mark, Role, Segments

@@ -23,7 +23,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.errors import DesignError
 from graphcam.exercises.definition.drawn_answers import ask, per_mm, with_own
 from graphcam.exercises.definition.exercise import Asked
-from graphcam.notebooks.generate import notebook_of
+from graphcam.notebooks.notebook_folder import notebook_of
 from graphcam.report.documents import contents_of, drawing_of, note_of, sheet_of
 from graphcam.report.note import comparison_file
 from graphcam.report.step_player import player_of, slides

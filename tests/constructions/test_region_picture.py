@@ -11,7 +11,7 @@ import pytest
 from random_tasks import random_arm_task, random_task
 
 import graphcam as gc
-from graphcam.constructions.region_picture import MARGIN
+from graphcam.constructions.region import MARGIN
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.marks import Dots, Line, Region, Role
 from graphcam.errors import DesignError

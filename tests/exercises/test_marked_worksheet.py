@@ -23,10 +23,9 @@ from graphcam.exercises.definition.variant import Variant, drawn
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.keying import issue
 from graphcam.photo.printed import PrintedPage
-from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.marked_paper import MARKED_PAPERS
 from graphcam.sheets.matplotlib_renderer import write_pdf, write_png
-from graphcam.sheets.model import Drawing, Polygons, Text
+from graphcam.sheets.model import Box, Drawing, Polygons, Text, around_all
 from graphcam.sheets.sampling import box_of
 from graphcam.sheets.styles import CODE, LIGHT
 

@@ -11,9 +11,9 @@ from numpy.testing import assert_allclose
 
 from graphcam.bench.measured_rows import NOISES, PEAKS, Sampled, best_scatter, random_motion, sampled_motions
 from graphcam.errors import DesignError
-from graphcam.given.banded_forms import Forms
 from graphcam.given.legs import _slow, find_legs
 from graphcam.given.measured import measured_motion
+from graphcam.given.monotone_spline import Forms
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.given.motion_law import Law
 

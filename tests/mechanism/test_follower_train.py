@@ -9,7 +9,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 import graphcam as gc
-from graphcam.given.angular_velocity import omega_of
+from graphcam.given.follower import omega_of
 
 DEG = math.pi / 180
 FULL_TURN = math.tau

@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 
 import graphcam as gc
-from graphcam.mechanism.sizing import pareto_front
+from graphcam.mechanism.sizing import feasible_region, pareto_front
 from graphcam.mechanism.sizing_limits import LIMITS
-from graphcam.mechanism.sizing_region import feasible_region
 from graphcam.mechanism.sizing_search import SPARE
 
 DEG = math.pi / 180

@@ -6,7 +6,7 @@ import sys
 import warnings
 
 from graphcam.notebooks.explore import WIDGET_VIEW, Slider, explore
-from graphcam.notebooks.picture import Picture
+from graphcam.notebooks.stages import Picture
 
 
 def draw(parts, pole):

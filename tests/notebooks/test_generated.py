@@ -18,8 +18,7 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.cli.shared import WRONG_INPUT
 from graphcam.notebooks import changed, running
-from graphcam.notebooks.generate import write_notebook
-from graphcam.notebooks.notebook_folder import to_html
+from graphcam.notebooks.notebook_folder import to_html, write_notebook
 from graphcam.notebooks.running import execute
 from graphcam.tasks.task import SpringTable
 from graphcam.tasks.task_writer import task_files

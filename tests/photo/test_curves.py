@@ -8,10 +8,10 @@ from numpy.typing import NDArray
 from photo.drawn_flats import Camera, Sheet, cam, circle, diagram_sheet, profile_sheet
 from scipy.spatial import cKDTree
 
-from graphcam.photo.bridged_gaps import bridged
+from graphcam.photo.curve_grid import BEND, CORNER, FARTHEST_BEND, best_way
 from graphcam.photo.drawn_curves import CurveReading, read_curve
+from graphcam.photo.flag_runs import bridged
 from graphcam.photo.pencil_ink import ink_of
-from graphcam.photo.trellis import BEND, CORNER, FARTHEST_BEND, best_way
 
 Points = NDArray[np.complex128]
 MEDIAN, P95 = 0.1, 0.3

@@ -6,7 +6,7 @@ from photo.drawn_flats import circle, profile_sheet
 
 from graphcam.photo.lines import Segment, crossing, read_lines
 from graphcam.photo.pencil_ink import ink_of
-from graphcam.photo.refusal import PhotographError
+from graphcam.photo.pictures import PhotographError
 
 PLACE = 0.1
 """mm, of a ruled line."""

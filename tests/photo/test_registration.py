@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from photographed import Camera, folded, page_of, photograph, rolled
 
-from graphcam.photo.refusal import PhotographError
+from graphcam.photo.pictures import PhotographError
 from graphcam.photo.registration import register
 from graphcam.photo.tags import Tags, find_tags
 

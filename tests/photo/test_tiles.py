@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from photographed import CORNERS, Camera, page_of
 
-from graphcam.photo.halves import half, side_seen
-from graphcam.photo.refusal import PhotographError
+from graphcam.photo.pictures import PhotographError
+from graphcam.photo.printed import half, side_seen
 from graphcam.photo.registration import register
 from graphcam.photo.tags import Tags
 from graphcam.photo.tiles import joined, rectify_tiles, registered_tiles

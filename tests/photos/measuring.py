@@ -30,9 +30,9 @@ from graphcam.photo.drawn_curves import read_curve
 from graphcam.photo.intake import Photograph, Unopened, pictures_in
 from graphcam.photo.lines import Segment, crossing, read_lines
 from graphcam.photo.pencil_ink import Ink, ink_of
+from graphcam.photo.pictures import PhotographError
 from graphcam.photo.points import read_points
 from graphcam.photo.rectify import rectify
-from graphcam.photo.refusal import PhotographError
 from graphcam.photo.registration import Registration, register
 from graphcam.photo.tags import find_tags
 

@@ -12,9 +12,9 @@ import pytest
 from graphcam.photo.drawn_curves import read_curve
 from graphcam.photo.intake import Unopened, pictures_in
 from graphcam.photo.pencil_ink import ink_of
+from graphcam.photo.pictures import PhotographError
 from graphcam.photo.printed import Points, PrintedPage
 from graphcam.photo.rectify import rectify
-from graphcam.photo.refusal import PhotographError
 from graphcam.photo.registration import register
 from graphcam.photo.tags import find_tags
 

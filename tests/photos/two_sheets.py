@@ -17,8 +17,8 @@ from printed_courses import CourseKind, course_of
 from printer import PER_MM
 
 from graphcam.constructions.views import PROFILE
-from graphcam.photo.halves import SIDES, Side
-from graphcam.photo.refusal import PhotographError
+from graphcam.photo.pictures import PhotographError
+from graphcam.photo.printed import SIDES, Side
 from graphcam.photo.tags import find_tags
 from graphcam.photo.tiles import Tile, joined, registered_tiles
 

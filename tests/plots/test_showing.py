@@ -146,8 +146,8 @@ def test_functions_of_rooms_above_are_there():
     kinds = [getattr(gc, name) for name in dir(gc)]
     drawn = {kind._drawn_in for kind in kinds if isinstance(kind, type) and issubclass(kind, Shown)}
     assert drawn == {
-        "band_curves", "cam_outline", "arcs_outline", "construction_drawing", "motion_curves", "response_curves",
-        "sheet_page", "spectrum_curves",
+        "cam_outline.plot", "cam_outline.plot_arcs", "construction_drawing.plot", "construction_drawing.plot_sheet",
+        "motion_curves.plot", "motion_curves.plot_bands", "response_curves.plot", "response_curves.plot_spectrum",
     }  # fmt: skip
-    for function in named | {f"plots.{module}.plot" for module in drawn}:
+    for function in named | {f"plots.{function}" for function in drawn}:
         assert callable(from_above(function))

@@ -125,7 +125,7 @@ def test_every_place_of_a_run_with_settings_of_its_own_is_told(builtin_note, bui
     cells = {cell.strip() for cell in re.split(r"[|\n]", builtin_note)}
     steps = (step for construction in builtin.drawn.values() for step in construction.steps())
     runs = (part for step in steps for part in step.parts if len({str(row.setting) for row in part.rows}) > 1)
-    for run, row in ((run, row) for run in runs for row in run.rows):
+    for run, row in ((each, row) for each in runs for row in each.rows):
         name, setting = ENGLISH.text(row.name), ENGLISH.text(row.setting)
         # What is set nowhere but as is said of all places needs no sentence of its own.
         told = not setting or ENGLISH.text(row.caption) in builtin_note or f" {setting}" in ENGLISH.text(run.caption)

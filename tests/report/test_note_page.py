@@ -11,11 +11,10 @@ from chromium import chromium
 from programs import program
 
 import graphcam as gc
-from graphcam.drafting.units import UNITS
+from graphcam.drafting.scale import UNITS
 from graphcam.language import ENGLISH, language, languages
-from graphcam.report.documents import contents_of, drawing_of, note_of
+from graphcam.report.documents import contents_of, drawing_of, mathml, note_of, note_page
 from graphcam.report.markdown import FORMULA
-from graphcam.report.note_page import mathml, note_page
 from graphcam.report.step_player import player_of
 from graphcam.tasks.task_file import BUILT_IN, SIZING
 from graphcam.words import say

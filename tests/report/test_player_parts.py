@@ -12,8 +12,7 @@ from playwright.sync_api import Page
 
 from graphcam.drafting.acts import Act, Kind
 from graphcam.drafting.written_acts import WrittenActs
-from graphcam.sheets.box import Box
-from graphcam.sheets.model import Drawing, Group, Page as Sheet, Source, Strokes, Text
+from graphcam.sheets.model import Box, Drawing, Group, Page as Sheet, Source, Strokes, Text
 from graphcam.sheets.player import WORDS, Acts, PartText, ReadingText, RowText, RunText, Slide, player
 
 RAYS, CHORDS, CURVE = (Act(Kind.JOIN, "integration", name, {}, 3) for name in ("rays", "chords", "curve"))

@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from graphcam.sheets.glyph_table import FILE
-from graphcam.sheets.typefaces import design, font, lettering_file, shipped
+from graphcam.sheets.typefaces import FILE, design, font, lettering_file, shipped
 
 
 def measured_glyphs() -> dict[str, Any]:

@@ -12,9 +12,8 @@ from itertools import combinations
 import numpy as np
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.box import Box
 from graphcam.sheets.labels import chosen_places, set_at
-from graphcam.sheets.model import Drawing, Entity, Group, Page, Text
+from graphcam.sheets.model import Box, Drawing, Entity, Group, Page, Text
 from graphcam.sheets.sampling import around, corners, pieces, within
 from graphcam.sheets.styles import BOLD, STYLES
 from graphcam.sheets.writing import Writing

@@ -7,10 +7,10 @@ import numpy as np
 from graphcam.drafting.ink import Part, Step, View, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dimension, Dots, Label, Line, Region, Role, Segments
 from graphcam.sheets.formats import MARGINS, ORIENTATIONS, SIZES, UPRIGHT_ONLY
+from graphcam.sheets.frame import TitleBlock
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Drawing
 from graphcam.sheets.tables import Table
-from graphcam.sheets.title_block import TitleBlock
 
 ACCELERATION = View("acceleration", say("Acceleration a, μₐ = 1.2 (mm/rad²)/mm"), across="phi", up="a")
 DISPLACEMENT = View("displacement", say("Displacement s"), across="phi", up="s")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from graphcam.sheets.box import Box, around_all
+from graphcam.sheets.model import Box, around_all
 from graphcam.sheets.packing import Room, bottom_left, bottom_right, high, least, left, middle, top, top_left, top_right
 
 WHOLE = st.integers(0, 6)

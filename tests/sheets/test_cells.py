@@ -10,12 +10,10 @@ import pytest
 from hypothesis import given
 from hypothesis.extra.numpy import arrays
 
-from graphcam.sheets.box import Box
-from graphcam.sheets.cells import bar, cells, square
 from graphcam.sheets.dxf_renderer import write_dxf
+from graphcam.sheets.marked_paper import bar, cells, in_tiles, square
 from graphcam.sheets.matplotlib_renderer import svg, write_png
-from graphcam.sheets.model import Drawing, Group, Page, Polygons, Strokes, moved
-from graphcam.sheets.page_tiles import in_tiles
+from graphcam.sheets.model import Box, Drawing, Group, Page, Polygons, Strokes, moved
 from graphcam.sheets.player_svg import group_svg
 from graphcam.sheets.sampling import box_of
 from graphcam.sheets.styles import LIGHT

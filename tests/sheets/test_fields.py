@@ -14,14 +14,23 @@ from scene import SHEETS, TITLE
 
 from graphcam.errors import DesignError
 from graphcam.language import language, languages
-from graphcam.sheets.box import Box
 from graphcam.sheets.fonts import width, wrap
 from graphcam.sheets.formats import MARGINS, Format
-from graphcam.sheets.frame import frame, gauge, gauge_box, taken, title_box
+from graphcam.sheets.frame import (
+    TitleBlock,
+    entry,
+    fitted,
+    frame,
+    gauge,
+    gauge_box,
+    stacked,
+    taken,
+    title_block,
+    title_box,
+)
 from graphcam.sheets.layout import compose
-from graphcam.sheets.model import Entity, Stroke, Strokes, Text
+from graphcam.sheets.model import Box, Entity, Stroke, Strokes, Text
 from graphcam.sheets.sampling import box_of, corners, pieces
-from graphcam.sheets.title_block import TitleBlock, entry, fitted, stacked, title_block
 
 Field = tuple[float, float, float, float]
 EVERY = [Format(*each) for each in SHEETS]

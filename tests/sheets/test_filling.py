@@ -15,15 +15,13 @@ from scene import SHEETS, TITLE
 import graphcam as gc
 from graphcam.drafting.ink import Part, Step, View, say
 from graphcam.drafting.marks import Line, Role
-from graphcam.sheets.box import Box
-from graphcam.sheets.filling import FULL, fill
+from graphcam.sheets.filling import FULL, GAPS, fill
 from graphcam.sheets.formats import Format, Lettering
 from graphcam.sheets.frame import taken
 from graphcam.sheets.layout import SheetPart, compose, compose_parts, profile_room
 from graphcam.sheets.leaves import Leaf, free_rooms
-from graphcam.sheets.model import Drawing, Strokes, Text
+from graphcam.sheets.model import Box, Drawing, Strokes, Text
 from graphcam.sheets.panels import Panel
-from graphcam.sheets.runs import GAPS
 from graphcam.sheets.sampling import box_of
 from graphcam.sheets.tables import Block, Table, table_blocks
 

@@ -12,10 +12,9 @@ from scene import TITLE
 from graphcam.errors import DesignError
 from graphcam.sheets.fonts import width
 from graphcam.sheets.formats import MARGINS, SIZES, Format
-from graphcam.sheets.frame import frame, title_box
+from graphcam.sheets.frame import SIZES as BLOCKS, frame, title_block, title_box
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Stroke, Strokes, Text
-from graphcam.sheets.title_block import SIZES as BLOCKS, title_block
 
 EVERY = [(paper, kind) for paper in SIZES for kind in MARGINS]
 

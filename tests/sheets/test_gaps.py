@@ -10,10 +10,10 @@ from overlaps import overlaps
 
 from graphcam.drafting.acts import Act, Kind
 from graphcam.drafting.marks import Role
-from graphcam.sheets.box import Box
-from graphcam.sheets.gaps import GAP, parted
+from graphcam.sheets.labels import GAP, parted
 from graphcam.sheets.model import (
     ArcEntity,
+    Box,
     Circles,
     Drawing,
     Entity,

@@ -13,9 +13,8 @@ from measured_glyphs import measured_glyphs
 
 import graphcam as gc
 from graphcam.report.documents import sheet_of
-from graphcam.sheets.glyph_table import FILE, glyph_table
 from graphcam.sheets.model import Text
-from graphcam.sheets.typefaces import ALPHABET, lettering_file, shipped
+from graphcam.sheets.typefaces import ALPHABET, FILE, glyph_table, lettering_file, shipped
 from graphcam.tasks.task_file import BUILT_IN
 
 TASKS = {name: gc.builtin_task(name) for name in BUILT_IN} | {"arcs": gc.builtin_arcs_task()}

@@ -8,8 +8,7 @@ import shapely
 from overlaps import overlaps, place
 
 from graphcam.drafting.marks import Role
-from graphcam.sheets.box import Box
-from graphcam.sheets.model import ArcEntity, Circles, Drawing, Entity, Group, Page, Stroke, Strokes, Text
+from graphcam.sheets.model import ArcEntity, Box, Circles, Drawing, Entity, Group, Page, Stroke, Strokes, Text
 from graphcam.sheets.sampling import corners, within
 from graphcam.sheets.writing import along, around, over
 

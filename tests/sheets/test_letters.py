@@ -30,13 +30,12 @@ from graphcam.errors import LetteringWarning
 from graphcam.report.documents import sheet_of
 from graphcam.report.markdown import FORMULA
 from graphcam.sheets import typefaces
-from graphcam.sheets.box import Box
 from graphcam.sheets.dxf_renderer import write_dxf
 from graphcam.sheets.fonts import extent, index_height, letters_of, points_size, width, wrap
+from graphcam.sheets.frame import TitleBlock, title_block
 from graphcam.sheets.matplotlib_renderer import svg, write_pdf, write_png
-from graphcam.sheets.model import Drawing, Group, Page, Text
+from graphcam.sheets.model import Box, Drawing, Group, Page, Text
 from graphcam.sheets.sampling import corners
-from graphcam.sheets.title_block import TitleBlock, title_block
 
 RUSSIAN, GREEK = "АБВГДЕЁЖЗИЙКЛМНОПРСТУФХЦЧШЩЪЫЬЭЮЯабвгдеёжзийклмнопрстуфхцчшщъыьэюя", "αβγδεμνπρστφψωΔΣ"
 LETTERS = f"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789{RUSSIAN}{GREEK}°×–±²³≤≥⌀№′″−+=.,:;()/*«»"

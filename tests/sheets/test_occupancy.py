@@ -7,9 +7,8 @@ import pytest
 from overlaps import place
 
 from graphcam.drafting.marks import Role
-from graphcam.sheets.box import Box
 from graphcam.sheets.labels import Occupancy, lettered, shading_parted
-from graphcam.sheets.model import Circles, Heads, Stroke, Strokes, Text
+from graphcam.sheets.model import Box, Circles, Heads, Stroke, Strokes, Text
 from graphcam.sheets.sampling import corners
 from graphcam.sheets.writing import Writing, around
 

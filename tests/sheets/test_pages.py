@@ -14,11 +14,10 @@ from test_random_sheets import solved
 import graphcam as gc
 from graphcam.drafting.marks import Points
 from graphcam.report.documents import contents_of, drawing_of
-from graphcam.sheets.box import Box
+from graphcam.sheets.filling import ONE_PAGE
 from graphcam.sheets.formats import Format
 from graphcam.sheets.frame import taken
-from graphcam.sheets.model import Page, Strokes, Text
-from graphcam.sheets.runs import ONE_PAGE
+from graphcam.sheets.model import Box, Page, Strokes, Text
 from graphcam.sheets.sampling import around, box_of, pieces
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.tasks.task_file import builtin_arcs_task, builtin_task

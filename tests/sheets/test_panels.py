@@ -10,9 +10,9 @@ from scene import SHEETS
 
 from graphcam.drafting.ink import Part, Step, View, say
 from graphcam.drafting.marks import Circle, Label, Line, Mark, Role
-from graphcam.sheets.box import Box
 from graphcam.sheets.fonts import extent, width
 from graphcam.sheets.formats import Format, Lettering
+from graphcam.sheets.model import Box
 from graphcam.sheets.panels import Panel, apart, clusters, panels, shares, stand
 from graphcam.sheets.sampling import box_of, pieces, sampled
 

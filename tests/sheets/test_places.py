@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from graphcam.drafting.acts import Act, Kind
-from graphcam.sheets.model import Curve, Source, Stroke
-from graphcam.sheets.places import by_place
+from graphcam.sheets.model import Curve, Source, Stroke, by_place
 
 CORNERS = np.array([0j, 4 + 0j, 4 + 3j, 3j])
 SOURCE = Source(Act(Kind.TAKE, "inversion", "pitch curve", {}, 4), np.arange(4))

@@ -13,9 +13,8 @@ import numpy as np
 import pytest
 from fontTools.ttLib import TTFont
 
-from graphcam.sheets.box import Box
 from graphcam.sheets.fonts import extent
-from graphcam.sheets.model import Drawing, Entity, Group, Page, Strokes, Text
+from graphcam.sheets.model import Box, Drawing, Entity, Group, Page, Strokes, Text
 from graphcam.sheets.player import WORDS, ReadingText, RowText, Slide, player
 from graphcam.sheets.typefaces import lettering_file
 

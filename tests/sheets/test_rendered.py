@@ -22,7 +22,6 @@ from scene import drawing
 
 from graphcam.drafting.marks import Role
 from graphcam.sheets import sampling
-from graphcam.sheets.box import Box
 from graphcam.sheets.cad_renderer import write_cad
 from graphcam.sheets.dxf_renderer import write_dxf, write_spline
 from graphcam.sheets.fonts import letters_of, points_size, width
@@ -30,6 +29,7 @@ from graphcam.sheets.matplotlib_renderer import _figure, draw_on, svg, write_png
 from graphcam.sheets.model import (
     Angle,
     ArcEntity,
+    Box,
     Circles,
     Curve,
     Drawing,

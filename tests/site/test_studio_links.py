@@ -12,7 +12,7 @@ from pages import SITE
 
 import graphcam as gc
 from graphcam.studio.address import place_of
-from graphcam.studio.plain_tasks import built_in_tasks
+from graphcam.studio.task_text import built_in_tasks
 from graphcam.studio.views_answer import views_answer
 from graphcam.tasks.task_file import task_from
 

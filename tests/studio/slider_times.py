@@ -22,7 +22,7 @@ from playwright.sync_api import Page, sync_playwright
 from programs import program
 
 import graphcam as gc
-from graphcam.studio.one_file import write_one_file
+from graphcam.studio.worker_page import write_one_file
 
 VIEWS = "combined", "profile", "acceleration"
 MOVES = 100

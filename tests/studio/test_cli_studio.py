@@ -23,8 +23,8 @@ from typer.testing import CliRunner
 import graphcam as gc
 from graphcam.cli import app
 from graphcam.studio.address import place_of
-from graphcam.studio.plain_tasks import built_in_tasks, plain_task
 from graphcam.studio.server import StudioServer
+from graphcam.studio.task_text import built_in_tasks, plain_task
 from graphcam.tasks.task_file import task_from
 
 ROOT = Path(__file__).parents[2]

@@ -14,7 +14,7 @@ import pytest
 from studio_tasks import BUILT_IN, plain_task
 
 from graphcam.studio.engine import answer
-from graphcam.studio.wasm_archives import ABOVE, LIBRARIES, engine_archive
+from graphcam.studio.pyodide_parts import ABOVE, LIBRARIES, engine_archive
 
 ALONE = """
 import json

@@ -7,7 +7,7 @@ import pytest
 from asking import ask, moved, view_names
 from studio_tasks import plain_task
 
-from graphcam.sheets.held_labels import FARTHEST_HOP
+from graphcam.sheets.labels import FARTHEST_HOP
 from graphcam.studio.engine import answer
 
 STEP = {"offset": 0.25, "prime radius": 0.25, "phase border": 0.5, "lift": 0.1}

@@ -10,7 +10,7 @@ import pytest
 from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
-from graphcam.studio.error_fields import FIELDS, field_of
+from graphcam.studio.engine import FIELDS, field_of
 from graphcam.studio.sizes_form import form_of
 from graphcam.studio.task_paths import changed
 from graphcam.tasks import task_file

@@ -23,7 +23,7 @@ from graphcam.exercises.marking.course_variants import course_variants
 from graphcam.studio.address import LONGEST, place_of
 from graphcam.studio.engine import answer
 from graphcam.studio.exercise_checks import ITERATIONS, cell, check_of, hashed, is_right, salt_of
-from graphcam.studio.plain_tasks import built_in_tasks
+from graphcam.studio.task_text import built_in_tasks
 
 SALT = b"salt of a test"
 FEW = 10

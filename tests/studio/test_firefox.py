@@ -16,7 +16,7 @@ from programs import program, pyodide_folder
 from studio_pages import Engine
 
 import graphcam as gc
-from graphcam.studio.one_file import write_one_file
+from graphcam.studio.worker_page import write_one_file
 
 pytestmark = pytest.mark.slow
 

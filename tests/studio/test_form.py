@@ -7,8 +7,7 @@ import pytest
 from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
-from graphcam.studio.phase_edits import with_dwell, with_step, without
-from graphcam.studio.sizes_form import form_of
+from graphcam.studio.sizes_form import form_of, with_dwell, with_step, without
 from graphcam.studio.task_paths import changed, steps_of, value_at
 
 DRAWN_ELSEWHERE = "title", "part"

@@ -12,10 +12,10 @@ from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 import graphcam as gc
 from graphcam.studio.engine import answer
 from graphcam.studio.handles import dragged, handles_of
-from graphcam.studio.hold import hold_of
-from graphcam.studio.moved_task import moved_task
+from graphcam.studio.held_board import hold_of
 from graphcam.studio.request import views_request
 from graphcam.studio.task_paths import changed, value_at
+from graphcam.studio.views_answer import moved_task
 
 VIEWS = ("acceleration", "velocity", "displacement", "combined", "region", "angle", "profile", "arcs", "roller")
 PHI = 39.0

@@ -12,7 +12,7 @@ from hypothesis import given, settings, strategies as st
 import graphcam as gc
 from graphcam.studio.engine import answer
 from graphcam.studio.foretold import nearest_on, step_ids
-from graphcam.studio.seeded_tasks import BASES, seeded_task
+from graphcam.studio.predictions import BASES, seeded_task
 from graphcam.tasks.task_file import task_of
 
 KINDS = {

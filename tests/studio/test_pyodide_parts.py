@@ -14,7 +14,7 @@ import pytest
 
 from graphcam.errors import TaskError
 from graphcam.studio import pyodide_parts as parts
-from graphcam.studio.wasm_archives import stored_zip
+from graphcam.studio.pyodide_parts import stored_zip
 
 CONDA, WHEEL = "numpy-2.0.1-py312h4e66579_0.tar.gz", "numpy-2.0.2-cp312-cp312-pyodide_2024_0_wasm32.whl"
 PYTHON_FILES = {

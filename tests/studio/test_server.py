@@ -15,8 +15,7 @@ from io import StringIO
 import pytest
 
 from graphcam.studio import server as of
-from graphcam.studio.gatekeeper import LARGEST
-from graphcam.studio.server import StudioServer
+from graphcam.studio.server import LARGEST, StudioServer
 
 PAGE = '<script type="application/json">{}</script><script>let a = 1;</script>'
 JSON = {"Content-Type": "application/json"}

@@ -11,9 +11,8 @@ from tour_facts import facts, right_choice, trend
 import graphcam as gc
 from graphcam.errors import DesignError
 from graphcam.studio.foretold import step_ids
-from graphcam.studio.goals import OPERATORS, goal_of
 from graphcam.studio.task_paths import changed
-from graphcam.studio.tours import card_task, extract, texts_of, told_tours, tours
+from graphcam.studio.tours import OPERATORS, card_task, extract, goal_of, texts_of, told_tours, tours
 from graphcam.tasks.task_file import task_of
 
 CARDS = [(tour["task"], card) for tour in tours() for card in tour["cards"]]

@@ -18,9 +18,8 @@ from programs import program, pyodide_folder
 from studio_tasks import BUILT_IN, builtin
 
 from graphcam.studio.engine import answer
-from graphcam.studio.one_file import write_one_file
-from graphcam.studio.plain_tasks import plain_task
-from graphcam.studio.site_folder import write_site
+from graphcam.studio.task_text import plain_task
+from graphcam.studio.worker_page import write_one_file, write_site
 
 pytestmark = pytest.mark.slow
 MEGABYTE = 1_000_000

@@ -9,9 +9,8 @@ from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
 from graphcam.studio.engine import answer
-from graphcam.studio.exact_design import exact_design
 from graphcam.studio.task_paths import changed
-from graphcam.studio.what_if import DESIGNS, MOST_MEASURED, sweep_answer, swept_sizes, with_size
+from graphcam.studio.what_if import DESIGNS, MOST_MEASURED, exact_design, sweep_answer, swept_sizes, with_size
 
 
 def swept(name, path, **asked):

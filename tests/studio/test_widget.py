@@ -10,7 +10,7 @@ import sys
 import pytest
 
 import graphcam as gc
-from graphcam.studio.plain_tasks import plain_task
+from graphcam.studio.task_text import plain_task
 from graphcam.studio.widget import WIDGET_VIEW, StudioWidget
 
 TASK = plain_task(gc.builtin_task())

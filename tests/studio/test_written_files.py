@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import graphcam as gc
-from graphcam.studio.plain_tasks import built_in_tasks, plain_task
-from graphcam.studio.written_files import KINDS, WrittenFiles
+from graphcam.studio.local_studio import KINDS, WrittenFiles
+from graphcam.studio.task_text import built_in_tasks, plain_task
 
 TASK = plain_task(gc.builtin_task())
 OTHER = {**TASK, "cam": {"prime_radius": 60}}

@@ -24,10 +24,9 @@ from graphcam.cli import app
 from graphcam.cli.shared import WRONG_INPUT
 from graphcam.files import OutputError
 from graphcam.sweeps import dataset
-from graphcam.sweeps.dataset import MANIFEST, parts_of, sweep_to_folder, write_part
+from graphcam.sweeps.dataset import MANIFEST, parts_of, sweep_to_file, sweep_to_folder, write_part
 from graphcam.sweeps.shared_folder import SharedFolder
 from graphcam.sweeps.space import load_space
-from graphcam.sweeps.sweep_file import sweep_to_file
 from graphcam.workers import WorkerPool, worker_pool
 
 SPACE = """

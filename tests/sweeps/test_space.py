@@ -15,9 +15,9 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.cli.shared import WRONG_INPUT
 from graphcam.errors import TaskError
-from graphcam.given.limits import Limits
+from graphcam.given.follower import Limits
+from graphcam.sweeps.dataset import sweep_to_file
 from graphcam.sweeps.space import load_space
-from graphcam.sweeps.sweep_file import sweep_to_file
 
 SPACE = """
 rotation = ["ccw", "cw"]
@@ -92,8 +92,8 @@ def test_workers_change_nothing(space, tmp_path):
 def test_blocks_join_without_a_seam(space, tmp_path, monkeypatch):
     whole, parts, done = tmp_path / "whole.csv", tmp_path / "parts.csv", []
     sweep_to_file(load_space(space), whole)
-    monkeypatch.setattr("graphcam.sweeps.sweep_file.CHUNKS_PER_JOB", 1)
-    monkeypatch.setattr("graphcam.sweeps.sweep_file.CHUNK_OF_DESIGNS", 5)
+    monkeypatch.setattr("graphcam.sweeps.dataset.CHUNKS_PER_JOB", 1)
+    monkeypatch.setattr("graphcam.sweeps.dataset.CHUNK_OF_DESIGNS", 5)
     sweep_to_file(load_space(space), parts, progress=done.append)
     assert whole.read_bytes() == parts.read_bytes()
     assert done == [5, 10, 15, 20, 25, 30, 32]

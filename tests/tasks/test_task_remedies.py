@@ -12,7 +12,7 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.errors import TaskError
 from graphcam.given.follower import SENSES
-from graphcam.given.law_words import LAW_WORDS
+from graphcam.given.laws import LAW_WORDS
 from graphcam.language import language, languages
 from graphcam.tasks.task_file import builtin_text, load_task
 

@@ -18,7 +18,7 @@ from test_undercut import one_loop, random_cam, with_roller
 import graphcam as gc
 from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Oscillating, Translating
-from graphcam.workshop.gcode import cutting_program
+from graphcam.workshop.cutter_path import cutting_program
 from graphcam.workshop.outline import of_cam, outline_of
 
 WORD = re.compile(r"([A-Z])(-?\d+(?:\.\d+)?)")

@@ -36,13 +36,11 @@ from graphcam.exercises.definition.drawn_answers import board_chain, constructio
 from graphcam.exercises.definition.exercise import Diagram, Exercise
 from graphcam.exercises.definition.variant import Variant
 from graphcam.photo.printed import Edges, Ink, PrintedPage, PrintedView
-from graphcam.sheets.box import Box, around_all
 from graphcam.sheets.expand import Placement, expand
 from graphcam.sheets.formats import Format, Lettering
 from graphcam.sheets.labels import lettered
-from graphcam.sheets.marked_paper import BAR_ROOM, MARKED_PAPERS, PATCH, TITLE, MarkedPaper
-from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Group, Page, Stroke, Text
-from graphcam.sheets.page_tiles import in_tiles
+from graphcam.sheets.marked_paper import BAR_ROOM, MARKED_PAPERS, PATCH, TITLE, MarkedPaper, in_tiles
+from graphcam.sheets.model import ArcEntity, Box, Circles, Curve, Drawing, Entity, Group, Page, Stroke, Text, around_all
 from graphcam.sheets.sampling import box_of, pieces
 from graphcam.sheets.styles import LIGHT
 from graphcam.sheets.tables import Block, table_blocks

@@ -9,14 +9,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphcam.photo.tag_family import dark_cells
-from graphcam.sheets.box import Box
-from graphcam.sheets.cells import bar, cells, square
 from graphcam.sheets.fonts import width, wrap
-from graphcam.sheets.marked_paper import PATCH, MarkedPaper
-from graphcam.sheets.model import Entity, Group, Stroke, Text
+from graphcam.sheets.frame import fitted
+from graphcam.sheets.marked_paper import PATCH, MarkedPaper, bar, cells, square
+from graphcam.sheets.model import Box, Entity, Group, Stroke, Text
 from graphcam.sheets.qr import FINEST, FINEST_OF_A_TILE, QUIET, module_size, modules
 from graphcam.sheets.tables import Block
-from graphcam.sheets.title_block import fitted
 from graphcam.words import Tell, say
 
 SMALL = 2.5

@@ -12,8 +12,7 @@ from graphcam.drafting.ink import say
 from graphcam.errors import DesignError
 from graphcam.exercises.definition.catalogue import usual
 from graphcam.exercises.definition.drawn_answers import read_as, redrawn, rescaled
-from graphcam.given.follower import Rotation, sense
-from graphcam.given.limits import Limits
+from graphcam.given.follower import Limits, Rotation, sense
 
 
 @usual(say("You seem to have laid off the offset on the other side of the cam centre."))

@@ -12,8 +12,7 @@ from graphcam.drafting.ink import Construction, say
 from graphcam.errors import DesignError, nearest
 from graphcam.exercises.definition.catalogue import A_DIAGRAM, A_LAW, A_READING, Change, usual
 from graphcam.exercises.definition.drawn_answers import construction_of, read_as, redrawn, rescaled, with_ordinates
-from graphcam.given.law_words import LAW_WORDS
-from graphcam.given.laws import LAWS
+from graphcam.given.laws import LAW_WORDS, LAWS
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
 
 Moving = Rise | Return

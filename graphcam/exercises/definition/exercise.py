@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any, Literal
 
 from graphcam.drafting.marks import Points
-from graphcam.drafting.units import UNITS
+from graphcam.drafting.scale import UNITS
 from graphcam.errors import DesignError, nearest
 from graphcam.exercises.definition.hands import HandTable
 from graphcam.exercises.definition.marked_formats import PAPERS

@@ -25,7 +25,7 @@ from graphcam.exercises.exports.question_parts import mistaken
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.studio.address import StudioPlace, address_of
 from graphcam.studio.exercise_checks import ITERATIONS, check_of, salt_of
-from graphcam.studio.plain_tasks import built_in_tasks, nearest_built_in, plain_task
+from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
 from graphcam.words import say
 
 FILE = "studio.txt"

@@ -17,7 +17,6 @@ from typing import Any
 
 import graphcam
 from graphcam.drafting.ink import say
-from graphcam.drafts import clear_drafts
 from graphcam.errors import DesignError, MissingFileError, TaskError, installed
 from graphcam.exercises.course.course_folder import AnswerKeys, KeysAsNeeded
 from graphcam.exercises.course.found_answers import Look
@@ -39,7 +38,7 @@ from graphcam.exercises.reports.report_files import GroupNotes, write_feedback, 
 from graphcam.exercises.reports.shown_names import ShownNames, hidden_names
 from graphcam.exercises.running.levels import Level, ResourceLimits
 from graphcam.exercises.running.probe import LevelError, require
-from graphcam.files import OutputError
+from graphcam.files import OutputError, clear_drafts
 from graphcam.locks import locked_folder
 from graphcam.words import Caption, Words
 from graphcam.workers import BATCH, WorkerPool, results, worker_pool

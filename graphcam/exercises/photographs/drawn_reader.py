@@ -14,9 +14,9 @@ from graphcam.exercises.photographs.seen_page import SeenPage
 from graphcam.photo.drawn_curves import read_curve
 from graphcam.photo.lines import Segment, crossing, read_lines
 from graphcam.photo.pencil_ink import Ink
+from graphcam.photo.pictures import PhotographError
 from graphcam.photo.points import PointReading, read_points
 from graphcam.photo.printed import Points, PrintedView
-from graphcam.photo.refusal import PhotographError
 from graphcam.words import Tell, Words, say
 
 MET = 1.0

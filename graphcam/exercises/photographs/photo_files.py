@@ -23,10 +23,9 @@ from graphcam.exercises.photographs.read_photo import ReadPhoto
 from graphcam.exercises.photographs.reading_limits import OPENED_WITHIN, READ_WITHIN, Allow, limited
 from graphcam.exercises.photographs.whose import PrintedSheets
 from graphcam.files import OutputError
-from graphcam.photo.halves import SIDES, Side
 from graphcam.photo.intake import ENDINGS, FOLDERS_DEEP, MOST_BYTES, Unopened, pictures_in
-from graphcam.photo.pictures import Photograph
-from graphcam.photo.refusal import PhotographError
+from graphcam.photo.pictures import Photograph, PhotographError
+from graphcam.photo.printed import SIDES, Side
 from graphcam.words import say
 
 CHUNK = 1 << 20

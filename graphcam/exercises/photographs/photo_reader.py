@@ -21,10 +21,8 @@ from graphcam.exercises.photographs.read_photo import KeptPicture, ReadPhoto
 from graphcam.exercises.photographs.seen_page import SeenPage
 from graphcam.exercises.photographs.whose import PrintedSheets
 from graphcam.photo.codes import codes_in
-from graphcam.photo.halves import SIDES, Side
-from graphcam.photo.pictures import Photograph
-from graphcam.photo.printed import PrintedPage
-from graphcam.photo.refusal import PhotographError
+from graphcam.photo.pictures import Photograph, PhotographError
+from graphcam.photo.printed import SIDES, PrintedPage, Side
 from graphcam.photo.registration import Registration, register
 from graphcam.photo.tags import Tags, find_tags
 from graphcam.photo.tiles import Tile, joined, registered_tiles

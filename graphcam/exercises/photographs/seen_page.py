@@ -12,10 +12,9 @@ from numpy.typing import NDArray
 
 from graphcam.exercises.course.page_parts import FIELD
 from graphcam.exercises.photographs.read_photo import BARS, TABLE
-from graphcam.photo.halves import Side
 from graphcam.photo.pencil_ink import Ink, ink_of
 from graphcam.photo.pictures import Photograph
-from graphcam.photo.printed import Edges, PrintedPage, PrintedView
+from graphcam.photo.printed import Edges, PrintedPage, PrintedView, Side
 from graphcam.photo.rectify import PER_MM, Flat, rectify
 from graphcam.photo.registration import Registration
 from graphcam.photo.tiles import Tile, rectify_tiles

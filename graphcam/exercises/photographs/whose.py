@@ -10,8 +10,8 @@ from graphcam.errors import TaskError
 from graphcam.exercises.course.course_folder import PRINTED
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.course.sheet_code import SheetCode
+from graphcam.photo.pictures import PhotographError
 from graphcam.photo.printed import PrintedPage
-from graphcam.photo.refusal import PhotographError
 from graphcam.words import message, say
 
 TAKE_IN_THE_CODE = say("include the whole sheet with its QR code, and keep the picture sharp")

@@ -7,8 +7,8 @@ import pytest
 from graphcam.exercises.course.course_folder import PRINTED, TEACHER
 from graphcam.exercises.course.sheet_code import SheetCode
 from graphcam.exercises.photographs.whose import PrintedSheets
+from graphcam.photo.pictures import PhotographError
 from graphcam.photo.printed import PrintedPage
-from graphcam.photo.refusal import PhotographError
 
 SECRET = b"the secret of the photographs"
 
