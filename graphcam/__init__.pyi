@@ -28,7 +28,6 @@ from .given.roller_contact import RollerContact as RollerContact
 from .given.spline_law import sampled_law as sampled_law
 from .given.spring_load import ArmLoad as ArmLoad, ArmSpring as ArmSpring, Guide as Guide, SpringLoad as SpringLoad
 from .mechanism.arc_motion import ArcMotion as ArcMotion
-from .mechanism.arcs import ThreeArcCam as ThreeArcCam, three_arc_cam as three_arc_cam
 from .mechanism.cam import Cam as Cam, largest_roller as largest_roller
 from .mechanism.contact import (
     Contact as Contact,
@@ -57,6 +56,7 @@ from .mechanism.least_radius import (
 from .mechanism.least_radius_arm import ArmMinimumRadius as ArmMinimumRadius
 from .mechanism.made_cam import MadeCam as MadeCam
 from .mechanism.motion_bands import MotionBands as MotionBands, motion_bands as motion_bands
+from .mechanism.profile_spline import ProfileSpline as ProfileSpline, profile_spline as profile_spline
 from .mechanism.shock_response import (
     FollowerResponse as FollowerResponse,
     ShockSpectrum as ShockSpectrum,
@@ -69,8 +69,8 @@ from .mechanism.size_sensitivity import (
     sensitivities as sensitivities,
 )
 from .mechanism.sizing import SizedCam as SizedCam, size_cam as size_cam
-from .mechanism.spline import ProfileSpline as ProfileSpline, profile_spline as profile_spline
-from .mechanism.three_points import circumradius as circumradius
+from .mechanism.three_arc_cam import ThreeArcCam as ThreeArcCam, three_arc_cam as three_arc_cam
+from .mechanism.three_point_circle import circumradius as circumradius
 from .mechanism.undercut import Undercut as Undercut
 from .report.sizing_sheet import sizing_sheet as sizing_sheet
 from .solving.arcs_solution import ArcsSolution as ArcsSolution

@@ -6,9 +6,9 @@ import sys
 from io import TextIOWrapper
 from types import FrameType
 
-INTERRUPTED = 130
+INTERRUPTED_STATUS = 130
 """Exit status after Ctrl-C, as of a shell."""
-WRONG_OUTPUT = 2
+OUTPUT_ERROR_STATUS = 2
 """Exit status when what is printed cannot be written."""
 
 
@@ -32,7 +32,7 @@ def main() -> None:
         _end()
     except SystemExit as end:
         # So the command line ends after Ctrl-C, without a word.
-        if end.code == INTERRUPTED:
+        if end.code == INTERRUPTED_STATUS:
             _end()
         # All is done, and the end of Python itself is not worth interrupting.
         signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -40,13 +40,13 @@ def main() -> None:
     except OSError as error:
         # The commands tell of the files; what is left is that to which they print.
         os.write(2, f"graphcam: the standard output cannot be written ({error.strerror})\n".encode())
-        os._exit(WRONG_OUTPUT)
+        os._exit(OUTPUT_ERROR_STATUS)
 
 
 def _end(signal_number: int = signal.SIGINT, _frame: FrameType | None = None) -> None:
     """Say it and end at once: there is nothing to be cleared away, not yet or no more."""
     os.write(2, b"graphcam: interrupted\n")
-    os._exit(INTERRUPTED)
+    os._exit(INTERRUPTED_STATUS)
 
 
 if __name__ == "__main__":

@@ -253,18 +253,18 @@ _LOOKALIKES = str.maketrans("АВЕКМНОРСТУХасеорхуі", "ABEKMHO
 """Cyrillic letters that look like Latin ones."""
 
 
-def meant(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> Words:
+def suggestion(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> Words:
     """A remedy for a word that is none of those known: which of them is meant; empty where none is near.
 
     called : what else a known word is called, as by a textbook or in another language
 
-    >>> str(meant("Cicloidal", ["cosine", "cycloidal"]))
+    >>> str(suggestion("Cicloidal", ["cosine", "cycloidal"]))
     "did you mean 'cycloidal'?"
-    >>> str(meant("simple harmonic", ["cosine", "double-harmonic"], {"cosine": ["simple harmonic"]}))
+    >>> str(suggestion("simple harmonic", ["cosine", "double-harmonic"], {"cosine": ["simple harmonic"]}))
     "did you mean 'cosine'?"
-    >>> str(meant("А1", ["A1", "A2"]))
+    >>> str(suggestion("А1", ["A1", "A2"]))
     "its letter 'А' is Cyrillic: type 'A1' in Latin letters"
-    >>> meant("xyz", ["cosine", "cycloidal"])
+    >>> suggestion("xyz", ["cosine", "cycloidal"])
     ''
     """
     known = list(known)
@@ -283,19 +283,19 @@ def meant(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] |
 def among(
     word: object, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None
 ) -> tuple[Caption, Words]:
-    """The limit and the remedy of a word that is none of those known; ``called`` as in :func:`meant`.
+    """The limit and the remedy of a word that is none of those known; ``called`` as in :func:`suggestion`.
 
     >>> print(DesignError("law", "cicloidal", *among("cicloidal", ["cosine", "cycloidal"])))
     law is 'cicloidal', but must be one of cosine, cycloidal; did you mean 'cycloidal'?
     """
     known = list(known)
-    return say("one of {names}", names=", ".join(known)), meant(str(word), known, called)
+    return say("one of {names}", names=", ".join(known)), suggestion(str(word), known, called)
 
 
 def nearest(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> Words:
-    """A remedy for a mistyped word: the known word that is meant, or all of them; ``called`` as in :func:`meant`.
+    """A remedy for a mistyped word: the known word that is meant, or all of them; ``called`` as in :func:`suggestion`.
 
-    Where the limit lists them already, :func:`meant` alone is enough.
+    Where the limit lists them already, :func:`suggestion` alone is enough.
 
     >>> str(nearest("cicloidal", ["cosine", "cycloidal"]))
     "did you mean 'cycloidal'?"
@@ -305,4 +305,4 @@ def nearest(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]]
     "did you mean 'roller_radius'?"
     """
     known = list(known)
-    return meant(word, known, called) or say("known are {names}", names=", ".join(known))
+    return suggestion(word, known, called) or say("known are {names}", names=", ".join(known))

@@ -18,7 +18,7 @@ from pathlib import Path
 from types import MappingProxyType
 
 from graphcam.errors import GraphcamError
-from graphcam.locks import LOCK, lock as hold
+from graphcam.file_locks import LOCK_SUFFIX, lock as hold
 from graphcam.words import Caption, Words, say
 
 REMEDIES: Mapping[int | None, Words] = {
@@ -32,14 +32,14 @@ REMEDIES: Mapping[int | None, Words] = {
     errno.EIO: say("check the disk, or choose a folder on another one"),
 }
 """What to do about an error of the system, by its number."""
-ELSEWHERE = say("choose another place")
+DEFAULT_REMEDY = say("choose another place")
 """What to do about any other."""
 THERE = say("it already exists"), say("choose another name, or remove that file first")
 """What is wrong with a new file that is there, and what to do about it."""
-NOTHING: Mapping[str, str] = MappingProxyType({})
+NO_FORMER_FILES: Mapping[str, str] = MappingProxyType({})
 
 
-PREFIX = ".graphcam-draft-"
+FOLDER_PREFIX = ".graphcam-draft-"
 """How the names of drafts begin."""
 
 
@@ -70,12 +70,12 @@ def draft_folder(place: Path) -> Generator[Path]:
 def _new_draft(place: Path) -> tuple[Path, int]:
     """A new draft and its lock, a file descriptor."""
     while True:
-        draft = Path(tempfile.mkdtemp(prefix=PREFIX, dir=place))
+        draft = Path(tempfile.mkdtemp(prefix=FOLDER_PREFIX, dir=place))
         lock: int | None = None
         with suppress(FileNotFoundError, BlockingIOError):
-            lock = os.open(draft / LOCK, os.O_RDWR | os.O_CREAT)
+            lock = os.open(draft / LOCK_SUFFIX, os.O_RDWR | os.O_CREAT)
             hold(lock)
-            if os.path.lexists(draft / LOCK):
+            if os.path.lexists(draft / LOCK_SUFFIX):
                 return draft, lock
         # Before it was held, another run took it for one that a killed run left, and cleared it.
         if lock is not None:
@@ -85,14 +85,14 @@ def _new_draft(place: Path) -> tuple[Path, int]:
 def clear_drafts(place: Path) -> None:
     """Remove the drafts in a place whose runs are no more."""
     with suppress(OSError):
-        for path in list(place.glob(f"{PREFIX}*")):
+        for path in list(place.glob(f"{FOLDER_PREFIX}*")):
             if path.is_dir() and not path.is_symlink():
-                _clear(path)
+                _remove_folder(path)
 
 
-def _clear(draft: Path) -> None:
+def _remove_folder(draft: Path) -> None:
     with suppress(OSError):
-        lock = os.open(draft / LOCK, os.O_RDWR | os.O_CREAT)
+        lock = os.open(draft / LOCK_SUFFIX, os.O_RDWR | os.O_CREAT)
         try:
             ended = hold(lock)
             if ended:
@@ -101,7 +101,7 @@ def _clear(draft: Path) -> None:
             os.close(lock)
         if ended:
             # Windows removes nothing that is open; nor does it now, if a new run has opened it meanwhile.
-            (draft / LOCK).unlink()
+            (draft / LOCK_SUFFIX).unlink()
             draft.rmdir()
 
 
@@ -112,7 +112,7 @@ class OutputError(GraphcamError):
     the output '/proc/out' cannot be written (No such file or directory); choose another place
     """
 
-    def __init__(self, path: str | Path, why: Words, remedy: Words = ELSEWHERE) -> None:
+    def __init__(self, path: str | Path, why: Words, remedy: Words = DEFAULT_REMEDY) -> None:
         super().__init__(path, why, remedy)
         self.path = path
         self.why = why
@@ -125,7 +125,7 @@ class OutputError(GraphcamError):
 
 
 @contextmanager
-def whole_folder(folder: str | Path, former: Mapping[str, str] = NOTHING) -> Generator[Path]:
+def whole_folder(folder: str | Path, former: Mapping[str, str] = NO_FORMER_FILES) -> Generator[Path]:
     """A temporary folder whose files move into ``folder`` when all of them are written.
 
     On an error nothing is left behind: neither the files nor a folder that was made for them.  Files that ``folder``
@@ -185,7 +185,7 @@ def whole_file(path: str | Path) -> Generator[Path]:
 @contextmanager
 def _draft(target: Path, place: Path) -> Generator[Path]:
     """A temporary folder in a place that is made where it is not there yet; on an error nothing is left of both."""
-    made = _missing(place)
+    made = _missing_folders(place)
     try:
         with ExitStack() as drafts:
             try:
@@ -198,7 +198,7 @@ def _draft(target: Path, place: Path) -> Generator[Path]:
             try:
                 yield draft
             except OSError as error:
-                if _is_of(place, error):
+                if _error_concerns(place, error):
                     raise _output_error(target, error) from error
                 raise
     except BaseException:
@@ -206,7 +206,7 @@ def _draft(target: Path, place: Path) -> Generator[Path]:
         raise
 
 
-def _is_of(place: Path, error: OSError) -> bool:
+def _error_concerns(place: Path, error: OSError) -> bool:
     """Whether an error is of a place: it names a file there, or it names none and is of a disk."""
     if error.filename is None:
         return error.errno in REMEDIES
@@ -285,7 +285,7 @@ def _unchanged(folder: Path, name: str, known: str) -> bool:
         return False
 
 
-def _missing(folder: Path) -> list[Path]:
+def _missing_folders(folder: Path) -> list[Path]:
     """The folders on the way to ``folder`` that are not there yet, the innermost first."""
     missing: list[Path] = []
     for path in (folder, *folder.parents):
@@ -310,5 +310,5 @@ def _output_error(path: str | Path, error: OSError | ValueError) -> OutputError:
     if isinstance(error, OSError):
         # Some libraries put the number of the error into words of their own.
         why = os.strerror(error.errno) if error.errno in REMEDIES and error.errno else error.strerror
-        return OutputError(path, why or str(error), REMEDIES.get(error.errno, ELSEWHERE))
+        return OutputError(path, why or str(error), REMEDIES.get(error.errno, DEFAULT_REMEDY))
     return OutputError(path, str(error))

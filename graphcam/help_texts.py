@@ -12,7 +12,7 @@ from typing import IO, Any
 
 from graphcam.words import Caption
 
-HELPED = {"Option", "Argument", "Typer"}
+HELP_CALLS = {"Option", "Argument", "Typer"}
 """What of typer has a help."""
 
 
@@ -51,7 +51,7 @@ def texts_of_help(code: str) -> Iterator[tuple[int, str]]:
         if isinstance(node, ast.FunctionDef) and (docstring := ast.get_docstring(node)):
             if "[bold]Examples[/bold]" in docstring or any("command" in ast.unparse(d) for d in node.decorator_list):
                 yield node.lineno, docstring.partition("\n\n")[0]
-        elif isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in HELPED:
+        elif isinstance(node, ast.Call) and ast.unparse(node.func).rpartition(".")[2] in HELP_CALLS:
             for text in (each.value for each in node.keywords if each.arg == "help"):
                 match named.get(text.id) if isinstance(text, ast.Name) else text:
                     case ast.Constant(value=str() as said):

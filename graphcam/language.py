@@ -18,7 +18,7 @@ from typing import Any
 from graphcam.errors import DesignError, among
 from graphcam.words import Caption, Message, Words, message, say, say_in
 
-MINUS = "−"
+MINUS_SIGN = "−"
 """As wide as a plus; a hyphen is what a program reads."""
 SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"
 """The digits and the minus of a power of ten."""
@@ -26,14 +26,14 @@ DECIMAL_SIGN = say_in("decimal sign", ".")
 """What stands before the decimals, which a catalog tells as it does every text."""
 SENTENCE = "{what} is {shown}, but must be {allowed}"
 """That of an error; a language that has it can tell messages."""
-UNREAD = say("This translation has not yet been read by a native speaker.")
+UNREVIEWED_NOTE = say("This translation has not yet been read by a native speaker.")
 
 
-_LINE = re.compile(r'(?:(msgctxt|msgid|msgid_plural|msgstr(?:\[\d+\])?)\s*)?"(.*)"\s*')
-_PLURAL = re.compile(r"^Plural-Forms:.*plural\s*=\s*([^;\n]+)", re.MULTILINE)
-_UNREAD = re.compile(r"^X-Read-By-Native-Speaker: *no *$", re.MULTILINE)
-_ESCAPED = re.compile(r"\\(.)")
-_MEANING = {"n": "\n", "t": "\t", "r": "\r"}
+_LINE_PATTERN = re.compile(r'(?:(msgctxt|msgid|msgid_plural|msgstr(?:\[\d+\])?)\s*)?"(.*)"\s*')
+_PLURAL_PATTERN = re.compile(r"^Plural-Forms:.*plural\s*=\s*([^;\n]+)", re.MULTILINE)
+_UNREVIEWED_PATTERN = re.compile(r"^X-Read-By-Native-Speaker: *no *$", re.MULTILINE)
+_ESCAPE_PATTERN = re.compile(r"\\(.)")
+_ESCAPE_VALUES = {"n": "\n", "t": "\t", "r": "\r"}
 Entry = dict[str, str]
 """What one entry of a file says, by the keyword: "msgid", "msgstr[1]"."""
 
@@ -60,7 +60,7 @@ class Catalog:
         """A text in the language; one that is not translated stays as it is."""
         return self.told.get((context, text), (text,))[0]
 
-    def say_many(self, one: str, many: str, count: int) -> str:
+    def plural_translation(self, one: str, many: str, count: int) -> str:
         """A text that depends on a count."""
         forms = self.told.get(("", one))
         return forms[self.plural(count)] if forms else (one, many)[one_or_many(count)]
@@ -80,7 +80,7 @@ def read_catalog(text: str) -> Catalog:
         if entry["msgid"] and all(forms):
             told[entry.get("msgctxt", ""), entry["msgid"]] = forms
         elif not entry["msgid"]:  # the header
-            rule, unread = _PLURAL.search(forms[0]), _UNREAD.search(forms[0]) is not None
+            rule, unread = _PLURAL_PATTERN.search(forms[0]), _UNREVIEWED_PATTERN.search(forms[0]) is not None
     return Catalog(told, gettext.c2py(rule[1]) if rule else one_or_many, unread)
 
 
@@ -91,7 +91,7 @@ def _entries(text: str) -> Iterator[Entry]:
     for line in text.splitlines():
         if line.startswith("#,"):
             next_fuzzy = "fuzzy" in line
-        if (found := _LINE.fullmatch(line)) is None:
+        if (found := _LINE_PATTERN.fullmatch(line)) is None:
             continue
         begun = found[1]
         if begun in ("msgctxt", "msgid") and "msgid" in entry:
@@ -101,14 +101,14 @@ def _entries(text: str) -> Iterator[Entry]:
         if begun and not entry:
             fuzzy, next_fuzzy = next_fuzzy, False
         keyword = begun or keyword
-        entry[keyword] = entry.get(keyword, "") + _plain(found[2])
+        entry[keyword] = entry.get(keyword, "") + _unescaped(found[2])
     if "msgid" in entry and not fuzzy:
         yield entry
 
 
-def _plain(quoted: str) -> str:
+def _unescaped(quoted: str) -> str:
     """What stands between quotes."""
-    return _ESCAPED.sub(lambda sign: _MEANING.get(sign[1], sign[1]), quoted) if "\\" in quoted else quoted
+    return _ESCAPE_PATTERN.sub(lambda sign: _ESCAPE_VALUES.get(sign[1], sign[1]), quoted) if "\\" in quoted else quoted
 
 
 @dataclass(frozen=True)
@@ -137,7 +137,7 @@ class Language:
     @property
     def remark(self) -> str:
         """What whoever reads the language should know of the translation; empty where a native speaker has read it."""
-        return self.text(UNREAD) if self.catalog.unread else ""
+        return self.text(UNREVIEWED_NOTE) if self.catalog.unread else ""
 
     @cached_property
     def has_messages(self) -> bool:
@@ -158,7 +158,7 @@ class Language:
 
     def _template(self, caption: Caption) -> str:
         if caption.plural:
-            return self.catalog.say_many(caption.template, caption.plural, caption.count)
+            return self.catalog.plural_translation(caption.template, caption.plural, caption.count)
         return self.catalog.say(caption.template, caption.context)
 
 
@@ -186,7 +186,7 @@ class _Written:
         if isinstance(value, str) or self.typed:
             return format(value, format_spec)
         written = format(value, format_spec).replace(".", self.language.decimal)
-        return _power(written).replace("-", MINUS) if isinstance(value, Real) else written
+        return _power(written).replace("-", MINUS_SIGN) if isinstance(value, Real) else written
 
 
 def _power(number: str) -> str:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes as Axes
     from matplotlib.figure import Figure as Figure
 
-LINES, WIDTH = 8, 100
+MAX_LINES, MAX_WIDTH = 8, 100
 """Of a value's text at most: lines, and letters of a line that may be cut."""
 
 
@@ -39,7 +39,7 @@ def in_lines(first: str, rows: Iterable[str], last: str) -> str:
     >>> in_lines("Cam", ["radius 20 mm"], ".plot()")
     'Cam\\n  radius 20 mm\\n.plot()'
     """
-    rows, room = list(rows), LINES - 2
+    rows, room = list(rows), MAX_LINES - 2
     if len(rows) > room:
         rows = [*rows[: room - 1], f"and {len(rows) - room + 1} more"]
     return "\n".join([first, *(f"  {row}" for row in rows), last])
@@ -55,11 +55,11 @@ def by_parts(self: Any) -> str:
       load: SpringLoad(mass=0.2, speed_rpm=550, stiffness=3, preload=0.0, acceleration=0.0, friction=0.0, ...
     """
     parts = {part.name: repr(getattr(self, part.name)).partition("\n")[0] for part in fields(self)}
-    rows = (f"  {name}: {shorten(text, WIDTH, placeholder=' ...')}" for name, text in parts.items())
+    rows = (f"  {name}: {shorten(text, MAX_WIDTH, placeholder=' ...')}" for name, text in parts.items())
     return "\n".join([type(self).__name__, *rows])
 
 
-class Shown:
+class Plottable:
     """A value that is drawn by the function ``_drawn_in`` of :mod:`graphcam.plots`; a notebook shows that."""
 
     _drawn_in: ClassVar[str]

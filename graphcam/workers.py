@@ -24,23 +24,23 @@ from graphcam.words import say
 J = TypeVar("J")
 R = TypeVar("R")
 
-BATCH = 16
+BATCH_SIZE = 16
 """Short jobs that travel together: less talk between processes, and still an even load."""
-BATCHES_AHEAD = 3
+MAX_BATCHES_AHEAD = 3
 """Batches a worker that are on their way: none waits, and not all jobs are in memory."""
 JOBS_AHEAD = 128
 """Jobs that wait for an executor at a time where they come in order: they bound the memory, and feed a cluster."""
-ANSWERED_WITHIN = 5.0
+SCHEDULER_SECONDS = 5.0
 """Seconds in which a scheduler must answer."""
-FEWEST_EXPECTED = 32
+MIN_EXPECTED_WORKERS = 32
 """Workers of a cluster for which jobs are handed out, though fewer are there yet."""
-LAST_MOMENTS = 2.0
+SHUTDOWN_SECONDS = 2.0
 """Seconds that a worker has to clear away when the run has been killed."""
-MOST_OF_WINDOWS = 61
+MAX_WINDOWS_PROCESSES = 61
 """Processes that one can wait for on Windows."""
-_working = threading.Event()
+_job_in_hand = threading.Event()
 """Whether this process, a worker, has a job in hand."""
-_over = threading.Event()
+_run_killed = threading.Event()
 """Whether its run has been killed, so that no other job is begun."""
 
 
@@ -65,7 +65,7 @@ def processes(workers: int, *preloaded: str, fresh: bool = False) -> WorkerPool:
     fresh : whether they never do: a copy of one whose libraries have threads of their own, as OpenCV has, may hang
     """
     # So many Windows waits for at a time.
-    workers = min(workers, MOST_OF_WINDOWS) if sys.platform == "win32" else workers
+    workers = min(workers, MAX_WINDOWS_PROCESSES) if sys.platform == "win32" else workers
     return WorkerPool(partial(_process_executor, workers, preloaded, fresh), workers)
 
 
@@ -80,12 +80,14 @@ def cluster(address: str) -> WorkerPool:
     with installed("--cluster", "dask's distributed", "cluster"):
         from distributed import Client
     try:
-        client: Any = Client(address, timeout=ANSWERED_WITHIN)
+        client: Any = Client(address, timeout=SCHEDULER_SECONDS)
     except (OSError, ValueError) as error:
         silent = say("no dask scheduler answers at '{address}' ({error}); start one, or check the address")
         raise OSError(silent.where(address=address, error=str(error))) from None
     return WorkerPool(
-        partial(client.get_executor, retries=0), max(sum(client.nthreads().values()), FEWEST_EXPECTED), client.close
+        partial(client.get_executor, retries=0),
+        max(sum(client.nthreads().values()), MIN_EXPECTED_WORKERS),
+        client.close,
     )
 
 
@@ -140,7 +142,7 @@ def in_order(
 
 
 def results(
-    pool: WorkerPool, function: Callable[[J], R], jobs: Iterable[J], batch: int = BATCH
+    pool: WorkerPool, function: Callable[[J], R], jobs: Iterable[J], batch: int = BATCH_SIZE
 ) -> Generator[tuple[J, R | None]]:
     """Every job with its result as they come, or with None where the worker died of it.
 
@@ -155,17 +157,17 @@ def results(
     waiting = iter(jobs)
     batches = iter(lambda: list(islice(waiting, batch)), [])
     # An executor that breaks takes down with it what others were doing: all of that is suspected.
-    for done, found in _shared_out(pool, function, batches, BATCHES_AHEAD * pool.workers):
+    for done, found in _batch_results(pool, function, batches, MAX_BATCHES_AHEAD * pool.workers):
         if found is None:
             suspects += done
         else:
             yield from zip(done, found, strict=True)
     # Alone, so that the one that breaks the executor is the guilty one.
-    for (job,), found in _shared_out(pool, function, ([suspect] for suspect in suspects), 1):
+    for (job,), found in _batch_results(pool, function, ([suspect] for suspect in suspects), 1):
         yield job, None if found is None else found[0]
 
 
-def _shared_out(
+def _batch_results(
     pool: WorkerPool, function: Callable[[J], R], batches: Iterator[list[J]], ahead: int
 ) -> Generator[tuple[list[J], list[R] | None]]:
     """Batches with their results, or with None where they were under way when their executor broke.
@@ -174,13 +176,13 @@ def _shared_out(
     """
     while first := next(batches, []):
         with pool.executor() as executor:
-            running: dict[Future[list[R]], list[J]] = {executor.submit(_each, function, first): first}
+            running: dict[Future[list[R]], list[J]] = {executor.submit(_results, function, first): first}
             broken = False
             try:
                 while (batch := [] if broken or len(running) >= ahead else next(batches, [])) or running:
                     if batch:
                         try:
-                            running[executor.submit(_each, function, batch)] = batch
+                            running[executor.submit(_results, function, batch)] = batch
                         except BrokenExecutor:
                             # Nobody has begun with this one: it is for the next executor.
                             broken, batches = True, chain([batch], batches)
@@ -195,21 +197,21 @@ def _shared_out(
                     future.cancel()
 
 
-def _each(function: Callable[[J], R], jobs: list[J]) -> list[R]:
+def _results(function: Callable[[J], R], jobs: list[J]) -> list[R]:
     if threading.current_thread() is not threading.main_thread():
         return [function(job) for job in jobs]
-    if _over.is_set():
+    if _run_killed.is_set():
         os._exit(1)
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    _working.set()
+    _job_in_hand.set()
     try:
         return [function(job) for job in jobs]
     finally:
-        _deaf()
-        _working.clear()
+        _ignore_interrupts()
+        _job_in_hand.clear()
 
 
-def _deaf() -> None:
+def _ignore_interrupts() -> None:
     """Between its jobs a process does not hear Ctrl-C: it may hold the locks of the queue, and all would wait."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
@@ -218,18 +220,18 @@ def _process_executor(workers: int, preloaded: tuple[str, ...], fresh: bool = Fa
     methods = multiprocessing.get_all_start_methods()
     if sys.platform == "linux" and "fork" in methods and threading.active_count() == 1 and not fresh:
         # All that is loaded is there at once: a new Python takes longer to start than hundreds of students to grade.
-        return ProcessPoolExecutor(workers, multiprocessing.get_context("fork"), _begin)
+        return ProcessPoolExecutor(workers, multiprocessing.get_context("fork"), _start_worker)
     if "forkserver" not in methods:
-        return ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), _begin)
+        return ProcessPoolExecutor(workers, multiprocessing.get_context("spawn"), _start_worker)
     # A fork of a process with threads may hang; the server that forks instead has none, and loads the libraries once.
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(list(preloaded))
-    return ProcessPoolExecutor(workers, context, _begin)
+    return ProcessPoolExecutor(workers, context, _start_worker)
 
 
-def _begin() -> None:
+def _start_worker() -> None:
     """Make this process a worker."""
-    _deaf()
+    _ignore_interrupts()
     threading.Thread(target=_end_with_the_run, daemon=True).start()
 
 
@@ -239,10 +241,10 @@ def _end_with_the_run() -> None:
     if run is None:
         return
     run.join()
-    _over.set()
+    _run_killed.set()
     # As by Ctrl-C, so that a student's code that it runs just now is ended too.
     _thread.interrupt_main()
-    until = time.monotonic() + LAST_MOMENTS
-    while _working.is_set() and time.monotonic() < until:
+    until = time.monotonic() + SHUTDOWN_SECONDS
+    while _job_in_hand.is_set() and time.monotonic() < until:
         time.sleep(0.01)
     os._exit(1)

@@ -74,8 +74,8 @@ ROOMS = {
     "sheets": Room(
         ("graphcam/sheets",),
         (
-            *("graphcam/sheets", "tests/sheets/test_boxes_and_rooms.py", "tests/sheets/test_writing.py"),
-            *("tests/sheets/test_expand.py", "tests/sheets/test_sampling.py", "tests/sheets/test_fields.py"),
+            *("graphcam/sheets", "tests/sheets/test_boxes_and_rooms.py", "tests/sheets/test_label_candidates.py"),
+            *("tests/sheets/test_mark_entities.py", "tests/sheets/test_sampling.py", "tests/sheets/test_fields.py"),
             *("tests/sheets/test_occupancy.py", "tests/sheets/test_tables.py", "tests/sheets/test_rendered.py"),
             "tests/sheets",
         ),

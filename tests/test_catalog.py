@@ -65,15 +65,15 @@ msgstr[2] "деталей"
 
 @pytest.mark.parametrize(("count", "form"), [(1, "деталь"), (3, "детали"), (12, "деталей"), (21, "деталь")])
 def test_the_rule_of_plurals_is_the_catalogs_own(count, form):
-    assert read_catalog(PLURALS).say_many("{count} part", "{count} parts", count) == form
+    assert read_catalog(PLURALS).plural_translation("{count} part", "{count} parts", count) == form
 
 
 def test_what_is_not_translated_stays_english():
     catalog = read_catalog(PLURALS)
     assert catalog.say("part") == "part"
-    assert [catalog.say_many("one", "many", count) for count in (1, 2)] == ["one", "many"]
+    assert [catalog.plural_translation("one", "many", count) for count in (1, 2)] == ["one", "many"]
 
 
 def test_a_catalog_without_a_rule_counts_as_english_does():
     catalog = read_catalog('msgid "one"\nmsgid_plural "many"\nmsgstr[0] "eins"\nmsgstr[1] "viele"\n')
-    assert [catalog.say_many("one", "many", count) for count in (0, 1, 2)] == ["viele", "eins", "viele"]
+    assert [catalog.plural_translation("one", "many", count) for count in (0, 1, 2)] == ["viele", "eins", "viele"]

@@ -18,11 +18,11 @@ from typer.testing import CliRunner
 
 import graphcam
 from graphcam.cli import app
-from graphcam.cli.shared import WRONG_INPUT, about, tell_files
+from graphcam.cli.shared import INPUT_ERROR_STATUS, file_kind, print_files
 from graphcam.errors import DesignError
 from graphcam.files import whole_folder
 from graphcam.report.output_folder import written_files
-from graphcam.sweeps.space import load_space
+from graphcam.sweeps.design_space import load_space
 from graphcam.tasks.task_file import builtin_text
 
 QUANTITIES = {
@@ -137,7 +137,7 @@ def test_wrong_input_ends_with_one_message(run, asked, tmp_path, words, message)
         '{ kind = "return", angle = 180, lift = 3, law = "2-3" }]\n'
     )
     result = run("solve", *words)
-    assert result.exit_code == WRONG_INPUT
+    assert result.exit_code == INPUT_ERROR_STATUS
     assert result.stdout == ""
     said = [line for line in result.stderr.splitlines() if not line.endswith("...")]
     assert len(said) == 1
@@ -148,7 +148,7 @@ def test_wrong_input_ends_with_one_message(run, asked, tmp_path, words, message)
 @pytest.mark.parametrize("words", [["solv"], ["solve", "--divisions", "many"], ["solve", "a", "b"], ["init"], ["--x"]])
 def test_wrong_usage_has_the_same_status(run, asked, words):
     result = run(*words)
-    assert result.exit_code == WRONG_INPUT
+    assert result.exit_code == INPUT_ERROR_STATUS
     assert "Usage: " in result.stderr
     assert asked == []
 
@@ -168,7 +168,7 @@ def test_init_writes_a_task_once(run, asked, tmp_path):
     assert graphcam.load_task(tmp_path / "my cam.toml") == graphcam.builtin_task()
     (tmp_path / "my cam.toml").write_text("changed")
     again = run("init", "my cam.toml")
-    assert again.exit_code == WRONG_INPUT
+    assert again.exit_code == INPUT_ERROR_STATUS
     assert again.stderr.startswith("graphcam: the output 'my cam.toml' cannot be written (it already exists)")
     assert (tmp_path / "my cam.toml").read_text() == "changed"
 
@@ -204,7 +204,7 @@ def test_the_files_are_links_in_a_terminal_and_plain_elsewhere(tmp_path, monkeyp
     monkeypatch.setenv("TERM", "xterm-256color")
     for stream in (plain, linked):
         monkeypatch.setattr(sys, "stdout", stream)
-        tell_files(tmp_path / "a b", names)
+        print_files(tmp_path / "a b", names)
     assert "\x1b" not in plain.getvalue()
     assert "  sheet.pdf, sheet.svg, sheet-2.svg: the sheet, true to scale\n" in plain.getvalue()
     first = f"{tmp_path / 'a b' / 'player.html'} (in a browser), then {tmp_path / 'a b' / 'sheet.pdf'} (print at 100 %)"
@@ -222,7 +222,7 @@ def test_all_files_that_a_run_writes_are_told(tmp_path):
     names = written_files(tmp_path)
     assert sorted(names) == sorted(path.name for path in tmp_path.iterdir() if path.name != "mine.txt")
     assert {"solution.json", "sheet-2.png"} <= set(names)
-    assert all(about(name) for name in names)
+    assert all(file_kind(name) for name in names)
 
 
 def test_the_version(run):
@@ -282,7 +282,7 @@ def test_a_full_disk_under_the_standard_output_is_one_line(tmp_path):
     with Path("/dev/full").open("w") as full:
         words = [sys.executable, "-m", "graphcam", "solve", "--json"]
         ran = subprocess.run(words, cwd=tmp_path, stdout=full, stderr=subprocess.PIPE, text=True)
-    assert ran.returncode == WRONG_INPUT
+    assert ran.returncode == INPUT_ERROR_STATUS
     assert ran.stderr == "graphcam: the standard output cannot be written (No space left on device)\n"
 
 
@@ -315,7 +315,7 @@ def test_who_starts_it_deaf_to_interruptions_is_not_interrupted(tmp_path):
 )
 def test_a_place_without_a_name_is_refused(run, tmp_path, words):
     result = run(*words)
-    assert result.exit_code == WRONG_INPUT
+    assert result.exit_code == INPUT_ERROR_STATUS
     assert "names no place" in " ".join(result.stderr.replace("│", " ").split())
     assert files(tmp_path) == []
 

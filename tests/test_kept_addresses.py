@@ -16,8 +16,8 @@ from typing import Any
 import pytest
 
 import graphcam as gc
+from graphcam.drafting.act_order import pieces_of
 from graphcam.drafting.ink import Step
-from graphcam.drafting.moves import pieces_of
 from graphcam.report.documents import contents_of
 from graphcam.studio.address import place_of
 from graphcam.studio.task_text import built_in_tasks

@@ -19,17 +19,17 @@ from typer.testing import CliRunner
 
 import graphcam as gc
 from graphcam.cli import app
-from graphcam.cli.voice import language_of_machine
+from graphcam.cli.command_language import language_of_machine
 from graphcam.errors import DesignError
 from graphcam.language import ENGLISH, language, languages
 from graphcam.report.documents import contents_of, drawing_of, note_of, sheet_of
 from graphcam.report.note import comparison_file
 from graphcam.report.step_player import player_of
 from graphcam.sheets.model import Text
-from graphcam.studio.page import page
+from graphcam.studio.studio_page import page
 from graphcam.studio.tours import texts_of, tours
 from graphcam.tasks.task import SpringTable
-from graphcam.tasks.task_file import BUILT_IN
+from graphcam.tasks.task_file import BUILTIN_TASK_NAMES
 from graphcam.words import say, say_in, say_many, sequence
 
 UNREAD = ("vi", "zh")
@@ -134,7 +134,7 @@ def test_a_third_language_is_one_file_more(tmp_path, monkeypatch):
         language.cache_clear()
 
 
-TASKS = {name: gc.builtin_task(name) for name in BUILT_IN} | {"arcs": gc.builtin_arcs_task()}
+TASKS = {name: gc.builtin_task(name) for name in BUILTIN_TASK_NAMES} | {"arcs": gc.builtin_arcs_task()}
 TASKS["spring"] = replace(gc.builtin_task(), speed_rpm=300.0, spring=SpringTable(mass=0.5, stiffness=3.0))
 HANDS = {"perfect": gc.Pencil(), "hand": gc.Pencil(line=0.2, dividers=0.2, protractor=0.005, division=0.5)}
 

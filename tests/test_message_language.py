@@ -15,8 +15,8 @@ from typer.testing import CliRunner
 
 import graphcam
 from graphcam.cli import app
-from graphcam.cli.voice import Voice, language_of_machine
-from graphcam.errors import DesignError, GraphcamError, MissingFileError, TaskError, meant
+from graphcam.cli.command_language import Voice, language_of_machine
+from graphcam.errors import DesignError, GraphcamError, MissingFileError, TaskError, suggestion
 from graphcam.files import OutputError
 from graphcam.language import ENGLISH, Language, language, languages, read_catalog
 from graphcam.words import bare, either, say
@@ -52,15 +52,15 @@ def test_the_machine_names_its_language_as_for_gettext(variables, name):
 
 def test_what_is_asked_for_counts_before_the_task_and_the_task_before_the_machine():
     voice = Voice(language=RUSSIAN)
-    voice.hear("en")
+    voice.adopt_language("en")
     assert voice.language == RUSSIAN
     voice.choose("en")
-    voice.hear("ru")
+    voice.adopt_language("ru")
     assert voice.language == ENGLISH
     voice = Voice(language=ENGLISH)
     voice.choose(None)
     voice.choose("xx")
-    voice.hear("ru")
+    voice.adopt_language("ru")
     assert voice.language == RUSSIAN
 
 
@@ -70,7 +70,7 @@ def told(error: GraphcamError, spoken: Language = RUSSIAN) -> str:
 
 def test_a_message_is_told_with_what_stands_in_it():
     limit = say("greater than {least:g} {unit}", least=0, unit=say("mm"))
-    error = TaskError("cam.toml", "motion.phases[0].lift", 0, limit, meant("lfit", ["lift"]))
+    error = TaskError("cam.toml", "motion.phases[0].lift", 0, limit, suggestion("lfit", ["lift"]))
     assert told(error, ENGLISH) == str(error)
     assert told(error).startswith("cam.toml: motion.phases[0].lift: 0, а должно быть: ")
     assert told(error).endswith("; может быть, 'lift'?")

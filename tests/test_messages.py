@@ -13,17 +13,17 @@ import pytest
 import typer
 
 import graphcam
-from graphcam.cli.shared import WRONG_INPUT, one_message
+from graphcam.cli.shared import INPUT_ERROR_STATUS, one_message
 from graphcam.errors import DesignError, GraphcamError, MissingFileError, TaskError, unreadable
 from graphcam.exercises.course.course_folder import CourseThereError
-from graphcam.exercises.key.separation import MistakeError
-from graphcam.exercises.running.levels import Level
-from graphcam.exercises.running.probe import LevelError
+from graphcam.exercises.key.mistake_separation import MistakeError
+from graphcam.exercises.running.isolation_levels import Level
+from graphcam.exercises.running.isolation_probe import LevelError
 from graphcam.files import OutputError
 from graphcam.given.measured import RowError
-from graphcam.notebooks.running import MissingExtraError, NotebookError
+from graphcam.notebooks.notebook_execution import MissingExtraError, NotebookError
 from graphcam.photo.pictures import PhotographError
-from graphcam.sheets.filling import TooLargeError
+from graphcam.sheets.page_filling import TooLargeError
 from graphcam.words import say
 
 WORDS_OF = {"DesignError": (1, 2, 3), "TaskError": (2, 3, 4), "RowError": (2, 3, 4), "OutputError": (1, 2)}
@@ -173,7 +173,7 @@ def test_a_missing_file_is_told_alike_by_another_process():
 def test_an_error_of_the_system_that_nobody_told_is_one_line_without_its_number(capsys):
     with pytest.raises(typer.Exit) as ended, one_message():
         raise FileNotFoundError(2, "No such file or directory", "lost.json")
-    assert ended.value.exit_code == WRONG_INPUT
+    assert ended.value.exit_code == INPUT_ERROR_STATUS
     assert capsys.readouterr().err == "graphcam: lost.json: No such file or directory\n"
 
 
@@ -195,7 +195,7 @@ def test_a_disk_that_is_full_is_one_line_and_leaves_nothing(words, tmp_path):
     ran = subprocess.run(
         [sys.executable, "-c", FULL, *words], cwd=tmp_path, capture_output=True, text=True, check=False
     )
-    assert ran.returncode == WRONG_INPUT
+    assert ran.returncode == INPUT_ERROR_STATUS
     told = [line for line in ran.stderr.splitlines() if not line.endswith("...")]
     remedy = "choose a folder on another disk, or raise the limit on the size of files"
     assert told == [f"graphcam: the output '{words[-1]}' cannot be written (File too large); {remedy}"]

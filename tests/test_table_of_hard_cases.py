@@ -22,7 +22,7 @@ from graphcam.comparison.integrals import accurate_cumsum
 from graphcam.given.laws import LAWS, law
 from graphcam.given.motion import FULL_TURN, cam_angle
 from graphcam.given.motion_law import Law
-from graphcam.mechanism.three_points import circumradius
+from graphcam.mechanism.three_point_circle import circumradius
 from graphcam.solving.solution import Solution
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.task import (

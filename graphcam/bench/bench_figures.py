@@ -13,16 +13,16 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullFormatter, NullLocator
 from scipy.optimize import isotonic_regression
 
-from graphcam.bench.convergence import EXACT, Series
+from graphcam.bench.convergence import EXACT_ERROR_LIMIT, Series
 from graphcam.bench.hand_errors import Hands
 from graphcam.bench.tradeoff import Method
 from graphcam.given.laws import Floats
 
 INK, GREY, FAINT, ACCENT = "#1f2328", "#7d858c", "#e7e9eb", "#b3331f"
-BLUES = ("#1d4e89", "#3d85c6", "#2a9d8f")
+BLUE_SHADES = ("#1d4e89", "#3d85c6", "#2a9d8f")
 COLOURS = ("#b3331f", "#1d4e89", "#2a9d8f", "#c77d0a", "#7b4b94", "#4d7c2f")
 EPS = float(np.finfo(float).eps)
-SETTINGS: dict[Any, Any] = (
+PLOT_SETTINGS: dict[Any, Any] = (
     dict.fromkeys(("text.color", "axes.labelcolor", "xtick.labelcolor", "ytick.labelcolor"), INK)
     | dict.fromkeys(("axes.edgecolor", "xtick.color", "ytick.color"), GREY)
     | dict.fromkeys(("axes.spines.top", "axes.spines.right"), False)
@@ -30,12 +30,12 @@ SETTINGS: dict[Any, Any] = (
     | {"axes.titlesize": 11.5, "axes.titleweight": "bold", "axes.titlelocation": "left"}
 )
 DPI = 160
-PLAIN = FuncFormatter("{:g}".format)
+PLAIN_FORMATTER = FuncFormatter("{:g}".format)
 
 
 def save(draw: Callable[..., Figure], path: Path, *shown: Any) -> None:
     """Write a figure as PDF and PNG beside each other."""
-    with mpl.rc_context(SETTINGS):
+    with mpl.rc_context(PLOT_SETTINGS):
         figure = draw(*shown)
         figure.savefig(path.with_suffix(".pdf"), metadata={"CreationDate": None})
         # Laid out once for both.
@@ -48,7 +48,7 @@ def _note(axes: Axes, text: str, at: tuple[float, float], away: tuple[float, flo
     axes.annotate(text, at, xytext=away, textcoords="offset points", **look)
 
 
-def _guide(axes: Axes, ends: tuple[float, float], start: float, order: int) -> None:
+def _draw_order_guide(axes: Axes, ends: tuple[float, float], start: float, order: int) -> None:
     """A line of the order between two places of the axis, with its name."""
     low, high = ends
     axes.plot(ends, [start, start * (high / low) ** -order], color=GREY, lw=0.9, ls=(0, (5, 3)), zorder=1)
@@ -58,7 +58,7 @@ def _guide(axes: Axes, ends: tuple[float, float], start: float, order: int) -> N
 
 def _ticks_of_parts(axes: Axes, parts: Sequence[int]) -> None:
     axes.xaxis.set_major_locator(FixedLocator([n for n in (3, 6, 12, 24, 48, 96) if parts[0] <= n <= parts[-1]]))
-    axes.xaxis.set_major_formatter(PLAIN)
+    axes.xaxis.set_major_formatter(PLAIN_FORMATTER)
     axes.xaxis.set_minor_locator(NullLocator())
     axes.grid(axis="y", color=FAINT, lw=0.7)
     axes.set_axisbelow(True)
@@ -91,18 +91,18 @@ def spread(places: Floats, gap: float) -> Floats:
 
 # --- error against the number of parts -------------------------------------------------------------------------------
 
-TITLES = {"translating": "Translating follower", "arm": "Arm", "flat": "Flat face"}
-SHOWN = (
+FOLLOWER_TITLES = {"translating": "Translating follower", "arm": "Arm", "flat": "Flat face"}
+SHOWN_QUANTITIES = (
     *("displacement", "velocity", "minimum prime radius", "pressure angle", "working profile"),
     "minimum radius of curvature",
 )
-OTHERS = {
+OTHER_ORDER_SERIES = {
     ("translating", "rectangular", "minimum radius of curvature"): "curvature at a jump",
     ("translating", "rectangular", "working profile"): "profile, rectangular",
     ("translating", "cosine", "displacement"): "displacement, cosine",
 }
 """What series with other orders are called in the figure: by follower, law, quantity."""
-GUIDE_ABOVE = 3.0
+GUIDE_OFFSET_FACTOR = 3.0
 """Each guide to another order starts so many times above its curve as lets both be seen."""
 Labelled = list[tuple[Series, str]]
 
@@ -114,14 +114,16 @@ def error_against_parts(series: Sequence[Series]) -> Figure:
     by = {(s.follower, s.law, s.quantity): s for s in series}
     laws = [law for _, law, _ in by]
     law = "3-4-5" if "3-4-5" in laws else laws[0]
-    for axes, (follower, title) in zip(panels.flat, TITLES.items(), strict=False):
+    for axes, (follower, title) in zip(panels.flat, FOLLOWER_TITLES.items(), strict=False):
         # Without a roller the pitch curve is the profile.
-        names = {name: name for name in SHOWN} | ({"working profile": "profile"} if follower == "flat" else {})
+        names = {name: name for name in SHOWN_QUANTITIES} | (
+            {"working profile": "profile"} if follower == "flat" else {}
+        )
         asked = [(follower, law, "pitch curve" if label == "profile" else name) for name, label in names.items()]
         found = [(by[key], label) for key, label in zip(asked, names.values(), strict=True) if key in by]
         _panel_of_parts(axes, f"{title}, {law}", found, None)
-    others = [(by[key], label) for key, label in OTHERS.items() if key in by]
-    _panel_of_parts(panels.flat[3], "Translating follower, laws with other orders", others, GUIDE_ABOVE)
+    others = [(by[key], label) for key, label in OTHER_ORDER_SERIES.items() if key in by]
+    _panel_of_parts(panels.flat[3], "Translating follower, laws with other orders", others, GUIDE_OFFSET_FACTOR)
     for axes in panels[:, 0]:
         axes.set_ylabel("relative error")
     for axes in panels[1]:
@@ -146,7 +148,7 @@ def _panel_of_parts(axes: Axes, title: str, found: Labelled, above: float | None
     axes.set_ylim(EPS / 30 if rounded else min(errors) / 12, 3 * top)
     guides = {2: top} if above is None else {round(s.order): above * s.errors[0] for s, _ in found if s.order}
     for order, start in guides.items():
-        _guide(axes, (parts[0], parts[-1]), start, order)
+        _draw_order_guide(axes, (parts[0], parts[-1]), start, order)
     axes.set_xlim(parts[0] / 1.12, parts[-1] * 6.8)
     _ticks_of_parts(axes, parts)
     at = [max(series.errors[-1], EPS / 4) for series, _ in found]
@@ -157,7 +159,7 @@ def _panel_of_parts(axes: Axes, title: str, found: Labelled, above: float | None
 # --- error against time ----------------------------------------------------------------------------------------------
 
 
-QUESTIONS = {
+QUESTION_TITLES = {
     "displacement": "Displacement from acceleration",
     "minimum prime radius": "Minimum prime radius",
     "profile": "Working profile",
@@ -174,7 +176,7 @@ LABELS = {
     ("profile", "shapely buffer"): ("polygon\nbuffer", 0.5, (-9, -4), "right"),
 }
 """Names of the methods and their places: at which point (0 the first, 1 the last), how far off [pt], how aligned."""
-ORDERS = {"graphical": 2, "cumulative_simpson": 4}
+METHOD_ORDERS = {"graphical": 2, "cumulative_simpson": 4}
 """The orders of the methods that have a line of their order in the figure."""
 
 
@@ -183,7 +185,7 @@ def error_against_time(methods: Sequence[Method], bands: Mapping[str, tuple[floa
     figure = Figure(figsize=(12.6, 5.4), layout="constrained")
     panels = figure.subplots(1, 3, sharey=True)
     times = [pairs for m in methods for pairs in m.pairs]
-    for axes, (question, title) in zip(panels, QUESTIONS.items(), strict=True):
+    for axes, (question, title) in zip(panels, QUESTION_TITLES.items(), strict=True):
         axes.set(xscale="log", yscale="log", xlim=(min(times) / 4, max(times) * 5), ylim=(2e-17, 0.6))
         axes.set_title(title, pad=34)
         axes.set_xlabel("time, in sine–cosine pairs")
@@ -191,18 +193,18 @@ def error_against_time(methods: Sequence[Method], bands: Mapping[str, tuple[floa
         axes.yaxis.set_minor_formatter(NullFormatter())
         axes.grid(color=FAINT, lw=0.7)
         axes.set_axisbelow(True)
-        _here(axes, pair)
+        _time_axis(axes, pair)
         _panel_of_time(axes, [m for m in methods if m.question == question], *bands[question])
     panels[0].set_ylabel("relative error")
     return figure
 
 
-def _here(axes: Axes, pair: float) -> None:
+def _time_axis(axes: Axes, pair: float) -> None:
     """A second axis in milliseconds of this machine."""
     milliseconds, pairs = partial(np.multiply, 1e3 * pair), partial(np.multiply, 1e-3 / pair)
     top = axes.secondary_xaxis("top", functions=(milliseconds, pairs))
     top.set_xlabel("ms on this machine", color=GREY, fontsize=9)
-    top.xaxis.set_major_formatter(PLAIN)
+    top.xaxis.set_major_formatter(PLAIN_FORMATTER)
     top.tick_params(labelsize=9, labelcolor=GREY)
     top.spines["top"].set_color(FAINT)
 
@@ -214,7 +216,7 @@ def _panel_of_time(axes: Axes, methods: Sequence[Method], low: float, high: floa
     axes.text(right, high * 1.25, "by hand, pencil σ = 0.2 mm", color=ACCENT, ha="right", va="bottom", fontsize=9)
     axes.axhline(EPS, color=GREY, lw=1.0, zorder=1)
     axes.text(right, EPS / 1.5, "floor ε", color=GREY, ha="right", va="top", fontsize=9)
-    blues = iter(BLUES)
+    blues = iter(BLUE_SHADES)
     for method in methods:
         t, error = np.array(method.pairs), np.maximum(method.errors, EPS / 2)
         if method.kind == "sampled":
@@ -232,9 +234,9 @@ def _curve(axes: Axes, method: Method, t: Floats, error: Floats, **look: Any) ->
     """A method's points, joined, its name, and the slope to which it tends as its time grows with n."""
     axes.plot(t, error, "o-", zorder=4, **look)
     above = np.flatnonzero(error > 100 * EPS)
-    if method.name in ORDERS and above.size:
+    if method.name in METHOD_ORDERS and above.size:
         k = int(above[-1])
-        _guide(axes, (t[k], min(4 * t[k], axes.get_xlim()[1] / 2.6)), error[k], ORDERS[method.name])
+        _draw_order_guide(axes, (t[k], min(4 * t[k], axes.get_xlim()[1] / 2.6)), error[k], METHOD_ORDERS[method.name])
     name, place, away, align = LABELS[method.question, method.name]
     at, weight = round(place * (t.size - 1)), "bold" if method.kind == "graphical" else "normal"
     look = {"color": look["color"], "ha": align, "va": "center", "weight": weight, "linespacing": 0.95}
@@ -251,7 +253,7 @@ def error_of_the_hand(every: Sequence[Hands]) -> Figure:
     axes.set(xscale="log", yscale="log")
     for hands, colour in zip(every, COLOURS, strict=False):
         axes.plot(hands.parts, 100 * np.array(hands.mean), "-", color=colour, lw=2.0)
-        if max(hands.method) > EXACT:
+        if max(hands.method) > EXACT_ERROR_LIMIT:
             axes.plot(hands.parts, 100 * np.array(hands.method), color=colour, lw=1.1, ls=(0, (4, 3)))
         axes.plot(hands.best_parts, 100 * hands.floor, "o", color=colour, ms=8, mec="white", mew=1.2, zorder=5)
     _notes_by_hand(axes, every[0], COLOURS[0])

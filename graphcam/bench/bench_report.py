@@ -9,49 +9,60 @@ from pathlib import Path
 from typing import Any
 
 from graphcam import __version__
-from graphcam.bench.convergence import BOUNDS, CONVERGENCE, PARTS
-from graphcam.bench.exact_rows import EXACT
+from graphcam.bench.bench_followers import BENCH_LAWS
+from graphcam.bench.convergence import BOUNDS_SECTION, CONVERGENCE, PARTS
+from graphcam.bench.exact_rows import EXACT_SECTION
 from graphcam.bench.hand_errors import BUDGETS, PARTS as PENCIL_PARTS, PENCIL, bands
-from graphcam.bench.load_rows import LOADS
-from graphcam.bench.measured_rows import MEASURED
+from graphcam.bench.load_rows import LOADS_SECTION
+from graphcam.bench.measured_rows import MEASURED_SECTION
 from graphcam.bench.peers import PEERS
 from graphcam.bench.rows import Effort, Line, Section
-from graphcam.bench.scenes import BENCH_LAWS
-from graphcam.bench.sweep_curve import CURVE, SIZES as SWEPT
+from graphcam.bench.sweep_curve import CURVE_SECTION, DESIGN_COUNTS as SWEPT
 from graphcam.bench.tradeoff import METHODS
-from graphcam.bench.waiting_rows import DRAWING, STUDIO, WAITING
+from graphcam.bench.waiting_rows import DRAWING, STUDIO_SECTION, WAITING_SECTION
 from graphcam.files import whole_folder
 from graphcam.report.output_folder import unheard
 from graphcam.words import Words, say
 
-ROWS = (EXACT, LOADS, BOUNDS, MEASURED, WAITING, STUDIO, CURVE)
+ROWS = (EXACT_SECTION, LOADS_SECTION, BOUNDS_SECTION, MEASURED_SECTION, WAITING_SECTION, STUDIO_SECTION, CURVE_SECTION)
 """The sections of measured figures and goals."""
-SECTIONS: tuple[Section, ...] = (CONVERGENCE, PENCIL, BUDGETS, METHODS, *ROWS, PEERS, DRAWING)
+REPORT_SECTIONS: tuple[Section, ...] = (CONVERGENCE, PENCIL, BUDGETS, METHODS, *ROWS, PEERS, DRAWING)
 """All tables, in order."""
-STEP_BY_FOUR = (6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304)
+PARTS_BY_FOUR = (6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304)
 """Parts, each time twice and then four times as many."""
-STEP_BY_THREE = (12, 36, 120, 360, 1080, 3240, 9720, 29160)
-CORNERS = (24, 96, 360, 1440, 5760, 23040)
+PARTS_BY_THREE = (12, 36, 120, 360, 1080, 3240, 9720, 29160)
+POLYGON_CORNERS = (24, 96, 360, 1440, 5760, 23040)
 ALL_SIZES = {
-    "graphical": STEP_BY_FOUR,
-    "profile": STEP_BY_FOUR[:7],
-    "integrators": STEP_BY_FOUR,
-    "half_planes": STEP_BY_THREE,
-    "optimiser": STEP_BY_THREE[:4],
-    "buffer": CORNERS,
+    "graphical": PARTS_BY_FOUR,
+    "profile": PARTS_BY_FOUR[:7],
+    "integrators": PARTS_BY_FOUR,
+    "half_planes": PARTS_BY_THREE,
+    "optimiser": PARTS_BY_THREE[:4],
+    "buffer": POLYGON_CORNERS,
 }
-FEWER = {"graphical": 8, "profile": 6, "integrators": 9, "half_planes": 6, "optimiser": 4, "buffer": 5}
+REDUCED_SIZES = {"graphical": 8, "profile": 6, "integrators": 9, "half_planes": 6, "optimiser": 4, "buffer": 5}
 """How many of them are taken when it must be quick."""
-FULL = Effort(PARTS, BENCH_LAWS, 2000, PENCIL_PARTS, ALL_SIZES, 100_000, 1_000_000, 0.2, SWEPT)
-QUICK = replace(FULL, hands=1000, budget=0.02, swept=(), sizes={name: ALL_SIZES[name][:k] for name, k in FEWER.items()})
+FULL_EFFORT = Effort(PARTS, BENCH_LAWS, 2000, PENCIL_PARTS, ALL_SIZES, 100_000, 1_000_000, 0.2, SWEPT)
+QUICK_EFFORT = replace(
+    FULL_EFFORT,
+    hands=1000,
+    budget=0.02,
+    swept=(),
+    sizes={name: ALL_SIZES[name][:k] for name, k in REDUCED_SIZES.items()},
+)
 
 COLUMNS = (
     *("section", "subject", "law", "quantity", "n", "error", "error_unit", "ratio", "ratio_unit", "remark"),
     *("goal", "goal_met"),
 )
 """Of the long table of numbers."""
-FIGURES = ("bench-parts", "bench-time", "bench-pencil")
-FILES = ("bench.md", "bench.csv", "bench.json", *(f"{name}.{kind}" for name in FIGURES for kind in ("pdf", "png")))
+FIGURE_NAMES = ("bench-parts", "bench-time", "bench-pencil")
+FILE_NAMES = (
+    "bench.md",
+    "bench.csv",
+    "bench.json",
+    *(f"{name}.{kind}" for name in FIGURE_NAMES for kind in ("pdf", "png")),
+)
 
 
 @dataclass(frozen=True)
@@ -69,7 +80,7 @@ class Report:
 
     def tables(self) -> Iterator[tuple[Section, list[str], list[list[str]]]]:
         """Every section of which something was measured, with the head and the rows of its table."""
-        for section in SECTIONS:
+        for section in REPORT_SECTIONS:
             if found := self.records[section.key]:
                 head, *rows = section.texts(found, self.pair)
                 yield section, head, rows
@@ -87,24 +98,24 @@ class Report:
 
     def numbers(self) -> Iterator[Line]:
         """The lines of the long table."""
-        for section in SECTIONS:
+        for section in REPORT_SECTIONS:
             for record in self.records[section.key]:
                 yield from ({"section": section.key, **line} for line in section.lines(record))
 
     def to_dict(self) -> dict[str, Any]:
         """Ratios and errors as plain data: times are in sine-cosine pairs, no seconds are kept."""
-        told = {each.key: [each.to_dict(record) for record in self.records[each.key]] for each in SECTIONS}
+        told = {each.key: [each.to_dict(record) for record in self.records[each.key]] for each in REPORT_SECTIONS}
         drawing = told.pop(DRAWING.key)
         stages = {d["construction"]: d["steps"] for d in drawing if d["readings"] is None}
         rest = {"drawing": [d for d in drawing if d["readings"] is not None], "rendering": stages}
         unit = "one sine and one cosine of 1e5, in the same run"
-        return _plain({"unit_of_time": unit, **told, "pencil_bands": self.bands, **rest})
+        return _plain_data({"unit_of_time": unit, **told, "pencil_bands": self.bands, **rest})
 
 
 def measure(effort: Effort, progress: Callable[[Words], None]) -> Report:
     """Measure everything."""
     pair, records = effort.pair, dict[str, tuple[Any, ...]]()
-    for section in SECTIONS:
+    for section in REPORT_SECTIONS:
         progress(section.title)
         records[section.key] = tuple(section.measured(effort))
     return Report(pair, records, bands(effort.hands))
@@ -138,10 +149,10 @@ def bench(effort: Effort, directory: Path | str, progress: Callable[[Words], Non
     return report
 
 
-def _plain(value: Any) -> Any:
+def _plain_data(value: Any) -> Any:
     """Lists, dictionaries and numbers; None for what is not finite."""
     if isinstance(value, dict):
-        return {str(key): _plain(item) for key, item in value.items()}
+        return {str(key): _plain_data(item) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
+        return [_plain_data(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -11,8 +11,8 @@ from functools import partial
 
 import numpy as np
 
-from graphcam.bench.rows import NONE, BenchRow, Line, Parts, Section
-from graphcam.bench.scenes import BENCH_LAWS, FOLLOWERS, TestScene, scene
+from graphcam.bench.bench_followers import BENCH_LAWS, FOLLOWER_KINDS, BenchFollower, scene
+from graphcam.bench.rows import EMPTY_CELL, BenchRow, Line, Parts, Section
 from graphcam.comparison.double_integration import chords
 from graphcam.comparison.quantities import Comparison, side_of
 from graphcam.constructions.chain import Chain
@@ -22,11 +22,11 @@ from graphcam.mechanism.kinematics import Complexes
 from graphcam.words import say
 
 PARTS = (6, 8, 12, 16, 24, 32, 48, 64, 96)
-FITTED = (12, 24, 48, 96)
+FITTED_PARTS = (12, 24, 48, 96)
 """The numbers of parts through which the order is fitted."""
-EXACT = 1e-12
+EXACT_ERROR_LIMIT = 1e-12
 """A relative error below this is rounding: the construction is exact."""
-ROUNDS, SAMPLES, NARROWED = 6, 41, 10.0
+SEARCH_ROUNDS, SEARCH_SAMPLES, SEARCH_NARROWING = 6, 41, 10.0
 """Of the nested search for the nearest place of the profile: it ends within 1e-7 rad, which moves a distance across the
 profile by 1e-14 of a radius."""
 
@@ -45,7 +45,7 @@ class Series:
     @property
     def exact(self) -> bool:
         """Whether nothing but rounding is left."""
-        return max(self.errors) < EXACT
+        return max(self.errors) < EXACT_ERROR_LIMIT
 
     @property
     def order(self) -> float | None:
@@ -64,7 +64,7 @@ def fitted_order(parts: Sequence[int], errors: Sequence[float]) -> float | None:
     >>> fitted_order((6, 12, 24), (9.0, 1.0, 0.25))
     2.0
     """
-    pairs = [(n, error) for n, error in zip(parts, errors, strict=True) if n in FITTED]
+    pairs = [(n, error) for n, error in zip(parts, errors, strict=True) if n in FITTED_PARTS]
     if len(pairs) < 2:
         pairs = list(zip(parts, errors, strict=True))
     if len(pairs) < 2 or not all(error > 0 for _, error in pairs):
@@ -75,11 +75,11 @@ def fitted_order(parts: Sequence[int], errors: Sequence[float]) -> float | None:
 
 def convergence(parts: Sequence[int] = PARTS, laws: Sequence[str] = BENCH_LAWS) -> list[Series]:
     """The errors of all constructions of all scenes."""
-    scenes = (scene(follower, law) for follower in FOLLOWERS for law in laws)
+    scenes = (scene(follower, law) for follower in FOLLOWER_KINDS for law in laws)
     return [series for where in scenes for series in series_of(where, {n: where.chain(n) for n in parts})]
 
 
-def series_of(where: TestScene, chains: Mapping[int, Chain]) -> list[Series]:
+def series_of(where: BenchFollower, chains: Mapping[int, Chain]) -> list[Series]:
     """The errors of every reading whose constructions say how its convergence is measured, by the number of parts."""
     first, parts = next(iter(chains.values())), tuple(chains)
     return [
@@ -92,7 +92,7 @@ def series_of(where: TestScene, chains: Mapping[int, Chain]) -> list[Series]:
     ]
 
 
-def error_of(where: TestScene, construction: str, reading: str, chain: Chain) -> float:
+def error_of(where: BenchFollower, construction: str, reading: str, chain: Chain) -> float:
     """The relative error of a reading, measured as its meaning says.
 
     >>> where = scene("translating", "cycloidal")
@@ -125,11 +125,11 @@ def error_of(where: TestScene, construction: str, reading: str, chain: Chain) ->
 def distance_from_profile(cam: Cam, points: Complexes, near: Floats, reach: float = math.radians(3)) -> Floats:
     """How far points lie from the exact profile of a roller, which passes each within ``reach`` [rad] of its angle."""
     phi = near
-    for _ in range(ROUNDS):
-        around = phi[:, None] + np.linspace(-reach, reach, SAMPLES)
+    for _ in range(SEARCH_ROUNDS):
+        around = phi[:, None] + np.linspace(-reach, reach, SEARCH_SAMPLES)
         best = np.argmin(np.abs(as_complex(cam.profile(around)) - points[:, None]), axis=1)
         phi = around[np.arange(phi.size), best]
-        reach /= NARROWED
+        reach /= SEARCH_NARROWING
     # Across the profile, so that what is left of the search along it does not count.
     at = as_complex(cam.profile(phi))
     normal = (as_complex(cam.pitch_curve(phi)) - at) / cam.roller_radius
@@ -155,11 +155,11 @@ def _texts(found: Sequence[Series], _: float) -> Iterator[list[str]]:
     cells: dict[tuple[str, str], dict[str, str]] = {}
     for s in found:
         n2_error = np.format_float_positional(round(s.n2_error, 3), 2, fractional=False, unique=False, trim="-")
-        text = "exact" if s.exact else f"{s.order:.2f} ({n2_error})" if s.order else NONE
+        text = "exact" if s.exact else f"{s.order:.2f} ({n2_error})" if s.order else EMPTY_CELL
         cells.setdefault((s.follower, s.quantity), {})[s.law] = text
     yield ["follower", "quantity", *laws]
     for subject, by_law in cells.items():
-        yield [*subject, *(by_law.get(law, NONE) for law in laws)]
+        yield [*subject, *(by_law.get(law, EMPTY_CELL) for law in laws)]
 
 
 def _lines(s: Series) -> Iterator[Line]:
@@ -204,13 +204,13 @@ def rows_of_law(name: str, parts: int) -> Iterator[BenchRow]:
             float(np.abs(values).max()) * per_unit
             for values in (off[span], comparison.bounds.at_stations("integration", quantity)[span], exact[power])
         )
-        if error >= EXACT * max(1.0, peak):
+        if error >= EXACT_ERROR_LIMIT * max(1.0, peak):
             what = f"{quantity} in {parts} parts: off by {error:.1e}, estimate {estimate / error:.2f} times it"
             tight = round(float(bound.max()) / error, 9)  # where it is the error itself, both are rounded
             yield BenchRow(f"proved bound, {name}", what, tight, "times the error", ">= 1")
 
 
-BOUNDS = Section(
+BOUNDS_SECTION = Section(
     "bounds",
     say("Bounds of the double integration"),
     "The maximum proved bound for a rise's displacement, velocity or acceleration, over the maximum error of the "

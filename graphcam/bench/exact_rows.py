@@ -13,18 +13,18 @@ from typing import Any
 import numpy as np
 
 from graphcam.bench import reference, rivals
+from graphcam.bench.bench_followers import ARM, FOLLOWER_KINDS, PERMITTED_ANGLE, free_scene, scene
 from graphcam.bench.rows import MILLISECONDS, BenchRow, Effort, Section, Unit, faster_than
-from graphcam.bench.scenes import ARM, FOLLOWERS, LIMIT, free_scene, scene
 from graphcam.bench.timing import Timer
-from graphcam.bench.tradeoff import INSIDE, turn
+from graphcam.bench.tradeoff import INNER_POINT, turn
 from graphcam.comparison.integrals import accurate_cumsum
 from graphcam.given.follower import Oscillating, Translating
 from graphcam.given.laws import Floats, law
 from graphcam.given.motion import FULL_TURN, Motion, Return, Rise
-from graphcam.given.pieces import CHUNK
+from graphcam.given.piecewise import CHUNK_SIZE
 from graphcam.mechanism.cam import Cam, largest_roller
 from graphcam.mechanism.least_radius import LeastRadius, minimum_radius
-from graphcam.mechanism.three_points import circumradius
+from graphcam.mechanism.three_point_circle import circumradius
 from graphcam.sweeps.designs import Designs
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, sweep
 from graphcam.sweeps.sweep_quantities import QUANTITIES
@@ -32,24 +32,24 @@ from graphcam.words import say
 
 STATIONS = 181
 """Stations of one design, whose sines and cosines are the unit."""
-LOOPED = 8
+LOOPED_DESIGNS = 8
 """Designs of the loop, in which every cam takes as long as the other."""
-RUNS = 12
+SWEEP_RUNS = 12
 """Runs of a sweep, the best of which counts: beside other work most of them lose the cache."""
-SWEEPS = (
+SWEPT_CASES = (
     *(("translating", law) for law in ("3-4-5", "cycloidal", "modified-trapezoidal")),
     ("arm", "3-4-5"),
 )
 """Followers and laws."""
 RIVAL_STATIONS = 360
 RIVAL_RUNS = 40
-GOALS = (
+LAW_GOALS = (
     dict.fromkeys(("3-4-5", "4-5-6-7"), "<= 0.7")
     | dict.fromkeys(("cosine", "cycloidal"), "<= 1.3")
     | dict.fromkeys(("rectangular", "modified-sine", "modified-trapezoidal"), "<= 1.6")
 )
 """Goals of the laws: polynomial, trigonometric, piecewise."""
-LOBES = 200
+LOBE_PHASES = 200
 """Phases of a cam on which a large roller leaves many loops."""
 
 
@@ -74,11 +74,11 @@ def exact_rows(effort: Effort) -> Iterator[BenchRow]:
     timer, few = effort.timer, effort.unit(RIVAL_STATIONS)
     yield from _laws(effort.law_stations, effort.unit(effort.law_stations), timer)
     yield from _cam_points(effort.cam_stations, effort.unit(effort.cam_stations), few, timer)
-    for follower in FOLLOWERS:
+    for follower in FOLLOWER_KINDS:
         seconds = timer.seconds(scene(follower, "3-4-5").cam.extremes)
         yield few.row(f"extremes, {follower}", "pressure angles and minimum convex radius", seconds)
     yield from _undercuts(timer)
-    yield from _sweeps(effort.unit(STATIONS, LOOPED), timer)
+    yield from _sweeps(effort.unit(STATIONS, LOOPED_DESIGNS), timer)
     yield from _least_radii(few, timer)
     yield from _sums(timer)
     yield from _three_points(timer)
@@ -96,17 +96,17 @@ def _in_any_order(name: str, mixed: float, growing: float) -> BenchRow:
 
 def _laws(n: int, unit: Unit, timer: Timer) -> Iterator[BenchRow]:
     u = np.linspace(0, 1, n)
-    for name, goal in GOALS.items():
+    for name, goal in LAW_GOALS.items():
         growing, mixed = timer.seconds(law(name), u), timer.seconds(law(name), _mixed(u))
         yield unit.row(f"law {name}", f"f, f', f'', f''' at {n} places", growing, goal, reference.law_eps(name))
         yield _in_any_order(f"law {name}", mixed, growing)
-    yield unit.row("law, any order, floor", "seven sizes of a piece looked up", timer.seconds(_looked_up, n))
+    yield unit.row("law, any order, floor", "seven sizes of a piece looked up", timer.seconds(_look_up_places, n))
 
 
-def _looked_up(n: int) -> None:
+def _look_up_places(n: int) -> None:
     """What places in any order take on top: the number of each one's piece, its origin, length, base and factors."""
-    places, sizes, out = np.random.default_rng(2).random(CHUNK), np.ones(2), np.empty(CHUNK)
-    for _ in range(0, n, CHUNK):
+    places, sizes, out = np.random.default_rng(2).random(CHUNK_SIZE), np.ones(2), np.empty(CHUNK_SIZE)
+    for _ in range(0, n, CHUNK_SIZE):
         number = (places >= 0.5).astype(np.intp)
         for _ in range(7):
             sizes.take(number, out=out, mode="clip")
@@ -135,8 +135,8 @@ def _bare_cam_points(n: int) -> None:
     Of the 3-4-5 law and its derivatives 21 products and sums and a quotient; of the sine and the cosine 8, a quotient
     and a tangent; of the curves 31, two quotients and a root.
     """
-    x, y, out = np.ones(CHUNK), np.ones(CHUNK), np.empty(CHUNK)
-    for _ in range(0, n, CHUNK):
+    x, y, out = np.ones(CHUNK_SIZE), np.ones(CHUNK_SIZE), np.empty(CHUNK_SIZE)
+    for _ in range(0, n, CHUNK_SIZE):
         for _ in range(30):
             np.multiply(x, y, out)
             np.add(x, y, out)
@@ -148,10 +148,10 @@ def _bare_cam_points(n: int) -> None:
 
 def _undercuts(timer: Timer) -> Iterator[BenchRow]:
     """A cam of many loops, which are all sought anew: time and memory."""
-    phases = [(Rise, Return)[k % 2](0.5, FULL_TURN / LOBES, "cosine") for k in range(LOBES)]
+    phases = [(Rise, Return)[k % 2](0.5, FULL_TURN / LOBE_PHASES, "cosine") for k in range(LOBE_PHASES)]
     knife = Cam(Motion(phases), Translating(), 100.0)
     cam = replace(knife, follower=Translating(roller_radius=1.5 * largest_roller(knife)))
-    what = f"{LOBES} phases, {len(cam.undercuts())} loops"
+    what = f"{LOBE_PHASES} phases, {len(cam.undercuts())} loops"
     for name, work in (
         ("undercuts", lambda: replace(cam).undercuts()),
         ("trimmed profile", lambda: replace(cam).trimmed_profile(2000)),
@@ -167,11 +167,11 @@ def _undercuts(timer: Timer) -> Iterator[BenchRow]:
 
 def _sweeps(unit: Unit, timer: Timer) -> Iterator[BenchRow]:
     """All quantities of a chunk of designs, beside a loop over some of them."""
-    for follower, law_name in SWEEPS:
+    for follower, law_name in SWEPT_CASES:
         many, name = designs(follower, law_name, CHUNK_OF_DESIGNS), f"sweep, {follower}, {law_name}"
-        some = many.part(slice(0, LOOPED))
-        seconds = timer.patient(RUNS).seconds(sweep, many) / CHUNK_OF_DESIGNS
-        plain, looped = (timer.seconds(loop, some) / LOOPED for loop in (_by_stations, _by_loop))
+        some = many.part(slice(0, LOOPED_DESIGNS))
+        seconds = timer.patient(SWEEP_RUNS).seconds(sweep, many) / CHUNK_OF_DESIGNS
+        plain, looped = (timer.seconds(loop, some) / LOOPED_DESIGNS for loop in (_by_stations, _by_loop))
         swept = sweep(some, QUANTITIES[:3])
         exact = np.stack([swept[quantity] for quantity in QUANTITIES[:3]], axis=1)
         eps = float(np.abs(exact / _by_loop(some) - 1).max()) / reference.EPS
@@ -196,21 +196,21 @@ def _least_radii(unit: Unit, timer: Timer) -> Iterator[BenchRow]:
     motion, arm_motion, arm_limit = free.board.motion, arm.board.motion, arm.board.limits.rise
     # The cams alone: what a scene takes to say its limits is not in it.
     sized: dict[str, Callable[[], LeastRadius]] = {
-        "translating": partial(minimum_radius, motion, Translating(), "cw", LIMIT, LIMIT),
+        "translating": partial(minimum_radius, motion, Translating(), "cw", PERMITTED_ANGLE, PERMITTED_ANGLE),
         "arm": partial(minimum_radius, arm_motion, Oscillating(ARM), "ccw", arm_limit),
     }
     ours = {follower: timer.seconds(work) for follower, work in sized.items()}
     name, eps = "minimum prime radius", reference.least_radius_eps(free)
     yield unit.row(f"{name}, translating", "closed form", ours["translating"], "<= 5 µs", eps)
     yield unit.row(f"{name}, arm", "exchange of half-planes", ours["arm"])
-    lines, arms = rivals.translating_lines(motion, LIMIT, n), rivals.arm_lines(arm_motion, arm_limit, ARM, n)
+    lines, arms = rivals.translating_lines(motion, PERMITTED_ANGLE, n), rivals.arm_lines(arm_motion, arm_limit, ARM, n)
     inside, given = (0.2 * ARM, 0.9 * ARM), "SLSQP given the half-planes"
-    by_angles = partial(rivals.by_pressure_angles, motion, LIMIT, n, (INSIDE[1], 0.0))
+    by_angles = partial(rivals.by_pressure_angles, motion, PERMITTED_ANGLE, n, (INNER_POINT[1], 0.0))
     # The optimiser as one would first use it, then with graphcam's own formulation and exact derivatives.
     beside: list[tuple[str, str, Callable[[], float], str]] = [
         ("translating", "SLSQP on pressure angles", by_angles, ">= 100"),
-        ("translating", given, partial(rivals.by_optimiser, lines, INSIDE), ">= 100"),
-        ("translating", "HalfspaceIntersection", partial(rivals.by_half_planes, lines, INSIDE), ""),
+        ("translating", given, partial(rivals.by_optimiser, lines, INNER_POINT), ">= 100"),
+        ("translating", "HalfspaceIntersection", partial(rivals.by_half_planes, lines, INNER_POINT), ""),
         ("arm", given, partial(rivals.by_optimiser, arms, inside), ">= 10"),
         ("arm", "SLSQP, linear constraints", partial(rivals.by_linear_constraints, arms, inside), ">= 10"),
     ]
@@ -246,7 +246,7 @@ def _three_points(timer: Timer) -> Iterator[BenchRow]:
         yield BenchRow("three points", what, order, "order", goal, seconds=timer.seconds(curvature, share))
 
 
-EXACT = Section(
+EXACT_SECTION = Section(
     "exact",
     say("The exact side"),
     "Times are processor times; SC(N) is the time of N sines and N cosines in the same run. Rounding is in units of "

@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from graphcam.bench.bench_followers import FOLLOWER_KINDS, LIFT, MAIN_LAW, BenchFollower, free_scene, motion_of, scene
 from graphcam.bench.convergence import distance_from_profile
 from graphcam.bench.rows import Line, Parts, Section
-from graphcam.bench.scenes import FOLLOWERS, LIFT, MAIN_LAW, TestScene, free_scene, motion_of, scene
 from graphcam.comparison.bounds import ErrorBudget
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import Floats
@@ -18,7 +18,7 @@ SIGMA = 0.2
 PARTS = (3, 4, 5, 6, 7, 8, 9, 10, 12, 14, 16, 20, 24, 32, 48, 64, 96)
 QUANTILES = (5.0, 95.0)
 """A band of drawings is between these percentiles."""
-LEAST_SHARE = 0.01
+MIN_VARIANCE_SHARE = 0.01
 """The smallest share of the variance that is listed."""
 
 
@@ -68,7 +68,7 @@ def by_hand(law: str, hands: int, parts: Sequence[int] = PARTS) -> Hands:
     return Hands(law, tuple(parts), mean, low, high, tuple(method))
 
 
-def shape_errors(where: TestScene, parts: int, pencil: Pencil) -> Floats:
+def shape_errors(where: BenchFollower, parts: int, pencil: Pencil) -> Floats:
     """The maximum error of s on the rise in every drawing, relative to the lift."""
     chain = where.chain(parts, pencil)
     stations = chain.board.stations
@@ -94,7 +94,7 @@ class BudgetRow:
 
 def budgets(law: str = MAIN_LAW, parts: int = 12) -> Iterator[BudgetRow]:
     """The error budget of every reading of every follower."""
-    for follower in FOLLOWERS:
+    for follower in FOLLOWER_KINDS:
         chain = scene(follower, law).chain(parts)
         budget = ErrorBudget(chain, Pencil.of(SIGMA))
         for name, drawn in chain.items():
@@ -117,7 +117,7 @@ def bands(hands: int, parts: int = 12) -> Mapping[str, tuple[float, float]]:
     return {question: tuple(np.nanpercentile(found, QUANTILES).tolist()) for question, found in errors.items()}
 
 
-def _profile_errors(where: TestScene, parts: int, pencil: Pencil) -> Floats:
+def _profile_errors(where: BenchFollower, parts: int, pencil: Pencil) -> Floats:
     """The maximum distance of a drawing's contact points from the exact profile, relative to the prime radius."""
     chain = where.chain(parts, pencil)
     profile = chain["working_profile"]
@@ -161,7 +161,7 @@ def _texts_of_budgets(found: Sequence[BudgetRow], _: float) -> Iterator[list[str
     yield ["follower", "reading", "scatter", "due to, %"]
     for b in found:
         largest = sorted(b.parts.items(), key=lambda part: -part[1])
-        brought = ", ".join(f"{kind} {100 * part:.0f}" for kind, part in largest if part >= LEAST_SHARE)
+        brought = ", ".join(f"{kind} {100 * part:.0f}" for kind, part in largest if part >= MIN_VARIANCE_SHARE)
         yield [b.follower, f"{b.construction}: {b.reading}", f"{b.deviation:.3g}", brought]
 
 

@@ -11,37 +11,37 @@ import numpy as np
 from scipy.integrate import cumulative_trapezoid
 
 from graphcam.bench.rows import BenchRow, Effort, Section
-from graphcam.given.laws import BETWEEN_DWELLS, Floats
-from graphcam.given.measured import DEFAULT_TOLERANCE, TOLERANCE_OF_NOISE, MeasuredMotion, measured_motion
-from graphcam.given.motion import FULL_TURN, Dwell, Motion, Moving, Phase, Return, Rise
-from graphcam.mechanism.stationary import max_acceleration
+from graphcam.given.laws import DWELL_TO_DWELL_LAWS, Floats
+from graphcam.given.measured import DEFAULT_TOLERANCE, NOISE_TOLERANCE, MeasuredMotion, measured_motion
+from graphcam.given.motion import FULL_TURN, Dwell, Motion, MovingPhase, Phase, Return, Rise
+from graphcam.mechanism.turn_extremes import max_acceleration
 from graphcam.words import say
 
-NOISES = 0.0, 0.003, 0.01, 0.03
+NOISE_DEVIATIONS = 0.0, 0.003, 0.01, 0.03
 """Standard deviations of the displacements [mm]."""
-ROWS = 360
-SHORTEST = math.radians(25)
+TABLE_ROWS = 360
+MIN_PHASE_ANGLE = math.radians(25)
 """The minimum angle of a phase [rad]."""
-LOWEST, HIGHEST = 4.0, 40.0
+LOWEST_ERROR, HIGHEST_ERROR = 4.0, 40.0
 """Lifts are between these [mm]."""
-UNEVEN = 0.4, 1.6
+UNEVEN_STEP_RANGE = 0.4, 1.6
 """Uneven steps are between so many degrees."""
-RATIOS = 0.5, 2.0
-JUMPING = "rectangular", "cosine", "2-3"
+ACCELERATION_RATIOS = 0.5, 2.0
+JUMPING_LAWS = "rectangular", "cosine", "2-3"
 """Laws whose acceleration jumps."""
-CERTAIN = 4.0
+CERTAINTY = 4.0
 """Motions that differ by twice so many times the noise are told apart: the best test errs 1 in 30,000."""
-TWO_ROWS = 2 * FULL_TURN / ROWS
-PEAKS = {0.0: (0.02, 0.05), 0.003: (0.15, 0.4), 0.01: (0.15, 0.4), 0.03: (math.inf, math.inf)}
+TWO_ROW_ANGLE = 2 * FULL_TURN / TABLE_ROWS
+PEAK_GOALS = {0.0: (0.02, 0.05), 0.003: (0.15, 0.4), 0.01: (0.15, 0.4), 0.03: (math.inf, math.inf)}
 """Goals of max |a| by noise: of laws whose acceleration is continuous, and of those whose jumps."""
-JERK = 60.0
+END_JERK = 60.0
 """The jerk of the 3-4-5 law where it begins and ends, in h/F^3: what the jerk of a motion changes by over a phase."""
 
 
 def measured_rows(effort: Effort) -> Iterator[BenchRow]:
     """Rows of random motions with noise: wrong phases, ends and maximum accelerations, beside what noise permits."""
     every = list(sampled_motions(100))
-    for noise in NOISES:
+    for noise in NOISE_DEVIATIONS:
         some = [one for one in every if one.noise == noise]
         name, first = f"measured, noise {noise:g} mm", some[0]
         seconds = effort.timer.seconds(measured_motion, first.phi, first.s, first.tolerance)
@@ -49,7 +49,7 @@ def measured_rows(effort: Effort) -> Iterator[BenchRow]:
         yield BenchRow(name, "phases wrong", wrong, f"of {len(some)}", "<= 0", seconds=seconds)
         ends = "ends off, beside two rows or what noise hides"
         yield BenchRow(name, ends, end, "maximum", "<= 1", seconds=seconds)
-        for jumps, (peak, acceleration) in enumerate(zip(PEAKS[noise], ("continuous", "jumps"), strict=True)):
+        for jumps, (peak, acceleration) in enumerate(zip(PEAK_GOALS[noise], ("continuous", "jumps"), strict=True)):
             of_these = [one for one in some if one.jumps == bool(jumps)]
             off = 100 * max(abs(one.peak_error) for one in of_these)
             best = 100 * math.sqrt(np.mean([one.least_scatter**2 for one in of_these])) if noise else 0.0
@@ -74,7 +74,7 @@ class Sampled:
     @property
     def tolerance(self) -> float:
         """What the noise asks for [mm]."""
-        return TOLERANCE_OF_NOISE * self.noise or DEFAULT_TOLERANCE
+        return NOISE_TOLERANCE * self.noise or DEFAULT_TOLERANCE
 
     @cached_property
     def measured(self) -> MeasuredMotion:
@@ -92,9 +92,11 @@ class Sampled:
 
         Infinite where the measured phases are others.
         """
-        begin, end = np.array([hidden_angles(phase, self.noise, FULL_TURN / ROWS) for phase in self.motion.phases]).T
+        begin, end = np.array(
+            [hidden_angles(phase, self.noise, FULL_TURN / TABLE_ROWS) for phase in self.motion.phases]
+        ).T
         # A phase may begin, or the one before end, so much later or sooner, unseen.
-        hidden = np.maximum(TWO_ROWS, np.maximum(begin, np.roll(end, 1)))
+        hidden = np.maximum(TWO_ROW_ANGLE, np.maximum(begin, np.roll(end, 1)))
         timing = [(kind, start + self.measured.zero) for kind, start, _ in self.measured.timing]
         if timing[0][0] == timing[-1][0]:
             timing = [(timing[0][0], timing[-1][1]), *timing[1:-1]]
@@ -113,7 +115,9 @@ class Sampled:
     @cached_property
     def jumps(self) -> bool:
         """Whether the acceleration jumps anywhere."""
-        return any(isinstance(phase, Moving) and phase.normalised.name in JUMPING for phase in self.motion.phases)
+        return any(
+            isinstance(phase, MovingPhase) and phase.normalised.name in JUMPING_LAWS for phase in self.motion.phases
+        )
 
     @cached_property
     def least_scatter(self) -> float:
@@ -124,7 +128,7 @@ class Sampled:
         phase, at = self.motion.phases[k], float(self.motion.angle_at(k, u[place]))
         apart = (self.phi - at + math.pi) % FULL_TURN - math.pi
         near = np.sort(apart[np.abs(apart) <= phase.angle])
-        change = JERK * phase.lift / phase.angle**3
+        change = END_JERK * phase.lift / phase.angle**3
         return best_scatter(near, self.noise, change**2 / phase.angle) / float(accelerations.max())
 
 
@@ -132,8 +136,8 @@ def hidden_angles(phase: Phase, noise: float, step: float) -> tuple[float, float
     """How much later a phase may begin, and how much sooner it may end [rad], so that no test can tell it.
 
     The rows of a motion that rests so much longer differ from the phase's, in the root of the sum of squares, by no
-    more than twice :data:`CERTAIN` times the noise: what the best test (J. Neyman, E. S. Pearson 1933) takes to err by
-    as much on either side.
+    more than twice :data:`CERTAINTY` times the noise: what the best test (J. Neyman, E. S. Pearson 1933) takes to err
+    by as much on either side.
 
     >>> begins, ends = hidden_angles(Rise(10, 1.0, "4-5-6-7"), 0.01, math.radians(1))
     >>> round(math.degrees(begins), 1), begins == ends
@@ -144,7 +148,7 @@ def hidden_angles(phase: Phase, noise: float, step: float) -> tuple[float, float
     u, angles = np.linspace(0, 0.5, 5001), list[float]()
     for law in (phase.normalised, phase.normalised.reversed):
         squares = phase.angle / step * cumulative_trapezoid((phase.lift * law(u)[0]) ** 2, u, initial=0)
-        angles.append(phase.angle * float(np.interp((2 * CERTAIN * noise) ** 2, squares, u)))
+        angles.append(phase.angle * float(np.interp((2 * CERTAINTY * noise) ** 2, squares, u)))
     return angles[0], angles[1]
 
 
@@ -186,10 +190,14 @@ def sampled_motions(n: int, seed: int = 0) -> Iterator[Sampled]:
     """
     for k in range(n):
         random = np.random.default_rng([seed, k])
-        motion, noise = random_motion(random), NOISES[k % len(NOISES)]
-        steps = np.ones(ROWS) if k // len(NOISES) % 2 == 0 else random.uniform(*UNEVEN, ROWS)
+        motion, noise = random_motion(random), NOISE_DEVIATIONS[k % len(NOISE_DEVIATIONS)]
+        steps = (
+            np.ones(TABLE_ROWS)
+            if k // len(NOISE_DEVIATIONS) % 2 == 0
+            else random.uniform(*UNEVEN_STEP_RANGE, TABLE_ROWS)
+        )
         phi = (np.cumsum(steps) - steps) * FULL_TURN / np.sum(steps)
-        yield Sampled(motion, noise, phi, motion(phi)[0] + noise * random.standard_normal(ROWS))
+        yield Sampled(motion, noise, phi, motion(phi)[0] + noise * random.standard_normal(TABLE_ROWS))
 
 
 def random_motion(random: np.random.Generator) -> Motion:
@@ -203,12 +211,12 @@ def random_motion(random: np.random.Generator) -> Motion:
         kinds = random.choice([1, -1, 0], n)
         if np.all(kinds != np.roll(kinds, 1)) and {1, -1} <= set(kinds.tolist()):
             lifts = np.zeros(n)
-            height = random.uniform(LOWEST, HIGHEST)
+            height = random.uniform(LOWEST_ERROR, HIGHEST_ERROR)
             for kind in (1, -1):
                 lifts[kinds == kind] = height * random.dirichlet(3 * np.ones(np.count_nonzero(kinds == kind)))
-            if lifts[kinds != 0].min() >= LOWEST:
+            if lifts[kinds != 0].min() >= LOWEST_ERROR:
                 break
-    angles = SHORTEST + random.dirichlet(2 * np.ones(n)) * (FULL_TURN - n * SHORTEST)
+    angles = MIN_PHASE_ANGLE + random.dirichlet(2 * np.ones(n)) * (FULL_TURN - n * MIN_PHASE_ANGLE)
     if random.random() < 0.5:
         angles = np.radians(np.round(np.degrees(angles)))
         angles[-1] = FULL_TURN - np.sum(angles[:-1])
@@ -218,12 +226,12 @@ def random_motion(random: np.random.Generator) -> Motion:
 def _phase(random: np.random.Generator, kind: int, lift: float, angle: float) -> Phase:
     if not kind:
         return Dwell(angle)
-    law = str(random.choice(list(BETWEEN_DWELLS)))
-    ratio = float(random.uniform(*RATIOS)) if law == "rectangular" else 1.0
+    law = str(random.choice(list(DWELL_TO_DWELL_LAWS)))
+    ratio = float(random.uniform(*ACCELERATION_RATIOS)) if law == "rectangular" else 1.0
     return (Rise if kind > 0 else Return)(lift, angle, law, ratio)
 
 
-MEASURED = Section(
+MEASURED_SECTION = Section(
     "measured",
     say("Measured motions"),
     "Random motions of 2 to 6 phases by all laws, sampled at about 1 degree with noise, against the sampled motions. "

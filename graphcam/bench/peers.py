@@ -13,7 +13,7 @@ import numpy as np
 
 from graphcam.bench.convergence import distance_from_profile, nearest_angles
 from graphcam.bench.rivals import optional
-from graphcam.bench.rows import NONE, Line, Section
+from graphcam.bench.rows import EMPTY_CELL, Line, Section
 from graphcam.bench.timing import Timer
 from graphcam.given.follower import Translating
 from graphcam.given.laws import law
@@ -24,7 +24,7 @@ from graphcam.words import say
 
 LIFT, BASE, ROLLER, OFFSET = 30.0, 48.0, 12.0, 10.0
 ANGLES = tuple(math.radians(degrees) for degrees in (120, 30, 90, 120))
-REACH = math.radians(20)
+SEARCH_ANGLE = math.radians(20)
 """How far from its own direction the nearest place of the profile is sought: the packages leave out the roller."""
 STATIONS = 360
 
@@ -67,7 +67,7 @@ def peers(timer: Timer) -> Iterator[Peer]:
     ):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # theirs, not ours
-            name, module = _named(package), optional(imported)
+            name, module = _package_version(package), optional(imported)
             if module is None or name == package:
                 yield Peer(package, "everything", None, "", None, "not installed; it comes with the extra peers")
                 continue
@@ -94,7 +94,7 @@ def _mechanism(module: Any, timer: Timer) -> Iterator[_Told]:
     slower = timer.seconds(lambda: module.Cam(motion=phases, **given)) / timer.seconds(cam.profile, phi)
     yield "displacement", lift, "mm", slower, "its two laws joined: it takes one law for all phases"
     drawn = (BASE + s) * np.exp(1j * (math.pi / 2 - phi))
-    profile = float(distance_from_profile(cam, drawn, nearest_angles(cam, drawn), REACH).max())
+    profile = float(distance_from_profile(cam, drawn, nearest_angles(cam, drawn), SEARCH_ANGLE).max())
     yield "working profile", profile, "mm", slower, "no offset and no roller envelope"
     sized = theirs.get_base_circle(
         kind="cycloidal", follower="roller", roller_radius=ROLLER, eccentricity=OFFSET, max_pressure_angle=30
@@ -125,7 +125,7 @@ def _pylinkage(module: Any, timer: Timer) -> Iterator[_Told]:
     yield "working profile", None, "mm", None, "gives a radius by angle, without offset and envelope"
 
 
-def _named(package: str) -> str:
+def _package_version(package: str) -> str:
     """Name and version of an installed package; the name alone where only a folder of that name is there."""
     try:
         return f"{package} {version(package)}"
@@ -136,8 +136,8 @@ def _named(package: str) -> str:
 def _texts(found: Sequence[Peer], _: float) -> Iterator[list[str]]:
     yield ["package", "quantity", "remark", "maximum error", "time ratio"]
     for p in found:
-        error, slower = NONE if p.error is None else f"{p.error:.2g} {p.unit}", p.slower
-        yield [p.package, p.quantity, p.reason, error, NONE if slower is None else f"{slower:.1f}"]
+        error, slower = EMPTY_CELL if p.error is None else f"{p.error:.2g} {p.unit}", p.slower
+        yield [p.package, p.quantity, p.reason, error, EMPTY_CELL if slower is None else f"{slower:.1f}"]
 
 
 def _line(p: Peer) -> Iterator[Line]:

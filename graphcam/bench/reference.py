@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 
+from graphcam.bench.bench_followers import LIFT, PERMITTED_ANGLE, BenchFollower
 from graphcam.bench.rivals import optional
-from graphcam.bench.scenes import LIFT, LIMIT, TestScene
 from graphcam.given.boundary_parts import MotionPoint
 from graphcam.given.laws import Floats, law as law_of
 
 EPS = float(np.finfo(float).eps)
-DIGITS = 50
+REFERENCE_DIGITS = 50
 mp: Any = optional("mpmath")
 LIFTS: dict[str, Callable[[Any], Any]] = {
     "rectangular": lambda u: 2 * u**2 if 2 * u < 1 else 1 - 2 * (1 - u) ** 2,
@@ -31,16 +31,16 @@ INNER = np.random.default_rng(0).uniform(0.01, 0.99, 24)
 
 def law_values(law: str, u: Floats) -> Floats:
     """(4, n) f, f', f'', f''' rounded from 50 digits, by differences at a higher precision."""
-    with mp.workdps(DIGITS):
+    with mp.workdps(REFERENCE_DIGITS):
         return np.array([[float(mp.diff(LIFTS[law], mp.mpf(x), k)) for x in u.tolist()] for k in range(4)])
 
 
-def profile_points(where: TestScene, u: Floats) -> Floats:
+def profile_points(where: BenchFollower, u: Floats) -> Floats:
     """(n, 2) the working profile at fractions of the rise of a translating follower, rounded from 50 digits."""
     motion, sizes, lift = where.board.motion, where.sizes, LIFTS[where.law]
     angle, turn = motion.phases[0].angle, mp.mpc(0, where.cam.sigma)
     points: list[tuple[float, float]] = []
-    with mp.workdps(DIGITS):
+    with mp.workdps(REFERENCE_DIGITS):
         e, r0 = mp.mpf(sizes.place), mp.mpf(sizes.prime_radius)
         for x in u.tolist():
             z = mp.mpc(e, mp.sqrt(r0**2 - e**2) + LIFT * lift(mp.mpf(x)))
@@ -52,10 +52,10 @@ def profile_points(where: TestScene, u: Floats) -> Floats:
     return np.array(points)
 
 
-def least_radius(where: TestScene) -> float:
+def least_radius(where: BenchFollower) -> float:
     """The minimum radius of the free scene, where the rise's and the return's tangent meet, rounded from 50 digits."""
-    with mp.workdps(DIGITS):
-        slope, lift, heights = mp.tan(mp.mpf(LIMIT)), LIFTS[where.law], list[Any]()
+    with mp.workdps(REFERENCE_DIGITS):
+        slope, lift, heights = mp.tan(mp.mpf(PERMITTED_ANGLE)), LIFTS[where.law], list[Any]()
         for k in (0, 2):
             angle = mp.mpf(where.board.motion.phases[k].angle)
 
@@ -72,7 +72,7 @@ def least_radius(where: TestScene) -> float:
 
 def conditioned(points: Sequence[MotionPoint], phi: Floats) -> Floats:
     """(3, n) s, v and a of the polynomial that meets the conditions of points, rounded from 50 digits."""
-    with mp.workdps(DIGITS):
+    with mp.workdps(REFERENCE_DIGITS):
         conditions = [(point.angle, k, value) for point in points for k, value in point.given.items()]
 
         def powers(angle: float, k: int) -> Any:
@@ -103,7 +103,7 @@ def law_eps(law: str) -> float | None:
     return float((off[greatest > 0] / greatest[greatest > 0]).max()) / EPS
 
 
-def displacement_eps(where: TestScene) -> float | None:
+def displacement_eps(where: BenchFollower) -> float | None:
     """The maximum error of s on the rise, of the lift [eps]."""
     if mp is None:
         return None
@@ -111,12 +111,12 @@ def displacement_eps(where: TestScene) -> float | None:
     return float(np.abs(s - exact).max()) / EPS
 
 
-def least_radius_eps(where: TestScene) -> float | None:
+def least_radius_eps(where: BenchFollower) -> float | None:
     """The error of the minimum radius of the free scene [eps]."""
     return None if mp is None else abs(where.least().prime_radius / least_radius(where) - 1) / EPS
 
 
-def profile_eps(where: TestScene) -> float | None:
+def profile_eps(where: BenchFollower) -> float | None:
     """The maximum error of a coordinate of the profile on the rise, of the prime radius [eps]."""
     if mp is None:
         return None

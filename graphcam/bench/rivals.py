@@ -150,7 +150,7 @@ def by_half_planes(lines: Lines, inside: Point) -> float:
 
 # --- many cams -------------------------------------------------------------------------------------------------------
 
-_Seen = tuple[Floats, Floats, Floats]
+_AngleTerms = tuple[Floats, Floats, Floats]
 
 
 def by_stations(designs: Designs, n: int) -> Floats:
@@ -174,13 +174,13 @@ def by_stations(designs: Designs, n: int) -> Floats:
     return found
 
 
-def _seen_by_stem(s: Floats, v: Floats, a: Floats, r0: float, offset: float, *_: float) -> _Seen:
+def _seen_by_stem(s: Floats, v: Floats, a: Floats, r0: float, offset: float, *_: float) -> _AngleTerms:
     """Along and across the stem the vector whose argument is the pressure angle, and kappa times its cube."""
     along, across = math.sqrt(r0**2 - offset**2) + s, v - offset
     return along, across, along**2 + across**2 + v * across - a * along
 
 
-def _seen_by_arm(s: Floats, v: Floats, a: Floats, r0: float, _: float, arm: float, distance: float) -> _Seen:
+def _seen_by_arm(s: Floats, v: Floats, a: Floats, r0: float, _: float, arm: float, distance: float) -> _AngleTerms:
     psi = math.acos((distance**2 + arm**2 - r0**2) / (2 * distance * arm)) + s
     along, across = distance * np.sin(psi), arm * (1 + v) - distance * np.cos(psi)
     return along, across, along**2 + across**2 + arm * v * (1 + v) * across - arm * a * along

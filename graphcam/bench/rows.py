@@ -13,9 +13,9 @@ from typing import Any
 from graphcam.bench.timing import Timer
 from graphcam.words import Caption
 
-SECONDS = {"µs": 1e-6, "ms": 1e-3, "s": 1.0}
+SECONDS_BY_UNIT = {"µs": 1e-6, "ms": 1e-3, "s": 1.0}
 """Seconds of each unit in which a goal that is a time is written."""
-NONE = "–"
+EMPTY_CELL = "–"
 GOAL = re.compile(r"(?P<sense><=|>=|\S+ ±) (?P<limit>\S+)(?: (?P<unit>.+))?")
 Parts = tuple[int, ...]
 """Numbers of parts a phase, or of stations."""
@@ -58,9 +58,9 @@ class BenchRow:
         if not self.goal:
             return None
         read = GOAL.fullmatch(self.goal)
-        if read is None or read["unit"] not in (None, self.unit, *SECONDS):
+        if read is None or read["unit"] not in (None, self.unit, *SECONDS_BY_UNIT):
             raise ValueError(f"the goal {self.goal!r} of {self.name!r} cannot be read")
-        figure = self.seconds / SECONDS[read["unit"]] if read["unit"] in SECONDS else self.ratio
+        figure = self.seconds / SECONDS_BY_UNIT[read["unit"]] if read["unit"] in SECONDS_BY_UNIT else self.ratio
         limit = float(read["limit"])
         match read["sense"]:
             case "<=":
@@ -125,16 +125,16 @@ class Effort:
         return Unit(f"SC({n})", self.timer.pairs(n * times) / times)
 
 
-def spoken_time(seconds: float) -> str:
+def time_text(seconds: float) -> str:
     """Three digits of a time, in the unit that it is told in; nothing of what was not timed.
 
-    >>> spoken_time(4.2e-05), spoken_time(0.0432), spoken_time(12.0)
+    >>> time_text(4.2e-05), time_text(0.0432), time_text(12.0)
     ('42 µs', '43.2 ms', '12 s')
     """
     if math.isnan(seconds):
         return ""
-    unit = next((unit for unit, size in SECONDS.items() if seconds < 999.5 * size), "s")
-    return f"{seconds / SECONDS[unit]:.3g} {unit}"
+    unit = next((unit for unit, size in SECONDS_BY_UNIT.items() if seconds < 999.5 * size), "s")
+    return f"{seconds / SECONDS_BY_UNIT[unit]:.3g} {unit}"
 
 
 def _told(met: bool | None) -> str:
@@ -145,7 +145,7 @@ def _texts_of_rows(rows: Sequence[BenchRow], _: float) -> Iterator[list[str]]:
     yield ["what", "of what", "ratio", "goal", "goal met", "here", "eps"]
     for r in rows:
         ratio, rounding = f"{r.ratio:.3g} {r.unit}", "" if r.error_eps is None else f"{r.error_eps:.1f}"
-        yield [r.name, r.what, ratio, r.goal, _told(r.goal_met), spoken_time(r.seconds), rounding]
+        yield [r.name, r.what, ratio, r.goal, _told(r.goal_met), time_text(r.seconds), rounding]
 
 
 def _line_of_row(r: BenchRow) -> Iterator[Line]:

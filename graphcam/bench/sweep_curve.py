@@ -15,11 +15,11 @@ from graphcam.bench.rows import BenchRow, Section
 from graphcam.bench.timing import seconds_of_programs
 from graphcam.words import say
 
-SIZES = (10**5, 10**6, 10**7)
-WORKERS = (1, 2, 4)
-LONGEST = 300.0
+DESIGN_COUNTS = (10**5, 10**6, 10**7)
+WORKER_COUNTS = (1, 2, 4)
+MAX_RUN_TIME = 300.0
 """A run that would take longer [s], at the rate of the one before, is left out."""
-SPACE = """\
+SPACE_TEXT = """\
 [motion]
 lift = 30
 rise_angle = 110
@@ -32,7 +32,9 @@ roller_radius = 12
 """
 
 
-def curve_rows(sizes: Sequence[int], workers: Sequence[int] = WORKERS, longest: float = LONGEST) -> Iterator[BenchRow]:
+def curve_rows(
+    sizes: Sequence[int], workers: Sequence[int] = WORKER_COUNTS, longest: float = MAX_RUN_TIME
+) -> Iterator[BenchRow]:
     """Every number of designs with every number of workers, the small ones first.
 
     >>> [row.what.partition(";")[0] for row in curve_rows([1000, 2000], [1], longest=0.0)]
@@ -60,7 +62,7 @@ def swept_file(designs: int, workers: int) -> tuple[float, float, int | None]:
     """
     with TemporaryDirectory() as folder:
         space = Path(folder, "space.toml")
-        space.write_text(SPACE.format(offsets=designs // 1000), encoding="utf-8", newline="\n")
+        space.write_text(SPACE_TEXT.format(offsets=designs // 1000), encoding="utf-8", newline="\n")
         words = ["sweep", str(space), "--out", str(Path(folder, "results.parquet")), "--workers", str(workers)]
         before, start, peak = seconds_of_programs(), time.perf_counter(), None
         program, quiet = [sys.executable, "-m", "graphcam", *words], subprocess.DEVNULL
@@ -86,7 +88,7 @@ def _memory_of_tree(process: int) -> int:
     return own + sum(_memory_of_tree(int(child)) for child in " ".join(begun).split())
 
 
-CURVE = Section(
+CURVE_SECTION = Section(
     "workers",
     say("Sweeps into files"),
     "Runs of graphcam sweep into one Parquet file. Designs a second are by the clock, so other work on the machine "

@@ -13,7 +13,7 @@ from typing import Any, Self
 
 import numpy as np
 
-SHORTEST = max(1e-4, 10 * time.get_clock_info("thread_time").resolution)
+MIN_RUN_TIME = max(1e-4, 10 * time.get_clock_info("thread_time").resolution)
 """A run of less than this [s] is repeated within one measurement, so that the clock's own steps do not count."""
 
 
@@ -41,7 +41,7 @@ class Timer:
                 work(*given)
             taken = time.thread_time() - start
             best = min(best, taken / repeats)
-            if taken < SHORTEST:
+            if taken < MIN_RUN_TIME:
                 repeats *= 4
                 continue
             spent += taken

@@ -8,18 +8,18 @@ from typing import Literal
 import numpy as np
 
 from graphcam.bench import reference, rivals
+from graphcam.bench.bench_followers import LIFT, MAIN_LAW, PERMITTED_ANGLE, BenchFollower, free_scene, scene
 from graphcam.bench.convergence import as_complex, distance_from_profile, error_of, nearest_angles
 from graphcam.bench.rows import Effort, Line, Parts, Section
-from graphcam.bench.scenes import LIFT, LIMIT, MAIN_LAW, TestScene, free_scene, scene
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.words import say
 
-INSIDE = (0.0, 3 * LIFT)
+INNER_POINT = (0.0, 3 * LIFT)
 """A point well inside the region for the cam centre [mm]."""
-STATIONS = 360
+STATION_COUNT = 360
 """Stations of one turn at which the exact side is asked."""
-ROUNDS = 2
+TIMING_ROUNDS = 2
 """How often all points of a method are timed; the minimum time of each counts."""
 Work = Callable[[int], object]
 """What a method does in n parts or stations."""
@@ -48,17 +48,19 @@ def methods(effort: Effort) -> Iterator[Method]:
 
     def sampled(question: str, name: str, kind: str, work: Work, error: Callable[[int], float]) -> Method:
         """A method in all numbers of its kind."""
-        return _timed(effort, Method(question, name, "sampled", sizes[kind]), work, error)
+        return _timed_method(effort, Method(question, name, "sampled", sizes[kind]), work, error)
 
-    def drawn(question: str, kind: str, where: TestScene, construction: str, reading: str) -> Method:
+    def drawn(question: str, kind: str, where: BenchFollower, construction: str, reading: str) -> Method:
         """A construction, drawn anew with all that it starts from."""
         method, error = Method(question, "graphical", "graphical", sizes[kind]), partial(error_of, where, construction)
-        return _timed(effort, method, lambda n: where.chain(n)[construction], lambda n: error(reading, where.chain(n)))
+        return _timed_method(
+            effort, method, lambda n: where.chain(n)[construction], lambda n: error(reading, where.chain(n))
+        )
 
     def exact(question: str, work: Work, eps: float | None) -> Method:
         """Without a reference of more digits its own rounding cannot be seen: one eps stands for it."""
         error = reference.EPS * (1.0 if eps is None else eps)
-        return _timed(effort, Method(question, "exact", "exact", (STATIONS,)), work, lambda _: error)
+        return _timed_method(effort, Method(question, "exact", "exact", (STATION_COUNT,)), work, lambda _: error)
 
     yield drawn(displacement, "graphical", fixed, "integration", "s")
     for name, integrator in rivals.INTEGRATORS.items():
@@ -72,7 +74,7 @@ def methods(effort: Effort) -> Iterator[Method]:
 
         def found(n: int, solve: Callable[[rivals.Lines, rivals.Point], float] = solve) -> float:
             """The minimum radius of n lines [mm]."""
-            return solve(rivals.translating_lines(free_motion, LIMIT, n), INSIDE)
+            return solve(rivals.translating_lines(free_motion, PERMITTED_ANGLE, n), INNER_POINT)
 
         yield sampled(radius, name, kind, found, lambda n, found=found: abs(found(n) / least - 1))
     yield drawn(profile, "profile", fixed, "working_profile", "radius")
@@ -84,18 +86,18 @@ def methods(effort: Effort) -> Iterator[Method]:
     yield exact(profile, lambda n: cam.profile(turn(n)), reference.profile_eps(fixed))
 
 
-def _timed(effort: Effort, method: Method, work: Work, error: Callable[[int], float]) -> Method:
+def _timed_method(effort: Effort, method: Method, work: Work, error: Callable[[int], float]) -> Method:
     # In rounds, so that a disturbance of the machine spoils no point in all of them.
-    rounds = [[effort.timer.seconds(work, n) / effort.pair for n in method.n] for _ in range(ROUNDS)]
+    rounds = [[effort.timer.seconds(work, n) / effort.pair for n in method.n] for _ in range(TIMING_ROUNDS)]
     return replace(method, pairs=tuple(np.min(rounds, axis=0).tolist()), errors=tuple(map(error, method.n)))
 
 
-def _buffered(where: TestScene, n: int) -> Floats:
+def _buffered(where: BenchFollower, n: int) -> Floats:
     """The corners of the profile about n points of the pitch curve [mm]."""
     return rivals.buffered(where.cam.pitch_curve(turn(n)), where.sizes.roller_radius)
 
 
-def _buffered_error(where: TestScene, n: int) -> float:
+def _buffered_error(where: BenchFollower, n: int) -> float:
     """How far corners lie off the profile at most, as a part of the prime radius."""
     corners = as_complex(_buffered(where, n))
     some = corners[:: max(1, corners.size // 2000)]

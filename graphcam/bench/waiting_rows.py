@@ -10,8 +10,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from graphcam.bench.bench_followers import FOLLOWER_KINDS, scene
 from graphcam.bench.rows import MILLISECONDS, BenchRow, Effort, Line, Section
-from graphcam.bench.scenes import FOLLOWERS, scene
 from graphcam.bench.timing import seconds_of_programs
 from graphcam.plots.step_board import StepBoard
 from graphcam.report.documents import contents_of, drawing_of, sheet_of
@@ -20,23 +20,23 @@ from graphcam.sheets.player import group_svg
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solve import solve
 from graphcam.studio.engine import answer
-from graphcam.studio.task_paths import changed, value_at
+from graphcam.studio.task_paths import changed_task, value_at
 from graphcam.studio.task_text import plain_task
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
-from graphcam.tasks.task_file import BUILT_IN, builtin_arcs_task, builtin_task
+from graphcam.tasks.task_file import BUILTIN_TASK_NAMES, builtin_arcs_task, builtin_task
 from graphcam.words import say
 
-LIBRARIES = "import numpy, matplotlib.figure, ezdxf"
+LOADED_LIBRARIES = "import numpy, matplotlib.figure, ezdxf"
 """What loading a program that draws takes at least."""
-TIMES = 1.6
+LOADING_FACTOR = 1.6
 """How many times the loading of the libraries a whole run may take, and a second more."""
-STARTED = 3
+START_COUNT = 3
 """Times that each program is started, the best of which counts: the first one compiles it."""
 PROGRAM = "import sys; from graphcam.cli import main; sys.argv = ['graphcam', 'solve', '--out', sys.argv[1]]; main()"
 PX_PER_MM = 1.9
 """How large a view of the studio is shown."""
-STEP = 1e-3
+SIZE_STEP = 1e-3
 """How much a size grows from one picture of a drag to the next [mm or degrees]."""
 
 
@@ -46,7 +46,7 @@ def built_in() -> Mapping[str, Task | ArcsTask]:
     >>> [*built_in()]
     ['coursework', 'arm', 'flat', 'measured', 'arcs']
     """
-    return {name: builtin_task(name) for name in BUILT_IN} | {"arcs": builtin_arcs_task()}
+    return {name: builtin_task(name) for name in BUILTIN_TASK_NAMES} | {"arcs": builtin_arcs_task()}
 
 
 # --- a task solved ---------------------------------------------------------------------------------------------------
@@ -56,9 +56,9 @@ def solve_rows(effort: Effort) -> Iterator[BenchRow]:
     """A whole run of the built-in task; of every built-in one layout, step player and the slowest of its views."""
     seconds = effort.timer.seconds
     with TemporaryDirectory() as folder:
-        libraries, whole = (_processor_seconds(program, Path(folder)) for program in (LIBRARIES, PROGRAM))
-    unit = f"s beyond {TIMES:g} times the libraries"
-    yield BenchRow("solve, all files", "coursework", whole - TIMES * libraries, unit, "<= 1", seconds=whole)
+        libraries, whole = (_processor_seconds(program, Path(folder)) for program in (LOADED_LIBRARIES, PROGRAM))
+    unit = f"s beyond {LOADING_FACTOR:g} times the libraries"
+    yield BenchRow("solve, all files", "coursework", whole - LOADING_FACTOR * libraries, unit, "<= 1", seconds=whole)
     for name, task in built_in().items():
         solution = solve(task)
         contents = contents_of(solution)
@@ -75,7 +75,7 @@ def _processor_seconds(program: str, folder: Path) -> float:
     kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     paths = {"PYTHONPYCACHEPREFIX": str(folder / "compiled"), "PYTHONPATH": os.pathsep.join(sys.path)}
     found: list[float] = []
-    for run in range(STARTED):
+    for run in range(START_COUNT):
         before = seconds_of_programs()
         command = [sys.executable, "-c", program, str(folder / str(run))]
         subprocess.run(command, check=True, capture_output=True, env=kept | paths)
@@ -119,7 +119,7 @@ def view_svg(task: Task | ArcsTask, view: str, names: Sequence[str]) -> str:
     return "".join(f'<g id="{group.key}">{group_svg(group, page.height)}</g>' for group in page.groups)
 
 
-WAITING = Section(
+WAITING_SECTION = Section(
     "waiting",
     say("Waiting times of a user"),
     "A whole run is told by what it takes beyond the loading of the libraries that draw, which depends on the disk and "
@@ -152,7 +152,7 @@ def dragging(task: dict[str, Any], view: str) -> Callable[[], dict[str, Any]]:
 
     def next_picture() -> dict[str, Any]:
         """The answer to the next request."""
-        moved = changed(task, {path: value_at(task, path) + STEP * next(steps)})
+        moved = changed_task(task, {path: value_at(task, path) + SIZE_STEP * next(steps)})
         return answer({"task": moved, "views": asked, "hold": hold})
 
     return next_picture
@@ -164,7 +164,7 @@ def dragged_size(task: dict[str, Any]) -> str:
     return next(path for path in sizes if value_at(task, path) is not None)
 
 
-STUDIO = Section(
+STUDIO_SECTION = Section(
     "studio",
     say("Waiting times in the studio"),
     "One view, solved and drawn anew while a size is dragged, with its labels and scales held; in milliseconds of "
@@ -193,7 +193,7 @@ def drawing_times(effort: Effort, parts: int = 12, law: str = "3-4-5") -> Iterat
     # matplotlib takes long to load, so it comes when there is something to draw.
     from graphcam.sheets.matplotlib_renderer import write_pdf, write_png
 
-    for follower in FOLLOWERS:
+    for follower in FOLLOWER_KINDS:
         chain = scene(follower, law).chain(parts)
         for name in chain:
             # The function itself draws anew, from constructions that the chain keeps.

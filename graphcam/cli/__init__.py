@@ -6,13 +6,13 @@ import typer
 from typer import Option
 
 import graphcam
+from graphcam.cli.command_language import in_language_of_machine, use_machine_language
 from graphcam.cli.commands import bench, init, notebook, sweep
 from graphcam.cli.exercise import exercise
 from graphcam.cli.next_steps import show_next_steps
 from graphcam.cli.size import size
 from graphcam.cli.solve import solve
 from graphcam.cli.studio import studio
-from graphcam.cli.voice import begin, in_language_of_machine
 
 app = typer.Typer(name="graphcam", add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich")
 
@@ -45,7 +45,7 @@ def options(
 
     graphcam solve cam.toml --out cam
     """
-    begin()
+    use_machine_language()
     if context.invoked_subcommand is None:
         show_next_steps()
 

@@ -9,21 +9,21 @@ from typing import Annotated
 import typer
 from typer import Argument, Option
 
+from graphcam.cli.command_language import voice
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     TaskFile,
     echo,
     errors_name,
     named,
+    nonempty_place,
     one_message,
     print_table,
     progress_bar,
     progress_lines,
     quoted,
     read_task,
-    said,
 )
-from graphcam.cli.voice import voice
 from graphcam.files import OutputError, write_new
 from graphcam.words import say
 
@@ -84,18 +84,22 @@ def bench(
     from graphcam.bench import bench_report as bench
 
     with one_message():
-        report = bench.bench(bench.QUICK if quick else bench.FULL, out, progress_lines(quiet=False))
+        report = bench.bench(bench.QUICK_EFFORT if quick else bench.FULL_EFFORT, out, progress_lines(quiet=False))
     for section, head, rows in report.tables():
         if section.brief:
             print_table(head, rows, section.words, title=f"\n{section.title}")
-    typer.echo(f"{out}: " + ", ".join(bench.FILES))
+    typer.echo(f"{out}: " + ", ".join(bench.FILE_NAMES))
 
 
 def sweep(
     space: Annotated[Path, Argument(parser=named, metavar="SPACE.toml", help="File with the values of every size.")],
     out: Annotated[
         str,
-        Option(parser=said, metavar="PLACE", help="Results, one row per design: a .csv or .parquet file, or a folder."),
+        Option(
+            parser=nonempty_place,
+            metavar="PLACE",
+            help="Results, one row per design: a .csv or .parquet file, or a folder.",
+        ),
     ],
     workers: Annotated[int, Option(min=1, help="Number of processes.")] = 1,
     cluster: Annotated[
@@ -118,10 +122,10 @@ def sweep(
     graphcam sweep space.toml --out s3://bucket/results --cluster tcp://scheduler:8786
     """
     # Loads NumPy.
-    from graphcam.cli.sweep_summary import tell_sweep, write_front
+    from graphcam.cli.sweep_summary import print_sweep, write_front
     from graphcam.sweeps import dataset
     from graphcam.sweeps.dataset import is_file, sweep_to_file
-    from graphcam.sweeps.space import load_space
+    from graphcam.sweeps.design_space import load_space
     from graphcam.workers import executor_of, worker_pool
 
     with one_message(), progress_bar(say("designs")) as step:
@@ -137,7 +141,7 @@ def sweep(
     if isinstance(found, dataset.Summary):
         print_table((say("quantity"), say("minimum"), say("maximum")), found.rows())
         echo(say("{out}: {found}", out=str(out), found=found.caption))
-    tell_sweep(designs, found)
+    print_sweep(designs, found)
     with one_message():
         write_front(designs, out, found.front)
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 from typer import Argument, Option
 
+from graphcam.cli.command_language import translated, voice
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     echo,
@@ -21,10 +22,9 @@ from graphcam.cli.shared import (
     progress_bar,
     progress_lines,
 )
-from graphcam.cli.voice import tell, voice
 from graphcam.errors import TaskError, install_advice
 from graphcam.exercises.exports import LearningSystem
-from graphcam.exercises.running.levels import Level
+from graphcam.exercises.running.isolation_levels import Level
 from graphcam.language import languages
 from graphcam.words import Caption, Words, say, say_many
 
@@ -157,7 +157,7 @@ def _print_matrix(found: Simulation) -> None:
         (say("copies of another variant that earn more than half"), f"{copies.part_above_half:.1%}"),
         (say("draws a variant, all {variants} separable", variants=found.variants), draws),
     ):
-        typer.echo(f"{tell(counted)}: {tell(value)}")
+        typer.echo(f"{translated(counted)}: {translated(value)}")
 
 
 @exercise.command()
@@ -212,12 +212,12 @@ def make(
 
     graphcam exercise make pressure-angle --roster longer.csv --out late --secret-file week-5/teacher/secret
     """
-    from graphcam.exercises.course.course_folder import SECRET as SECRET_FILE, TEACHER
-    from graphcam.exercises.course.make import UNMARKED, make as run, usual_paper
+    from graphcam.exercises.course.course_folder import SECRET_FILE as SECRET_FILE, TEACHER_FOLDER
+    from graphcam.exercises.course.course_making import UNMARKED_OPTION, make as run, usual_paper
     from graphcam.exercises.course.roster import ids_from
     from graphcam.exercises.exports.studio_link import check_url, write_links
 
-    voice().hear(language)
+    voice().adopt_language(language)
     progress = progress_lines(quiet=False)
 
     def step(done: int, total: int) -> None:
@@ -226,12 +226,12 @@ def make(
 
     def remark(line: Words) -> None:
         """Tell what is odd about the course, beside its output."""
-        typer.echo(tell(line), err=True)
+        typer.echo(translated(line), err=True)
 
     with one_message():
         if studio:
             check_url(studio)
-        chosen = usual_paper(name) if not paper else "" if paper == UNMARKED else paper
+        chosen = usual_paper(name) if not paper else "" if paper == UNMARKED_OPTION else paper
         if not paper and chosen and find_spec("segno") is None:
             chosen = ""
             untagged = say("{name}: worksheets without tags; for such that can be photographed, {advice}")
@@ -258,9 +258,9 @@ def make(
     )
     echo(told)
     if secret_file is None:
-        echo(_keep(out / TEACHER / SECRET_FILE))
+        echo(_keep(out / TEACHER_FOLDER / SECRET_FILE))
     else:
-        echo(say("{file} is a copy of {given}", file=str(out / TEACHER / SECRET_FILE), given=str(secret_file)))
+        echo(say("{file} is a copy of {given}", file=str(out / TEACHER_FOLDER / SECRET_FILE), given=str(secret_file)))
 
 
 @exercise.command()
@@ -430,11 +430,11 @@ def export(
 
     graphcam exercise export whole-cam --format nbgrader --roster roster.csv --out course
     """
-    from graphcam.exercises.course.course_folder import SECRET as SECRET_FILE, TEACHER, read_secret
+    from graphcam.exercises.course.course_folder import SECRET_FILE as SECRET_FILE, TEACHER_FOLDER, read_secret
     from graphcam.exercises.course.roster import Student, read_roster
     from graphcam.exercises.exports.export import export as write
 
-    voice().hear(language)
+    voice().adopt_language(language)
     with one_message(), progress_bar(say("variants")) as step:
         secret = read_secret(secret_file) if secret_file else None
         students = [Student(f"variant-{k:0{len(str(count))}d}") for k in range(1, count + 1)]
@@ -445,7 +445,7 @@ def export(
     where = {"name": name, "target": str(target), "out": str(out)}
     echo(say("{variants} of {name} for {target} in {out}", variants=variants, **where))
     if secret_file is None:
-        echo(_keep(out / TEACHER / SECRET_FILE))
+        echo(_keep(out / TEACHER_FOLDER / SECRET_FILE))
 
 
 @exercise.command()

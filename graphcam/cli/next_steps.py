@@ -6,7 +6,7 @@ import graphcam
 from graphcam.cli.shared import echo
 from graphcam.words import say
 
-NEXT = (
+SUGGESTIONS = (
     (say("See what it does"), ("graphcam solve",), say("the built-in coursework task, into the folder graphcam-out")),
     (
         say("Draw a task of your own"),
@@ -34,7 +34,7 @@ def show_next_steps() -> None:
     name = f"graphcam {graphcam.__version__}"
     echo(say("{name}: cams drawn as on the drawing board, beside their exact values.", name=name))
     echo("")
-    for want, commands, what in NEXT:
+    for want, commands, what in SUGGESTIONS:
         echo(say("{want} ({what}):", want=want, what=what))
         for command in commands:
             echo(f"    {command}")

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 import graphcam
-from graphcam.cli.voice import tell, voice
+from graphcam.cli.command_language import translated, voice
 from graphcam.errors import DesignError, GraphcamError, LetteringWarning, TaskError
 from graphcam.words import Caption, Words, say, say_many
 
@@ -28,26 +28,26 @@ if TYPE_CHECKING:
     from graphcam.tasks.arcs_task import ArcsTask
     from graphcam.tasks.task import Task
 
-WRONG_INPUT = 2
+INPUT_ERROR_STATUS = 2
 """Exit status when the input is wrong."""
-REFRESHED = 0.1
+REFRESH_INTERVAL = 0.1
 """Seconds between two looks of a bar."""
-NUMBER = re.compile(r"[-−]?\d+\.\d+(e[-+]?\d+)?[*%]?")
+NUMBER_PATTERN = re.compile(r"[-−]?\d+\.\d+(e[-+]?\d+)?[*%]?")
 """A decimal number in a table, perhaps a percentage."""
 DEFAULT_FOLDER = Path("graphcam-out")
 """Where the files go if nothing is said."""
 
 
-def said(place: str) -> str:
+def nonempty_place(place: str) -> str:
     """A place that is said: an empty one would be taken for the folder in which one is."""
     if not place:
-        raise typer.BadParameter(tell(say("'' names no place; '.' is the current folder")))
+        raise typer.BadParameter(translated(say("'' names no place; '.' is the current folder")))
     return place
 
 
 def named(path: str | Path) -> Path:
     """A path that is named."""
-    return Path(said(str(path)))
+    return Path(nonempty_place(str(path)))
 
 
 def quoted(path: Path) -> str:
@@ -61,12 +61,12 @@ def quoted(path: Path) -> str:
 
 def echo(words: Words, *, err: bool = False) -> None:
     """Print a text in the language of the command that is run."""
-    typer.echo(tell(words), err=err)
+    typer.echo(translated(words), err=err)
 
 
 def echo_line(words: Words) -> None:
     """Print it as one line: a name may hold what is no line, and what a terminal obeys."""
-    line = tell(words)
+    line = translated(words)
     typer.echo(line if line.isprintable() else ascii(line))
 
 
@@ -82,18 +82,18 @@ def one_message() -> Generator[None]:
     try:
         yield
     except GraphcamError as error:
-        typer.echo(f"graphcam: {tell(error)}", err=True)
-        raise typer.Exit(WRONG_INPUT) from None
+        typer.echo(f"graphcam: {translated(error)}", err=True)
+        raise typer.Exit(INPUT_ERROR_STATUS) from None
     except OSError as error:
         # Without the number that the system gives it.
         said = error.args[0] if error.args and isinstance(error.args[0], Caption) else str(error)
         told = f"{error.filename}: {error.strerror}" if error.filename and error.strerror else said
-        typer.echo(f"graphcam: {tell(told)}", err=True)
-        raise typer.Exit(WRONG_INPUT) from None
+        typer.echo(f"graphcam: {translated(told)}", err=True)
+        raise typer.Exit(INPUT_ERROR_STATUS) from None
 
 
 @contextmanager
-def warnings_told() -> Generator[None]:
+def short_warnings() -> Generator[None]:
     """What a drawing's letters lack on this machine is told in one line."""
     with warnings.catch_warnings(action="always", category=LetteringWarning):
         otherwise = warnings.showwarning
@@ -112,7 +112,7 @@ def warnings_told() -> Generator[None]:
 def progress_lines(*, quiet: bool) -> Callable[[Words], None]:
     """Lines on standard error; with ``quiet`` only for somebody who sits before it."""
     silent = quiet and not sys.stderr.isatty()
-    return lambda line: None if silent else typer.echo(f"{tell(line)} ...", err=True)
+    return lambda line: None if silent else typer.echo(f"{translated(line)} ...", err=True)
 
 
 def print_table(
@@ -120,15 +120,15 @@ def print_table(
 ) -> None:
     """Print a table: the first columns are words, the others numbers, which stand to the right."""
     width = shutil.get_terminal_size().columns
-    head = [tell(column) for column in columns]
+    head = [translated(column) for column in columns]
     said = [[*row[:words], *map(_number, row[words:])] for row in rows]
-    lines = [tell(title), *table_lines([head, *said], words, width), tell(caption)]
+    lines = [translated(title), *table_lines([head, *said], words, width), translated(caption)]
     typer.echo("\n".join(line for line in lines if line))
 
 
 def _number(cell: str) -> str:
     """A number with the decimal sign of the language; any other text as it is."""
-    return cell.replace(".", voice().language.decimal) if NUMBER.fullmatch(cell) else cell
+    return cell.replace(".", voice().language.decimal) if NUMBER_PATTERN.fullmatch(cell) else cell
 
 
 def table_lines(rows: Sequence[Sequence[str]], words: int, width: int) -> list[str]:
@@ -181,27 +181,27 @@ def progress_bar(things: Words) -> Generator[Callable[[int, int], None]]:
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-    shown = -REFRESHED
+    shown = -REFRESH_INTERVAL
 
     def step(done: int, total: int) -> None:
         """Move the bar, and show it when it is due."""
         nonlocal shown
         now = time.monotonic()
-        due = now - shown >= REFRESHED
+        due = now - shown >= REFRESH_INTERVAL
         shown = now if due else shown
         progress.update(bar, completed=done, total=total, refresh=due)
 
-    columns = (TextColumn(tell(things)), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    columns = (TextColumn(translated(things)), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     # Without a thread that refreshes: a process with threads is better not forked.
     with Progress(*columns, console=Console(stderr=True), transient=True, auto_refresh=False) as progress:
         bar = progress.add_task(str(things), total=None)
         yield step
 
 
-_LANGUAGE = re.compile(r"^[^#\n]*\blanguage\s*=\s*[\"']([\w-]+)[\"']", re.MULTILINE)
+_LANGUAGE_PATTERN = re.compile(r"^[^#\n]*\blanguage\s*=\s*[\"']([\w-]+)[\"']", re.MULTILINE)
 """Where a task file names its language: the table ``[drawing]`` alone has such a key."""
 
-OF_COMMAND = ("upto", "dxf", "files", "working_drawing")
+COMMAND_OPTIONS = ("upto", "dxf", "files", "working_drawing")
 """What is wrong with a choice of the command line is no matter of the file."""
 
 
@@ -214,14 +214,14 @@ def read_task(path: Path | None, builtin: str = "coursework") -> Task | ArcsTask
     """
     if path is None:
         return graphcam.builtin_task(builtin)
-    voice().hear(language_in(path))
+    voice().adopt_language(language_in(path))
     return graphcam.load_task(path)
 
 
 def language_in(path: Path) -> str:
     """The language that a file names, whether or not the rest of it is a task, or TOML; empty where it names none."""
     with suppress(OSError, ValueError):
-        found = _LANGUAGE.search(path.read_bytes().decode("utf-8", errors="replace"))
+        found = _LANGUAGE_PATTERN.search(path.read_bytes().decode("utf-8", errors="replace"))
         return found[1] if found else ""
     return ""
 
@@ -232,12 +232,12 @@ def errors_name(path: Path | None) -> Generator[None]:
     try:
         yield
     except DesignError as error:
-        if path is None or error.quantity in OF_COMMAND:
+        if path is None or error.quantity in COMMAND_OPTIONS:
             raise
         raise TaskError(str(path), *error.args) from None
 
 
-ABOUT: Mapping[str, Caption] = {
+FILE_DESCRIPTIONS: Mapping[str, Caption] = {
     "player": say("step by step in a browser, and the mechanism turning"),
     "sheet": say("the sheet, true to scale"),
     "worksheet": say("the sheet to be finished, true to scale"),
@@ -248,7 +248,7 @@ ABOUT: Mapping[str, Caption] = {
     "solution": say("all of it, for programs"),
 }
 """What the files of a solution are, by their names without page number and ending; in the order they are told."""
-FIRST: Mapping[str, Caption] = {
+FILES_TO_OPEN_FIRST: Mapping[str, Caption] = {
     "player.html": say("in a browser"),
     "sheet.pdf": say("print at 100 %"),
     "worksheet.pdf": say("print at 100 %"),
@@ -256,16 +256,16 @@ FIRST: Mapping[str, Caption] = {
 """What to open first, and how."""
 
 
-def about(name: str) -> str:
+def file_kind(name: str) -> str:
     """Of which kind a file is, by its name.
 
-    >>> about("sheet-12.svg"), about("working-drawing.pdf"), about("mine.txt")
+    >>> file_kind("sheet-12.svg"), file_kind("working-drawing.pdf"), file_kind("mine.txt")
     ('sheet', 'working-drawing', '')
     """
     stem = Path(name).stem
     first, dash, number = stem.rpartition("-")
     stem = first if dash and number.isdecimal() else stem
-    return stem if stem in ABOUT else ""
+    return stem if stem in FILE_DESCRIPTIONS else ""
 
 
 def grouped(names: Iterable[str]) -> list[tuple[Caption | str, list[str]]]:
@@ -276,43 +276,43 @@ def grouped(names: Iterable[str]) -> list[tuple[Caption | str, list[str]]]:
     the sheet, true to scale ['sheet.svg', 'sheet-2.svg', 'sheet-10.svg']
     all of it, for programs ['solution.json']
     """
-    kinds: dict[str, list[str]] = {kind: [] for kind in (*ABOUT, "")}
+    kinds: dict[str, list[str]] = {kind: [] for kind in (*FILE_DESCRIPTIONS, "")}
     for name in sorted(names, key=lambda name: (Path(name).suffix, len(name), name)):
-        kinds[about(name)].append(name)
-    return [(ABOUT.get(kind, ""), found) for kind, found in kinds.items() if found]
+        kinds[file_kind(name)].append(name)
+    return [(FILE_DESCRIPTIONS.get(kind, ""), found) for kind, found in kinds.items() if found]
 
 
-def tell_files(folder: Path, names: Sequence[str]) -> None:
+def print_files(folder: Path, names: Sequence[str]) -> None:
     """Print all files that were written into a folder, by kind, and which to open first."""
     # A terminal's abilities are rich's business.
     from rich.console import Console
     from rich.text import Text
 
     console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
-    count = tell(say_many("{count} file", "{count} files", len(names)))
-    console.print(Text.assemble("\n", linked(folder, str(folder)), f": {count}"))
+    count = translated(say_many("{count} file", "{count} files", len(names)))
+    console.print(Text.assemble("\n", linked_text(folder, str(folder)), f": {count}"))
     for what, found in grouped(names):
-        links = Text(", ").join(linked(folder / name, name) for name in found)
-        console.print(Text.assemble("  ", links, f": {tell(what)}" if what else ""))
+        links = Text(", ").join(linked_text(folder / name, name) for name in found)
+        console.print(Text.assemble("  ", links, f": {translated(what)}" if what else ""))
     first = [
-        Text.assemble(linked(folder / name, str(folder / name)), f" ({tell(how)})")
-        for name, how in FIRST.items()
+        Text.assemble(linked_text(folder / name, str(folder / name)), f" ({translated(how)})")
+        for name, how in FILES_TO_OPEN_FIRST.items()
         if name in names
     ]
     if first:
-        begin, then = tell(say("Open first: ")), tell(say(", then "))
+        begin, then = translated(say("Open first: ")), translated(say(", then "))
         console.print(Text.assemble(begin, Text(then).join(first)))
 
 
-def tell_file(path: Path, what: Caption) -> None:
+def print_file(path: Path, what: Caption) -> None:
     """Print that a file was written, and what it is."""
     from rich.console import Console
 
     console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
-    console.print(linked(path, str(path)) + f": {tell(what)}")
+    console.print(linked_text(path, str(path)) + f": {translated(what)}")
 
 
-def linked(path: Path, words: str) -> Text:
+def linked_text(path: Path, words: str) -> Text:
     """Words that open a file or folder when they are clicked; plain ones where nobody could."""
     from rich.style import Style
     from rich.text import Text

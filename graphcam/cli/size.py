@@ -11,6 +11,7 @@ import typer
 from typer import Argument, Option
 
 import graphcam
+from graphcam.cli.command_language import helped, translated, voice
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     echo,
@@ -20,20 +21,19 @@ from graphcam.cli.shared import (
     print_table,
     progress_lines,
     read_task,
-    warnings_told,
+    short_warnings,
 )
-from graphcam.cli.voice import helped, tell, voice
 from graphcam.language import languages
 from graphcam.words import say, sequence
 
 if TYPE_CHECKING:
     from graphcam.solving.sizing_design import Sizing
 
-FOLDER = DEFAULT_FOLDER / "size"
-IN_FOLDER = helped(say("Folder for the files; the default is {folder}.", folder=str(FOLDER)))
-JSON_ALONE = "Print only the result, as JSON; write files only with --out."
-BEST = "size: the smallest cam; stress: the cam with the minimum contact stress.  The default is that of the task."
-OTHER_LANGUAGE = helped(say("Language of the chart, instead of the task's: {names}.", names=", ".join(languages())))
+SIZE_FOLDER = DEFAULT_FOLDER / "size"
+OUT_HELP = helped(say("Folder for the files; the default is {folder}.", folder=str(SIZE_FOLDER)))
+JSON_HELP = "Print only the result, as JSON; write files only with --out."
+BEST_HELP = "size: the smallest cam; stress: the cam with the minimum contact stress.  The default is that of the task."
+LANGUAGE_HELP = helped(say("Language of the chart, instead of the task's: {names}.", names=", ".join(languages())))
 
 
 class Objective(StrEnum):
@@ -48,10 +48,10 @@ def size(
         Path | None,
         Argument(parser=named, metavar="TASK.toml", help="Task file with a table \\[sizing]; by default an example."),
     ] = None,
-    out: Annotated[Path | None, Option(parser=named, metavar="DIR", help=IN_FOLDER)] = None,
-    as_json: Annotated[bool, Option("--json", help=JSON_ALONE)] = False,
-    objective: Annotated[Objective | None, Option(help=BEST)] = None,
-    language: Annotated[str | None, Option(metavar="NAME", help=OTHER_LANGUAGE)] = None,
+    out: Annotated[Path | None, Option(parser=named, metavar="DIR", help=OUT_HELP)] = None,
+    as_json: Annotated[bool, Option("--json", help=JSON_HELP)] = False,
+    objective: Annotated[Objective | None, Option(help=BEST_HELP)] = None,
+    language: Annotated[str | None, Option(metavar="NAME", help=LANGUAGE_HELP)] = None,
 ) -> None:
     """Find the best cam within ranges of its sizes, chart the permitted cams, and write a task with the sizes found.
 
@@ -69,8 +69,8 @@ def size(
     """
     voice().choose(language)
     progress = progress_lines(quiet=as_json)
-    folder = FOLDER if out is None and not as_json else out
-    with one_message(), warnings_told():
+    folder = SIZE_FOLDER if out is None and not as_json else out
+    with one_message(), short_warnings():
         given = read_task(task, "sizing")
         progress(say("searching the ranges"))
         with errors_name(task):
@@ -87,16 +87,16 @@ def size(
 
 def _print(sizing: Sizing) -> None:
     """The best cam with what binds it, and the front."""
-    from graphcam.report.sizing_tables import BINDING, TITLES, cam_table, front_table
+    from graphcam.report.sizing_tables import BINDING_CAPTIONS, TITLES_BY_OBJECTIVE, cam_table, front_table
 
-    title = TITLES[sizing.objective]
+    title = TITLES_BY_OBJECTIVE[sizing.objective]
     tables = [cam_table(sizing.best, sizing.adopted, title)]
     tables += [front_table(sizing.front)] if len(sizing.front) > 1 else []
     for table in tables:
-        rows = [[tell(cell) for cell in row] for row in table.rows]
+        rows = [[translated(cell) for cell in row] for row in table.rows]
         # Of the front there is no column of words.
         words = 1 if table is tables[0] else 0
-        print_table([tell(cell) for cell in table.header], rows, words, title=f"\n{tell(table.title)}")
-    active = sequence([BINDING[name] for name in sizing.best.active]) if sizing.best.active else say("nothing")
+        print_table([translated(cell) for cell in table.header], rows, words, title=f"\n{translated(table.title)}")
+    active = sequence([BINDING_CAPTIONS[name] for name in sizing.best.active]) if sizing.best.active else say("nothing")
     echo("")
     echo(say("active: {names}", names=active))

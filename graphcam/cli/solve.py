@@ -14,21 +14,21 @@ import typer
 from typer import Option
 
 import graphcam
+from graphcam.cli.command_language import helped, translated, voice
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     TaskFile,
-    about,
     echo,
     errors_name,
+    file_kind,
     named,
     one_message,
+    print_files,
     print_table,
     progress_lines,
     read_task,
-    tell_files,
-    warnings_told,
+    short_warnings,
 )
-from graphcam.cli.voice import helped, tell, voice
 from graphcam.language import languages
 from graphcam.words import Caption, Words, say, say_in, sequence
 
@@ -38,23 +38,21 @@ if TYPE_CHECKING:
     from graphcam.tasks.arcs_task import ArcsTask
     from graphcam.tasks.task import Task
 
-LARGE = ("A1", "A2")
+LARGE_FORMATS = ("A1", "A2")
 """Formats that are too large for one construction."""
-FOLDER = helped(say("Folder for the files; the default is {folder}.", folder=str(DEFAULT_FOLDER)))
-JSON_ALONE = "Print only the solution, as JSON; write files only with --out."
-OWN_SHEETS = "Each construction on sheets of its own; A3 if the task has A1 or A2."
-BLANK = "A blank sheet to draw on, without answers: axes, divisions, and the data of the task."
-HALF_DONE = "A half-done sheet: up to step K, or to the end of the construction NAME, without the later answers."
-BY_HAND = "Standard deviation, in mm, of random errors in lines, divider settings and at the protractor's edge."
-KINDS = "plain: for any CAD program; cad: with true dimensions and attributes."
+OUT_HELP = helped(say("Folder for the files; the default is {folder}.", folder=str(DEFAULT_FOLDER)))
+JSON_HELP = "Print only the solution, as JSON; write files only with --out."
+OWN_SHEETS_HELP = "Each construction on sheets of its own; A3 if the task has A1 or A2."
+BLANK_HELP = "A blank sheet to draw on, without answers: axes, divisions, and the data of the task."
+UPTO_HELP = "A half-done sheet: up to step K, or to the end of the construction NAME, without the later answers."
+PENCIL_HELP = "Standard deviation, in mm, of random errors in lines, divider settings and at the protractor's edge."
+DXF_HELP = "plain: for any CAD program; cad: with true dimensions and attributes."
 # Brackets are markup here.
-AS_PART = r"Also the cam's working drawing, a solid and G-code for the workshop, from the task's table \[part]."
-OTHER_LANGUAGE = helped(
-    say("Language of sheet and note, instead of the task's: {names}.", names=", ".join(languages()))
-)
+PART_HELP = r"Also the cam's working drawing, a solid and G-code for the workshop, from the task's table \[part]."
+LANGUAGE_HELP = helped(say("Language of sheet and note, instead of the task's: {names}.", names=", ".join(languages())))
 
 
-GIVEN, FOUND, MINIMUM = say("given"), say("found"), say("minimum")
+GIVEN_LABEL, FOUND_LABEL, MINIMUM_LABEL = say("given"), say("found"), say("minimum")
 
 
 def adopted_sizes(solution: AnySolution) -> Caption | None:
@@ -68,51 +66,58 @@ def adopted_sizes(solution: AnySolution) -> Caption | None:
 
     if not isinstance(solution, Solution):
         return None
-    return say("adopted: {sizes}", sizes=sequence([*_of_cam(solution), *_of_spring(solution)]))
+    return say("adopted: {sizes}", sizes=sequence([*_cam_sizes(solution), *_spring_sizes(solution)]))
 
 
-def _of_cam(solution: Solution) -> list[Caption]:
+def _cam_sizes(solution: Solution) -> list[Caption]:
     chain, board = solution.chain, solution.chain.board
     given = {size.name: size.value for size in board.follower.sizes(board.follower.place, board.roller_radius)}
-    said = [_size(say("prime radius"), chain.prime_radius, say("mm"), FOUND if board.prime_radius is None else GIVEN)]
+    said = [
+        _size_caption(
+            say("prime radius"),
+            chain.prime_radius,
+            say("mm"),
+            FOUND_LABEL if board.prime_radius is None else GIVEN_LABEL,
+        )
+    ]
     for size in board.follower.sizes(chain.place, solution.cam.roller_radius):
         if size.value is not None:
-            where = FOUND if given[size.name] is None else GIVEN
-            said += [_size(size.title, size.value, say("mm"), where)]
+            where = FOUND_LABEL if given[size.name] is None else GIVEN_LABEL
+            said += [_size_caption(size.title, size.value, say("mm"), where)]
     return said
 
 
-def _of_spring(solution: Solution) -> list[Caption]:
+def _spring_sizes(solution: Solution) -> list[Caption]:
     spring = solution.spring
     if spring is None:
         return []
     from graphcam.drafting.scale import unit
 
-    where = MINIMUM if spring.open_preload else GIVEN
-    return [_size(say("preload"), spring.load.preload, unit(spring.units[1]), where)]
+    where = MINIMUM_LABEL if spring.open_preload else GIVEN_LABEL
+    return [_size_caption(say("preload"), spring.load.preload, unit(spring.units[1]), where)]
 
 
-def _size(name: Words, value: float, of: Words, where: Words) -> Caption:
+def _size_caption(name: Words, value: float, of: Words, where: Words) -> Caption:
     # No powers of ten: four digits, and zeros.
-    told = float(f"{value:.4g}") if where is MINIMUM else value
+    told = float(f"{value:.4g}") if where is MINIMUM_LABEL else value
     return say("{name} {value:.12g} {unit} ({where})", name=name, value=told, unit=of, where=where)
 
 
 def solve(
     task: TaskFile = None,
-    out: Annotated[Path | None, Option(parser=named, metavar="DIR", help=FOLDER)] = None,
-    as_json: Annotated[bool, Option("--json", help=JSON_ALONE)] = False,
-    pencil: Annotated[float | None, Option(metavar="SIGMA_MM", help=BY_HAND)] = None,
+    out: Annotated[Path | None, Option(parser=named, metavar="DIR", help=OUT_HELP)] = None,
+    as_json: Annotated[bool, Option("--json", help=JSON_HELP)] = False,
+    pencil: Annotated[float | None, Option(metavar="SIGMA_MM", help=PENCIL_HELP)] = None,
     divisions: Annotated[
         int | None, Option(metavar="N", help="Number of parts per phase or arc, instead of the task's.")
     ] = None,
-    language: Annotated[str | None, Option(metavar="NAME", help=OTHER_LANGUAGE)] = None,
+    language: Annotated[str | None, Option(metavar="NAME", help=LANGUAGE_HELP)] = None,
     seed: Annotated[int, Option(metavar="N", help="Seed of the pencil's random errors.")] = 0,
-    per_construction: Annotated[bool, Option("--per-construction", help=OWN_SHEETS)] = False,
-    worksheet: Annotated[bool, Option("--worksheet", help=BLANK)] = False,
-    upto: Annotated[str | None, Option(metavar="K|NAME", help=HALF_DONE)] = None,
-    dxf: Annotated[str, Option(metavar="KIND", help=KINDS)] = "plain",
-    working_drawing: Annotated[bool, Option("--working-drawing", help=AS_PART)] = False,
+    per_construction: Annotated[bool, Option("--per-construction", help=OWN_SHEETS_HELP)] = False,
+    worksheet: Annotated[bool, Option("--worksheet", help=BLANK_HELP)] = False,
+    upto: Annotated[str | None, Option(metavar="K|NAME", help=UPTO_HELP)] = None,
+    dxf: Annotated[str, Option(metavar="KIND", help=DXF_HELP)] = "plain",
+    working_drawing: Annotated[bool, Option("--working-drawing", help=PART_HELP)] = False,
 ) -> None:
     """Solve a task: draw the sheet, write the note and the tables, compare with exact values.
 
@@ -141,9 +146,9 @@ def solve(
     voice().choose(language)
     progress = progress_lines(quiet=as_json)
     folder = DEFAULT_FOLDER if out is None and not as_json else out
-    with one_message(), warnings_told(), _collecting_later():
+    with one_message(), short_warnings(), _collecting_later():
         last = _last_step(upto, worksheet=worksheet)
-        given = _read(task, divisions, language, small=per_construction)
+        given = _read_task(task, divisions, language, small=per_construction)
         # Loads the renderers: only when the input has been found right.
         from graphcam.report.output_folder import check_choices
         from graphcam.solving.solve import solve as solved
@@ -183,12 +188,12 @@ def _collecting_later() -> Generator[None]:
         gc.enable()
 
 
-def _read(path: Path | None, divisions: int | None, language: str | None, *, small: bool) -> Task | ArcsTask:
+def _read_task(path: Path | None, divisions: int | None, language: str | None, *, small: bool) -> Task | ArcsTask:
     """The task with what the options change; ``small`` sheets are for one construction each."""
     task = read_task(path)
     asked = {"divisions": divisions, "language": language}
     drawing = replace(task.drawing, **{key: value for key, value in asked.items() if value is not None})
-    if small and drawing.format in LARGE:
+    if small and drawing.format in LARGE_FORMATS:
         drawing = drawing.on("A3")
     return replace(task, drawing=drawing)
 
@@ -220,14 +225,14 @@ def _print_solution(
         if "quantities" in document:
             _print_quantities(document["quantities"])
         if sizes:
-            echo(f"\n{tell(sizes)}")
+            echo(f"\n{translated(sizes)}")
     for sentence in sentences:
         echo(say("warning: {sentence}", sentence=sentence), err=True)
     if folder is not None and not as_json:
         # Loaded already, by what wrote the files.
         from graphcam.report.output_folder import written_files
 
-        tell_files(folder, written_files(folder))
+        print_files(folder, written_files(folder))
 
 
 def _print_hint(solution: AnySolution, folder: Path) -> None:
@@ -237,7 +242,7 @@ def _print_hint(solution: AnySolution, folder: Path) -> None:
     from graphcam.report.fewer_sheets import fewer_sheets
     from graphcam.report.output_folder import written_files
 
-    pages = sum(about(name) == "sheet" and name.endswith(".svg") for name in written_files(folder))
+    pages = sum(file_kind(name) == "sheet" and name.endswith(".svg") for name in written_files(folder))
     if pages > 1 and (hint := fewer_sheets(contents_of(solution), pages)) is not None:
         echo("", err=True)
         echo(hint, err=True)
@@ -254,7 +259,7 @@ def _print_quantities(quantities: dict[str, dict[str, Any]]) -> None:
         rows.append(
             [
                 name,
-                tell(UNITS.get(row["unit"], row["unit"])),
+                translated(UNITS.get(row["unit"], row["unit"])),
                 *("-" if x is None else f"{round(x, 3) + 0:.3f}" for x in numbers),
             ]
         )

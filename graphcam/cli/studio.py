@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from typer import Option
 
-from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, echo, named, one_message, read_task, warnings_told
-from graphcam.cli.voice import helped, voice
+from graphcam.cli.command_language import helped, voice
+from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, echo, named, one_message, read_task, short_warnings
 from graphcam.errors import DesignError
 from graphcam.language import languages
 from graphcam.words import say
@@ -21,24 +21,26 @@ if TYPE_CHECKING:
     from graphcam.tasks.arcs_task import ArcsTask
     from graphcam.tasks.task import Task
 
-FOLDER = helped(say("Folder for the files that the page writes; the default is {folder}.", folder=str(DEFAULT_FOLDER)))
-LANGUAGE = helped(
+OUT_HELP = helped(
+    say("Folder for the files that the page writes; the default is {folder}.", folder=str(DEFAULT_FOLDER))
+)
+LANGUAGE_HELP = helped(
     say("Language of the page and of what it writes, instead of the task's: {names}.", names=", ".join(languages()))
 )
-ONE_FILE = "Write the studio as one file that needs no server, and exit."
-STATIC = "Write the studio as a folder for a web server, and exit."
-PYODIDE = "Folder with Pyodide and NumPy for browsers, which --html and --site include."
-ENDS = say("It ends with its last tab, or with Ctrl-C.")
+HTML_HELP = "Write the studio as one file that needs no server, and exit."
+SITE_HELP = "Write the studio as a folder for a web server, and exit."
+PYODIDE_HELP = "Folder with Pyodide and NumPy for browsers, which --html and --site include."
+ENDING_NOTE = say("It ends with its last tab, or with Ctrl-C.")
 
 
 def studio(
     task: TaskFile = None,
-    out: Annotated[Path, Option(parser=named, metavar="DIR", help=FOLDER)] = DEFAULT_FOLDER,
-    language: Annotated[str | None, Option(metavar="NAME", help=LANGUAGE)] = None,
+    out: Annotated[Path, Option(parser=named, metavar="DIR", help=OUT_HELP)] = DEFAULT_FOLDER,
+    language: Annotated[str | None, Option(metavar="NAME", help=LANGUAGE_HELP)] = None,
     browser: Annotated[bool, Option("--browser/--no-browser", help="Open the page in the browser.")] = True,
-    html: Annotated[Path | None, Option(parser=named, metavar="FILE", help=ONE_FILE)] = None,
-    site: Annotated[Path | None, Option(parser=named, metavar="DIR", help=STATIC)] = None,
-    pyodide: Annotated[Path | None, Option(parser=named, metavar="DIR", help=PYODIDE)] = None,
+    html: Annotated[Path | None, Option(parser=named, metavar="FILE", help=HTML_HELP)] = None,
+    site: Annotated[Path | None, Option(parser=named, metavar="DIR", help=SITE_HELP)] = None,
+    pyodide: Annotated[Path | None, Option(parser=named, metavar="DIR", help=PYODIDE_HELP)] = None,
 ) -> None:
     """Open the studio: change a size, and see the construction and the exact values follow.
 
@@ -58,9 +60,9 @@ def studio(
     graphcam studio --site public/studio --pyodide pyodide   (a folder for a web server)
     """
     voice().choose(language)
-    with one_message(), warnings_told():
+    with one_message(), short_warnings():
         _check(html, site, pyodide)
-        given = _read(task, language)
+        given = _read_task(task, language)
         if pyodide is None:
             _serve(given, out, browser=browser)
         else:
@@ -80,7 +82,7 @@ def _check(html: Path | None, site: Path | None, pyodide: Path | None) -> None:
         raise DesignError("--pyodide", str(pyodide), limit, say("the server needs none"))
 
 
-def _read(path: Path | None, spoken: str | None) -> Task | ArcsTask:
+def _read_task(path: Path | None, spoken: str | None) -> Task | ArcsTask:
     task = read_task(path)
     if spoken is None:
         return task
@@ -107,7 +109,7 @@ def _serve(task: Task | ArcsTask, out: Path, *, browser: bool) -> None:
     with local_studio(out, task.drawing.language) as server:
         address = opened_address(server, task)
         typer.echo(address)
-        echo(ENDS)
+        echo(ENDING_NOTE)
         if browser:
             # A browser of the terminal returns when it is closed.
             threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()

@@ -8,22 +8,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from graphcam.cli.shared import echo, print_table, tell_file
-from graphcam.cli.voice import tell
+from graphcam.cli.command_language import translated
+from graphcam.cli.shared import echo, print_file, print_table
 from graphcam.files import whole_file
-from graphcam.sweeps.front import ANGLE, FEASIBLE, SIZE, FoundBest, front_csv
+from graphcam.sweeps.pareto_front import ANGLE, FEASIBLE, SIZE, FoundBest, front_csv
 from graphcam.words import Caption, say, say_many
 
 if TYPE_CHECKING:
     from graphcam.sweeps.dataset import Summary
-    from graphcam.sweeps.space import Space
+    from graphcam.sweeps.design_space import Space
     from graphcam.sweeps.sweep import Columns
 
-MOST_ROWS = 12
+MAX_TABLE_ROWS = 12
 """Of the table; the file has all."""
 
 
-def tell_sweep(space: Space, found: FoundBest | Summary) -> None:
+def print_sweep(space: Space, found: FoundBest | Summary) -> None:
     """Print how many designs keep the limits, the smallest of them, and the front as a table."""
     designs = say_many("{count} design", "{count} designs", found.designs)
     if found.feasible is None:
@@ -35,33 +35,33 @@ def tell_sweep(space: Space, found: FoundBest | Summary) -> None:
     if not found.feasible:
         echo(say("none keeps the limits: try larger prime radii or larger angles of rise and return"))
     elif found.front is not None:
-        _tell_front(space, found.front)
+        _print_front(space, found.front)
 
 
-def _tell_front(space: Space, front: Columns) -> None:
+def _print_front(space: Space, front: Columns) -> None:
     shown = [name for name in dict.fromkeys((SIZE, *space.varied_columns, ANGLE)) if name in front]
-    echo(say("the smallest: {values}", values=_named(front, shown)))
+    echo(say("the smallest: {values}", values=_first_values(front, shown)))
     count = front[SIZE].size
     if count == 1:
         return
     same = [name for name in shown if np.all(front[name] == front[name][0])]
     differing = [name for name in shown if name not in same]
-    rows = np.unique(np.linspace(0, count - 1, min(count, MOST_ROWS)).round().astype(int)).tolist()
+    rows = np.unique(np.linspace(0, count - 1, min(count, MAX_TABLE_ROWS)).round().astype(int)).tolist()
     title = say("No design is both smaller and of a smaller pressure angle than one of these:")
     if same:
         title = say(
             "No design is both smaller and of a smaller pressure angle than one of these, all with {values}:",
-            values=_named(front, same),
+            values=_first_values(front, same),
         )
     part = say(
         "{shown} of {count}, from the smallest to that of the minimum angle", shown=str(len(rows)), count=str(count)
     )
     print_table(
-        [_short(name) for name in differing],
+        [_short_name(name) for name in differing],
         [[_value(front, name, row) for name in differing] for row in rows],
         words=0,
-        title=f"\n{tell(title)}",
-        caption=tell(part) if len(rows) < count else "",
+        title=f"\n{translated(title)}",
+        caption=translated(part) if len(rows) < count else "",
     )
 
 
@@ -82,13 +82,13 @@ def write_front(space: Space, out: str, front: Columns | None) -> None:
             path = Path(out).with_name(f"{Path(out).stem}-front{ending}")
             with whole_file(path) as draft:
                 draft.write_text(text, encoding="utf-8", newline="")
-            tell_file(path, what)
+            print_file(path, what)
         else:
             # Readers of data sets pass over what begins so.
             name = f"_front{ending}"
             with SharedFolder.reached(out).whole(name) as file:
                 file.write(text.encode())
-            echo(f"{out.rstrip('/')}/{name}: {tell(what)}")
+            echo(f"{out.rstrip('/')}/{name}: {translated(what)}")
 
 
 def _front_files(space: Space, front: Columns) -> Iterator[tuple[str, str, Caption]]:
@@ -103,15 +103,15 @@ def _front_files(space: Space, front: Columns) -> Iterator[tuple[str, str, Capti
         yield ".svg", figure_svg(front_figure(front, limit)), say("their pressure angle over their size, as a figure")
 
 
-def _named(front: Columns, names: list[str]) -> str:
+def _first_values(front: Columns, names: list[str]) -> str:
     """The values of the first design."""
-    return ", ".join(f"{_short(name)} {_value(front, name, 0)}" for name in names)
+    return ", ".join(f"{_short_name(name)} {_value(front, name, 0)}" for name in names)
 
 
-def _short(name: str) -> str:
+def _short_name(name: str) -> str:
     """A column's name in the table, short enough for a terminal.
 
-    >>> _short("max_pressure_angle_rise_deg"), _short("rise_angle_deg"), _short("offset")
+    >>> _short_name("max_pressure_angle_rise_deg"), _short_name("rise_angle_deg"), _short_name("offset")
     ('pressure_angle', 'rise_angle', 'offset')
     """
     return "pressure_angle" if name == ANGLE else name.removesuffix("_deg")

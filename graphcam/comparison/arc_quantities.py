@@ -13,12 +13,12 @@ from graphcam.comparison.quantities import Quantity, quantities_of
 from graphcam.constructions.arc_chain import ArcChain
 from graphcam.given.laws import Floats
 from graphcam.mechanism.arc_motion import ArcMotion
-from graphcam.mechanism.arcs import ThreeArcCam
 from graphcam.mechanism.kinematics import Values
+from graphcam.mechanism.three_arc_cam import ThreeArcCam
 from graphcam.showing import by_parts
 
-POINTS = ("C1", "C2", "C3", "F")
-JOINTS = ("a_A", "a_G_before", "a_G_after", "a_F_before", "a_F_after", "a_D")
+POINT_NAMES = ("C1", "C2", "C3", "F")
+JOINT_READINGS = ("a_A", "a_G_before", "a_G_after", "a_F_before", "a_F_after", "a_D")
 """The accelerations at the two ends of every arc, in order."""
 
 
@@ -46,7 +46,7 @@ class ArcsComparison:
         """The exact counterparts by name, in the order in which they are told."""
         cam, motion = self.cam, self.motion
         steepest, radii = math.degrees(motion.max_pressure_angle()[0]), (cam.rho1, cam.rho2, cam.rho3)
-        joints = zip(JOINTS, product(range(3), (0.0, 1.0)), strict=True)
+        joints = zip(JOINT_READINGS, product(range(3), (0.0, 1.0)), strict=True)
         return {
             "max_v": motion.max_velocity()[0],
             "max_a": motion.max_acceleration()[0],
@@ -56,7 +56,7 @@ class ArcsComparison:
             "max_pressure_angle_return_deg": -steepest,
             "min_pitch_curvature_radius": min(motion.prime_radius, *(rho + motion.roller_radius for rho in radii)),
             **{name: getattr(motion, name) for name in ("roller_radius", "lift", "prime_radius")},
-            **{f"{name}_{axis}": float(getattr(cam, name)[k]) for name in POINTS for k, axis in enumerate("xy")},
+            **{f"{name}_{axis}": float(getattr(cam, name)[k]) for name in POINT_NAMES for k, axis in enumerate("xy")},
             **{name: getattr(cam, name) for name in ("rho2", "rho3")},
             **{f"phi_{name}_deg": math.degrees(motion.edges[k]) for k, name in enumerate("GFD", 1)},
             **{name: float(motion.at(np.array(arc), np.array(u))[1][2]) for name, (arc, u) in joints},

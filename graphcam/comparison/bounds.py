@@ -32,15 +32,15 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.showing import by_parts
 
-FINER = (2, 3, 5)
+REFINEMENTS = (2, 3, 5)
 """The numbers of parts into which every part is divided for the redrawings."""
-CHANGE_TO_ERROR = 2.5
+CHANGE_TO_ERROR_FACTOR = 2.5
 """The bound is this many times the greatest change by a redrawing."""
-DEVIATIONS = 3.0
+DEVIATION_COUNT = 3.0
 """A hand is granted so many standard deviations."""
-HANDS = 400
-"""How many hands draw for the scatter; its own relative error is 1/sqrt(2 HANDS), about 4 %."""
-ARITHMETIC = 1e-9
+HAND_COUNT = 400
+"""How many hands draw for the scatter; its own relative error is 1/sqrt(2 HAND_COUNT), about 4 %."""
+ARITHMETIC_ERROR = 1e-9
 """What rounding of the arithmetic may move on the paper [mm]."""
 
 
@@ -79,7 +79,7 @@ class Bounds:
     @cached_property
     def finer(self) -> list[Redrawable]:
         """The redrawings with more parts, of the same cam."""
-        return [self.drawn.redrawn(refine=k) for k in FINER]
+        return [self.drawn.redrawn(refine=k) for k in REFINEMENTS]
 
     @cached_property
     def hands(self) -> Redrawable | None:
@@ -87,11 +87,11 @@ class Bounds:
         pencil = self.drawn.pencil
         if pencil.perfect:
             return None
-        return self.drawn.redrawn(pencil=replace(pencil, samples=pencil.samples or HANDS))
+        return self.drawn.redrawn(pencil=replace(pencil, samples=pencil.samples or HAND_COUNT))
 
     def of(self, construction: str, reading: str) -> Floats:
         """How far the reading may be off, on the paper it was read from [mm; an angle: rad]."""
-        return self._of(construction, reading) / self._per_mm(construction, reading) + ARITHMETIC
+        return self._of(construction, reading) / self._per_mm(construction, reading) + ARITHMETIC_ERROR
 
     def of_choice(self, construction: str, candidates: str, ranks: Sequence[Rank]) -> float:
         """The bound for the candidate of highest rank among several that are read as ``candidates`` (..., k).
@@ -109,11 +109,11 @@ class Bounds:
             least, chosen, most = rank(highest)
             far.append(np.abs([least - chosen, most - chosen]))
         bound = float(np.max(np.fmin.reduce(far))) / self._per_mm(construction, candidates)
-        return bound + ARITHMETIC if np.isfinite(bound) else float("nan")
+        return bound + ARITHMETIC_ERROR if np.isfinite(bound) else float("nan")
 
     def at_stations(self, construction: str, reading: str) -> Floats:
         """How far a reading at each station may be off, (m,) in machine units."""
-        rounding = ARITHMETIC * self._per_mm(construction, reading)
+        rounding = ARITHMETIC_ERROR * self._per_mm(construction, reading)
         return self._of(construction, reading, stations=True) + rounding
 
     def _per_mm(self, construction: str, reading: str) -> float:
@@ -123,18 +123,18 @@ class Bounds:
         """The bound of the ranks in machine units, shaped like one drawing's reading; NaN where nothing is readable."""
         here: Floats = rank(np.asarray(self.perfect[construction].value(reading)))
         changes: list[Floats] = []
-        for k, drawing in zip(FINER, self.finer, strict=True):
+        for k, drawing in zip(REFINEMENTS, self.finer, strict=True):
             finer = rank(np.asarray(drawing[construction].value(reading)))
             if stations:  # a phase's stations stand k apart among its finer ones
                 finer = np.concatenate([finer[span][::k] for span in drawing.spans])
             # Infinite in both is no change.
             changes.append(np.abs(np.subtract(finer, here, out=np.zeros_like(here), where=finer != here)))
         # fmax, because too fine parts may leave a reading unreadable: then the other redrawings speak.
-        change = CHANGE_TO_ERROR * np.fmax.reduce(changes)
+        change = CHANGE_TO_ERROR_FACTOR * np.fmax.reduce(changes)
         if self.hands is None:
             return change
         values = np.ma.masked_invalid(rank(self.hands[construction].readings[reading].value))  # unreadable for a hand
-        return change + np.ma.filled(np.abs(values.mean(axis=0) - here) + DEVIATIONS * values.std(axis=0), np.nan)
+        return change + np.ma.filled(np.abs(values.mean(axis=0) - here) + DEVIATION_COUNT * values.std(axis=0), np.nan)
 
 
 @dataclass(frozen=True)
@@ -178,15 +178,15 @@ class ErrorBudget:
     def hands(self) -> Mapping[Kind | None, Redrawable]:
         """The drawings by many hands: with all their errors, and with those of every kind of act in which they err."""
         erring = [kind for kind, slips in SLIPS.items() if any(self.pencil.deviation(kind, what) for what in slips)]
-        by = replace(self.pencil, samples=self.pencil.samples or HANDS)
+        by = replace(self.pencil, samples=self.pencil.samples or HAND_COUNT)
         alone = {kind: self.drawn.redrawn(pencil=replace(by, only=frozenset({kind}))) for kind in erring}
         return {None: self.drawn.redrawn(pencil=by), **alone}
 
     def of(self, construction: str, reading: str) -> Shares:
         """What makes a reading scatter; NaN where no hand can read it, or it does not scatter."""
-        off = np.ma.masked_invalid([self._off(by, construction, reading) for by in self.hands.values()])
+        off = np.ma.masked_invalid([self._deviations(by, construction, reading) for by in self.hands.values()])
         off = np.ma.array(off.data, mask=np.broadcast_to(off.mask.any(axis=0), off.shape))  # in any of its drawings
-        variances, rest = off.var(axis=1).filled(0.0), (off[0] - off[1:].sum(axis=0)).var(axis=0).filled(0.0)
+        variances, rest = off.var(axis=1).fill(0.0), (off[0] - off[1:].sum(axis=0)).var(axis=0).fill(0.0)
         most = int(np.argmax(variances[0]))
         kinds, left = variances[1:, most], rest[most]
         with np.errstate(invalid="ignore"):
@@ -195,7 +195,7 @@ class ErrorBudget:
         alone = [kind for kind in self.hands if kind]
         return Shares(deviation, dict(zip(alone, parts.tolist(), strict=True)), float(together))
 
-    def _off(self, hands: Redrawable, construction: str, reading: str) -> Floats:
+    def _deviations(self, hands: Redrawable, construction: str, reading: str) -> Floats:
         """How far every hand is off (samples, m), in machine units; of angles the turn that is less than half a one."""
         here, read = (each[construction].readings[reading] for each in (self.perfect, hands))
         with np.errstate(invalid="ignore"):

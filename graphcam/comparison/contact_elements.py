@@ -20,19 +20,19 @@ from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, installed
 from graphcam.given.laws import Floats
-from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG
+from graphcam.given.roller_contact import STEEL_POISSON_RATIO, STEEL_YOUNG_MODULUS
 from graphcam.mechanism.hertz import LineContact, hertz_line_contact
 from graphcam.words import say
 
-ABREAST, DEEP = 1.5, 2.0
+MESH_HALF_WIDTH, MESH_DEPTH = 1.5, 2.0
 """Half-widths of the contact, to the side and into the depth, over which the mesh is even."""
-COARSER = 1.15
+MESH_GROWTH = 1.15
 """The growth from element to element beyond the even mesh."""
-REACH = 0.8
+MESHED_SHARE = 0.8
 """Share of the smaller radius that is meshed: a profile over more of it would stand upright."""
-MOST_FLAT = 0.2
+MAX_HALF_WIDTH = 0.2
 """Share of the smaller radius that the half-width may be; beyond, nothing about it is a line contact."""
-FEWEST = 4
+MIN_ELEMENTS = 4
 """Elements over the half-width: with fewer there is no distribution of a pressure."""
 
 
@@ -97,8 +97,8 @@ def contact_by_elements(
     width: float,
     radius1: float,
     radius2: float,
-    young: float = STEEL_YOUNG,
-    poisson: float = STEEL_POISSON,
+    young: float = STEEL_YOUNG_MODULUS,
+    poisson: float = STEEL_POISSON_RATIO,
     parts: int = 20,
 ) -> ElementContact:
     """The contact of two cylinders of one material with parallel axes; it needs the extra ``fem``.
@@ -123,18 +123,18 @@ def contact_by_elements(
         raise DesignError("force", force, say("a finite number greater than 0 N"))
     if not poisson < 0.5:
         raise DesignError("poisson", poisson, say("less than 0.5"), say("what keeps its volume needs another element"))
-    if parts < FEWEST:
-        raise DesignError("parts", parts, say("{least} elements over the half-width or more", least=FEWEST))
+    if parts < MIN_ELEMENTS:
+        raise DesignError("parts", parts, say("{least} elements over the half-width or more", least=MIN_ELEMENTS))
     hertz = hertz_line_contact(force, width, radius1, radius2, young, young, poisson, poisson)
-    reach = REACH * min(abs(radius1), abs(radius2))
-    if not hertz.half_width < MOST_FLAT * reach / REACH:
+    reach = MESHED_SHARE * min(abs(radius1), abs(radius2))
+    if not hertz.half_width < MAX_HALF_WIDTH * reach / MESHED_SHARE:
         expected = say("such that the half-width {half_width:.3g} mm is less than {most:g} of the radius")
-        expected = expected.where(half_width=hertz.half_width, most=MOST_FLAT)
+        expected = expected.where(half_width=hertz.half_width, most=MAX_HALF_WIDTH)
         raise DesignError("force", force, expected, say("reduce the force, or widen the contact"))
-    x = _graded(ABREAST * hertz.half_width, round(ABREAST * parts), reach)
-    depth = _graded(DEEP * hertz.half_width, round(DEEP * parts), reach)
+    x = _graded(MESH_HALF_WIDTH * hertz.half_width, round(MESH_HALF_WIDTH * parts), reach)
+    depth = _graded(MESH_DEPTH * hertz.half_width, round(MESH_DEPTH * parts), reach)
     bodies = [_Body(radius, young, poisson, x, depth) for radius in (radius1, radius2)]
-    near = x[: round(ABREAST * parts)]
+    near = x[: round(MESH_HALF_WIDTH * parts)]
     yielding = bodies[0].yielding(near.size) + bodies[1].yielding(near.size)
     loads = _loads(yielding, _gap(radius1, near) + _gap(radius2, near), force / width)
     steps = np.diff(x[: near.size + 1])
@@ -153,8 +153,8 @@ def _graded(even: float, count: int, reach: float) -> Floats:
     """Places from 0 to the reach: evenly so many at first, then ever farther apart."""
     fine = np.linspace(0, even, count + 1)
     step = even / count
-    growing = math.ceil(math.log1p((reach - even) / step * (COARSER - 1) / COARSER) / math.log(COARSER))
-    beyond = np.cumsum(COARSER ** np.arange(1, growing + 1))
+    growing = math.ceil(math.log1p((reach - even) / step * (MESH_GROWTH - 1) / MESH_GROWTH) / math.log(MESH_GROWTH))
+    beyond = np.cumsum(MESH_GROWTH ** np.arange(1, growing + 1))
     return np.append(fine, even + (reach - even) * beyond / beyond[-1])
 
 

@@ -35,14 +35,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats, law as law_of
-from graphcam.given.motion import Motion, Moving
+from graphcam.given.motion import Motion, MovingPhase
 from graphcam.given.motion_law import Law
 from graphcam.given.stations import Stations
-from graphcam.mechanism.stationary import max_acceleration, max_velocity
+from graphcam.mechanism.turn_extremes import max_acceleration, max_velocity
 
 _PI = math.pi
 _RAMP, _SINE = 128 * _PI**3 / (2 + _PI), 64 * _PI**4 / (4 + _PI)
-FIFTH = {
+FIFTH_DERIVATIVES = {
     "rectangular": ((0.0,), ()),
     "triangular": ((0.0, 0.0), (0.0,)),
     "cosine": ((_PI**5 / 2,), ()),
@@ -89,19 +89,19 @@ class Chords:
         return s / least, v / least, np.abs(f2) * (abs(end) + rest) / least
 
 
-def known(law: Law) -> bool:
+def has_known_derivatives(law: Law) -> bool:
     """Whether the derivatives of a law are known: of those that graphcam names, not of one's own or a measured one.
 
-    >>> known(law_of("cosine"))
+    >>> has_known_derivatives(law_of("cosine"))
     True
     """
-    return law.name in FIFTH and law in ((named := law_of(law.name, law.ratio)), named.reversed)
+    return law.name in FIFTH_DERIVATIVES and law in ((named := law_of(law.name, law.ratio)), named.reversed)
 
 
 def chords(law: Law, u: Floats) -> Chords:
-    """How far the chords of a law that is :func:`known` are off at the divisions u, from 0 to 1."""
+    """How far the chords of a law that is :func:`has_known_derivatives` are off at the divisions u, from 0 to 1."""
     w, after, before = np.diff(u), law(u[:-1]), law(u[1:], side="left")
-    greatest, inner = (np.array([*half, *half[::-1]]) for half in FIFTH[law.name])
+    greatest, inner = (np.array([*half, *half[::-1]]) for half in FIFTH_DERIVATIVES[law.name])
     # At the middle f'''' of a mirrored law, which is odd about it, does not jump; that of the rectangular law is zero.
     bends = np.insert(inner, inner.size // 2, 0.0)
     first, last = np.searchsorted(law.edges, u[:-1], "right"), np.searchsorted(law.edges, u[1:], "left")
@@ -141,9 +141,11 @@ def proved_bounds(motion: Motion, stations: Stations) -> dict[str, float]:
     >>> {name: round(bound, 9) for name, bound in proved_bounds(chain.board.motion, chain.board.stations).items()}
     {'max_v': 0.0, 'max_a': 0.0}
     """
-    phases = [phase for phase in motion.phases if isinstance(phase, Moving)]
+    phases = [phase for phase in motion.phases if isinstance(phase, MovingPhase)]
     directions = [phase.direction for phase in phases]
-    if directions != sorted(directions, reverse=True) or not all(known(phase.normalised) for phase in phases):
+    if directions != sorted(directions, reverse=True) or not all(
+        has_known_derivatives(phase.normalised) for phase in phases
+    ):
         return {}
     divisions = [stations.u[span] for span in stations.phases]
     drawn = [chords(p.normalised, u) for p, u in zip(phases, divisions, strict=True)]

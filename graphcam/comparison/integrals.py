@@ -5,15 +5,15 @@ from numpy.typing import ArrayLike
 
 from graphcam.given.laws import Floats
 
-BLOCK = 16384
+BLOCK_SIZE = 16384
 """Values whose plain running sum is taken: it stays in a cache of the processor, and its rounding small."""
 
 
 def accurate_cumsum(values: ArrayLike) -> Floats:
     """The running sums of (n,) values, the last one to 4 eps of itself for values of one sign.
 
-    Blocks of :data:`BLOCK` are summed up one by one; their totals, which numpy adds pairwise, are carried on with what
-    rounding took from them.
+    Blocks of :data:`BLOCK_SIZE` are summed up one by one; their totals, which numpy adds pairwise, are carried on with
+    what rounding took from them.
 
     numpy's own running sum sets the floor: each addition waits for the one before, and the result is new memory.  It
     takes 3.3 copies of ten million values, of which filling that memory takes 1.3; the blocks take 0.7 beside it.
@@ -26,8 +26,8 @@ def accurate_cumsum(values: ArrayLike) -> Floats:
     values = np.asarray(values, dtype=np.float64)
     sums = np.empty_like(values)
     high = low = 0.0
-    for start in range(0, values.size, BLOCK):
-        here = slice(start, start + BLOCK)
+    for start in range(0, values.size, BLOCK_SIZE):
+        here = slice(start, start + BLOCK_SIZE)
         np.cumsum(values[here], out=sums[here])
         sums[here] += high + low
         total = float(np.sum(values[here]))

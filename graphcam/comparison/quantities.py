@@ -10,7 +10,7 @@ import numpy as np
 
 from graphcam.comparison.bounds import Bounds
 from graphcam.comparison.double_integration import proved_bounds
-from graphcam.comparison.speed import PhaseAtSpeed, at_speed
+from graphcam.comparison.phase_speeds import PhaseAtSpeed, at_speed
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.meaning import Compared
@@ -19,7 +19,7 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam, CamPoints
 from graphcam.mechanism.flat_faced import face_width
 from graphcam.mechanism.least_radius import minimum_radius
-from graphcam.mechanism.stationary import max_acceleration, max_jerk, max_velocity
+from graphcam.mechanism.turn_extremes import max_acceleration, max_jerk, max_velocity
 from graphcam.showing import by_parts
 from graphcam.words import Caption, say, sequence
 
@@ -169,7 +169,9 @@ def quantities_of(
         for reading, said in construction.meaning.compared
     ]
     nan, there = math.nan, {quantity.name for _, quantity in found}
-    missing = {name: Quantity(name, sequence([name]), nan, nan, unit, nan, nan) for name, unit in EVERYWHERE.items()}
+    missing = {
+        name: Quantity(name, sequence([name]), nan, nan, unit, nan, nan) for name, unit in COMMON_QUANTITIES.items()
+    }
     found += [(name, quantity) for name, quantity in missing.items() if name not in there]
     order = list(exact)
     return {quantity.name: quantity for _, quantity in sorted(found, key=lambda pair: order.index(pair[0]))}
@@ -188,7 +190,7 @@ def _quantity(
     if counterpart not in exact:
         raise DesignError(say("exact counterpart"), counterpart, say("one of {names}", names=", ".join(exact)))
     read = construction.readings[said.sides or reading]
-    factor, unit = (DEGREES, "deg") if read.unit == "rad" else (1.0, read.unit)
+    factor, unit = (DEGREES_PER_RADIAN, "deg") if read.unit == "rad" else (1.0, read.unit)
     factor *= said.sign
     side = (side_of(exact[counterpart]),) if said.sides else ()
     if said.candidates:
@@ -207,8 +209,8 @@ def side_of(extreme: float) -> int:
     return 0 if extreme >= 0 else 1
 
 
-DEGREES = math.degrees(1.0)
-EVERYWHERE: Mapping[str, str] = {
+DEGREES_PER_RADIAN = math.degrees(1.0)
+COMMON_QUANTITIES: Mapping[str, str] = {
     **dict.fromkeys(("minimum_prime_radius", "minimum_offset", "roller_radius"), "mm"),
     **dict.fromkeys(("max_pressure_angle_rise_deg", "max_pressure_angle_return_deg"), "deg"),
 }

@@ -18,21 +18,21 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.axes import (
     degrees,
+    joined_parts,
     numbers,
     part_titles,
     phase_ends,
     phase_names,
     phase_title,
     station_names,
-    together,
 )
-from graphcam.constructions.graduation import axis_said
+from graphcam.constructions.graduation import time_axis_caption
 from graphcam.constructions.law_names import law_name
 from graphcam.constructions.turn_board import TurnGivens
 from graphcam.constructions.views import ACCELERATION
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, between, showing
+from graphcam.drafting.hand import Hand, distance_between, showing
 from graphcam.drafting.ink import Construction, Part, Step, say
 from graphcam.drafting.marks import Dimension, Role, Segments
 from graphcam.drafting.meaning import LIFT, MU_PHI, Formula, Meaning, ReadingMeaning, Symbol, Values
@@ -40,8 +40,8 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.telling import FRENCH_CURVE, RULER, led_by
 from graphcam.given.laws import Floats, Side
-from graphcam.given.motion import FULL_TURN, Motion, Moving
-from graphcam.given.spline_law import MEASURED
+from graphcam.given.motion import FULL_TURN, Motion, MovingPhase
+from graphcam.given.spline_law import MEASURED_LAW
 from graphcam.given.stations import Stations
 from graphcam.words import Caption, joined, sequence
 
@@ -133,7 +133,7 @@ def acceleration_diagram(
 
     origin, u, left = hand.given("origin"), stations.u, stations.left
     turn = hand.lay_off("turn", origin, RIGHT, FULL_TURN / mu_phi.per_mm)
-    axis, begins = _divided(hand, origin, stations, mu_phi), [span.start for span in stations.phases]
+    axis, begins = _station_ticks(hand, origin, stations, mu_phi), [span.start for span in stations.phases]
 
     def ordinates(u: Floats, phase: NDArray[np.intp], side: Side = "right") -> Floats:
         """The given ordinates at fractions of phases."""
@@ -143,25 +143,25 @@ def acceleration_diagram(
     after, before = ordinates(u, stations.phase), ordinates(u, stations.phase, "left")
     plotted = hand.lay_off("stations", axis, UP, after)
     # Where the acceleration jumps a second ordinate stands on the near side.
-    jumps = np.flatnonzero(np.abs(after - before) > LEVEL * ordinate)
+    jumps = np.flatnonzero(np.abs(after - before) > SAME_ORDINATE * ordinate)
     near = hand.lay_off("before the jumps", axis[jumps], UP, before[jumps])
     which = np.arange(u.size)
     which[jumps] = u.size + np.arange(jumps.size)
     middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
     middle = hand.lay_off("middles", middles, UP, ordinates((u[left] + u[left + 1]) / 2, stations.phase[left]))
-    hand.read("greatest", between(axis[begins], tops, UP), 1.0, rounded=False)
+    hand.read("greatest", distance_between(axis[begins], tops, UP), 1.0, rounded=False)
     nearer = hand.take("before", plotted, near, which=which)
     for name, ends in (("stations", plotted), ("before", nearer)):
-        hand.read(name, between(axis, ends, UP), 1.0, "mm of paper", rounded=False)
-    hand.read("middles", between(middles, middle, UP), 1.0, rounded=False)
-    hand.read("base", between(origin, turn), mu_phi.per_mm, rounded=False)
+        hand.read(name, distance_between(axis, ends, UP), 1.0, "mm of paper", rounded=False)
+    hand.read("middles", distance_between(middles, middle, UP), 1.0, rounded=False)
+    hand.read("base", distance_between(origin, turn), mu_phi.per_mm, rounded=False)
     # What a chord between neighbouring stations is drawn from and to.
     plotted, nearer = hand.take("plotted", plotted), hand.take("near side", nearer)
     givens = TurnGivens(motion, stations, ordinate, mu_phi, unit, omega=omega)
     return hand.finished(givens, _draw, {"axis": axis, "plotted": plotted, "near side": nearer})
 
 
-def _divided(hand: Hand, origin: Drawn, stations: Stations, mu_phi: Scale) -> Drawn:
+def _station_ticks(hand: Hand, origin: Drawn, stations: Stations, mu_phi: Scale) -> Drawn:
     """The stations on the axis: the phases are laid off, and each of their stretches is divided into equal parts."""
     bounds = np.array([[stretch.start, stretch.stop - 1] for stretch in stations.stretches])
     places, at = np.unique(stations.phi[bounds], return_inverse=True)
@@ -173,10 +173,10 @@ def _divided(hand: Hand, origin: Drawn, stations: Stations, mu_phi: Scale) -> Dr
     return hand.divide("axis", cuts[start], cuts[end], share)
 
 
-def moving_phases(motion: Motion, stations: Stations) -> list[Moving]:
+def moving_phases(motion: Motion, stations: Stations) -> list[MovingPhase]:
     """The rises and returns that the stations divide, in order."""
     phases = [motion.phases[k] for k in stations.phase[stations.last]]
-    return [phase for phase in phases if isinstance(phase, Moving)]
+    return [phase for phase in phases if isinstance(phase, MovingPhase)]
 
 
 def equal_parts(stations: Stations) -> Caption:
@@ -186,7 +186,7 @@ def equal_parts(stations: Stations) -> Caption:
     return say("equal between jumps and corners of the acceleration")
 
 
-def _shape(phase: Moving, u: Floats, side: Side = "right") -> Floats:
+def _shape(phase: MovingPhase, u: Floats, side: Side = "right") -> Floats:
     """The given ordinates of a law as fractions of its greatest; a return begins downwards."""
     return phase.direction * phase.normalised(u, side=side)[2] / phase.normalised.peak_acceleration
 
@@ -223,7 +223,7 @@ def _by_their_laws(laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> tu
         "Over each moving phase draw the acceleration by its law: {laws}. Ordinates above the axis are positive; "
         "at a jump the line is vertical."
     ).where(laws=sequence(named))
-    if all(law.phase.normalised.name == MEASURED for law in laws):
+    if all(law.phase.normalised.name == MEASURED_LAW for law in laws):
         told = say(
             "The motion is a table, which has no law: its acceleration is that of the smoothed table, as under "
             "“{section}”. Ordinates above the axis are positive."
@@ -240,7 +240,7 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
         "With T-square and ruler draw a horizontal line {length:.1f} mm long for one revolution, so 1 mm is "
         "{degree:.4g}° and μᵩ = {mu:.5f} rad/mm."
     ).where(length=ends[-1], degree=np.degrees(mu_phi.per_mm), mu=mu_phi.per_mm)
-    level = level if omega is None else sequence([level, axis_said(mu_phi, omega)], " ")
+    level = level if omega is None else sequence([level, time_axis_caption(mu_phi, omega)], " ")
     upright = say(
         "From its left end set off {ends} mm with the ruler, where the phases end, and draw a vertical at each with "
         "the set square."
@@ -282,7 +282,7 @@ class _LawOverPhase:
     """A moving phase on the paper: its name, its largest ordinate [mm] and its ends on the axis [mm]."""
 
     title: Caption
-    phase: Moving
+    phase: MovingPhase
     greatest: float
     ends: tuple[float, float]
 
@@ -292,7 +292,7 @@ class _LawOverPhase:
         for first, last in pairwise((0.0, *sorted((*law.jumps, *law.corners)), 1.0)):
             u = np.linspace(first, last, 97)
             height = self.greatest * np.append(_shape(self.phase, u[:-1]), _shape(self.phase, u[-1:], "left"))
-            straight = np.abs(height - np.linspace(height[0], height[-1], u.size)).max() < LEVEL * self.greatest
+            straight = np.abs(height - np.linspace(height[0], height[-1], u.size)).max() < SAME_ORDINATE * self.greatest
             shown = [0, -1] if straight else slice(None)
             yield self.ends[0] + (self.ends[1] - self.ends[0]) * u[shown], height[shown]
 
@@ -306,7 +306,7 @@ class _LawOverPhase:
         """The ordinates that the curve is drawn through."""
         branches = list(self.branches())
         curved = any(x.size > 2 for x, _ in branches)
-        branches = [(x, y) if x.size == 2 else (x[::PLOTTED], y[::PLOTTED]) for x, y in branches]
+        branches = [(x, y) if x.size == 2 else (x[::PLOTTED_STEP], y[::PLOTTED_STEP]) for x, y in branches]
         # What is nothing has no sign; a corner, where one branch goes on from another, is one point.
         ends = [(a, b + 0.0) for x, y in branches for a, b in zip(x, np.round(y, 1), strict=True)]
         ends = [end for end, before in zip(ends, (None, *ends), strict=False) if end != before]
@@ -361,7 +361,7 @@ def _divided_phase(diagram: AccelerationDiagram, k: int) -> Iterator[Part]:
     for start, stop in ((s.start, s.stop - 1) for s in stations.stretches if span.start <= s.start < span.stop):
         first = runs[-1][0] if runs else start
         # Stretches whose parts are as wide as the last ones' go on with these.
-        if runs and abs((x[stop] - x[start]) / (stop - start) - (x[first + 1] - x[first])) < ALIKE:
+        if runs and abs((x[stop] - x[start]) / (stop - start) - (x[first + 1] - x[first])) < SAME_LENGTH:
             runs[-1] = (first, stop)
         else:
             runs.append((start, stop))
@@ -377,11 +377,11 @@ def _divided_phase(diagram: AccelerationDiagram, k: int) -> Iterator[Part]:
     yield Part(divided.where(**values), (diagram.acts["axis"].first[span],))
     heights: list[list[int]] = []
     for part in range(own.start, own.stop):
-        if heights and abs(ordinates[part] - ordinates[heights[-1][0]]) < ALIKE:
+        if heights and abs(ordinates[part] - ordinates[heights[-1][0]]) < SAME_LENGTH:
             heights[-1].append(part)
         else:
             heights.append([part])
-    told = [say("{parts}: {y:z.1f}", parts=together(same, stations), y=ordinates[same[0]]) for same in heights]
+    told = [say("{parts}: {y:z.1f}", parts=joined_parts(same, stations), y=ordinates[same[0]]) for same in heights]
     raised = say(
         "Over {phase} draw a thin ordinate at the middle of each part up to the curve with the set square, in mm: "
         "{ordinates}."
@@ -390,7 +390,7 @@ def _divided_phase(diagram: AccelerationDiagram, k: int) -> Iterator[Part]:
     yield Part(raised.where(phase=title, ordinates=sequence(told, "; ")), lines)
 
 
-BESIDE = 6.0
+DIMENSION_OFFSET = 6.0
 """The dimension of the greatest ordinate stands so far beyond the part of the curve that is on its side [mm]."""
 
 
@@ -400,17 +400,17 @@ def _dimension(diagram: AccelerationDiagram, k: int, law: _LawOverPhase, curve: 
     side = float(np.sign(line.imag[np.argmax(np.abs(line.imag))]))
     height = side * line.imag
     # A curve is drawn through points, of which none need be its highest.
-    top = complex(line.real[np.flatnonzero(height >= (1 - LEVEL) * height.max())[-1]], side * law.greatest)
-    crossing = float(line.real[np.flatnonzero(height > LEVEL * height.max())[-1]])
-    by = crossing + min(BESIDE, (float(line.real[-1]) - crossing) / 2) - top.real
+    top = complex(line.real[np.flatnonzero(height >= (1 - SAME_ORDINATE) * height.max())[-1]], side * law.greatest)
+    crossing = float(line.real[np.flatnonzero(height > SAME_ORDINATE * height.max())[-1]])
+    by = crossing + min(DIMENSION_OFFSET, (float(line.real[-1]) - crossing) / 2) - top.real
     # To the right of an ordinate that points up is on the negative side of its dimension.
     aside, text = -by if top.imag > 0 else by, say("{y:.1f}", y=law.greatest)
     return Dimension(complex(top.real), top, text, aside, of=of.act, index=of.index[[k]])
 
 
-PLOTTED = 8
+PLOTTED_STEP = 8
 """Of the 97 points of a branch of a law every eighth is told."""
-ALIKE = 5e-3
+SAME_LENGTH = 5e-3
 """Lengths [mm] that differ by less are told as one."""
-LEVEL = 1e-6
+SAME_ORDINATE = 1e-6
 """Ordinates that differ by less than this part of the greatest are one."""

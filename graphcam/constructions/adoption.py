@@ -15,7 +15,7 @@ ROUNDING_SLACK = 1e-9
 """A reading this close to a multiple, in parts of it, is that multiple."""
 
 
-SAME = 1e-4
+SAME_RADIUS = 1e-4
 """A radius that differs by less, in parts of it, is told as the same."""
 
 
@@ -156,7 +156,7 @@ def _against(adopted: Adoption, least: float) -> Caption:
     r0 = adopted.prime_radius
     if math.isnan(least):
         told = say("The task gives r₀ = {r0:g} mm.") if adopted.given else say("Take r₀ = {r0:g} mm.")
-    elif math.isclose(r0, least, rel_tol=SAME):
+    elif math.isclose(r0, least, rel_tol=SAME_RADIUS):
         told = say("Take r₀ = {r0:g} mm, which is the minimum permitted radius itself.")
     elif adopted.given and r0 < least:
         told = say(

@@ -11,7 +11,7 @@ from graphcam.constructions.pressure_angle import MeasuredAngles
 from graphcam.constructions.views import ANGLE
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.hand import Hand, between, showing
+from graphcam.drafting.hand import Hand, distance_between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, Words, say
 from graphcam.drafting.marks import Mark, Role
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
@@ -79,7 +79,7 @@ def angle_diagram(
     farther = {phase: np.argmax(np.abs(both.points.imag), axis=-1)[..., None] for phase, both in ends.items()}
     places = {f"max_{phase}": hand.take(f"max_{phase}", ends[phase], which=farther[phase])[0] for phase in ends}
     for name, read in (places | {f"{phase}_candidates": both for phase, both in ends.items()}).items():
-        hand.read(name, between(origin, read, UP), mu_alpha.per_mm, "rad")
+        hand.read(name, distance_between(origin, read, UP), mu_alpha.per_mm, "rad")
     return hand.finished(AngleDiagramGivens(measured, mu_alpha, limits), _draw, {"curve": curve, **places})
 
 
@@ -143,13 +143,16 @@ def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
     marks, parts, inner_marks, inner_parts = list[Mark](), list[Part](), list[Mark](), list[Part]()
     for name, said, limit in (("max_rise", _ON_THE_RISE, limits.rise), ("max_return", _ON_THE_RETURN, limits.return_)):
         top, alpha = plotted.acts[name].first, float(np.degrees(plotted.value(name)))
-        marks += [top.dots(Role.LIMIT), top.label(say("{alpha:.1f}°", alpha=alpha), _outward(top))]
-        compared = _NO_LIMIT if limit is None else _compared(abs(alpha), limit, plotted.givens.mu_alpha)
+        marks += [top.dots(Role.LIMIT), top.label(say("{alpha:.1f}°", alpha=alpha), _away_from_axis(top))]
+        compared = _NO_LIMIT if limit is None else _limit_remark(abs(alpha), limit, plotted.givens.mu_alpha)
         parts.append(Part(said.where(y=top.place.imag, alpha=alpha, compared=compared), (top,)))
         if other := inside(plotted, name.removeprefix("max_")):
             beside = float(np.degrees(plotted.givens.mu_alpha.per_mm)) * other.place.imag
-            inner_marks += [other.dots(Role.LIMIT), other.label(say("{alpha:.1f}°", alpha=beside), _outward(other))]
-            inner_parts.append(Part(_INSIDE[name].where(y=other.place.imag, alpha=beside), (other,)))
+            inner_marks += [
+                other.dots(Role.LIMIT),
+                other.label(say("{alpha:.1f}°", alpha=beside), _away_from_axis(other)),
+            ]
+            inner_parts.append(Part(_INSIDE_CAPTIONS[name].where(y=other.place.imag, alpha=beside), (other,)))
     found = say(
         "Slide the T-square up and down to the curve until it touches, over the rises and over the returns, and read "
         "the point farthest from the axis."
@@ -161,20 +164,20 @@ def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
     return Step(title, (*led_by(found, parts), *inner_parts), ANGLE, (*marks, *inner_marks), reads, why=why)
 
 
-def _outward(top: Drawn) -> complex:
+def _away_from_axis(top: Drawn) -> complex:
     return complex(np.sign(top.place.imag) * UP)
 
 
-def _compared(size: float, limit: float, mu_alpha: Scale) -> Caption:
+def _limit_remark(size: float, limit: float, mu_alpha: Scale) -> Caption:
     """An angle [degrees] against its limit [rad]."""
     beyond = mu_alpha.paper(np.radians(size) - limit)
-    said = _KEPT if beyond < -PENCIL_LINE else _JUST if beyond <= PENCIL_LINE else _PASSED
+    said = _WITHIN_LIMIT if beyond < -PENCIL_LINE else _AT_LIMIT if beyond <= PENCIL_LINE else _BEYOND_LIMIT
     return said.where(size=size, limit=float(np.degrees(limit)))
 
 
 _ON_THE_RISE = say("On the rise the farthest point of the curve is at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
 _ON_THE_RETURN = say("On the return the farthest point of the curve is at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
-_INSIDE = {
+_INSIDE_CAPTIONS = {
     "max_rise": say(
         "That of the rise is at an end of the phase; inside it, on the other side of the axis, the farthest point is "
         "at {y:.2f} mm, so α = {alpha:.2f}°."
@@ -184,7 +187,7 @@ _INSIDE = {
         "is at {y:.2f} mm, so α = {alpha:.2f}°."
     ),
 }
-_KEPT = say("{size:.2f}° < {limit:.4g}°, within the limit")
-_JUST = say("equal to the limit of {limit:.4g}° within drawing accuracy")
-_PASSED = say("{size:.2f}° > {limit:.4g}°, the limit is exceeded")
+_WITHIN_LIMIT = say("{size:.2f}° < {limit:.4g}°, within the limit")
+_AT_LIMIT = say("equal to the limit of {limit:.4g}° within drawing accuracy")
+_BEYOND_LIMIT = say("{size:.2f}° > {limit:.4g}°, the limit is exceeded")
 _NO_LIMIT = say("a spring drives the return, so the angle is not limited")

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from graphcam.constructions.arc_diagrams import HEIGHTS, arc_diagrams
+from graphcam.constructions.arc_diagrams import DIAGRAM_HEIGHTS, arc_diagrams
 from graphcam.constructions.arc_outline import ARCS, three_arcs
 from graphcam.constructions.arc_profile import ArcStations, divide_arcs
 from graphcam.constructions.arc_roller import arc_roller
@@ -17,7 +17,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import UNLIMITED, Paper, Scale, coarsest, standard_scale
 from graphcam.given.three_arcs import ThreeArcs
 
-AROUND_CENTRES = complex(40.0, 50.0)
+CENTRES_ROOM = complex(40.0, 50.0)
 """What letters, axes and the title need about the cam and its centres [mm of paper]."""
 
 
@@ -43,7 +43,7 @@ class ArcBoard:
     paper: Paper
     extent: complex = 0j
     page: Paper = UNLIMITED
-    heights: Mapping[str, float] = field(default_factory=lambda: HEIGHTS)
+    heights: Mapping[str, float] = field(default_factory=lambda: DIAGRAM_HEIGHTS)
     omega: float | None = None
 
     @property
@@ -57,7 +57,7 @@ class ArcBoard:
         outer = math.hypot(*self.given.D) + 2 * self.roller_radius
         below = outer if self.given.C2 is None else max(outer, math.hypot(*self.given.C2))
         usual = standard_scale(outer + below, min(self.paper.width, self.paper.height), self.paper.ratios)
-        return coarsest(usual, self.page.scale(self.extent, AROUND_CENTRES))
+        return coarsest(usual, self.page.scale(self.extent, CENTRES_ROOM))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

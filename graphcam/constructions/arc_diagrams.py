@@ -10,20 +10,20 @@ from typing import Any
 import numpy as np
 
 from graphcam.constructions.arc_outline import unreadable
-from graphcam.constructions.arc_plan import worked
+from graphcam.constructions.arc_plan import worked_station
 from graphcam.constructions.arc_profile import RollerOnArcs
-from graphcam.constructions.axes import NUMBER_ROOM, PHASES_BELOW, axes_over_phi, degrees_below, ordinate, reach
+from graphcam.constructions.axes import NUMBER_ROOM, PHASES_OFFSET, axes_over_phi, degrees_below, ordinate, reach
 from graphcam.constructions.graduation import graduated
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.hand import Hand, calculated, distance_between, showing
 from graphcam.drafting.ink import Construction, Part, Step, View, Words, say
 from graphcam.drafting.marks import Dimension, Label, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import GOST_2_302, NOTHING, Scale, standard_scale
+from graphcam.drafting.scale import GOST_2_302, NEGLIGIBLE_SIZE, Scale, standard_scale
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.words import sequence
@@ -31,10 +31,10 @@ from graphcam.words import sequence
 VIEWS: Mapping[str, View] = {"a": ACCELERATION, "v": VELOCITY, "s": DISPLACEMENT, "alpha": ANGLE}
 """From the top down."""
 SYMBOLS = {"a": "a", "v": "v", "s": "s", "alpha": "α"}
-MIRROR = {"a": 1, "v": -1, "s": 1, "alpha": -1}
+MIRROR_SIGNS = {"a": 1, "v": -1, "s": 1, "alpha": -1}
 """What becomes of a quantity on the mirrored flank, which is run over backwards."""
 ENDS = {"highest": UP, "lowest": -UP}
-HEIGHTS = {"a": 100.0, "v": 80.0, "s": 60.0}
+DIAGRAM_HEIGHTS = {"a": 100.0, "v": 80.0, "s": 60.0}
 """Each diagram takes the largest standard scale at which it is not higher [mm of paper]."""
 
 
@@ -82,7 +82,7 @@ MEANING = Meaning(
 
 
 def arc_diagrams(
-    rolled: RollerOnArcs, mu_phi: Scale, pencil: Pencil, heights: Mapping[str, float] = HEIGHTS
+    rolled: RollerOnArcs, mu_phi: Scale, pencil: Pencil, heights: Mapping[str, float] = DIAGRAM_HEIGHTS
 ) -> Construction[ArcDiagramsGivens]:
     """Carry what was found at the stations over to diagrams, fair the curves arc by arc, and read their tops.
 
@@ -95,7 +95,7 @@ def arc_diagrams(
     hand, stations, turn = Hand(pencil, MEANING), rolled.givens.stations, rolled.readings["edges"]
     o = hand.given("O")
     over = partial(_over_the_turn, rolled.givens.arcs.givens.dwell / mu_phi.per_mm, FULL_TURN / mu_phi.per_mm)
-    ends = hand.lay_off("ends", o, RIGHT, reckoned(over, hand.carry(turn, 1 / mu_phi.per_mm)))
+    ends = hand.lay_off("ends", o, RIGHT, calculated(over, hand.carry(turn, 1 / mu_phi.per_mm)))
     feet = hand.divide("stations", ends[stations.arc], ends[stations.arc + 1], stations.u)
     points: dict[str, Drawn] = {}
     for name in VIEWS:
@@ -103,12 +103,12 @@ def arc_diagrams(
         scale = mu_phi.per_mm if name == "alpha" else _scale(rolled, name, heights[name]).per_mm
         points[name] = hand.lay_off(name, feet, UP, hand.carry(source, source.scale / scale))
         if name == "s":
-            hand.read("lift", between(o, points[name][-1], UP), scale)
+            hand.read("lift", distance_between(o, points[name][-1], UP), scale)
             continue
         sides = [hand.tangent(f"{name} {end}", points[name], stations.spans, way) for end, way in ENDS.items()]
         points[f"{name}_tops"] = hand.take(f"{name}_tops", *sides)
-        greatest = reckoned(np.abs, between(o, points[f"{name}_tops"], UP))
-        hand.read(f"max_{name}", reckoned(partial(np.max, axis=-1), greatest), scale)
+        greatest = calculated(np.abs, distance_between(o, points[f"{name}_tops"], UP))
+        hand.read(f"max_{name}", calculated(partial(np.max, axis=-1), greatest), scale)
         hand.read(f"{name}_candidates", greatest, scale, source.unit)
     return hand.finished(ArcDiagramsGivens(rolled, mu_phi, heights), _draw, points)
 
@@ -138,14 +138,14 @@ TITLES = {
     "s": say("Displacement over the cam angle"),
     "alpha": say("Pressure angle over the cam angle"),
 }
-SPANS = (
+SPAN_CAPTIONS = (
     say("rise {angle:.2f}°"),
     say("dwell {angle:.2f}°"),
     say("return {angle:.2f}°"),
     say("dwell {angle:.2f}°"),
 )
 """The phases and their angles."""
-CARRIED = {
+PLOT_CAPTIONS = {
     "a": say(
         "Plot the accelerations OM over the cam angle, {degree:.4g}° a millimetre. Each is laid off at {mu:g} "
         "(mm/rad²)/mm, up from the axis if M lies beyond O, otherwise down: for station {name}, {there}. Where two "
@@ -165,12 +165,12 @@ CARRIED = {
         "{mu:g}° a millimetre, up from the axis: for station {name}, {there}."
     ),
 }
-MAXIMUM = {
+MAXIMUM_CAPTIONS = {
     "a": say("The maximum magnitude is {value:.3f} mm/rad²."),
     "v": say("The maximum is {value:.3f} mm/rad."),
     "alpha": say("The maximum is {value:.3f}°."),
 }
-RETURNED = {
+RETURN_CAPTIONS = {
     1: say(
         "Return: mirror the curve of the rise in the vertical at {middle:.2f} mm, half-way between rise and return."
     ),
@@ -180,7 +180,7 @@ RETURNED = {
     ),
 }
 """How the curve goes on, by what becomes of the quantity on the return."""
-WHYS = {
+REASONS = {
     "a": say(
         "The force that moves the follower is proportional to its acceleration, which jumps where the radius of "
         "the arc changes."
@@ -216,11 +216,11 @@ def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
         Segments(limits.points + low * UP, limits.points + high * UP, Role.CONSTRUCTION).left_by(limits),
         dots.from_(feet, Role.CONSTRUCTION),
         *(dots.dots(Role.CONSTRUCTION), curve.line(Role.RESULT)),
-        *(_phases(ends, mu_phi, low - PHASES_BELOW) if name == "alpha" else ()),
+        *(_phases(ends, mu_phi, low - PHASES_OFFSET) if name == "alpha" else ()),
     ]
     stations, key = plotted.givens.rolled.givens.stations, "lift" if name == "s" else f"max_{name}"
     lengths, paper = _lengths(plotted, name), float(plotted.first(key))
-    at, middle = worked(stations, (dots.shown - feet.shown).imag), float(ends.shown.real[3:5].mean())
+    at, middle = worked_station(stations, (dots.shown - feet.shown).imag), float(ends.shown.real[3:5].mean())
     values = {"degree": float(np.degrees(mu_phi.per_mm)), "mu": per_mm, "paper": paper, "value": paper * per_mm}
 
     def laid_off(k: int) -> Words:
@@ -229,11 +229,11 @@ def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
         if np.isnan(place):
             return say("nothing was read, so nothing is plotted at {x:g} mm", x=x)
         said = say("{length} at {x:g} mm")
-        if name == "a" and abs(place.imag) > NOTHING:
+        if name == "a" and abs(place.imag) > NEGLIGIBLE_SIZE:
             said = say("{length} up at {x:g} mm") if place.imag > 0 else say("{length} down at {x:g} mm")
         return said.where(length=lengths[k], x=x)
 
-    carried = CARRIED[name].where(**values, name=stations.names[at], there=laid_off(at))
+    carried = PLOT_CAPTIONS[name].where(**values, name=stations.names[at], there=laid_off(at))
     parts = [
         _edges(ends, limits),
         telling.run(carried, telling.STATION, stations.titles, feet, dots, settings=laid_off),
@@ -244,7 +244,7 @@ def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
         marks, parts = marks + found, [*parts, touched]
     marks += _names(plotted, dots)  # the number of the maximum finds its place first
     under = () if name == "alpha" else below
-    return Step(TITLES[name], tuple(parts), VIEWS[name], tuple(marks), (key,), axes, why=WHYS[name], under=under)
+    return Step(TITLES[name], tuple(parts), VIEWS[name], tuple(marks), (key,), axes, why=REASONS[name], under=under)
 
 
 def _maximum(
@@ -259,7 +259,7 @@ def _maximum(
         touched = say("Slide the T-square up until it touches the curve: {paper:.2f} mm below the axis.")
     shown = say("{value:.2f}°") if name == "alpha" else say("{value:.2f}")
     number = Label(top.place, shown.where(value=side * values["value"]), side * UP, of=read)
-    said = sequence([each.where(**values) for each in (touched, MAXIMUM[name])], " ")
+    said = sequence([each.where(**values) for each in (touched, MAXIMUM_CAPTIONS[name])], " ")
     return [top.dots(Role.LIMIT), number], Part(said, (top,))
 
 
@@ -277,7 +277,7 @@ def _lengths(plotted: Construction[ArcDiagramsGivens], name: str) -> list[Words]
         return [telling.setting(dots[k]) for k in range(dots.shown.size)]
     paper = dots.shown.imag.tolist()
     said = say("{degrees:.2f}° are {paper:.2f} mm")
-    return [said.where(degrees=a, paper=y) if y > NOTHING else "0" for a, y in zip(degrees, paper, strict=True)]
+    return [said.where(degrees=a, paper=y) if y > NEGLIGIBLE_SIZE else "0" for a, y in zip(degrees, paper, strict=True)]
 
 
 def _edges(ends: Drawn, limits: Drawn) -> Part:
@@ -292,7 +292,7 @@ def _along_the_curve(plotted: Construction[ArcDiagramsGivens], name: str, curve:
     arcs, ends = plotted.givens.rolled.givens.arcs, plotted.acts["ends"].shown.real
     n = (curve.shown.size - 4) // 2
     held = Part(say("Upper dwell: a horizontal line, drawn with the T-square."), (curve[n : n + 2],))
-    back = RETURNED[MIRROR[name]].where(middle=middle)
+    back = RETURN_CAPTIONS[MIRROR_SIGNS[name]].where(middle=middle)
     return [
         Part(say("Join the points with the French curve, each arc by itself."), (curve[:n],)),
         *([held] if arcs.givens.dwell else []),
@@ -324,9 +324,9 @@ def _whole_turn(plotted: Construction[ArcDiagramsGivens], hand: Hand, name: str)
     rise = hand.take("rise", o, *pieces)
     backwards, middle = rise[np.arange(rise.shown.size)[::-1]], hand.divide("middle", ends[3], ends[4], 0.5)
     back = hand.mirrored("return", backwards, hand.erect("middle of the dwell", middle))
-    if MIRROR[name] < 0:
+    if MIRROR_SIGNS[name] < 0:
         back = hand.enlarged("half a turn", backwards, middle, -1, middle.place)
-    dwell = hand.raised("dwell", ends[3:5], between(o, places[-1], UP)) if name == "s" else ends[3:5]
+    dwell = hand.raised("dwell", ends[3:5], distance_between(o, places[-1], UP)) if name == "s" else ends[3:5]
     return hand.take("turn", rise, dwell, back, ends[-2:])
 
 
@@ -337,6 +337,6 @@ def _phases(ends: Drawn, mu_phi: Scale, height: float) -> list[Mark]:
     angles[-1] = 360 - angles[:-1].sum()
     return [
         Dimension(a, b, said.where(angle=angle)).left_by(ends[3:4])
-        for (a, b), said, angle in zip(pairwise(bounds), SPANS, angles, strict=True)
+        for (a, b), said, angle in zip(pairwise(bounds), SPAN_CAPTIONS, angles, strict=True)
         if abs(b - a) > 0
     ]

@@ -9,10 +9,18 @@ from itertools import combinations
 
 import numpy as np
 
-from graphcam.constructions.arc_profile import SENSE, ArcOutline, ThreeArcsGivens, arc, cam, middle_of_dwell, run
+from graphcam.constructions.arc_profile import (
+    SENSE_NAMES,
+    ArcOutline,
+    ThreeArcsGivens,
+    arc,
+    cam,
+    middle_of_dwell,
+    sense_sign,
+)
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP, unit
-from graphcam.drafting.hand import COMPASS, Hand, between
+from graphcam.drafting.hand import BISECTION_SHARE, Hand, distance_between
 from graphcam.drafting.ink import Caption, Part, Step, View, say
 from graphcam.drafting.marks import Dimension, Label, Line, Mark, Role
 from graphcam.drafting.meaning import Compared, Formula, Meaning, ReadingMeaning, Symbol, Values
@@ -20,11 +28,11 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import UNLIMITED, Paper, Scale, ratio_text
 from graphcam.drafting.telling import Move, in_parts
 from graphcam.given.three_arcs import Point, ThreeArcs
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 from graphcam.words import joined, sequence
 
 ARCS = View("arcs", say("Three arcs"), across="arcs x", up="arcs y", scale=say("Three arcs, {ratio}"), main=True)
-OVERHANG = 6.0
+AXIS_OVERHANG = 6.0
 """How far a line runs on beyond the point that it was drawn for [mm]."""
 SAME_RADIUS = 1e-6
 """Lengths this near to one another [mm of paper] are the same: rounding."""
@@ -106,20 +114,20 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil, pape
         p = hand.lay_off(f"{name}P", g, line.turned(side), rho1)
         hand.join(f"C1 {name}P", c1, p)
         c3 = hand.cross(f"{name}C3", hand.bisect(f"bisector of C1 {name}P", c1, p), line)
-        f = _touching(hand, name, hand.join(f"C1 {name}C3", c1, c3), about_c1, between(c3, g))
+        f = _touching(hand, name, hand.join(f"C1 {name}C3", c1, c3), about_c1, distance_between(c3, g))
         points |= {f"{name}P": p, f"{name}C3": c3, f"{name}F": f}
     # The dwells' circles touch the arcs on the lines through the centres.
-    about_c2, _ = (hand.circle(f"circle about {c}", points[c], between(points[c], g)) for c in ("C2", "C3"))
+    about_c2, _ = (hand.circle(f"circle about {c}", points[c], distance_between(points[c], g)) for c in ("C2", "C3"))
     points["A"] = hand.cross("A", hand.join("O C2", o, c2).turned(-1), about_c2)
     points["D"] = hand.cross("D", hand.join("O C1", o, c1), about_c1)
     for name in ("A", "D"):
-        hand.circle(f"circle through {name}", o, between(o, points[name]))
+        hand.circle(f"circle through {name}", o, distance_between(o, points[name]))
     radii = {"rho2": (c2, g), "rho3": (points["C3"], g), "base": (o, points["A"]), "outer": (o, points["D"])}
     for name, ends in radii.items():
-        hand.read(name, between(*ends), mu_l.per_mm)
+        hand.read(name, distance_between(*ends), mu_l.per_mm)
     for name in ("C1", "C2", "C3", "F", "other_C3", "other_F"):
         for reading, along in zip(_xy(name), (RIGHT, UP), strict=True):
-            hand.read(reading, between(o, points[name], along), mu_l.per_mm)
+            hand.read(reading, distance_between(o, points[name], along), mu_l.per_mm)
     return hand.finished(ThreeArcsGivens(given, dwell, mu_l, paper), _draw, points)
 
 
@@ -155,7 +163,7 @@ def _draw(arcs: ArcOutline) -> list[Step]:
     return steps if np.isnan(arcs.first("C3")) else [*steps, _profile(arcs)]
 
 
-PLOT = say("{name} = {told}: from O lay off {way}.")
+PLOT_CAPTION = say("{name} = {told}: from O lay off {way}.")
 
 
 def _plot(arcs: ArcOutline, name: str, point: Point) -> Move:
@@ -168,7 +176,7 @@ def _plot(arcs: ArcOutline, name: str, point: Point) -> Move:
     ways = [way.where(mm=mm) for way, mm in ((across, abs(at.real)), (up, abs(at.imag))) if mm > SAME_RADIUS]
     told = say("({x:g}, {y:g}) mm", x=point[0], y=point[1])
     drawn = arcs.acts[f"given_{name}" if name in "AD" else name]
-    return PLOT.where(name=name, told=told, way=joined(ways)), drawn
+    return PLOT_CAPTION.where(name=name, told=told, way=joined(ways)), drawn
 
 
 def _data(arcs: ArcOutline) -> Step:
@@ -176,7 +184,7 @@ def _data(arcs: ArcOutline) -> Step:
     axes = say("Draw two axes through the cam centre O, and plot at {ratio}: every length times {times:g}.")
     moves = [_plot(arcs, name, at) for name in "ADG" if (at := getattr(given, name)) is not None]
     parts = in_parts(moves, {"ratio": ratio_text(mu_l), "times": 1 / mu_l}, [axes])
-    reach = np.array([-1, 1]) * (abs(complex(*given.D)) / mu_l + OVERHANG)
+    reach = np.array([-1, 1]) * (abs(complex(*given.D)) / mu_l + AXIS_OVERHANG)
     plotted: tuple[Mark, ...] = (
         *(Line(reach + 0j, Role.AXIS), Line(UP * reach, Role.AXIS), o.dots(), o.label("O", -1 - 1j)),
         *(at.dots() for part in parts for at in part.draws),
@@ -186,7 +194,7 @@ def _data(arcs: ArcOutline) -> Step:
     return Step(say("The data"), parts, ARCS, plotted, given=plotted, why=why)
 
 
-OUTER = say("Draw the outer circle about O through D: compass {outer:.2f} mm.")
+OUTER_CIRCLE_CAPTION = say("Draw the outer circle about O through D: compass {outer:.2f} mm.")
 
 
 def _first_centre(arcs: ArcOutline) -> Step:
@@ -197,13 +205,13 @@ def _first_centre(arcs: ArcOutline) -> Step:
     if given.C1 is None:
         stepped = say("With the dividers step {radius:.2f} mm off from D towards O: C1 = {at}.")
         joined_with, join = "D O", (say("Join D and O with the ruler."), acts["D O"])
-        moves = [join, (stepped, c1), circle, (OUTER, d, outer)]
+        moves = [join, (stepped, c1), circle, (OUTER_CIRCLE_CAPTION, d, outer)]
     else:
         join = say("Join O and C1; of the two crossings with the circle, D is the one beyond C1.")
         joined_with, plotted = "O C1", _plot(arcs, "C1", given.C1)
-        moves = [plotted, circle, (join, acts["O C1"], d), (OUTER, outer)]
+        moves = [plotted, circle, (join, acts["O C1"], d), (OUTER_CIRCLE_CAPTION, outer)]
     marks = (
-        _line(arcs, joined_with, 0j, d.place * (1 + OVERHANG / abs(d.place))),
+        _line(arcs, joined_with, 0j, d.place * (1 + AXIS_OVERHANG / abs(d.place))),
         *(about.drawn_circle(Role.CONSTRUCTION), c1.dots(), d.dots(), _named(arcs, "C1", d.place)),
         outer.drawn_circle(Role.CONSTRUCTION),
     )
@@ -222,7 +230,7 @@ def _second_centre(arcs: ArcOutline) -> Step:
     values = {"rho2": radius * mu_l, "radius": radius, "mu": mu_l, "base": abs(a.place), "at": _at(arcs, "C2")}
     if given.C2 is None:
         chord, on, bisector = acts["given_A G"], "O A", _bisector(arcs, "given_A", "G", "C2")
-        values["compass"] = COMPASS * float(abs(chord.first.directions))
+        values["compass"] = BISECTION_SHARE * float(abs(chord.first.directions))
         halved = say("Bisect AG: compass {compass:.2f} mm about both ends, the ruler through the two crossings.")
         found: list[Move] = [
             (say("Join A and G with the ruler."), chord),
@@ -240,8 +248,8 @@ def _second_centre(arcs: ArcOutline) -> Step:
     ]
     turn = float(np.angle((a.place - c2.place) / (g.place - c2.place)))
     marks = (
-        *(_line(arcs, on, a.place * (1 + OVERHANG / abs(a.place)), "C2"), _line(arcs, "G C2", "G", "C2")),
-        arc(about, g.place, turn, Role.CONSTRUCTION, OVERHANG),
+        *(_line(arcs, on, a.place * (1 + AXIS_OVERHANG / abs(a.place)), "C2"), _line(arcs, "G C2", "G", "C2")),
+        arc(about, g.place, turn, Role.CONSTRUCTION, AXIS_OVERHANG),
         acts["circle through A"].drawn_circle(Role.CONSTRUCTION),
         *(*bisector, c2.dots(), a.dots(), _named(arcs, "C2"), *((_named(arcs, "A"),) if given.A is None else ())),
     )
@@ -258,7 +266,7 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
     p, c3, f = (f"{name}{point}" for point in ("P", "C3", "F"))
     role, mu_l, acts = Role.HIDDEN if name else Role.CONSTRUCTION, arcs.givens.mu_l.per_mm, arcs.acts
     chord, radius = abs(acts[p].place - acts["C1"].place), abs(acts[c3].place - acts["G"].place)
-    values = {"prime": "′" if name else "", "step": arcs.givens.given.rho1 / mu_l, "compass": COMPASS * chord}
+    values = {"prime": "′" if name else "", "step": arcs.givens.given.rho1 / mu_l, "compass": BISECTION_SHARE * chord}
     values |= {"radius": radius, "mu": mu_l, "rho3": radius * mu_l}
     values |= {"c3": _at(arcs, c3), "f": _at(arcs, f), "side": say("away from C2") if name else say("towards C2")}
     title = say("The other root") if name else say("The third centre")
@@ -310,7 +318,7 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
 def _profile(arcs: ArcOutline) -> Step:
     acts, axis, mu_l = arcs.acts, middle_of_dwell(arcs), arcs.givens.mu_l.per_mm
     dwell, rho1 = float(np.degrees(arcs.givens.dwell)), arcs.givens.given.rho1
-    turned = {"dwell": dwell, "half": dwell / 2, "sense": SENSE[run(arcs)]}
+    turned = {"dwell": dwell, "half": dwell / 2, "sense": SENSE_NAMES[sense_sign(arcs)]}
     flank = ("AG", "C2", "G", "ρ₂"), ("GF", "C3", "F", "ρ₃"), ("FD", "C1", "D", "ρ₁")
     outer, base = (float(arcs.value(name)) for name in ("outer", "base"))
     radii = {"ρ₁": rho1, "ρ₂": float(arcs.value("rho2")), "ρ₃": float(arcs.value("rho3"))}
@@ -343,7 +351,7 @@ def _profile(arcs: ArcOutline) -> Step:
         ).left_by(acts[f"circle about {centre}"])
         for _, centre, end, name in flank
     )
-    ends = np.array([axis.place, axis.place + complex(unit(axis.directions)) * (outer / mu_l + OVERHANG)])
+    ends = np.array([axis.place, axis.place + complex(unit(axis.directions)) * (outer / mu_l + AXIS_OVERHANG)])
     line = Line(ends, Role.AXIS).left_by(axis)
     why = say(
         "The arcs touch, so the profile has no corner, and the same flank, mirrored, lets the follower down again."
@@ -376,7 +384,7 @@ def _bisector(arcs: ArcOutline, a: str, b: str, to: str, role: Role = Role.CONST
     """A chord, and its perpendicular bisector from a little beyond the middle to a point on it."""
     name, chord = f"bisector of {a} {b}", _line(arcs, f"{a} {b}", a, b, role=role)
     middle, along = arcs.acts[name].place, arcs.acts[to].place - arcs.acts[name].place
-    start = middle - along / abs(along) * OVERHANG if abs(along) > SAME_RADIUS else middle
+    start = middle - along / abs(along) * AXIS_OVERHANG if abs(along) > SAME_RADIUS else middle
     return chord, _line(arcs, name, start, to, role=role)
 
 

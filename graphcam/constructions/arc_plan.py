@@ -9,39 +9,39 @@ from dataclasses import replace
 import numpy as np
 
 from graphcam.constructions.arc_outline import unreadable
-from graphcam.constructions.arc_profile import ARCS, CENTRES, ROLLER, ArcStations, RollerOnArcs, run
+from graphcam.constructions.arc_profile import ARCS, CENTRES, ROLLER, ArcStations, RollerOnArcs, sense_sign
 from graphcam.constructions.velocity_plan import VelocityScale
 from graphcam.constructions.views import at_scale
 from graphcam.drafting import telling
 from graphcam.drafting.euclid import UP, unit
-from graphcam.drafting.hand import Hand, between, showing
+from graphcam.drafting.hand import Hand, distance_between, showing
 from graphcam.drafting.ink import Caption, Part, Row, Step, View, say
 from graphcam.drafting.marks import Label, Line, Mark, Points, Role, Segments
-from graphcam.drafting.scale import NOTHING, Scale, coarsest, ratio_text, standard_scale, unit as unit_named
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Scale, coarsest, ratio_text, standard_scale, unit as unit_named
 from graphcam.drafting.telling import Move, in_parts
 from graphcam.given.laws import Floats
 
 PLAN = View("plan", say("Velocity and acceleration"), across="plan", up="plan")
 ACCELERATIONS = View("accelerations", say("The accelerations at all stations"), "accelerations x", "accelerations y")
-SHOWN = 2, 0.5
+SHOWN_PLACE = 2, 0.5
 """The plan is drawn for the station in the middle of the arc FD."""
-SIZE = 190.0
+MAX_PLAN_SIZE = 190.0
 """A plan is drawn at the largest standard scale at which it is not larger [mm]."""
-BESIDE = complex(20.0, 25.0)
+PLAN_MARGINS = complex(20.0, 25.0)
 """What stands about a plan: letters, the ends of lines [mm]."""
-BEYOND = 7.0
+LINE_OVERHANG = 7.0
 """How far the follower's line runs on beyond the plan [mm]."""
 
 
-def shown(stations: ArcStations) -> int:
+def shown_station(stations: ArcStations) -> int:
     """The station for which the plan is drawn."""
-    on, share = SHOWN
+    on, share = SHOWN_PLACE
     return stations.spans[on].start + round(share * (stations.u.size // 3 - 1))
 
 
-def worked(stations: ArcStations, values: Floats) -> int:
+def worked_station(stations: ArcStations, values: Floats) -> int:
     """The station that is told in full: that of the plan, or the first one at which there is a value."""
-    at = shown(stations)
+    at = shown_station(stations)
     return at if np.isfinite(values[at]) else int(np.argmax(np.isfinite(values)))
 
 
@@ -58,9 +58,9 @@ def plans(rolled: RollerOnArcs, ends: Iterable[str]) -> list[Step]:
 
 def _plan(rolled: RollerOnArcs) -> list[Step]:
     """The velocity and the acceleration at one station, enlarged, with the follower's line upright."""
-    at, mu_l = shown(rolled.givens.stations), rolled.givens.arcs.givens.mu_l.per_mm
+    at, mu_l = shown_station(rolled.givens.stations), rolled.givens.arcs.givens.mu_l.per_mm
     station, upright = rolled.givens.stations.names[at], UP / rolled.first("ray")[at]
-    places: Points = np.array([0j, *(rolled.first(name)[at] for name in PLACES)]) * upright
+    places: Points = np.array([0j, *(rolled.first(name)[at] for name in PLACE_NAMES)]) * upright
     if np.isnan(places).any():
         said = say("At station {name} a line cannot be read: it crosses another at less than a degree.", name=station)
         return [unreadable(say("Velocity and acceleration"), said, PLAN)]
@@ -82,11 +82,11 @@ def _scale(rolled: RollerOnArcs, places: Points, view: View) -> Scale:
     """The largest standard scale at which places of the drawing of the roller fit a view of their own."""
     arcs = rolled.givens.arcs.givens
     size = arcs.mu_l.per_mm * complex(np.ptp(places.real), np.ptp(places.imag))
-    usual = standard_scale(max(size.real, size.imag), SIZE, arcs.paper.ratios)
-    return arcs.paper.kept(view.name) or coarsest(usual, arcs.paper.scale(size, BESIDE))
+    usual = standard_scale(max(size.real, size.imag), MAX_PLAN_SIZE, arcs.paper.ratios)
+    return arcs.paper.kept(view.name) or coarsest(usual, arcs.paper.scale(size, PLAN_MARGINS))
 
 
-PLACES = ("B", "C", "K", "right", "beyond", "N", "M")
+PLACE_NAMES = ("B", "C", "K", "right", "beyond", "N", "M")
 
 
 def _crank_drive(hand: Hand, rolled: RollerOnArcs, at: int, times: complex) -> None:
@@ -98,9 +98,9 @@ def _crank_drive(hand: Hand, rolled: RollerOnArcs, at: int, times: complex) -> N
     k = hand.cross("K", rod, hand.perpendicular("across", follower, o))
     hand.join("OK", o, k)
     erected = hand.perpendicular("erected", outward, c)
-    e = hand.lay_off("E", erected, erected, between(c, k))
+    e = hand.lay_off("E", erected, erected, distance_between(c, k))
     beyond = hand.cross("N′", hand.perpendicular("square", hand.join("leg", e, b), e), rod)
-    n = hand.lay_off("N", c, outward, between(c, beyond))
+    n = hand.lay_off("N", c, outward, distance_between(c, beyond))
     m = hand.cross("M", hand.perpendicular("to M", outward, n), follower)
     hand.join("OM", o, m)
 
@@ -111,17 +111,22 @@ def _segment(hand: Hand, line: str, start: str, end: str, role: Role = Role.CONS
     return Line(ends, role).left_by(drawn)
 
 
-def _far(hand: Hand, start: str, end: str) -> float:
+def _distance(hand: Hand, start: str, end: str) -> float:
     return abs(hand.acts[end].place - hand.acts[start].place)
 
 
 def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -> Step:
-    arcs, acts, station, centre = rolled.givens.arcs, hand.acts, rolled.givens.stations.names[at], CENTRES[SHOWN[0]]
-    mu, ok = scale.mu_l.per_mm, _far(hand, "O", "K")
-    c, m, b, side = acts["C"].place, acts["M"].place, acts["B"].place, -float(run(arcs))
-    values = {"name": station, "centre": centre, "arc": ARCS[SHOWN[0]], "ratio": ratio_text(mu)}
+    arcs, acts, station, centre = (
+        rolled.givens.arcs,
+        hand.acts,
+        rolled.givens.stations.names[at],
+        CENTRES[SHOWN_PLACE[0]],
+    )
+    mu, ok = scale.mu_l.per_mm, _distance(hand, "O", "K")
+    c, m, b, side = acts["C"].place, acts["M"].place, acts["B"].place, -float(sense_sign(arcs))
+    values = {"name": station, "centre": centre, "arc": ARCS[SHOWN_PLACE[0]], "ratio": ratio_text(mu)}
     values |= {"times": arcs.givens.mu_l.per_mm / mu, "mu": mu, "v": float(rolled.value("v")[at])}
-    values |= {"ob": _far(hand, "O", "B"), "oc": _far(hand, "O", "C"), "bc": _far(hand, "B", "C")}
+    values |= {"ob": _distance(hand, "O", "B"), "oc": _distance(hand, "O", "C"), "bc": _distance(hand, "B", "C")}
     values |= {"paper": ok, "side": say("on the left") if c.real < 0 else say("on the right")}
     opening = say(
         "Station {name}, on the arc {arc}, is drawn at {ratio} with the follower's line vertical: "
@@ -139,7 +144,7 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -
         ),
         (say("OK = {paper:.2f} mm × {mu:g} = {v:.3f} mm/rad is the velocity v."), acts["OK"]),
     ]
-    axis = np.array([min(0.0, m.imag, c.imag) - BEYOND, b.imag + BEYOND]) * UP
+    axis = np.array([min(0.0, m.imag, c.imag) - LINE_OVERHANG, b.imag + LINE_OVERHANG]) * UP
     speed = () if scale.omega is None else (Label(acts["K"].place / 2, scale.named("v", ok), -UP, of=acts["OK"].act),)
     names = (("O", "O", -side - 1j), ("B", "B", side + 0j), ("C", centre, -side - 1j), ("K", "K", side + 0j))
     marks: tuple[Mark, ...] = (
@@ -160,13 +165,13 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -
 
 
 def _acceleration(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -> Step:
-    acts, station, centre = hand.acts, rolled.givens.stations.names[at], CENTRES[SHOWN[0]]
-    a, side = float(rolled.value("a")[at]), -float(run(rolled.givens.arcs))
+    acts, station, centre = hand.acts, rolled.givens.stations.names[at], CENTRES[SHOWN_PLACE[0]]
+    a, side = float(rolled.value("a")[at]), -float(sense_sign(rolled.givens.arcs))
     directed = say("it is directed towards the cam centre, because M lies on the side of B")
     if a > 0:
         directed = say("it is directed away from the cam centre, because M lies beyond O")
-    values = {"centre": centre, "ck": _far(hand, "C", "K"), "cn": _far(hand, "C", "N′"), "directed": directed}
-    values |= {"om": _far(hand, "O", "M"), "mu": scale.mu_l.per_mm, "a": a}
+    values = {"centre": centre, "ck": _distance(hand, "C", "K"), "cn": _distance(hand, "C", "N′"), "directed": directed}
+    values |= {"om": _distance(hand, "O", "M"), "mu": scale.mu_l.per_mm, "a": a}
     moves: list[Move] = [
         (
             say(
@@ -203,7 +208,7 @@ def _acceleration(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScal
 
 # --- at all stations -------------------------------------------------------------------------------------------------
 
-UNREAD = say("nothing can be read: a line crosses another at less than a degree")
+UNREADABLE = say("nothing can be read: a line crosses another at less than a degree")
 
 
 def _velocities(rolled: RollerOnArcs) -> Step:
@@ -211,13 +216,13 @@ def _velocities(rolled: RollerOnArcs) -> Step:
     stations, mu = rolled.givens.stations, rolled.givens.arcs.givens.mu_l.per_mm
     rods, across, k = (rolled.acts[name].first for name in ("rods", "across", "K"))
     paper, alpha = np.abs(k.shown), np.degrees(rolled.first("alpha"))
-    at = worked(stations, paper)
+    at = worked_station(stations, paper)
 
     def told(j: int) -> Caption:
         """What is read at a station."""
         if np.isnan(paper[j]):
-            return UNREAD
-        if paper[j] <= NOTHING:
+            return UNREADABLE
+        if paper[j] <= NEGLIGIBLE_SIZE:
             return say("the rod lies on the ray, so K coincides with O; velocity and pressure angle are zero")
         said = say("OK = {paper:.2f} mm × {mu:g} = {v:.3f} mm/rad, and {alpha:.2f}°")
         return said.where(paper=paper[j], mu=mu, v=float(rolled.value("v")[j]), alpha=alpha[j])
@@ -228,7 +233,7 @@ def _velocities(rolled: RollerOnArcs) -> Step:
     )
     first = [j for j, *_ in stations.places.values()]
     named = [j for j in first if not np.isnan(paper[j])]
-    out = across.directions * -run(rolled.givens.arcs)
+    out = across.directions * -sense_sign(rolled.givens.arcs)
     marks: tuple[Mark, ...] = (
         Segments(rolled.acts["B"].shown, k.shown, Role.CONSTRUCTION).left_by(rods),
         Segments(np.zeros_like(k.shown), k.shown, Role.CURVE).left_by(across),
@@ -264,8 +269,8 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
     def told(j: int) -> Caption:
         """What is drawn and read at a station."""
         if np.isnan(om[j]):
-            return UNREAD
-        n_at = say("{centre}N = {cn:.2f} mm") if cn[j] > NOTHING else say("N in {centre}")
+            return UNREADABLE
+        n_at = say("{centre}N = {cn:.2f} mm") if cn[j] > NEGLIGIBLE_SIZE else say("N in {centre}")
         a = float(rolled.value("a")[j])
         way, named = say("beyond O") if a > 0 else say("towards B"), {"centre": centre[j], "cn": cn[j]}
         said = say(
@@ -281,7 +286,7 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
         *(b.dots(Role.CONSTRUCTION), m.dots(), n.dots(Role.CONSTRUCTION)),
         *(m[j].label(stations.names[j], complex(unit(m.shown)[j]), small=True) for j in named),
     )
-    at = worked(stations, om)
+    at = worked_station(stations, om)
     said = say(
         "Do the same at every station in the drawing of the roller, with E laid off square to the rod; only the rays, "
         "B, N and M are shown here, at {ratio}, and the lengths given are those in the drawing of the roller. Station "

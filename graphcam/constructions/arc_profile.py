@@ -15,7 +15,7 @@ from graphcam.drafting.scale import Paper, Scale
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.three_arcs import ThreeArcs
-from graphcam.plane import cross
+from graphcam.plane_vectors import cross
 from graphcam.words import say_in
 
 
@@ -30,18 +30,18 @@ class ThreeArcsGivens:
 
 
 ArcOutline = Construction[ThreeArcsGivens]
-SENSE = {1: say("clockwise"), -1: say("anticlockwise")}
-"""In which the follower is turned about a cam of that :func:`run`."""
+SENSE_NAMES = {1: say("clockwise"), -1: say("anticlockwise")}
+"""In which the follower is turned about a cam of that :func:`sense_sign`."""
 
 
-def run(arcs: ArcOutline) -> int:
+def sense_sign(arcs: ArcOutline) -> int:
     """sigma of the first sample: +1 where the way from A to D is clockwise, so that the cam turns counter-clockwise."""
     return -1 if float(cross(arcs.first("A"), arcs.first("D"))) > 0 else 1
 
 
 def middle_of_dwell(arcs: ArcOutline) -> Drawn:
     """The line through the middle of the upper dwell: beyond it lies the mirror image of the rise, the return."""
-    turn = -run(arcs) * arcs.givens.dwell / 2
+    turn = -sense_sign(arcs) * arcs.givens.dwell / 2
     return showing(arcs).protractor("middle of the dwell", arcs.acts["O"].first, arcs.first("D"), turn)
 
 
@@ -73,8 +73,8 @@ def outline(
         rise.append((arc(circle, joints[k], turn, role), circle))
         back.append((arc(other, image[k], -turn, role), other))
     dwell, angle = arcs.givens.dwell, float(abs(np.angle(joints[3] / joints[0])))
-    up = [(arc(circles[3], joints[3], -run(arcs) * dwell, role), circles[3])] if dwell else []
-    down = arc(circles[4], image[0], -run(arcs) * (FULL_TURN - 2 * angle - dwell), role)
+    up = [(arc(circles[3], joints[3], -sense_sign(arcs) * dwell, role), circles[3])] if dwell else []
+    down = arc(circles[4], image[0], -sense_sign(arcs) * (FULL_TURN - 2 * angle - dwell), role)
     return [*rise, *up, *back[::-1], (down, circles[4])]
 
 

@@ -12,12 +12,12 @@ from functools import partial
 import numpy as np
 
 from graphcam.constructions.arc_outline import unreadable
-from graphcam.constructions.arc_plan import UNREAD, plans, shown, worked
+from graphcam.constructions.arc_plan import UNREADABLE, plans, shown_station, worked_station
 from graphcam.constructions.arc_profile import (
     ARCS,
     CENTRES,
     ROLLER,
-    SENSE,
+    SENSE_NAMES,
     ArcOutline,
     ArcRollerGivens,
     ArcStations,
@@ -26,17 +26,17 @@ from graphcam.constructions.arc_profile import (
     middle_of_dwell,
     mirror_line,
     outline,
-    run,
+    sense_sign,
 )
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP, unit
-from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.hand import Hand, calculated, distance_between, showing
 from graphcam.drafting.ink import Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import A, Compared, Formula, Meaning, ReadingMeaning, Symbol, V, Values
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import NOTHING, unit as unit_named
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE, unit as unit_named
 from graphcam.given.laws import Floats
 from graphcam.words import joined
 
@@ -53,7 +53,7 @@ ENDS = {
 
 def _worked(rolled: RollerOnArcs) -> Values:
     """The station of the plan: its lengths in the drawing of the roller, and what they stand for."""
-    k, mu = shown(rolled.givens.stations), rolled.givens.arcs.givens.mu_l.per_mm
+    k, mu = shown_station(rolled.givens.stations), rolled.givens.arcs.givens.mu_l.per_mm
     b, c, k_, m, n = (complex(rolled.first(name)[k]) for name in "BCKMN")
     if not np.isnan(m):
         lengths = {"ok": abs(k_), "ck": abs(k_ - c), "cb": abs(b - c), "cn": abs(n - c), "om": abs(m)}
@@ -138,7 +138,7 @@ def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pe
     Points: ``B``, ``C`` the centre of its arc, ``K``, ``right`` the corner of the right angle, ``beyond`` where it cuts
     off the rod, ``N``, ``M``; ``trace``, the roller's centre in A, G, F and D; ``ray``, directions.
     """
-    hand, mu_l, sigma = Hand(pencil, MEANING), arcs.givens.mu_l.per_mm, run(arcs)
+    hand, mu_l, sigma = Hand(pencil, MEANING), arcs.givens.mu_l.per_mm, sense_sign(arcs)
     o, (a_, g, f, d, c1, c2, c3) = hand.given("O"), (hand.found(arcs, name) for name in (*"AGFD", "C1", "C2", "C3"))
     # The roller's centre lies on the line of centres through each joint.
     touch = hand.take("touch", a_, g, f, d)
@@ -147,50 +147,50 @@ def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pe
     to_joints = hand.join("to the joints", o, trace)
     joints = {"phi_G": to_joints[1], "phi_F": to_joints[2], "rise": to_joints[3]}
     edges = [hand.angle(name, to_joints[0], to_joint, -sigma) for name, to_joint in joints.items()]
-    measured = reckoned(_from_nothing, *(hand.carry(edge) for edge in edges))
-    phi = reckoned(partial(_divided, stations), measured)
-    rays = hand.protractor("rays", o, to_joints[0], reckoned(partial(np.multiply, -sigma), phi))
+    measured = calculated(_with_leading_zero, *(hand.carry(edge) for edge in edges))
+    phi = calculated(partial(_stations_between, stations), measured)
+    rays = hand.protractor("rays", o, to_joints[0], calculated(partial(np.multiply, -sigma), phi))
     # Each arc passes through the joint at which it begins, the last one ends on the outer circle.
     centres, on = hand.take("centres of the arcs", c2, c3, c1), trace[[0, 1, 3]]
-    paths = hand.circle("arcs of the roller's centre", centres, between(centres, on))
-    hand.circle("dwells of the roller's centre", o, between(o, trace[[3, 0]]))
+    paths = hand.circle("arcs of the roller's centre", centres, distance_between(centres, on))
+    hand.circle("dwells of the roller's centre", o, distance_between(o, trace[[3, 0]]))
     b, c = hand.cross("B", rays, paths[stations.arc]), hand.take("C", centres, which=stations.arc)
     rods = hand.join("rods", b, c)
     outward = rods.turned(-1)
     across = hand.perpendicular("across", rays, o)
     k = hand.cross("K", rods, across)
     erected = hand.perpendicular("perpendiculars in C", outward, c)
-    right = hand.lay_off("right", erected, erected, between(c, k))
+    right = hand.lay_off("right", erected, erected, distance_between(c, k))
     beyond = hand.cross("beyond", hand.perpendicular("right angles", hand.join("legs", right, b), right), rods)
-    n = hand.lay_off("N", c, outward, between(c, beyond))
+    n = hand.lay_off("N", c, outward, distance_between(c, beyond))
     m = hand.cross("M", hand.perpendicular("perpendiculars in N", outward, n), rays)
-    prime_radius = between(o, trace[0])
-    hand.read("s", reckoned(np.subtract, between(o, b), between(o, trace[[0]])), mu_l)
-    hand.read("v", between(o, k, across.turned(-sigma)), mu_l)
-    hand.read("a", between(m, o, rays), mu_l)
+    prime_radius = distance_between(o, trace[0])
+    hand.read("s", calculated(np.subtract, distance_between(o, b), distance_between(o, trace[[0]])), mu_l)
+    hand.read("v", distance_between(o, k, across.turned(-sigma)), mu_l)
+    hand.read("a", distance_between(m, o, rays), mu_l)
     hand.angle("alpha", rays, outward, sigma)
     hand.read("phi", phi, 1.0, "rad", rounded=False)
     for name, along in (("x", RIGHT), ("y", UP)):
-        hand.read(name, between(o, b, along), mu_l)
+        hand.read(name, distance_between(o, b, along), mu_l)
     hand.read("edges", measured, 1.0, "rad", rounded=False)
-    hand.read("lift", reckoned(np.subtract, between(o, b[-1]), prime_radius), mu_l)
+    hand.read("lift", calculated(np.subtract, distance_between(o, b[-1]), prime_radius), mu_l)
     hand.read("prime_radius", prime_radius, mu_l)
-    hand.read("roller_radius", between(touch[3], trace[3]), mu_l)
-    hand.read("rho", reckoned(np.minimum, between(c1, trace[3]), prime_radius), mu_l)
+    hand.read("roller_radius", distance_between(touch[3], trace[3]), mu_l)
+    hand.read("rho", calculated(np.minimum, distance_between(c1, trace[3]), prime_radius), mu_l)
     ends = [at for span in stations.spans for at in (span.start, span.stop - 1)]
     for name, at in zip(ENDS, ends, strict=True):
-        hand.read(name, between(m[at], o, rays[at]), mu_l)
+        hand.read(name, distance_between(m[at], o, rays[at]), mu_l)
     points = {"B": b, "C": c, "K": k, "right": right, "beyond": beyond, "N": n, "M": m, "trace": trace}
     givens = ArcRollerGivens(arcs, roller_radius, stations)
     return hand.finished(givens, _draw, points | {"ray": unit(rays.directions)})
 
 
-def _from_nothing(*angles: Floats) -> Floats:
+def _with_leading_zero(*angles: Floats) -> Floats:
     """Angles in a row, (..., k + 1), after one of zero."""
     return np.stack([np.zeros_like(angles[0]), *angles], axis=-1)
 
 
-def _divided(stations: ArcStations, edges: Floats) -> Floats:
+def _stations_between(stations: ArcStations, edges: Floats) -> Floats:
     """The stations between the ``edges`` (..., 4) of the arcs."""
     start, end = edges[..., stations.arc], edges[..., stations.arc + 1]
     return start + (end - start) * stations.u
@@ -198,7 +198,7 @@ def _divided(stations: ArcStations, edges: Floats) -> Floats:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-BEYOND = 7.0
+RAY_OVERHANG = 7.0
 """How far the rays run on beyond the roller's centre [mm]."""
 
 
@@ -250,7 +250,7 @@ def _paths(rolled: RollerOnArcs) -> Step:
         circles = [paths[0], paths[1], paths[2], dwells[0], dwells[1]]
         grown = outline(arcs, axis, circles, trace.shown, Role.CURVE)
         marks += [trace.dots(Role.CONSTRUCTION), *(mark for mark, _ in grown)]
-        parts += [_outward(rolled, values), _arcs(rolled, [circle for _, circle in grown])]
+        parts += [_lines_to_centre(rolled, values), _arcs(rolled, [circle for _, circle in grown])]
     circled = say(
         "Draw the prime circle about O through the path at A, also over the lower dwell: compass {prime:.2f} mm."
     )
@@ -259,7 +259,7 @@ def _paths(rolled: RollerOnArcs) -> Step:
     return Step(title, tuple(parts), ROLLER, tuple(marks), reads, why=why)
 
 
-def _outward(rolled: RollerOnArcs, values: dict[str, float]) -> Part:
+def _lines_to_centre(rolled: RollerOnArcs, values: dict[str, float]) -> Part:
     lines, trace = rolled.acts["lines of centres"].first, rolled.acts["trace"].first
     said = say(
         "The roller's centre moves along arcs about the same centres, with radii larger by r = {roller:g} mm: from "
@@ -284,11 +284,11 @@ def _arcs(rolled: RollerOnArcs, circles: list[Drawn]) -> Part:
 
 
 def _joints(rolled: RollerOnArcs) -> Step:
-    lines, trace, sigma = rolled.acts["to the joints"].first, rolled.acts["trace"].first, run(rolled.givens.arcs)
+    lines, trace, sigma = rolled.acts["to the joints"].first, rolled.acts["trace"].first, sense_sign(rolled.givens.arcs)
     angles = np.abs(rolled.first("edges"))
     base, reads = float(np.angle(trace.shown[0])), ("phi_G", "phi_F", "rise")
     values = {"g": angles[1], "f": angles[2], "d": angles[3]}
-    values = {key: float(np.degrees(angle)) for key, angle in values.items()} | {"sense": SENSE[sigma]}
+    values = {key: float(np.degrees(angle)) for key, angle in values.items()} | {"sense": SENSE_NAMES[sigma]}
     said = say(
         "Join O with the points of the path at A, G, F and D. Set the protractor on OA and read the angles of the "
         "others {sense}: {g:.3f}° at G, {f:.3f}° at F, and {d:.3f}° at D, where the rise ends."
@@ -309,13 +309,13 @@ def _joints(rolled: RollerOnArcs) -> Step:
 
 def _stations(rolled: RollerOnArcs) -> Step:
     arcs, stations, b, rays = rolled.givens.arcs, rolled.givens.stations, rolled.acts["B"], rolled.acts["rays"].first
-    reach, ray = float(np.abs(rolled.first("trace")[-1])) + BEYOND, rolled.first("ray")
+    reach, ray = float(np.abs(rolled.first("trace")[-1])) + RAY_OVERHANG, rolled.first("ray")
     ends, mu_l = rays.shown + reach * ray, arcs.givens.mu_l.per_mm
     hand, axis = showing(rolled), middle_of_dwell(arcs)
     returning, feet = hand.mirrored("B on the return", b.first, axis), hand.cross("feet", rays, _prime(rolled))
     rollers = _rollers(rolled, hand)
     phi, s = np.degrees(rolled.first("phi")), rolled.first("s")
-    at = worked(stations, s)
+    at = worked_station(stations, s)
     named = (
         Label(ends[k], name, ray[k], small=True, of=rays.act, index=rays[k].index)
         for name, (k, *_) in stations.places.items()
@@ -332,7 +332,7 @@ def _stations(rolled: RollerOnArcs) -> Step:
     level, rows = say("{phi:.3f}°, on the prime circle"), list[Row]()
     for name, places in stations.places.items():
         k = places[0]
-        told = UNREAD if np.isnan(s[k]) else one if s[k] > NOTHING else level
+        told = UNREADABLE if np.isnan(s[k]) else one if s[k] > NEGLIGIBLE_SIZE else level
         told = told.where(phi=abs(phi[k]), centre=CENTRES[stations.arc[k]], s=s[k])
         draws = rays[places], b.first[places], *(rollers[j] for j in places if j in rollers)
         rows.append(Row(say("Ray {name}", name=name), told, draws))
@@ -348,7 +348,7 @@ def _stations(rolled: RollerOnArcs) -> Step:
         centre=CENTRES[stations.arc[at]],
         s=s[at],
         lift=s[at] * mu_l,
-        sense=SENSE[run(arcs)],
+        sense=SENSE_NAMES[sense_sign(arcs)],
         mu=mu_l,
     )
     back = Part(say("Return: mirror the points B in {line}.", line=mirror_line(arcs)), (returning,))

@@ -22,7 +22,7 @@ import numpy as np
 from graphcam.constructions import force_plan as plain
 from graphcam.constructions.arm_pressure_angle import ArmAngles
 from graphcam.drafting.euclid import unit
-from graphcam.drafting.hand import Hand, between, reckoned
+from graphcam.drafting.hand import Hand, calculated, distance_between
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Label, Line, Mark, Role
 from graphcam.drafting.meaning import ALPHA, ARM, Formula, Meaning, ReadingMeaning, Symbol, Values
@@ -30,7 +30,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, unit as unit_named
 from graphcam.given.laws import Floats
 from graphcam.given.spring_load import ArmLoad, PlacedArmLoad
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 from graphcam.words import sequence
 
 
@@ -103,7 +103,7 @@ def arm_force_plan(
     givens, direction = measured.givens, plain.direction_at(measured, k)
     phi, psi0 = float(givens.integrated.givens.stations.phi[k]), hand.carry(measured.readings["psi0"])
     reduced = partial(_reduced, load, givens.arm, givens.distance, direction, phi)
-    force = reckoned(reduced, *plain.read_at(hand, measured, k, "s", "v", "a"), psi0)
+    force = calculated(reduced, *plain.read_at(hand, measured, k, "s", "v", "a"), psi0)
     mu = mu_force or plain.round_scale(float(np.median(np.abs(force.amount))))
 
     # Of the arm positions: the arm C B, and A D.
@@ -112,18 +112,18 @@ def arm_force_plan(
     ray = hand.join("AD", centre, hand.found(measured, "tips")[k])
     origin = hand.given("origin")
     down = hand.perpendicular("line of Q", arm, origin)
-    foot = hand.lay_off("foot", origin, down, reckoned(partial(np.multiply, 1 / mu.per_mm), force))
+    foot = hand.lay_off("foot", origin, down, calculated(partial(np.multiply, 1 / mu.per_mm), force))
     normal = hand.parallel("line of F", ray, foot)
     along_arm = hand.parallel("line of R", arm, origin)
     corner = plain.third_corner(hand, foot, normal, along_arm, dot(foot.points, down.directions) > 0)
     hand.join("F", foot, corner)
     hand.join("R", corner, origin)
     lengths = {
-        "load": between(origin, foot, down),
-        "normal": between(foot, corner),
-        "along": between(corner, foot, down),
-        "side": reckoned(np.abs, between(foot, corner, arm)),
-        "reaction": between(origin, corner),
+        "load": distance_between(origin, foot, down),
+        "normal": distance_between(foot, corner),
+        "along": distance_between(corner, foot, down),
+        "side": calculated(np.abs, distance_between(foot, corner, arm)),
+        "reaction": distance_between(origin, corner),
     }
     for name, length in lengths.items():
         hand.read(name, length, mu.per_mm)
@@ -158,12 +158,12 @@ def _plan_station(measured: ArmAngles, load: ArmLoad) -> int:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-STROKE = 30.0
+MIN_REACTION_LENGTH = 30.0
 """The line of the reaction is drawn so long at least [mm]."""
 
 
 def _draw(plan: Construction[ArmForcePlanGivens]) -> list[Step]:
-    return plain.plan_steps(plan, _load, _line_of_force, _line_of_reaction, _not_pressed, _closed)
+    return plain.plan_steps(plan, _load, _line_of_force, _line_of_reaction, _not_pressed, _triangle_step)
 
 
 def _terms(plan: Construction[ArmForcePlanGivens]) -> list[tuple[Caption, float]]:
@@ -206,10 +206,10 @@ def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
         "set the dividers to {paper:.1f} mm, and lay Q off from its tail square to the arm of this station, {way}."
     )
     why = say("A torque about the pivot has the same effect as a force at the arm's end, square to the arm.")
-    return plain.loaded(plan, view, said.where(**values), -_beside(plan), why)
+    return plain.loaded(plan, view, said.where(**values), -_corner_direction(plan), why)
 
 
-def _beside(plan: Construction[ArmForcePlanGivens]) -> complex:
+def _corner_direction(plan: Construction[ArmForcePlanGivens]) -> complex:
     """The direction from the load to the third corner."""
     across, normal = (complex(unit(plan.acts[name].first.directions)) for name in ("line of R", "line of F"))
     return across if (normal * across.conjugate()).real >= 0 else -across
@@ -221,16 +221,16 @@ def _line_of_force(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
         "In the arm positions lay the set squares along the line from A to D of station {name}. Carry it to the "
         "head of Q and draw the line of the contact force F there; it makes α = {alpha:.1f}° with Q."
     ).where(name=plain.station_name(plan), alpha=abs(plain.alpha_at(plan)))
-    marks = plain.leaning(normal, plain.beyond(float(plan.first("normal"))), plain.alpha_at(plan), up)
+    marks = plain.leaning(normal, plain.exceeded_lines(float(plan.first("normal"))), plain.alpha_at(plan), up)
     why = say("The contact normal passes through the centre of relative rotation, and A D is parallel to it.")
     return Step(say("The line of the contact force"), (Part(said, (normal,)),), view, marks, why=why)
 
 
 def _line_of_reaction(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
-    line, side = plan.acts["line of R"].first, _beside(plan)
+    line, side = plan.acts["line of R"].first, _corner_direction(plan)
     size = float(plan.first("reaction"))
-    reach = STROKE if math.isnan(size) else max(STROKE, size + plain.BEYOND)
-    ends = line.place + side * np.array([-0.3 * STROKE, reach])
+    reach = MIN_REACTION_LENGTH if math.isnan(size) else max(MIN_REACTION_LENGTH, size + plain.LINE_OVERHANG)
+    ends = line.place + side * np.array([-0.3 * MIN_REACTION_LENGTH, reach])
     said = say(
         "With the set squares draw the line of the reaction R through the tail of Q, parallel to the arm CB of station "
         "{name}.",
@@ -247,9 +247,9 @@ def _not_pressed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     return plain.not_closed(view, said)
 
 
-def _closed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
+def _triangle_step(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     foot, corner, force, reaction = (plan.acts[name].first for name in ("foot", "corner", "F", "R"))
-    corner, side, down = corner[0], _beside(plan), complex(unit(plan.acts["line of Q"].first.directions))
+    corner, side, down = corner[0], _corner_direction(plan), complex(unit(plan.acts["line of Q"].first.directions))
     sides = say(
         "Square to the arm F cos α measures {along_mm:.1f} mm × {mu:g} = {along:.1f} N, and along the arm F sin α "
         "{side_mm:.1f} mm × {mu:g} = {side:.1f} N."
@@ -259,5 +259,5 @@ def _closed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
         Label((foot.place + corner.place) / 2, "F", towards=side + down / 2).left_by(force),
         Label(corner.place / 2, "R", towards=-down).left_by(reaction),
     )
-    moves = [(plain.CORNER, corner), (plain.UP_TO_CORNER, force), (plain.BACK, reaction)]
+    moves = [(plain.CORNER_CAPTION, corner), (plain.UP_TO_CORNER, force), (plain.REACTION_CAPTION, reaction)]
     return plain.triangle_step(plan, view, moves, marks, sides)

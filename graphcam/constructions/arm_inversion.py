@@ -16,7 +16,7 @@ from graphcam.drafting.ink import Construction, Part, Step, Words, say
 from graphcam.drafting.marks import Role
 from graphcam.drafting.meaning import ARM, DISTANCE, PSI0, RADIUS, Formula, Meaning, S, Values
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import NOTHING, Scale
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Scale
 from graphcam.drafting.telling import STATION, alike, circle_drawn, run
 from graphcam.given.follower import Rotation
 from graphcam.words import say_in
@@ -62,7 +62,7 @@ MEANING = Meaning(
         "The cam is held still and the frame is turned about it, against the cam's rotation. From each position "
         "of the pivot the arm is turned by its displacement: the positions of its end give the cam."
     ),
-    profile_view.CURVE,
+    profile_view.CURVE_MEANINGS,
     FORMULAS,
     scales={"profile": "x"},
 )
@@ -101,7 +101,7 @@ def arm_inversion(
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-ARC_BEYOND = 0.012
+ARC_OVERHANG = 0.012
 """How far the arcs of the arm are drawn beyond what is found on them [rad]."""
 
 
@@ -110,7 +110,7 @@ def _draw(inverted: ArmInverted) -> list[Step]:
         _circles(inverted),
         _pivots(inverted),
         _starts(inverted),
-        *profile_view.pitch_steps(inverted, _turned(inverted)),
+        *profile_view.pitch_steps(inverted, _turned_arms_step(inverted)),
     ]
 
 
@@ -130,7 +130,7 @@ def _pivots(inverted: ArmInverted) -> Step:
         "The cam turns {rotation}; hold it still and step the pivot round A the other way, {against}. Set the "
         "protractor on A and count {against} from the horizontal to the right of A, from station to station {steps}, "
         "so station {name} at {angle}; mark and number the pivots on their circle."
-    ).where(**profile_view.divided_by(inverted))
+    ).where(**profile_view.position_words(inverted))
     first = pivots.first[0]
     marks = (
         *(pivots.dots(Role.CONSTRUCTION), first.label("C", UP * first.place)),
@@ -151,7 +151,7 @@ def _starts(inverted: ArmInverted) -> Step:
         "B₀{name}."
     ).where(arm=arm, name=names[k])
     found = np.stack([starts.shown, pitch.shown], axis=-1)
-    drawn = [arc_through(arcs[n], found[n], ARC_BEYOND) for n in range(len(names))]
+    drawn = [arc_through(arcs[n], found[n], ARC_OVERHANG) for n in range(len(names))]
     phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
     struck = run(said, STATION, names, arcs, starts, settings=alike)
     marks = (*drawn, starts.dots(Role.CONSTRUCTION), *phases)
@@ -159,7 +159,7 @@ def _starts(inverted: ArmInverted) -> Step:
     return Step(say("Arcs of the arm"), (struck, last), PROFILE, marks, why=why)
 
 
-def _turned(inverted: ArmInverted) -> Step:
+def _turned_arms_step(inverted: ArmInverted) -> Step:
     integrated, arms, pitch = inverted.givens.integrated, inverted.acts["arms"], inverted.acts["pitch"]
     names, k = station_names(integrated.givens.stations), example(integrated, inverted.acts["pivots"])
     s, factor = integrated.first("s"), np.degrees(integrated.readings["s"].per_mm)
@@ -168,7 +168,11 @@ def _turned(inverted: ArmInverted) -> Step:
     def turn(n: int) -> Words:
         """By how much the arm is turned at a station, as an angle and as a chord."""
         angle = turning_angle(s[n], factor)
-        return say("{angle}, a chord of {chord:.2f} mm", angle=angle, chord=chords[n]) if chords[n] > NOTHING else angle
+        return (
+            say("{angle}, a chord of {chord:.2f} mm", angle=angle, chord=chords[n])
+            if chords[n] > NEGLIGIBLE_SIZE
+            else angle
+        )
 
     said = say(
         "Turn every arm about its pivot from the prime circle by the displacement, away from A (clockwise on the "

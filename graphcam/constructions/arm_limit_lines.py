@@ -17,14 +17,14 @@ from graphcam.drafting.ink import Part, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Line, Points, Role, Segments
 from graphcam.drafting.telling import run
 from graphcam.given.follower import Limits, sense
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 from graphcam.words import say_in, sequence
 
-SHORTEST, BEYOND = 20.0, 5.0
+MIN_LINE_LENGTH, LINE_OVERHANG = 20.0, 5.0
 """A line at a limit that does not bound the region is drawn only so far, one that does so far beyond it [mm]."""
-PRODUCED = 1.3
+ARM_OVERHANG_FACTOR = 1.3
 """An arm is produced so far beyond its end, in lengths of the arm."""
-BESIDE = 1.0
+CORNER_DISTANCE = 1.0
 """A line that comes so near to a corner of the region bounds it [mm]."""
 
 
@@ -44,7 +44,7 @@ class _AtLimit:
         return {"limit": degrees(self.limit), "turn": turn, "kept": kept}
 
 
-def _downwards(lines: Drawn, hatched: Points) -> Segments:
+def _lines_downwards(lines: Drawn, hatched: Points) -> Segments:
     """The lines at a limit as far as they matter: from the ends down along the region."""
     down = _down(lines)
     ends = [touch + way * bounding_length(touch, way, hatched) for touch, way in zip(lines.shown, down, strict=True)]
@@ -64,8 +64,8 @@ def bounding_length(touch: complex, way: complex, hatched: Points) -> float:
     >>> bounding_length(20 + 1j, -1j, square), bounding_length(30 + 1j, -1j, square)
     (66.0, 20.0)
     """
-    along = dot(way, hatched - touch)[np.abs(dot(way * UP, hatched - touch)) < BESIDE]
-    return max([SHORTEST, *(along + BEYOND).tolist()])
+    along = dot(way, hatched - touch)[np.abs(dot(way * UP, hatched - touch)) < CORNER_DISTANCE]
+    return max([MIN_LINE_LENGTH, *(along + LINE_OVERHANG).tolist()])
 
 
 def family_step(drawn: ArmPositions, name: str, direction: int, limit: float, hatched: Points) -> Step:
@@ -91,7 +91,7 @@ def family_step(drawn: ArmPositions, name: str, direction: int, limit: float, ha
     return Step(
         title,
         (Part(square, (normal,)), run(said, say("Line {name}"), [named[at[i]] for i in order], lines[order])),
-        *(at_scale(REGION, drawn.givens.mu_l), (shown, _downwards(lines, hatched), angle)),
+        *(at_scale(REGION, drawn.givens.mu_l), (shown, _lines_downwards(lines, hatched), angle)),
         why=say(
             "The direction from D to the cam centre makes the pressure angle with the normal to the arm, and on the "
             "{phase} this angle may be at most {limit}."
@@ -124,7 +124,7 @@ def dwells_step(drawn: ArmPositions, limits: Limits, hatched: Points) -> Step:
         lines, said = drawn.acts[f"limits: {name}"], each.where(top=top, **so.said)
         if not parts:
             said = sequence([say("In a dwell D is the end of the arm."), said], " ")
-        marks.append(_downwards(lines, hatched))
+        marks.append(_lines_downwards(lines, hatched))
         parts.append(run(said, say("From {name}"), ("B₀", top), lines))
     return Step(
         say("Lines at the limit in the dwells"),
@@ -142,7 +142,7 @@ def highest_arm(drawn: ArmPositions) -> str:
 def reach_step(drawn: ArmPositions) -> Step:
     """The lines of the lowest and of the highest arm, which the cam centre lies below."""
     lines, top = drawn.acts["limits: reach"], highest_arm(drawn)
-    out = lines.shown - PRODUCED * abs(drawn.acts["start"].place) * unit(lines.first.directions)
+    out = lines.shown - ARM_OVERHANG_FACTOR * abs(drawn.acts["start"].place) * unit(lines.first.directions)
     produced = Segments(lines.shown, out, Role.CONSTRUCTION).left_by(lines)
     return Step(
         say("The arm extended"),

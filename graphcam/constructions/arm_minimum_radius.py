@@ -32,14 +32,14 @@ from graphcam.constructions.region import (
     ON_THE_LINE,
     Boundary,
     RegionPicture,
-    nearest_of_many,
+    nearest_for_many,
     picture_of,
     touched,
 )
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import NOWHERE, UP, circles_meet, turned, unit
-from graphcam.drafting.hand import Hand, between, showing
+from graphcam.drafting.euclid import NOWHERE, UP, circles_meet, turned_direction, unit
+from graphcam.drafting.hand import Hand, distance_between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Dimension, Label, Line, Mark, Points, Region, Role
 from graphcam.drafting.meaning import (
@@ -61,7 +61,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Limits, Rotation, sense
 from graphcam.given.laws import Floats
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 from graphcam.words import joined, sequence
 
 
@@ -106,13 +106,13 @@ def _worst(region: ArmRegion) -> Values:
         for name, limit, side, of in families:
             if f"limits: {name}" not in region.acts or limit is None:
                 continue
-            along = 0.0 * v if name in DWELLS else sigma * v
+            along = 0.0 * v if name in DWELL_ACTS else sigma * v
             tangent = (arm * (1 + along) - c * np.cos(psi)) / (c * np.sin(psi))
             k = int(np.argmax(np.where(of, side * tangent, -np.inf)))
             found = {"tangent": float(tangent[k]), "alpha": math.degrees(math.atan(tangent[k]))}
             terms = {"v": abs(float(along[k])), "sign": "-" if along[k] < 0 else "+", "s": math.degrees(s[k])}
             bound = {"least": r"\le" if side > 0 else r"\ge", "limit": side * math.degrees(limit)}
-            yield {**triangle, **terms, **found, **bound, "k": "0" if name in DWELLS and not k else names[k]}
+            yield {**triangle, **terms, **found, **bound, "k": "0" if name in DWELL_ACTS and not k else names[k]}
 
 
 FORMULAS = (
@@ -171,15 +171,17 @@ def arm_least_radius(
     families = _boundaries(hand, drawn, givens)
     lines = hand.take("lines", *families.values())
     if distance is None:
-        centre = _nearest(hand, lines, drawn["start"])
+        centre = _nearest_permitted(hand, lines, drawn["start"])
     else:
-        centre = _nearest_on(hand, lines, hand.circle("circle of the centre", drawn["pivot"], distance / mu_l.per_mm))
+        centre = _nearest_on_circle(
+            hand, lines, hand.circle("circle of the centre", drawn["pivot"], distance / mu_l.per_mm)
+        )
     hand.join("prime radius", drawn["start"], centre)
-    hand.read("prime_radius", between(drawn["start"], centre), mu_l.per_mm)
-    hand.read("distance", between(drawn["pivot"], centre), mu_l.per_mm)
+    hand.read("prime_radius", distance_between(drawn["start"], centre), mu_l.per_mm)
+    hand.read("distance", distance_between(drawn["pivot"], centre), mu_l.per_mm)
     places = {name: drawn[name] for name in ("start", "ends", "tips")} | {"centre": centre}
     touches = {f"touch of {name}": family for name, family in families.items()}
-    inwards = {f"inward of {name}": _inward(family) for name, family in families.items()}
+    inwards = {f"inward of {name}": _inward_directions(family) for name, family in families.items()}
     return hand.finished(givens, _draw, {**places, **touches, **inwards})
 
 
@@ -221,25 +223,25 @@ def _boundaries(hand: Hand, drawn: Mapping[str, Drawn], givens: ArmLeastRadiusGi
     return lines
 
 
-def _inward(lines: Drawn) -> Points:
+def _inward_directions(lines: Drawn) -> Points:
     """The directions across lines to the permitted side."""
     return -UP * unit(lines.directions)
 
 
-def _nearest(hand: Hand, lines: Drawn, start: Drawn) -> Drawn:
+def _nearest_permitted(hand: Hand, lines: Drawn, start: Drawn) -> Drawn:
     """The permitted place nearest to the start of the lift: the corner of two lines, or the foot on one; or none."""
-    place, pair = nearest_of_many(lines.points, _inward(lines), start.points)
+    place, pair = nearest_for_many(lines.points, _inward_directions(lines), start.points)
     bind = hand.take("lines that bind", lines, which=pair)
     corner, foot = hand.cross("corner", bind[0], bind[1], flat=True), hand.project("foot", start, bind[0])
     which = np.where(np.isnan(place), 2, pair[..., 0] == pair[..., 1])
     return hand.take("centre", corner, foot, hand.given("nowhere", NOWHERE), which=which[..., None])[0]
 
 
-def _nearest_on(hand: Hand, lines: Drawn, circle: Drawn) -> Drawn:
+def _nearest_on_circle(hand: Hand, lines: Drawn, circle: Drawn) -> Drawn:
     """The permitted place on the circle about the pivot that is nearest to the start of the lift; or none."""
     # A line cuts the circle in two points, equally far from the foot of the perpendicular from the pivot; the permitted
     # arc lies between them, on the inward side.  From the left, the nearest place is where the last arc begins.
-    inwards, radius = _inward(lines), np.asarray(circle.radius)[..., None]
+    inwards, radius = _inward_directions(lines), np.asarray(circle.radius)[..., None]
     depth = dot(inwards, lines.points - circle.points[..., None]) / radius
     with np.errstate(invalid="ignore"):
         half = np.where(depth < -1, np.inf, np.arccos(depth))
@@ -255,12 +257,12 @@ def permitted_distances(region: ArmRegion, prime_radius: float) -> Floats:
     arm, mu = region.givens.arm / region.givens.mu_l.per_mm, region.givens.mu_l.per_mm
     start, radius = -arm + 0j, prime_radius / mu
     lines = region.acts["lines"].first
-    touches, inwards = lines.points, _inward(lines)
+    touches, inwards = lines.points, _inward_directions(lines)
     # A line cuts the circle about the start in two points, equally far from the foot of the perpendicular from there.
     with np.errstate(invalid="ignore"):
         half = np.arccos(dot(inwards, touches - start) / radius)
     middle = np.angle(inwards)
-    cuts = start + turned(radius + 0j, np.concatenate([middle - half, middle + half]))
+    cuts = start + turned_direction(radius + 0j, np.concatenate([middle - half, middle + half]))
     cuts = cuts[cuts.imag < 0]  # the cam lies below the arm
     ends = np.unique([abs(arm - radius), *np.abs(cuts), arm + radius])
     # No boundary crosses the region, so between two neighbouring cuts all places are permitted or none.
@@ -271,7 +273,7 @@ def permitted_distances(region: ArmRegion, prime_radius: float) -> Floats:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-BOUNDS = {
+BOUND_CAPTIONS = {
     "rise": say("the lines of the rise"),
     "return": say("the lines of the return"),
     "rest": say("the line of the dwell from {place}"),
@@ -279,7 +281,7 @@ BOUNDS = {
     "reach": say("the lines of the arm"),
 }
 """What bounds the region, by the names of the acts."""
-BINDING = {
+BINDING_CAPTIONS = {
     "rise": say("rise, {station}"),
     "return": say("return, {station}"),
     "rest": say("dwell, {station}"),
@@ -292,14 +294,14 @@ NO_CENTRE = (
     say("At this centre distance no cam centre satisfies all the limits."),
 )
 """What is said where none is found: wherever the pivot is, and at a given distance."""
-DWELLS = ("rest", "rest after the return")
+DWELL_ACTS = ("rest", "rest after the return")
 """The acts that draw two lines: one from B₀ and one from the end of the highest arm."""
 
 
 def _draw(region: ArmRegion) -> list[Step]:
     limits, found = region.givens.limits, np.isfinite(region.acts["centre"][0].place)
     picture = picture_of([region.acts["start"].place, region.acts["centre"][0].place, *_adopted(region)])
-    hatched = picture.permitted(_shown(region))
+    hatched = picture.permitted(_shown_boundaries(region))
     families = [family_step(region, "rise", 1, limits.rise, hatched)]
     if limits.return_ is not None:
         families.append(family_step(region, "return", -1, limits.return_, hatched))
@@ -321,14 +323,14 @@ def _enlarged(region: ArmRegion) -> list[Step]:
     scale = adopted and detail_scale(adopted.prime_radius, region.givens.mu_l, region.givens.paper.ratios)
     if scale is None:
         return []
-    bind = [(region.acts["lines that bind"].first[n], name) for n, name in _named(region)]
-    return [region_enlarged(region, scale, _shown(region), bind, _adopted(region))]
+    bind = [(region.acts["lines that bind"].first[n], name) for n, name in _binding_captions(region)]
+    return [region_enlarged(region, scale, _shown_boundaries(region), bind, _adopted(region))]
 
 
-def _shown(region: ArmRegion) -> list[Boundary]:
+def _shown_boundaries(region: ArmRegion) -> list[Boundary]:
     """The boundaries of the first sample."""
     lines = region.acts["lines"].first
-    return [Boundary("", *line) for line in zip(lines.points, _inward(lines), strict=True)]
+    return [Boundary("", *line) for line in zip(lines.points, _inward_directions(lines), strict=True)]
 
 
 def _adopted(region: ArmRegion) -> list[complex]:
@@ -359,7 +361,7 @@ def _shaded(region: ArmRegion, picture: RegionPicture, hatched: Points) -> Step:
 def _bound_by(region: ArmRegion) -> list[tuple[int, str, int]]:
     """The lines that bind, each once: its place among them, its family, and its number in that, from the end."""
     which = np.asarray(region.acts["lines that bind"].act.takes["which"])
-    families = [name for name in BOUNDS if f"limits: {name}" in region.acts]
+    families = [name for name in BOUND_CAPTIONS if f"limits: {name}" in region.acts]
     ends = np.cumsum([region.acts.get(name, region.acts[f"limits: {name}"]).shown.size for name in families])
     bind, places = np.unique(which[0] if region.acts["lines"].sampled else which, return_index=True)
     of = np.searchsorted(ends, bind, side="right").tolist()
@@ -370,7 +372,7 @@ def _binding_marks(region: ArmRegion, hatched: Points) -> tuple[Mark, ...]:
     """The lines that bind, drawn out along the region, each with the name of what it limits."""
     bind, centre = region.acts["lines that bind"], region.acts["centre"][0].place
     lines, named = list[Mark](), list[Mark]()
-    for n, text in _named(region):
+    for n, text in _binding_captions(region):
         touch = complex(bind.shown[n])
         way = complex(unit(np.asarray(centre - touch)))
         end = touch + way * max(bounding_length(touch, way, hatched), abs(centre - touch))
@@ -379,7 +381,7 @@ def _binding_marks(region: ArmRegion, hatched: Points) -> tuple[Mark, ...]:
     return (*lines, *named)
 
 
-def _named(region: ArmRegion) -> list[tuple[int, Caption]]:
+def _binding_captions(region: ArmRegion) -> list[tuple[int, Caption]]:
     """Of every line that binds its place among them, and what it limits."""
     bind, integrated, tips = region.acts["lines that bind"], region.givens.integrated, region.acts["tips"].shown
     named = list[tuple[int, Caption]]()
@@ -387,21 +389,21 @@ def _named(region: ArmRegion) -> list[tuple[int, Caption]]:
         if family in ("rise", "return"):
             at = touched(integrated, tips, complex(bind.shown[n]), 1 if family == "rise" else -1)
         else:
-            at = [_at_rest(region)[k]]
-        named.append((n, BINDING[family].where(station="–".join(at))))
+            at = [_dwell_line_starts(region)[k]]
+        named.append((n, BINDING_CAPTIONS[family].where(station="–".join(at))))
     return named
 
 
-def _at_rest(region: ArmRegion) -> tuple[str, str]:
+def _dwell_line_starts(region: ArmRegion) -> tuple[str, str]:
     return "B₀", highest_arm(region)
 
 
-def found_at(region: ArmRegion) -> Caption:
+def centre_caption(region: ArmRegion) -> Caption:
     """Where in the region the cam centre is found, and on which lines: two at a corner, else one."""
     found = dict[tuple[str, str], Caption]()
     for _, family, k in _bound_by(region):
-        place = _at_rest(region)[k] if family in DWELLS else ""
-        found[family, place] = BOUNDS[family].where(place=place)
+        place = _dwell_line_starts(region)[k] if family in DWELL_ACTS else ""
+        found[family, place] = BOUND_CAPTIONS[family].where(place=place)
     bounds = joined(list(found.values()))
     if region.givens.distance is not None:
         return say(
@@ -434,7 +436,7 @@ def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
         "Join A₀ to B₀ and C and measure: A₀B₀ = {paper:.2f} mm, so r₀ = {r0:.3f} mm, and A₀C = {away:.2f} mm, so c = "
         "{c:.3f} mm."
     ).where(paper=abs(centre.place - start.place), r0=r0, away=abs(centre.place), c=away)
-    parts.append(Part(say("Mark A₀, {place}.", place=found_at(region)), (acts["lines that bind"], centre)))
+    parts.append(Part(say("Mark A₀, {place}.", place=centre_caption(region)), (acts["lines that bind"], centre)))
     parts.append(Part(joining, (acts["prime radius"], line)))
     marks = (
         *(*arcs, *_binding_marks(region, hatched)),

@@ -12,16 +12,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import clear_numbers, numbered, numbers, station_names, turning
+from graphcam.constructions.axes import clear_numbers, numbered_stations, numbers, sense_caption, station_names
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.region import MARGIN, Boundary, RegionPicture
+from graphcam.constructions.region import PICTURE_MARGIN, Boundary, RegionPicture
 from graphcam.constructions.views import CAM_CENTRE, REGION, at_scale
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP, circles_meet, unit
 from graphcam.drafting.hand import Hand, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, Words, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Region, Role
-from graphcam.drafting.scale import NOTHING, Ratios, Scale, ratio_text, standard_scale
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Ratios, Scale, ratio_text, standard_scale
 from graphcam.drafting.telling import STATION, from_to, run, setting
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.stations import Stations
@@ -75,21 +75,21 @@ def directions(givens: ArmGivens) -> NDArray[np.intp]:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-BEYOND = 0.03
+ARC_OVERHANG = 0.03
 """How far an arc is drawn beyond what it is drawn for [rad]."""
-SMALLEST_ANGLE = 0.5
+MIN_PROTRACTOR_ANGLE = 0.5
 """Less cannot be set off with a protractor that is divided into degrees, but with dividers on the arc [degrees]."""
-NEAR = 1.0
+SAME_POSITION = 1.0
 """Arms whose ends are nearer to one another bear one number [mm]."""
 
 
 def example(integrated: Integrated, places: Drawn, direction: int = 1) -> int:
     """The station that is worked as an example: of those that are named the fastest of the rises, or the returns."""
-    v, named = direction * integrated.first("v"), numbered(places.shown, integrated.givens.stations)
+    v, named = direction * integrated.first("v"), numbered_stations(places.shown, integrated.givens.stations)
     return int(np.argmax(np.where(np.isin(np.arange(v.size), named), v, v / 2)))
 
 
-def arc_through(circle: Drawn, places: Points, beyond: float = BEYOND) -> Arc:
+def arc_through(circle: Drawn, places: Points, beyond: float = ARC_OVERHANG) -> Arc:
     """The part of one circle that places lie on, drawn a little beyond them [rad]."""
     ways = places - circle.place
     turns = np.angle(ways[0]) + np.angle(ways / ways[0])
@@ -126,7 +126,7 @@ def positions_step(drawn: ArmPositions) -> Step:
         "The largest angle is {most:.2f}°."
     ).where(factor=factor, name=names[k], angle=turning_angle(s[k], factor), most=s.max() * factor)
 
-    small = (np.abs(turns) > NOTHING) & (np.abs(turns) < SMALLEST_ANGLE)
+    small = (np.abs(turns) > NEGLIGIBLE_SIZE) & (np.abs(turns) < MIN_PROTRACTOR_ANGLE)
     if small.any():
         by_dividers = say("An angle too small for the protractor is set off along the arc with the dividers.")
         said = sequence([said, by_dividers], " ")
@@ -142,7 +142,7 @@ def positions_step(drawn: ArmPositions) -> Step:
         stroke(level, abs(start.place - level.place)),
         arc_through(arc, np.append(ends.shown, start.place)),
         *(arms.ways(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION)),
-        *numbers(ends, stations, towards, shown=_first_here(ends, start, stations)),
+        *numbers(ends, stations, towards, shown=_first_at_place(ends, start, stations)),
     )
     swings = run(said, STATION, names, arms, ends, settings=swung)
     return Step(
@@ -156,16 +156,16 @@ def positions_step(drawn: ArmPositions) -> Step:
 
 def turning_angle(paper: float, factor: float) -> Words:
     """By which angle [degrees] an arm is turned for an ordinate of the displacement [mm of paper]."""
-    if abs(paper * factor) < NOTHING:
+    if abs(paper * factor) < NEGLIGIBLE_SIZE:
         return "0°"
     return say("{paper:.2f} mm × {factor:.5g}°/mm = {angle:.2f}°", paper=paper, factor=factor, angle=paper * factor)
 
 
-def _first_here(ends: Drawn, start: Drawn, stations: Stations) -> NDArray[np.bool_]:
+def _first_at_place(ends: Drawn, start: Drawn, stations: Stations) -> NDArray[np.bool_]:
     """At which stations the arm lies neither on CB₀ nor where one lies in an earlier phase: its number has room."""
-    near = np.abs(np.subtract.outer(ends.shown, ends.shown)) < NEAR
+    near = np.abs(np.subtract.outer(ends.shown, ends.shown)) < SAME_POSITION
     earlier = np.less.outer(stations.moving, stations.moving).T
-    named = np.logical_or.reduce(near & earlier, axis=1) | (np.abs(ends.shown - start.place) < NEAR)
+    named = np.logical_or.reduce(near & earlier, axis=1) | (np.abs(ends.shown - start.place) < SAME_POSITION)
     return np.logical_not(named) & clear_numbers(ends.shown, stations, np.array([start.place]))
 
 
@@ -201,15 +201,15 @@ def velocities_step(drawn: ArmPositions) -> Step:
     why = say(
         "The end of the arm has the velocity l·ds/dφ square to the arm; turned by 90° in the sense of the cam's "
         "rotation ({rotation}) it lies along the arm."
-    ).where(rotation=turning(drawn.givens.rotation))
+    ).where(rotation=sense_caption(drawn.givens.rotation))
     view = at_scale(REGION, drawn.givens.mu_l)
     return Step(say("Velocities along the arm"), (laid, Part(smooth, rows=through)), view, marks, why=why)
 
 
-SMALL, ENLARGED = 30.0, 60.0
+SMALL_RADIUS, ENLARGED_RADIUS = 30.0, 60.0
 """Where the adopted prime radius is shorter than this on the arm positions, it is shown at the largest standard scale
 at which it is not longer than that [mm]."""
-ASIDE = 20.0
+HATCHING_MARGIN = 20.0
 """So far beside the places that it shows the region is hatched [mm]."""
 
 
@@ -220,9 +220,9 @@ def detail_scale(prime_radius: float, mu_l: Scale, ratios: Ratios) -> Scale | No
     >>> [detail_scale(radius, Scale(1.0, "mm"), ISO_5455) for radius in (12.0, 61.0)]
     [Scale(per_mm=0.2, unit='mm'), None]
     """
-    if mu_l.paper(prime_radius) >= SMALL:
+    if mu_l.paper(prime_radius) >= SMALL_RADIUS:
         return None
-    scale = standard_scale(prime_radius, ENLARGED, ratios)
+    scale = standard_scale(prime_radius, ENLARGED_RADIUS, ratios)
     return scale if scale.per_mm < mu_l.per_mm else None
 
 
@@ -242,7 +242,11 @@ def region_enlarged(
     times = region.givens.mu_l.per_mm / scale.per_mm
     b, a = (hand.enlarged(name, drawn, start, times) for name, drawn in (("B₀", start), ("A₀", centre)))
     shown: Points = np.array([b.place, a.place, *((place - start.place) * times for place in adopted)])
-    left, right, bottom = shown.real.min() - ASIDE, shown.real.max() + ASIDE, shown.imag.min() - MARGIN
+    left, right, bottom = (
+        shown.real.min() - HATCHING_MARGIN,
+        shown.real.max() + HATCHING_MARGIN,
+        shown.imag.min() - PICTURE_MARGIN,
+    )
     picture = RegionPicture(float(left), float(right), float(bottom), 0.0)
     enlarged = [Boundary("", (line.touch - start.place) * times, line.inward) for line in lines]
     permitted = hand.given("permitted places", picture.permitted(enlarged))

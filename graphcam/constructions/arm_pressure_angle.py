@@ -21,14 +21,14 @@ from graphcam.constructions.arm_positions import (
     detail_scale,
     stroke,
 )
-from graphcam.constructions.axes import numbers, station_names, turning
+from graphcam.constructions.axes import numbers, sense_caption, station_names
 from graphcam.constructions.integration import Integrated
-from graphcam.constructions.pressure_angle import ANGLES, MeasuredGivens, read_angles, shown_station
+from graphcam.constructions.pressure_angle import ANGLE_MEANINGS, MeasuredGivens, read_angles, shown_station
 from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import ARM_ANGLES, PLAN, REGION, at_scale
 from graphcam.drafting.acts import Floats, Setting
 from graphcam.drafting.euclid import RIGHT, UP, unit
-from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.hand import Hand, calculated, distance_between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Points, Role, Segments, angle_at
 from graphcam.drafting.meaning import (
@@ -112,7 +112,7 @@ MEANING = Meaning(
         "The velocity plan and the mechanism contain similar triangles. So the velocity of the arm's end, l·ds/dφ, is "
         "a length along the arm, and the angle between normal and motion is found without the profile."
     ),
-    {**ANGLES, "psi0": ReadingMeaning(say("angle ψ₀"), "ψ₀", "rad")},
+    {**ANGLE_MEANINGS, "psi0": ReadingMeaning(say("angle ψ₀"), "ψ₀", "rad")},
     FORMULAS,
 )
 
@@ -150,15 +150,15 @@ def arm_pressure_angle(
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-PLAN_ARM = 70.0
+MAX_PLAN_ARM = 70.0
 """The plan is drawn at the largest standard scale at which the arm is not longer [mm]."""
-PLAN_BESIDE = complex(40.0, 40.0)
+PLAN_MARGINS = complex(40.0, 40.0)
 """What stands beside the mechanism and the plan, and between them: letters, the ends of lines, the title [mm]."""
-POLE_BESIDE = 0.6
+POLE_DISTANCE = 0.6
 """The plan's pole lies so far beyond C, in lengths of AB."""
-NORMAL = 9.0
+NORMAL_LENGTH = 9.0
 """So much of the normal to each arm is drawn [mm]."""
-ACROSS = 0.2
+ARC_HALF_ANGLE = 0.2
 """How far to both sides of the cam centre the arcs that find it are drawn [rad]."""
 
 
@@ -175,7 +175,7 @@ def _draw(measured: ArmAngles) -> list[Step]:
         _mechanism(measured, plan, k, scales),
         _velocities(measured, plan, k, scales),
         _angle(measured, plan, k, scales),
-        _everywhere(measured, k),
+        _all_stations_step(measured, k),
     ]
 
 
@@ -185,18 +185,21 @@ def plan_scale(measured: ArmAngles, k: int) -> Scale:
     s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
     # About the cam centre [mm], the pivot level with it.
     arm = -givens.arm * np.exp(-1j * (float(measured.first("psi0")) + s))
-    b, pole = givens.distance + arm, givens.distance + POLE_BESIDE * abs(givens.distance + arm)
+    b, pole = givens.distance + arm, givens.distance + POLE_DISTANCE * abs(givens.distance + arm)
     d = b + sigma * v * arm
     places: Points = np.array([0, b, d, pole, pole + sigma * UP * b, pole + sigma * UP * (b - d)])
     size = complex(float(np.ptp(places.real)), float(np.ptp(places.imag)))
-    usual = standard_scale(givens.arm, PLAN_ARM, givens.paper.ratios)
-    return givens.paper.kept(PLAN.name) or coarsest(usual, givens.paper.scale(size, PLAN_BESIDE))
+    usual = standard_scale(givens.arm, MAX_PLAN_ARM, givens.paper.ratios)
+    return givens.paper.kept(PLAN.name) or coarsest(usual, givens.paper.scale(size, PLAN_MARGINS))
 
 
 def _centre(measured: ArmAngles) -> Step:
     givens, acts, length = measured.givens, measured.acts, measured.givens.mu_l.paper
     pivot, start, tips, centre = (acts[name] for name in ("pivot", "start", "tips", "centre"))
-    circles, sides = (acts["circle of the centre"], acts["prime circle"]), np.exp([-1j * ACROSS, 1j * ACROSS])
+    circles, sides = (
+        (acts["circle of the centre"], acts["prime circle"]),
+        np.exp([-1j * ARC_HALF_ANGLE, 1j * ARC_HALF_ANGLE]),
+    )
     arcs = [arc_through(circle, circle.place + (centre.place - circle.place) * sides) for circle in circles]
     radius = showing(measured).join("prime radius", start.first, centre.first)
     psi0, line = float(np.degrees(measured.first("psi0"))), acts["line of centres"].first
@@ -214,7 +217,7 @@ def _centre(measured: ArmAngles) -> Step:
     marks = (
         *(tips.dots(Role.CONSTRUCTION), *arcs),
         *(radius.way(Role.LIMIT), line.way(Role.CONSTRUCTION), centre.dots(Role.RESULT)),
-        centre.label(_named(givens), -UP),
+        centre.label(_centre_caption(givens), -UP),
         angle,
     )
     parts = (
@@ -227,7 +230,7 @@ def _centre(measured: ArmAngles) -> Step:
     return Step(say("The cam centre"), parts, at_scale(REGION, givens.mu_l), marks, ("psi0",), why=why)
 
 
-def _named(givens: ArmPressureAngleGivens) -> Caption:
+def _centre_caption(givens: ArmPressureAngleGivens) -> Caption:
     return say("A (r₀ = {r0:g}, c = {c:g})", r0=givens.prime_radius, c=givens.distance)
 
 
@@ -235,7 +238,7 @@ def _enlarged(measured: ArmAngles) -> list[Step]:
     """The adopted cam centre beside the one found, where both are shown enlarged."""
     givens = measured.givens
     scale = givens.adopted() and detail_scale(givens.prime_radius, givens.mu_l, givens.paper.ratios)
-    return [adopted_enlarged(measured, scale, _named(givens))] if scale else []
+    return [adopted_enlarged(measured, scale, _centre_caption(givens))] if scale else []
 
 
 def _carried(drawn: Construction, name: str, factor: float = 1.0) -> Setting:
@@ -254,15 +257,15 @@ def _plan(measured: ArmAngles, k: int, scale: Scale) -> Hand:
     arm, (s, v) = givens.arm / scale.per_mm, (givens.integrated.readings[name].per_mm for name in "sv")
     a = hand.given("A", 0j)
     c = hand.lay_off("C", a, RIGHT, givens.distance / scale.per_mm)
-    angle = reckoned(_clockwise, _carried(measured, "psi0"), _carried(givens.integrated, "s", s))
+    angle = calculated(_clockwise, _carried(measured, "psi0"), _carried(givens.integrated, "s", s))
     b = hand.lay_off("B", c, hand.protractor("arms", c, hand.join("CA", c, a), angle), arm)
     cb = hand.join("CB", c, b)
     d = hand.lay_off("D", b, cb.turned(sigma), _carried(givens.integrated, "v", arm * v))
     # The plan stands clear of the mechanism: v₁ lies across the radius, v₂ across the arm.
-    pole = hand.given("p", c.place.real + abs(b[k].place) * POLE_BESIDE + 12.0)
+    pole = hand.given("p", c.place.real + abs(b[k].place) * POLE_DISTANCE + 12.0)
     ab, bd = hand.join("AB", a, b), hand.join("BD", b, d)
-    v1 = hand.lay_off("v₁", pole, ab[k].turned(sigma * UP), between(a, b[k]))
-    v2 = hand.lay_off("v₂", pole, bd[k].turned(-sigma * UP), between(b[k], d[k]))
+    v1 = hand.lay_off("v₁", pole, ab[k].turned(sigma * UP), distance_between(a, b[k]))
+    v2 = hand.lay_off("v₂", pole, bd[k].turned(-sigma * UP), distance_between(b[k], d[k]))
     hand.join("v₂₁", v1, v2)
     normal = hand.perpendicular("normal", cb[k], d[k])
     hand.angle("alpha", normal, hand.join("DA", d[k], a))
@@ -308,7 +311,7 @@ def _velocities(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) 
     pole, v1, v2, v21 = (plan.acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
     across, along = v1.place - pole.place, v2.place - pole.place
     sizes = {"across": abs(across), "along": abs(along), "closing": abs(along - across)}
-    sizes |= {"turn": turning(rotation), "back": turning("cw" if rotation == "ccw" else "ccw")}
+    sizes |= {"turn": sense_caption(rotation), "back": sense_caption("cw" if rotation == "ccw" else "ccw")}
     first = say(
         "All velocities are divided by ω, so v₁ = ω·AB is drawn as long as AB. From a pole p draw with the set squares "
         "v₁ = AB = {across:.1f} mm, square to AB: the direction of AB turned by 90° {turn}."
@@ -353,16 +356,16 @@ def _angle(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> St
     return Step(say("The pressure angle"), parts, scales.view(name), marks, why=why)
 
 
-def _everywhere(measured: ArmAngles, k: int) -> Step:
+def _all_stations_step(measured: ArmAngles, k: int) -> Step:
     names, alpha = station_names(measured.givens.integrated.givens.stations), np.degrees(measured.first("alpha"))
     rays, normals = measured.acts["rays"], measured.acts["normals"]
     # At the shown station as far as the arc of its angle, at the others only their direction.
-    lengths = np.where(np.arange(len(names)) == k, 4.4 * NORMAL, NORMAL)
+    lengths = np.where(np.arange(len(names)) == k, 4.4 * NORMAL_LENGTH, NORMAL_LENGTH)
     down = normals.shown + lengths * unit(normals.first.directions)
     strokes = Segments(normals.shown, down, Role.CONSTRUCTION).left_by(normals)
     begin, end = (float(np.angle(line.first[k].directions)) for line in (normals, rays))
     shown = say("α = {alpha:.1f}°", alpha=alpha[k])
-    angle = angle_at(rays.first[k].place, begin, end, 4 * NORMAL, shown, rays.act)
+    angle = angle_at(rays.first[k].place, begin, end, 4 * NORMAL_LENGTH, shown, rays.act)
     angle = replace(angle, index=rays[k].index)
     worst = int(np.nanargmax(np.abs(alpha)))
     apart = say(

@@ -20,11 +20,11 @@ from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.stations import Stations
 from graphcam.words import say_in
 
-OVERHANG = 8.0
+AXIS_OVERHANG = 8.0
 """How far an axis runs on beyond what is drawn [mm]."""
 NUMBER_ROOM = 4.5, 6.0
 """Stations are named that stand at least so far apart [mm of paper]; where some have names of two digits, so far."""
-EVERY = (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30, 40, 50)
+NAMED_STATION_STEPS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30, 40, 50)
 """Every how many stations may be named."""
 SAME_LEVEL = 1e-6
 """Levels that differ by less than this part of the lift are one."""
@@ -47,10 +47,10 @@ class OverStations(Protocol):
         ...
 
 
-def turning(rotation: Rotation) -> Caption:
+def sense_caption(rotation: Rotation) -> Caption:
     """A sense of rotation in words.
 
-    >>> str(turning("cw"))
+    >>> str(sense_caption("cw"))
     'clockwise'
     """
     return say("clockwise") if rotation == "cw" else say("anticlockwise")
@@ -81,14 +81,14 @@ def part_names(stations: Stations) -> list[str]:
     return [names[k + 1] for k in stations.left]
 
 
-def together(parts: Iterable[int], stations: Stations) -> str:
+def joined_parts(parts: Iterable[int], stations: Stations) -> str:
     """The names of several parts, in order; of three or more neighbours in a phase the first and the last.
 
     >>> from math import pi
     >>> import graphcam as gc
     >>> from graphcam.given.stations import divide
     >>> halves = divide(gc.Motion([gc.Rise(30, pi), gc.Return(30, pi)]), 5)
-    >>> together([0, 1, 2, 4, 5, 6], halves)
+    >>> joined_parts([0, 1, 2, 4, 5, 6], halves)
     '1-3, 5, 1′, 2′'
     """
     names, runs = part_names(stations), list[list[int]]()
@@ -98,13 +98,13 @@ def together(parts: Iterable[int], stations: Stations) -> str:
             runs[-1].append(part)
         else:
             runs.append([part])
-    return in_runs([names[part] for part in run] for run in runs)
+    return joined_runs([names[part] for part in run] for run in runs)
 
 
-def in_runs(runs: Iterable[Sequence[str]]) -> str:
+def joined_runs(runs: Iterable[Sequence[str]]) -> str:
     """Names in runs of neighbours; of three or more in a run the first and the last.
 
-    >>> in_runs([["1", "2", "3"], ["5"], ["7", "8"]])
+    >>> joined_runs([["1", "2", "3"], ["5"], ["7", "8"]])
     '1-3, 5, 7, 8'
     """
     return ", ".join(f"{run[0]}-{run[-1]}" if len(run) > 2 else ", ".join(run) for run in runs)
@@ -225,7 +225,7 @@ def ordinate(symbol: str, lift_unit: str) -> Caption:
 def axes_over_phi(end: float, mu_phi: Scale, heights: Floats, name: Words) -> tuple[Mark, ...]:
     """The two axes of a diagram that reaches up to ``end`` and over ``heights`` [mm of paper], degrees, and names."""
     low, high = reach(heights)
-    right, top = complex(end + OVERHANG), (high + OVERHANG) * UP
+    right, top = complex(end + AXIS_OVERHANG), (high + AXIS_OVERHANG) * UP
     scale = say("μᵩ = {mu:.4g}°/mm", mu=math.degrees(mu_phi.per_mm))
     return (
         *(Arrow(0j, right, Role.SCALE), Arrow(low * UP, top, Role.SCALE), degree_ticks(end, mu_phi)),
@@ -256,7 +256,7 @@ TICKS_ROOM = 2.0
 """The strokes of a graduation stand at least so far apart [mm of paper]."""
 DEGREES_ROOM = 12.0
 """Numbers of degrees stand at least so far apart [mm of paper]."""
-DEGREES = 10, 30, 60, 90
+DEGREE_STEPS = 10, 30, 60, 90
 """Every so many degrees of the cam angle there may be a stroke, and from the second on a number."""
 
 
@@ -267,7 +267,7 @@ def every_degrees(mu_phi: Scale) -> tuple[int, int]:
     ((10, 30), (10, 60))
     """
     tick, number = (
-        next((n for n in DEGREES[first:] if mu_phi.paper(math.radians(n)) >= room), DEGREES[-1])
+        next((n for n in DEGREE_STEPS[first:] if mu_phi.paper(math.radians(n)) >= room), DEGREE_STEPS[-1])
         for first, room in enumerate((TICKS_ROOM, DEGREES_ROOM))
     )
     return tick, number
@@ -284,7 +284,7 @@ def degree_ticks(end: float, mu_phi: Scale) -> Segments:
     return Segments(x + np.where(degrees % number, 0, SHORT_TICK) * UP, x - SHORT_TICK * UP, Role.SCALE)
 
 
-BELOW, PHASES_BELOW = 7.0, 26.0
+DEGREES_OFFSET, PHASES_OFFSET = 7.0, 26.0
 """So far below the lowest diagram the degrees stand, and the angles of the phases [mm]."""
 
 
@@ -293,7 +293,7 @@ def degrees_below(end: float, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
 
     On the axis itself the numbers of the stations stand, and the curve.
     """
-    level, (tick, every) = (low - BELOW) * UP, every_degrees(mu_phi)
+    level, (tick, every) = (low - DEGREES_OFFSET) * UP, every_degrees(mu_phi)
     degrees = np.arange(0, math.degrees(mu_phi.value(end)) + tick / 2, tick)
     x, lengths = np.radians(degrees) / mu_phi.per_mm + level, np.where(degrees % every, TICK, LONG_TICK)
     below = ((n, complex(at)) for n, at in zip(degrees, x - LONG_TICK * UP, strict=True) if n % every == 0)
@@ -306,21 +306,21 @@ def degrees_below(end: float, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
 def phases_below(motion: Motion, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
     """The degrees under the lowest diagram, which reaches down to ``low`` [mm of paper], and the phases' angles."""
     ends = phase_ends(motion, mu_phi)
-    spans = enumerate(pairwise(ends + (low - PHASES_BELOW) * UP))
+    spans = enumerate(pairwise(ends + (low - PHASES_OFFSET) * UP))
     return (
         *degrees_below(ends[-1], mu_phi, low),
         *(Dimension(complex(a), complex(b), phase_angle(motion, k)) for k, (a, b) in spans),
     )
 
 
-def numbered(points: Points, stations: Stations) -> list[int]:
+def numbered_stations(points: Points, stations: Stations) -> list[int]:
     """Which stations are named: of each phase both ends, and every k-th between, so that the names find room.
 
     >>> from math import pi
     >>> import graphcam as gc
     >>> from graphcam.given.stations import divide
     >>> halves = divide(gc.Motion([gc.Rise(30, pi), gc.Return(30, pi)]), 5)
-    >>> numbered(np.arange(12) + 0j, halves), numbered(10.0 * np.arange(12) + 0j, halves)[:6]
+    >>> numbered_stations(np.arange(12) + 0j, halves), numbered_stations(10.0 * np.arange(12) + 0j, halves)[:6]
     ([0, 5, 6, 11], [0, 1, 2, 3, 4, 5])
     """
     found: list[int] = []
@@ -329,7 +329,7 @@ def numbered(points: Points, stations: Stations) -> list[int]:
         between = np.abs(np.diff(points[span]))
         # A covered touch point is none.
         spacing = float(np.nanmedian(between)) if np.isfinite(between).any() else 0.0
-        every = next((k for k in EVERY if k * spacing >= NUMBER_ROOM[parts >= 10]), parts)
+        every = next((k for k in NAMED_STATION_STEPS if k * spacing >= NUMBER_ROOM[parts >= 10]), parts)
         # The last one before the end would stand too near to it.
         found += [span.start + k for k in range(0, parts, every) if k == 0 or parts - k >= every]
         found.append(span.start + parts)
@@ -342,7 +342,7 @@ def numbers(
     """The stations' names beside their points, in one direction or in one for each, where they are ``shown``."""
     names, size = station_names(stations), points.shown.shape
     ways, kept = (np.broadcast_to(each, size) for each in (towards, shown))
-    places = [k for k in numbered(points.shown, stations) if kept[k]]
+    places = [k for k in numbered_stations(points.shown, stations) if kept[k]]
     return tuple(points.first[k].label(names[k], complex(ways[k]), small=True) for k in places)
 
 
@@ -359,7 +359,7 @@ def clear_numbers(points: Points, stations: Stations, beside: Points) -> NDArray
     >>> clear_numbers(np.append(crowded, crowded + 50j), halves, np.array([50 + 0j]))[:6].tolist()
     [True, False, True, True, False, True]
     """
-    clear, named = np.zeros(points.shape, dtype=bool), numbered(points, stations)
+    clear, named = np.zeros(points.shape, dtype=bool), numbered_stations(points, stations)
     for span in stations.phases:
         parts = span.stop - span.start - 1
         taken = list(beside)
@@ -387,10 +387,10 @@ def pieces_of(motion: Motion, stations: Stations, direction: int) -> list[slice]
     return [p for p in stations.pieces if motion.phases[int(stations.phase[p.start])].direction == direction]
 
 
-def as_high(heights: Floats) -> NDArray[np.intp]:
+def first_at_height(heights: Floats) -> NDArray[np.intp]:
     """For each of heights (..., n) the number of the first that is as high: what falls on it is not drawn again.
 
-    >>> as_high(np.array([3.0, 1.0, 3.0, -2.0, 1.0])).tolist()
+    >>> first_at_height(np.array([3.0, 1.0, 3.0, -2.0, 1.0])).tolist()
     [0, 1, 0, 3, 1]
     """
     level = np.round(heights, LEVEL_DIGITS)

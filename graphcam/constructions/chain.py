@@ -25,26 +25,26 @@ from graphcam.constructions.differentiation import measured_differentiation
 from graphcam.constructions.drawings import Drawings, DrawnOnce
 from graphcam.constructions.integration import integration
 from graphcam.constructions.jerk import jerk
+from graphcam.constructions.kinematic_diagram import scheme
 from graphcam.constructions.roller import roller_radius
-from graphcam.constructions.scheme import scheme
 from graphcam.constructions.views import PROFILE
 from graphcam.constructions.working_profile import working_profile
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest, standard_scale
 from graphcam.errors import DesignError
-from graphcam.given.follower import PERMITTED
+from graphcam.given.follower import LIMIT_NAMES
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
 from graphcam.words import chained, say
 
-PHASE_ANGLES = complex(58.0, 44.0)
+PHASE_ANGLES_ROOM = complex(58.0, 44.0)
 """What the phase angles and their texts need beside the profile, and above and below it together [mm of paper]."""
-FURTHER = 5
+FURTHER_MULTIPLES = 5
 """So many multiples of the rounding from the least radius on are tried: a round one is not worth a much larger cam."""
-FINER = (1.0, 0.1, 0.01, 0.001)
+FINER_ROUNDINGS = (1.0, 0.1, 0.01, 0.001)
 """The parts of the rounding that a size is a multiple of, where the region has no room for a rounder one."""
-PERFECT = Pencil()
+PERFECT_PENCIL = Pencil()
 """The hand on whose drawing the decisions rest."""
 
 
@@ -175,9 +175,9 @@ class Chain(Drawings):
         """The same drawing by a hand without error."""
         if self.pencil.perfect and self.pencil.samples is None and not self.done:
             return self
-        if PERFECT not in self._by_others:
-            self._by_others[PERFECT] = replace(self, pencil=PERFECT, done={})
-        return self._by_others[PERFECT]
+        if PERFECT_PENCIL not in self._by_others:
+            self._by_others[PERFECT_PENCIL] = replace(self, pencil=PERFECT_PENCIL, done={})
+        return self._by_others[PERFECT_PENCIL]
 
     def by(self, pencil: Pencil) -> Chain:
         """The same task, with the same decisions, drawn by another hand."""
@@ -188,7 +188,7 @@ class Chain(Drawings):
         board = self.board if refine == 1 else replace(self.board, refine=refine * self.board.refine)
         return replace(self, board=board, pencil=pencil or Pencil(), decided=self.sizes, done={})
 
-    def going_on_from(self, construction: Construction) -> Chain:
+    def continued_from(self, construction: Construction) -> Chain:
         """The chain in which this construction takes the place of the one of its name: what comes later follows it.
 
         The adopted sizes stay as they were: decisions are those of a hand without error.
@@ -202,7 +202,7 @@ class Chain(Drawings):
     def _deciding_alike(self, other: Chain) -> Chain:
         # The same board is drawn alike by a perfect hand, so what the decisions rest on is not drawn again.
         if other.perfect is not other:
-            other._by_others[PERFECT] = self.perfect
+            other._by_others[PERFECT_PENCIL] = self.perfect
         return other
 
     @property
@@ -261,7 +261,7 @@ class Chain(Drawings):
         place = self._rounded_place() if place is None else place
         radius = self._rounded_radius(place) if radius is None else radius
         together = lies_in(self._places(radius), place, self.rounding)
-        return (radius, place) if together else self._next_together() or (radius, place)
+        return (radius, place) if together else self._next_round_sizes() or (radius, place)
 
     def _rounded_place(self) -> float:
         """The round number nearest to the place found that some radius goes with."""
@@ -282,16 +282,16 @@ class Chain(Drawings):
         stretched = self.board.follower.must_exceed(place) / self.rounding
         return max(radius, multiple(math.floor(stretched + ROUNDING_SLACK) + 1, self.rounding))
 
-    def _next_together(self) -> tuple[float, float] | None:
+    def _next_round_sizes(self) -> tuple[float, float] | None:
         """The next larger round radius that a round place goes with, or else less round ones; None if none is left.
 
         The places that an arm may have at one radius, and the radii at one distance, may lie closer to one another than
         the rounding.
         """
         given = self.board.prime_radius, self.board.follower.place
-        for step in (self.rounding * part for part in FINER):
+        for step in (self.rounding * part for part in FINER_ROUNDINGS):
             first = steps_up(self._proposal("prime_radius"), step)
-            radii = [multiple(first + k, step) for k in range(FURTHER)] if given[0] is None else [given[0]]
+            radii = [multiple(first + k, step) for k in range(FURTHER_MULTIPLES)] if given[0] is None else [given[0]]
             for radius in radii:
                 places, place = self._places(radius), given[1]
                 if place is None:
@@ -336,7 +336,7 @@ class Chain(Drawings):
         reach = board.follower.reach(r0, self.place, board.motion, max(rollers, 0.0))
         # The arcs of the phase angles about the curve do not grow with the scale.
         room = min(width, height)
-        inner = max(min(width - PHASE_ANGLES.real, height - PHASE_ANGLES.imag), room / 2)
+        inner = max(min(width - PHASE_ANGLES_ROOM.real, height - PHASE_ANGLES_ROOM.imag), room / 2)
         within = board.follower.reach(r0, self.place, board.motion, 0.0)
         return coarsest(standard_scale(2 * reach, room, ratios), standard_scale(2 * within, inner, ratios))
 
@@ -360,7 +360,7 @@ class Chain(Drawings):
                 remedy = say("{degrees:.0f} degrees? {angle:g} was given; or give {names}")
                 remedy = remedy.where(degrees=math.degrees(angle), angle=angle, names=chained(missing))
                 found = say("{angle:g} degrees", angle=angle)
-                raise DesignError(PERMITTED[way], found, limit, remedy)
+                raise DesignError(LIMIT_NAMES[way], found, limit, remedy)
             limit = say("a place within all limits, where lines cross at a degree or more")
             remedy = say("give {names}, or permit larger pressure angles", names=chained(missing))
             raise DesignError(say("minimum prime radius"), say("unreadable"), limit, remedy)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.constructions.axes import OVERHANG, numbers, pieces_of, station_names, turning
+from graphcam.constructions.axes import AXIS_OVERHANG, numbers, pieces_of, sense_caption, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
@@ -18,7 +18,7 @@ from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Reading, Row, Step, say
 from graphcam.drafting.marks import Line, Role
-from graphcam.drafting.scale import NOTHING
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE
 from graphcam.drafting.telling import STATION, from_to, run, setting
 from graphcam.given.follower import Rotation, sense
 from graphcam.words import say_in, sequence
@@ -39,14 +39,14 @@ def offset_line(hand: Hand, start: Drawn, offset: float, s: Reading) -> Drawn:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-WORKED = 1 / 3
+WORKED_SHARE = 1 / 3
 """So far through the first rise stands the station that is told in full."""
 
 
-def aside(x: float) -> Caption:
+def side_caption(x: float) -> Caption:
     """To which side something lies, to the right if ``x`` is positive.
 
-    >>> str(aside(-2.0))
+    >>> str(side_caption(-2.0))
     'to the left'
     """
     return say_in("aside", "to the left") if x < 0 else say_in("aside", "to the right")
@@ -56,10 +56,10 @@ def worked_station(integrated: Integrated) -> int:
     """The station that is told in full: of the first rise, with a length to lay off."""
     stations, v = integrated.givens.stations, integrated.first("v")
     first = stations.moving == stations.moving[pieces_of(integrated.givens.motion, stations, 1)[0].start]
-    return int(np.argmin(np.where(first & (v > np.max(v) / 10), np.abs(stations.u - WORKED), np.inf)))
+    return int(np.argmin(np.where(first & (v > np.max(v) / 10), np.abs(stations.u - WORKED_SHARE), np.inf)))
 
 
-def laid_off(region: Construction[Any], bottom: float) -> Step:
+def displacement_step(region: Construction[Any], bottom: float) -> Step:
     """The displacements up the line of motion, and at each the velocity."""
     integrated, heights, ends = region.givens.integrated, region.acts["displacements"], region.acts["ends"]
     stations, start, x = integrated.givens.stations, region.acts["start of the lift"].first, ends.shown.real
@@ -67,7 +67,7 @@ def laid_off(region: Construction[Any], bottom: float) -> Step:
     # The ends of a phase lie on the line of motion, several in one place: their numbers stand above it or below.
     rising = np.array([integrated.givens.motion.phases[k].direction for k in stations.phase])
     apart = np.where(s > np.mean(s), UP, -UP) - sense(region.givens.rotation) * rising
-    line = (Line(UP * np.array([bottom, float(ends.shown.imag.max()) + OVERHANG]), Role.AXIS),)
+    line = (Line(UP * np.array([bottom, float(ends.shown.imag.max()) + AXIS_OVERHANG]), Role.AXIS),)
     marks = (
         *line,
         *(ends.from_(heights, Role.CONSTRUCTION), heights.dots(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION)),
@@ -79,9 +79,13 @@ def laid_off(region: Construction[Any], bottom: float) -> Step:
 
     def set_off(k: int) -> Caption:
         """How high a station's mark lies, and how long v is there, and to which side."""
-        up = say("at B₀") if abs(s[k]) < NOTHING else say("{s:.2f} mm up", s=s[k])
+        up = say("at B₀") if abs(s[k]) < NEGLIGIBLE_SIZE else say("{s:.2f} mm up", s=s[k])
         at = ends.first[[k]]
-        v_there = say("v = 0") if abs(x[k]) < NOTHING else say("v {set} {side}", set=setting(at), side=aside(x[k]))
+        v_there = (
+            say("v = 0")
+            if abs(x[k]) < NEGLIGIBLE_SIZE
+            else say("v {set} {side}", set=setting(at), side=side_caption(x[k]))
+        )
         return say("{up}, {v_there}", up=up, v_there=v_there)
 
     stationed = run(_laying_off(region), STATION, station_names(stations), heights, ends, settings=set_off)
@@ -104,13 +108,13 @@ def _laying_off(region: Construction[Any]) -> Caption:
             "with the cam, {rotation}. Multiply every ordinate of v by μᵥ/μₛ = {factor:.5g}, so that it has the scale "
             "of s."
         ).where(
-            rise=aside(-sigma),
-            back=aside(sigma),
-            rotation=turning(region.givens.rotation),
+            rise=side_caption(-sigma),
+            back=side_caption(sigma),
+            rotation=sense_caption(region.givens.rotation),
             factor=integrated.readings["v"].per_mm / integrated.readings["s"].per_mm,
         )
     ]
-    if integrated.first("v")[k] > NOTHING:
+    if integrated.first("v")[k] > NEGLIGIBLE_SIZE:
         worked = say("Station {name}: mark it {s:.2f} mm up and lay off {set}.", s=integrated.first("s")[k])
         said.append(worked.where(name=station_names(integrated.givens.stations)[k], set=setting(ends.first[[k]])))
     return sequence([*said, say("The longest measures {longest:.1f} mm.", longest=longest)], " ")
@@ -146,4 +150,6 @@ def offset_caption(offset: float, mu: float) -> Caption:
         "{size:g}/{mu:.5g} = {paper:.2f} mm {other} of B₀."
     )
     size = abs(offset)
-    return said.where(e=offset, size=size, side=aside(offset), mu=mu, paper=size / mu, other=aside(-offset))
+    return said.where(
+        e=offset, size=size, side=side_caption(offset), mu=mu, paper=size / mu, other=side_caption(-offset)
+    )

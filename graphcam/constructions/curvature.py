@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from graphcam.constructions.axes import phase_symbol, station_names
 from graphcam.constructions.profile_view import Inverted
-from graphcam.constructions.sharpest_bend import centres_of, neighbours, resting_of, sharpest_of, turns_a_corner
+from graphcam.constructions.sharpest_bend import centres_of, dwell_arcs, neighbours, sharpest_of, turns_a_corner
 from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import COMPASS, Hand, between, reckoned, showing
+from graphcam.drafting.hand import BISECTION_SHARE, Hand, calculated, distance_between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Role
 from graphcam.drafting.meaning import (
@@ -113,7 +113,7 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     """
     hand, integrated, mu_l = Hand(pencil, MEANING), inverted.givens.integrated, inverted.givens.mu_l.per_mm
     pitch, centre, nowhere = hand.found(inverted, "pitch"), hand.given("cam centre"), hand.given("nowhere", [np.nan])
-    rests, angles = _rests(hand, inverted, pitch, centre)
+    rests, angles = _dwell_arcs(hand, inverted, pitch, centre)
     places, corner = hand.take("places", pitch, rests, nowhere), turns_a_corner(inverted)
     # The eye takes one place of the moving phases and one of the rests.
     of_rests = inverted.points["pitch"].shape[-1] + np.arange(rests.points.shape[-1]).reshape(-1, 3)
@@ -140,21 +140,21 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     o = hand.take("centre", centres, nowhere, which=np.where(unread, 2, best)[..., None])[0]
     # On the axis the place has its station's mark; it is carried down to the scale of degrees, where it is read.
     marks, degrees_axis = hand.take("cam angles", angles, nowhere, which=chosen), hand.given("degrees", along=RIGHT)
-    phi = between(hand.given("start of the turn"), hand.project("on the degrees", marks, degrees_axis), RIGHT)
-    hand.read("rho", between(triple[1], o), mu_l)
-    hand.read("rho_candidates", between(b, centres), mu_l, "mm")
+    phi = distance_between(hand.given("start of the turn"), hand.project("on the degrees", marks, degrees_axis), RIGHT)
+    hand.read("rho", distance_between(triple[1], o), mu_l)
+    hand.read("rho_candidates", distance_between(b, centres), mu_l, "mm")
     in_radians = partial(np.multiply, integrated.givens.mu_phi.per_mm)
-    hand.read("phi", reckoned(in_radians, phi), 1.0, rounded=False)
+    hand.read("phi", calculated(in_radians, phi), 1.0, rounded=False)
     return hand.finished(CurvatureGivens(inverted, corner), _draw, {"triple": triple, "centre": o})
 
 
-def _rests(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> tuple[Drawn, Drawn]:
+def _dwell_arcs(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> tuple[Drawn, Drawn]:
     """Three points on the arc of each rest, and the places of all points on the axis of the cam angle."""
     integrated = inverted.givens.integrated.givens
-    resting = resting_of(integrated.motion, integrated.stations)
+    resting = dwell_arcs(integrated.motion, integrated.stations)
     last = np.array([after for after, _ in resting], dtype=np.intp)
     turns, each = np.ravel([turn for _, turn in resting]), np.repeat(np.arange(last.size), 3)
-    arcs = hand.circle("arcs of the rests", centre, between(centre, pitch[last]))
+    arcs = hand.circle("arcs of the rests", centre, distance_between(centre, pitch[last]))
     ends = hand.join("rays to the rests", centre, pitch[last])[each]
     rays = hand.protractor("rays of the rests", centre, ends, -sense(inverted.givens.rotation) * turns)
     axis = hand.found(integrated.diagram, "axis")
@@ -164,9 +164,9 @@ def _rests(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> tuple
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-DETAIL = 70.0
+MAX_DETAIL_RADIUS = 70.0
 """The detail is enlarged to the largest standard scale at which the radius of curvature is not longer [mm]."""
-CAREFUL = 0.15
+CAREFUL_ERROR = 0.15
 """By so much a careful hand misses a point [mm]."""
 ONLY_RESTS = say(
     "In the moving phases the curvature cannot be read, because there are too few points between the jumps of "
@@ -197,7 +197,7 @@ def detail_of(curved: Curved) -> Detail | None:
         return None
     triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], showing(curved)
     paper = curved.givens.inverted.givens.paper
-    scale = paper.kept(CURVATURE.name) or standard_scale(float(curved.value("rho")), DETAIL, paper.ratios)
+    scale = paper.kept(CURVATURE.name) or standard_scale(float(curved.value("rho")), MAX_DETAIL_RADIUS, paper.ratios)
     times = curved.givens.inverted.givens.mu_l.per_mm / scale.per_mm
     shown, hub = (hand.enlarged(drawn.act.name, drawn, triple[1], times) for drawn in (triple, o))
     return Detail(hand, at_scale(CURVATURE, scale), scale.per_mm, times, shown, hub)
@@ -256,13 +256,15 @@ def _missed(curved: Curved) -> list[Caption]:
     places, mu_l = curved.acts["triple"].first, curved.givens.inverted.givens.mu_l.per_mm
     chords, rho = np.abs(np.diff(places.shown)), float(curved.value("rho"))
     chord = float(chords.mean())
-    missed = 4 * CAREFUL * rho / mu_l / chord**2
-    if _chosen(curved)[1] >= curved.givens.inverted.acts["pitch"].shown.size:
+    missed = 4 * CAREFUL_ERROR * rho / mu_l / chord**2
+    if _chosen_places(curved)[1] >= curved.givens.inverted.acts["pitch"].shown.size:
         return []
     said = say(
         "If every point may be off by {careful:g} mm, ρ may be off by {missed}: 4 × {careful:g} mm × ρ/h², with "
         "h = ({first:.2f} + {second:.2f})/2 = {chord:.1f} mm and ρ = {rho:.1f} mm on the profile."
-    ).where(careful=CAREFUL, missed=_percent(missed), chord=chord, rho=rho / mu_l, first=chords[0], second=chords[1])
+    ).where(
+        careful=CAREFUL_ERROR, missed=_percent(missed), chord=chord, rho=rho / mu_l, first=chords[0], second=chords[1]
+    )
     wide = _twice_as_wide(curved)
     if wide is None:
         return [said]
@@ -282,7 +284,7 @@ def _percent(part: float) -> Caption:
 
 def _twice_as_wide(curved: Curved) -> tuple[list[str], float] | None:
     """The stations of chords twice as wide on the same smooth piece, and the radius [mm] that they read."""
-    inverted, (i, k, j) = curved.givens.inverted, _chosen(curved)
+    inverted, (i, k, j) = curved.givens.inverted, _chosen_places(curved)
     stations, pitch, step = inverted.givens.integrated.givens.stations, inverted.acts["pitch"].shown, k - i
     pieces = [piece for piece in stations.pieces if piece.start <= i < j < piece.stop]
     # About B, or with one of its neighbours in the middle.
@@ -301,7 +303,7 @@ def _bisected(curved: Curved, detail: Detail) -> Step:
     )
     second = say("Do the same with {setting:.1f} mm on the second chord.")
     why = say("The centre of a circle is equally far from both ends of a chord.")
-    told = (first.where(setting=settings[0], share=COMPASS), second.where(setting=settings[1]))
+    told = (first.where(setting=settings[0], share=BISECTION_SHARE), second.where(setting=settings[1]))
     halves = [Part(caption, of) for caption, (_, of) in zip(told, lines, strict=True)]
     hub, marks = detail.hub, [mark for made, _ in lines for mark in made]
     found = Part(say("The two lines meet in O, the centre of curvature."), (hub,))
@@ -351,18 +353,18 @@ def _unreadable(curved: Curved) -> Caption:
     return say("The curvature cannot be read: the bisectors of neighbouring chords cross at less than a degree.")
 
 
-def _chosen(curved: Curved) -> list[int]:
+def _chosen_places(curved: Curved) -> list[int]:
     """Which three places were taken: numbers of stations, then of places of the rests."""
     return np.atleast_2d(curved.acts["triple"].act.takes["which"])[0].tolist()
 
 
 def _place(curved: Curved) -> Caption:
-    integrated, k = curved.givens.inverted.givens.integrated.givens, _chosen(curved)[1]
+    integrated, k = curved.givens.inverted.givens.integrated.givens, _chosen_places(curved)[1]
     motion, stations = integrated.motion, integrated.stations
     names = station_names(stations)
     if k < len(names):
         return say("station {name}", name=names[k])
-    last, turns = resting_of(motion, stations)[(k - len(names)) // 3]
+    last, turns = dwell_arcs(motion, stations)[(k - len(names)) // 3]
     if turns[1]:  # no stations in dwells
         dwell = (int(stations.phase[last]) + 1) % len(motion.phases)
         return say("the middle of a dwell ({symbol})", symbol=phase_symbol(motion, dwell))
@@ -372,7 +374,7 @@ def _place(curved: Curved) -> Caption:
 
 def _neighbours_named(curved: Curved) -> tuple[str, str]:
     """What the places beside the middle one are called; in a rest nothing."""
-    names, (i, _, j) = station_names(curved.givens.inverted.givens.integrated.givens.stations), _chosen(curved)
+    names, (i, _, j) = station_names(curved.givens.inverted.givens.integrated.givens.stations), _chosen_places(curved)
     return (names[i], names[j]) if j < len(names) else ("", "")
 
 
@@ -394,7 +396,7 @@ def _bisectors(curved: Curved, detail: Detail) -> tuple[list[Bisected], list[flo
     for k, line in enumerate(lines):
         a, b, middle = triple[k], triple[k + 1], line.place
         ends = np.array([middle - (hub - middle) * 0.12, hub + (hub - middle) * 0.06])
-        setting = reckoned(partial(np.multiply, COMPASS), between(a, b))
+        setting = calculated(partial(np.multiply, BISECTION_SHARE), distance_between(a, b))
         arcs = [hand.circle(f"arcs of {line.act.name}", end, setting) for end in (a, b)]
         marks: list[Mark] = [Line(ends, Role.CONSTRUCTION).left_by(line)]
         for meeting, arc in product((hand.cross("left", *arcs), hand.cross("right", *arcs[::-1])), arcs):
@@ -409,7 +411,7 @@ def _radius(curved: Curved, detail: Detail) -> tuple[tuple[Mark, ...], Drawn, Dr
     """The radius of curvature, from the centre to the middle place, and a little of its circle; with both acts."""
     hand, triple, hub = detail.hand, detail.triple, detail.hub
     ob, read = hand.join("OB", hub, triple[1]), curved.readings["rho"]
-    circle = hand.circle("circle of curvature", hub, between(hub, triple[1]))
+    circle = hand.circle("circle of curvature", hub, distance_between(hub, triple[1]))
     before, middle, after = triple.shown - hub.place
     turn, wide = float(np.angle(middle)), max(abs(float(np.angle(end / middle))) for end in (before, after))
     # The circle is shown a little beyond the chords.

@@ -12,12 +12,12 @@ from graphcam.drafting.ink import Caption, Part, Row, say
 from graphcam.drafting.marks import Line, Points, Role
 from graphcam.drafting.telling import FRENCH_CURVE, RULER, from_to
 from graphcam.given.motion import FULL_TURN
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 from graphcam.words import sequence
 
-STRAIGHT = 0.05
+STRAIGHTNESS = 0.05
 """Points that lie so near to a line [mm of paper] are joined with the ruler."""
-REST = 1e-9
+MIN_DWELL_ANGLE = 1e-9
 """A dwell is longer [rad]."""
 
 _ALL_STRAIGHT = say(
@@ -25,11 +25,11 @@ _ALL_STRAIGHT = say(
     "chords are the curve."
 )
 _ALL_BENT = say("Draw a smooth curve through the points with the French curve, from jump to jump of the acceleration.")
-_EITHER = say(
+_CURVE_WITH_JUMPS = say(
     "Draw the curve through the points from jump to jump of the acceleration: with the ruler where they lie on one "
     "line, elsewhere with the French curve."
 )
-_LEVEL = say("In the dwells draw it horizontally with the T-square.")
+_DWELL_CAPTION = say("In the dwells draw it horizontally with the T-square.")
 
 
 def curve_over_phi(
@@ -50,19 +50,19 @@ def curve_over_phi(
         ends = from_to(names[piece.start], names[piece.stop - 1])
         rows.append(Row(ends, sequence([*tool, *corner], "; ") if tool or corner else "", (faired,)))
         lines.append(faired.line(Role.RESULT))
-    told = _ALL_STRAIGHT if all(straight) else _EITHER if either else _ALL_BENT
-    level, resting = _rests(givens, hand, curve)
-    rests = (Part(_LEVEL, (level,)),) if resting else ()
+    told = _ALL_STRAIGHT if all(straight) else _CURVE_WITH_JUMPS if either else _ALL_BENT
+    level, resting = _dwell_levels(givens, hand, curve)
+    rests = (Part(_DWELL_CAPTION, (level,)),) if resting else ()
     return (*lines, *resting), (Part(told, rows=tuple(rows)), *rests)
 
 
 def _on_one_line(points: Points) -> bool:
     """Whether points lie so near to the line from the first to the last that the ruler draws them."""
     way = euclid.unit(points[-1:] - points[:1])
-    return bool(np.abs(dot(way * UP, points - points[0])).max() < STRAIGHT)
+    return bool(np.abs(dot(way * UP, points - points[0])).max() < STRAIGHTNESS)
 
 
-def _rests(givens: TurnGivens, hand: Hand, curve: Drawn) -> tuple[Drawn, tuple[Line, ...]]:
+def _dwell_levels(givens: TurnGivens, hand: Hand, curve: Drawn) -> tuple[Drawn, tuple[Line, ...]]:
     """The levels of a curve before the dwells, and its level lines from each to the next phase."""
     stations = givens.stations
     ends = [k for span in stations.phases for k in (span.start, span.stop - 1)]
@@ -71,7 +71,7 @@ def _rests(givens: TurnGivens, hand: Hand, curve: Drawn) -> tuple[Drawn, tuple[L
     turn = FULL_TURN / givens.mu_phi.per_mm
     bounds = np.array([last.imag * UP, *places, turn + last.imag * UP]).reshape(-1, 2)
     angles = np.array([0.0, *stations.phi[ends], FULL_TURN]).reshape(-1, 2)
-    resting = np.flatnonzero(np.diff(angles)[:, 0] > REST)
+    resting = np.flatnonzero(np.diff(angles)[:, 0] > MIN_DWELL_ANGLE)
     # At the start of the turn the follower rests where it does at its end.
     before = np.arange(-1, len(ends), 2)[resting] % len(level.points)
     lines = zip(bounds[resting], before, strict=True)

@@ -13,7 +13,15 @@ from typing import Literal
 
 import numpy as np
 
-from graphcam.constructions.axes import EVERY, SUBSCRIPTS, axes_over_phi, degrees_below, ordinate, pole_marks, reach
+from graphcam.constructions.axes import (
+    NAMED_STATION_STEPS,
+    SUBSCRIPTS,
+    axes_over_phi,
+    degrees_below,
+    ordinate,
+    pole_marks,
+    reach,
+)
 from graphcam.constructions.graduation import (
     every_kth,
     falling_together,
@@ -26,8 +34,8 @@ from graphcam.constructions.graduation import (
 from graphcam.constructions.pole_scales import PoleTerms, pole_formula
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn, Setting
-from graphcam.drafting.euclid import RIGHT, UP, divided
-from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.euclid import RIGHT, UP, division_points
+from graphcam.drafting.hand import Hand, calculated, distance_between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Formula, Meaning, ReadingMeaning, Symbol
@@ -37,18 +45,18 @@ from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
 from graphcam.given.motion import FULL_TURN, Motion, wrap
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 from graphcam.words import say_many, sequence
 
 By = Literal["chords", "tangents"]
-FEWEST = 4
+MIN_STATIONS = 4
 """Stations: with fewer no acceleration has a neighbour."""
-TANGENT = 12.0
+TANGENT_HALF_LENGTH = 12.0
 """Half the length of a drawn tangent [mm of paper]."""
-CROSS, ROWS_ROOM = 0.6, 2.5
+CROSS_HALF_WIDTH, ROWS_ROOM = 0.6, 2.5
 """Half the width of a cross at a row, and how far apart crosses stand at least [mm of paper]."""
 
-VIEWS = {
+DIAGRAM_VIEWS = {
     "s": View("measured displacement", say("Measured displacement s"), across="measured phi", up="measured s"),
     "v": View("measured velocity", say("Velocity v by differentiation"), across="measured phi", up="measured v"),
     "a": View(
@@ -110,7 +118,7 @@ MEANING = Meaning(
         "max_a": ReadingMeaning(say("maximum a"), "max a", "lift/rad²"),
     },
     FORMULAS,
-    scales={VIEWS["s"].name: "rise", VIEWS["v"].name: "v", VIEWS["a"].name: "a"},
+    scales={DIAGRAM_VIEWS["s"].name: "rise", DIAGRAM_VIEWS["v"].name: "v", DIAGRAM_VIEWS["a"].name: "a"},
     scales_found_by="integration",
 )
 
@@ -123,7 +131,7 @@ def measured_differentiation(
     parts : of the turn;  the others as in :func:`differentiation`
     """
     turn = FULL_TURN / mu_phi.per_mm
-    x = divided(0j, turn + 0j, parts).real[:-1]
+    x = division_points(0j, turn + 0j, parts).real[:-1]
     s = motion(x * mu_phi.per_mm)[0] / mu_s.per_mm
     rows = None
     if isinstance(motion, MeasuredMotion):
@@ -176,25 +184,25 @@ def differentiation(
     if rows is not None:
         hand.given("rows", np.asarray(rows))
     plotted = hand.lay_off("s", hand.lay_off("stations", origin, RIGHT, x), UP, s)
-    (start, end), v = _derived(hand, givens, 1, plotted, _going_on(hand, turn, plotted))
-    v_on = _going_on(hand, turn, v)
+    (start, end), v = _derived(hand, givens, 1, plotted, _extended_curve(hand, turn, plotted))
+    v_on = _extended_curve(hand, turn, v)
     _, a = _derived(hand, givens, 2, v, v_on)
     mu_v = mu_s.per_mm / (mu_phi.per_mm * poles[0])
     mu_a = mu_v / (mu_phi.per_mm * poles[1])
-    hand.read("rise", between(start, end, UP), mu_s.per_mm, mu_s.unit)
-    hand.read("run", between(start, end, RIGHT), mu_phi.per_mm, "rad", rounded=False)
+    hand.read("rise", distance_between(start, end, UP), mu_s.per_mm, mu_s.unit)
+    hand.read("run", distance_between(start, end, RIGHT), mu_phi.per_mm, "rad", rounded=False)
     for name, derived, scale in (("v", v, mu_v), ("a", a, mu_a)):
-        hand.read(name, between(origin, derived, UP), scale)
-        hand.read(f"{name}_at", between(origin, derived, RIGHT), mu_phi.per_mm, "rad", rounded=False)
-    hand.read("max_v", _greatest(hand, v, v_on), mu_v)
-    hand.read("max_a", _greatest(hand, a, _going_on(hand, turn, a)), mu_a)
+        hand.read(name, distance_between(origin, derived, UP), scale)
+        hand.read(f"{name}_at", distance_between(origin, derived, RIGHT), mu_phi.per_mm, "rad", rounded=False)
+    hand.read("max_v", _greatest_ordinate(hand, v, v_on), mu_v)
+    hand.read("max_a", _greatest_ordinate(hand, a, _extended_curve(hand, turn, a)), mu_a)
     return hand.finished(givens, _draw, {"s": plotted, "v": v, "a": a})
 
 
 def _check(x: Floats, s: Floats, turn: float | None) -> None:
     checked = say("stations of the displacement")
-    if x.ndim != 1 or x.shape != s.shape or x.size < FEWEST:
-        raise DesignError(checked, x.size, say("{least} or more, each with its ordinate", least=FEWEST))
+    if x.ndim != 1 or x.shape != s.shape or x.size < MIN_STATIONS:
+        raise DesignError(checked, x.size, say("{least} or more, each with its ordinate", least=MIN_STATIONS))
     if not np.all(np.diff(x) > 0):
         raise DesignError(checked, say("not in order"), say("growing along the axis"), say("sort them"))
     if turn is not None and not x[-1] - x[0] < turn:
@@ -203,7 +211,7 @@ def _check(x: Floats, s: Floats, turn: float | None) -> None:
         raise DesignError(checked, found, say("within one turn of {turn:g} mm", turn=turn), remedy)
 
 
-def _going_on(hand: Hand, turn: float | None, curve: Drawn) -> Drawn:
+def _extended_curve(hand: Hand, turn: float | None, curve: Drawn) -> Drawn:
     """The places of a curve; of a cyclic diagram in the turn before, in its own and in the one after."""
     if turn is None:
         return curve
@@ -250,7 +258,7 @@ def _directions(turn: float | None, points: Points) -> Points:
     return 1 + UP * inside
 
 
-def _greatest(hand: Hand, curve: Drawn, going_on: Drawn) -> Setting:
+def _greatest_ordinate(hand: Hand, curve: Drawn, going_on: Drawn) -> Setting:
     """The greatest ordinate up or down, where the faired curve turns; of a cyclic diagram over its ends too."""
     name, count, ends = curve.act.name, curve.points.shape[-1], list[Setting]()
     for side, word in ((UP, "highest"), (-UP, "lowest")):
@@ -258,8 +266,8 @@ def _greatest(hand: Hand, curve: Drawn, going_on: Drawn) -> Setting:
         begin = count + np.argmin(dot(side, curve.points), axis=-1)[..., None] if going_on is not curve else 0
         places = hand.take(f"{name} about its {word}", going_on, which=begin + np.arange(count))
         top = hand.tangent(f"{word} {name}", places, [slice(None)], side)
-        ends.append(between(hand.acts["origin"], top, side))
-    return reckoned(np.maximum, *ends)
+        ends.append(distance_between(hand.acts["origin"], top, side))
+    return calculated(np.maximum, *ends)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -316,7 +324,7 @@ class _Pass:
 
 def _draw(c: Construction[DifferentiationGivens]) -> list[Step]:
     runs = _Pass(c, 1, "s", "v"), _Pass(c, 2, "v", "a")
-    drawn = [draw(run) for run in runs for draw in (_traced, _with_rays, _joined)]
+    drawn = [draw(run) for run in runs for draw in (_traced, _with_rays, _curve_step)]
     return [_draw_source(c), *drawn, *(_scale(run) for run in runs)]
 
 
@@ -342,7 +350,7 @@ def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
     rows, curve, crosses = _shown_rows(c), _curve(c, "s"), ()
     if rows:
         told.append(say("The crosses are rows of the table, which the curve smooths."))
-        arms = CROSS * np.array([1 + UP, 1 - UP])
+        arms = CROSS_HALF_WIDTH * np.array([1 + UP, 1 - UP])
         crosses = (Segments(rows[0].shown - a, rows[0].shown + a, Role.LIMIT).left_by(rows[0]) for a in arms)
     marks = (*plotted, *crosses, curve.line(Role.RESULT))
     why = say("The velocity is the slope of the displacement, and only a curve has a slope.")
@@ -356,7 +364,7 @@ def _shown_rows(c: Construction[DifferentiationGivens]) -> tuple[Drawn, ...]:
     if not rows.size:
         return ()
     spacing = float(np.median(np.diff(np.sort(rows.real))))
-    every = next((k for k in EVERY if k * spacing >= ROWS_ROOM), rows.size)
+    every = next((k for k in NAMED_STATION_STEPS if k * spacing >= ROWS_ROOM), rows.size)
     return (c.acts["rows"].first[np.argsort(rows.real)[::every]],)
 
 
@@ -381,7 +389,7 @@ def _traced(run: _Pass) -> Step:
         why = say("The mean slope of {source} over a part is very nearly its slope in the middle of the part.")
     else:
         title, called = say("Tangents to {source}"), say("Tangent {name}")
-        beside, half = slopes, TANGENT * along / np.abs(along)
+        beside, half = slopes, TANGENT_HALF_LENGTH * along / np.abs(along)
         line = Segments(places - half, places + half, Role.LIMIT).left_by(slopes)
         # The points of v have theirs already.
         numbers = row_numbers(slopes, run.first, outward) if run.source == "s" else ()
@@ -435,7 +443,7 @@ def _with_rays(run: _Pass) -> Step:
     return Step(run.told(title), (part,), _view(c, run.target), marks, given=axes, why=run.told(why), under=under)
 
 
-def _joined(run: _Pass) -> Step:
+def _curve_step(run: _Pass) -> Step:
     c, target, heights = run.c, run.target, run.c.acts[run.target].shown.imag
     up, down = (abs(c.acts[f"{way} {target}"].place.imag) for way in ("highest", "lowest"))
     near, longest = int(np.argmax(heights if up >= down else -heights)), float(c.first(f"max_{target}"))
@@ -448,7 +456,7 @@ def _joined(run: _Pass) -> Step:
 
 
 def _view(c: Construction[DifferentiationGivens], symbol: str) -> View:
-    view = VIEWS[symbol]
+    view = DIAGRAM_VIEWS[symbol]
     scale = c.givens.mu_s.per_mm if symbol == "s" else c.readings[symbol].scale
     per = unit(c.givens.mu_s.unit) if symbol == "s" else sequence(["(", unit(c.readings[symbol].unit), ")"], "")
     values = {"title": view.title, "index": {"s": "ₛ", "v": "ᵥ", "a": "ₐ"}[symbol], "mu": scale}
@@ -458,7 +466,7 @@ def _view(c: Construction[DifferentiationGivens], symbol: str) -> View:
 def _curve(c: Construction[DifferentiationGivens], name: str) -> Drawn:
     """The faired curve; of a cyclic diagram over the ends of the turn."""
     hand, turn = showing(c), c.givens.turn
-    line = hand.fair(f"curve of {name}", _going_on(hand, turn, c.acts[name].first), [slice(None)])
+    line = hand.fair(f"curve of {name}", _extended_curve(hand, turn, c.acts[name].first), [slice(None)])
     drawn = slice(None) if turn is None else (line.points.real >= 0) & (line.points.real <= turn)
     return line[drawn]
 

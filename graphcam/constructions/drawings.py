@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Self, overload
 
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.meaning import Meaning
-from graphcam.showing import WIDTH, Shown, in_lines
+from graphcam.showing import MAX_WIDTH, Plottable, in_lines
 
 Draw = Callable[[Any], Construction]
 """Draws a construction from the chain that it belongs to."""
@@ -37,7 +37,7 @@ class DrawnOnce:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Drawings(Shown, Mapping[str, Construction]):
+class Drawings(Plottable, Mapping[str, Construction]):
     """Constructions of one cam by name.
 
     further : what draws those that were added, by name
@@ -73,7 +73,7 @@ class Drawings(Shown, Mapping[str, Construction]):
 
     def __repr__(self) -> str:
         last = "chain[name] is a construction, drawn when it is first asked for"
-        return in_lines(f"{type(self).__name__} of {len(self)} constructions", wrap(", ".join(self), WIDTH), last)
+        return in_lines(f"{type(self).__name__} of {len(self)} constructions", wrap(", ".join(self), MAX_WIDTH), last)
 
     def drawn(self, name: str) -> Construction:
         """A construction of the chain, or one that stands beside it."""
@@ -85,7 +85,7 @@ class Drawings(Shown, Mapping[str, Construction]):
         """The same chain with one more construction: what it says of itself, and what draws it from the chain.
 
         >>> import graphcam as gc
-        >>> from graphcam.constructions.scheme import MEANING, scheme
+        >>> from graphcam.constructions.kinematic_diagram import MEANING, scheme
         >>> chain = gc.solve(gc.builtin_arcs_task()).chain
         >>> list(chain.adding(MEANING, lambda chain: scheme(chain.board, chain.pencil)))[-2:]
         ['arc_diagrams', 'scheme']

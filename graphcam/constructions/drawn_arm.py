@@ -9,13 +9,13 @@ import numpy as np
 
 from graphcam.constructions.arm_force_plan import arm_force_plan
 from graphcam.constructions.arm_inversion import arm_inversion
-from graphcam.constructions.arm_limit_lines import PRODUCED
+from graphcam.constructions.arm_limit_lines import ARM_OVERHANG_FACTOR
 from graphcam.constructions.arm_minimum_radius import arm_least_radius, permitted_distances
 from graphcam.constructions.arm_positions import cam_centre
 from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
-from graphcam.constructions.axes import turning
+from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.board import DrawnFollower, FollowerLoads, FollowerSize, Values, roller_given
-from graphcam.constructions.sketch import bearing, edge, low_point, plain_cam, size
+from graphcam.constructions.mechanism_sketch import bearing, edge, low_point, plain_cam, size
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
@@ -25,14 +25,18 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.spring_load import ArmLoad
 
-ARM_ON_PAPER = 130.0
+MAX_ARM_ON_PAPER = 130.0
 """The arm positions are usually drawn at the largest standard scale at which the arm is not longer [mm]."""
-BEYOND_START = 0.3
+START_OVERHANG = 0.3
 """So much is drawn beyond B₀ where the arm is not produced, in lengths of the arm."""
-PIVOT, ACROSS, SWING = 42 + 0j, 2.0, 0.2
+SKETCH_PIVOT, SKETCH_ARM_OFFSET, SKETCH_SWING = 42 + 0j, 2.0, 0.2
 """In the kinematic diagram: the pivot, B beside A [mm], and how far the arm is seen to swing [rad]."""
-ROLLER = say("The cam turns {rotation} about A and swings an arm about the pivot C; the roller on it turns about B.")
-EDGE = say("The cam turns {rotation} about A and swings an arm about the pivot C; the knife edge on it is B.")
+ROLLER_DATA = say(
+    "The cam turns {rotation} about A and swings an arm about the pivot C; the roller on it turns about B."
+)
+KNIFE_EDGE_DATA = say(
+    "The cam turns {rotation} about A and swings an arm about the pivot C; the knife edge on it is B."
+)
 
 
 @dataclass(frozen=True)
@@ -100,24 +104,24 @@ class DrawnOscillating(DrawnFollower):
 
     def scheme(self, rotation: Rotation, roller_radius: float | None) -> tuple[Mark, ...]:
         """Cam, roller, arm and pivot."""
-        b = low_point(ACROSS, roller_radius)
-        arm = b - PIVOT
-        swing = cmath.phase(arm) - np.array([1.5 * SWING, 0.5 * SWING])
+        b = low_point(SKETCH_ARM_OFFSET, roller_radius)
+        arm = b - SKETCH_PIVOT
+        swing = cmath.phase(arm) - np.array([1.5 * SKETCH_SWING, 0.5 * SKETCH_SWING])
         return (
             *plain_cam(b, sense(rotation)),
             *edge(b, roller_radius, 1j - 1),
-            *bearing(PIVOT, "C"),
-            Line(np.array([b, PIVOT]), Role.CURVE),
-            Line(np.array([0j, PIVOT]), Role.AXIS),
-            Arc(PIVOT, abs(arm), swing[0], swing[1], Role.CURVE, arrow="start"),
-            Label((b + PIVOT) / 2, size("l", self.arm), 1j * -arm),
-            Label(0.7 * PIVOT, size("c", self.place), -1j),
+            *bearing(SKETCH_PIVOT, "C"),
+            Line(np.array([b, SKETCH_PIVOT]), Role.CURVE),
+            Line(np.array([0j, SKETCH_PIVOT]), Role.AXIS),
+            Arc(SKETCH_PIVOT, abs(arm), swing[0], swing[1], Role.CURVE, arrow="start"),
+            Label((b + SKETCH_PIVOT) / 2, size("l", self.arm), 1j * -arm),
+            Label(0.7 * SKETCH_PIVOT, size("c", self.place), -1j),
         )
 
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """Arm, pivot and roller."""
         return [
-            (EDGE if roller_radius == 0 else ROLLER).where(rotation=turning(rotation)),
+            (KNIFE_EDGE_DATA if roller_radius == 0 else ROLLER_DATA).where(rotation=sense_caption(rotation)),
             say("The arm is l = {arm:g} mm long.", arm=self.arm),
             *([] if self.place is None else [say("The pivot is c = {place:g} mm from A.", place=self.place)]),
             *roller_given(roller_radius),
@@ -134,7 +138,7 @@ def positions_extent(
     s, v, _ = values
     tips = -arm * (1 + sense(rotation) * v) * np.exp(-1j * s)
     # The arm produced lies beyond B₀, the region below the ends.
-    beyond = -arm * (1 + (BEYOND_START if limits.rest else PRODUCED))
+    beyond = -arm * (1 + (START_OVERHANG if limits.rest else ARM_OVERHANG_FACTOR))
     found = [cam_centre(arm, distance, radius, flat=True) for radius, distance in centres]
     places: Points = np.array([0j, *tips.tolist(), beyond, *found])
     return complex(float(np.ptp(places.real)), float(np.ptp(places.imag)))

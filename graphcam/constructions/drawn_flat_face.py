@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.axes import turning
+from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.board import DrawnFollower, FollowerSize, Values
 from graphcam.constructions.flat_inversion import flat_inversion
 from graphcam.constructions.flat_minimum_radius import flat_curvature, flat_least_radius
-from graphcam.constructions.sketch import BASE, guided_stem, plain_cam
+from graphcam.constructions.mechanism_sketch import BASE_RADIUS, guided_stem, plain_cam
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Label, Line, Mark, Role
@@ -19,11 +19,13 @@ from graphcam.given.follower import FlatFaced, Limits, Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Motion
 
-STEM, GUIDE, HALF_FACE = 34.0, 12.0, 17.0
+STEM_LENGTH, GUIDE_HEIGHT, FACE_HALF_LENGTH = 34.0, 12.0, 17.0
 """In the kinematic diagram: length of the stem, height of its guide above the face, and half the face [mm]."""
-SAMPLES = 361
+TURN_SAMPLES = 361
 """Of a turn, to see how far aside a profile is touched."""
-MOVED = say("The cam turns {rotation} about A and moves a flat-faced follower; its line of motion meets the face in B.")
+FLAT_FACE_DATA = say(
+    "The cam turns {rotation} about A and moves a flat-faced follower; its line of motion meets the face in B."
+)
 
 
 @dataclass(frozen=True)
@@ -73,7 +75,7 @@ class DrawnFlatFaced(DrawnFollower):
 
     def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
         """The profile reaches a little beyond the highest position of the face, where it is touched aside."""
-        s, v, _, _ = motion(np.linspace(0.0, FULL_TURN, SAMPLES))
+        s, v, _, _ = motion(np.linspace(0.0, FULL_TURN, TURN_SAMPLES))
         return max(1.2 * (prime_radius + motion.lift), float(np.hypot(prime_radius + s, v).max()))
 
     def extent(self, values: Values, limits: Limits, rotation: Rotation, prime_radius: float | None) -> complex:
@@ -88,13 +90,13 @@ class DrawnFlatFaced(DrawnFollower):
 
     def scheme(self, rotation: Rotation, roller_radius: float | None) -> tuple[Mark, ...]:
         """Cam, face, stem and guide."""
-        b = BASE * UP
-        face = Line(b + np.array([-HALF_FACE, HALF_FACE]), Role.CURVE)
-        return *plain_cam(b, sense(rotation)), face, Label(b, "B"), *guided_stem(b, STEM, GUIDE)
+        b = BASE_RADIUS * UP
+        face = Line(b + np.array([-FACE_HALF_LENGTH, FACE_HALF_LENGTH]), Role.CURVE)
+        return *plain_cam(b, sense(rotation)), face, Label(b, "B"), *guided_stem(b, STEM_LENGTH, GUIDE_HEIGHT)
 
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """The face."""
-        return [MOVED.where(rotation=turning(rotation))]
+        return [FLAT_FACE_DATA.where(rotation=sense_caption(rotation))]
 
     def limited(self, limits: Limits) -> Caption:
         """A face asks for a convex profile; a pressure angle there is none."""

@@ -6,14 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.axes import turning
+from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.board import DrawnFollower, FollowerLoads, Values, roller_given
 from graphcam.constructions.force_plan import force_plan
 from graphcam.constructions.friction_plan import friction_plan
 from graphcam.constructions.inversion import inversion
+from graphcam.constructions.mechanism_sketch import edge, guided_stem, low_point, offset_marks, plain_cam
 from graphcam.constructions.minimum_radius import least_radius
 from graphcam.constructions.pressure_angle import pressure_angle
-from graphcam.constructions.sketch import edge, guided_stem, low_point, offset_marks, plain_cam
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Mark
 from graphcam.drafting.pencil import Pencil
@@ -23,13 +23,13 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.spring_load import SpringLoad
 
-STEM, GUIDE, OFFSET = 30.0, 9.0, 8.0
+STEM_LENGTH, GUIDE_HEIGHT, SKETCH_OFFSET = 30.0, 9.0, 8.0
 """In the kinematic diagram: length of the stem, height of its guide above the roller, and an offset [mm]."""
-ROLLER = say("The cam turns {rotation} about A and moves a translating follower; its roller turns about B.")
-EDGE = say("The cam turns {rotation} about A and moves a translating follower; its knife edge is B.")
-CENTRAL = say("The line of motion passes through A.")
-LEFT = say("The line of motion passes A on the left, at the offset e = {offset:g} mm.")
-RIGHT = say("The line of motion passes A on the right, at the offset e = {offset:g} mm.")
+ROLLER_DATA = say("The cam turns {rotation} about A and moves a translating follower; its roller turns about B.")
+KNIFE_EDGE_DATA = say("The cam turns {rotation} about A and moves a translating follower; its knife edge is B.")
+CENTRAL_REMARK = say("The line of motion passes through A.")
+LEFT_REMARK = say("The line of motion passes A on the left, at the offset e = {offset:g} mm.")
+RIGHT_REMARK = say("The line of motion passes A on the right, at the offset e = {offset:g} mm.")
 
 
 @dataclass(frozen=True)
@@ -109,18 +109,20 @@ class DrawnTranslating(DrawnFollower):
         """Cam, roller, stem and guide."""
         # An offset that is to be found is drawn on the favourable side.
         side = sense(rotation) if self.place is None else float(np.sign(self.place))
-        b = low_point(OFFSET * side, roller_radius)
+        b = low_point(SKETCH_OFFSET * side, roller_radius)
         return (
             *plain_cam(b, sense(rotation)),
             *edge(b, roller_radius, -1),
-            *guided_stem(b, STEM, GUIDE),
-            *offset_marks(OFFSET * side, self.place),
+            *guided_stem(b, STEM_LENGTH, GUIDE_HEIGHT),
+            *offset_marks(SKETCH_OFFSET * side, self.place),
         )
 
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """Line of motion and roller."""
-        moved = (EDGE if roller_radius == 0 else ROLLER).where(rotation=turning(rotation))
+        moved = (KNIFE_EDGE_DATA if roller_radius == 0 else ROLLER_DATA).where(rotation=sense_caption(rotation))
         if self.place is None:
             return [moved, *roller_given(roller_radius)]
-        line = (CENTRAL if self.place == 0 else LEFT if self.place < 0 else RIGHT).where(offset=self.place)
+        line = (CENTRAL_REMARK if self.place == 0 else LEFT_REMARK if self.place < 0 else RIGHT_REMARK).where(
+            offset=self.place
+        )
         return [moved, line, *roller_given(roller_radius)]

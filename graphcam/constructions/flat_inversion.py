@@ -14,7 +14,7 @@ from graphcam.constructions.axes import numbers, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, unit
-from graphcam.drafting.hand import Hand, between, reckoned
+from graphcam.drafting.hand import Hand, calculated, distance_between
 from graphcam.drafting.ink import Caption, Part, Step, Words, say
 from graphcam.drafting.marks import Role, Segments
 from graphcam.drafting.meaning import R0, RADIUS, Compared, Formula, Meaning, ReadingMeaning, S, Symbol, Values
@@ -24,7 +24,7 @@ from graphcam.drafting.telling import STATION, run, setting
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.stations import Stations
 
-FACE_BEYOND = 6.0
+FACE_OVERHANG = 6.0
 """How far a face is drawn beyond the place where it is touched, and to the other side of its ray [mm]."""
 
 
@@ -88,7 +88,7 @@ MEANING = Meaning(
             say("half-width of the face, right"), "bᵣ", "mm", (Compared("face_right", say("face to the right")),)
         ),
         "contact": ReadingMeaning(say("contact beside the ray"), "q", "mm"),
-        **profile_view.CURVE,
+        **profile_view.CURVE_MEANINGS,
     },
     FORMULAS,
     scales={"profile": "x"},
@@ -110,13 +110,13 @@ def flat_inversion(
     faces, aside = hand.perpendicular("faces", rays, feet), hand.carry(v, sigma * np.asarray(v.scale) / mu_l.per_mm)
     touch = hand.lay_off("pitch", feet, faces.turned(-1), aside)
     profile_view.curve_readings(hand, touch, mu_l)
-    hand.read("contact", reckoned(np.copysign, between(feet, touch), aside), mu_l.per_mm)
+    hand.read("contact", calculated(np.copysign, distance_between(feet, touch), aside), mu_l.per_mm)
     # The contact over the cam angle, faired as any other curve, says how far it wanders.
     axis, origin = hand.found(integrated.givens.diagram, "axis"), hand.given("cam centre")
     wander = hand.lay_off("contacts", axis, UP, aside)
     lowest, highest = (hand.tangent(f"farthest {way}", wander, pieces, way * UP) for way in (-1, 1))
-    hand.read("face_left", between(lowest, origin, UP), mu_l.per_mm)
-    hand.read("face_right", between(origin, highest, UP), mu_l.per_mm)
+    hand.read("face_left", distance_between(lowest, origin, UP), mu_l.per_mm)
+    hand.read("face_right", distance_between(origin, highest, UP), mu_l.per_mm)
     givens = profile_view.InvertedGivens(integrated, rotation, prime_radius, mu_l)
     return hand.finished(givens, _draw, {"feet": feet, "pitch": touch, "motion": rays.directions})
 
@@ -159,7 +159,7 @@ def _rays(inverted: profile_view.Inverted) -> Step:
         "The cam turns {rotation}: hold it still and turn the follower the other way, {against}. For every station set "
         "the protractor to its angle from the vertical, {against}, draw the ray from the cam centre to the prime "
         "circle, and number it: ray {name} at {angle}."
-    ).where(**profile_view.divided_by(inverted))
+    ).where(**profile_view.position_words(inverted))
     marks = (
         Segments(rays.shown, starts.shown, Role.CONSTRUCTION).left_by(rays),
         *numbers(starts, _stations(inverted), -unit(starts.shown)),
@@ -173,8 +173,8 @@ def _rays(inverted: profile_view.Inverted) -> Step:
 def _faces(inverted: profile_view.Inverted) -> Step:
     starts, feet, faces = (inverted.acts[name].first for name in ("starts", "feet", "faces"))
     contact, across = inverted.first("contact"), -unit(faces.directions)
-    left = faces.shown + across * (np.minimum(contact, 0) - FACE_BEYOND)
-    right = faces.shown + across * (np.maximum(contact, 0) + FACE_BEYOND)
+    left = faces.shown + across * (np.minimum(contact, 0) - FACE_OVERHANG)
+    right = faces.shown + across * (np.maximum(contact, 0) + FACE_OVERHANG)
     said = say(
         "On each ray lay off the displacement with the dividers, outward from the prime circle: its ordinate times "
         "μₛ/μₗ = {mu:.5g}/{mu_l:g} = {factor:.5g}. Station {name}: {length}. With two set squares draw the face there, "

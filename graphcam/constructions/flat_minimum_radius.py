@@ -15,19 +15,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.constructions.adoption import ToldByChain
-from graphcam.constructions.axes import OVERHANG, numbers, station_names
+from graphcam.constructions.axes import AXIS_OVERHANG, numbers, station_names
 from graphcam.constructions.curvature import LEAST_CURVATURE
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.region import LEAST_RADIUS
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.hand import Hand, calculated, distance_between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Label, Line, Mark, Points, Role
 from graphcam.drafting.meaning import R0, RHO, A, Compared, Formula, Meaning, ReadingMeaning, S, Symbol, Values
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import NOTHING
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE
 from graphcam.drafting.telling import STATION, from_to
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell
@@ -83,13 +83,13 @@ def _least_bend(curved: FlatCurved) -> Values:
     yield {**_sharpest(curved.givens.region, r0), "least": r0 - float(curved.givens.region.value("need"))}
 
 
-SUM = Symbol(r"\min(s + a)", say("the minimum of the sum of displacement and acceleration"), "mm")
+SUM_SYMBOL = Symbol(r"\min(s + a)", say("the minimum of the sum of displacement and acceleration"), "mm")
 FORMULAS = (
     Formula(
         r"\rho = r_0 + s + \frac{d^2 s}{d\varphi^2} \ge [\rho], \qquad r_0 \ge [\rho] - \min(s + a)",
         r"r_0 \ge <rho:g> <sign> <sum:.3f> = <r0:.3f>\ \text{<mm>}",
         _enough_radius,
-        (RHO, R0, S, A, Symbol(r"[\rho]", say("the permitted radius of curvature"), "mm"), SUM),
+        (RHO, R0, S, A, Symbol(r"[\rho]", say("the permitted radius of curvature"), "mm"), SUM_SYMBOL),
         of="prime_radius",
     ),
 )
@@ -146,18 +146,18 @@ def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pe
     equal = np.asarray(a.scale) / np.asarray(s.scale)
     after = hand.lay_off("accelerations", heights, RIGHT, hand.carry(a, equal))
     jumps = _jumps(integrated)
-    nearer = reckoned(itemgetter((..., jumps)), hand.carry(before, equal))
+    nearer = calculated(itemgetter((..., jumps)), hand.carry(before, equal))
     near = hand.lay_off("before the jumps", heights[jumps], RIGHT, nearer)
     ends = np.arange(count)
     ends[jumps] = count + np.arange(jumps.size)
     order = [np.append(np.arange(p.start, p.stop - 1), ends[p.stop - 1]) for p in stations.stretches]
     curve = hand.take("curve", after, near, which=np.concatenate(order))
     # Where the follower rests there is no acceleration: a point of the axis of s.
-    rests = hand.take("rests", heights, which=_rests(integrated))
+    rests = hand.take("rests", heights, which=_dwell_stations(integrated))
     tangent = hand.tangent("touch", hand.take("curve and rests", curve, rests), _smooth(integrated), DOWN_LEFT)
     zero = hand.cross("zero", tangent, axis)
-    need = between(zero, origin, UP)
-    radius = reckoned(_enough, hand.at_scale(least_curvature, s), need)
+    need = distance_between(zero, origin, UP)
+    radius = calculated(_sufficient_radius, hand.at_scale(least_curvature, s), need)
     hand.lay_off("A", origin, -UP, hand.carry(hand.read("prime_radius", radius, s.scale)))
     hand.read("need", need, s.scale)
     givens = FlatLeastRadiusGivens(integrated, least_curvature)
@@ -169,7 +169,7 @@ def _jumps(integrated: Integrated) -> NDArray[np.intp]:
     return np.flatnonzero((a != before).reshape(-1, a.shape[-1]).any(axis=0))
 
 
-def _enough(least: Floats, need: Floats) -> Floats:
+def _sufficient_radius(least: Floats, need: Floats) -> Floats:
     """The radius; where s + a is never negative any will do that the permitted curvature itself needs."""
     return np.maximum(least + need, 0.0)
 
@@ -177,11 +177,11 @@ def _enough(least: Floats, need: Floats) -> Floats:
 def _smooth(integrated: Integrated) -> list[slice]:
     """The pieces of the curve that are faired, and then the rests, each for itself."""
     ends = np.cumsum([stretch.stop - stretch.start for stretch in integrated.givens.stations.stretches]).tolist()
-    ends += [ends[-1] + k + 1 for k in range(_rests(integrated).size)]
+    ends += [ends[-1] + k + 1 for k in range(_dwell_stations(integrated).size)]
     return [slice(start, end) for start, end in pairwise([0, *ends])]
 
 
-def _rests(integrated: Integrated) -> NDArray[np.intp]:
+def _dwell_stations(integrated: Integrated) -> NDArray[np.intp]:
     """The last stations of the moving phases that a dwell follows."""
     motion, last = integrated.givens.motion, integrated.givens.stations.last
     following = (integrated.givens.stations.phase[last] + 1) % len(motion.phases)
@@ -196,9 +196,9 @@ def flat_curvature(region: FlatRegion, prime_radius: float, pencil: Pencil) -> F
     hand, need = Hand(pencil, CURVATURE_MEANING), region.readings["need"]
     origin, zero = hand.given("origin"), hand.found(region, "zero")
     centre = hand.lay_off("A", origin, -UP, hand.at_scale(prime_radius, need))
-    rho = reckoned(np.subtract, between(centre, origin, UP), hand.carry(need))
+    rho = calculated(np.subtract, distance_between(centre, origin, UP), hand.carry(need))
     hand.read("rho", rho, need.scale)
-    hand.read("rho_candidates", reckoned(itemgetter((..., None)), rho), need.scale, "mm")
+    hand.read("rho_candidates", calculated(itemgetter((..., None)), rho), need.scale, "mm")
     return hand.finished(FlatCurvatureGivens(region, prime_radius), _draw_curvature, {"zero": zero})
 
 
@@ -206,17 +206,17 @@ def flat_curvature(region: FlatRegion, prime_radius: float, pencil: Pencil) -> F
 
 
 def _draw(region: FlatRegion) -> list[Step]:
-    return [_laid_off(region), _joined(region), _touched(region), _found(region)]
+    return [_displacement_step(region), _curve_step(region), _touched(region), _radius_step(region)]
 
 
-def _laid_off(region: FlatRegion) -> Step:
+def _displacement_step(region: FlatRegion) -> Step:
     integrated, names = region.givens.integrated, ("displacements", "accelerations", "before the jumps")
     heights, after, near = (region.acts[name].first for name in names)
     stations, jumps = integrated.givens.stations, _jumps(integrated).tolist()
     named, lowest = station_names(stations), [region.acts[name].place.imag for name in ("A", "zero")]
     if adopted := region.givens.adopted():
         lowest.append(-adopted.prime_radius / region.readings["prime_radius"].per_mm)
-    axes = _axes(region.first("curve"), min(lowest) - OVERHANG)
+    axes = _axes(region.first("curve"), min(lowest) - AXIS_OVERHANG)
     marks = [after.from_(heights, Role.CONSTRUCTION), *numbers(after, stations, _outward(after))]
     if jumps:
         marks.append(near.from_(heights[jumps], Role.CONSTRUCTION))
@@ -252,13 +252,13 @@ def _station(region: FlatRegion, k: int) -> Caption:
     said = say("{height}, from there {after}")
     if k in _jumps(region.givens.integrated):
         said = say("{height}, from there before the jump {near}, after it {after}")
-    elif abs(a) < NOTHING:
+    elif abs(a) < NEGLIGIBLE_SIZE:
         said = say("{height}; the acceleration is zero")
-    return said.where(height=_raised(s), near=_level(before, region), after=_level(a, region))
+    return said.where(height=_height_caption(s), near=_level(before, region), after=_level(a, region))
 
 
-def _raised(y: float) -> Caption:
-    if abs(y) < NOTHING:
+def _height_caption(y: float) -> Caption:
+    if abs(y) < NEGLIGIBLE_SIZE:
         return say("at the axis of a")
     return say("{mm:.2f} mm above the axis of a", mm=y) if y > 0 else say("{mm:.2f} mm below the axis of a", mm=-y)
 
@@ -266,7 +266,7 @@ def _raised(y: float) -> Caption:
 def _level(a: float, region: FlatRegion) -> Caption:
     """How an ordinate of the acceleration [mm of paper] is laid off."""
     factor = _factor(region)
-    if abs(a) < NOTHING:
+    if abs(a) < NEGLIGIBLE_SIZE:
         return say("nothing")
     said = (
         say("{mm:.2f} mm × {factor:.4f} = {length:.2f} mm to the right")
@@ -276,7 +276,7 @@ def _level(a: float, region: FlatRegion) -> Caption:
     return said.where(mm=abs(a), factor=factor, length=abs(a) * factor)
 
 
-def _joined(region: FlatRegion) -> Step:
+def _curve_step(region: FlatRegion) -> Step:
     integrated, smooth, curve = region.givens.integrated, showing(region), region.acts["curve"].first
     stations, rests, marks, rows = integrated.givens.stations, region.acts["rests"].first, list[Mark](), list[Row]()
     names = station_names(stations)
@@ -285,9 +285,9 @@ def _joined(region: FlatRegion) -> Step:
         line = smooth.fair(f"from {start}", curve[piece], [slice(None)])
         marks.append(line.line(Role.RESULT))
         rows.append(Row(from_to(start, end), "", (line,)))
-    for k, last in enumerate(_rests(integrated)):
+    for k, last in enumerate(_dwell_stations(integrated)):
         called = say("In the dwell after {name}", name=names[last])
-        rows.append(Row(called, _raised(rests.shown[k].imag), (rests[k],)))
+        rows.append(Row(called, _height_caption(rests.shown[k].imag), (rests[k],)))
     said = say(
         "Join the ends by smooth curves with the French curve, from each jump or corner of the acceleration to the "
         "next. In a dwell the acceleration is zero: mark a point of the axis."
@@ -309,10 +309,10 @@ def _touched(region: FlatRegion) -> Step:
         "{need:.3f} mm."
     )
     paper = float(region.first("need")) + 0.0
-    if abs(paper) < NOTHING:
+    if abs(paper) < NEGLIGIBLE_SIZE:
         read = say("The edge meets the axis of s {height}, so the maximum of −(s + a) is zero.")
     values = {"mu": region.readings["need"].per_mm, "paper": paper, "need": need}
-    read = read.where(height=_raised(zero.place.imag), **values)
+    read = read.where(height=_height_caption(zero.place.imag), **values)
     lean = say(
         "If a had kept its own scale, the edge would have to fall by arctan(μₐ/μₛ) = {angle:.1f}°.",
         angle=np.degrees(np.arctan(_factor(region))),
@@ -332,11 +332,14 @@ def nearest_station(region: FlatRegion) -> str:
     """The name of the station whose end, or whose dwell, is nearest to where the tangent touches."""
     integrated, acts, place = region.givens.integrated, region.acts, region.acts["touch"].first.place
     stretches = [np.arange(each.start, each.stop) for each in integrated.givens.stations.stretches]
-    places, of = np.append(acts["curve"].shown, acts["rests"].shown), np.concatenate([*stretches, _rests(integrated)])
+    places, of = (
+        np.append(acts["curve"].shown, acts["rests"].shown),
+        np.concatenate([*stretches, _dwell_stations(integrated)]),
+    )
     return station_names(integrated.givens.stations)[of[np.argmin(np.round(np.abs(places - place), 3))]]
 
 
-def _found(region: FlatRegion) -> Step:
+def _radius_step(region: FlatRegion) -> Step:
     centre, least, mu = region.acts["A"].first, region.givens.least_curvature, region.readings["prime_radius"].per_mm
     r0, need = (float(region.value(name)) for name in ("prime_radius", "need"))
     if r0 > 0:
@@ -362,7 +365,7 @@ def _found(region: FlatRegion) -> Step:
 
 def _sum(least: float, need: float) -> Caption:
     """The permitted radius and the greatest -(s + a) [mm]."""
-    if abs(need) < NOTHING / 10:
+    if abs(need) < NEGLIGIBLE_SIZE / 10:
         return say("ρ")
     plus, minus = say("{least:g} + {need:.3f}"), say("{least:g} − {need:.3f}")
     return (plus if need > 0 else minus).where(least=least, need=abs(need))
@@ -370,7 +373,7 @@ def _sum(least: float, need: float) -> Caption:
 
 def _axes(curve: Points, below: float) -> tuple[Mark, ...]:
     """The axes of s and a, that of s from ``below`` [mm]."""
-    top, right = float(curve.imag.max()) + OVERHANG, float(curve.real.max()) + OVERHANG
+    top, right = float(curve.imag.max()) + AXIS_OVERHANG, float(curve.real.max()) + AXIS_OVERHANG
     return (
         Arrow(below * UP, top * UP, Role.SCALE),
         Arrow(curve.real.min() + 0j, right + 0j, Role.SCALE),

@@ -25,7 +25,7 @@ from graphcam.constructions.pressure_angle import MeasuredAngles, moving_up, sho
 from graphcam.constructions.views import FORCES
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import NOWHERE, RIGHT, UP, unit as unit_along
-from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.hand import Hand, calculated, distance_between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Reading, Step, View, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role, angle_at
 from graphcam.drafting.meaning import ALPHA, Formula, Meaning, ReadingMeaning, Symbol, Values
@@ -35,14 +35,14 @@ from graphcam.drafting.telling import Move, in_parts
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
 from graphcam.given.spring_load import Guide, SpringLoad
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 from graphcam.words import sequence
 
 LOAD_LENGTH = 50.0
 """The load is drawn at the largest round scale at which its arrow is not longer [mm]."""
 BASE = 30.0
 """The length of the bearings is drawn as this, to find the inclination of the reaction [mm]."""
-LEAST_LOAD = 0.1
+MIN_LOAD_SHARE = 0.1
 """Of the greatest load on the rises: under less the triangle would show nothing but the errors of the drawn a and s."""
 ROUND_NUMBERS = (1.0, 2.0, 2.5, 5.0, 10.0)
 """Round scales are these times a power of ten."""
@@ -128,16 +128,16 @@ def force_plan(
     if guide is None:
         across = hand.erect("line of R", origin, RIGHT)
     else:
-        base = hand.lay_off("base", origin, -RIGHT, reckoned(partial(np.copysign, BASE), turn))
+        base = hand.lay_off("base", origin, -RIGHT, calculated(partial(np.copysign, BASE), turn))
         (s,), direction = read_at(hand, measured, k, "s"), direction_at(measured, k)
-        incline = hand.lay_off("incline", base, UP, reckoned(partial(_incline, guide, direction), s))
+        incline = hand.lay_off("incline", base, UP, calculated(partial(_incline, guide, direction), s))
         across = hand.join("line of R", origin, incline)
     corner = third_corner(hand, foot, normal, across, foot.points.imag < 0)
     hand.join("F", foot, corner)
     hand.join("R", corner, origin)
-    beside = [reckoned(np.abs, between(origin, corner, way)) for way in (RIGHT, UP)]
-    contact = between(foot, origin, UP), between(foot, corner), between(foot, corner, UP)
-    for name, length in zip(MEANING.readings, [*contact, *beside, between(origin, corner)], strict=True):
+    beside = [calculated(np.abs, distance_between(origin, corner, way)) for way in (RIGHT, UP)]
+    contact = distance_between(foot, origin, UP), distance_between(foot, corner), distance_between(foot, corner, UP)
+    for name, length in zip(MEANING.readings, [*contact, *beside, distance_between(origin, corner)], strict=True):
         hand.read(name, length, mu.per_mm)
     directions = {"contact_normal": normal.directions, "across": across.directions}
     givens, points = ForcePlanGivens(measured, load, guide, k, mu), {"foot": foot, "corner": corner}
@@ -153,18 +153,18 @@ def load_laid_off(
     """
     phi = float(measured.givens.integrated.givens.stations.phi[k])
     s, v, a = read_at(hand, measured, k, "s", "v", "a")
-    force = reckoned(partial(force_at, load, direction_at(measured, k), phi), s, v, a)
+    force = calculated(partial(force_at, load, direction_at(measured, k), phi), s, v, a)
     mu = mu_force or round_scale(float(np.median(np.abs(force.amount))))
     alpha = at_station(hand, measured.readings["alpha"], k)
-    length = reckoned(partial(np.multiply, 1 / mu.per_mm), force)
+    length = calculated(partial(np.multiply, 1 / mu.per_mm), force)
     # A turn by alpha in the sense of the rotation: against it the cam pushes the stem along.
-    turn = reckoned(partial(np.multiply, sense(measured.givens.rotation)), alpha)
+    turn = calculated(partial(np.multiply, sense(measured.givens.rotation)), alpha)
     return mu, hand.lay_off("foot", hand.given("origin"), -UP, length), turn
 
 
 def at_station(hand: Hand, reading: Reading, k: int) -> Setting:
     """The machine value of a reading at one station."""
-    return reckoned(itemgetter((..., k)), hand.carry(reading, np.asarray(reading.scale)))
+    return calculated(itemgetter((..., k)), hand.carry(reading, np.asarray(reading.scale)))
 
 
 def read_at(hand: Hand, measured: Construction, k: int, *names: str) -> list[Setting]:
@@ -211,7 +211,7 @@ def plan_station(measured: MeasuredAngles, load: SpringLoad) -> int:
 def where_it_presses(measured: MeasuredAngles, force: Floats) -> int:
     """The station of the velocity plan, or that of the greatest force [N] on the rises if hardly any is left there."""
     force, k = np.where(moving_up(measured), force, 0.0), shown_station(measured)
-    return k if abs(force[k]) >= LEAST_LOAD * np.max(force) else int(np.argmax(force))
+    return k if abs(force[k]) >= MIN_LOAD_SHARE * np.max(force) else int(np.argmax(force))
 
 
 def round_scale(load: float) -> Scale:
@@ -225,14 +225,14 @@ def round_scale(load: float) -> Scale:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-BEYOND = 8.0
+LINE_OVERHANG = 8.0
 """How far a line runs on beyond its corner [mm]."""
 READABLE_FORCE = 0.05
 """Forces of less are not told [N]: they are nothing."""
 
 
 def _draw(plan: Construction[ForcePlanGivens]) -> list[Step]:
-    return plan_steps(plan, load_step, _line_of_force, reaction_step, jammed_step, _closed)
+    return plan_steps(plan, load_step, _line_of_force, reaction_step, jammed_step, _triangle_step)
 
 
 def plan_steps(plan: Construction, *draws: Callable[[Any, View], Step]) -> list[Step]:
@@ -315,7 +315,7 @@ def loaded(plan: Construction, view: View, said: Caption, beside: complex, why: 
 
 def beyond(length: float) -> float:
     """How long a line is drawn that ends after ``length`` [mm]; NaN where it meets nothing."""
-    return 2 * LOAD_LENGTH if math.isnan(length) else length + BEYOND
+    return 2 * LOAD_LENGTH if math.isnan(length) else length + LINE_OVERHANG
 
 
 def leaning(line: Drawn, reach: float, alpha: float, up: complex = UP) -> tuple[Mark, ...]:
@@ -324,7 +324,7 @@ def leaning(line: Drawn, reach: float, alpha: float, up: complex = UP) -> tuple[
     start, named = cmath.phase(up), say("α = {alpha:.1f}°", alpha=alpha)
     return (
         Line(np.array([foot, foot + reach * way]), Role.CONSTRUCTION).left_by(line),
-        Line(np.array([foot, foot + (radius + BEYOND) * up]), Role.AXIS),
+        Line(np.array([foot, foot + (radius + LINE_OVERHANG) * up]), Role.AXIS),
         angle_at(foot, start, start + cmath.phase(way / up), radius, named, line.act),
     )
 
@@ -387,9 +387,11 @@ def jammed_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     return not_closed(view, said)
 
 
-CORNER = say("Mark where the two lines cross: the third corner.")
+CORNER_CAPTION = say("Mark where the two lines cross: the third corner.")
 UP_TO_CORNER = say("F runs from the head of Q up to this corner: {normal_mm:.1f} mm × {mu:g} = {normal:.1f} N.")
-BACK = say("R runs from the corner back to the tail of Q: {reaction_mm:.1f} mm × {mu:g} = {reaction:.1f} N.")
+REACTION_CAPTION = say(
+    "R runs from the corner back to the tail of Q: {reaction_mm:.1f} mm × {mu:g} = {reaction:.1f} N."
+)
 
 
 def triangle_step(
@@ -411,7 +413,7 @@ def triangle_step(
     return Step(say("The triangle of forces"), parts, view, marks, reads, why=why)
 
 
-def _closed(plan: Construction[ForcePlanGivens], view: View) -> Step:
+def _triangle_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     foot, corner, force, reaction = (plan.acts[name].first for name in ("foot", "corner", "F", "R"))
     corner, shown, side = corner[0], showing(plan), side_of(plan)
     level = shown.project("level", corner, shown.given("line of Q", 0j, UP))
@@ -426,5 +428,5 @@ def _closed(plan: Construction[ForcePlanGivens], view: View) -> Step:
         Label((foot.place + corner.place) / 2, "F", towards=side - 0.5j).left_by(force),
         Label(corner.place / 2, "R", towards=UP).left_by(reaction),
     )
-    moves = [(CORNER, corner), (UP_TO_CORNER, force), (BACK, reaction), (sides, level)]
+    moves = [(CORNER_CAPTION, corner), (UP_TO_CORNER, force), (REACTION_CAPTION, reaction), (sides, level)]
     return triangle_step(plan, view, moves, marks, *borne)

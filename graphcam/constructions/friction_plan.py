@@ -15,10 +15,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.constructions import force_plan as plain
-from graphcam.constructions.force_plan import BASE, BEYOND, LOAD_LENGTH, jammed_step, load_step, reaction_step, towards
+from graphcam.constructions.force_plan import (
+    BASE,
+    LINE_OVERHANG,
+    LOAD_LENGTH,
+    jammed_step,
+    load_step,
+    reaction_step,
+    towards,
+)
 from graphcam.constructions.pressure_angle import MeasuredAngles
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.hand import Hand, calculated, distance_between, showing
 from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arrow, Label, Line, Mark, Role
 from graphcam.drafting.meaning import ALPHA, Formula, Meaning, ReadingMeaning, Symbol, Values
@@ -118,13 +126,13 @@ def friction_plan(
     hand.join("N", foot, tip)
     hand.join("T", tip, corner)
     lengths = {
-        "load": between(foot, origin, UP),
-        "contact": between(foot, corner),
-        "normal": between(foot, tip),
-        "contact_friction": between(tip, corner),
-        "along": between(foot, tip, UP),
-        "side": reckoned(np.abs, between(foot, tip, RIGHT)),
-        "reaction": between(origin, corner),
+        "load": distance_between(foot, origin, UP),
+        "contact": distance_between(foot, corner),
+        "normal": distance_between(foot, tip),
+        "contact_friction": distance_between(tip, corner),
+        "along": distance_between(foot, tip, UP),
+        "side": calculated(np.abs, distance_between(foot, tip, RIGHT)),
+        "reaction": distance_between(origin, corner),
     }
     for name, length in lengths.items():
         hand.read(name, length, mu.per_mm)
@@ -137,7 +145,7 @@ def friction_plan(
 
 
 def _draw(plan: Construction[FrictionPlanGivens]) -> list[Step]:
-    return plain.plan_steps(plan, load_step, _normal, _line_of_force, reaction_step, jammed_step, _closed)
+    return plain.plan_steps(plan, load_step, _normal, _line_of_force, reaction_step, jammed_step, _triangle_step)
 
 
 def _normal(plan: Construction[FrictionPlanGivens], view: View) -> Step:
@@ -146,7 +154,7 @@ def _normal(plan: Construction[FrictionPlanGivens], view: View) -> Step:
         "At the head of Q set the protractor to α = {alpha:.2f}° from the vertical {side}, and draw the contact "
         "normal of this station there."
     ).where(alpha=abs(alpha), side=towards(-1.0 if normal.directions.real < 0 else 1.0))
-    reach = max(BASE, 2 * LOAD_LENGTH if math.isnan(length) else length) + BEYOND
+    reach = max(BASE, 2 * LOAD_LENGTH if math.isnan(length) else length) + LINE_OVERHANG
     why = say("Without friction the cam would push along the contact normal.")
     return Step(say("The contact normal"), (Part(said, (normal,)),), view, plain.leaning(normal, reach, alpha), why=why)
 
@@ -162,7 +170,7 @@ def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     join = say("Join the head of Q to this point with the ruler: on this line lies the contact force F.")
     parts = in_parts([(laid, base), (inclined, incline), (join, line)], values)
     along = complex(line.directions) / abs(complex(line.directions))
-    reach = max(abs(complex(line.directions)), 2 * LOAD_LENGTH if math.isnan(length) else length) + BEYOND
+    reach = max(abs(complex(line.directions)), 2 * LOAD_LENGTH if math.isnan(length) else length) + LINE_OVERHANG
     run = Line(np.array([line.place, line.place + reach * along]), Role.CONSTRUCTION).left_by(line)
     marks = (run, incline.line_from(base, Role.CONSTRUCTION), base.dots(Role.CONSTRUCTION))
     why = say(
@@ -172,7 +180,7 @@ def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     return Step(say("The line of the contact force"), parts, view, marks, why=why)
 
 
-def _closed(plan: Construction[FrictionPlanGivens], view: View) -> Step:
+def _triangle_step(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     names = ("foot", "corner", "F", "R", "square", "tip of N", "N", "T")
     foot, corner, force, reaction, square, tip, normal, friction = (plan.acts[name].first for name in names)
     corner, shown, side = corner[0], showing(plan), plain.side_of(plan)
@@ -197,5 +205,5 @@ def _closed(plan: Construction[FrictionPlanGivens], view: View) -> Step:
         Label((foot.place + tip.place) / 2, "N", towards=-side + 0j).left_by(normal),
         Label((tip.place + corner.place) / 2, "T", towards=UP).left_by(friction),
     )
-    found = [(meet, corner), (up, force), (plain.BACK, reaction)]
+    found = [(meet, corner), (up, force), (plain.REACTION_CAPTION, reaction)]
     return plain.triangle_step(plan, view, [*found, (parted, square, tip, normal, friction), (sides, level)], marks)

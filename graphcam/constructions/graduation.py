@@ -10,19 +10,27 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import EVERY, LONG_TICK, PHASES_BELOW, TICK, TICKS_ROOM, in_runs, reach
+from graphcam.constructions.axes import (
+    LONG_TICK,
+    NAMED_STATION_STEPS,
+    PHASES_OFFSET,
+    TICK,
+    TICKS_ROOM,
+    joined_runs,
+    reach,
+)
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.ink import Caption, say
 from graphcam.drafting.marks import Label, Line, Mark, Origin, Points, Role, Segments
-from graphcam.drafting.scale import NOTHING, Scale, unit
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Scale, unit
 from graphcam.given.follower import MM_PER_M
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 
-NUMBERS_APART = 10.0, 5.0
+NUMBER_SPACINGS = 10.0, 5.0
 """The numbers of a graduation stand at least so far apart [mm of paper], in a low diagram so far."""
-ROUND = (1, 2, 5, 10)
+ROUND_STEPS = (1, 2, 5, 10)
 """Round steps within a power of ten."""
 
 
@@ -62,7 +70,7 @@ def divisions(farthest: float, per_mm: float) -> tuple[float, int]:
     >>> divisions(50.0, 0.6), divisions(50.0, 1.231)
     ((10.0, 5), (20.0, 4))
     """
-    steps = [round_up(apart * per_mm, ROUND) for apart in NUMBERS_APART]
+    steps = [round_up(apart * per_mm, ROUND_STEPS) for apart in NUMBER_SPACINGS]
     # A low diagram would have no number at all.
     every, lead = next((step for step in steps if step[0] / per_mm <= farthest), steps[-1])
     parts = 4 if lead == 2 else 5
@@ -80,13 +88,13 @@ def round_up(least: float, leads: Sequence[float]) -> tuple[float, float]:
     return lead * power, lead
 
 
-TIMES_APART = 16.0
+TIME_SPACING = 16.0
 """Numbers of seconds stand at least so far apart [mm of paper]."""
-UNDER_PHASES, UNDER_DEGREES = 6.0, 10.0
+BELOW_PHASES_OFFSET, BELOW_DEGREES_OFFSET = 6.0, 10.0
 """The times stand so far below the angles of the phases, and below a line of degrees without them [mm of paper]."""
-BESIDE = 17.0
+SECOND_GRADUATION_OFFSET = 17.0
 """The second graduation of an ordinate stands so far beside the first one [mm of paper]."""
-PER_SECOND = {"mm": ("m/s", "m/s²", "m/s³"), "rad": ("rad/s", "rad/s²", "rad/s³")}
+UNITS_AT_SPEED = {"mm": ("m/s", "m/s²", "m/s³"), "rad": ("rad/s", "rad/s²", "rad/s³")}
 """The units of velocity, acceleration and jerk at a speed, by that of the lift."""
 SYMBOLS = "vaj"
 
@@ -108,7 +116,7 @@ def scale_at_speed(per_mm: float, symbol: str, omega: float, lift_unit: str) -> 
     """
     order = SYMBOLS.index(symbol) + 1
     per_unit = MM_PER_M if lift_unit == "mm" else 1.0
-    return Scale(per_mm * omega**order / per_unit, PER_SECOND[lift_unit][order - 1])
+    return Scale(per_mm * omega**order / per_unit, UNITS_AT_SPEED[lift_unit][order - 1])
 
 
 def times_below(end: float, mu_phi: Scale, low: float, omega: float | None, *, phases: bool = True) -> tuple[Mark, ...]:
@@ -118,8 +126,11 @@ def times_below(end: float, mu_phi: Scale, low: float, omega: float | None, *, p
     """
     if omega is None:
         return ()
-    mu_t, level = time_scale(mu_phi, omega), low - (PHASES_BELOW + UNDER_PHASES if phases else UNDER_DEGREES + LOWER)
-    every, lead = round_up(TIMES_APART * mu_t.per_mm, ROUND)
+    mu_t, level = (
+        time_scale(mu_phi, omega),
+        low - (PHASES_OFFSET + BELOW_PHASES_OFFSET if phases else BELOW_DEGREES_OFFSET + DEGREES_LINE_LENGTH),
+    )
+    every, lead = round_up(TIME_SPACING * mu_t.per_mm, ROUND_STEPS)
     parts = 4 if lead == 2 else 5
     parts = parts if every / mu_t.per_mm / parts >= TICKS_ROOM else 1
     counts = np.arange(math.floor(end * mu_t.per_mm / every * parts * (1 + 1e-12)) + 1)
@@ -137,11 +148,11 @@ def times_below(end: float, mu_phi: Scale, low: float, omega: float | None, *, p
     )
 
 
-LOWER = 11.0
+DEGREES_LINE_LENGTH = 11.0
 """So far below the lowest place of a diagram a line of degrees ends, with its numbers [mm of paper]."""
 
 
-def axis_said(mu_phi: Scale, omega: float) -> Caption:
+def time_axis_caption(mu_phi: Scale, omega: float) -> Caption:
     """How the axis of the cam angle becomes one of time."""
     return say(
         "At ω = {omega:.5g} rad/s one revolution takes T = 2π/ω = {turn:.4g} s, so the same axis is one of time: μₜ = "
@@ -152,7 +163,7 @@ def axis_said(mu_phi: Scale, omega: float) -> Caption:
 _FACTORS = say("ω"), say("ω²"), say("ω³")
 
 
-def scale_said(per_mm: float, symbol: str, omega: float, lift_unit: str) -> Caption:
+def time_scale_caption(per_mm: float, symbol: str, omega: float, lift_unit: str) -> Caption:
     """The scale of v, a or j in metres and seconds, beside that per radian of the cam."""
     at = scale_at_speed(per_mm, symbol, omega, lift_unit)
     said = say("Over time a millimetre is {mu:.5g}·{factor} = {value:.4g} {unit}: the graduation farther to the right.")
@@ -169,7 +180,7 @@ def graduated_at_speed(
     heights: Floats, per_mm: float, symbol: str, omega: float, lift_unit: str, end: float, of: Origin | None
 ) -> tuple[Mark, ...]:
     """The second graduation of the ordinates of v, a or j, beside the one at the ``end`` of the turn [mm of paper]."""
-    at, x = scale_at_speed(per_mm, symbol, omega, lift_unit), end + BESIDE
+    at, x = scale_at_speed(per_mm, symbol, omega, lift_unit), end + SECOND_GRADUATION_OFFSET
     low, high = reach(heights)
     return (
         Line(x + UP * np.array([low, high]), Role.SCALE, of=of),
@@ -182,7 +193,7 @@ NUMBERS_ROOM = 12.0
 """Places stand at least so far apart that are numbered [mm]: points and chords have numbers beside one another."""
 RAYS_ROOM = 5.0
 """Heights of rays stand at least so far apart that are numbered [mm]."""
-SAME_HEIGHT = 3
+HEIGHT_DECIMALS = 3
 """Decimals of a millimetre: rays that end no farther apart fall on one line, and are drawn once."""
 
 
@@ -193,7 +204,7 @@ def every_kth(places: Points) -> int:
     3
     """
     spacing = float(np.median(np.abs(np.diff(places.real))))
-    return next((k for k in EVERY if k * spacing >= NUMBERS_ROOM), places.size)
+    return next((k for k in NAMED_STATION_STEPS if k * spacing >= NUMBERS_ROOM), places.size)
 
 
 def row_numbers(places: Drawn, first: int, towards: Points) -> tuple[Label, ...]:
@@ -208,7 +219,7 @@ def row_numbers(places: Drawn, first: int, towards: Points) -> tuple[Label, ...]
 
 def falling_together(heights: Drawn) -> list[NDArray[np.intp]]:
     """Which of heights on an axis fall on one another, from the lowest to the highest."""
-    levels, of = np.unique(np.round(heights.shown.imag, SAME_HEIGHT), return_inverse=True)
+    levels, of = np.unique(np.round(heights.shown.imag, HEIGHT_DECIMALS), return_inverse=True)
     return [np.flatnonzero(of == level) for level in range(levels.size)]
 
 
@@ -233,7 +244,7 @@ def ranges(numbers: NDArray[np.intp]) -> str:
     '3-5, 9, 11, 12'
     """
     runs = np.split(numbers, np.flatnonzero(np.diff(numbers) > 1) + 1)
-    return in_runs([str(number) for number in run] for run in runs)
+    return joined_runs([str(number) for number in run] for run in runs)
 
 
 def raised(mm: float, nothing: Caption) -> Caption:
@@ -242,7 +253,7 @@ def raised(mm: float, nothing: Caption) -> Caption:
     >>> str(raised(-1.5, say("at the origin"))), str(raised(0.001, say("at the origin")))
     ('1.50 mm down', 'at the origin')
     """
-    if abs(mm) < NOTHING:
+    if abs(mm) < NEGLIGIBLE_SIZE:
         return nothing
     return say("{mm:.2f} mm up", mm=mm) if mm > 0 else say("{mm:.2f} mm down", mm=-mm)
 
@@ -253,6 +264,6 @@ def run_of_chord(way: complex) -> Caption:
     >>> str(run_of_chord(7.5 + 2j))
     '7.50 mm across, 2.00 mm up'
     """
-    if abs(way.imag) < NOTHING:
+    if abs(way.imag) < NEGLIGIBLE_SIZE:
         return say("{run:.2f} mm level", run=way.real)
     return say("{run:.2f} mm across, {climb}", run=way.real, climb=raised(way.imag, Caption("")))

@@ -14,23 +14,23 @@ import numpy as np
 from graphcam.constructions.acceleration import AccelerationDiagram
 from graphcam.constructions.axes import (
     SUBSCRIPTS,
-    as_high,
+    first_at_height,
     height_names,
+    joined_parts,
     numbers,
     phase_names,
     phase_title,
     pole_marks,
     station_names,
-    together,
 )
 from graphcam.constructions.curve_over_phi import curve_over_phi
-from graphcam.constructions.graduation import graduated, graduated_at_speed, scale_said
+from graphcam.constructions.graduation import graduated, graduated_at_speed, time_scale_caption
 from graphcam.constructions.pole_scales import PoleTerms, pole_formula
 from graphcam.constructions.turn_board import TurnGivens
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.hand import Hand, calculated, distance_between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, View, say
 from graphcam.drafting.marks import Dimension, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import (
@@ -45,7 +45,7 @@ from graphcam.drafting.meaning import (
     per_mm,
 )
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import NOTHING, unit
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE, unit
 from graphcam.drafting.telling import led_by
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
@@ -53,9 +53,9 @@ from graphcam.given.motion import Motion
 from graphcam.given.stations import Stations
 from graphcam.words import sequence
 
-NEAR = 6.0
+AXIS_NUMBER_DISTANCE = 6.0
 """Points of s so near to the axis [mm of paper] are called by the numbers there."""
-FLAT = 1e-9
+NEGLIGIBLE_DISPLACEMENT = 1e-9
 """A displacement of less, as part of what the greatest ordinate gives over the phase, is rounding."""
 
 
@@ -158,13 +158,15 @@ def integration(
     # Every phase starts and ends at rest, so a velocity left at its end is taken up by turning the base line.
     a_heights, polygons = _integrated(hand, givens, 1, hand.carry(diagram.readings["middles"]), uprights, origin)
     v_chords = hand.take("v_chords", polygons)
-    v = hand.lay_off("v_curve", axis, UP, reckoned(partial(_above_base, givens), between(axis, v_chords, UP)))
+    v = hand.lay_off(
+        "v_curve", axis, UP, calculated(partial(_above_base, givens), distance_between(axis, v_chords, UP))
+    )
 
     # The middle ordinate is read from the curve's chord, halfway between its ends.
     halves = hand.divide("middles of v", v[left], v[left + 1], 0.5)
     v_heights, polygons = _integrated(hand, givens, 2, halves, uprights, origin)
-    heights = between(axis, polygons, UP)
-    raised, shared_out, closing = (reckoned(partial(_stacked, givens, part), heights) for part in range(3))
+    heights = distance_between(axis, polygons, UP)
+    raised, shared_out, closing = (calculated(partial(_stacked_polygons, givens, part), heights) for part in range(3))
     s_chords, s = hand.raised("s_chords", polygons, raised), hand.lay_off("s_curve", axis, UP, shared_out)
 
     x, top = axis.points.real, _top(motion, stations)
@@ -174,15 +176,18 @@ def integration(
     mu_s = motion.lift / _measurable(s.points[..., top].imag, full / (poles[0] * poles[1]), pencil)
     mu_v = mu_s / (mu_phi.per_mm * poles[1])
     mu_a = mu_v / (mu_phi.per_mm * poles[0])
-    hand.read("s", between(axis, s, UP), mu_s)
-    hand.read("v", between(axis, v, UP), mu_v)
+    hand.read("s", distance_between(axis, s, UP), mu_s)
+    hand.read("v", distance_between(axis, v, UP), mu_v)
     hand.read("a", hand.carry(diagram.readings["stations"]), mu_a)
     hand.read("a_before", hand.carry(diagram.readings["before"]), mu_a, f"{givens.unit}/rad²")
     down = hand.tangent("lowest v", v, stations.pieces, -UP)
-    ends = (between(origin, hand.tangent("highest v", v, stations.pieces, UP), UP), between(down, origin, UP))
-    hand.read("max_v", reckoned(np.maximum, *ends), mu_v)
-    hand.read("max_a", reckoned(partial(np.max, axis=-1), hand.carry(diagram.readings["greatest"])), mu_a)
-    hand.read("closing_v", between(axis[stations.last], v_chords[stations.last], UP), mu_v, rounded=False)
+    ends = (
+        distance_between(origin, hand.tangent("highest v", v, stations.pieces, UP), UP),
+        distance_between(down, origin, UP),
+    )
+    hand.read("max_v", calculated(np.maximum, *ends), mu_v)
+    hand.read("max_a", calculated(partial(np.max, axis=-1), hand.carry(diagram.readings["greatest"])), mu_a)
+    hand.read("closing_v", distance_between(axis[stations.last], v_chords[stations.last], UP), mu_v, rounded=False)
     hand.read("closing_s", closing, mu_s, rounded=False)
     projected = {"a_projected": middles.points.real + a_heights.points}
     projected["v_projected"] = halves.points.real + v_heights.points
@@ -199,7 +204,7 @@ def _integrated(
     heights = hand.project(f"heights for {target}", ordinates, origin)
     rays = hand.join(f"rays of {target}", pole, heights)
     # Of rays that fall on one another one is drawn, and serves for all.
-    each = hand.take(f"ray of each part for {target}", rays, which=as_high(heights.points.imag))
+    each = hand.take(f"ray of each part for {target}", rays, which=first_at_height(heights.points.imag))
     chains = tuple(zip(stations.phases, stations.parts, strict=True))
     return heights, hand.end_to_end(f"chords of {target}", each, uprights, chains)
 
@@ -210,7 +215,7 @@ def _above_base(givens: IntegrationGivens, polygons: Floats) -> Floats:
     return polygons - polygons[..., stations.last[stations.moving]] * stations.u
 
 
-def _stacked(givens: IntegrationGivens, part: int, polygons: Floats) -> Floats:
+def _stacked_polygons(givens: IntegrationGivens, part: int, polygons: Floats) -> Floats:
     """Set each phase's polygon (..., m) on the end of the one before, and share out what is left after the turn.
 
     part : 0 for how much each station rises by that, 1 for the heights as shared out, both above the lowest rest, 2
@@ -234,7 +239,7 @@ def _measurable(top: Floats, full: Floats, pencil: Pencil) -> Floats:
 
     full : what the greatest ordinate would give over the whole phase [mm of paper]
     """
-    risen = top > FLAT * full
+    risen = top > NEGLIGIBLE_DISPLACEMENT * full
     if pencil.samples is None and not risen:
         remedy = say("divide into more parts, or draw longer ordinates")
         quantity = say("maximum displacement on paper")
@@ -252,7 +257,7 @@ def _top(motion: Motion, stations: Stations) -> int:
 
 
 def _draw(c: Integrated) -> list[Step]:
-    passes = [step for run in _PASSES for step in (_draw_rays(c, run), _draw_chords(c, run), _draw_curve(c, run))]
+    passes = [step for run in _INTEGRATIONS for step in (_draw_rays(c, run), _draw_chords(c, run), _draw_curve(c, run))]
     return [*passes, *_draw_scales(c)]
 
 
@@ -279,7 +284,7 @@ _AT_REST = say(
     "Each phase ends at rest: the residual velocity there, at most {left:.2f} mm, is removed by rotating the base line."
 )
 _SHARED_OUT = say("The residual displacement at the end of the turn, {left:.2f} mm, is distributed over the returns.")
-_ORDINATES = say(
+_ORDINATES_CAPTION = say(
     "Carry each middle ordinate of {source} horizontally to the vertical axis with the T-square, join it there to the "
     "pole with the ruler, and give the ray the number of the part; equal ordinates share one ray."
 )
@@ -288,12 +293,12 @@ _OF_CHORDS = say(
     "T-square, join it there to the pole with the ruler, and give the ray the number of the part; equal ordinates "
     "share one ray."
 )
-_CORNERS = say("The slope of v is the acceleration: v has a corner where it jumps, and is smooth elsewhere.")
-_SMOOTH = say("The slope of s is the velocity, which never jumps, so adjoining pieces of s share a tangent.")
+_CORNERS_REASON = say("The slope of v is the acceleration: v has a corner where it jumps, and is smooth elsewhere.")
+_SMOOTH_REASON = say("The slope of s is the velocity, which never jumps, so adjoining pieces of s share a tangent.")
 _CORNER, _TANGENT = say("at {first} it has a corner"), say("at {first} the tangent is continuous")
-_PASSES = (
-    _Integrating(1, ACCELERATION, VELOCITY, ("a", "v"), _ORDINATES, _AT_REST, _CORNERS, _CORNER),
-    _Integrating(2, VELOCITY, DISPLACEMENT, ("v", "s"), _OF_CHORDS, _SHARED_OUT, _SMOOTH, _TANGENT),
+_INTEGRATIONS = (
+    _Integrating(1, ACCELERATION, VELOCITY, ("a", "v"), _ORDINATES_CAPTION, _AT_REST, _CORNERS_REASON, _CORNER),
+    _Integrating(2, VELOCITY, DISPLACEMENT, ("v", "s"), _OF_CHORDS, _SHARED_OUT, _SMOOTH_REASON, _TANGENT),
 )
 
 
@@ -302,12 +307,12 @@ def _draw_rays(c: Integrated, run: _Integrating) -> Step:
     stations, distance, (source, target) = c.givens.stations, c.givens.poles[run.index - 1], run.symbols
     pole, levelled, rays = (c.acts[name] for name in (f"P{run.index}", f"heights for {target}", f"rays of {target}"))
     height, farthest = levelled.shown.imag, c.first(f"{source}_projected").real
-    alike = as_high(height)
+    alike = first_at_height(height)
     kept = np.unique(alike).tolist()
     same = [np.flatnonzero(alike == k).tolist() for k in kept]
     # Their projections are drawn once too, from the farthest ordinate.
     reach = np.array([farthest[parts].max() for parts in same])
-    projected, names = levelled.first[kept], [together(parts, stations) for parts in same]
+    projected, names = levelled.first[kept], [joined_parts(parts, stations) for parts in same]
     laid_out = pole_marks(pole, distance, run.subscript, height[kept])
     halves = [c.acts["middles of v"]] if run.index == 2 else []
     marks = (
@@ -343,16 +348,16 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
     axes, under = c.givens.axes(target, heights), c.givens.degrees_under(heights)
     if run.index == 2:
         # What is near the numbers of the axis needs none of its own.
-        axes, far = (*axes, *numbers(c.acts["acceleration: axis"], stations, -UP)), np.abs(y) > NEAR
+        axes, far = (*axes, *numbers(c.acts["acceleration: axis"], stations, -UP)), np.abs(y) > AXIS_NUMBER_DISTANCE
         if c.givens.lowest:
             axes, under = (*axes, *c.givens.phases_under(heights)), ()
     marks = (
         *(polygon.first[span].line(Role.CONSTRUCTION) for span in stations.phases),
         curve.from_(curve.shown.real + 0j, Role.CONSTRUCTION),
-        *numbers(polygon, stations, _outward(y, stations), far),
+        *numbers(polygon, stations, _outward_directions(y, stations), far),
     )
     # The fourth chord is worked in full, or the first one after it that climbs.
-    climbing = np.flatnonzero(np.abs(np.diff(y)[stations.left]) >= NOTHING)
+    climbing = np.flatnonzero(np.abs(np.diff(y)[stations.left]) >= NEGLIGIBLE_SIZE)
     part = int(climbing[min(np.searchsorted(climbing, 3), climbing.size - 1)]) if climbing.size else 0
     k, names = int(stations.left[part]) + 1, station_names(stations)
     width = polygon.shown.real[k] - polygon.shown.real[k - 1]
@@ -370,14 +375,14 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
     ).where(source=source)
     chords = Part(said, rows=tuple(row for k in range(len(stations.phases)) for row in _chord_rows(c, run, k)))
     checks = tuple(_ordinates(c, run))
-    checks = led_by(run.closing.where(left=left), checks) if left > NOTHING else checks
+    checks = led_by(run.closing.where(left=left), checks) if left > NEGLIGIBLE_SIZE else checks
     title = say("Chords parallel to the rays: {target}", target=target)
     return Step(title, (chords, *checks), run.target, (*axes, *marks), given=axes, why=why, under=under)
 
 
-def _outward(y: Floats, stations: Stations) -> Points:
+def _outward_directions(y: Floats, stations: Stations) -> Points:
     """Directions to the outer side of the curves: left where they leave the axis, right where they come back to it."""
-    leaving = np.concatenate([np.gradient(np.abs(y[span])) >= -NOTHING for span in stations.phases])
+    leaving = np.concatenate([np.gradient(np.abs(y[span])) >= -NEGLIGIBLE_SIZE for span in stations.phases])
     return np.where(leaving, -RIGHT, RIGHT) + 0j
 
 
@@ -386,24 +391,24 @@ def _chord_rows(c: Integrated, run: _Integrating, phase: int) -> Iterator[Row]:
     stations, polygon = c.givens.stations, c.acts[f"{run.symbols[1]}_chords"]
     span, y, names = stations.phases[phase], polygon.shown.imag, station_names(stations)
     if run.index == 2:
-        start = _STARTS[0 if abs(y[span.start]) < NOTHING else 1 if phase else 2]
+        start = _START_CAPTIONS[0 if abs(y[span.start]) < NEGLIGIBLE_SIZE else 1 if phase else 2]
         title = say("Start of {phase}", phase=phase_title(c.givens.motion, int(stations.phase[span.start])))
         yield Row(title, start.where(y=y[span.start], name=names[span.start]), (polygon.first[[span.start]],))
     for k in range(span.start + 1, span.stop):
         rise = y[k] - y[k - 1]
-        change = _CHANGES[0 if abs(rise) < NOTHING else 1 if rise > 0 else 2].where(rise=abs(rise))
+        change = _CHORD_CAPTIONS[0 if abs(rise) < NEGLIGIBLE_SIZE else 1 if rise > 0 else 2].where(rise=abs(rise))
         # The first chord of v starts at rest, where the phase does.
         first = k == span.start + 1 and run.index == 1
         said = say("{change} from {before} on the axis", before=names[k - 1], change=change) if first else change
         yield Row(say("Chord {name}", name=names[k]), said, (polygon.first[[k - 1, k] if first else [k]],))
 
 
-_STARTS = (
+_START_CAPTIONS = (
     say("vertical {name}, on the axis"),
     say("carry the end of the previous phase, {y:.2f} mm high, horizontally to vertical {name}"),
     say("vertical {name}; the axis, through the lowest dwell, will lie {y:.2f} mm below"),
 )
-_CHANGES = say("is horizontal"), say("climbs {rise:.2f} mm"), say("falls {rise:.2f} mm")
+_CHORD_CAPTIONS = say("is horizontal"), say("climbs {rise:.2f} mm"), say("falls {rise:.2f} mm")
 
 
 def _ordinates(c: Integrated, run: _Integrating) -> Iterator[Part]:
@@ -418,18 +423,18 @@ def _ordinates(c: Integrated, run: _Integrating) -> Iterator[Part]:
         # What is nothing has no sign.
         y, end = (float(np.round(curve.shown.imag[each], 2)) + 0.0 for each in (k, last))
         ends = {"first": names[first], "last": names[last]}
-        said = _CHECKS[int(end != 0)].where(symbol=run.symbols[1], y=y, name=names[k], end=end, **ends)
-        if np.abs(off).max() > NOTHING:
-            shared = _SHARED[int(np.abs(off[0]) > NOTHING)].where(start=off[0], by=off[1], **ends)
+        said = _CHECK_CAPTIONS[int(end != 0)].where(symbol=run.symbols[1], y=y, name=names[k], end=end, **ends)
+        if np.abs(off).max() > NEGLIGIBLE_SIZE:
+            shared = _RESIDUAL_CAPTIONS[int(np.abs(off[0]) > NEGLIGIBLE_SIZE)].where(start=off[0], by=off[1], **ends)
             said = sequence([shared, said], " ")
         yield Part(said, (curve.first[span],))
 
 
-_CHECKS = (
+_CHECK_CAPTIONS = (
     say("Check: {symbol} is {y:.2f} mm at {name} and zero at {last}."),
     say("Check: {symbol} is {y:.2f} mm at {name} and {end:.2f} mm at {last}."),
 )
-_SHARED = (
+_RESIDUAL_CAPTIONS = (
     say("Distribute the residual: {by:+.2f} mm at {last}, decreasing in proportion back to {first}."),
     say("Distribute the residual: {start:+.2f} mm at {first} to {by:+.2f} mm at {last}, in proportion between them."),
 )
@@ -474,7 +479,7 @@ def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, ma
     if lift_unit == "rad":
         told = sequence([told, say("In degrees the scale is {mu:.5g}°/mm.", mu=np.degrees(mu))], " ")
     if c.givens.omega is not None and name != "s":
-        told = sequence([told, scale_said(mu, name, c.givens.omega, c.givens.unit)], " ")
+        told = sequence([told, time_scale_caption(mu, name, c.givens.omega, c.givens.unit)], " ")
         divided += graduated_at_speed(heights, mu, name, c.givens.omega, c.givens.unit, turn, c.readings[name].act)
     parts = Part(found, () if of is None else (of,)), Part(told)
     return Step(title, parts, view, (*marks, *divided), reads, why=why)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.constructions import profile_view
-from graphcam.constructions.axes import numbers, station_names, turning
+from graphcam.constructions.axes import numbers, sense_caption, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import RIGHT, UP, unit
@@ -15,7 +15,7 @@ from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Line, Mark, Role, Segments
 from graphcam.drafting.meaning import OFFSET, RADIUS, S0, Formula, Meaning, S, Values
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import NOTHING, Scale
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Scale
 from graphcam.drafting.telling import STATION, circle_drawn, run, setting
 from graphcam.given.follower import Rotation
 from graphcam.given.laws import Floats
@@ -58,7 +58,7 @@ MEANING = Meaning(
         "The cam is held still and the frame is turned about it, against the cam's rotation. In each position "
         "the follower is moved by its displacement: its positions give the cam."
     ),
-    profile_view.CURVE,
+    profile_view.CURVE_MEANINGS,
     FORMULAS,
     scales={"profile": "x"},
 )
@@ -96,12 +96,12 @@ def inversion(
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-NUMBERED = 12.0
+MIN_NUMBERED_RADIUS = 12.0
 """The tangents are numbered on the offset circle, if its radius is not less [mm of paper]; else on the prime circle."""
 
 
 def _draw(inverted: OffsetInverted) -> list[Step]:
-    return [_circles(inverted), _positions(inverted), *profile_view.pitch_steps(inverted, _laid_off(inverted))]
+    return [_circles(inverted), _positions(inverted), *profile_view.pitch_steps(inverted, _displacement_step(inverted))]
 
 
 def _side(inverted: OffsetInverted) -> Caption:
@@ -152,7 +152,7 @@ def _positions(inverted: OffsetInverted) -> Step:
     stations, e = inverted.givens.integrated.givens.stations, inverted.givens.offset
     motion, starts, feet = (inverted.acts[name] for name in ("motion", "starts", "feet"))
     lines = Segments(motion.shown, starts.shown, Role.CONSTRUCTION).left_by(motion)
-    numbered = feet if abs(e) / inverted.givens.mu_l.per_mm >= NUMBERED else starts
+    numbered = feet if abs(e) / inverted.givens.mu_l.per_mm >= MIN_NUMBERED_RADIUS else starts
     phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
     marks = (lines, *numbers(numbered, stations, -unit(numbered.shown)), *phases)
     said = say(
@@ -166,18 +166,18 @@ def _positions(inverted: OffsetInverted) -> Step:
         "{steps}, so station {name} at {angle}; mark these points on the offset circle. At each draw the tangent "
         "with set squares, square to the radius, to the same side as {line}, as far as the prime circle, and number it."
     )
-    values = {"side": _side(inverted), "line": _first_line(inverted), **profile_view.divided_by(inverted)}
+    values = {"side": _side(inverted), "line": _first_line(inverted), **profile_view.position_words(inverted)}
     why = say(
         "Only the motion relative to the cam shapes it: a frame that turns {against} about the fixed cam "
         "is the same as a cam that turns {rotation} in the frame."
-    ).where(rotation=turning(inverted.givens.rotation), against=profile_view.against(inverted))
+    ).where(rotation=sense_caption(inverted.givens.rotation), against=profile_view.against(inverted))
     title, rays = say("Inverted positions of the follower's line"), inverted.acts["inverted positions"]
     names = station_names(stations)
     turned = run((tangents if e else said).where(**values), STATION, names, rays, feet, starts, motion)
     return Step(title, (turned, last), PROFILE, marks, why=why)
 
 
-def _laid_off(inverted: OffsetInverted) -> Step:
+def _displacement_step(inverted: OffsetInverted) -> Step:
     integrated, starts, pitch = inverted.givens.integrated, inverted.acts["starts"], inverted.acts["pitch"]
     stations, mu_l = integrated.givens.stations, inverted.givens.mu_l.per_mm
     at, moved = profile_view.worked_station(stations), np.flatnonzero(_lengths(inverted))
@@ -210,4 +210,4 @@ def _lengths(inverted: OffsetInverted) -> Floats:
     """What is laid off at the stations [mm of paper]; nothing where it is less than can be set."""
     s = inverted.givens.integrated.readings["s"]
     lengths = inverted.givens.integrated.first("s") * s.per_mm / inverted.givens.mu_l.per_mm
-    return np.where(np.abs(lengths) < NOTHING, 0.0, lengths)
+    return np.where(np.abs(lengths) < NEGLIGIBLE_SIZE, 0.0, lengths)

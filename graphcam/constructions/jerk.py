@@ -14,12 +14,12 @@ import numpy as np
 from graphcam.constructions.axes import (
     degrees,
     height_names,
+    joined_parts,
     part_names,
     part_titles,
     pole_marks,
     reach,
     station_names,
-    together,
 )
 from graphcam.constructions.graduation import (
     falling_together,
@@ -27,7 +27,7 @@ from graphcam.constructions.graduation import (
     graduated_at_speed,
     raised,
     run_of_chord,
-    scale_said,
+    time_scale_caption,
 )
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.pole_scales import PoleTerms, pole_formula
@@ -35,22 +35,22 @@ from graphcam.constructions.views import ACCELERATION, JERK
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.hand import Hand, calculated, distance_between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import Arrow, Label, Mark, Role, Segments
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import NOTHING, unit
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE, unit
 from graphcam.given.impact import acceleration_jumps
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.stations import Stations
 from graphcam.words import sequence
 
-INFINITE, BEYOND = 14.0, 5.0
+MIN_INFINITE_ARROW, ARROW_OVERHANG = 14.0, 5.0
 """An arrow for an infinite jerk is at least so long, and so much longer than the curve is high [mm of paper]."""
 
-ASIDE = 6.0
+GRADUATION_OFFSET = 6.0
 """The graduation stands so far beside an arrow at the end of the turn [mm of paper]."""
 
 
@@ -111,13 +111,13 @@ def jerk(integrated: Integrated, pole: float, pencil: Pencil) -> DrawnJerk:
     curve = _to_the_ends(hand, stations, found, uprights)
     pieces = list(curve_pieces(stations))
     ends = (
-        between(origin, hand.tangent("highest j", curve, pieces, UP), UP),
-        between(hand.tangent("lowest j", curve, pieces, -UP), origin, UP),
+        distance_between(origin, hand.tangent("highest j", curve, pieces, UP), UP),
+        distance_between(hand.tangent("lowest j", curve, pieces, -UP), origin, UP),
     )
     mu_j = np.asarray(integrated.readings["a"].scale) / (mu_phi.per_mm * pole)
-    hand.read("j", between(origin, found, UP), mu_j)
-    hand.read("j_at", between(origin, found, RIGHT), mu_phi.per_mm, "rad", rounded=False)
-    hand.read("max_j", reckoned(np.maximum, *ends), mu_j)
+    hand.read("j", distance_between(origin, found, UP), mu_j)
+    hand.read("j_at", distance_between(origin, found, RIGHT), mu_phi.per_mm, "rad", rounded=False)
+    hand.read("max_j", calculated(np.maximum, *ends), mu_j)
     return hand.finished(JerkGivens(integrated, pole), _draw, {"j": found, "curve": curve})
 
 
@@ -160,7 +160,7 @@ def _to_the_ends(hand: Hand, stations: Stations, found: Drawn, uprights: Drawn) 
 
 
 def _draw(c: DrawnJerk) -> list[Step]:
-    return [_chords(c), _with_rays(c), _joined(c), _scale(c)]
+    return [_chords(c), _with_rays(c), _curve_step(c), _scale(c)]
 
 
 def _steepest(c: DrawnJerk) -> int:
@@ -185,7 +185,12 @@ def _heights(c: DrawnJerk) -> Floats:
     low, high = reach(c.acts["curve"].first.shown.imag)
     jumps = [jump.size for jump in acceleration_jumps(c.givens.integrated.givens.motion)]
     up, down = any(size > 0 for size in jumps), any(size < 0 for size in jumps)
-    return np.array([min(low - BEYOND, -INFINITE) if down else low, max(high + BEYOND, INFINITE) if up else high])
+    return np.array(
+        [
+            min(low - ARROW_OVERHANG, -MIN_INFINITE_ARROW) if down else low,
+            max(high + ARROW_OVERHANG, MIN_INFINITE_ARROW) if up else high,
+        ]
+    )
 
 
 def _with_rays(c: DrawnJerk) -> Step:
@@ -195,7 +200,7 @@ def _with_rays(c: DrawnJerk) -> Step:
     groups = falling_together(heights)
     kept = [int(group[0]) for group in groups]
     axes = (*givens.axes("j", _heights(c)), *pole)
-    told = [together(group.tolist(), givens.stations) for group in groups]
+    told = [joined_parts(group.tolist(), givens.stations) for group in groups]
     marks = (
         Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act, index=rays.index[kept]),
         *(found.from_(heights, Role.CONSTRUCTION), found.dots(Role.CONSTRUCTION)),
@@ -213,7 +218,7 @@ def _with_rays(c: DrawnJerk) -> Step:
     return Step(title, (part,), JERK, (*axes, *marks), given=axes, why=why, under=under)
 
 
-def _joined(c: DrawnJerk) -> Step:
+def _curve_step(c: DrawnJerk) -> Step:
     givens, curve, hand = c.givens.integrated.givens, c.acts["curve"].first, showing(c)
     names, marks, rows = station_names(givens.stations), list[Mark](), list[Row]()
     for piece, stretch in zip(curve_pieces(givens.stations), givens.stations.stretches, strict=True):
@@ -255,16 +260,16 @@ def _scale(c: DrawnJerk) -> Step:
     values = {"mu_a": mu_a, "mu_phi": givens.mu_phi.per_mm, "pole": c.givens.pole, "mu": mu, "unit": lift}
     values |= {"mm": (greatest := float(c.first("max_j"))), "value": float(c.value("max_j"))}
     found = say("The maximum finite jerk is {mm:.2f} mm × {mu:.5g} = {value:.5g} {unit}/rad³.")
-    if greatest < NOTHING:
+    if greatest < NEGLIGIBLE_SIZE:
         found = say("Between its jumps the acceleration is constant, so the finite jerk is zero.")
     gives = say("The pole gives μⱼ = μₐ/(μᵩ·H₃) = {mu_a:.5g}/({mu_phi:.5g}·{pole:g}) = {mu:.5g} ({unit}/rad³)/mm.")
     told = [gives.where(**values), found.where(**values)]
     heights, end = c.acts["curve"].first.shown.imag, givens.end
     # At the end of the turn an arrow may stand.
-    end += ASIDE if any(not jump.phi for jump in acceleration_jumps(givens.motion)) else 0.0
+    end += GRADUATION_OFFSET if any(not jump.phi for jump in acceleration_jumps(givens.motion)) else 0.0
     marks = list(graduated(heights, mu, end, read.act)) if reach(heights) != (0.0, 0.0) else []
     if givens.omega is not None:
-        told.append(scale_said(mu, "j", givens.omega, givens.unit))
+        told.append(time_scale_caption(mu, "j", givens.omega, givens.unit))
         marks += graduated_at_speed(heights, mu, "j", givens.omega, givens.unit, end, read.act) if marks else []
     part = Part(sequence(told, " "))
     why = say("A ray cuts off H₃ times a slope on paper, where a and φ have their scales.")

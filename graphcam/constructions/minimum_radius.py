@@ -13,7 +13,14 @@ import numpy as np
 
 from graphcam.constructions.adoption import ToldByChain
 from graphcam.constructions.axes import degrees, pieces_of
-from graphcam.constructions.combined_diagram import aside, joined_up, laid_off, offset_caption, offset_line, velocities
+from graphcam.constructions.combined_diagram import (
+    displacement_step,
+    joined_up,
+    offset_caption,
+    offset_line,
+    side_caption,
+    velocities,
+)
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.region import (
     LEAST_RADIUS,
@@ -23,19 +30,19 @@ from graphcam.constructions.region import (
     binding,
     boundary,
     highest_on,
-    nearest,
+    nearest_permitted,
     picture_of,
     touched,
 )
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, between, showing
+from graphcam.drafting.hand import Hand, distance_between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import AngleMark, Dimension, Line, Mark, Region, Role, Segments
 from graphcam.drafting.meaning import OFFSET, R0, S0, SIGMA, Compared, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import NOTHING
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE
 from graphcam.drafting.telling import led_by
 from graphcam.given.follower import Limits, Rotation, sense
 from graphcam.words import joined, say_in, sequence
@@ -146,14 +153,14 @@ def least_radius(
     start, level = hand.given("start of the lift"), hand.given("zero lift", along=RIGHT)
     lines = _bounds(hand, givens, velocities(hand, integrated, rotation), start)
     hand.cross("rise at zero lift", lines[0], level)
-    near = nearest(hand, "nearest", lines, start)
+    near = nearest_permitted(hand, "nearest", lines, start)
     highest_on(hand, "central", lines, hand.given("line of motion", along=UP), level)
     if offset is not None:
         near = highest_on(hand, "highest", lines, offset_line(hand, start, offset, s), level)
     centre = hand.take("centre", near)
-    hand.read("prime_radius", between(start, centre), s.scale)
-    hand.read("offset", between(centre, start, RIGHT), s.scale)
-    hand.read("s0", between(centre, start, UP), s.scale)
+    hand.read("prime_radius", distance_between(start, centre), s.scale)
+    hand.read("offset", distance_between(centre, start, RIGHT), s.scale)
+    hand.read("s0", distance_between(centre, start, UP), s.scale)
     places = {"ends": hand.acts["ends"], "centre": centre} | {line.act.name: line for line in lines}
     return hand.finished(givens, _draw, places)
 
@@ -182,38 +189,38 @@ def _bounds(hand: Hand, givens: LeastRadiusGivens, ends: Drawn, start: Drawn) ->
 
 def active(region: LeastRadius) -> list[Boundary]:
     """The boundaries on which the cam centre lies, in the first sample."""
-    return binding(_shown(region), complex(region.first("centre")))
+    return binding(_shown_boundaries(region), complex(region.first("centre")))
 
 
-def _shown(region: LeastRadius) -> list[Boundary]:
+def _shown_boundaries(region: LeastRadius) -> list[Boundary]:
     """The boundaries of the first sample."""
-    return [boundary(region.acts[name].first) for name in LINES if name in region.acts]
+    return [boundary(region.acts[name].first) for name in LINE_LABELS if name in region.acts]
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
 ANGLE_RADIUS = 22.0
 """Radius of the arcs that show the permitted angles [mm]."""
-HIGH, LOW = 0.12, 0.85
+HIGHEST_ANGLE_PLACE, LOWEST_ANGLE_PLACE = 0.12, 0.85
 """So far down the lines of the region their angles are shown."""
-LINES = {"rise": say("rise"), "return": say("return"), "rest": say_in("a line of the region", "dwell")}
+LINE_LABELS = {"rise": say("rise"), "return": say("return"), "rest": say_in("a line of the region", "dwell")}
 """The lines that bound the region, by what they limit."""
-NAMED = {"rise": say("the rise line"), "return": say("the return line"), "rest": say("the dwell line")}
+LINE_NAMES = {"rise": say("the rise line"), "return": say("the return line"), "rest": say("the dwell line")}
 """The same inside a sentence."""
-LIMITED = {
+LIMIT_NAMES = {
     "rise": say_in("a limit", "on the rise"),
     "return": say_in("a limit", "on the return"),
     "rest": say_in("a limit", "in the lower dwell"),
 }
 """Where each of them limits the pressure angle."""
-CURVES = {"rise": say("the curve of the rise"), "return": say("the curve of the return")}
-SLIDES = {
+CURVE_NAMES = {"rise": say("the curve of the rise"), "return": say("the curve of the return")}
+SLIDE_CAPTIONS = {
     1: say("leaning to the right going up, and slide it in from the lower right"),
     -1: say("leaning to the left going up, and slide it in from the lower left"),
 }
-PLACES = {"foot": say("foot of the perpendicular"), "apex": say("apex"), "central": say("central (e = 0)")}
+PLACE_NAMES = {"foot": say("foot of the perpendicular"), "apex": say("apex"), "central": say("central (e = 0)")}
 """The places that textbooks take besides the nearest one."""
-FOUND = {
+PLACE_CAPTIONS = {
     "foot": say(
         "Foot of the perpendicular: drop it from B₀ to the rise line with two set squares, {distance:.1f} mm long."
     ),
@@ -224,11 +231,16 @@ FOUND = {
 
 
 def _draw(region: LeastRadius) -> list[Step]:
-    centre, lines = region.acts["centre"].first, _shown(region)
+    centre, lines = region.acts["centre"].first, _shown_boundaries(region)
     others = (place.place for place in _alternatives(region).values())
     picture = picture_of((0j, centre.place, *others, *_adopted(region)), lines)
     found = _unreadable() if np.isnan(centre.place) else _result(region)
-    steps = laid_off(region, picture.bottom), joined_up(region), _touching(region, picture), _shaded(region, picture)
+    steps = (
+        displacement_step(region, picture.bottom),
+        joined_up(region),
+        _touching(region, picture),
+        _shaded(region, picture),
+    )
     return [*steps, found]
 
 
@@ -243,7 +255,7 @@ def _adopted(region: LeastRadius) -> list[complex]:
 
 def _touching(region: LeastRadius, picture: RegionPicture) -> Step:
     hand, limits = showing(region), region.givens.limits
-    lines = [_limit_line(region, hand, line, picture) for line in _shown(region)]
+    lines = [_limit_line(region, hand, line, picture) for line in _shown_boundaries(region)]
     parts = [part for part, _ in lines]
     if not limits.return_:
         none = say("A spring drives the return (force closure), so no line is drawn for the return.")
@@ -264,9 +276,9 @@ def _limit_line(
     direction = region.acts.get(f"direction of {line.name}")
     limit = drawn if direction is None else direction.first
     above = drawn.place - complex(line.along / abs(line.along.imag)) * (0.0 if line.name == "rest" else 10.0)
-    below = picture.end(line, [other for other in _shown(region) if other.name != line.name])
+    below = picture.end(line, [other for other in _shown_boundaries(region) if other.name != line.name])
     # The angles stand apart, and beside the region: a tangent's not far below its touch, the rest line's low.
-    share, way = (LOW, UP) if line.name == "rest" else (HIGH, -UP)
+    share, way = (LOWEST_ANGLE_PLACE, UP) if line.name == "rest" else (HIGHEST_ANGLE_PLACE, -UP)
     at = hand.cross(
         f"{line.name} on its way",
         drawn,
@@ -285,16 +297,16 @@ def _limit_line(
         said = say(
             "From B₀ draw the dwell line at {angle} to the line of motion, down {side}: it keeps the angle in "
             "the lower dwell within its limit."
-        ).where(angle=angle, side=aside(lean))
+        ).where(angle=angle, side=side_caption(lean))
     else:
         said = say(
             "For the limit {limited} set a set square at {angle} to the line of motion, {slide} until it touches "
             "{curve}: here {where}."
         ).where(
-            limited=LIMITED[line.name],
+            limited=LIMIT_NAMES[line.name],
             angle=angle,
-            slide=SLIDES[-1 if lean > 0 else 1],
-            curve=CURVES[line.name],
+            slide=SLIDE_CAPTIONS[-1 if lean > 0 else 1],
+            curve=CURVE_NAMES[line.name],
             where=_touch(region, line.name, drawn.place),
         )
     if line.name == "rise":
@@ -316,19 +328,19 @@ def _at_zero_lift(region: LeastRadius) -> Caption:
     if np.isnan(place):
         return say("The rise line meets the horizontal through B₀ at too flat an angle to be read.")
     said = say("The rise line meets the horizontal through B₀ {distance:.1f} mm {side} of it.")
-    return said.where(distance=abs(place.real), side=aside(place.real))
+    return said.where(distance=abs(place.real), side=side_caption(place.real))
 
 
 def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
-    hand, lines, others = showing(region), _shown(region), _alternatives(region)
+    hand, lines, others = showing(region), _shown_boundaries(region), _alternatives(region)
     permitted = hand.given("permitted places", picture.permitted(lines))
     sides = [
         say(
             "A cam centre {side} of {line} would give more than {angle} {limited}.",
-            side=aside(-float(line.inward.real)),
-            line=NAMED[line.name],
+            side=side_caption(-float(line.inward.real)),
+            line=LINE_NAMES[line.name],
             angle=_limit(line, region.givens.limits),
-            limited=LIMITED[line.name],
+            limited=LIMIT_NAMES[line.name],
         )
         for line in lines
     ]
@@ -339,8 +351,8 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
         strokes = hand.erect(f"cross at {place.act.name}", place.first, np.array([1, UP]))
         starts, tips = (strokes.points + side * 1.5 * strokes.directions for side in (-1, 1))
         marks.append(Segments(starts, tips, Role.CONSTRUCTION).left_by(strokes))
-        marks.append(place.first.label(PLACES[name], _outside(lines, place.place), small=True))
-        crosses.append(Part(FOUND[name].where(distance=abs(place.place)), (place.first, strokes)))
+        marks.append(place.first.label(PLACE_NAMES[name], _outside(lines, place.place), small=True))
+        crosses.append(Part(PLACE_CAPTIONS[name].where(distance=abs(place.place)), (place.first, strokes)))
     chosen = say("Thin crosses mark the points that textbooks choose.")
     parts = Part(sequence([*sides, hatch], " "), (permitted,)), *led_by(chosen, crosses)
     why = say("The cam centre must satisfy all limits at once.")
@@ -398,14 +410,14 @@ def _result(region: LeastRadius) -> Step:
 
 def _height(paper: float, mu: float, s0: float) -> Caption:
     """How far below the start of the lift the cam centre lies."""
-    if paper < NOTHING:
+    if paper < NEGLIGIBLE_SIZE:
         return say("s₀ = 0, because it lies level with B₀")
     return say("{paper:.2f} mm × {mu:.5g} = {s0:.3f} mm = s₀ below B₀", paper=paper, mu=mu, s0=s0)
 
 
 def _centre_caption(region: LeastRadius) -> Caption:
     """Which place of the region is the cam centre."""
-    offset, bound = region.givens.offset, [NAMED[line.name] for line in active(region)]
+    offset, bound = region.givens.offset, [LINE_NAMES[line.name] for line in active(region)]
     if offset is None:
         nearest_place = say("The offset is free: A₀ is the point of the hatched region nearest to B₀, {where}.")
         if len(bound) == 1:

@@ -15,14 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.constructions.adoption import ToldByChain, adoption_step
-from graphcam.constructions.axes import station_names, turning
-from graphcam.constructions.combined_diagram import aside, offset_caption, offset_line, velocities
+from graphcam.constructions.axes import sense_caption, station_names
+from graphcam.constructions.combined_diagram import offset_caption, offset_line, side_caption, velocities
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import COMBINED, PLAN
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Direction, Hand, between, reckoned, showing
+from graphcam.drafting.hand import Direction, Hand, calculated, distance_between, showing
 from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arc, Line, Mark, Role, angle_at
 from graphcam.drafting.meaning import (
@@ -78,7 +78,7 @@ class PressureAngleGivens(MeasuredGivens):
     offset: float
 
 
-ANGLES = {
+ANGLE_MEANINGS = {
     "alpha": ReadingMeaning(
         say("pressure angle α"), "α", "rad", converges=Converges("pressure angle", "pressure_angle", "at stations")
     ),
@@ -127,7 +127,7 @@ MEANING = Meaning(
         "The velocity plan and the mechanism contain similar triangles. So the velocity ds/dφ is a length of the "
         "mechanism, and the angle between normal and motion is found without the profile."
     ),
-    {**ANGLES, "s0": ReadingMeaning(say("distance s₀"), "s₀", "mm")},
+    {**ANGLE_MEANINGS, "s0": ReadingMeaning(say("distance s₀"), "s₀", "mm")},
     FORMULAS,
 )
 
@@ -149,7 +149,7 @@ def pressure_angle(
     either = hand.take("circle or touch", met, touch, which=np.isnan(met.points).astype(int)[..., None])
     centre = hand.take("centre", either[0])
     read_angles(hand, UP, hand.join("rays", centre, ends), sense(rotation))
-    hand.read("s0", between(centre, start, UP), s.scale)
+    hand.read("s0", distance_between(centre, start, UP), s.scale)
     givens = PressureAngleGivens(integrated, rotation, prime_radius, offset)
     return hand.finished(givens, _draw, {"ends": ends, "centre": centre})
 
@@ -157,7 +157,7 @@ def pressure_angle(
 def read_angles(hand: Hand, base: Direction, rays: Drawn, sense: int = 1) -> None:
     """Measure ``alpha``, and find ``transmission``, 90 degrees - |alpha|, that some schools read instead."""
     alpha = hand.angle("alpha", base, rays, sense)
-    hand.read("transmission", reckoned(_complement, hand.carry(alpha)), 1.0, rounded=False)
+    hand.read("transmission", calculated(_complement, hand.carry(alpha)), 1.0, rounded=False)
 
 
 def _complement(alpha: Floats) -> Floats:
@@ -168,13 +168,13 @@ def _complement(alpha: Floats) -> Floats:
 
 PLAN_HEIGHT = 70.0
 """The velocity plan is drawn at the largest standard scale at which the mechanism's triangle is not taller [mm]."""
-PLAN_BESIDE = complex(50.0, 45.0)
+PLAN_MARGINS = complex(50.0, 45.0)
 """What stands beside the triangle and the plan, and between them: letters, the ends of lines, the title [mm]."""
-ARC = 7.0
+PRIME_ARC_LENGTH = 7.0
 """The compass draws so much of the prime circle to either side of the cam centre [mm]."""
-SLOW = 0.25
+SLOW_SHARE = 0.25
 """The plan is not drawn where the follower is slower than this part of its greatest velocity."""
-FLAT = 0.14
+FLAT_PLAN_SHARE = 0.14
 """The plan is drawn elsewhere if v is less than this part of the prime radius: 10 mm of a plan as tall as usual."""
 
 
@@ -200,7 +200,7 @@ def _steepest(measured: MeasuredAngles) -> int:
 def _is_flat(measured: MeasuredAngles) -> bool:
     """Whether the plan would be nearly a line where the angle is greatest."""
     givens, v = measured.givens, measured.givens.integrated.value("v")[_steepest(measured)]
-    return bool(givens.path_per_lift * v < FLAT * givens.prime_radius)
+    return bool(givens.path_per_lift * v < FLAT_PLAN_SHARE * givens.prime_radius)
 
 
 def moving_up(measured: MeasuredAngles) -> NDArray[np.bool_]:
@@ -208,7 +208,7 @@ def moving_up(measured: MeasuredAngles) -> NDArray[np.bool_]:
     integrated = measured.givens.integrated
     motion, stations, v = integrated.givens.motion, integrated.givens.stations, integrated.value("v")
     rising = np.array([motion.phases[k].direction > 0 for k in stations.phase])
-    return rising & (v >= SLOW * np.max(v))
+    return rising & (v >= SLOW_SHARE * np.max(v))
 
 
 def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
@@ -216,12 +216,12 @@ def _draw(measured: Construction[PressureAngleGivens]) -> list[Step]:
     end, centre = measured.acts["ends"].first[k], measured.acts["centre"].first
     scale = plan_scale(measured, k, (end.place - centre.place) * mu)
     scales = VelocityScale(scale, measured.givens.omega)
-    shown = _Shown(measured, k, scales, _plan(measured, k, mu / scale.per_mm))
+    shown = _PlanStation(measured, k, scales, _plan(measured, k, mu / scale.per_mm))
     rounding = [adoption_step(decided, "e", mu, COMBINED)] if decided else []
     return [
         *(*rounding, _cam_centre(measured)),
         *(_mechanism(shown), _velocities(shown), _normal(shown), _angle(shown)),
-        _everywhere(measured, k),
+        _all_stations_step(measured, k),
     ]
 
 
@@ -234,12 +234,12 @@ def plan_scale(measured: Construction[PressureAngleGivens], k: int, d: complex) 
     # v₁ lies across the radius: it is as wide as B lies high.
     triangle = np.ptp([0.0, d.real, v, d.real + v])
     size = complex(float(triangle) + d.imag, max(d.imag, abs(v)))
-    usual = coarsest(standard_scale(d.imag, PLAN_HEIGHT, paper.ratios), paper.scale(size, PLAN_BESIDE))
+    usual = coarsest(standard_scale(d.imag, PLAN_HEIGHT, paper.ratios), paper.scale(size, PLAN_MARGINS))
     return paper.kept(PLAN.name) or usual
 
 
 @dataclass(frozen=True, eq=False)
-class _Shown:
+class _PlanStation:
     """The station at which the plan is drawn, and its scales."""
 
     measured: Construction[PressureAngleGivens]
@@ -280,20 +280,23 @@ def _plan(measured: Construction[PressureAngleGivens], k: int, times: float) -> 
 
     def enlarged(length: Setting) -> Setting:
         """A length of the combined diagram in this view."""
-        return reckoned(partial(np.multiply, times), length)
+        return calculated(partial(np.multiply, times), length)
 
     a = hand.given("A")
-    guide = hand.erect("guide", hand.lay_off("foot", a, RIGHT, enlarged(between(centre, low, RIGHT))))
-    b = hand.lay_off("B", guide, UP, enlarged(between(centre, low, UP)))
-    v, radius = enlarged(between(low, high)), hand.join("AB", a, b)
+    guide = hand.erect("guide", hand.lay_off("foot", a, RIGHT, enlarged(distance_between(centre, low, RIGHT))))
+    b = hand.lay_off("B", guide, UP, enlarged(distance_between(centre, low, UP)))
+    v, radius = enlarged(distance_between(low, high)), hand.join("AB", a, b)
     # The plan's pole stands clear of the mechanism's triangle, on the side away from D.
     right = max(b.place.real, b.place.real - sigma * float(v.amount), sigma * float(v.amount), 0.0)
     pole = hand.given("p", complex(right + max(0.0, sigma * b.place.imag) + 22.0, 8.0))
-    v1, v2 = hand.lay_off("v₁", pole, radius.turned(sigma * UP), between(a, b)), hand.lay_off("v₂", pole, UP, v)
+    v1, v2 = (
+        hand.lay_off("v₁", pole, radius.turned(sigma * UP), distance_between(a, b)),
+        hand.lay_off("v₂", pole, UP, v),
+    )
     normal = hand.perpendicular("normal", hand.join("v₂₁", v1, v2), b)
     c = hand.cross("C", hand.erect("across the motion", a, RIGHT), normal, flat=True)
     ac = hand.join("AC", a, c)
-    d = hand.lay_off("D", b, ac.turned(-1), between(a, c))
+    d = hand.lay_off("D", b, ac.turned(-1), distance_between(a, c))
     hand.join("BD", b, d)
     hand.angle("alpha", hand.erect("motion", d, -UP), hand.join("DA", d, a), sigma)
     return hand
@@ -308,7 +311,7 @@ def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
     centre, prime, line = (measured.acts[name].first for name in ("centre", "prime circle", "line of the offset"))
     displacements, ends = measured.acts["displacements"].first, measured.acts["ends"].first
     radius, towards = float(np.asarray(prime.radius)), float(np.angle(centre.place - prime.place))
-    span = towards - ARC / radius, towards + ARC / radius
+    span = towards - PRIME_ARC_LENGTH / radius, towards + PRIME_ARC_LENGTH / radius
     marks: list[Mark] = [
         Arc(prime.place, radius, *span, Role.CONSTRUCTION).left_by(prime),
         *(laid_off.dots(Role.CONSTRUCTION) for laid_off in (displacements, ends)),
@@ -331,7 +334,7 @@ def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
     return Step(say("The cam centre at the adopted radius"), tuple(parts), COMBINED, tuple(marks), ("s0",), why=why)
 
 
-def _mechanism(shown: _Shown) -> Step:
+def _mechanism(shown: _PlanStation) -> Step:
     measured, acts, k = shown.measured, shown.acts, shown.station
     a, b, guide, offset = acts["A"], acts["B"], acts["guide"], measured.givens.offset
     taken = say(
@@ -347,7 +350,7 @@ def _mechanism(shown: _Shown) -> Step:
     if offset:
         beside = say("Mark A in a new drawing at {ratio}, and draw the guide vertical, {paper:.2f} mm {side} of A.")
     taken = taken.where(name=shown.name)
-    beside = beside.where(ratio=ratio_text(shown.mu), paper=abs(b.place.real), side=aside(offset))
+    beside = beside.where(ratio=ratio_text(shown.mu), paper=abs(b.place.real), side=side_caption(offset))
     s0, s = float(measured.value("s0")), float(measured.givens.integrated.value("s")[k])
     above = say(
         "On the guide mark B, s₀ + s = {s0:.5g} + {s:.5g} = {sum:.5g} mm above A, which is {paper:.2f} mm of paper. "
@@ -363,7 +366,7 @@ def _mechanism(shown: _Shown) -> Step:
     return Step(say("The mechanism at station {name}", name=shown.name), parts, shown.view, marks, why=why)
 
 
-def _velocities(shown: _Shown) -> Step:
+def _velocities(shown: _PlanStation) -> Step:
     pole, v1, v2, v21 = (shown.acts[name] for name in ("p", "v₁", "v₂", "v₂₁"))
     one, two = v1.place - pole.place, v2.place - pole.place
     combined = abs(shown.measured.acts["ends"].first[shown.station].place.real)
@@ -371,7 +374,7 @@ def _velocities(shown: _Shown) -> Step:
     turned = say(
         "Divide all speeds by ω, so 1 mm of the plan is {mu:.5g} mm/rad. From the pole p draw v₁ = AB = {across:.2f} "
         "mm, with set squares square to AB, turned from it {rotation}."
-    ).where(mu=shown.mu, across=abs(one), rotation=turning(shown.measured.givens.rotation))
+    ).where(mu=shown.mu, across=abs(one), rotation=sense_caption(shown.measured.givens.rotation))
     up = say(
         "From p draw v₂ straight up: v of station {name} in the combined diagram, {combined:.2f} mm × {mu_s:.5g} = "
         "{v:.2f} mm/rad, is {paper:.2f} mm here."
@@ -386,13 +389,13 @@ def _velocities(shown: _Shown) -> Step:
     return Step(title, parts, shown.view, velocity_plan(pole, v1, v2, v21, shown.scales), why=why)
 
 
-def _normal(shown: _Shown) -> Step:
+def _normal(shown: _PlanStation) -> Step:
     b, c, normal, ac = (shown.acts[name] for name in ("B", "C", "normal", "AC"))
     square = say("With two set squares draw through B the normal, square to v₂₁.")
     level = say(
         "Draw the horizontal through A with the T-square; it meets the normal in C, {length:.2f} mm {side} of A: "
         "AC = {length:.2f} mm × {mu:.5g} = {value:.2f} mm/rad, equal in length to v₂."
-    ).where(length=abs(c.place), side=aside(c.place.real), mu=shown.mu, value=abs(c.place) * shown.mu)
+    ).where(length=abs(c.place), side=side_caption(c.place.real), mu=shown.mu, value=abs(c.place) * shown.mu)
     parts = Part(square, (normal,)), Part(level, (c, ac))
     marks = (
         _stroke(normal, b.place + (b.place - c.place) * 0.12, c.place, Role.CONSTRUCTION),
@@ -406,13 +409,13 @@ def _normal(shown: _Shown) -> Step:
     return Step(say("The normal and the triangle ABC"), parts, shown.view, marks, why=why)
 
 
-def _angle(shown: _Shown) -> Step:
+def _angle(shown: _PlanStation) -> Step:
     acts, height, reading = shown.acts, shown.acts["B"].place.imag, shown.hand.readings["alpha"]
     d, bd, da, motion = (acts[name] for name in ("D", "BD", "DA", "motion"))
     alpha = float(np.degrees(reading.paper))
     laid_off = say(
         "Lay AC off from B horizontally {side}, {length:.2f} mm to D: A, C, B and D make a parallelogram."
-    ).where(side=aside((d.place - acts["B"].place).real), length=abs(acts["C"].place))
+    ).where(side=side_caption((d.place - acts["B"].place).real), length=abs(acts["C"].place))
     joining = say("Join D to A: DA is parallel to the normal BC.")
     measuring = say(
         "Draw a vertical at D and measure its angle to DA with the protractor: at station {name} the pressure "
@@ -433,7 +436,7 @@ def _angle(shown: _Shown) -> Step:
     return Step(say("The pressure angle at station {name}", name=shown.name), parts, shown.view, marks, why=why)
 
 
-def _everywhere(measured: Construction[PressureAngleGivens], shown: int) -> Step:
+def _all_stations_step(measured: Construction[PressureAngleGivens], shown: int) -> Step:
     integrated, rays = measured.givens.integrated, measured.acts["rays"]
     names, alpha = station_names(integrated.givens.stations), np.degrees(measured.first("alpha"))
     sigma, most = sense(measured.givens.rotation), int(np.argmax(np.abs(alpha)))
@@ -443,7 +446,7 @@ def _everywhere(measured: Construction[PressureAngleGivens], shown: int) -> Step
         "{angle:.2f}°. The angle of maximum magnitude is {greatest:.2f}°, at {name}; there the transmission angle "
         "90° − |α| has its minimum, {transmission:.2f}°. The maximum angle between stations is read from the angle "
         "diagram."
-    ).where(side=aside(-sigma), shown=names[shown], angle=alpha[shown], greatest=alpha[most], name=names[most])
+    ).where(side=side_caption(-sigma), shown=names[shown], angle=alpha[shown], greatest=alpha[most], name=names[most])
     said = said.where(transmission=90 - abs(alpha[most]))
     joined = run(said, say("Ray {name}"), names, rays, settings=lambda k: say("{alpha:z.2f}°", alpha=alpha[k]))
     why = say("The ray from A to an end is parallel to the normal at its station, as DA is.")

@@ -7,12 +7,20 @@ from itertools import pairwise
 import numpy as np
 
 from graphcam.constructions.adoption import ToldByChain
-from graphcam.constructions.axes import degrees, numbers, phase_angle, phase_symbol, phase_title, station_names, turning
+from graphcam.constructions.axes import (
+    degrees,
+    numbers,
+    phase_angle,
+    phase_symbol,
+    phase_title,
+    sense_caption,
+    station_names,
+)
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.acts import Drawn, Kind
-from graphcam.drafting.euclid import RIGHT, UP, turned, unit
-from graphcam.drafting.hand import Direction, Hand, between, showing
+from graphcam.drafting.euclid import RIGHT, UP, turned_direction, unit
+from graphcam.drafting.hand import Direction, Hand, distance_between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import Converges, ReadingMeaning
@@ -41,18 +49,18 @@ PRIME_WHY = say(
     "Only the motion of the cam relative to the follower matters: with the cam held still, its outline "
     "is what the follower touches on its way round."
 )
-BEYOND = 9.0
+PHASE_ARC_OFFSET = 9.0
 """How far the arcs of the phase angles, and their numbers, lie outside the pitch curve [mm]."""
 
 
-CURVE = {
+CURVE_MEANINGS = {
     "x": ReadingMeaning(say("x"), "x", "mm", converges=Converges("pitch curve", "pitch_curve", "from the pitch curve")),
     "y": ReadingMeaning(say("y"), "y", "mm"),
     "radius": ReadingMeaning(say("polar radius"), "R", "mm"),
     "polar_angle": ReadingMeaning(say("polar angle"), "θ", "rad"),
 }
 """What is read of the points of any follower's inverted motion."""
-CURVE_READINGS = tuple(CURVE)
+CURVE_READINGS = tuple(CURVE_MEANINGS)
 
 
 def prime_circle(hand: Hand, prime_radius: float, mu_l: Scale) -> Drawn:
@@ -71,21 +79,21 @@ def curve_readings(hand: Hand, curve: Drawn, mu_l: Scale) -> None:
     """``x``, ``y`` and ``radius`` [mm] and the ``polar_angle`` [rad] of points of a profile about the cam centre."""
     centre = hand.given("cam centre")
     for name, along in (("x", RIGHT), ("y", UP), ("radius", None)):
-        hand.read(name, between(centre, curve, along), mu_l.per_mm)
+        hand.read(name, distance_between(centre, curve, along), mu_l.per_mm)
     hand.angle("polar_angle", RIGHT, hand.join("polar rays", centre, curve))
 
 
-WORKED = 4
+WORKED_STATION = 4
 """The station that a caption works out, counted in the first moving phase."""
 
 
 def worked_station(stations: Stations) -> int:
     """The station that a caption works out for all: the fourth, or the last of a phase of fewer parts."""
     first = stations.phases[0]
-    return min(first.start + WORKED, first.stop - 1)
+    return min(first.start + WORKED_STATION, first.stop - 1)
 
 
-def divided_by(inverted: Inverted) -> dict[str, Words]:
+def position_words(inverted: Inverted) -> dict[str, Words]:
     """What a caption says of the inverted positions.
 
     rotation, against : how the cam turns, and how the follower goes round it
@@ -95,7 +103,7 @@ def divided_by(inverted: Inverted) -> dict[str, Words]:
     motion, stations = inverted.givens.integrated.givens.motion, inverted.givens.integrated.givens.stations
     at = worked_station(stations)
     return {
-        "rotation": turning(inverted.givens.rotation),
+        "rotation": sense_caption(inverted.givens.rotation),
         "against": against(inverted),
         "angles": sequence([degrees(phase.angle) for phase in motion.phases]),
         "steps": sequence([_step_of(motion, stations, span) for span in stations.phases]),
@@ -124,7 +132,7 @@ def turn_of(inverted: Inverted, station: int) -> Caption:
 
 def against(inverted: Inverted) -> Caption:
     """The sense in which the follower goes round the cam that stands still."""
-    return turning("ccw" if inverted.givens.rotation == "cw" else "cw")
+    return sense_caption("ccw" if inverted.givens.rotation == "cw" else "cw")
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +189,7 @@ def _pieces(name: str, inverted: Inverted, points: Drawn) -> list[tuple[int, Dra
             end, back = (after, (stations.phi[after] - since) % FULL_TURN) if missing[at] else (at, 0.0)
             ray = hand.join(f"ray to the dwell {k}", centre, points[end])
             rays = hand.protractor(f"rays of the dwell {k}", centre, ray, sigma * (back - turns))
-            found.append((k, hand.lay_off(f"{name} {k}", centre, rays, between(centre, points[end]))))
+            found.append((k, hand.lay_off(f"{name} {k}", centre, rays, distance_between(centre, points[end]))))
     return found
 
 
@@ -218,7 +226,7 @@ def radius_arrow(
     longest = int(np.argmax([phase.angle for phase in motion.phases]))
     middle = motion.starts[longest] + motion.phases[longest].angle / 2
     hand, sigma = showing(inverted), sense(inverted.givens.rotation)
-    towards = complex(turned(start / abs(start), -sigma * middle))
+    towards = complex(turned_direction(start / abs(start), -sigma * middle))
     ray = hand.erect(f"radius {symbol}", circle.first, towards)
     tip = hand.cross(f"tip of {symbol}", ray, circle.first)
     named, text = hand.divide(symbol, ray, tip, 0.6), say("{symbol} = {radius:g}", symbol=symbol, radius=radius)
@@ -235,7 +243,7 @@ def rotation_arrow(direction: float, sigma: int, radius: float) -> Arc:
 def start_of_turn(inverted: Inverted) -> complex:
     """Where the turn begins on the prime circle: a start of the lift, turned back; above the centre if none is read."""
     turn = sense(inverted.givens.rotation) * inverted.givens.integrated.givens.stations.phi
-    back = turned(inverted.acts["starts"].shown, turn)
+    back = turned_direction(inverted.acts["starts"].shown, turn)
     return complex(np.append(back[~np.isnan(back)], UP)[0])
 
 
@@ -249,30 +257,30 @@ def phase_angles(inverted: Inverted, start: complex) -> tuple[list[Mark], Part]:
     limits = np.angle(start) - sigma * np.append(motion.starts, FULL_TURN)
     hand = showing(inverted)
     rays = hand.erect("limits of the phases", hand.given("cam centre", 0j * limits[:-1]), np.exp(1j * limits[:-1]))
-    of, index, ends = rays.act, rays.index, (radius + BEYOND / 2) * rays.directions
+    of, index, ends = rays.act, rays.index, (radius + PHASE_ARC_OFFSET / 2) * rays.directions
     angles = [
         AngleMark(0j, radius, min(a, b), max(a, b), phase_angle(motion, k), of=of, index=index[k : k + 1])
         for k, (a, b) in enumerate(pairwise(limits))
     ]
-    said = say("Mark the angles of the phases outside, {against}: {angles}.").where(**divided_by(inverted))
+    said = say("Mark the angles of the phases outside, {against}: {angles}.").where(**position_words(inverted))
     return [Segments(0.0 * ends, ends, Role.AXIS, of=of, index=index), *angles], Part(said, (rays,))
 
 
 def _outer_radius(inverted: Inverted) -> float:
     """Where the arcs of the phase angles are drawn: outside the prime circle and the pitch curve [mm of paper]."""
     prime = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm
-    return float(np.fmax.reduce(np.abs(inverted.first("pitch")), initial=prime)) + BEYOND
+    return float(np.fmax.reduce(np.abs(inverted.first("pitch")), initial=prime)) + PHASE_ARC_OFFSET
 
 
 def ground(inverted: Inverted) -> tuple[Mark, ...]:
     """Cam centre, centre lines and the sense of the rotation."""
     prime, sigma = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm, sense(inverted.givens.rotation)
-    reach = (_outer_radius(inverted) + BEYOND) * np.array([-1, 1])
+    reach = (_outer_radius(inverted) + PHASE_ARC_OFFSET) * np.array([-1, 1])
     return (
         Line(reach + 0j, Role.AXIS),
         Line(UP * reach, Role.AXIS),
         rotation_arrow(-np.pi / 2, sigma, 0.6 * prime),
-        Label(0.6 * prime * complex(turned(-UP, sigma * ROTATION_ARC / 2)), "ω", towards=-UP + sigma),
+        Label(0.6 * prime * complex(turned_direction(-UP, sigma * ROTATION_ARC / 2)), "ω", towards=-UP + sigma),
         Dots(np.array([0j]), Role.RESULT),
         Label(0j, "A", towards=1 - 1j),
     )

@@ -12,7 +12,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.stations import Stations
 from graphcam.words import Words
 
-PAPER = "mm of paper"
+PAPER_UNIT = "mm of paper"
 """The unit of a reading that stands for nothing but its own length."""
 ROUNDING = 1e-9
 """A length or an angle of less [mm or degrees] is rounding of the arithmetic."""
@@ -90,7 +90,7 @@ def _row(construction: Construction, name: str) -> ReadingRow:
     paper = np.where(np.abs(paper) < ROUNDING, 0.0, paper)
     meaning = construction.meaning.reading(name)
     mu = reading.per_mm
-    if reading.unit == PAPER:
+    if reading.unit == PAPER_UNIT:
         row = ReadingRow(name, meaning.title, paper, None, paper, "mm")
     elif reading.unit == "rad":
         degrees = np.degrees(paper * mu)

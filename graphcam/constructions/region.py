@@ -20,9 +20,9 @@ from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import say
 from graphcam.drafting.marks import Points
 from graphcam.drafting.meaning import Compared, Converges, ReadingMeaning
-from graphcam.drafting.scale import NOTHING
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE
 from graphcam.given.laws import Floats
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 
 ON_THE_LINE = 1e-9
 """A point of the paper this near to a boundary [mm] lies on it: rounding of the arithmetic."""
@@ -65,14 +65,14 @@ def boundary(line: Drawn) -> Boundary:
     return Boundary(line.act.name, line.points, -UP * line.directions)
 
 
-def nearest(hand: Hand, name: str, lines: Sequence[Drawn], start: Drawn) -> Drawn:
+def nearest_permitted(hand: Hand, name: str, lines: Sequence[Drawn], start: Drawn) -> Drawn:
     """The permitted place nearest to ``start``: a foot of a perpendicular or a corner of the region; NaN if none is.
 
     >>> import graphcam as gc
     >>> from graphcam.drafting.meaning import Meaning
     >>> hand = Hand(gc.Pencil(), Meaning("region", say("Region"), say("Two lines bound it.")))
     >>> lines = [hand.given("left", 0j, UP), hand.given("below", -3j, 1)]
-    >>> nearest(hand, "centre", lines, hand.given("start", -1)).place
+    >>> nearest_permitted(hand, "centre", lines, hand.given("start", -1)).place
     -3j
     """
     places = [hand.cross(f"foot on {line.act.name}", line, hand.perpendicular("across", line, start)) for line in lines]
@@ -100,7 +100,7 @@ def highest_on(hand: Hand, name: str, lines: Sequence[Drawn], upright: Drawn, le
     return hand.take(name, *met, which=lowest[..., None])[0]
 
 
-def nearest_of_many(touches: Points, inwards: Points, start: Points) -> tuple[Points, NDArray[np.intp]]:
+def nearest_for_many(touches: Points, inwards: Points, start: Points) -> tuple[Points, NDArray[np.intp]]:
     """The permitted place nearest to ``start`` among many lines, and which of them bind.
 
     touches, inwards : (..., k) lines as in :class:`Boundary`; start : (...)
@@ -110,7 +110,7 @@ def nearest_of_many(touches: Points, inwards: Points, start: Points) -> tuple[Po
     The line that cuts off most is added to the one or two on which the place lies, until no line cuts it off: every
     addition takes the place farther from the start, so none comes back.
 
-    >>> place, lines = nearest_of_many(np.array([0j, -3j, -1j]), np.array([1 + 0j, -1j, -1j]), np.asarray(-1 + 0j))
+    >>> place, lines = nearest_for_many(np.array([0j, -3j, -1j]), np.array([1 + 0j, -1j, -1j]), np.asarray(-1 + 0j))
     >>> complex(place), sorted(lines.tolist())
     (-3j, [0, 1])
     """
@@ -124,27 +124,27 @@ def nearest_of_many(touches: Points, inwards: Points, start: Points) -> tuple[Po
             break
         three = np.concatenate([deepest, lines if added else np.repeat(deepest, 2, axis=-1)], axis=-1)
         touch, inward = (np.take_along_axis(given, three, -1) for given in (touches, inwards))
-        found, pair = _nearest_of_three(touch, inward, start)
+        found, pair = _nearest_for_three_lines(touch, inward, start)
         place = np.where(cut_off, found, place)
         lines = np.where(cut_off[..., None], np.take_along_axis(three, pair, -1), lines)
     return place, lines
 
 
-_PAIRS = np.array([(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)])
+_VERTEX_PAIRS = np.array([(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)])
 
 
-def _nearest_of_three(touches: Points, inwards: Points, start: Points) -> tuple[Points, NDArray[np.intp]]:
+def _nearest_for_three_lines(touches: Points, inwards: Points, start: Points) -> tuple[Points, NDArray[np.intp]]:
     """The nearest place that three lines permit, and the pair of them that makes it, (..., 2)."""
     lines = [(touches[..., k], inwards[..., k] * UP) for k in range(3)]
     feet = [foot(start, *line) for line in lines]
     # Neighbouring lines of a family cross at less than a degree; what they bound is their envelope, not the crossing.
-    corners = [crossing(*lines[a], *lines[b]) for a, b in _PAIRS[3:]]
+    corners = [crossing(*lines[a], *lines[b]) for a, b in _VERTEX_PAIRS[3:]]
     places = np.stack([*feet, *corners], axis=-1)
     clearance = dot(inwards[..., None, :], places[..., None] - touches[..., None, :])
     permitted = np.all(clearance >= -ON_THE_LINE, axis=-1)
     best = np.argmin(np.where(permitted, np.abs(places - start[..., None]), np.inf), axis=-1)
     place = np.take_along_axis(places, best[..., None], -1)[..., 0]
-    return np.where(permitted.any(axis=-1), place, NOWHERE), _PAIRS[best]
+    return np.where(permitted.any(axis=-1), place, NOWHERE), _VERTEX_PAIRS[best]
 
 
 def binding(lines: Sequence[Boundary], centre: complex) -> list[Boundary]:
@@ -156,11 +156,11 @@ def permitted_part(lines: Sequence[Boundary], corners: Sequence[complex]) -> Poi
     """The part of a convex polygon that every boundary permits: cut by one after another."""
     polygon = list(corners)
     for line in lines:
-        polygon = _cut(polygon, line)
+        polygon = _cut_polygon(polygon, line)
     return np.array(polygon)
 
 
-def _cut(polygon: list[complex], line: Boundary) -> list[complex]:
+def _cut_polygon(polygon: list[complex], line: Boundary) -> list[complex]:
     kept: list[complex] = []
     for start, end in zip(polygon, polygon[1:] + polygon[:1], strict=True):
         inside, outside = (float(line.clearance(np.asarray(place))) for place in (start, end))
@@ -171,9 +171,9 @@ def _cut(polygon: list[complex], line: Boundary) -> list[complex]:
     return kept
 
 
-MARGIN = 14.0
+PICTURE_MARGIN = 14.0
 """So far beyond the places that it shows the picture ends [mm]."""
-SHORTEST = 60.0
+MIN_LINE_LENGTH = 60.0
 """A line that bounds the region elsewhere is drawn at least so far down, for its angle to be seen [mm]."""
 
 
@@ -226,7 +226,7 @@ class RegionPicture:
                 float(other.clearance(np.asarray(touch)) / -dot(other.inward, np.asarray(along))) for other in others
             ]
         last = max((way for way in crossed if 0 < way < leaves), default=0.0)
-        return touch + min(leaves, max(last + MARGIN, SHORTEST)) * along
+        return touch + min(leaves, max(last + PICTURE_MARGIN, MIN_LINE_LENGTH)) * along
 
 
 def picture_of(places: Iterable[complex], lines: Sequence[Boundary] = ()) -> RegionPicture:
@@ -241,12 +241,12 @@ def picture_of(places: Iterable[complex], lines: Sequence[Boundary] = ()) -> Reg
     shown: Points = np.array(
         [*(place for place in places if np.isfinite(place)), *(complex(each.touch) for each in lines)]
     )
-    bottom = float(shown.imag.min()) - MARGIN
-    aside = MARGIN + max(0.0, *shown.imag.tolist()) - bottom
+    bottom = float(shown.imag.min()) - PICTURE_MARGIN
+    aside = PICTURE_MARGIN + max(0.0, *shown.imag.tolist()) - bottom
     return RegionPicture(float(shown.real.min()) - aside, float(shown.real.max()) + aside, bottom, 0.0)
 
 
-ON_A_STATION = 0.05
+STATION_NEARNESS = 0.05
 """A line that touches this near to a station, in parts of the way to the next one, touches at it."""
 
 
@@ -266,9 +266,9 @@ def touched(integrated: Integrated, plotted: Points, place: complex, direction: 
     left = stations.left[moving[stations.phase[stations.left]] == direction]
     ways = plotted[left + 1] - plotted[left]
     # A part that has no length, where the follower stays, is touched nowhere.
-    along = np.clip(dot(ways, place - plotted[left]) / np.maximum(np.abs(ways) ** 2, NOTHING), 0.0, 1.0)
+    along = np.clip(dot(ways, place - plotted[left]) / np.maximum(np.abs(ways) ** 2, NEGLIGIBLE_SIZE), 0.0, 1.0)
     part = int(np.argmin(np.abs(plotted[left] + along * ways - place)))
     first, share = int(left[part]), float(along[part])
-    if min(share, 1 - share) < ON_A_STATION:
+    if min(share, 1 - share) < STATION_NEARNESS:
         return [names[first + (share > 0.5)]]
     return [names[first], names[first + 1]]

@@ -9,7 +9,7 @@ import numpy as np
 from graphcam.constructions.curvature import Curved, detail_of
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, between, reckoned
+from graphcam.drafting.hand import Hand, calculated, distance_between
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, Words, say
 from graphcam.drafting.marks import Mark, Role
 from graphcam.drafting.meaning import R0, RHO, Compared, Formula, Meaning, ReadingMeaning, Symbol, Values
@@ -84,18 +84,18 @@ def roller_radius(curved: Curved, rule: tuple[Candidate, ...], given: float | No
     hand, inverted = Hand(pencil, MEANING), curved.givens.inverted
     mu_l, centre = inverted.givens.mu_l.per_mm, hand.given("cam centre")
     if given is None:
-        prime_radius = between(centre, hand.found(inverted, "starts")[0])
-        proposed = reckoned(partial(_proposed, rule, mu_l), hand.carry(curved.readings["rho"]), prime_radius)
+        prime_radius = distance_between(centre, hand.found(inverted, "starts")[0])
+        proposed = calculated(partial(_proposed, rule, mu_l), hand.carry(curved.readings["rho"]), prime_radius)
     else:
-        proposed = reckoned(np.atleast_1d, hand.at_scale(given, inverted.readings["radius"]))
+        proposed = calculated(np.atleast_1d, hand.at_scale(given, inverted.readings["radius"]))
     # The compass is set to each; where nothing is convex there is nothing to set it to.
-    set_to, own = hand.lay_off("roller", centre, RIGHT, reckoned(_finite, proposed)), proposed.amount.shape[-1]
+    set_to, own = hand.lay_off("roller", centre, RIGHT, calculated(_finite, proposed)), proposed.amount.shape[-1]
     which = np.where(np.isinf(proposed.amount), own, np.arange(own))
     laid_off = hand.take("proposals", set_to, hand.given("far away", [np.inf]), which=which)
-    candidates = between(centre, laid_off, RIGHT)
+    candidates = distance_between(centre, laid_off, RIGHT)
     hand.read("candidates", candidates, mu_l, rounded=False)
     # Where no bend is readable, rho limits nothing.
-    hand.read("roller_radius", reckoned(partial(np.fmin.reduce, axis=-1), candidates), mu_l, rounded=False)
+    hand.read("roller_radius", calculated(partial(np.fmin.reduce, axis=-1), candidates), mu_l, rounded=False)
     return hand.finished(RollerGivens(curved, rule, given), _draw, {})
 
 
@@ -111,7 +111,7 @@ def _finite(radii: Floats) -> Floats:
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
-BESIDE = 1.5
+MAX_PROPOSAL_FACTOR = 1.5
 """A proposal is shown on OB, if it is not longer than so many times OB."""
 
 
@@ -166,7 +166,7 @@ def laid_off_on_ob(
     ob = detail.hand.join("OB", b, hub)
     for name, radius in zip(names, radii.tolist(), strict=True):
         paper = radius / detail.per_mm
-        if not 0 < paper <= BESIDE * abs(hub.place):  # nor where there is none
+        if not 0 < paper <= MAX_PROPOSAL_FACTOR * abs(hub.place):  # nor where there is none
             continue
         end = detail.hand.lay_off("roller beside OB", b, ob, paper)
         label = say("{name} = {radius:.4g}", name=name, radius=radius)

@@ -13,9 +13,9 @@ from graphcam.drafting.euclid import UP, centre_of_circle, crossing, perpendicul
 from graphcam.drafting.marks import Points
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
-from graphcam.given.motion import Dwell, Motion, Moving
+from graphcam.given.motion import Dwell, Motion, MovingPhase
 from graphcam.given.stations import Stations
-from graphcam.plane import cross, dot
+from graphcam.plane_vectors import cross, dot
 
 Triples = NDArray[np.intp]
 """(..., k, 3) which three points each: of those of the pitch curve, then of the rests, then one that is nowhere."""
@@ -40,13 +40,13 @@ def neighbours(inverted: Inverted) -> Triples:
         step = np.where(wider, 2 * step, step)
 
 
-INSTANT = math.radians(5)
+INSTANT_ANGLE = math.radians(5)
 """Three points of the arc of an instant's rest are taken so far apart."""
 NO_ACCELERATION = 1e-9
 """Part of the greatest acceleration that is none."""
 
 
-def resting_of(motion: Motion, stations: Stations) -> list[tuple[int, Floats]]:
+def dwell_arcs(motion: Motion, stations: Stations) -> list[tuple[int, Floats]]:
     """After which station the follower rests, and how far round three places of its arc lie [rad].
 
     Where two moving phases meet and the acceleration of either vanishes, it rests for an instant.
@@ -61,14 +61,16 @@ def resting_of(motion: Motion, stations: Stations) -> list[tuple[int, Floats]]:
         if isinstance(phase, Dwell):
             found.append((last, phase.angle * np.array([0.0, 0.5, 1.0])))
         elif instant:
-            found.append((last, INSTANT * np.array([-1.0, 0.0, 1.0])))
+            found.append((last, INSTANT_ANGLE * np.array([-1.0, 0.0, 1.0])))
     return found
 
 
 def _vanishes(motion: Motion, phases: NDArray[np.intp], u: float) -> NDArray[np.bool_]:
     """Of which phases the given acceleration is zero at the end u; of a dwell too."""
     ends = [motion.phases[k] for k in phases]
-    greatest = [p.normalised.peak_acceleration * p.lift / p.angle**2 if isinstance(p, Moving) else 0.0 for p in ends]
+    greatest = [
+        p.normalised.peak_acceleration * p.lift / p.angle**2 if isinstance(p, MovingPhase) else 0.0 for p in ends
+    ]
     return np.abs(motion.at(phases, u)[2]) <= NO_ACCELERATION * np.array(greatest)
 
 
@@ -105,7 +107,7 @@ def sharpest_of(inverted: Inverted, points: Points, triples: Triples) -> tuple[N
     return np.take_along_axis(triples, best[..., None], -2)[..., 0, :], np.fmin.reduce(radii, axis=-1)
 
 
-CORNER = math.radians(45)
+CORNER_ANGLE = math.radians(45)
 """A curve that turns by so much more than the follower does between a rest and the next point has a corner there."""
 
 
@@ -121,4 +123,4 @@ def turns_a_corner(inverted: Inverted) -> NDArray[np.bool_]:
     chord, along = following - end, -sense(inverted.givens.rotation) * onwards * UP * end
     # The chord of an arc about the cam centre leaves it by half of what the cam has turned.
     by_turning = np.abs(np.angle(following * end.conj())) / 2
-    return np.any((dot(chord, end) < 0) & (np.abs(np.angle(chord * along.conj())) > by_turning + CORNER), axis=-1)
+    return np.any((dot(chord, end) < 0) & (np.abs(np.angle(chord * along.conj())) > by_turning + CORNER_ANGLE), axis=-1)

@@ -9,9 +9,9 @@ from graphcam.drafting.ink import Caption, View, Words, say
 from graphcam.drafting.marks import Arrow, Label, Mark, Role
 from graphcam.drafting.scale import Scale, ratio_text, unit
 from graphcam.given.follower import MM_PER_M
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 
-SPEED = say("{symbol} = {speed:.3g} {unit}")
+SPEED_CAPTION = say("{symbol} = {speed:.3g} {unit}")
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class VelocityScale:
         """The name of a side [mm of paper], where a speed is given with the speed."""
         if self.omega is None:
             return symbol
-        return SPEED.where(symbol=symbol, speed=self.mu.value(abs(side)), unit=unit(self.mu.unit))
+        return SPEED_CAPTION.where(symbol=symbol, speed=self.mu.value(abs(side)), unit=unit(self.mu.unit))
 
     def told(self, pole: Drawn, v1: Drawn, v2: Drawn) -> tuple[Caption, ...]:
         """The speeds that the sides stand for, in a sentence, where a speed is given."""
@@ -74,14 +74,14 @@ def velocity_plan(pole: Drawn, v1: Drawn, v2: Drawn, v21: Drawn, scale: Velocity
     return (
         *(v1.arrow(pole, Role.CURVE), v2.arrow(pole, Role.CURVE), Arrow(one, other, Role.CURVE).left_by(v21)),
         *(
-            Label((a + b) / 2, scale.named(symbol, b - a), _outwards(a, b, opposite)).left_by(side)
+            Label((a + b) / 2, scale.named(symbol, b - a), _outward_direction(a, b, opposite)).left_by(side)
             for symbol, a, b, opposite, side in sides
         ),
         pole.label("p", -1 - 1j),
     )
 
 
-def _outwards(start: complex, end: complex, opposite: complex) -> complex:
+def _outward_direction(start: complex, end: complex, opposite: complex) -> complex:
     """Square to a side of a triangle, away from the opposite corner."""
     across = UP * (end - start)
     return across if dot(across, opposite - start) < 0 else -across

@@ -14,7 +14,7 @@ from graphcam.constructions.roller import Rolled, laid_off_on_ob
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP, tangent_of_circle, unit
-from graphcam.drafting.hand import Hand, between, reckoned, showing
+from graphcam.drafting.hand import Hand, calculated, distance_between, showing
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Converges, Meaning, ReadingMeaning
@@ -26,9 +26,9 @@ from graphcam.given.motion import FULL_TURN
 from graphcam.given.stations import Stations
 from graphcam.words import say_in, say_many, sequence
 
-TOUCHING = 1e-9
+TOUCH_ROUNDING = 1e-9
 """A touch point this little inside another circle, as a fraction of its radius, still lies on it: rounding."""
-TREMBLE = 3.0
+HAND_ERRORS = 3.0
 """So many of a hand's errors may set a point inside a circle that only touches it."""
 
 
@@ -81,12 +81,12 @@ def working_profile(
         tangents = hand.tangents_at("tangents", pitch, partial(_tangents, stations, sigma))
         circles = hand.circle("roller circles", pitch, radius)
         found = hand.cross("touch points", tangents.turned(-UP * sigma), circles)
-    tremble = TREMBLE * math.hypot(pencil.line, pencil.dividers)
-    covered = _covered(found.points, pitch.points, radius * (1 - TOUCHING) - tremble)
+    tremble = HAND_ERRORS * math.hypot(pencil.line, pencil.dividers)
+    covered = _covered(found.points, pitch.points, radius * (1 - TOUCH_ROUNDING) - tremble)
     nowhere, at = hand.given("nowhere", [np.nan]), np.arange(stations.u.size)
     touch = hand.take("touch", found, nowhere, which=np.where(covered, at.size, at))
     dropped = hand.take("covered", found, nowhere, which=np.where(covered, at, at.size))
-    hand.read("radius", between(hand.given("cam centre"), touch), mu_l)
+    hand.read("radius", distance_between(hand.given("cam centre"), touch), mu_l)
     _measure_dwells(hand, inverted, touch)
     givens = ProfileGivens(inverted, roller, rolled, measured)
     return hand.finished(givens, _draw, {"touch": touch, "covered": dropped})
@@ -115,7 +115,7 @@ def _measure_dwells(hand: Hand, inverted: Inverted, touch: Drawn) -> None:
     )
     angles = hand.angle("angles of the radii", first, last, -sense(inverted.givens.rotation))
     given = np.array([motion.phases[k].angle for k in numbers])
-    found = reckoned(partial(_beyond_a_half_turn, given), hand.carry(angles))
+    found = calculated(partial(_beyond_a_half_turn, given), hand.carry(angles))
     hand.read("low_dwells", found, 1.0, "rad", rounded=False)
 
 
@@ -167,14 +167,14 @@ def _covered(touch: Points, pitch: Points, radius: float) -> NDArray[np.bool_]:
 
 
 def _draw(profile: Profile) -> list[Step]:
-    rounded = [_rounded(profile, profile.givens.rolled)] if profile.givens.rolled else []
+    rounded = [_rounding_step(profile, profile.givens.rolled)] if profile.givens.rolled else []
     if not profile.givens.roller_radius:
         return [_envelope(profile), *_arcs_of_dwells(profile)]
     steps = [*rounded, _circles(profile), _touched(profile), _envelope(profile), _angles(profile)]
     return [*steps, *_arcs_of_dwells(profile)]
 
 
-def _rounded(profile: Profile, rolled: Rolled) -> Step:
+def _rounding_step(profile: Profile, rolled: Rolled) -> Step:
     proposed, adopted = float(rolled.value("roller_radius")), profile.givens.roller_radius
     if math.isclose(proposed, adopted, rel_tol=1e-9):
         said = say("The proposed radius of {adopted:g} mm is adopted unchanged.")
@@ -292,7 +292,7 @@ def _angles(profile: Profile) -> Step:
     return Step(title, (Part(said, rows=tuple(rows)),), PROFILE, tuple(marks), why=why)
 
 
-DIMENSION = 0.82
+DWELL_ARC_SHARE = 0.82
 """The arc that shows the angle of a lower dwell has this part of the radius there."""
 
 
@@ -310,7 +310,7 @@ def _arcs_of_dwells(profile: Profile) -> Iterator[Step]:
         (low, high), degrees = sorted((direction, direction - sigma * angle)), math.degrees(angle)
         symbol = low_dwell_symbol(inverted.givens.integrated.givens.motion, k)
         said = say("{symbol} = {angle:.1f}°", symbol=symbol, angle=degrees)
-        radius = DIMENSION * abs(touch[start].place)
+        radius = DWELL_ARC_SHARE * abs(touch[start].place)
         marks += [
             Segments(0 * places.shown, places.shown, Role.AXIS).left_by(places),
             AngleMark(0j, radius, low, high, said, of=places.act, index=places.index[:1]),
@@ -353,7 +353,7 @@ def _normals(profile: Profile) -> Iterator[ShownAngle]:
     motion, pitch, touch = inverted.acts["motion"].first, inverted.acts["pitch"].first, profile.acts["touch"].first
     normals = hand.join("normals", touch, pitch)
     alpha = hand.angle("pressure angles", motion, normals)
-    lines, beyond = (hand.lay_off(f"far on {d.act.name}", pitch, d, NORMAL + 4) for d in (motion, normals))
+    lines, beyond = (hand.lay_off(f"far on {d.act.name}", pitch, d, ANGLE_ARC_RADIUS + 4) for d in (motion, normals))
     for span in inverted.givens.integrated.givens.stations.phases:
         angles = np.abs(alpha.paper[span])
         if np.isnan(angles).all():
@@ -365,10 +365,10 @@ def _normals(profile: Profile) -> Iterator[ShownAngle]:
         marks = (
             lines[at].line_from(pitch[at], Role.CONSTRUCTION),
             Line(np.array([touch[at].place, beyond[at].place]), Role.LIMIT, of=normals.act, index=index.repeat(2)),
-            AngleMark(pitch[at].place, NORMAL, start, end, said, of=normals.act, index=index),
+            AngleMark(pitch[at].place, ANGLE_ARC_RADIUS, start, end, said, of=normals.act, index=index),
         )
         yield ShownAngle(at, angle, marks, (normals[at], beyond[at], lines[at]))
 
 
-NORMAL = 26.0
+ANGLE_ARC_RADIUS = 26.0
 """Radius of the arcs that show a pressure angle on the profile [mm]."""

@@ -6,13 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 
-NANOMETRES = 6
+PLACE_DECIMALS = 6
 """Places that differ by less [decimals of mm] are one."""
 
 
-def farthest(points: Points, direction: Points | complex) -> Points:
+def farthest_point(points: Points, direction: Points | complex) -> Points:
     """The point of a faired curve that lies farthest in a direction: there the tangent is perpendicular to it.
 
     points : (..., n) plotted points of one smooth piece, in order; direction : one for all, or (...) one for each
@@ -20,21 +20,21 @@ def farthest(points: Points, direction: Points | complex) -> Points:
     parabola has no top between them, so that nothing is read beyond a corner or an end
 
     >>> x = np.array([-1.0, 0.5, 2.0])
-    >>> complex(farthest(x + 1j * (3 - x**2), 1j))
+    >>> complex(farthest_point(x + 1j * (3 - x**2), 1j))
     3j
     """
     points = np.asarray(points)
-    return farthest_of(points, [slice(0, points.shape[-1])], direction)
+    return farthest_in(points, [slice(0, points.shape[-1])], direction)
 
 
-def farthest_of(points: Points, pieces: Sequence[slice], direction: Points | complex) -> Points:
+def farthest_in(points: Points, pieces: Sequence[slice], direction: Points | complex) -> Points:
     """The farthest point in a direction over several smooth pieces, each faired for itself.
 
     points : (..., n); returns : (...)
 
     >>> x = np.arange(5.0)
     >>> corner = x + 1j * np.minimum(x, 4 - x)
-    >>> complex(farthest_of(corner, [slice(0, 3), slice(2, 5)], 1j))
+    >>> complex(farthest_in(corner, [slice(0, 3), slice(2, 5)], 1j))
     (2+2j)
     """
     direction = np.asarray(direction / np.abs(direction))[..., None]
@@ -51,7 +51,7 @@ def farthest_of(points: Points, pieces: Sequence[slice], direction: Points | com
     top = np.where(between, top, 0.0)
     tops = np.where(between, b + top * (slope + top * bend / 2), plotted)
     # Of pieces that reach equally far it is the first, not the one that rounding favours.
-    farthest = np.argmax(np.round(dot(direction, tops), NANOMETRES), axis=-1)[..., None]
+    farthest = np.argmax(np.round(dot(direction, tops), PLACE_DECIMALS), axis=-1)[..., None]
     return np.take_along_axis(tops, farthest, -1)[..., 0]
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
-from graphcam.plane import cross, dot
+from graphcam.plane_vectors import cross, dot
 
 Floats = NDArray[np.floating[Any]]
 
@@ -33,19 +33,19 @@ def unit(direction: Points) -> Points:
         return direction / np.abs(direction)
 
 
-def turned(direction: Points | complex, angle: Floats | float) -> Points:
+def turned_direction(direction: Points | complex, angle: Floats | float) -> Points:
     """A direction turned counter-clockwise by an angle [rad].
 
-    >>> complex(np.round(turned(1 + 0j, np.pi / 2), 15))
+    >>> complex(np.round(turned_direction(1 + 0j, np.pi / 2), 15))
     1j
     """
     return np.asarray(direction * np.exp(1j * np.asarray(angle)))
 
 
-def divided(a: Points | complex, b: Points | complex, parts: int) -> Points:
+def division_points(a: Points | complex, b: Points | complex, parts: int) -> Points:
     """The ends of equal parts of the segment from a to b, both its own ends included: (..., parts + 1).
 
-    >>> [complex(at) for at in divided(0j, 3 + 6j, 3)]
+    >>> [complex(at) for at in division_points(0j, 3 + 6j, 3)]
     [0j, (1+2j), (2+4j), (3+6j)]
     """
     start: Points = np.asarray(a)[..., None]

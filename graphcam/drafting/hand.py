@@ -18,16 +18,16 @@ from graphcam.drafting.marks import Points
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil, Stream
 from graphcam.drafting.slips import SLIPS
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 
-COMPASS = 0.8
+BISECTION_SHARE = 0.8
 """To bisect a chord the compass is set to this part of it."""
 
 Direction = Drawn | Points | complex
 Length = Setting | ArrayLike
 
 
-def between(start: Drawn, end: Drawn, along: Drawn | complex | None = None) -> Setting:
+def distance_between(start: Drawn, end: Drawn, along: Drawn | complex | None = None) -> Setting:
     """The distance of two places, or the signed part of the way along a direction: taken up with dividers, or read."""
     if along is None:
         a, b = _aligned(_places(start), _places(end))
@@ -38,7 +38,7 @@ def between(start: Drawn, end: Drawn, along: Drawn | complex | None = None) -> S
     return Setting(amount, ends=(start, end), along=along, sampled=start.sampled or end.sampled)
 
 
-def reckoned(formula: Callable[..., Floats], *given: Setting) -> Setting:
+def calculated(formula: Callable[..., Floats], *given: Setting) -> Setting:
     """What a formula makes, in the head, of lengths or angles that were read or are taken up."""
     amount = formula(*(each.amount for each in given))
     return Setting(amount, formula=formula, given=given, sampled=any(each.sampled for each in given))
@@ -102,14 +102,14 @@ class Hand:
         if along is not None:
             places, direction = np.broadcast_arrays(places, np.asarray(along, dtype=np.complex128))
         takes = {"points": places, "along": direction}
-        return self._left(Kind.GIVEN, name, takes, self.pencil.sheets(places), direction)
+        return self._record_act(Kind.GIVEN, name, takes, self.pencil.sheets(places), direction)
 
     def found(self, construction: Construction, name: str) -> Drawn:
         """Places of a drawing that was made before, by their name there."""
         acts, place = construction.acts, (construction.name, name)
         along = acts[name].along if name in acts else None
         takes = {"place": place, "of": acts.get(name)}
-        return self._left(Kind.GIVEN, ": ".join(place), takes, construction.points[name], along)
+        return self._record_act(Kind.GIVEN, ": ".join(place), takes, construction.points[name], along)
 
     def take(self, name: str, *drawn: Drawn, which: Index | None = None) -> Drawn:
         """What one goes on with of what lies there: all of them in a row, or in each sample those of the index."""
@@ -119,9 +119,9 @@ class Hand:
             points = self._row([each.points for each in drawn])
             along = None if drawn[0].along is None else self._row([each.directions for each in drawn])
         if which is not None:
-            points, along = (None if each is None else _chosen(each, which) for each in (points, along))
+            points, along = (None if each is None else _chosen_places(each, which) for each in (points, along))
         assert points is not None
-        return self._left(Kind.TAKE, name, {"of": drawn, "which": which}, points, along)
+        return self._record_act(Kind.TAKE, name, {"of": drawn, "which": which}, points, along)
 
     def _row(self, parts: Sequence[Points]) -> Points:
         own = self.pencil.samples is not None
@@ -133,7 +133,7 @@ class Hand:
         takes = {"of": drawn, "origin": origin, "times": times, "to": to}
         along = None if drawn.along is None else drawn.along * times
         radius = None if drawn.radius is None else drawn.radius * abs(times)
-        return self._left(Kind.ENLARGE, name, takes, to + (points - about) * times, along, radius)
+        return self._record_act(Kind.ENLARGE, name, takes, to + (points - about) * times, along, radius)
 
     def mirrored(self, name: str, drawn: Drawn, axis: Drawn) -> Drawn:
         """The same places, lines or circles on the other side of a line."""
@@ -141,12 +141,12 @@ class Hand:
         twice = euclid.unit(way) ** 2
         along = None if drawn.along is None else np.conj(drawn.along) * twice
         image = start + np.conj(points - start) * twice
-        return self._left(Kind.ENLARGE, name, {"of": drawn, "axis": axis}, image, along, drawn.radius)
+        return self._record_act(Kind.ENLARGE, name, {"of": drawn, "axis": axis}, image, along, drawn.radius)
 
     def raised(self, name: str, drawn: Drawn, by: Setting) -> Drawn:
         """The same places, each so much higher: on an axis that was found only later."""
         points, height = _aligned(_places(drawn), _amount(by))
-        return self._left(Kind.ENLARGE, name, {"of": drawn, "by": by}, points + euclid.UP * height)
+        return self._record_act(Kind.ENLARGE, name, {"of": drawn, "by": by}, points + euclid.UP * height)
 
     # --- dividers ----------------------------------------------------------------------------------------------------
 
@@ -156,8 +156,8 @@ class Hand:
         points = a + (b - a) * part
         if self.pencil.dividers:
             new = (part > 0) & (part < 1)
-            points = points + euclid.unit(b - a) * new * self._off(Kind.DIVIDE, "along", points)
-        return self._left(Kind.DIVIDE, name, {"start": start, "end": end, "share": part}, points)
+            points = points + euclid.unit(b - a) * new * self._errors(Kind.DIVIDE, "along", points)
+        return self._record_act(Kind.DIVIDE, name, {"start": start, "end": end, "share": part}, points)
 
     def lay_off(self, name: str, start: Drawn, along: Direction, length: Length) -> Drawn:
         """Places at a length from start in a direction (of length one), off by a divider setting."""
@@ -167,8 +167,8 @@ class Hand:
         points = a + d * mm
         if self.pencil.dividers:
             # Nothing is set where there is nothing to lay off.
-            points = points + d * (mm != 0) * self._off(Kind.LAY_OFF, "along", points)
-        return self._left(Kind.LAY_OFF, name, {"start": start, "along": along, "length": length}, points)
+            points = points + d * (mm != 0) * self._errors(Kind.LAY_OFF, "along", points)
+        return self._record_act(Kind.LAY_OFF, name, {"start": start, "along": along, "length": length}, points)
 
     # --- ruler, T-square and set squares -----------------------------------------------------------------------------
 
@@ -189,15 +189,15 @@ class Hand:
     ) -> Drawn:
         points, along = np.broadcast_arrays(*_aligned(_places(places), _way(to)))
         along = along * turn
-        points = self._moved(kind, "across", points, along * euclid.UP)
+        points = self._with_place_errors(kind, "across", points, along * euclid.UP)
         if self.pencil.line and "turn" in SLIPS[kind]:
-            along = euclid.turned(along, self._off(kind, "turn", points))
-        return self._left(kind, name, takes, points, along)
+            along = euclid.turned_direction(along, self._errors(kind, "turn", points))
+        return self._record_act(kind, name, takes, points, along)
 
     def join(self, name: str, start: Drawn, end: Drawn) -> Drawn:
         """The lines from places to others: as good as the places are."""
         a, b = np.broadcast_arrays(*_aligned(_places(start), _places(end)))
-        return self._left(Kind.JOIN, name, {"start": start, "end": end}, a, b - a)
+        return self._record_act(Kind.JOIN, name, {"start": start, "end": end}, a, b - a)
 
     def project(self, name: str, points: Drawn | Setting, onto: Drawn) -> Drawn:
         """The feet of places, or of given heights along them, on lines: off along the line by a line's offset."""
@@ -207,8 +207,8 @@ class Hand:
         else:
             p, q, d = _aligned(_places(points), _places(onto), _way(onto))
             feet = euclid.foot(p, q, d)
-        feet = self._moved(Kind.PROJECT, "along", feet, d)
-        return self._left(Kind.PROJECT, name, {"points": points, "onto": onto}, feet)
+        feet = self._with_place_errors(Kind.PROJECT, "along", feet, d)
+        return self._record_act(Kind.PROJECT, name, {"points": points, "onto": onto}, feet)
 
     def end_to_end(self, name: str, lines: Drawn, cuts: Drawn, chains: Sequence[tuple[slice, slice]]) -> Drawn:
         """Chords set end to end, each parallel to its line, from one upright to the next.
@@ -222,13 +222,13 @@ class Hand:
         for at, parts in chains:
             direction, x = lines.directions[..., parts], cuts.points[..., at].real
             if self.pencil.line:
-                direction = euclid.turned(direction, self._off(Kind.PARALLEL, "turn", direction))
+                direction = euclid.turned_direction(direction, self._errors(Kind.PARALLEL, "turn", direction))
             rises = euclid.climb_along(direction, np.diff(x))
             if self.pencil.line:
-                rises = rises + self._off(Kind.PARALLEL, "across", rises)
+                rises = rises + self._errors(Kind.PARALLEL, "across", rises)
             heights[..., at][..., 1:] = np.cumsum(rises, axis=-1)
         takes = {"lines": lines, "cuts": cuts, "chains": tuple(chains)}
-        return self._left(Kind.PARALLEL, name, takes, cuts.points + euclid.UP * heights)
+        return self._record_act(Kind.PARALLEL, name, takes, cuts.points + euclid.UP * heights)
 
     def cross(self, name: str, one: Drawn, other: Drawn, *, flat: bool = False) -> Drawn:
         """Where two lines meet; where a ray leaves a circle; where two circles meet, left of the way between centres.
@@ -245,7 +245,7 @@ class Hand:
         else:
             p, d, q, e = _aligned(p, _way(one), q, _way(other))
             found = (euclid.crossing if flat else euclid.meet)(p, d, q, e)
-        return self._left(Kind.CROSS, name, {"one": one, "other": other, "flat": flat}, found)
+        return self._record_act(Kind.CROSS, name, {"one": one, "other": other, "flat": flat}, found)
 
     # --- compass and protractor --------------------------------------------------------------------------------------
 
@@ -253,29 +253,29 @@ class Hand:
         """Circles: the centre is pricked off by half a line, the radius is off by a divider setting."""
         points, r = np.broadcast_arrays(*_aligned(_places(centre), _amount(radius)))
         if self.pencil.line:
-            across, up = (self._off(Kind.CIRCLE, way, points) for way in ("across", "up"))
+            across, up = (self._errors(Kind.CIRCLE, way, points) for way in ("across", "up"))
             points = points + across + euclid.UP * up
         if self.pencil.dividers:
-            r = r + self._off(Kind.CIRCLE, "radius", points)
-        return self._left(Kind.CIRCLE, name, {"centre": centre, "radius": radius}, points, None, r)
+            r = r + self._errors(Kind.CIRCLE, "radius", points)
+        return self._record_act(Kind.CIRCLE, name, {"centre": centre, "radius": radius}, points, None, r)
 
     def bisect(self, name: str, start: Drawn, end: Drawn) -> Drawn:
         """The perpendicular bisectors of chords: off at both crossings of the arcs by a line over the root of two."""
         a, b = _aligned(_places(start), _places(end))
         middle, along = euclid.perpendicular_bisector(a, b)
         if self.pencil.line:
-            apart = 2 * np.sqrt(COMPASS**2 - 0.25) * np.abs(b - a)  # of the two crossings
-            one, other = (self._off(Kind.BISECT, crossing, middle) for crossing in ("one", "other"))
+            apart = 2 * np.sqrt(BISECTION_SHARE**2 - 0.25) * np.abs(b - a)  # of the two crossings
+            one, other = (self._errors(Kind.BISECT, crossing, middle) for crossing in ("one", "other"))
             middle = middle + euclid.unit(b - a) * (one + other) / 2
-            along = euclid.turned(along, (other - one) / apart)
-        return self._left(Kind.BISECT, name, {"start": start, "end": end}, middle, along)
+            along = euclid.turned_direction(along, (other - one) / apart)
+        return self._record_act(Kind.BISECT, name, {"start": start, "end": end}, middle, along)
 
     def protractor(self, name: str, vertex: Drawn, base: Direction, angle: Length) -> Drawn:
         """Lines through places at angles [rad], counter-clockwise from a direction: off by the setting and a line."""
         points, d, turn = np.broadcast_arrays(*_aligned(_places(vertex), _way(base), _amount(angle)))
-        along = euclid.turned(d, self._turned(Kind.PROTRACTOR, turn))
-        points = self._moved(Kind.PROTRACTOR, "across", points, along * euclid.UP)
-        return self._left(Kind.PROTRACTOR, name, {"vertex": vertex, "base": base, "angle": angle}, points, along)
+        along = euclid.turned_direction(d, self._turned(Kind.PROTRACTOR, turn))
+        points = self._with_place_errors(Kind.PROTRACTOR, "across", points, along * euclid.UP)
+        return self._record_act(Kind.PROTRACTOR, name, {"vertex": vertex, "base": base, "angle": angle}, points, along)
 
     # --- curves ------------------------------------------------------------------------------------------------------
 
@@ -285,10 +285,12 @@ class Hand:
         The line is moved along until it touches: it is off across itself, and where it touches along it.
         """
         direction = _way(inward)[0]
-        touch = self._moved(Kind.TANGENT, "across", curve.farthest_of(points.points, pieces, direction), direction)
-        touch = self._moved(Kind.TANGENT, "along", touch, direction * euclid.UP)
+        touch = self._with_place_errors(
+            Kind.TANGENT, "across", curve.farthest_in(points.points, pieces, direction), direction
+        )
+        touch = self._with_place_errors(Kind.TANGENT, "along", touch, direction * euclid.UP)
         takes = {"points": points, "pieces": tuple(pieces), "inward": inward}
-        return self._left(Kind.TANGENT, name, takes, touch, direction * euclid.UP)
+        return self._record_act(Kind.TANGENT, name, takes, touch, direction * euclid.UP)
 
     def tangents_at(self, name: str, points: Drawn, rule: Callable[[Points], Points]) -> Drawn:
         """The tangents of a plotted curve at all its points, by a mirror set across it: off by an angle and a line.
@@ -296,9 +298,9 @@ class Hand:
         rule : the directions that the eye sees, from the points and their neighbours
         """
         along = rule(points.points)
-        along = euclid.turned(along, self._turned(Kind.TANGENT, np.zeros(along.shape)))
-        beside = self._moved(Kind.TANGENT, "across", points.points, along * euclid.UP)
-        return self._left(Kind.TANGENT, name, {"points": points, "rule": rule}, beside, along)
+        along = euclid.turned_direction(along, self._turned(Kind.TANGENT, np.zeros(along.shape)))
+        beside = self._with_place_errors(Kind.TANGENT, "across", points.points, along * euclid.UP)
+        return self._record_act(Kind.TANGENT, name, {"points": points, "rule": rule}, beside, along)
 
     def fair(self, name: str, points: Drawn, pieces: Sequence[slice], parts: int = 8) -> Drawn:
         """A smooth curve through plotted points, piece by piece, in so many short chords a part.
@@ -309,9 +311,9 @@ class Hand:
         if points.along is not None:
             first = points.along[..., :1]
             turns: Points = np.angle(points.along / first) + 0j
-            along = euclid.turned(first, curve.faired_pieces(turns, pieces, parts).real)
+            along = euclid.turned_direction(first, curve.faired_pieces(turns, pieces, parts).real)
         takes = {"points": points, "pieces": tuple(pieces), "parts": parts}
-        return self._left(Kind.FAIR, name, takes, curve.faired_pieces(points.points, pieces, parts), along)
+        return self._record_act(Kind.FAIR, name, takes, curve.faired_pieces(points.points, pieces, parts), along)
 
     # --- readings ----------------------------------------------------------------------------------------------------
 
@@ -332,13 +334,13 @@ class Hand:
     ) -> Reading:
         """A length on paper, read off a rule, or reckoned from others; its unit by what the construction says of it."""
         paper = self.pencil.read_off(length.amount) if rounded else length.amount
-        return self._read(name, {"length": length}, paper, scale, unit)
+        return self._record_reading(name, {"length": length}, paper, scale, unit)
 
     def angle(self, name: str, base: Direction, line: Drawn, sense: int = 1) -> Reading:
         """The angles [rad] from a direction to lines, counter-clockwise or in a sense, measured with a protractor."""
         d, e = _aligned(_way(base), _way(line))
         paper = self._turned(Kind.READ, sense * np.angle(e * np.conj(d)))
-        return self._read(name, {"base": base, "line": line, "sense": sense}, paper, 1.0, "rad")
+        return self._record_reading(name, {"base": base, "line": line, "sense": sense}, paper, 1.0, "rad")
 
     def finished(
         self, givens: G, draw: Callable[[Construction[G]], list[Step]], points: Mapping[str, Drawn | Points]
@@ -347,7 +349,9 @@ class Hand:
         places = {name: left.points if isinstance(left, Drawn) else left for name, left in points.items()}
         return Construction(self.meaning, givens, self.pencil, self.readings, places, draw, self.acts)
 
-    def _read(self, name: str, takes: Mapping[str, Any], paper: Floats, scale: Floats | float, unit: str) -> Reading:
+    def _record_reading(
+        self, name: str, takes: Mapping[str, Any], paper: Floats, scale: Floats | float, unit: str
+    ) -> Reading:
         act = Act(Kind.READ, self.meaning.name, name, takes, self._size(paper))
         of = unit or self.meaning.readings[name].unit.replace("lift", self.lift)
         self.readings[name] = Reading(np.asarray(paper, dtype=np.float64), scale, of, act)
@@ -358,21 +362,21 @@ class Hand:
 
     # --- errors ------------------------------------------------------------------------------------------------------
 
-    def _moved(self, kind: Kind, what: str, points: Points, along: Points) -> Points:
+    def _with_place_errors(self, kind: Kind, what: str, points: Points, along: Points) -> Points:
         """Places that an act of a kind leaves off along a direction of any length."""
-        return points + euclid.unit(along) * self._off(kind, what, points) if self.pencil.line else points
+        return points + euclid.unit(along) * self._errors(kind, what, points) if self.pencil.line else points
 
     def _turned(self, kind: Kind, angles: Floats) -> Floats:
         """Angles as they are set or read."""
-        return angles + self._off(kind, "turn", angles) if self.pencil.protractor else angles
+        return angles + self._errors(kind, "turn", angles) if self.pencil.protractor else angles
 
-    def _off(self, kind: Kind, what: str, like: Any) -> Floats:
+    def _errors(self, kind: Kind, what: str, like: Any) -> Floats:
         """By how much it is off, shaped like an array; what errs not at all is drawn too, so that the rest stays."""
         if self._stream is None:
             self._stream = self.pencil.stream(self.meaning.name)
         return self.pencil.slips(kind, what, self._stream, like.shape)
 
-    def _left(
+    def _record_act(
         self,
         kind: Kind,
         name: str,
@@ -393,7 +397,7 @@ def showing(construction: Construction) -> Hand:
     return Hand(Pencil(), construction.meaning)
 
 
-def _chosen(values: Points, which: Index) -> Points:
+def _chosen_places(values: Points, which: Index) -> Points:
     if isinstance(which, np.ndarray) and which.ndim == values.ndim:  # other places in every sample
         return np.take_along_axis(values, np.asarray(which, dtype=np.intp), -1)
     return values[..., which]

@@ -14,7 +14,7 @@ from typing_extensions import TypeVar
 from graphcam.drafting.acts import Act, Drawn
 from graphcam.drafting.marks import AngleMark, Dimension, Label, Mark, Points
 from graphcam.drafting.meaning import Meaning
-from graphcam.showing import LINES, WIDTH, Shown, from_above, in_lines
+from graphcam.showing import MAX_LINES, MAX_WIDTH, Plottable, from_above, in_lines
 
 # A construction says what it draws, so both come from here.
 from graphcam.words import Caption as Caption, Tell, Words as Words, say as say, sequence
@@ -85,7 +85,7 @@ class Part:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Step(Shown):
+class Step(Plottable):
     """One move of the draughtsman: what is done, in whole sentences, and the marks it leaves in one view.
 
     parts : all that is told and drawn, in the order of the drawing; the step's caption is theirs, one after another
@@ -121,7 +121,7 @@ class Step(Shown):
         )
 
     def __repr__(self) -> str:
-        said = wrap(str(self.caption), WIDTH, max_lines=LINES - 2, placeholder=" ...")
+        said = wrap(str(self.caption), MAX_WIDTH, max_lines=MAX_LINES - 2, placeholder=" ...")
         first = f"Step {str(self.title)!r}, view {self.view.name!r}, marks: {len(self.marks)}"
         return in_lines(first, said, ".caption, .marks, .reads")
 
@@ -221,7 +221,7 @@ G = TypeVar("G", covariant=True, default=Any)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Construction(Shown, Generic[G]):
+class Construction(Plottable, Generic[G]):
     """A textbook construction as a value: what was given, what was read, and how to draw it.
 
     Attributes

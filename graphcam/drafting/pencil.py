@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.drafting.acts import Floats, Kind
-from graphcam.drafting.slips import PROTRACTOR, SLIPS
+from graphcam.drafting.slips import PROTRACTOR_RADIUS, SLIPS
 from graphcam.errors import DesignError, check_number
 from graphcam.words import say
 
@@ -54,7 +54,7 @@ class Pencil:
         >>> hand.line, hand.dividers, hand.protractor
         (0.2, 0.2, 0.004)
         """
-        return cls(sigma, sigma, protractor=sigma / PROTRACTOR, samples=samples, seed=seed)
+        return cls(sigma, sigma, protractor=sigma / PROTRACTOR_RADIUS, samples=samples, seed=seed)
 
     def __post_init__(self) -> None:
         for name in ("line", "dividers", "division", "protractor"):

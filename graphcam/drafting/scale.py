@@ -24,7 +24,7 @@ STANDARD_RATIOS = {"gost": GOST_2_302, "iso": ISO_5455}
 """By the frame of the sheet."""
 
 
-RATIO = re.compile(r"(\d+(?:[.,]\d+)?)\s*[:：]\s*(\d+(?:[.,]\d+)?)")
+RATIO_PATTERN = re.compile(r"(\d+(?:[.,]\d+)?)\s*[:：]\s*(\d+(?:[.,]\d+)?)")
 """A drawing scale as people write it, decimals with a point or a comma."""
 
 
@@ -68,7 +68,7 @@ def standard_scale(size: float, room: float, ratios: Ratios) -> Scale:
     return Scale(10.0 ** math.ceil(math.log10(size / room)), "mm")
 
 
-NOTHING_HELD: Mapping[str, float] = {}
+NO_HELD_SCALES: Mapping[str, float] = {}
 """No view keeps its scale."""
 
 
@@ -85,7 +85,7 @@ class Paper:
     width: float
     height: float
     ratios: Ratios
-    held: Mapping[str, float] = field(default_factory=lambda: NOTHING_HELD, hash=False)
+    held: Mapping[str, float] = field(default_factory=lambda: NO_HELD_SCALES, hash=False)
 
     def kept(self, view: str) -> Scale | None:
         """The scale that a view keeps, if it does."""
@@ -109,13 +109,13 @@ def coarsest(*scales: Scale) -> Scale:
     return max(scales, key=lambda scale: scale.per_mm)
 
 
-def ratio_said(text: str) -> float | None:
+def ratio_from_text(text: str) -> float | None:
     """The machine units per millimetre of paper of a drawing scale that a text tells; None if it tells none.
 
-    >>> ratio_said("2:1"), ratio_said("M 1:2,5"), ratio_said("none")
+    >>> ratio_from_text("2:1"), ratio_from_text("M 1:2,5"), ratio_from_text("none")
     (0.5, 2.5, None)
     """
-    found = RATIO.search(text)
+    found = RATIO_PATTERN.search(text)
     paper, machine = (float(number.replace(",", ".")) for number in found.groups()) if found else (0.0, 0.0)
     return machine / paper if paper and machine else None
 
@@ -141,7 +141,7 @@ UNITS: Mapping[str, Caption] = {
     )
 }
 
-NOTHING = 0.005
+NEGLIGIBLE_SIZE = 0.005
 """A length on paper [mm], or an angle [degrees], of less is written as 0.00: it is neither set nor told."""
 
 

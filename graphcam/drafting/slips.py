@@ -26,11 +26,11 @@ from typing import Literal, NamedTuple
 
 from graphcam.drafting.acts import Kind
 
-SQUARE = 150.0
+SQUARE_LENGTH = 150.0
 """Length of a set square [mm]: a line drawn along it is turned by its offset over this."""
-PROTRACTOR = 50.0
+PROTRACTOR_RADIUS = 50.0
 """Radius of a protractor [mm], the common one of 100 mm across: at its edge a line's error is an angle's."""
-EVENLY = 1 / math.sqrt(12)
+UNIFORM_DEVIATION = 1 / math.sqrt(12)
 """Standard deviation of what lies evenly over one, as the rounding to a division does."""
 
 
@@ -41,20 +41,20 @@ class Slip(NamedTuple):
     times: float = 1.0
 
 
-_LINE, _SETTING, _ANGLE = Slip("line"), Slip("dividers"), Slip("protractor")
-_CARRIED = {"across": _LINE, "turn": Slip("line", 1 / SQUARE)}
+_LINE_SLIP, _SETTING_SLIP, _ANGLE_SLIP = Slip("line"), Slip("dividers"), Slip("protractor")
+_CARRIED_SLIPS = {"across": _LINE_SLIP, "turn": Slip("line", 1 / SQUARE_LENGTH)}
 
 SLIPS: Mapping[Kind, Mapping[str, Slip]] = {
-    Kind.DIVIDE: {"along": _SETTING},
-    Kind.ERECT: {"across": _LINE},
-    Kind.PROJECT: {"along": _LINE},
-    Kind.LAY_OFF: {"along": _SETTING},
-    Kind.PARALLEL: _CARRIED,
-    Kind.PERPENDICULAR: _CARRIED,
-    Kind.TANGENT: {"across": _LINE, "along": _LINE, "turn": _ANGLE},
+    Kind.DIVIDE: {"along": _SETTING_SLIP},
+    Kind.ERECT: {"across": _LINE_SLIP},
+    Kind.PROJECT: {"along": _LINE_SLIP},
+    Kind.LAY_OFF: {"along": _SETTING_SLIP},
+    Kind.PARALLEL: _CARRIED_SLIPS,
+    Kind.PERPENDICULAR: _CARRIED_SLIPS,
+    Kind.TANGENT: {"across": _LINE_SLIP, "along": _LINE_SLIP, "turn": _ANGLE_SLIP},
     Kind.BISECT: {"one": Slip("line", math.sqrt(0.5)), "other": Slip("line", math.sqrt(0.5))},
-    Kind.CIRCLE: {"across": Slip("line", 0.5), "up": Slip("line", 0.5), "radius": _SETTING},
-    Kind.PROTRACTOR: {"turn": _ANGLE, "across": _LINE},
-    Kind.READ: {"length": Slip("division", EVENLY), "turn": _ANGLE},
+    Kind.CIRCLE: {"across": Slip("line", 0.5), "up": Slip("line", 0.5), "radius": _SETTING_SLIP},
+    Kind.PROTRACTOR: {"turn": _ANGLE_SLIP, "across": _LINE_SLIP},
+    Kind.READ: {"length": Slip("division", UNIFORM_DEVIATION), "turn": _ANGLE_SLIP},
 }
 """Of every kind of act that errs, what is off."""

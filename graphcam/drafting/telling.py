@@ -8,10 +8,10 @@ import numpy as np
 
 from graphcam.drafting.acts import Drawn, Kind, Setting
 from graphcam.drafting.ink import Part, Row
-from graphcam.drafting.scale import NOTHING, ratio_text
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE, ratio_text
 from graphcam.words import Caption, Words, say, sequence
 
-SET = {Kind.LAY_OFF: "length", Kind.CIRCLE: "radius"}
+SETTING_ROLES = {Kind.LAY_OFF: "length", Kind.CIRCLE: "radius"}
 """The lengths to which dividers or a compass are set, by what the act calls them."""
 RULER, FRENCH_CURVE = say("with the ruler"), say("with the French curve")
 STATION = say("Station {name}")
@@ -31,11 +31,11 @@ def setting(drawn: Drawn) -> Words:
     act, k = drawn.act, int(drawn.index[0])
     if act.kind is Kind.PROTRACTOR:
         return say("{angle:g}°", angle=round(abs(float(np.degrees(_amount(act.takes["angle"], k)))), 2))
-    if act.kind not in SET:
+    if act.kind not in SETTING_ROLES:
         return ""
-    length = act.takes[SET[act.kind]]
+    length = act.takes[SETTING_ROLES[act.kind]]
     mm = abs(_amount(length, k))
-    if mm < NOTHING:
+    if mm < NEGLIGIBLE_SIZE:
         return "0"
     if isinstance(length, Setting) and length.reading is not None and length.value is None:
         factor = abs(float(np.ravel(length.factor)[0]))

@@ -14,9 +14,9 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.given.fixed_order import summed
-from graphcam.given.pieces import Floats
-from graphcam.given.roots import roots
+from graphcam.given.piecewise import Floats
+from graphcam.given.reproducible_sums import ordered_sum
+from graphcam.given.root_finding import roots
 
 
 def basis_functions(knots: Floats, degree: int, at: Floats) -> tuple[NDArray[np.intp], Floats]:
@@ -60,7 +60,7 @@ class KnottedSpline:
             return self.derivative(at, nu - 1)
         places = np.asarray(at, dtype=np.float64)
         numbers, values = basis_functions(self.knots, self.degree, places.ravel())
-        return summed(values * self.coefficients[numbers]).reshape(places.shape)
+        return ordered_sum(values * self.coefficients[numbers]).reshape(places.shape)
 
     @cached_property
     def derivative(self) -> KnottedSpline:
@@ -89,7 +89,7 @@ class PiecewisePolynomial:
         """The values, or those of a derivative, at places of any shape."""
         places = np.asarray(at, dtype=np.float64)
         piece = np.clip(np.searchsorted(self.ends, places, side="right") - 1, 0, self.ends.size - 2)
-        return self._within(places - self.ends[piece], nu, self.coefficients[:, piece])
+        return self._derivative_in_intervals(places - self.ends[piece], nu, self.coefficients[:, piece])
 
     def greatest(self, nu: int) -> float:
         """The greatest magnitude of a derivative in the intervals.
@@ -102,11 +102,11 @@ class PiecewisePolynomial:
         cuts = np.stack([np.zeros_like(widths), widths])
         # Between neighbouring places where a derivative vanishes the one before it vanishes once at most.
         for order in range(self.coefficients.shape[0] - 2, nu, -1):
-            derivative = partial(self._within, nu=order, coefficients=self.coefficients[:, None])
+            derivative = partial(self._derivative_in_intervals, nu=order, coefficients=self.coefficients[:, None])
             cuts = np.concatenate([cuts[:1], roots(derivative, cuts[:-1], cuts[1:]), cuts[-1:]])
-        return float(np.abs(self._within(cuts, nu, self.coefficients[:, None])).max())
+        return float(np.abs(self._derivative_in_intervals(cuts, nu, self.coefficients[:, None])).max())
 
-    def _within(self, x: Floats, nu: int, coefficients: Floats) -> Floats:
+    def _derivative_in_intervals(self, x: Floats, nu: int, coefficients: Floats) -> Floats:
         """A derivative at distances from the left ends of intervals, whose coefficients stand beside them."""
         found = np.zeros(x.shape)
         for power in range(self.coefficients.shape[0] - 1, nu - 1, -1):
@@ -118,7 +118,7 @@ def solve_banded(band: Floats, right: Floats) -> Floats:
     """(n,) the solution of a symmetric positive definite system whose lower diagonals are given, (w + 1, n).
 
     By L D L^T, a column at a time, with no other operations than those of single numbers, so that the digits are the
-    same everywhere (:mod:`graphcam.given.fixed_order`).  Behind its end a diagonal is filled up with zeros.
+    same everywhere (:mod:`graphcam.given.reproducible_sums`).  Behind its end a diagonal is filled up with zeros.
 
     >>> solve_banded(np.array([[2.0, 2.0, 2.0], [1.0, 1.0, 0.0]]), np.array([3.0, 4.0, 3.0])).round(12).tolist()
     [1.0, 1.0, 1.0]

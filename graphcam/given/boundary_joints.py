@@ -7,12 +7,12 @@ from fractions import Fraction
 from itertools import pairwise
 
 from graphcam.errors import DesignError
-from graphcam.given.boundary_parts import Part, told
+from graphcam.given.boundary_parts import Part, quoted_angle
 from graphcam.given.exact_polynomials import PI, ExactPiece
 from graphcam.words import say
 
-TURN = 2 * PI
-SAME = Fraction(1, 10**9)
+FULL_TURN = 2 * PI
+SAME_VALUE = Fraction(1, 10**9)
 """Cam angles nearer to one another [rad], displacements and velocities (beside the greatest) are the same."""
 
 
@@ -26,19 +26,19 @@ def check_joint(before: Part, after: Part, number: int, size: Fraction) -> None:
     DesignError : it does not
     """
     end, start = before.pieces[-1], after.pieces[0]
-    where = told(float(start.start))
-    if start.start < end.end - SAME:
-        limit = say("{told} or more, where the part before ends", told=told(float(end.end)))
+    where = quoted_angle(float(start.start))
+    if start.start < end.end - SAME_VALUE:
+        limit = say("{told} or more, where the part before ends", told=quoted_angle(float(end.end)))
         raise DesignError(f"parts[{number}].points[0].angle", where, limit, say("give the parts in order"))
     s, v = ((end.at(end.end, order), start.at(start.start, order)) for order in (0, 1))
-    if start.start > end.end + SAME:
-        _check_gap(number, f"from {told(float(end.end))} to {where}", s, v, size)
+    if start.start > end.end + SAME_VALUE:
+        _check_gap(number, f"from {quoted_angle(float(end.end))} to {where}", s, v, size)
         return
-    if abs(s[1] - s[0]) > SAME * size:
+    if abs(s[1] - s[0]) > SAME_VALUE * size:
         limit = say("{s:.10g}, as the part before ends", s=float(s[0]))
         quantity = say("parts[{number}] (s where it begins)", number=number)
         raise DesignError(quantity, say("{s:.10g}", s=float(s[1])), limit, say("give one s at {where}", where=where))
-    if abs(v[1] - v[0]) > SAME * (size + abs(v[0])):
+    if abs(v[1] - v[0]) > SAME_VALUE * (size + abs(v[0])):
         limit = say("{v:.10g}, as the part before ends", v=float(v[0]))
         remedy = say("give v, the same in both, at {where}", where=where)
         quantity = say("parts[{number}] (v where it begins)", number=number)
@@ -48,12 +48,12 @@ def check_joint(before: Part, after: Part, number: int, size: Fraction) -> None:
 def _check_gap(
     number: int, where: str, s: tuple[Fraction, Fraction], v: tuple[Fraction, Fraction], size: Fraction
 ) -> None:
-    if abs(s[1] - s[0]) > SAME * size:
+    if abs(s[1] - s[0]) > SAME_VALUE * size:
         found = say("{s:.10g} and {s2:.10g}", s=float(s[0]), s2=float(s[1]))
         limit = say("equal: the follower dwells {where}", where=where)
         quantity = say("parts[{number}] (s before it)", number=number)
         raise DesignError(quantity, found, limit, say("give a part that leads from one to the other"))
-    if max(map(abs, v)) > SAME * size:
+    if max(map(abs, v)) > SAME_VALUE * size:
         found = say("{v:.10g} and {v2:.10g}", v=float(v[0]), v2=float(v[1]))
         limit = say("0: the follower dwells {where}", where=where)
         quantity = say("parts[{number}] (v before it)", number=number)
@@ -81,38 +81,42 @@ def joined_turn(parts: Sequence[Part]) -> list[ExactPiece]:
     for k, (before, after) in enumerate(pairwise(parts), 1):
         check_joint(before, after, k, size)
     begun, ended = parts[0].start, parts[-1].end
-    if not 0 <= begun < TURN:
+    if not 0 <= begun < FULL_TURN:
         limit = say("from 0 to less than 360 degrees")
-        raise DesignError("parts[0].points[0].angle", told(float(begun)), limit, say("count the cam angle from 0"))
+        raise DesignError(
+            "parts[0].points[0].angle", quoted_angle(float(begun)), limit, say("count the cam angle from 0")
+        )
     _check_closed(parts, size)
     pieces: list[ExactPiece] = []
     for part in parts:
-        if pieces and part.start > pieces[-1].end + SAME:
-            pieces.append(_rest(pieces[-1], part.start))
+        if pieces and part.start > pieces[-1].end + SAME_VALUE:
+            pieces.append(_dwell_piece(pieces[-1], part.start))
         pieces += part.pieces
-    if ended < begun + TURN - SAME:
-        pieces.append(_rest(pieces[-1], begun + TURN))
+    if ended < begun + FULL_TURN - SAME_VALUE:
+        pieces.append(_dwell_piece(pieces[-1], begun + FULL_TURN))
     return pieces
 
 
-def _rest(before: ExactPiece, end: Fraction) -> ExactPiece:
+def _dwell_piece(before: ExactPiece, end: Fraction) -> ExactPiece:
     return ExactPiece(before.end, end - before.end, (before.at(before.end),))
 
 
 def _check_closed(parts: Sequence[Part], size: Fraction) -> None:
     first, last = parts[0].pieces[0], parts[-1].pieces[-1]
     turn = last.end - first.start
-    if turn > TURN + SAME:
+    if turn > FULL_TURN + SAME_VALUE:
         remedy = say("one turn of the cam is 360 degrees: shorten a part")
-        raise DesignError(say("parts (turn)"), told(float(turn)), say("360 degrees or less from first to last"), remedy)
+        raise DesignError(
+            say("parts (turn)"), quoted_angle(float(turn)), say("360 degrees or less from first to last"), remedy
+        )
     s, v = ((last.at(last.end, order), first.at(first.start, order)) for order in (0, 1))
-    if abs(s[1] - s[0]) > SAME * size:
+    if abs(s[1] - s[0]) > SAME_VALUE * size:
         limit = say("{s:.10g}, as the first part begins", s=float(s[1]))
         remedy = say("lead the follower back to where it was a turn before")
         raise DesignError(say("parts (s at their end)"), say("{s:.10g}", s=float(s[0])), limit, remedy)
-    gap = turn < TURN - SAME
+    gap = turn < FULL_TURN - SAME_VALUE
     off = max(map(abs, v)) if gap else abs(v[1] - v[0])
-    if off > SAME * (size + abs(v[0])):
+    if off > SAME_VALUE * (size + abs(v[0])):
         found = say("{v:.10g}, and {v2:.10g} where they begin", v=float(v[0]), v2=float(v[1]))
         limit = say("0 at both: the follower dwells between them") if gap else say("the same at both")
         raise DesignError(say("parts (v at their end)"), found, limit, say("give v at the first and at the last point"))

@@ -13,17 +13,17 @@ from fractions import Fraction
 import numpy as np
 
 from graphcam.errors import DesignError
-from graphcam.given.boundary_joints import SAME, TURN, joined_turn
+from graphcam.given.boundary_joints import FULL_TURN, SAME_VALUE, joined_turn
 from graphcam.given.boundary_parts import Part, SplinePart
-from graphcam.given.exact_polynomials import ExactPiece, between, derivative, sign_changes
+from graphcam.given.exact_polynomials import ExactPiece, derivative, pieces_between, sign_changes
 from graphcam.given.local_polynomials import LocalPolynomials, cells
 from graphcam.given.measured import from_zero
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
-from graphcam.given.pieces import Floats, Side
+from graphcam.given.piecewise import Floats, Side
 from graphcam.given.polynomial_law import leg_law
 from graphcam.words import say
 
-LOWEST = Fraction(1, 1 << 60)
+ZERO_DISPLACEMENT = Fraction(1, 1 << 60)
 """A lowest displacement nearer to 0 than this part of the lift is 0, and was rounded."""
 
 
@@ -49,9 +49,9 @@ class BoundaryMotion(Motion):
         # The joints are known from the given angles; sums of the phases' angles are off by their rounding.
         return self.joints[np.abs(self.joints - starts[:, None]).argmin(axis=1)]
 
-    def _said(self) -> str:
+    def _summary(self) -> str:
         degrees = ", ".join(f"{part.name} of degree {part.highest_power}" for part in self.parts)
-        return f"{super()._said()}, by conditions: {degrees}"
+        return f"{super()._summary()}, by conditions: {degrees}"
 
     @property
     def breaks(self) -> Floats:
@@ -89,23 +89,23 @@ def boundary_motion(parts: Sequence[Part]) -> BoundaryMotion:
         value = say("at rest at {p:g} over the whole turn", p=float(pieces[0].p[0]))
         raise DesignError("motion", value, say("one with a rise and a return"), say("give different s"))
     # Twice round, so that a leg over the end of the turn is found whole.
-    round_ = [*pieces, *(replace(piece, start=piece.start + TURN) for piece in pieces)]
+    round_ = [*pieces, *(replace(piece, start=piece.start + FULL_TURN) for piece in pieces)]
     phases: list[tuple[float, Phase]] = []
     levels: list[Fraction] = []
     for start, end, sign in legs:
-        leg = between(round_, start, end)
+        leg = pieces_between(round_, start, end)
         levels.append(leg[0].at(start))
-        phases.append((float(start % TURN), _phase(given, leg, sign)))
+        phases.append((float(start % FULL_TURN), _phase(given, leg, sign)))
     ordered, zero_ = from_zero(phases)
-    zero = _exactly(zero_, [start for start, _, _ in legs]) if abs(zero_) > SAME else Fraction(0)
+    zero = _exactly(zero_, [start for start, _, _ in legs]) if abs(zero_) > SAME_VALUE else Fraction(0)
     lowest = min(levels)
-    if abs(lowest) <= LOWEST * (max(levels) - lowest):
+    if abs(lowest) <= ZERO_DISPLACEMENT * (max(levels) - lowest):
         lowest = Fraction(0)
-    turn = between(_around(round_, zero), zero, zero + TURN)
+    turn = pieces_between(_moved_by_turn(round_, zero), zero, zero + FULL_TURN)
     lowered = [replace(piece, p=(piece.p[0] - lowest, *piece.p[1:])) for piece in turn]
     series = LocalPolynomials([cell for cut in cells(lowered, zero) for cell in cut])
     joints = _apart(
-        [float((start - zero) % TURN) for start, _, _ in legs] + [float(piece.start - zero) for piece in turn]
+        [float((start - zero) % FULL_TURN) for start, _, _ in legs] + [float(piece.start - zero) for piece in turn]
     )
     return BoundaryMotion(ordered, given, float(zero), float(lowest), joints, series)
 
@@ -113,15 +113,16 @@ def boundary_motion(parts: Sequence[Part]) -> BoundaryMotion:
 def _exactly(zero: float, starts: Sequence[Fraction]) -> Fraction:
     """The one of the places, a turn before or behind if need be, that was rounded to ``zero``."""
     return min(
-        (start % TURN - turns * TURN for start in starts for turns in (0, 1)), key=lambda at: abs(at - Fraction(zero))
+        (start % FULL_TURN - turns * FULL_TURN for start in starts for turns in (0, 1)),
+        key=lambda at: abs(at - Fraction(zero)),
     )
 
 
 def _apart(places: Sequence[float]) -> Floats:
     """The places from 0 to less than a turn in order; of those that are the same, the first that is given."""
-    kept = [0.0, float(TURN)]
+    kept = [0.0, float(FULL_TURN)]
     for place in places:
-        if min(abs(place - other) for other in kept) > SAME:
+        if min(abs(place - other) for other in kept) > SAME_VALUE:
             kept.append(place)
     return np.array(sorted(kept)[:-1])
 
@@ -135,13 +136,13 @@ def _legs(pieces: Sequence[ExactPiece]) -> list[tuple[Fraction, Fraction, int]]:
             now = sign * (-1) ** k
             if not found or found[-1][1] != now:
                 found.append((piece.start + piece.width * place, now))
-    ends = [*found[1:], (found[0][0] + TURN, 0)]
+    ends = [*found[1:], (found[0][0] + FULL_TURN, 0)]
     # What moves for less than a place is told from another one is rounding.
-    long = [(start, sign) for (start, sign), (end, _) in zip(found, ends, strict=True) if end - start > SAME]
+    long = [(start, sign) for (start, sign), (end, _) in zip(found, ends, strict=True) if end - start > SAME_VALUE]
     merged = [leg for before, leg in zip([(0, None), *long], long, strict=False) if before[1] != leg[1]]
     if len(merged) > 1 and merged[0][1] == merged[-1][1]:
         del merged[0]
-    ends = [*merged[1:], (merged[0][0] + TURN, 0)]
+    ends = [*merged[1:], (merged[0][0] + FULL_TURN, 0)]
     return [(start, end, sign) for (start, sign), (end, _) in zip(merged, ends, strict=True)]
 
 
@@ -151,7 +152,7 @@ def _phase(parts: Sequence[Part], leg: Sequence[ExactPiece], sign: int) -> Phase
     if not sign:
         return Dwell(float(end - start))
     splined = any(
-        (part.start < end and part.end > start) or part.start + TURN < end
+        (part.start < end and part.end > start) or part.start + FULL_TURN < end
         for part in parts
         if isinstance(part, SplinePart)
     )
@@ -159,7 +160,7 @@ def _phase(parts: Sequence[Part], leg: Sequence[ExactPiece], sign: int) -> Phase
     return (Rise if sign > 0 else Return)(abs(float(lift)), float(end - start), law)
 
 
-def _around(pieces: Sequence[ExactPiece], zero: Fraction) -> list[ExactPiece]:
+def _moved_by_turn(pieces: Sequence[ExactPiece], zero: Fraction) -> list[ExactPiece]:
     """The pieces, moved by a turn if the place lies before them."""
-    back = TURN if zero < pieces[0].start else Fraction(0)
+    back = FULL_TURN if zero < pieces[0].start else Fraction(0)
     return [replace(piece, start=piece.start - back) for piece in pieces]

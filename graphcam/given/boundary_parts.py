@@ -21,29 +21,29 @@ from graphcam.given.exact_polynomials import (
     Exact,
     ExactPiece,
     derivative,
-    rounded,
+    rounded_terms,
     shortest,
-    solved,
+    solve_exactly,
     turning_places,
-    value,
+    value_at,
 )
 from graphcam.words import Caption, say
 
-MOST_DEGREE = 31
+MAX_DEGREE = 31
 """The maximum degree of a polynomial."""
 SPLINE_DEGREES = 2, 9
 """Degrees of a spline: from 2 on its velocity is continuous; of a high degree it swings as a polynomial does."""
-MOST_POINTS = 100
+MAX_POINTS = 100
 """The maximum number of points of a part."""
-LAST_DIGITS = 1e-9
+LAST_DIGITS_EFFECT = 1e-9
 """How far the last digits of the given numbers may change a part, as a part of its maximum displacement."""
-MOST_TURNS = 2
+MAX_TURNINGS = 2
 """How often a part may turn between neighbouring points."""
-WILD = 0.5
+MAX_OVERSHOOT = 0.5
 """How far a part may pass two neighbouring points, as a part of the span of the given displacements."""
 
 
-ORDERS = "s", "v", "a", "j"
+DERIVATIVE_NAMES = "s", "v", "a", "j"
 
 
 @dataclass(frozen=True)
@@ -72,13 +72,13 @@ class MotionPoint:
     j: float | None = None
 
     def __post_init__(self) -> None:
-        for name in ("angle", *ORDERS):
+        for name in ("angle", *DERIVATIVE_NAMES):
             number = getattr(self, name)
             if number is not None:
                 check_number(name, number, say("a finite number"))
         if not self.given:
             remedy = say("give s, v, a or j there, or leave the point out")
-            found = say("missing at {told}", told=told(self.angle))
+            found = say("missing at {told}", told=quoted_angle(self.angle))
             raise DesignError("s", found, say("given with v, a or j, or one of these"), remedy)
 
     @property
@@ -89,7 +89,7 @@ class MotionPoint:
     @property
     def given(self) -> dict[int, float]:
         """What is asked, by the order of the derivative."""
-        values = (getattr(self, name) for name in ORDERS)
+        values = (getattr(self, name) for name in DERIVATIVE_NAMES)
         return {order: number for order, number in enumerate(values) if number is not None}
 
 
@@ -108,10 +108,10 @@ def exact_angle(angle: float) -> Fraction:
     return plain
 
 
-def told(angle: float) -> Caption:
+def quoted_angle(angle: float) -> Caption:
     """A cam angle in the words of a message.
 
-    >>> print(told(math.pi))
+    >>> print(quoted_angle(math.pi))
     180 degrees
     """
     return say("{degrees:.10g} degrees", degrees=math.degrees(angle))
@@ -125,14 +125,14 @@ class _Part:
     def _check_points(self) -> None:
         points = tuple(self.points)
         object.__setattr__(self, "points", points)
-        if not 2 <= len(points) <= MOST_POINTS:
-            limit = say("2 to {most} points", most=MOST_POINTS)
+        if not 2 <= len(points) <= MAX_POINTS:
+            limit = say("2 to {most} points", most=MAX_POINTS)
             raise DesignError("points", len(points), limit, say("a part leads from one to another"))
         for k, (before, after) in enumerate(pairwise(points), 1):
             if not after.place > before.place:
-                limit = say("greater than {told}, the angle of the point before", told=told(before.angle))
+                limit = say("greater than {told}, the angle of the point before", told=quoted_angle(before.angle))
                 remedy = say("sort the points by the angle, and give each one once")
-                raise DesignError(f"points[{k}].angle", told(after.angle), limit, remedy)
+                raise DesignError(f"points[{k}].angle", quoted_angle(after.angle), limit, remedy)
 
     @cached_property
     def start(self) -> Fraction:
@@ -166,13 +166,13 @@ class _Part:
     @cached_property
     def pieces(self) -> tuple[ExactPiece, ...]:
         """The polynomials that meet the conditions, in order."""
-        found = self._solved(self._conditions)
+        found = self._solve(self._conditions)
         if found is None:
             raise self._open()
         width = self.end - self.start
         return tuple(ExactPiece(self.start + width * low, width * (high - low), p) for (low, high), p in found)
 
-    def _solved(
+    def _solve(
         self, conditions: Sequence[tuple[Fraction, int, Fraction]]
     ) -> list[tuple[tuple[Fraction, Fraction], Exact]] | None:
         raise NotImplementedError
@@ -199,15 +199,15 @@ class _Part:
         for k, (before, after) in enumerate(pairwise(self.points)):
             low, high = before.place, after.place
             between = [(place, piece) for place, piece in turns if low < place < high]
-            where = say("between {told} and {told2}", told=told(before.angle), told2=told(after.angle))
+            where = say("between {told} and {told2}", told=quoted_angle(before.angle), told2=quoted_angle(after.angle))
             remedy = say("give a point there or fewer conditions, take a spline, or part the motion")
-            if len(between) > MOST_TURNS:
+            if len(between) > MAX_TURNINGS:
                 value_ = say("{between} {where}", between=len(between), where=where)
                 quantity = say("points[{k}] (turns behind it)", k=k)
-                raise DesignError(quantity, value_, say("at most {most}; the part swings", most=MOST_TURNS), remedy)
+                raise DesignError(quantity, value_, say("at most {most}; the part swings", most=MAX_TURNINGS), remedy)
             if before.s is None or after.s is None or not span:
                 continue
-            least, most = min(before.s, after.s) - WILD * span, max(before.s, after.s) + WILD * span
+            least, most = min(before.s, after.s) - MAX_OVERSHOOT * span, max(before.s, after.s) + MAX_OVERSHOOT * span
             for place, piece in between:
                 if not least <= (s := float(piece.at(place))) <= most:
                     limit = say("from {least:.6g} to {most:.6g}; the part swings", least=least, most=most)
@@ -215,16 +215,18 @@ class _Part:
                     raise DesignError(quantity, say("{s:.6g} {where}", s=s, where=where), limit, remedy)
 
     def _check_last_digits(self, pieces: Sequence[ExactPiece]) -> None:
-        nudged = self._solved([_nudged(k, *condition) for k, condition in enumerate(self._conditions)])
+        nudged = self._solve([_nudged(k, *condition) for k, condition in enumerate(self._conditions)])
         if nudged is None:
             raise self._open()
         places = [Fraction(k, 8) for k in range(9)]
-        both = [(value(piece.p, y), value(p, y)) for piece, (_, p) in zip(pieces, nudged, strict=True) for y in places]
+        both = [
+            (value_at(piece.p, y), value_at(p, y)) for piece, (_, p) in zip(pieces, nudged, strict=True) for y in places
+        ]
         off = max(abs(here - there) for here, there in both)
-        if off > LAST_DIGITS * max(abs(here) for here, _ in both):
+        if off > LAST_DIGITS_EFFECT * max(abs(here) for here, _ in both):
             found = say("decided by the last digits of the numbers: s changes by {off:.3g} with them", off=float(off))
             remedy = say("move the points apart, or give fewer conditions")
-            limit = say("conditions that keep s to {last_digits:g} of its maximum", last_digits=LAST_DIGITS)
+            limit = say("conditions that keep s to {last_digits:g} of its maximum", last_digits=LAST_DIGITS_EFFECT)
             raise DesignError("points", found, limit, remedy)
 
 
@@ -255,8 +257,8 @@ class PolynomialPart(_Part):
     def __post_init__(self) -> None:
         self._check_points()
         degree = self._count - 1
-        if degree > MOST_DEGREE:
-            limit = say("at most {value}, for a degree of {most}", value=MOST_DEGREE + 1, most=MOST_DEGREE)
+        if degree > MAX_DEGREE:
+            limit = say("at most {value}, for a degree of {most}", value=MAX_DEGREE + 1, most=MAX_DEGREE)
             found = say("{value} conditions", value=degree + 1)
             raise DesignError("points", found, limit, say("give fewer, or take a spline"))
         if self.degree is not None and self.degree != degree:
@@ -267,21 +269,21 @@ class PolynomialPart(_Part):
             raise DesignError("degree", self.degree, limit, remedy)
         self._check_sound()
 
-    def _solved(
+    def _solve(
         self, conditions: Sequence[tuple[Fraction, int, Fraction]]
     ) -> list[tuple[tuple[Fraction, Fraction], Exact]] | None:
         # Newton's polynomials: of conditions that ask for s, v, a ... without a gap the equations are a triangle.
         places = [place for place, _, _ in conditions]
         rows = [_newton(places, place, order) for place, order, _ in conditions]
-        found = solved(rows, [right for _, _, right in conditions])
+        found = solve_exactly(rows, [right for _, _, right in conditions])
         if found is None:
             return None
-        found = rounded(found)
+        found = rounded_terms(found)
         p = [found[-1]]
         for place, coefficient in zip(places[-2::-1], found[-2::-1], strict=True):
             p = [low - place * high for low, high in zip([Fraction(0), *p], [*p, Fraction(0)], strict=True)]
             p[0] += coefficient
-        return [((Fraction(0), Fraction(1)), rounded(p))]
+        return [((Fraction(0), Fraction(1)), rounded_terms(p))]
 
 
 def _newton(places: Sequence[Fraction], at: Fraction, order: int) -> list[Fraction]:
@@ -348,8 +350,10 @@ class SplinePart(_Part):
         ends = self.points[0].angle, *knots, self.points[-1].angle
         for k, (before, after) in enumerate(pairwise(ends)):
             if not after > before:
-                limit = say("greater than {told}, the one before, and inside the part", told=told(before))
-                raise DesignError(f"knots[{min(k, inner - 1)}]", told(after), limit, say("sort them by the angle"))
+                limit = say("greater than {told}, the one before, and inside the part", told=quoted_angle(before))
+                raise DesignError(
+                    f"knots[{min(k, inner - 1)}]", quoted_angle(after), limit, say("sort them by the angle")
+                )
 
     def _inner_knots(self, places: Sequence[Fraction]) -> list[Fraction]:
         if self.knots is None:
@@ -358,7 +362,7 @@ class SplinePart(_Part):
         width = self.end - self.start
         return [(exact_angle(knot) - self.start) / width for knot in self.knots]
 
-    def _solved(
+    def _solve(
         self, conditions: Sequence[tuple[Fraction, int, Fraction]]
     ) -> list[tuple[tuple[Fraction, Fraction], Exact]] | None:
         p, n = self.degree, self._count
@@ -371,13 +375,13 @@ class SplinePart(_Part):
             k, low, high = next(span for span in spans if place <= span[2]) if place < 1 else spans[-1]
             row = [Fraction(0)] * n
             for number, spline in enumerate(splines[k], k - p):
-                row[number] = value(derivative(spline, order), (place - low) / (high - low)) / (high - low) ** order
+                row[number] = value_at(derivative(spline, order), (place - low) / (high - low)) / (high - low) ** order
             rows.append(row)
-        found = solved(rows, [right for _, _, right in conditions])
+        found = solve_exactly(rows, [right for _, _, right in conditions])
         if found is None:
             return None
-        found = rounded(found)
-        return [((low, high), rounded(_combined(found[k - p : k + 1], splines[k]))) for k, low, high in spans]
+        found = rounded_terms(found)
+        return [((low, high), rounded_terms(_combined(found[k - p : k + 1], splines[k]))) for k, low, high in spans]
 
 
 def _b_splines(knots: Sequence[Fraction], degree: int, k: int) -> list[Exact]:

@@ -16,11 +16,11 @@ from itertools import pairwise
 Exact = tuple[Fraction, ...]
 PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494")
 """The number pi to 60 digits."""
-SHORT = 10**6
+MAX_DENOMINATOR = 10**6
 """A number that is the nearest one of the machine to a fraction with no greater a denominator stands for it."""
-BITS = 400
+COEFFICIENT_BITS = 400
 """Behind the point, of coefficients that were solved for."""
-CLOSEST = 90
+HALVING_COUNT = 90
 """How often an interval is halved about a place where a polynomial changes its sign."""
 
 
@@ -31,7 +31,7 @@ def shortest(number: float) -> Fraction:
     (Fraction(1, 10), True)
     """
     exact = Fraction(number)
-    short = exact.limit_denominator(SHORT)
+    short = exact.limit_denominator(MAX_DENOMINATOR)
     return short if float(short) == number else exact
 
 
@@ -44,10 +44,10 @@ def derivative(p: Exact, times: int = 1) -> Exact:
     return tuple(math.perm(k, times) * p[k] for k in range(times, len(p))) or (Fraction(0),)
 
 
-def value(p: Exact, at: Fraction) -> Fraction:
+def value_at(p: Exact, at: Fraction) -> Fraction:
     """The value of the polynomial at a place.
 
-    >>> value((Fraction(1), Fraction(2)), Fraction(1, 2))
+    >>> value_at((Fraction(1), Fraction(2)), Fraction(1, 2))
     Fraction(2, 1)
     """
     found = Fraction(0)
@@ -56,10 +56,10 @@ def value(p: Exact, at: Fraction) -> Fraction:
     return found
 
 
-def moved(p: Exact, at: Fraction, scale: Fraction) -> Exact:
+def shifted(p: Exact, at: Fraction, scale: Fraction) -> Exact:
     """The polynomial of y whose value is p(at + scale y).
 
-    >>> moved((Fraction(0), Fraction(0), Fraction(1)), Fraction(1), Fraction(2))
+    >>> shifted((Fraction(0), Fraction(0), Fraction(1)), Fraction(1), Fraction(2))
     (Fraction(1, 1), Fraction(4, 1), Fraction(4, 1))
     """
     found = list(p)
@@ -74,19 +74,20 @@ def moved(p: Exact, at: Fraction, scale: Fraction) -> Exact:
     return tuple(found)
 
 
-def rounded(p: Sequence[Fraction]) -> Exact:
-    """The coefficients to :data:`BITS` digits behind the binary point, so that further work with them is quick."""
-    unit = 1 << BITS
+def rounded_terms(p: Sequence[Fraction]) -> Exact:
+    """The coefficients to :data:`COEFFICIENT_BITS` digits behind the binary point, so that further work with them is
+    quick."""
+    unit = 1 << COEFFICIENT_BITS
     return tuple(Fraction(round(coefficient * unit), unit) for coefficient in p)
 
 
-def solved(rows: Sequence[Sequence[Fraction]], right: Sequence[Fraction]) -> list[Fraction] | None:
+def solve_exactly(rows: Sequence[Sequence[Fraction]], right: Sequence[Fraction]) -> list[Fraction] | None:
     """The solution of as many equations as unknowns; None where they leave one open, or contradict each other.
 
     >>> one, two = Fraction(1), Fraction(2)
-    >>> solved([[one, two], [one, one]], [two, one])
+    >>> solve_exactly([[one, two], [one, one]], [two, one])
     [Fraction(0, 1), Fraction(1, 1)]
-    >>> solved([[one, two], [two, two * two]], [two, one]) is None
+    >>> solve_exactly([[one, two], [two, two * two]], [two, one]) is None
     True
     """
     table = [[*row, last] for row, last in zip(rows, right, strict=True)]
@@ -140,7 +141,7 @@ def _changes(coefficients: list[int], start: Fraction, depth: int) -> list[Fract
     if not many:
         return []
     width = Fraction(1, 1 << depth)
-    if depth >= CLOSEST:
+    if depth >= HALVING_COUNT:
         return [start + width / 2] * (many % 2)
     left, right = _halves(coefficients)
     middle = start + width / 2
@@ -189,20 +190,20 @@ class ExactPiece:
 
     def at(self, place: Fraction, order: int = 0) -> Fraction:
         """A derivative by the angle."""
-        return value(derivative(self.p, order) if order else self.p, (place - self.start) / self.width) / (
+        return value_at(derivative(self.p, order) if order else self.p, (place - self.start) / self.width) / (
             self.width**order
         )
 
     def about(self, place: Fraction, scale: Fraction) -> Exact:
         """The coefficients in y of s at place + scale y; a negative scale looks back."""
-        return moved(self.p, (place - self.start) / self.width, scale / self.width)
+        return shifted(self.p, (place - self.start) / self.width, scale / self.width)
 
 
-def between(pieces: Sequence[ExactPiece], start: Fraction, end: Fraction) -> list[ExactPiece]:
+def pieces_between(pieces: Sequence[ExactPiece], start: Fraction, end: Fraction) -> list[ExactPiece]:
     """The pieces, or the parts of them, from one place to another.
 
     >>> line = ExactPiece(Fraction(0), Fraction(1), (Fraction(0), Fraction(1)))
-    >>> [(str(piece.start), str(piece.end)) for piece in between([line], Fraction(1, 4), Fraction(1, 2))]
+    >>> [(str(piece.start), str(piece.end)) for piece in pieces_between([line], Fraction(1, 4), Fraction(1, 2))]
     [('1/4', '1/2')]
     """
     found: list[ExactPiece] = []
@@ -211,7 +212,7 @@ def between(pieces: Sequence[ExactPiece], start: Fraction, end: Fraction) -> lis
         if (low, high) == (piece.start, piece.end):
             found.append(piece)
         elif low < high:
-            found.append(ExactPiece(low, high - low, rounded(piece.about(low, high - low))))
+            found.append(ExactPiece(low, high - low, rounded_terms(piece.about(low, high - low))))
     return found
 
 

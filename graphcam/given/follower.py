@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import Literal
 
-from graphcam.errors import DesignError, check_kind, check_number, meant
+from graphcam.errors import DesignError, check_kind, check_number, suggestion
 from graphcam.words import Words, say
 
 Rotation = Literal["ccw", "cw"]
-SENSES = {
+SENSE_SYNONYMS = {
     "ccw": (
         *("counter-clockwise", "anticlockwise", "anti-clockwise"),
         *("против часовой стрелки", "逆时针", "ngược chiều kim đồng hồ"),
@@ -40,7 +40,9 @@ def sense(rotation: str) -> int:
     try:
         return {"ccw": 1, "cw": -1}[rotation]
     except (KeyError, TypeError):
-        raise DesignError("rotation", rotation, say("'ccw' or 'cw'"), meant(f"{rotation}", SENSES, SENSES)) from None
+        raise DesignError(
+            "rotation", rotation, say("'ccw' or 'cw'"), suggestion(f"{rotation}", SENSE_SYNONYMS, SENSE_SYNONYMS)
+        ) from None
 
 
 def _check_length(quantity: str, value: float, *, zero: bool) -> None:
@@ -132,13 +134,13 @@ def swing_remedy(lift: float, otherwise: Words) -> Words:
 
 
 Follower = Translating | Oscillating | FlatFaced
-KINDS = Translating, Oscillating, FlatFaced
-FOLLOWERS: dict[str, type[Follower]] = {follower.kind: follower for follower in KINDS}
+FOLLOWER_CLASSES = Translating, Oscillating, FlatFaced
+FOLLOWERS_BY_KIND: dict[str, type[Follower]] = {follower.kind: follower for follower in FOLLOWER_CLASSES}
 """The followers by their kind."""
 
 
 QUARTER_TURN = math.pi / 2
-PERMITTED = {
+LIMIT_NAMES = {
     "rise": say("permitted pressure angle on the rise"),
     "return": say("permitted pressure angle on the return"),
 }
@@ -172,14 +174,14 @@ class Limits:
     def __post_init__(self) -> None:
         back = self.return_
         for name, angle in (("rise", self.rise), ("return", 0.0 if back is None else back)):
-            check_kind(PERMITTED[name], angle, Real, say("an angle in rad"), say("30 degrees are math.radians(30)"))
+            check_kind(LIMIT_NAMES[name], angle, Real, say("an angle in rad"), say("30 degrees are math.radians(30)"))
         if not (0 < self.rise < QUARTER_TURN and (back is None or 0 < back < QUARTER_TURN)):
             name, value = ("return", back) if 0 < self.rise < QUARTER_TURN else ("rise", self.rise)
             given, limit = math.degrees(value or 0.0), say("between 0 and 90 degrees, both excluded")
             remedy = say("30 degrees is usual for a translating follower")
             if given > 360:
                 remedy = say("write math.radians({value:g}) if it is in degrees", value=value)
-            raise DesignError(PERMITTED[name], say("{given:g} degrees", given=given), limit, remedy)
+            raise DesignError(LIMIT_NAMES[name], say("{given:g} degrees", given=given), limit, remedy)
 
     def slip(self) -> tuple[str, float] | None:
         """The name and the degrees of a limit so small that radians were given for degrees; None if there is none.

@@ -10,7 +10,7 @@ import numpy as np
 
 from graphcam.given.motion import Dwell, Motion
 
-ROUNDING = 1e-9
+JUMP_ROUNDING = 1e-9
 """A jump of less, as a fraction of lift over angle (squared for the acceleration), is rounding."""
 
 
@@ -60,6 +60,6 @@ def _jumps(motion: Motion, derivative: int) -> list[Jump]:
     before = motion.at(np.where(starts, phase - 1, phase) % len(inner), np.where(starts, 1.0, u), "left")[derivative]
     after, phi = motion.at(phase, u)[derivative], motion.angle_at(phase, u)
     scale = max(phase.lift / phase.angle**derivative for phase in motion.phases)
-    jumped = np.abs(after - before) > ROUNDING * scale
+    jumped = np.abs(after - before) > JUMP_ROUNDING * scale
     columns = (column[jumped].tolist() for column in (phi, before, after))
     return [Jump(*row) for row in zip(*columns, strict=True)]

@@ -22,23 +22,23 @@ import numpy as np
 from graphcam.errors import DesignError, nearest
 from graphcam.given.exact_polynomials import ExactPiece
 from graphcam.given.motion_law import Fourth, Law
-from graphcam.given.pieces import Floats, Formula, Side, sine_cosine
+from graphcam.given.piecewise import Floats, Formula, Side, sine_cosine
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law, leg_law
 from graphcam.words import say
 
 __all__ = ["LAWS", "Floats", "Side", "law"]
 
 _PI = math.pi
-RISE_FALL = "double-harmonic", "eighth-degree"
+RISE_FALL_LAWS = "double-harmonic", "eighth-degree"
 """The laws of a rise without a dwell behind it; a return by them runs backwards, from the same acceleration to rest."""
-MOST_UNEQUAL = 1e12
+MAX_PART_RATIO = 1e12
 """Greatest ratio of the rectangular law's parts: of more, the shorter is lost beside the longer."""
 
 # --- the pieces ------------------------------------------------------------------------------------------------------
 # Each takes x, the distance from its end of the phase, and returns f, f', f'', f''' (from the end: the missing lift).
 
 
-LAW_WORDS: Mapping[str, tuple[str, ...]] = {
+LAW_SYNONYMS: Mapping[str, tuple[str, ...]] = {
     "rectangular": (
         *("constant acceleration", "uniform acceleration", "parabolic", "parabola"),
         *("прямоугольный (постоянного ускорения)", "прямоугольный", "постоянного ускорения", "параболический"),
@@ -303,31 +303,33 @@ def _polynomial_tangent(k: float, *, n: int, rest: tuple[float, ...]) -> tuple[f
 
 # --- the laws --------------------------------------------------------------------------------------------------------
 
-_MODIFIED_TRAPEZOIDAL = 8 * _PI / (2 + _PI)
-_MODIFIED_SINE = 4 * _PI / (4 + _PI)
+_MODIFIED_TRAPEZOIDAL_PEAK = 8 * _PI / (2 + _PI)
+_MODIFIED_SINE_PEAK = 4 * _PI / (4 + _PI)
 
-_SINES_OF_TRAPEZOID = {"height": _MODIFIED_TRAPEZOIDAL, "k": 4 * _PI}
-_SINES_UP = {"height": _PI * _MODIFIED_SINE, "k": 4 * _PI}
-_SINES_DOWN = {"height": _PI * _MODIFIED_SINE, "k": 4 * _PI / 3}
+_TRAPEZOID_SINE = {"height": _MODIFIED_TRAPEZOIDAL_PEAK, "k": 4 * _PI}
+_SINE_RISE = {"height": _PI * _MODIFIED_SINE_PEAK, "k": 4 * _PI}
+_SINE_FALL = {"height": _PI * _MODIFIED_SINE_PEAK, "k": 4 * _PI / 3}
 
-_TRIANGULAR = partial(_linear_up, slope=32.0), partial(_linear_down, slope=32.0)
-_CYCLOIDAL = partial(_sine_up, height=2 * _PI, k=2 * _PI)
+_TRIANGULAR_PIECES = partial(_linear_up, slope=32.0), partial(_linear_down, slope=32.0)
+_CYCLOIDAL_FORMULA = partial(_sine_up, height=2 * _PI, k=2 * _PI)
 _TRAPEZOIDAL_PIECES = (
     partial(_linear_up, slope=128 / 3),
     partial(_trapezoid_top, height=16 / 3),
     partial(_linear_down, slope=128 / 3),
 )
 _MODIFIED_TRAPEZOIDAL_PIECES = (
-    partial(_sine_up, **_SINES_OF_TRAPEZOID),
-    partial(_sine_top, height=_MODIFIED_TRAPEZOIDAL),
-    partial(_sine_down, **_SINES_OF_TRAPEZOID, peak=2.0),
+    partial(_sine_up, **_TRAPEZOID_SINE),
+    partial(_sine_top, height=_MODIFIED_TRAPEZOIDAL_PEAK),
+    partial(_sine_down, **_TRAPEZOID_SINE, peak=2.0),
 )
-_MODIFIED_SINE_PIECES = partial(_sine_up, **_SINES_UP), partial(_sine_down, **_SINES_DOWN, peak=_MODIFIED_SINE)
+_MODIFIED_SINE_PIECES = partial(_sine_up, **_SINE_RISE), partial(_sine_down, **_SINE_FALL, peak=_MODIFIED_SINE_PEAK)
 _TANGENT_2_3 = partial(_polynomial_tangent, n=1, rest=(3, -4, 2))
 _TANGENT_3_4_5 = partial(_polynomial_tangent, n=2, rest=(10, -20, 18, -6))
 _TANGENT_4_5_6_7 = partial(_polynomial_tangent, n=3, rest=(35, -98, 126, -80, 20))
 
-_EIGHTH_DEGREE = tuple(map(Fraction, ("0", "0", "0", "6.09755", "0", "-20.7804", "26.73155", "-13.60965", "2.56095")))
+_EIGHTH_COEFFICIENTS = tuple(
+    map(Fraction, ("0", "0", "0", "6.09755", "0", "-20.7804", "26.73155", "-13.60965", "2.56095"))
+)
 """The coefficients of the eighth-degree polynomial, as they were published."""
 
 
@@ -336,38 +338,38 @@ def _sines(*pieces: tuple[Formula, dict[str, float]]) -> tuple[Fourth, ...]:
     return tuple(partial(_fourth_of_sine, formula=formula, **sizes) for formula, sizes in pieces)
 
 
-_FOURTHS = {
+_FOURTH_DERIVATIVES = {
     "triangular": (_no_fourth, _no_fourth),
     "cosine": _sines((_cosine, {"height": _PI**2 / 2, "k": _PI})),
-    "cycloidal": _sines((_CYCLOIDAL, {"height": 2 * _PI, "k": 2 * _PI})),
+    "cycloidal": _sines((_CYCLOIDAL_FORMULA, {"height": 2 * _PI, "k": 2 * _PI})),
     "trapezoidal": (_no_fourth, _no_fourth, _no_fourth),
     "modified-trapezoidal": (
-        *_sines((_MODIFIED_TRAPEZOIDAL_PIECES[0], _SINES_OF_TRAPEZOID)),
+        *_sines((_MODIFIED_TRAPEZOIDAL_PIECES[0], _TRAPEZOID_SINE)),
         _no_fourth,
-        *_sines((_MODIFIED_TRAPEZOIDAL_PIECES[2], _SINES_OF_TRAPEZOID)),
+        *_sines((_MODIFIED_TRAPEZOIDAL_PIECES[2], _TRAPEZOID_SINE)),
     ),
-    "modified-sine": _sines(*zip(_MODIFIED_SINE_PIECES, (_SINES_UP, _SINES_DOWN), strict=True)),
+    "modified-sine": _sines(*zip(_MODIFIED_SINE_PIECES, (_SINE_RISE, _SINE_FALL), strict=True)),
     "2-3": (_no_fourth,),
     "3-4-5": (_fourth_3_4_5,),
     "4-5-6-7": (_fourth_4_5_6_7,),
 }
 
 # The formulas of the first half and where one takes over from another, the peaks, the tangent in closed form.
-_MIRRORED = {
-    "triangular": (_TRIANGULAR, (1 / 4,), (2.0, 8.0), None),
+_MIRRORED_LAWS = {
+    "triangular": (_TRIANGULAR_PIECES, (1 / 4,), (2.0, 8.0), None),
     "cosine": (_cosine, (), (_PI / 2, _PI**2 / 2), _cosine_tangent),
-    "cycloidal": (_CYCLOIDAL, (), (2.0, 2 * _PI), _cycloidal_tangent),
+    "cycloidal": (_CYCLOIDAL_FORMULA, (), (2.0, 2 * _PI), _cycloidal_tangent),
     "trapezoidal": (_TRAPEZOIDAL_PIECES, (1 / 8, 3 / 8), (2.0, 16 / 3), None),
-    "modified-trapezoidal": (_MODIFIED_TRAPEZOIDAL_PIECES, (1 / 8, 3 / 8), (2.0, _MODIFIED_TRAPEZOIDAL), None),
-    "modified-sine": (_MODIFIED_SINE_PIECES, (1 / 8,), (_MODIFIED_SINE, _PI * _MODIFIED_SINE), None),
+    "modified-trapezoidal": (_MODIFIED_TRAPEZOIDAL_PIECES, (1 / 8, 3 / 8), (2.0, _MODIFIED_TRAPEZOIDAL_PEAK), None),
+    "modified-sine": (_MODIFIED_SINE_PIECES, (1 / 8,), (_MODIFIED_SINE_PEAK, _PI * _MODIFIED_SINE_PEAK), None),
     "2-3": (_poly_2_3, (), (1.5, 6.0), _TANGENT_2_3),
     "3-4-5": (_poly_3_4_5, (), (1.875, 10 / math.sqrt(3)), _TANGENT_3_4_5),
     "4-5-6-7": (_poly_4_5_6_7, (), (2.1875, 84 / (5 * math.sqrt(5))), _TANGENT_4_5_6_7),
 }
 
-BETWEEN_DWELLS: tuple[str, ...] = ("rectangular", *_MIRRORED)
+DWELL_TO_DWELL_LAWS: tuple[str, ...] = ("rectangular", *_MIRRORED_LAWS)
 """The laws that look the same from both ends."""
-LAWS: tuple[str, ...] = (*BETWEEN_DWELLS, *RISE_FALL)
+LAWS: tuple[str, ...] = (*DWELL_TO_DWELL_LAWS, *RISE_FALL_LAWS)
 
 
 def law(name: str | Law, ratio: float = 1.0) -> Law:
@@ -398,37 +400,37 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     own = isinstance(name, Law)
     if not own and name not in LAWS:
         known = (*LAWS, CONSTANT_VELOCITY)
-        remedy = nearest(f"{name}", known, LAW_WORDS)
+        remedy = nearest(f"{name}", known, LAW_SYNONYMS)
         if callable(name):
             remedy = say("a law of your own is gc.Law(name, formula)")
         raise DesignError("law", name, say("a motion law that graphcam knows"), remedy)
-    if not 1 / MOST_UNEQUAL <= ratio <= MOST_UNEQUAL:
+    if not 1 / MAX_PART_RATIO <= ratio <= MAX_PART_RATIO:
         limit = say(
-            "a finite number greater than 0, from {value:g} to {most:g}", value=1 / MOST_UNEQUAL, most=MOST_UNEQUAL
+            "a finite number greater than 0, from {value:g} to {most:g}", value=1 / MAX_PART_RATIO, most=MAX_PART_RATIO
         )
         raise DesignError("ratio", ratio, limit, say("leave it out for equal parts"))
     if name != "rectangular" and ratio != 1:
         called = name.name if own else name
         limit = say("1 for the {called} law", called=called)
         raise DesignError("ratio", ratio, limit, say("only the rectangular law has unequal parts"))
-    return name if own else _built(name, ratio)
+    return name if own else _built_law(name, ratio)
 
 
 def law_of_return(name: str | Law, ratio: float = 1.0) -> Law:
-    """The law of a return, of that name: one of :data:`RISE_FALL` runs backwards there.
+    """The law of a return, of that name: one of :data:`RISE_FALL_LAWS` runs backwards there.
 
     >>> law_of_return("eighth-degree")(0.0)[2].item(), law_of_return("cosine") == law("cosine")
     (5.2683, True)
     """
     found = law(name, ratio)
-    return found.reversed if name in RISE_FALL else found
+    return found.reversed if name in RISE_FALL_LAWS else found
 
 
 @lru_cache(maxsize=256)
-def _built(name: str, ratio: float) -> Law:
+def _built_law(name: str, ratio: float) -> Law:
     # Cached, so that phases of the same law share their formulas and are computed together.
     if name == "eighth-degree":
-        _, made = leg_law(name, [ExactPiece(Fraction(0), Fraction(1), _EIGHTH_DEGREE)])
+        _, made = leg_law(name, [ExactPiece(Fraction(0), Fraction(1), _EIGHTH_COEFFICIENTS)])
         return made
     if name == "double-harmonic":
         formulas, peaks = (_double_harmonic, _double_harmonic_end), (3 * math.sqrt(3) * _PI / 8, _PI**2)
@@ -436,9 +438,11 @@ def _built(name: str, ratio: float) -> Law:
         tangents, seams = (_double_harmonic_tangent, _double_harmonic_tangent_back), (0.5,)
         return Law(name, formulas, seams, False, 0.5, 1.0, peaks, tangents, fourths, trusted=True, seams=seams)
     if name != "rectangular":
-        formulas, edges, peaks, tangent = _MIRRORED[name]
+        formulas, edges, peaks, tangent = _MIRRORED_LAWS[name]
         tangents = tangent, tangent
-        return Law(name, formulas, edges, True, 1.0, 1.0, peaks, tangents, _FOURTHS.get(name, ()), trusted=True)
+        return Law(
+            name, formulas, edges, True, 1.0, 1.0, peaks, tangents, _FOURTH_DERIVATIVES.get(name, ()), trusted=True
+        )
     # The accelerations follow from the break as the machine has it: else the velocities, both 2 there, would miss each
     # other by what the break is rounded by over the shorter part.
     middle = 1 / (1 + ratio)

@@ -10,7 +10,7 @@ import numpy as np
 
 from graphcam.errors import DesignError, check_number
 from graphcam.given.laws import Floats
-from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
+from graphcam.given.motion import CLOSURE_TOLERANCE, FULL_TURN, wrap
 from graphcam.words import say
 
 
@@ -42,7 +42,7 @@ class LoadCurve:
         if len(phi) != len(force) or not all(map(math.isfinite, (*phi, *force))):
             found = say("a table of {phi} angles and {force} loads", phi=len(phi), force=len(force))
             raise DesignError("load", found, say("rows of finite numbers"))
-        if len(phi) < 2 or abs(phi[0]) > CLOSURE or abs(phi[-1] - FULL_TURN) > CLOSURE:
+        if len(phi) < 2 or abs(phi[0]) > CLOSURE_TOLERANCE or abs(phi[-1] - FULL_TURN) > CLOSURE_TOLERANCE:
             covered = say("without a row")
             if phi:
                 covered = say("from {degrees} to {degrees2}", degrees=_degrees(phi[0]), degrees2=_degrees(phi[-1]))
@@ -56,7 +56,7 @@ class LoadCurve:
                 )
                 remedy = say("a jump is a steep line between two rows that lie close together")
                 raise DesignError("load", found, say("a table whose angles grow from row to row"), remedy)
-        if not math.isclose(force[0], force[-1], rel_tol=CLOSURE, abs_tol=CLOSURE):
+        if not math.isclose(force[0], force[-1], rel_tol=CLOSURE_TOLERANCE, abs_tol=CLOSURE_TOLERANCE):
             found = say("{force:g} N at 0 degrees and {force2:g} N at 360", force=force[0], force2=force[-1])
             remedy = say("a turn ends as the next begins")
             raise DesignError("load", found, say("the same at both"), remedy)

@@ -18,25 +18,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.given.exact_polynomials import Exact, ExactPiece, derivative
-from graphcam.given.pieces import Floats, Side
+from graphcam.given.piecewise import Floats, Side
 
-ORDERS = 4
+ORDER_COUNT = 4
 """s, v, a, j."""
-CANCELLED = 2.0
+MAX_CANCELLATION = 2.0
 """The terms of a series come to so many times the greatest value at most."""
-NEGLIGIBLE = 2.0**-56
+NEGLIGIBLE_TERMS = 2.0**-56
 """Terms that all together are smaller, as a fraction of the greatest value, are left out."""
-AT_REST = 2.0**-55
+REST_MOVEMENT = 2.0**-55
 """A piece rests that moves by less than this part of the greatest displacement over its width, at its end's speed."""
-LEADING = 1e-12
+LEADING_TERM = 1e-12
 """The first term of a series that is no smaller than this part of all terms leads where the motion leaves its rest."""
-DEEPEST = 20
+MAX_HALVINGS = 20
 """How often a piece is halved at most: a cell of a millionth is as good as it gets."""
-SAMPLES = 33
+PIECE_SAMPLES = 33
 """Places of a piece among which the greatest values are looked for."""
-COMPARED = 128
+MIN_SEARCHED_CELLS = 128
 """The number of cells from which a search is quicker than a comparison with every start."""
-FEW = 128
+FEW_VALUES = 128
 """The average number of values a cell below which they are gathered; more are sliced."""
 
 
@@ -63,17 +63,17 @@ def cells(pieces: Sequence[ExactPiece], start: Fraction = Fraction(0), ahead: bo
     >>> [(cell.start, cell.anchor, cell.scale, cell.coefficients) for cell in cells([square])[0]]
     [(0.0, 0.0, 2.0, (0.0, 0.0, 4.0))]
     """
-    greatest = _greatest(pieces)
+    greatest = _max_magnitudes(pieces)
     return [_Cutter(piece, greatest, start, 1 if ahead else -1).cells() for piece in pieces]
 
 
-def _greatest(pieces: Sequence[ExactPiece]) -> list[float]:
+def _max_magnitudes(pieces: Sequence[ExactPiece]) -> list[float]:
     """The greatest magnitude of s and its derivatives over all pieces."""
-    y = np.linspace(0, 1, SAMPLES)
-    found = [0.0] * ORDERS
+    y = np.linspace(0, 1, PIECE_SAMPLES)
+    found = [0.0] * ORDER_COUNT
     for piece in pieces:
         width = float(piece.width)
-        for order in range(ORDERS):
+        for order in range(ORDER_COUNT):
             values = np.polynomial.polynomial.polyval(y, np.array([float(c) for c in derivative(piece.p, order)]))
             found[order] = max(found[order], float(np.abs(values).max()) / width**order)
     return found
@@ -91,20 +91,20 @@ class _Cutter:
     def cells(self) -> list[Cell]:
         """The parts of the piece, seen from the origin."""
         low, high = sorted((self._from_origin(self.piece.start), self._from_origin(self.piece.end)))
-        return self._cut(low, high, 0)
+        return self._cells(low, high, 0)
 
     def _from_origin(self, place: Fraction) -> Fraction:
         return self.way * (place - self.origin)
 
     @cached_property
-    def _rests(self) -> list[Fraction]:
+    def _rest_places(self) -> list[Fraction]:
         """Ends of the piece at which the velocity is zero."""
-        piece, still = self.piece, Fraction(AT_REST * self.greatest[0])
+        piece, still = self.piece, Fraction(REST_MOVEMENT * self.greatest[0])
         ends = (piece.start, piece.end) if len(piece.p) > 1 else ()
         return [self._from_origin(end) for end in ends if abs(piece.at(end, 1) * piece.width) <= still]
 
-    def _cut(self, low: Fraction, high: Fraction, depth: int) -> list[Cell]:
-        rests = [end for end in (low, high) if end in self._rests]
+    def _cells(self, low: Fraction, high: Fraction, depth: int) -> list[Cell]:
+        rests = [end for end in (low, high) if end in self._rest_places]
         anchor = float(rests[0] if rests else (low + high) / 2)
         reach = max(abs(low - Fraction(anchor)), abs(high - Fraction(anchor)))
         # At a rest the series begins there, though the machine's place is another one by a rounding.
@@ -113,29 +113,29 @@ class _Cutter:
         p = self.piece.about(self.origin + self.way * about, self.way * Fraction(scale))
         p = tuple(self.way * c for c in p)
         if rests:  # a place of rest that is no rational number was rounded
-            level = p[0] if abs(p[0]) > Fraction(AT_REST * self.greatest[0]) else Fraction(0)
+            level = p[0] if abs(p[0]) > Fraction(REST_MOVEMENT * self.greatest[0]) else Fraction(0)
             p = level, Fraction(0), *p[2:]
         part = float(reach) / scale
-        needed = [self._needed(p, order, scale, part, bool(rests)) for order in range(ORDERS)]
-        if depth < DEEPEST and not (len(rests) < 2 and all(fits for _, fits in needed)):
+        needed = [self._needed_terms(p, order, scale, part, bool(rests)) for order in range(ORDER_COUNT)]
+        if depth < MAX_HALVINGS and not (len(rests) < 2 and all(fits for _, fits in needed)):
             middle = (low + high) / 2
-            return self._cut(low, middle, depth + 1) + self._cut(middle, high, depth + 1)
+            return self._cells(low, middle, depth + 1) + self._cells(middle, high, depth + 1)
         terms = max(count for count, _ in needed)
         return [Cell(float(low), anchor, scale, tuple(float(c) for c in p[:terms]))]
 
-    def _needed(self, p: Exact, order: int, scale: float, part: float, rests: bool) -> tuple[int, bool]:
+    def _needed_terms(self, p: Exact, order: int, scale: float, part: float, rests: bool) -> tuple[int, bool]:
         """How many terms a derivative asks for, and whether they do not cancel within ``part`` of the scale."""
         row = np.array([float(c / Fraction(scale) ** order) for c in derivative(p, order)])
         terms = np.abs(row) * part ** np.arange(row.size)
-        varying = np.flatnonzero((terms[1:] if order == 0 else terms) > LEADING * terms.sum())
-        size, fits = self.greatest[order], terms.sum() <= CANCELLED * self.greatest[order]
+        varying = np.flatnonzero((terms[1:] if order == 0 else terms) > LEADING_TERM * terms.sum())
+        size, fits = self.greatest[order], terms.sum() <= MAX_CANCELLATION * self.greatest[order]
         if rests and order < 2 and varying.size:
             # The first power that varies leads near the rest; the others come to no more.
             lead = int(varying[0]) + (order == 0)
             size = min(size, float(terms[lead]))
             fits = fits and terms[lead + 1 :].sum() <= terms[lead]
         tail = np.append(np.cumsum(terms[::-1])[::-1], 0.0)
-        count = int(np.argmax(tail <= NEGLIGIBLE * size))
+        count = int(np.argmax(tail <= NEGLIGIBLE_TERMS * size))
         return (count + order if count else 1), bool(fits)
 
 
@@ -153,16 +153,16 @@ class LocalPolynomials:
     def __call__(self, t: Floats) -> list[Floats]:
         """The function and its derivatives at t of any shape; where cells meet, those of the one behind."""
         t = np.asarray(t, dtype=np.float64)
-        out = np.empty((ORDERS, t.size))
+        out = np.empty((ORDER_COUNT, t.size))
         self.fill(t.ravel(), "right", out)
-        return list(out.reshape(ORDERS, *t.shape))
+        return list(out.reshape(ORDER_COUNT, *t.shape))
 
     def fill(self, t: Floats, side: Side, out: Floats) -> None:
         """Write the values at t, (n,), into ``out``, (4, n); NaN stays NaN.
 
         At a place where cells meet the value of the named side is written.
         """
-        if t.size >= FEW * len(self.cells) and np.all(t[1:] >= t[:-1]):
+        if t.size >= FEW_VALUES * len(self.cells) and np.all(t[1:] >= t[:-1]):
             self._slice(np.searchsorted(t, self._starts, side="left" if side == "right" else "right"), t, out)
         else:
             self._gather(self._numbers(t, side), t, out)
@@ -184,7 +184,7 @@ class LocalPolynomials:
     def _numbers(self, t: Floats, side: Side) -> NDArray[np.intp]:
         """The cells that t lie in; where cells are few and t many it is quicker to compare than to search."""
         starts = self._starts
-        if starts.size >= COMPARED or t.size < COMPARED * starts.size:
+        if starts.size >= MIN_SEARCHED_CELLS or t.size < MIN_SEARCHED_CELLS * starts.size:
             return starts.searchsorted(t, side=side)
         number, compare = np.zeros(t.shape, dtype=np.uint8), np.greater_equal if side == "right" else np.greater
         for start in starts.tolist():
@@ -228,9 +228,9 @@ def _evaluate(x: Floats, coefficients: Iterable[float | Floats], out: Floats) ->
     made = 0
     for coefficient in coefficients:
         if made:
-            if made < ORDERS:
+            if made < ORDER_COUNT:
                 out[made] = out[made - 1]
-            for order in range(min(made, ORDERS) - 1, 0, -1):
+            for order in range(min(made, ORDER_COUNT) - 1, 0, -1):
                 out[order] *= x
                 out[order] += out[order - 1]
             out[0] *= x

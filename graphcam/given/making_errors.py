@@ -14,15 +14,15 @@ from graphcam.given.laws import Floats
 from graphcam.words import say
 
 Distribution = Literal["normal", "uniform"]
-SIZES = "roller_diameter", "offset", "distance", "arm"
+TOLERANCED_SIZES = "roller_diameter", "offset", "distance", "arm"
 """The sizes that may have a tolerance; each follower has some of them."""
-MADE = "roller_radius", *SIZES[1:]
+MADE_SIZES = "roller_radius", *TOLERANCED_SIZES[1:]
 """The sizes of which a cam and its follower may be off: of a roller it is the radius that counts."""
-PARTS = {"normal": 1 / 3, "uniform": 1 / math.sqrt(3)}
+DEVIATION_SHARES = {"normal": 1 / 3, "uniform": 1 / math.sqrt(3)}
 """The standard deviation of a size as a part of half its tolerance zone: an end is three of them, or the last value."""
-OF_A_WAVE = 1 / math.sqrt(2)
+WAVE_DEVIATION = 1 / math.sqrt(2)
 """The standard deviation of a wave with a random phase, as a part of its amplitude."""
-HIGHEST = 10_000
+MAX_HARMONIC = 10_000
 """Harmonic of a wave: what is shorter is the roughness."""
 
 
@@ -50,8 +50,8 @@ class Deviations:
 
     def __post_init__(self) -> None:
         for name in self.sizes:
-            if name not in MADE:
-                raise DesignError("sizes", name, *among(name, MADE))
+            if name not in MADE_SIZES:
+                raise DesignError("sizes", name, *among(name, MADE_SIZES))
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -117,16 +117,16 @@ class MakingErrors:
             wanted = say("a list of {waviness}, as waviness is", waviness=len(self.waviness))
             raise DesignError("harmonics", found, wanted, say("give every amplitude its number of waves per turn"))
         for k, harmonic in enumerate(self.harmonics):
-            if not 1 <= harmonic <= HIGHEST:
-                limit = say("from 1 to {highest} waves per turn", highest=HIGHEST)
+            if not 1 <= harmonic <= MAX_HARMONIC:
+                limit = say("from 1 to {highest} waves per turn", highest=MAX_HARMONIC)
                 raise DesignError(f"harmonics[{k}]", harmonic, limit)
             if harmonic in self.harmonics[:k]:
                 raise DesignError(f"harmonics[{k}]", harmonic, say("given once"), say("give one amplitude for it"))
-        for name in SIZES:
+        for name in TOLERANCED_SIZES:
             _check_tolerance(name, getattr(self, name))
-        if self.distribution not in PARTS:
+        if self.distribution not in DEVIATION_SHARES:
             limit = say("one that is known")
-            raise DesignError("distribution", self.distribution, limit, nearest(self.distribution, PARTS))
+            raise DesignError("distribution", self.distribution, limit, nearest(self.distribution, DEVIATION_SHARES))
         if not self.reaches:
             found = say("left out")
             raise DesignError("waviness", found, say("given where no size has a tolerance"), say("or give a size one"))
@@ -135,12 +135,12 @@ class MakingErrors:
     def reaches(self) -> dict[str, float]:
         """How far each error may be off the nominal [mm]: an amplitude, or half a tolerance zone; none that is 0."""
         waves = {wave_name(n): a for n, a in zip(self.harmonics, self.waviness, strict=True)}
-        sizes = {name: getattr(self, name) / 2 for name in SIZES}
+        sizes = {name: getattr(self, name) / 2 for name in TOLERANCED_SIZES}
         return {name: reach for name, reach in (waves | sizes).items() if reach}
 
     def part(self, name: str) -> float:
         """The standard deviation of one of the errors, as a part of how far it reaches."""
-        return PARTS[self.distribution] if name in SIZES else OF_A_WAVE
+        return DEVIATION_SHARES[self.distribution] if name in TOLERANCED_SIZES else WAVE_DEVIATION
 
     def sample(self, samples: int, seed: int = 0) -> Deviations:
         """A sample of cams as the workshop may make them; the arrays are (..., samples, 1).
@@ -161,7 +161,7 @@ class MakingErrors:
             for n, a in zip(self.harmonics, self.waviness, strict=True)
         ]
         sizes: dict[str, Floats | float] = {}
-        for name in SIZES:
+        for name in TOLERANCED_SIZES:
             stream, half = _stream(seed, name), getattr(self, name) / 2
             if not half:
                 continue

@@ -11,41 +11,41 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError, check_number
-from graphcam.given.fixed_order import summed
 from graphcam.given.laws import Floats
-from graphcam.given.legs import Leg, find_legs
+from graphcam.given.leg_detection import Leg, find_legs
 from graphcam.given.monotone_spline import Fit, fit
-from graphcam.given.motion import FULL_TURN, NEARLY, Dwell, Motion, Phase, Return, Rise
-from graphcam.given.roots import roots
-from graphcam.given.spline_law import AT_REST, TURNING, spline_law
+from graphcam.given.motion import FULL_TURN, NEAR_TURN_SHARE, Dwell, Motion, Phase, Return, Rise
+from graphcam.given.reproducible_sums import ordered_sum
+from graphcam.given.root_finding import roots
+from graphcam.given.spline_law import REST_ZEROS, TURNING_ZEROS, spline_law
 from graphcam.words import Caption, Words, say
 
 DEFAULT_TOLERANCE = 0.01
 """How far the motion may pass a row of its table [mm]."""
-FEWEST_ROWS, MOST_ROWS = 8, 10_000
-WIDEST_GAP = 2.0
+MIN_ROWS, MAX_ROWS = 8, 10_000
+MAX_GAP_RATIO = 2.0
 """The gap that closes the turn may be so many times the widest gap between rows."""
-SHORTEST_TURN = 0.85
+MIN_TURN_SHARE = 0.85
 """The part of a turn that a table covers at least which ends a step before it; below, another unit is looked for."""
-LARGEST, SMALLEST = 1e100, 1e-100
+MAX_VALUE, MIN_TOLERANCE = 1e100, 1e-100
 """A value of a row and a tolerance between which squares are numbers still."""
-SAMPLES = 50
+LEG_SAMPLES = 50
 """Places of a leg among which one is sought where it moves fast."""
-TOLERANCE_OF_NOISE = 4.5
+NOISE_TOLERANCE = 4.5
 """The tolerance is at least so many standard deviations of the noise; one row in 150,000 is off by more."""
-LEAST_NOISE = 3e-6
+MIN_NOISE = 3e-6
 """What the spline, whose acceleration cannot jump, may be off by itself, as a part of the lift."""
-MISFIT = 7.0
+MISFIT_FACTOR = 7.0
 """Stops that are off by more than so many times the noise are not explained by it."""
-SCATTERED = 1.25
+SCATTER_FACTOR = 1.25
 """Stops that are off by more than so many times the noise scatter by more, where the rows do."""
-WINDOW, ROWS_OF_A_PART = 7, 30
+NOISE_WINDOW, ROWS_PER_PART = 7, 30
 """Rows through which a polynomial is laid to see the noise, and those of a part of the turn."""
-MEDIAN = 0.6745
+NORMAL_MEDIAN = 0.6745
 """The median of |x| for a normal distribution of standard deviation 1."""
-ROUNDING = 1e-9
+ANGLE_ROUNDING = 1e-9
 """Cam angles nearer to one another than this [rad] are the same."""
-SHOWN = 1e-3
+MIN_SHOWN_SHIFT = 1e-3
 """A shift of the cam angle that is told [degrees]."""
 
 
@@ -73,10 +73,10 @@ class MeasuredMotion(Motion):
     measured: Floats
     tolerance: float
 
-    def _said(self) -> str:
+    def _summary(self) -> str:
         begins = math.degrees(self.zero)
-        shifted = f", from {begins:.4g}° of the table" if abs(begins) >= SHOWN else ""
-        return f"{super()._said()}, through {self.phi.size} rows to {self.tolerance:g}{shifted}"
+        shifted = f", from {begins:.4g}° of the table" if abs(begins) >= MIN_SHOWN_SHIFT else ""
+        return f"{super()._summary()}, through {self.phi.size} rows to {self.tolerance:g}{shifted}"
 
     @property
     def residuals(self) -> Floats:
@@ -146,19 +146,19 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     True
     """
     check_number("tolerance", tolerance, say("a finite number greater than 0"), above=0)
-    if tolerance < SMALLEST:
-        limit = say("at least {smallest:g}", smallest=SMALLEST)
+    if tolerance < MIN_TOLERANCE:
+        limit = say("at least {smallest:g}", smallest=MIN_TOLERANCE)
         raise DesignError("tolerance", tolerance, limit, say("give what the table was measured to"))
     phi, s = check_rows(phi, s, tolerance)
-    least, scatter = LEAST_NOISE * float(np.ptp(s)), _scatter(phi, s)
-    most = max(tolerance / TOLERANCE_OF_NOISE, least)
+    least, scatter = MIN_NOISE * float(np.ptp(s)), _scatter(phi, s)
+    most = max(tolerance / NOISE_TOLERANCE, least)
     noise, advice = min(max(scatter, least), most), _remedy(tolerance, scatter)
     legs, misfit = find_legs(phi, s, tolerance, noise, advice)
-    if misfit > MISFIT and noise < most:
+    if misfit > MISFIT_FACTOR and noise < most:
         # The rows err in other ways than each for itself, so the tolerance must say by how much.
         noise = most
         legs, _ = find_legs(phi, s, tolerance, noise, advice)
-    elif misfit > SCATTERED and noise < scatter:
+    elif misfit > SCATTER_FACTOR and noise < scatter:
         # A tolerance of less than 4.5 times the scatter: the rests tell the noise, or else noise would move their ends.
         noise = min(noise * misfit, scatter)
         legs, _ = find_legs(phi, s, tolerance, noise, advice)
@@ -218,29 +218,31 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
         shapes = say("{shape} and {shape2}", shape=phi.shape, shape2=values.shape)
         quantity = say("shapes of the table's columns")
         raise DesignError(quantity, shapes, say("one number for each cam angle"), say("give two lists"))
-    if not FEWEST_ROWS <= phi.size <= MOST_ROWS:
-        limit = say("from {least} to {most}", least=FEWEST_ROWS, most=MOST_ROWS)
+    if not MIN_ROWS <= phi.size <= MAX_ROWS:
+        limit = say("from {least} to {most}", least=MIN_ROWS, most=MAX_ROWS)
         remedy = say("measure at more or at fewer cam angles")
         raise RowError(max(phi.size - 1, 0), say("number of rows"), phi.size, limit, remedy)
     for k, number in enumerate(np.isfinite(phi) & np.isfinite(values)):
         if not number:
             found = say("{phi:g}, {values:g}", phi=phi[k], values=values[k])
             raise RowError(k, say("row"), found, say("finite numbers"), say("measure it"))
-    for k in np.flatnonzero(np.abs(values) > LARGEST)[:1]:
+    for k in np.flatnonzero(np.abs(values) > MAX_VALUE)[:1]:
         found = say("{phi:g}, {values:g}", phi=phi[k], values=values[k])
-        limit = say("numbers up to {most:g}", most=LARGEST)
+        limit = say("numbers up to {most:g}", most=MAX_VALUE)
         raise RowError(int(k), say("row"), found, limit, say("measure again"))
     for k, step in enumerate(np.diff(phi), 1):
-        if step <= ROUNDING:
-            remedy = say("give every cam angle once") if step >= -ROUNDING else say("sort the rows by the cam angle")
+        if step <= ANGLE_ROUNDING:
+            remedy = (
+                say("give every cam angle once") if step >= -ANGLE_ROUNDING else say("sort the rows by the cam angle")
+            )
             limit = say("greater than the one before, {degrees}", degrees=_degrees(phi[k - 1]))
             raise RowError(k, say("cam angle"), _degrees(phi[k]), limit, remedy)
     span, widest = float(phi[-1] - phi[0]), float(np.max(np.diff(phi)))
     last = phi.size - 1
-    if span > FULL_TURN + ROUNDING or FULL_TURN - span > WIDEST_GAP * widest:
+    if span > FULL_TURN + ANGLE_ROUNDING or FULL_TURN - span > MAX_GAP_RATIO * widest:
         limit, remedy = say("360 degrees, or a step less"), _turn_remedy(span)
         raise RowError(last, say("turn that the rows cover"), _degrees(span), limit, remedy)
-    if span < FULL_TURN - ROUNDING:
+    if span < FULL_TURN - ANGLE_ROUNDING:
         return phi, values
     if abs(values[-1] - values[0]) > closes_to:
         limit = say("{values:g} as in the first, a turn before", values=values[0])
@@ -255,7 +257,7 @@ def _turn_remedy(span: float) -> Words:
         (360.0, say("angles are in radians here: convert them by numpy.radians")),
         (math.radians(FULL_TURN), say("about 2 pi: give the angles in degrees, not in radians")),
     ):
-        if SHORTEST_TURN * turn < span < (1 + NEARLY) * turn:
+        if MIN_TURN_SHARE * turn < span < (1 + NEAR_TURN_SHARE) * turn:
             return remedy
     return say("give one revolution of the cam")
 
@@ -266,12 +268,12 @@ def _degrees(angle: float) -> Caption:
 
 def _remedy(tolerance: float, scatter: float) -> Words:
     """What to do about a tolerance that is too small: give what the scatter of the rows asks for, if that is more."""
-    asked = TOLERANCE_OF_NOISE * scatter
+    asked = NOISE_TOLERANCE * scatter
     if not asked > tolerance:
         return say("give a greater tolerance, or a table with less noise")
     digit = 10.0 ** (math.floor(math.log10(asked)) - 1)
     enough = f"{math.ceil(asked / digit) * digit:.2g}"
-    times = TOLERANCE_OF_NOISE
+    times = NOISE_TOLERANCE
     told = say(
         "give a greater tolerance, as {enough}, {times:g} times what the rows scatter by, or a table with less noise"
     )
@@ -284,13 +286,13 @@ def _scatter(phi: Floats, s: Floats) -> float:
     The median of a part of the turn does not see the few rows about a jump; the maximum of the parts is taken,
     because rounding is smaller where the follower rests.
     """
-    rows = np.arange(s.size)[:, None] + np.arange(WINDOW)
+    rows = np.arange(s.size)[:, None] + np.arange(NOISE_WINDOW)
     x = phi[rows % s.size] + FULL_TURN * (rows // s.size)
-    apart = (x[:, :, None] - x[:, None, :]) / (x[:, -1:, None] - x[:, :1, None]) + np.eye(WINDOW)
+    apart = (x[:, :, None] - x[:, None, :]) / (x[:, -1:, None] - x[:, :1, None]) + np.eye(NOISE_WINDOW)
     weights = 1 / np.cumprod(apart, axis=2)[..., -1]
-    left = summed(weights * s[rows % s.size]) / np.sqrt(summed(weights**2))
-    parts = np.array_split(np.abs(left), max(s.size // ROWS_OF_A_PART, 1))
-    return max(float(np.median(part)) for part in parts) / MEDIAN
+    left = ordered_sum(weights * s[rows % s.size]) / np.sqrt(ordered_sum(weights**2))
+    parts = np.array_split(np.abs(left), max(s.size // ROWS_PER_PART, 1))
+    return max(float(np.median(part)) for part in parts) / NORMAL_MEDIAN
 
 
 # --- from the spline to phases ---------------------------------------------------------------------------------------
@@ -299,14 +301,14 @@ def _scatter(phi: Floats, s: Floats) -> float:
 def _phases(fitted: Fit, legs: list[Leg]) -> tuple[list[Phase], float, float]:
     """The phases of one turn, the cam angle [rad] at which they begin, and the lowest displacement."""
     ends = [
-        leg.end if leg.to_rest else _turning(fitted, leg, following)
+        leg.end if leg.to_rest else _turning_angle(fitted, leg, following)
         for leg, following in zip(legs, [*legs[1:], legs[0].a_turn_later], strict=True)
     ]
     before = [ends[-1] - FULL_TURN, *ends[:-1]]
     starts = [leg.start if leg.from_rest else end for leg, end in zip(legs, before, strict=True)]
     phases: list[tuple[float, Phase]] = []
     for leg, start, end, following in zip(legs, starts, ends, [*starts[1:], starts[0] + FULL_TURN], strict=True):
-        contact = AT_REST if leg.from_rest else TURNING, AT_REST if leg.to_rest else TURNING
+        contact = REST_ZEROS if leg.from_rest else TURNING_ZEROS, REST_ZEROS if leg.to_rest else TURNING_ZEROS
         lift, law = spline_law(fitted, start, end, contact)
         phases.append((start, (Rise if leg.direction > 0 else Return)(abs(lift), end - start, law)))
         if leg.to_rest:
@@ -314,11 +316,11 @@ def _phases(fitted: Fit, legs: list[Leg]) -> tuple[list[Phase], float, float]:
     return *from_zero(phases), min(float(fitted.spline(start)) for start in starts)
 
 
-def _turning(fitted: Fit, leg: Leg, following: Leg) -> float:
+def _turning_angle(fitted: Fit, leg: Leg, following: Leg) -> float:
     """The cam angle [rad] between two legs where the velocity changes its sign."""
     v = fitted.velocity
-    before = np.linspace(leg.start, leg.end, SAMPLES)
-    after = np.linspace(leg.end, following.end, SAMPLES)
+    before = np.linspace(leg.start, leg.end, LEG_SAMPLES)
+    after = np.linspace(leg.end, following.end, LEG_SAMPLES)
     fastest = before[np.argmax(leg.direction * v(before))], after[np.argmin(leg.direction * v(after))]
     return float(roots(v, *fastest))
 
@@ -334,6 +336,6 @@ def from_zero(phases: list[tuple[float, Phase]]) -> tuple[list[Phase], float]:
     (_, over), start = phases[k], float(starts[k]) - FULL_TURN
     others = [phase for _, phase in [*phases[k + 1 :], *phases[:k]]]
     end = start + over.angle
-    if isinstance(over, Dwell) and min(-start, end) > ROUNDING:
+    if isinstance(over, Dwell) and min(-start, end) > ANGLE_ROUNDING:
         return [Dwell(end), *others, Dwell(-start)], 0.0
     return ([over, *others], start) if -start < end else ([*others, over], end)

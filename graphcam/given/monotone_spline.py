@@ -27,52 +27,52 @@ from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
 from graphcam.given.b_splines import KnottedSpline, basis_functions, solve_banded
-from graphcam.given.fixed_order import summed
 from graphcam.given.laws import Floats
-from graphcam.given.legs import Leg
+from graphcam.given.leg_detection import Leg
 from graphcam.given.motion import FULL_TURN
+from graphcam.given.reproducible_sums import ordered_sum
 from graphcam.words import Words, say
 
 DEGREE = 5
-FEWEST, MOST, PARTS_OF_ROWS = 12, 180, 3.0
+MIN_INTERVALS, MAX_INTERVALS, INTERVALS_PER_ROW = 12, 180, 3.0
 """A leg is divided into so many intervals for each of its rows, but into no fewer and no more than these."""
-JERKS = 20.0
+JERK_STEP = 20.0
 """The usual step of the jerk over a part of a leg, in h/F^3 times the root of the part."""
-SWAYS, SWAYS_OF_NOISE = 0.1, 12.0
+ACCELERATION_STEP, NOISE_ACCELERATION_STEP = 0.1, 12.0
 """The usual step of the acceleration in h/F^2, and the same for each root of noise/h, if that is less."""
-NEAR = 7
+NEIGHBOUR_COUNT = 7
 """A coefficient is judged by the greatest usual step of so many neighbours: beside a fast leg a slow one may bend."""
-ONE_WAY = 1e3
+WRONG_SIGN_WEIGHT = 1e3
 """A velocity of the wrong sign counts so many times what the noise of a row would, were it to last over the leg."""
-SPREAD_AT_FIRST = 0.1
+INITIAL_WEIGHT_SHARE = 0.1
 """The weights with which the jerk begins, as a part of those that steps of the usual size would have."""
-LITTLE = 1e-2
+MIN_STEP_SHARE = 1e-2
 """Steps of the acceleration below this part of the usual one count as this."""
-ROUNDS, SETTLED = 40, 0.02
+WEIGHT_ROUNDS, SETTLED_MOVE = 40, 0.02
 """The weights are made anew so often, or until no row moves by so many standard deviations of the noise."""
-PULLS, PULL = 3, 4.0
+PULL_ROUNDS, PULL_FACTOR = 3, 4.0
 """The spline is sought so often; each time a row that is off by more than the tolerance counts so many times more."""
 
 
-def around(number: NDArray[np.intp], count: int) -> NDArray[np.intp]:
+def folded_order(number: NDArray[np.intp], count: int) -> NDArray[np.intp]:
     """Unknowns that are numbered around a circle, counted from both ends by turns, so that neighbours are near.
 
-    >>> around(np.arange(6), 6).tolist()
+    >>> folded_order(np.arange(6), 6).tolist()
     [0, 2, 4, 5, 3, 1]
     """
     return np.minimum(2 * number, 2 * (count - 1 - number) + 1)
 
 
 @dataclass(frozen=True, eq=False)
-class Forms:
+class LinearForms:
     """Linear forms of unknowns.
 
     unknowns : (m, w) which ones each form takes;  factors : (m, w) how many times
 
-    >>> differences = Forms(np.array([[0, 1], [1, 2]]), np.array([[-1.0, 1.0], [-1.0, 1.0]]))
+    >>> differences = LinearForms(np.array([[0, 1], [1, 2]]), np.array([[-1.0, 1.0], [-1.0, 1.0]]))
     >>> differences(np.array([1.0, 4.0, 9.0])).tolist()
     [3.0, 5.0]
-    >>> differences.squared(np.array([1.0, 10.0]), 3, 2).tolist()
+    >>> differences.normal_matrix(np.array([1.0, 10.0]), 3, 2).tolist()
     [[1.0, 11.0, 10.0], [-1.0, -10.0, 0.0]]
     """
 
@@ -81,16 +81,16 @@ class Forms:
 
     def __call__(self, z: Floats) -> Floats:
         """(m,) their values."""
-        return summed(self.factors * z[self.unknowns])
+        return ordered_sum(self.factors * z[self.unknowns])
 
     def transposed(self, values: Floats, size: int) -> Floats:
         """(size,) the sum of values times forms."""
-        return _summed(self.unknowns, self.factors * values[:, None], size)
+        return _sums_by_place(self.unknowns, self.factors * values[:, None], size)
 
-    def squared(self, weights: Floats, size: int, bands: int) -> Floats:
+    def normal_matrix(self, weights: Floats, size: int, bands: int) -> Floats:
         """(bands, size) the lower diagonals of the sum of weight times form times its transpose."""
         apart, first, products = self._products
-        return _summed(apart * size + first, products * weights[:, None], bands * size).reshape(bands, size)
+        return _sums_by_place(apart * size + first, products * weights[:, None], bands * size).reshape(bands, size)
 
     @property
     def bands(self) -> int:
@@ -107,7 +107,7 @@ class Forms:
         return np.abs(a - b), np.minimum(a, b), times * self.factors[:, left] * self.factors[:, right]
 
 
-def _summed(places: NDArray[np.intp], values: Floats, size: int) -> Floats:
+def _sums_by_place(places: NDArray[np.intp], values: Floats, size: int) -> Floats:
     """(size,) the sums of the values that go to the same place."""
     sums: Floats = np.zeros(size)
     np.add.at(sums, places.ravel(), values.ravel())
@@ -130,7 +130,7 @@ def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float,
     """The most likely spline that keeps every row to the tolerance.
 
     phi, s : (n,) cam angles [rad] within the turn that begins with the first leg, in order, and displacements
-    legs : from :func:`~graphcam.given.legs.find_legs`
+    legs : from :func:`~graphcam.given.leg_detection.find_legs`
     noise : the standard deviation of the displacements
     advice : what to do about a tolerance that is too small
 
@@ -140,12 +140,12 @@ def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float,
     """
     circle, counts, off = _circle(phi, legs), np.ones(s.size), np.zeros(s.size)
     likelihood = _likelihood(circle, phi, s, legs, noise)
-    for _ in range(PULLS):
-        fitted = _closed(circle, likelihood, _most_likely(likelihood, s, counts))
+    for _ in range(PULL_ROUNDS):
+        fitted = _closed_spline(circle, likelihood, _most_likely_unknowns(likelihood, s, counts))
         off = np.abs(fitted.spline(phi) - s)
         if off.max() <= tolerance:
             return fitted
-        counts[off > tolerance] *= PULL
+        counts[off > tolerance] *= PULL_FACTOR
     limit = say("more than {max:.3g}, what the best spline leaves at a row", max=off.max())
     raise DesignError("tolerance", tolerance, limit, advice)
 
@@ -179,25 +179,25 @@ class _Circle:
         """(n, w + 1) the next derivative's coefficients; column k is the factor of the k-th coefficient of s before."""
         return _steps(factors) * (degree / self.width(degree))[:, None]
 
-    def forms(self, factors: Floats) -> Forms:
+    def forms(self, factors: Floats) -> LinearForms:
         """The linear forms in the unknowns."""
         n, w = factors.shape
-        return Forms(self.index[(np.arange(n)[:, None] - np.arange(w)) % n], factors)
+        return LinearForms(self.index[(np.arange(n)[:, None] - np.arange(w)) % n], factors)
 
 
 def _circle(phi: Floats, legs: list[Leg]) -> _Circle:
-    knots = np.concatenate([_divided(leg, int(np.sum((phi >= leg.start) & (phi <= leg.end)))) for leg in legs])
+    knots = np.concatenate([_leg_knots(leg, int(np.sum((phi >= leg.start) & (phi <= leg.end)))) for leg in legs])
     n, same = knots.size, np.zeros(knots.size, dtype=np.bool_)
     ends = np.searchsorted(knots, [leg.end for leg in legs if leg.to_rest], side="right") - 1
     same[(ends[:, None] - np.arange(DEGREE)) % n] = True
     count = n - int(np.sum(same))
     turns = np.concatenate([knots - FULL_TURN, knots, knots + FULL_TURN])
-    return _Circle(knots, turns, around((np.cumsum(~same) - 1) % count, count))
+    return _Circle(knots, turns, folded_order((np.cumsum(~same) - 1) % count, count))
 
 
-def _divided(leg: Leg, rows: int) -> Floats:
+def _leg_knots(leg: Leg, rows: int) -> Floats:
     """The knots of a leg, but for the last if the next leg begins there; at a rest double."""
-    parts = round(min(max(PARTS_OF_ROWS * rows, FEWEST), MOST))
+    parts = round(min(max(INTERVALS_PER_ROW * rows, MIN_INTERVALS), MAX_INTERVALS))
     # With single knots s would leave its rest as x^5; laws leave it as x^2, x^3 or x^4.
     times = np.ones(parts + 1, dtype=np.intp)
     times[0], times[-1] = 1 + leg.from_rest, 2 * leg.to_rest
@@ -224,38 +224,38 @@ class _Likelihood:
     accelerations, jerks : the steps of their coefficients, with the usual ones
     """
 
-    rows: Forms
+    rows: LinearForms
     noise: float
-    velocity: Forms
+    velocity: LinearForms
     one_way: Floats
     strictly: Floats
-    accelerations: Forms
+    accelerations: LinearForms
     usual_acceleration: Floats
-    jerks: Forms
+    jerks: LinearForms
     usual_jerk: Floats
 
 
 def _likelihood(circle: _Circle, phi: Floats, s: Floats, legs: list[Leg], noise: float) -> _Likelihood:
     n = circle.knots.size
     numbers, values = basis_functions(circle.turns, DEGREE, phi)
-    rows = Forms(circle.index[numbers % n], values)
+    rows = LinearForms(circle.index[numbers % n], values)
     velocity = circle.derivative(np.ones((n, 1)), DEGREE)
     acceleration = circle.derivative(velocity, DEGREE - 1)
     jerk = circle.derivative(acceleration, DEGREE - 2)
     lift, angle, one_way = _on_legs(phi, s, legs, circle.middles(DEGREE - 1))
-    sways = np.minimum(SWAYS, SWAYS_OF_NOISE * np.sqrt(noise / lift)) * lift / angle**2
-    jerks = _greatest_near(JERKS * lift / (angle * angle * angle * np.sqrt(angle)))
+    sways = np.minimum(ACCELERATION_STEP, NOISE_ACCELERATION_STEP * np.sqrt(noise / lift)) * lift / angle**2
+    jerks = _neighbourhood_maximum(JERK_STEP * lift / (angle * angle * angle * np.sqrt(angle)))
     part = circle.width(DEGREE - 1) / (DEGREE - 1)
     return _Likelihood(
-        *(rows, noise, circle.forms(velocity), one_way, (ONE_WAY * angle / noise) ** 2),
-        *(circle.forms(_steps(acceleration)), _greatest_near(sways)),
+        *(rows, noise, circle.forms(velocity), one_way, (WRONG_SIGN_WEIGHT * angle / noise) ** 2),
+        *(circle.forms(_steps(acceleration)), _neighbourhood_maximum(sways)),
         *(circle.forms(_steps(jerk)), jerks * np.sqrt(part)),
     )
 
 
-def _greatest_near(values: Floats) -> Floats:
+def _neighbourhood_maximum(values: Floats) -> Floats:
     """(n,) the greatest of each value and its neighbours around the turn."""
-    return np.max([np.roll(values, k) for k in range(-(NEAR // 2), NEAR // 2 + 1)], axis=0)
+    return np.max([np.roll(values, k) for k in range(-(NEIGHBOUR_COUNT // 2), NEIGHBOUR_COUNT // 2 + 1)], axis=0)
 
 
 def _on_legs(phi: Floats, s: Floats, legs: list[Leg], places: Floats) -> tuple[Floats, Floats, Floats]:
@@ -268,34 +268,34 @@ def _on_legs(phi: Floats, s: Floats, legs: list[Leg], places: Floats) -> tuple[F
     for a, b in pairwise([*legs, legs[0]]):
         if not a.to_rest and a.direction != b.direction:
             one_way[np.argmin(np.abs((places - a.end + FULL_TURN / 2) % FULL_TURN - FULL_TURN / 2))] = 0.0
-    return np.maximum(np.abs(above - below), LITTLE * np.ptp(s))[on], (ends - starts)[on], one_way
+    return np.maximum(np.abs(above - below), MIN_STEP_SHARE * np.ptp(s))[on], (ends - starts)[on], one_way
 
 
-def _most_likely(given: _Likelihood, s: Floats, counts: Floats) -> Floats:
+def _most_likely_unknowns(given: _Likelihood, s: Floats, counts: Floats) -> Floats:
     """The most likely unknowns, for rows that count so many times."""
     terms = given.rows, given.jerks, given.accelerations, given.velocity
     size, bands = int(given.velocity.unknowns.max()) + 1, max(term.bands for term in terms)
     measured = counts / given.noise**2
     right = given.rows.transposed(s * measured, size)
-    jerk = SPREAD_AT_FIRST / given.usual_jerk**2
+    jerk = INITIAL_WEIGHT_SHARE / given.usual_jerk**2
     acceleration = velocity = np.zeros(given.one_way.size)
     z, before = np.zeros(size), np.full(s.size, np.inf)
-    for _ in range(ROUNDS):
+    for _ in range(WEIGHT_ROUNDS):
         weights = measured, jerk, acceleration, velocity
-        band = np.sum([term.squared(w, size, bands) for term, w in zip(terms, weights, strict=True)], axis=0)
+        band = np.sum([term.normal_matrix(w, size, bands) for term, w in zip(terms, weights, strict=True)], axis=0)
         z = solve_banded(band, right)
         now = given.rows(z)
-        if np.abs(now - before).max() < SETTLED * given.noise:
+        if np.abs(now - before).max() < SETTLED_MOVE * given.noise:
             break
         before = now
         jerk = 2 / (given.usual_jerk**2 + given.jerks(z) ** 2)
         usual = given.usual_acceleration
-        acceleration = 1 / (usual * np.maximum(np.abs(given.accelerations(z)), LITTLE * usual))
+        acceleration = 1 / (usual * np.maximum(np.abs(given.accelerations(z)), MIN_STEP_SHARE * usual))
         velocity = np.where(given.one_way * given.velocity(z) < 0, given.strictly, 0.0)
     return z
 
 
-def _closed(circle: _Circle, given: _Likelihood, z: Floats) -> Fit:
+def _closed_spline(circle: _Circle, given: _Likelihood, z: Floats) -> Fit:
     """The spline of the unknowns, with velocities of the right sign, and closed, to the last digit."""
     velocity = given.velocity(z)
     velocity[given.one_way * velocity < 0] = 0.0

@@ -13,16 +13,16 @@ from numpy.typing import ArrayLike, NDArray
 from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.given.laws import Floats, Side, law, law_of_return
 from graphcam.given.motion_law import Law
-from graphcam.given.pieces import Piece, Piecewise, at_rest, chunks, in_phase
-from graphcam.showing import Shown, in_lines
+from graphcam.given.piecewise import Piece, Piecewise, chunks, dwell_formula, in_phase
+from graphcam.showing import Plottable, in_lines
 from graphcam.words import Words, say
 
-CLOSURE = 1e-9
+CLOSURE_TOLERANCE = 1e-9
 """How far the angles may miss a full turn (rad), and the lifts zero (relative to the maximum)."""
 FULL_TURN = 2 * math.pi
 SHORTEST_PHASE = 1e-10
 """A phase that leaves less of the turn than this [rad] is lost in the rounding of the places where phases begin."""
-NEARLY = 0.02
+NEAR_TURN_SHARE = 0.02
 """So much of a turn angles may miss it and still be meant for one, where another unit or argument is looked for."""
 
 
@@ -32,7 +32,7 @@ def _check_positive(angle: float) -> None:
 
 def _check_turn(angle: float, remedy: Words) -> None:
     """Check that a phase is no longer than a turn: an angle in degrees is told from one in radians by that."""
-    if angle > FULL_TURN + CLOSURE:
+    if angle > FULL_TURN + CLOSURE_TOLERANCE:
         raise DesignError("angle", say("{angle:.6g} rad", angle=angle), say("at most a full turn, 2 pi rad"), remedy)
 
 
@@ -92,7 +92,7 @@ class Dwell:
 
 
 @dataclass(frozen=True)
-class Moving:
+class MovingPhase:
     """What a rise and a return have in common: a lift [mm] by a law over an angle [rad]."""
 
     kind: ClassVar[str]
@@ -108,7 +108,7 @@ class Moving:
         _check_positive(self.angle)
         in_degrees = say("write math.radians({angle:.6g}) if it is in degrees", angle=self.angle)
         swapped = say(
-            "{in_degrees}, or {swapped} if the two are swapped", in_degrees=in_degrees, swapped=_swapped(self)
+            "{in_degrees}, or {swapped} if the two are swapped", in_degrees=in_degrees, swapped=_swapped_arguments(self)
         )
         remedy = swapped if self.lift <= FULL_TURN else in_degrees
         _check_turn(self.angle, remedy)
@@ -121,7 +121,7 @@ class Moving:
 
 
 @dataclass(frozen=True)
-class Rise(Moving):
+class Rise(MovingPhase):
     """A phase that lifts the follower by ``lift`` over ``angle`` radians: s = lift f(u).
 
     lift : mm; of an arm rad;  angle : rad;  law : one of :data:`graphcam.LAWS`, or a :class:`graphcam.Law` of one's own
@@ -140,7 +140,7 @@ class Rise(Moving):
 
 
 @dataclass(frozen=True)
-class Return(Moving):
+class Return(MovingPhase):
     """A phase that lowers the follower by ``lift`` over ``angle`` radians: s = lift (1 - f(u)).
 
     ``ratio`` is |first part's acceleration| / |second part's|, in time, as in a rise.  By the name of a law without a
@@ -164,7 +164,7 @@ Phase = Rise | Dwell | Return
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Motion(Shown):
+class Motion(Plottable):
     """The motion s(phi) of a follower over one revolution of the cam.
 
     Call it with cam angles in radians for (s, v, a, j), the displacement and its derivatives by phi; for degrees write
@@ -218,12 +218,12 @@ class Motion(Shown):
             if all(phase.direction != direction for phase in phases):
                 raise DesignError("motion", found, say("one with a rise and a return"), remedy)
         turn = math.fsum(angles)
-        if abs(turn - FULL_TURN) > CLOSURE:
+        if abs(turn - FULL_TURN) > CLOSURE_TOLERANCE:
             total = say("{turn:.6g} rad ({degrees:.10g} degrees)", turn=turn, degrees=math.degrees(turn))
             quantity = say("sum of the phase angles")
             raise DesignError(quantity, total, say("2 pi rad (360 degrees)"), _remedy(phases, turn))
         closing = math.fsum(steps)
-        if abs(closing) > CLOSURE * max(1.0, max(map(abs, steps))):
+        if abs(closing) > CLOSURE_TOLERANCE * max(1.0, max(map(abs, steps))):
             remedy = say("make the lifts of rises and returns equal")
             quantity = say("sum of rises less returns")
             raise DesignError(quantity, say("{length:.10g} mm", length=closing), say("0 mm"), remedy)
@@ -266,9 +266,9 @@ class Motion(Shown):
 
     def __repr__(self) -> str:
         last = "motion(phi) gives s, v, a and j at phi in rad; .plot() draws them"
-        return in_lines(f"{type(self).__name__} {self._said()}", map(_in_words, self.phases), last)
+        return in_lines(f"{type(self).__name__} {self._summary()}", map(_in_words, self.phases), last)
 
-    def _said(self) -> str:
+    def _summary(self) -> str:
         return f"with a lift of {self.lift:.6g} (mm; of an arm, rad)"
 
     @property
@@ -335,7 +335,7 @@ class Motion(Shown):
         out = np.empty((2, u.size))
         for number in np.unique(phase):
             here, moving = phase == number, self.phases[number]
-            assert isinstance(moving, Moving)
+            assert isinstance(moving, MovingPhase)
             unit = moving.lift / moving.angle**4
             out[:, here] = moving.normalised.fourth(u[here], half[here])
             out[:, here] *= [[moving.direction * unit], [unit]]
@@ -363,7 +363,7 @@ class Motion(Shown):
         most = int(np.max(np.diff(self.first_piece))) - 1
         edges = np.full((len(self.phases), most), np.nan)
         for row, phase in zip(edges, self.phases, strict=True):
-            if isinstance(phase, Moving):
+            if isinstance(phase, MovingPhase):
                 row[: len(phase.normalised.edges)] = phase.normalised.edges
         return edges
 
@@ -384,17 +384,17 @@ def _check_lengths(phases: Sequence[Phase], starts: Floats) -> None:
 
 def _remedy(phases: Sequence[Phase], turn: float) -> Words:
     """What to do about phases that do not sum to a turn."""
-    moving = next(phase for phase in phases if isinstance(phase, Moving))
+    moving = next(phase for phase in phases if isinstance(phase, MovingPhase))
     lifts = math.fsum(phase.angle if isinstance(phase, Dwell) else phase.lift for phase in phases)
-    if abs(lifts - FULL_TURN) < NEARLY * FULL_TURN:
-        return say("the lifts make a turn: name the arguments, {swapped}", swapped=_swapped(moving))
+    if abs(lifts - FULL_TURN) < NEAR_TURN_SHARE * FULL_TURN:
+        return say("the lifts make a turn: name the arguments, {swapped}", swapped=_swapped_arguments(moving))
     off = f"{abs(math.degrees(turn) - 360):.10g}"
     if turn < FULL_TURN:
         return say("lengthen a dwell by {off} degrees", off=off)
     return say("shorten a dwell by {off} degrees", off=off)
 
 
-def _swapped(phase: Moving) -> str:
+def _swapped_arguments(phase: MovingPhase) -> str:
     """A phase with its first two arguments the other way round, as one would write it."""
     return f"{type(phase).__name__}(lift={phase.angle:.6g}, angle={phase.lift:.6g})"
 
@@ -412,7 +412,7 @@ def _in_words(phase: Phase) -> str:
 def _pieces(phase: Phase, ends: tuple[float, float], levels: tuple[float, float]) -> list[Piece]:
     """The pieces of a phase between two cam angles [rad] and two displacements."""
     if isinstance(phase, Dwell):
-        return [Piece(at_rest, ends[0], ends[0], 1.0, levels[0], (0, 0, 0, 0))]
+        return [Piece(dwell_formula, ends[0], ends[0], 1.0, levels[0], (0, 0, 0, 0))]
     h, angle, up = phase.lift, phase.angle, phase.direction > 0
     # A return is measured from its lower end, where the missing lift keeps its digits.
     low = levels[0] if up else levels[1]

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
-from graphcam.given.pieces import Floats, Formula, Piece, Piecewise, Side, chunks, in_phase
+from graphcam.given.piecewise import Floats, Formula, Piece, Piecewise, Side, chunks, in_phase
 from graphcam.words import Words, bare, say
 
 Fourth = Callable[[Floats], tuple[Floats, float]]
@@ -26,18 +26,18 @@ Fourth = Callable[[Floats], tuple[Floats, float]]
 Tangent = Callable[[float], tuple[float, float]]
 """Where f' - f/k is largest, and how great, as a function of k: a closed form."""
 _OfNumber = Callable[[float], Sequence[Any]]
-SHARP = 1e-6
+JUMP_SHARE = 1e-6
 """A jump of the acceleration, or of its slope, is reported that exceeds this part of the maximum acceleration."""
-CLOSE = 1e-9
+ACCURACY = 1e-9
 """What a law gives of itself is true to this; intervals around a maximum value are narrowed to it."""
-SMOOTH = 1e-7
+DERIVATIVE_ACCURACY = 1e-7
 """The derivatives are one another's, over a part of a piece, to this fraction of the maximum."""
-PARTS = 17
+CHECKED_PARTS = 17
 """Parts of a piece that are checked: a prime, so that no usual fraction, where a formula may bend, ends one."""
-NODES, WEIGHTS = np.polynomial.legendre.leggauss(12)
-DOUBTED = 2.0
+GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(12)
+ESTIMATE_FACTOR = 2.0
 """An estimate of f'''' may be off by so many times what two neighbouring estimates differ by."""
-DERIVATIVES = "f", "f'", "f''", "f'''"
+DERIVATIVE_NAMES = "f", "f'", "f''", "f'''"
 
 
 @dataclass(frozen=True)
@@ -96,11 +96,11 @@ class Law:
             formulas, fourths, middle = (*formulas, *formulas[::-1]), (*fourths, *fourths[::-1]), 0.5
             starts = (*starts, middle, *(1.0 - u for u in starts[:0:-1]))
         if not all(a < b for a, b in pairwise((*starts, 1.0))):
-            raise self._wrong("edges", list(starts[1:]), say("between 0 and 1, in order"))
+            raise self._error("edges", list(starts[1:]), say("between 0 and 1, in order"))
         if len(formulas) != len(starts):
             limit = say("{starts}, one for each piece between 0, the edges and 1", starts=len(starts))
             remedy = say("at an edge another formula takes over")
-            raise self._wrong(say("number of formulas"), len(formulas), limit, remedy)
+            raise self._error(say("number of formulas"), len(formulas), limit, remedy)
         # Seen from the end the lift is the missing lift and the acceleration its negative.
         pieces = (
             Piece(formula, u, 0.0, 1.0, 0.0, (1, 1, 1, 1))
@@ -168,7 +168,7 @@ class Law:
         """
         if not self.fourths:
             first, there, last = self(u - half)[3], self(u)[3], self(u + half, side="left")[3]
-            return (last - first) / (2 * half), DOUBTED * np.abs(first - 2 * there + last) / half
+            return (last - first) / (2 * half), ESTIMATE_FACTOR * np.abs(first - 2 * there + last) / half
         number, values, off = np.searchsorted(self.edges, u, side="right"), np.empty_like(u), np.empty_like(u)
         for k, (fourth, piece) in enumerate(zip(self.fourths, self.pieces, strict=True)):
             here = number == k
@@ -179,17 +179,17 @@ class Law:
     @cached_property
     def peak_velocity(self) -> float:
         """C_v = max f', so v_max = C_v h/F."""
-        return self.peaks[0] if self.peaks else self._greatest(1)
+        return self.peaks[0] if self.peaks else self._max_derivative(1)
 
     @cached_property
     def peak_acceleration(self) -> float:
         """C_a = max |f''|, so a_max = C_a h/F^2."""
-        return self.peaks[1] if self.peaks else self._greatest(2)
+        return self.peaks[1] if self.peaks else self._max_derivative(2)
 
     @cached_property
     def peak_jerk(self) -> float:
         """C_j = max |f'''| between the jumps of the acceleration, so j_max = C_j h/F^3."""
-        return self._greatest(3)
+        return self._max_derivative(3)
 
     @cached_property
     def breaks(self) -> tuple[float, ...]:
@@ -212,7 +212,7 @@ class Law:
     def _jumping(self, order: int) -> tuple[float, ...]:
         edges = np.array(self.edges)
         before, after = (self(edges, side=side)[order] for side in ("left", "right"))
-        return tuple(edges[np.abs(after - before) > SHARP * self.peak_acceleration].tolist())
+        return tuple(edges[np.abs(after - before) > JUMP_SHARE * self.peak_acceleration].tolist())
 
     @cached_property
     def reversed(self) -> Law:
@@ -232,13 +232,13 @@ class Law:
 
     # --- what a law must keep to --------------------------------------------------------------------------------------
 
-    def _greatest(self, order: int) -> float:
+    def _max_derivative(self, order: int) -> float:
         """The maximum magnitude of a derivative, of both sides of a jump, to full precision."""
         low, high = self._parts()
         while True:
             u = np.linspace(low, high, 9)
             height = np.abs([*self(u[:1])[order], *self(u[1:], side="left")[order]])
-            if np.max(high - low) < CLOSE:
+            if np.max(high - low) < ACCURACY:
                 return float(height.max())
             top, column = np.clip(height.argmax(axis=0), 1, 7), np.arange(low.size)
             low, high = u[top - 1, column], u[top + 1, column]
@@ -246,10 +246,10 @@ class Law:
     def _parts(self) -> tuple[Floats, Floats]:
         """The ends of the parts of the pieces."""
         ends = np.array([0.0, *self.edges, 1.0])
-        places = np.linspace(ends[:-1], ends[1:], PARTS + 1)
+        places = np.linspace(ends[:-1], ends[1:], CHECKED_PARTS + 1)
         return places[:-1].T.ravel(), places[1:].T.ravel()
 
-    def _wrong(self, what: Words, value: object, limit: Words, remedy: Words = "") -> DesignError:
+    def _error(self, what: Words, value: object, limit: Words, remedy: Words = "") -> DesignError:
         shown = bare(value) if isinstance(value, str) else value
         return DesignError(say("{what} of the law '{name}'", what=what, name=self.name), shown, limit, remedy)
 
@@ -260,27 +260,27 @@ class Law:
         """
         self._check_formulas()
         low, high = self._parts()
-        u = low + (high - low) * (NODES[:, None] + 1) / 2
+        u = low + (high - low) * (GAUSS_NODES[:, None] + 1) / 2
         first, inside, last = (np.array(x) for x in (self(low), self(u), self(high, side="left")))
-        for order, name in enumerate(DERIVATIVES):
+        for order, name in enumerate(DERIVATIVE_NAMES):
             if not np.isfinite(inside[order]).all():
-                raise self._wrong(name, say("not finite"), say("a finite number everywhere"))
+                raise self._error(name, say("not finite"), say("a finite number everywhere"))
         for name, value, limit in (
             *(("f(0)", first[0, 0], 0), ("f(1)", last[0, -1], 1)),
             *(("f'(0)", first[1, 0], 0), ("f'(1)", last[1, -1], 0)),
         ):
-            if not abs(value - limit) <= CLOSE:
-                raise self._wrong(name, value, f"{limit}", say("a law leads from rest to rest"))
+            if not abs(value - limit) <= ACCURACY:
+                raise self._error(name, value, f"{limit}", say("a law leads from rest to rest"))
         for order in (0, 1):
             k = int(np.argmax(np.abs(jump := first[order, 1:] - last[order, :-1])))
-            if abs(jump[k]) > CLOSE:
-                what = say("jump of {derivatives} at u = {high:g}", derivatives=DERIVATIVES[order], high=high[k])
-                raise self._wrong(what, jump[k], "0", say("lift and velocity are continuous"))
+            if abs(jump[k]) > ACCURACY:
+                what = say("jump of {derivatives} at u = {high:g}", derivatives=DERIVATIVE_NAMES[order], high=high[k])
+                raise self._error(what, jump[k], "0", say("lift and velocity are continuous"))
         self._check_derivatives(low, high, last - first, inside)
-        if inside[1].min() < -CLOSE:
+        if inside[1].min() < -ACCURACY:
             at = u.ravel()[inside[1].argmin()]
             remedy = say("what falls on its way is a motion of several phases")
-            raise self._wrong(say("f' at u = {at:.3g}", at=at), inside[1].min(), say("0 or more"), remedy)
+            raise self._error(say("f' at u = {at:.3g}", at=at), inside[1].min(), say("0 or more"), remedy)
         self._check_closed_forms(inside)
 
     def _check_formulas(self) -> None:
@@ -292,37 +292,37 @@ class Law:
                 count = len(values)
                 np.broadcast_arrays(np.empty(2), *values)
             except (TypeError, ValueError) as error:
-                raise self._wrong(
+                raise self._error(
                     "formula", say("one with the error: {error}", error=str(error)), limit, remedy
                 ) from error
-            if count != len(DERIVATIVES):
-                raise self._wrong("formula", say("one that returns {count} values", count=count), limit)
+            if count != len(DERIVATIVE_NAMES):
+                raise self._error("formula", say("one that returns {count} values", count=count), limit)
         if self.peaks is not None and len(self.peaks) != 2:
             limit = say("two numbers, max f' and max |f''|")
-            raise self._wrong("peaks", self.peaks, limit, say("leave them out to be found"))
+            raise self._error("peaks", self.peaks, limit, say("leave them out to be found"))
         if len(self.fourths) not in (0, len(self.pieces)):
             limit = say("{pieces}, one for each formula, or none", pieces=len(self.pieces))
-            raise self._wrong(say("number of fourths"), len(self.fourths), limit)
+            raise self._error(say("number of fourths"), len(self.fourths), limit)
         if not self.ratio > 0:
-            raise self._wrong("ratio", self.ratio, say("greater than 0"))
+            raise self._error("ratio", self.ratio, say("greater than 0"))
 
     def _check_derivatives(self, low: Floats, high: Floats, change: Floats, inside: Floats) -> None:
         """Check that over every part of a piece each derivative integrates to what the one before changes by."""
-        integrals = (high - low) / 2 * np.einsum("n,dnp->dp", WEIGHTS, inside)
+        integrals = (high - low) / 2 * np.einsum("n,dnp->dp", GAUSS_WEIGHTS, inside)
         for order in range(3):
             off = np.abs(integrals[order + 1] - change[order])
-            if off.max() > SMOOTH * np.abs(inside[order]).max():
-                k, name = int(off.argmax()), DERIVATIVES[order]
+            if off.max() > DERIVATIVE_ACCURACY * np.abs(inside[order]).max():
+                k, name = int(off.argmax()), DERIVATIVE_NAMES[order]
                 what = say("integral of {derivatives} from u = {low:.3g} to {high:.3g}")
-                what = what.where(derivatives=DERIVATIVES[order + 1], low=low[k], high=high[k])
+                what = what.where(derivatives=DERIVATIVE_NAMES[order + 1], low=low[k], high=high[k])
                 remedy = say("correct the derivative; if one jumps there, give an edge and a formula for either side")
                 limit = say("{change:.6g}, the change of {name}", change=change[order, k], name=name)
-                raise self._wrong(what, integrals[order + 1, k], limit, remedy)
+                raise self._error(what, integrals[order + 1, k], limit, remedy)
 
     def _check_closed_forms(self, inside: Floats) -> None:
         for name, peak, order in zip(("max f'", "max |f''|"), self.peaks or (), (1, 2), strict=False):
-            if abs(peak - (found := self._greatest(order))) > CLOSE * found:
-                raise self._wrong(say("given {name}", name=name), peak, f"{found:.10g}")
+            if abs(peak - (found := self._max_derivative(order))) > ACCURACY * found:
+                raise self._error(say("given {name}", name=name), peak, f"{found:.10g}")
         for tangent, lift, at_end in zip(self.tangents, (inside[0], 1 - inside[0]), (False, True), strict=True):
             if tangent is None:
                 continue
@@ -331,9 +331,9 @@ class Law:
                 f, f1 = self(1 - u if at_end else u, 1)
                 there = f1 - (1 - f if at_end else f) / k
                 best = (inside[1] - lift / k).max()
-                if not (abs(height - there) <= CLOSE * (1 + 1 / k) and height >= best - CLOSE * (1 + 1 / k)):
+                if not (abs(height - there) <= ACCURACY * (1 + 1 / k) and height >= best - ACCURACY * (1 + 1 / k)):
                     limit = say("at least {best:.6g}, and f' - f/k at the place", best=best)
-                    raise self._wrong(say("tangent for k = {k}", k=k), height, limit)
+                    raise self._error(say("tangent for k = {k}", k=k), height, limit)
 
 
 def _of_number(formula: Formula, x: float) -> _OfNumber:
@@ -348,7 +348,7 @@ def _of_number(formula: Formula, x: float) -> _OfNumber:
 
     untyped: Any = formula
     try:
-        takes_numbers = np.allclose([float(value) for value in untyped(x)], of_array(x), rtol=CLOSE, atol=CLOSE)
+        takes_numbers = np.allclose([float(value) for value in untyped(x)], of_array(x), rtol=ACCURACY, atol=ACCURACY)
     except (AttributeError, IndexError, TypeError, ValueError):
         takes_numbers = False
     return untyped if takes_numbers else of_array

@@ -11,22 +11,22 @@ from itertools import pairwise
 from graphcam.errors import DesignError, check_kind
 from graphcam.given.boundary_joints import check_joint, greatest_lift
 from graphcam.given.boundary_parts import MotionPoint, Part, PolynomialPart, SplinePart
-from graphcam.given.exact_polynomials import ExactPiece, between, derivative, rounded, shortest
+from graphcam.given.exact_polynomials import ExactPiece, derivative, pieces_between, rounded_terms, shortest
 from graphcam.given.local_polynomials import LocalPolynomials, cells
 from graphcam.given.motion_law import Fourth, Law
-from graphcam.given.pieces import Floats
+from graphcam.given.piecewise import Floats
 from graphcam.words import say
 
 CONSTANT_VELOCITY = "constant-velocity"
 """The name of the law of constant velocity with blends."""
 HALF = Fraction(1, 2)
-MIDDLE = Fraction(1, 4), Fraction(3, 4)
+MIDDLE_RANGE = Fraction(1, 4), Fraction(3, 4)
 """An edge between these is where the law is seen from the other end; else a seam is laid at the middle."""
-SLIVER = Fraction(1, 10**12)
+MIN_PIECE_SHARE = Fraction(1, 10**12)
 """A piece shorter than this part of a leg is rounding."""
-SMOOTHEST = 3
+MAX_BLEND_ORDER = 3
 """Blends are smooth to this derivative at most: the jerk is continuous."""
-LEAST_BLEND = 1e-6
+MIN_BLEND_SHARE = 1e-6
 """A blend shorter than this part of the phase is a blow."""
 
 
@@ -39,13 +39,13 @@ def leg_law(name: str, pieces: Sequence[ExactPiece], *, trusted: bool = True) ->
     start, angle = pieces[0].start, pieces[-1].end - pieces[0].start
     low, high = pieces[0].at(start), pieces[-1].at(start + angle)
     lift = high - low
-    unit = [_scaled(piece, start, angle, low, lift) for piece in pieces]
+    unit = [_scaled_piece(piece, start, angle, low, lift) for piece in pieces]
     inner = [piece.start for piece in unit[1:]]
     middle = min(inner, key=lambda u: abs(u - HALF), default=Fraction(0))
     seams: tuple[float, ...] = ()
-    if not MIDDLE[0] <= middle <= MIDDLE[1]:
+    if not MIDDLE_RANGE[0] <= middle <= MIDDLE_RANGE[1]:
         middle, seams = HALF, (0.5,)
-        unit = between(unit, Fraction(0), HALF) + between(unit, HALF, Fraction(1))
+        unit = pieces_between(unit, Fraction(0), HALF) + pieces_between(unit, HALF, Fraction(1))
     first = [piece for piece in unit if piece.end <= middle]
     # Seen from the end: what is missing of 1.
     second = [ExactPiece(each.start, each.width, (each.p[0] - 1, *each.p[1:])) for each in unit if each.end > middle]
@@ -62,19 +62,19 @@ def leg_law(name: str, pieces: Sequence[ExactPiece], *, trusted: bool = True) ->
 def _without_slivers(pieces: Sequence[ExactPiece]) -> list[ExactPiece]:
     """The pieces, those stretched over which a turning beside a joint leaves a sliver."""
     start, end = pieces[0].start, pieces[-1].end
-    kept = [piece for piece in pieces if piece.width > SLIVER * (end - start)]
+    kept = [piece for piece in pieces if piece.width > MIN_PIECE_SHARE * (end - start)]
     cuts = [start, *(piece.start for piece in kept[1:]), end]
     return [
         piece
         if (low, high) == (piece.start, piece.end)
-        else ExactPiece(low, high - low, rounded(piece.about(low, high - low)))
+        else ExactPiece(low, high - low, rounded_terms(piece.about(low, high - low)))
         for piece, (low, high) in zip(kept, pairwise(cuts), strict=True)
     ]
 
 
-def _scaled(piece: ExactPiece, start: Fraction, angle: Fraction, low: Fraction, lift: Fraction) -> ExactPiece:
+def _scaled_piece(piece: ExactPiece, start: Fraction, angle: Fraction, low: Fraction, lift: Fraction) -> ExactPiece:
     p = ((piece.p[0] - low) / lift, *(c / lift for c in piece.p[1:]))
-    return ExactPiece((piece.start - start) / angle, piece.width / angle, rounded(p))
+    return ExactPiece((piece.start - start) / angle, piece.width / angle, rounded_terms(p))
 
 
 @dataclass(frozen=True)
@@ -163,16 +163,18 @@ def constant_velocity_law(start: float = 0.25, end: float = 0.25, smooth: int = 
     [0.5, 1.3333333333333333, 0.0, 0.0]
     """
     for place, part in enumerate((start, end)):
-        if not LEAST_BLEND <= part < 1:
+        if not MIN_BLEND_SHARE <= part < 1:
             remedy = say("give the fraction of the phase that the blend takes")
-            raise DesignError(f"blends[{place}]", part, say("from {least:g} to less than 1", least=LEAST_BLEND), remedy)
+            raise DesignError(
+                f"blends[{place}]", part, say("from {least:g} to less than 1", least=MIN_BLEND_SHARE), remedy
+            )
     first, last = shortest(float(start)), shortest(float(end))
-    if not 1 - first - last >= Fraction(LEAST_BLEND):
+    if not 1 - first - last >= Fraction(MIN_BLEND_SHARE):
         remedy = say("shorten them: the constant velocity takes what they leave")
         found = say("{start:g} and {end:g}", start=start, end=end)
         raise DesignError("blends", found, say("less than 1 together"), remedy)
-    if smooth not in range(1, SMOOTHEST + 1):
-        limit = say("1 (velocity), 2 (acceleration) or {smoothest} (jerk continuous)", smoothest=SMOOTHEST)
+    if smooth not in range(1, MAX_BLEND_ORDER + 1):
+        limit = say("1 (velocity), 2 (acceleration) or {smoothest} (jerk continuous)", smoothest=MAX_BLEND_ORDER)
         raise DesignError("smooth", smooth, limit)
     v = 2 / (2 - first - last)
     # Of the lift of a blend, over its length: the integral of its velocity, 1/2 at the end.

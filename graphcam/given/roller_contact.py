@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from graphcam.errors import check_number
 from graphcam.words import say
 
-STEEL_YOUNG, STEEL_POISSON = 206000.0, 0.3
+STEEL_YOUNG_MODULUS, STEEL_POISSON_RATIO = 206000.0, 0.3
 """Young's modulus [MPa] and Poisson's ratio of steel."""
 
 
@@ -25,10 +25,10 @@ class RollerContact:
     """
 
     width: float
-    young1: float = STEEL_YOUNG
-    young2: float = STEEL_YOUNG
-    poisson1: float = STEEL_POISSON
-    poisson2: float = STEEL_POISSON
+    young1: float = STEEL_YOUNG_MODULUS
+    young2: float = STEEL_YOUNG_MODULUS
+    poisson1: float = STEEL_POISSON_RATIO
+    poisson2: float = STEEL_POISSON_RATIO
 
     def __post_init__(self) -> None:
         for name, unit in (("width", "mm"), ("young1", "MPa"), ("young2", "MPa")):

@@ -35,12 +35,12 @@ NAMED_RULES = {
     ),
 }
 """Rules by name.  Where a school gives a range, the end of it is taken that gives the smaller roller."""
-_NUMBER = r"(\d+(?:\.\d+)?)"
-_FACTOR = re.compile(rf"{_NUMBER}\s*\*?\s*(rho|r0)")
-_MARGIN = re.compile(rf"rho\s*-\s*{_NUMBER}")
-_WRITTEN = ((r"(?:ρ|rho)(?:_?min)?", "rho"), (r"r(?:₀|_0)", "r0"), ("[−–]", "-"), ("[·×]", "*"))
+_NUMBER_PATTERN = r"(\d+(?:\.\d+)?)"
+_FACTOR_PATTERN = re.compile(rf"{_NUMBER_PATTERN}\s*\*?\s*(rho|r0)")
+_MARGIN_PATTERN = re.compile(rf"rho\s*-\s*{_NUMBER_PATTERN}")
+_NOTATION_PATTERNS = ((r"(?:ρ|rho)(?:_?min)?", "rho"), (r"r(?:₀|_0)", "r0"), ("[−–]", "-"), ("[·×]", "*"))
 """Patterns of what textbooks write, and what it is in a rule."""
-_NO_DECIMAL_COMMA = r"(?<!\d),|,(?!\d)"
+_SEPARATING_COMMA_PATTERN = r"(?<!\d),|,(?!\d)"
 
 
 @dataclass(frozen=True)
@@ -115,16 +115,16 @@ def _readings(rule: str) -> Iterator[list[str]]:
         yield [term.strip() for term in inner[1].split(";")]
     else:
         yield [term.strip() for term in inner[1].split(",")]
-        yield [term.strip() for term in re.split(_NO_DECIMAL_COMMA, inner[1])]
+        yield [term.strip() for term in re.split(_SEPARATING_COMMA_PATTERN, inner[1])]
 
 
 def _candidate(text: str) -> Candidate | None:
     """The term that a text is, if it is one; a comma in it is a decimal one."""
     term = text.replace(",", ".")
-    for written, plain in _WRITTEN:
+    for written, plain in _NOTATION_PATTERNS:
         term = re.sub(written, plain, term)
-    if match := _FACTOR.fullmatch(term):
+    if match := _FACTOR_PATTERN.fullmatch(term):
         return Candidate(term, match[2], factor=float(match[1]))
-    if match := _MARGIN.fullmatch(term):
+    if match := _MARGIN_PATTERN.fullmatch(term):
         return Candidate(term, "rho", margin=float(match[1]))
     return None

@@ -11,20 +11,20 @@ from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
 from graphcam.given.b_splines import PiecewisePolynomial
-from graphcam.given.fixed_order import powers
 from graphcam.given.monotone_spline import DEGREE, Fit
 from graphcam.given.motion_law import Fourth, Law
-from graphcam.given.pieces import Floats
+from graphcam.given.piecewise import Floats
+from graphcam.given.reproducible_sums import powers
 from graphcam.words import say
 
 if TYPE_CHECKING:
     from scipy.interpolate import BSpline
 
-MEASURED = "measured"
+MEASURED_LAW = "measured"
 """The name of the law of a measured motion."""
-AT_REST, TURNING = 4, 2
+REST_ZEROS, TURNING_ZEROS = 4, 2
 """How many of the first Taylor coefficients are zero: s is smooth to the third derivative at a rest, else v is zero."""
-FEWEST = 3
+MIN_SAMPLES = 3
 """Samples of a law."""
 SAME_KNOT = 1e-9
 """Knots nearer to one another than this fraction of the phase are one."""
@@ -33,7 +33,7 @@ SAME_KNOT = 1e-9
 def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> tuple[float, Law]:
     """The signed lift and the normalised law of the spline between two cam angles [rad] where its velocity is zero.
 
-    contact : :data:`AT_REST` or :data:`TURNING`, at the start and at the end
+    contact : :data:`REST_ZEROS` or :data:`TURNING_ZEROS`, at the start and at the end
 
     The pieces of the first half are series about their starts, those of the second about their ends, so that a small
     lift and a small missing lift keep their digits.
@@ -49,7 +49,10 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> 
     derivatives = fit.spline(middle), *(fit.velocity(middle, nu=n) for n in range(DEGREE))
     units = powers(angle, DEGREE) / np.cumprod([1, *range(1, DEGREE + 1)]) / lift
     taylor = np.array(derivatives) * units[:, None]
-    ahead, back = _about(taylor, -half_width), -_about(taylor, half_width) * (-1.0) ** np.arange(DEGREE + 1)[:, None]
+    ahead, back = (
+        _shifted_taylor(taylor, -half_width),
+        -_shifted_taylor(taylor, half_width) * (-1.0) ** np.arange(DEGREE + 1)[:, None],
+    )
     ahead[0] -= level / lift
     back[0] += top / lift
     ahead[: contact[0], 0] = back[: contact[1], -1] = 0.0
@@ -62,10 +65,10 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> 
     formulas = [partial(_spline, spline=first)] * half + [partial(_spline, spline=second)] * (u.size - 1 - half)
     edges, middle_edge = u[1:-1].tolist(), float(u[half])
     peaks = first.greatest(1), first.greatest(2)
-    return lift, Law(MEASURED, formulas, edges, middle=middle_edge, peaks=peaks, trusted=True, fourths=fourths)
+    return lift, Law(MEASURED_LAW, formulas, edges, middle=middle_edge, peaks=peaks, trusted=True, fourths=fourths)
 
 
-def _about(taylor: Floats, shift: Floats) -> Floats:
+def _shifted_taylor(taylor: Floats, shift: Floats) -> Floats:
     """(6, p) the Taylor coefficients about places that are off by ``shift``."""
     orders, shifts = range(DEGREE + 1), powers(shift, DEGREE)
     return np.array([sum(math.comb(m, n) * taylor[m] * shifts[m - n] for m in orders[n:]) for n in orders])
@@ -93,9 +96,9 @@ def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[floa
     from scipy.interpolate import make_interp_spline
 
     u, f = np.asarray(u, dtype=np.float64), np.asarray(f, dtype=np.float64)
-    if u.ndim != 1 or u.shape != f.shape or u.size < FEWEST:
+    if u.ndim != 1 or u.shape != f.shape or u.size < MIN_SAMPLES:
         shapes = say("{shape} and {shape2}", shape=u.shape, shape2=f.shape)
-        limit = say("one f for every u, {least} or more", least=FEWEST)
+        limit = say("one f for every u, {least} or more", least=MIN_SAMPLES)
         raise DesignError(say("shapes of the samples of the law '{name}'", name=name), shapes, limit)
     for symbol, values in (("u", u), ("f", f)):
         least, most = np.diff(values).min(), np.abs(values[[0, -1]] - [0.0, 1.0]).max()

@@ -27,7 +27,7 @@ from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.given.follower import MM_PER_M, omega_of
 from graphcam.given.laws import Floats
 from graphcam.given.load_curve import Load, check_load, knots_of, largest, load_at, load_slope
-from graphcam.given.ranges import NUMBER, bounded
+from graphcam.given.plausible_ranges import NUMBER_TYPES, bounded
 from graphcam.words import say
 
 Values = tuple[Floats, Floats, Floats, Floats]
@@ -110,7 +110,7 @@ class SpringLoad:
             value = getattr(self, quantity)
             if isinstance(value, tuple):  # all that is said of the preload, in place of the number alone
                 limit = say("a number of {unit}", unit=unit)
-                check_kind(quantity, value, NUMBER, limit, say("write spring_preload(...).preload"))
+                check_kind(quantity, value, NUMBER_TYPES, limit, say("write spring_preload(...).preload"))
             check_number(quantity, value, say("a finite number of {unit}", unit=unit))
         check_load(self.load)
 
@@ -180,7 +180,7 @@ class Guide:
         check_number("length", self.length, say("a finite number greater than 0 mm"), above=0)
 
 
-DEAD = 1e-9
+DEAD_POINT_ANGLE = 1e-9
 """A spring that is so near to its dead point [rad] turns nothing."""
 
 
@@ -250,7 +250,7 @@ class ArmLoad:
             value = getattr(self, quantity)
             if isinstance(value, tuple):  # all that is said of the preload, in place of the number alone
                 limit = say("a number of {unit}", unit=unit)
-                check_kind(quantity, value, NUMBER, limit, say("write spring_preload(...).preload"))
+                check_kind(quantity, value, NUMBER_TYPES, limit, say("write spring_preload(...).preload"))
             check_number(quantity, value, say("a finite number of {unit}", unit=unit))
         check_load(self.load)
 
@@ -346,13 +346,13 @@ class PlacedArmLoad:
 
     def presses(self, swing: Any) -> Any:
         """Whether the spring turns the arm towards the cam over the whole swing [rad]."""
-        return self.given.at is None or (np.abs(self._anchor) > 0) & (self._left > swing + DEAD)
+        return self.given.at is None or (np.abs(self._anchor) > 0) & (self._left > swing + DEAD_POINT_ANGLE)
 
     @property
     def _left(self) -> Any:
         """How far the arm swings until the spring's point, the pivot and the anchor lie on one line [rad]."""
         turned = np.mod(np.angle(self._anchor) + self.psi0, math.pi)
-        return np.where(turned < DEAD, 0.0, math.pi - turned)[()]
+        return np.where(turned < DEAD_POINT_ANGLE, 0.0, math.pi - turned)[()]
 
     @cached_property
     def _anchor(self) -> Any:

@@ -22,13 +22,17 @@ from graphcam.given.measured import (
     integrated_motion,
     measured_motion,
 )
-from graphcam.given.ranges import REMEDY, SENSIBLE
+from graphcam.given.plausible_ranges import PLAUSIBLE_RANGES, UNIT_REMEDY
 from graphcam.words import say
 
 Column = Literal["s_mm", "s_deg", "a"]
-ANGLES = "phi_deg"
-_HEADERS = ", ".join(f"'{ANGLES},{column}'" for column in get_args(Column))
-_MOST = {"s_mm": SENSIBLE["mm"][1], "s_deg": SENSIBLE["degrees"][1], "a": SENSIBLE["mm/rad^2"][1]}
+ANGLE_COLUMN = "phi_deg"
+_HEADERS = ", ".join(f"'{ANGLE_COLUMN},{column}'" for column in get_args(Column))
+_MAX_VALUES = {
+    "s_mm": PLAUSIBLE_RANGES["mm"][1],
+    "s_deg": PLAUSIBLE_RANGES["degrees"][1],
+    "a": PLAUSIBLE_RANGES["mm/rad^2"][1],
+}
 """The greatest magnitude of a value."""
 _FIRST_ROW = 2
 """Line of the first row, below the header."""
@@ -73,10 +77,10 @@ def read_table(path: Path, name: str, tolerance: float | None = None) -> CurveTa
     ------
     TaskError : there is no such file, or a line of it is wrong; the first is named
     """
-    return table_in(_text(path), name, str(path), tolerance)
+    return table_from_text(_text(path), name, str(path), tolerance)
 
 
-def table_in(text: str, name: str, path: str, tolerance: float | None = None) -> CurveTable:
+def table_from_text(text: str, name: str, path: str, tolerance: float | None = None) -> CurveTable:
     r"""The table in the text of a CSV file.
 
     path : how messages call it;  name, tolerance : as for :func:`read_table`
@@ -86,9 +90,9 @@ def table_in(text: str, name: str, path: str, tolerance: float | None = None) ->
     TaskError : a line of it is wrong; the first is named
 
     >>> rows = "".join(f"{15 * k},{min(k, 12)}\n" for k in range(24))
-    >>> table_in("phi_deg,a\n" + rows, "a.csv", "a.csv").rows[:2]
+    >>> table_from_text("phi_deg,a\n" + rows, "a.csv", "a.csv").rows[:2]
     ((0.0, 0.0), (15.0, 1.0))
-    >>> table_in(("phi_deg,a\n" + rows).replace(",", ";"), "a.csv", "a.csv").rows[:2]
+    >>> table_from_text(("phi_deg,a\n" + rows).replace(",", ";"), "a.csv", "a.csv").rows[:2]
     ((0.0, 0.0), (15.0, 1.0))
     """
     lines = text.rstrip().splitlines()
@@ -122,10 +126,10 @@ def _text(path: Path) -> str:
 def _column(path: str, header: str, between: str) -> Column:
     names = _cells(header, between)
     for column in get_args(Column):
-        if names == [ANGLES, column]:
+        if names == [ANGLE_COLUMN, column]:
             return column
     expected = say("one of {headers}", headers=_HEADERS)
-    raise TaskError(path, say("line 1"), _short(header), expected, say("name the two columns of the table"))
+    raise TaskError(path, say("line 1"), _short_line(header), expected, say("name the two columns of the table"))
 
 
 def _cells(line: str, between: str) -> list[str]:
@@ -142,14 +146,14 @@ def _row(path: str, number: int, line: str, column: Column, between: str) -> tup
     except ValueError:
         phi = value = math.nan
     if not (math.isfinite(phi) and math.isfinite(value)):
-        limit = say("two finite numbers, {angles} and {column}", angles=ANGLES, column=column)
+        limit = say("two finite numbers, {angles} and {column}", angles=ANGLE_COLUMN, column=column)
         remedy = say("write decimals with a point, or separate the columns by semicolons")
-        raise TaskError(path, say("line {number}", number=number), _short(line), limit, remedy)
-    if abs(value) > _MOST[column]:
+        raise TaskError(path, say("line {number}", number=number), _short_line(line), limit, remedy)
+    if abs(value) > _MAX_VALUES[column]:
         what = say("line {number}: {column}", number=number, column=column)
-        raise TaskError(path, what, value, say("at most {most:.15g}", most=_MOST[column]), REMEDY)
+        raise TaskError(path, what, value, say("at most {most:.15g}", most=_MAX_VALUES[column]), UNIT_REMEDY)
     return phi, value
 
 
-def _short(line: str) -> str:
+def _short_line(line: str) -> str:
     return line if len(line) <= 60 else line[:60] + "..."

@@ -21,22 +21,22 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, check_number
-from graphcam.given.impact import ROUNDING, Jump
+from graphcam.given.impact import JUMP_ROUNDING, Jump
 from graphcam.given.laws import Floats, Side
-from graphcam.given.motion import CLOSURE, FULL_TURN, wrap
-from graphcam.given.roots import roots
+from graphcam.given.motion import CLOSURE_TOLERANCE, FULL_TURN, wrap
+from graphcam.given.root_finding import roots
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.mechanism.kinematics import Complexes, Values
-from graphcam.showing import Shown, in_lines
+from graphcam.showing import Plottable, in_lines
 from graphcam.words import Caption, bare, say
 
-SAMPLES = np.sin(np.linspace(0, np.pi / 2, 65)) ** 2
+ARC_FRACTIONS = np.sin(np.linspace(0, np.pi / 2, 65)) ** 2
 """Fractions of an arc between which a quantity is taken to have one extreme at most."""
 
 
-FIT = 1e-3
+FIT_TOLERANCE = 1e-3
 """How far given points may miss the arcs, as a part of their distance from the cam centre: printed data are rounded."""
-NAMES = ("AG", "GF", "FD")
+ARC_NAMES = ("AG", "GF", "FD")
 """The arcs of the flank, in the order in which the rise meets them."""
 
 
@@ -97,18 +97,20 @@ class ArcFlank:
             raise DesignError("root", say("not sound"), say("one that can be built"), self.why)
         if not np.dot(self.A, self.A - self.C2) > 0:
             limit = say("so that the second arc goes around the cam centre")
-            raise DesignError("C2", _shown(self.C2), limit, say("move C2"))
+            raise DesignError("C2", _point_text(self.C2), limit, say("move C2"))
         for name, arc, centre in (("A", "second", "C2"), ("D", "first", "C1")):
             found, given = getattr(self, name), getattr(self.given, name)
             if not np.all(np.isfinite(found)):
                 limit = say("on the line from the cam centre to {name}", name=name)
-                raise DesignError(centre, _shown((0, 0)), limit, say("move {centre}", centre=centre))
-            if given is not None and not math.dist(found, given) <= FIT * math.hypot(*given):
+                raise DesignError(centre, _point_text((0, 0)), limit, say("move {centre}", centre=centre))
+            if given is not None and not math.dist(found, given) <= FIT_TOLERANCE * math.hypot(*given):
                 where = say(
-                    "{shown}, where the {arc} arc touches a circle about the cam centre", shown=_shown(found), arc=arc
+                    "{shown}, where the {arc} arc touches a circle about the cam centre",
+                    shown=_point_text(found),
+                    arc=arc,
                 )
                 remedy = say("make {name} and {centre} agree, or leave {centre} out", name=name, centre=centre)
-                raise DesignError(name, _shown(given), where, remedy)
+                raise DesignError(name, _point_text(given), where, remedy)
 
     def turning(self) -> int:
         """sigma: +1 where the normal turns clockwise from A to D, -1 where it turns the other way.
@@ -120,7 +122,7 @@ class ArcFlank:
         outward = self.outward_normals()
         turning = np.angle(outward[1:] * np.conj(outward[:-1]))
         sigma = -1 if turning.sum() > 0 else 1
-        for name, angle in zip(NAMES, -sigma * turning, strict=True):
+        for name, angle in zip(ARC_NAMES, -sigma * turning, strict=True):
             if not angle > 0:
                 limit = say("greater than 0, in the sense from A to D")
                 found = say("{degrees:.4g} degrees", degrees=math.degrees(angle))
@@ -128,7 +130,7 @@ class ArcFlank:
         return sigma
 
 
-def _shown(point: Point) -> Caption:
+def _point_text(point: Point) -> Caption:
     x, y = point
     return bare(f"({x + 0.0:.6g}, {y + 0.0:.6g})")  # with no sign at 0
 
@@ -143,7 +145,7 @@ class Arcs:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ArcMotion(Shown):
+class ArcMotion(Plottable):
     """The motion s(phi) of a central translating follower; call it with cam angles [rad] for (s, v, a, j).
 
     The rise runs over the arcs AG, GF and FD, the return over their mirror image; between them the outer circle holds
@@ -151,7 +153,7 @@ class ArcMotion(Shown):
 
     Parameters
     ----------
-    cam : a sound root of :func:`~graphcam.mechanism.arcs.three_arc_cam`
+    cam : a sound root of :func:`~graphcam.mechanism.three_arc_cam.three_arc_cam`
     roller_radius : mm, 0 for a knife edge
     dwell : rad
 
@@ -217,7 +219,7 @@ class ArcMotion(Shown):
             found = say("{angles} degrees at G, F and D", angles=angles)
             raise DesignError("rise", found, say("growing angles"), say("move G or C1"))
         moving = 2 * rise + self.dwell
-        if moving > FULL_TURN + CLOSURE:
+        if moving > FULL_TURN + CLOSURE_TOLERANCE:
             found = say("{degrees:.6g} degrees", degrees=math.degrees(moving))
             raise DesignError(say("rise, dwell and return"), found, say("at most a turn"), say("shorten the dwell"))
         return np.concatenate([turned, moving - turned[::-1]])
@@ -225,14 +227,14 @@ class ArcMotion(Shown):
     @property
     def breaks(self) -> Floats:
         """The cam angles [rad] where one arc takes over from another, 0 among them."""
-        return np.unique(self.edges[self.edges < FULL_TURN - CLOSURE])
+        return np.unique(self.edges[self.edges < FULL_TURN - CLOSURE_TOLERANCE])
 
     @property
     def timing(self) -> list[tuple[str, float, float]]:
         """The kind of every phase, and the cam angles [rad] from which and to which it lasts."""
         ends = [0.0, *self.edges[[3, 4, 7]].tolist(), FULL_TURN]
         phases = zip(("rise", "dwell", "return", "dwell"), ends[:-1], ends[1:], strict=True)
-        return [(kind, start, end) for kind, start, end in phases if end - start > CLOSURE]
+        return [(kind, start, end) for kind, start, end in phases if end - start > CLOSURE_TOLERANCE]
 
     def __repr__(self) -> str:
         phases = (f"{kind} {math.degrees(end - start):.6g}°" for kind, start, end in self.timing)
@@ -289,7 +291,7 @@ class ArcMotion(Shown):
         """The soft impacts: where the acceleration jumps [mm/rad^2]; the velocity never does: the arcs are tangent."""
         phi = self.breaks
         before, after = self(phi, "left")[2], self(phi, "right")[2]
-        jumped = np.abs(after - before) > ROUNDING * np.abs(before).max()
+        jumped = np.abs(after - before) > JUMP_ROUNDING * np.abs(before).max()
         columns = (column[jumped].tolist() for column in (phi, before, after))
         return [Jump(*row) for row in zip(*columns, strict=True)]
 
@@ -348,7 +350,7 @@ class ArcMotion(Shown):
 
         arc = np.arange(3)
         start, end = self.edges[:3], self.edges[1:4]
-        psi = start[:, None] + (end - start)[:, None] * SAMPLES
+        psi = start[:, None] + (end - start)[:, None] * ARC_FRACTIONS
         signs = np.sign(slope_at(psi, arc[:, None]))
         on, left = np.nonzero(signs[:, :-1] * signs[:, 1:] < 0)
         inner = roots(lambda psi: slope_at(psi, on), psi[on, left], psi[on, left + 1])

@@ -15,17 +15,17 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError, check_kind, check_number
-from graphcam.given.follower import KINDS, Follower, Rotation, sense
+from graphcam.given.follower import FOLLOWER_CLASSES, Follower, Rotation, sense
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import Motion, wrap
-from graphcam.given.pieces import chunks, sine_cosine
+from graphcam.given.piecewise import chunks, sine_cosine
 from graphcam.mechanism.envelope import Envelope
 from graphcam.mechanism.followers import kinematics
-from graphcam.mechanism.highest import Search
 from graphcam.mechanism.kinematics import Kinematics, Pair, Values
-from graphcam.mechanism.stationary import Places, places_told
+from graphcam.mechanism.leg_maxima import MaximumSearch
+from graphcam.mechanism.turn_extremes import Places, places_from
 from graphcam.mechanism.undercut import Undercut, trimmed_profile, undercuts
-from graphcam.showing import WIDTH, Shown, in_lines
+from graphcam.showing import MAX_WIDTH, Plottable, in_lines
 from graphcam.words import say
 
 
@@ -63,7 +63,7 @@ class Extremes:
 
 
 @dataclass(frozen=True, repr=False)
-class Cam(Shown):
+class Cam(Plottable):
     """A disk cam that gives the motion to the follower.
 
     Parameters
@@ -119,7 +119,7 @@ class Cam(Shown):
 
     def __post_init__(self) -> None:
         check_kind("motion", self.motion, Motion)
-        check_kind("follower", self.follower, KINDS)
+        check_kind("follower", self.follower, FOLLOWER_CLASSES)
         check_number(say("prime radius"), self.prime_radius, say("a finite length of more than 0 mm"), above=0)
         if not self.roller_radius < self.prime_radius:
             limit = say("smaller than the prime radius of {prime_radius} mm", prime_radius=self.prime_radius)
@@ -148,7 +148,7 @@ class Cam(Shown):
         phases = [f"{kind} {math.degrees(end - start):.6g}°" for kind, start, end in self.motion.timing]
         first = f"Cam that turns {self.rotation}, prime radius {self.prime_radius:.6g} mm"
         follower = ", ".join([f"{self.follower.kind} follower", *sizes])
-        turn = shorten(", ".join(phases), WIDTH, placeholder=" ...")
+        turn = shorten(", ".join(phases), MAX_WIDTH, placeholder=" ...")
         last = ".pitch_curve(phi), .profile(phi), .pressure_angle(phi) at phi in rad; .extremes(); .plot() draws it"
         return in_lines(first, (follower, turn), last)
 
@@ -186,7 +186,7 @@ class Cam(Shown):
         ``at(phi)``: any real numbers; at a break the value of the named side.
         ``at(phase, u)``: the index of the phase, one or as many as there are fractions u.
         """
-        places = places_told(self.motion, phase, u, side)
+        places = places_from(self.motion, phase, u, side)
         phi, values = places.phi, places.values
         (pitch, profile), curvature = np.empty((2, *phi.shape, 2)), np.empty(phi.shape)
         self._write_curves(phi, values, pitch, profile, curvature)
@@ -199,11 +199,11 @@ class Cam(Shown):
         min_convex_radius_moving [mm]; each is a pair (value, phi) with the cam angle [rad] of the place.
 
         With the laws of graphcam, measured and sampled ones included, no extreme can hide beside another, because their
-        fourth derivatives bound them between two points (see :mod:`graphcam.mechanism.highest`).  The same holds for a
-        law of your own that has ``fourths``.  Without them, they are estimated over 128 parts of the phase; this finds
-        the extremes of every law that does not oscillate faster, but proves nothing.
+        fourth derivatives bound them between two points (see :mod:`graphcam.mechanism.leg_maxima`).  The same holds for
+        a law of your own that has ``fourths``.  Without them, they are estimated over 128 parts of the phase; this
+        finds the extremes of every law that does not oscillate faster, but proves nothing.
         """
-        search, kin = Search(self.motion), self.kinematics
+        search, kin = MaximumSearch(self.motion), self.kinematics
         steep = search.highest(kin.steepness, kin.pressure_slope, signed=True)
         sharp = search.highest(kin.sharpness, kin.curvature_slope)
         direction = self.motion.directions

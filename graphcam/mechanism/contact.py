@@ -16,16 +16,16 @@ from numpy.typing import ArrayLike
 from graphcam.errors import DesignError, check_kind
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion
-from graphcam.given.roots import roots
+from graphcam.given.root_finding import roots
 from graphcam.given.spring_load import ArmLoad, FollowerLoad, SpringLoad
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.stationary import (
-    ROUNDING,
+from graphcam.mechanism.turn_extremes import (
+    VALUE_ROUNDING,
     Places,
     ValueAt,
-    greatest_of,
     over_turn,
     places_in,
+    places_maximum,
     places_of,
     smooth_pieces,
 )
@@ -120,7 +120,7 @@ def _least_preload(motion: Motion, load: FollowerLoad) -> SpringPreload:
 
     everywhere = places_of(motion, slope, load.knots)
     size = float((load.size(everywhere.values) / load.leverage(everywhere.values)[0]).max())
-    found = greatest_of(motion, slope, needed, size, load.knots)
+    found = places_maximum(motion, slope, needed, size, load.knots)
     return SpringPreload(found.value, found.phi)
 
 
@@ -152,12 +152,12 @@ class Contact:
 
     def least_force(self) -> ValueAt:
         """The minimum xi over the turn [N], both sides of every jump included; of equal ones the first."""
-        value, phi, side = self._greatest(-1)
+        value, phi, side = self._extreme(-1)
         return ValueAt(-value, phi, side)
 
     def greatest_force(self) -> ValueAt:
         """The maximum xi over the turn [N], both sides of every jump included; of equal ones the first."""
-        return self._greatest(+1)
+        return self._extreme(+1)
 
     def lost(self) -> list[tuple[float, float]]:
         """The intervals of phi [rad] in which the cam would have to pull, in order.
@@ -169,11 +169,11 @@ class Contact:
         for start, end in (self._interval(*ends) for ends in self._stretches()):
             if not start < end:
                 continue
-            if found and start - found[-1][1] <= ROUNDING * FULL_TURN:
+            if found and start - found[-1][1] <= VALUE_ROUNDING * FULL_TURN:
                 found[-1] = found[-1][0], end
             else:
                 found.append((start, end))
-        whole_turns = len(found) > 1 and found[0][0] == 0 and FULL_TURN - found[-1][1] <= ROUNDING * FULL_TURN
+        whole_turns = len(found) > 1 and found[0][0] == 0 and FULL_TURN - found[-1][1] <= VALUE_ROUNDING * FULL_TURN
         if whole_turns:
             (_, first_end), (last_start, _) = found.pop(0), found.pop()
             found.append((last_start, first_end + FULL_TURN))
@@ -197,9 +197,9 @@ class Contact:
     def _places(self) -> Places:
         return places_of(self.motion, self._slope, self.load.knots)
 
-    def _greatest(self, sign: int) -> ValueAt:
+    def _extreme(self, sign: int) -> ValueAt:
         size = float(self.load.size(self._places().values).max())
-        return greatest_of(self.motion, self._slope, lambda places: sign * self.force(places), size, self.load.knots)
+        return places_maximum(self.motion, self._slope, lambda places: sign * self.force(places), size, self.load.knots)
 
     def _stretches(self) -> list[tuple[int, float, float]]:
         """(phase, u, u) of stretches in which xi is monotonous, in order."""
@@ -222,7 +222,7 @@ class Contact:
             return float(self._force([phase], [u], "left" if u == high else "right")[0])
 
         first, last = xi(low), xi(high)
-        slack = ROUNDING * max(float(self.load.size(self.motion.at(phase, u)).max()) for u in (low, high))
+        slack = VALUE_ROUNDING * max(float(self.load.size(self.motion.at(phase, u)).max()) for u in (low, high))
         start, end = low, high
         if min(first, last) >= -slack:
             end = low

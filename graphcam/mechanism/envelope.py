@@ -18,25 +18,25 @@ from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion
-from graphcam.given.roots import roots
-from graphcam.mechanism.highest import Search
+from graphcam.given.root_finding import roots
 from graphcam.mechanism.kinematics import Complexes, Kinematics, Values
-from graphcam.mechanism.stationary import Places, smooth_pieces, stationary_places
+from graphcam.mechanism.leg_maxima import MaximumSearch
+from graphcam.mechanism.turn_extremes import Places, smooth_pieces, stationary_places
 
 Indices = NDArray[np.intp]
-CUSP = 1e-12
+CUSP_TOLERANCE = 1e-12
 """A roller that misses the least radius of curvature by no more than this part of it makes one cusp, and no loop."""
-JUMP = 1e-9
+JUMP_SHARE = 1e-9
 """A speed that changes at a break by more than this part of the prime radius jumps there."""
-SMALL_LOOP = 0.2
+SMALL_LOOP_ANGLE = 0.2
 """The cam angle [rad] up to which the way round a loop is integrated; beyond, it is a difference of two points."""
-ROUNDING = 4 * float(np.finfo(np.float64).eps)
+COORDINATE_ROUNDING = 4 * float(np.finfo(np.float64).eps)
 """What a coordinate may be off by, as a part of the point's distance from the cam centre."""
 GAUSS_NODES, GAUSS_WEIGHTS = (0.5 * x for x in np.polynomial.legendre.leggauss(16))
 
 
 @dataclass(frozen=True)
-class Backward:
+class BackwardStretch:
     """A stretch of the profile that runs backwards.
 
     begin, end : its cusps [rad];  begin_jumps, end_jumps : whether the speed jumps there rather than pass through zero
@@ -134,11 +134,11 @@ class Envelope:
         """c(end) - c(begin) [mm], which keeps its digits however small the loop between: there by integration of c'."""
         there, here = self.point(end, self.piece(end)), self.point(begin, self.piece(begin))
         way = there - here
-        small = np.flatnonzero(end - begin <= SMALL_LOOP)
+        small = np.flatnonzero(end - begin <= SMALL_LOOP_ANGLE)
         if small.size:
             inner = self._integrated(begin[small], end[small])
             # Where the difference finds another way, the nodes were too few for what the curve does between them.
-            rounding = ROUNDING * (np.abs(there[small]) + np.abs(here[small]))
+            rounding = COORDINATE_ROUNDING * (np.abs(there[small]) + np.abs(here[small]))
             way[small] = np.where(np.abs(inner - way[small]) <= rounding, inner, way[small])
         return way
 
@@ -169,7 +169,7 @@ class Envelope:
     def least_radius(self) -> float:
         """The least convex radius of the pitch curve [mm], or the prime radius where that is less."""
         kin = self.kinematics
-        sharpest = Search(self.motion).highest(kin.sharpness, kin.curvature_slope)
+        sharpest = MaximumSearch(self.motion).highest(kin.sharpness, kin.curvature_slope)
         return min(float(kin.convex_radius(sharpest.values).min()), self.prime_radius)
 
     # --- cusps -------------------------------------------------------------------------------------------------------
@@ -190,7 +190,7 @@ class Envelope:
         return np.concatenate(phi), np.repeat(np.arange(len(phi)), [part.size for part in phi])
 
     @cached_property
-    def backward(self) -> list[Backward]:
+    def backward_stretches(self) -> list[BackwardStretch]:
         """The stretches that run backwards, in order; not those that are a cusp within tolerance."""
         phi, piece = self._nodes
         behind = self.speed(phi, piece) < 0
@@ -198,18 +198,20 @@ class Envelope:
         cusps, jumps = self._cusps(turns), self._jumps(turns)
         margin = self.margin(phi, piece)
         return [
-            Backward(float(cusps[k]), float(cusps[k + 1]), bool(jumps[k]), bool(jumps[k + 1]))
+            BackwardStretch(float(cusps[k]), float(cusps[k + 1]), bool(jumps[k]), bool(jumps[k + 1]))
             for k in range(0, turns.size, 2)
-            if margin[turns[k] + 1 : turns[k + 1] + 1].min() < -CUSP
+            if margin[turns[k] + 1 : turns[k + 1] + 1].min() < -CUSP_TOLERANCE
         ]
 
     @cached_property
     def touching(self) -> list[float]:
         """The cam angles at which the roller has the curve's own radius, within tolerance: cusps without a loop."""
         phi, piece = self._nodes
-        just = phi[np.abs(self.margin(phi, piece)) <= CUSP]
-        just = just[[not any(b.begin - JUMP <= x <= b.end + JUMP for b in self.backward) for x in just]]
-        apart = np.diff(just, prepend=-np.inf) > JUMP
+        just = phi[np.abs(self.margin(phi, piece)) <= CUSP_TOLERANCE]
+        just = just[
+            [not any(b.begin - JUMP_SHARE <= x <= b.end + JUMP_SHARE for b in self.backward_stretches) for x in just]
+        ]
+        apart = np.diff(just, prepend=-np.inf) > JUMP_SHARE
         return [float(x) for x in just[apart]]
 
     def _cusps(self, before: Indices) -> Floats:
@@ -224,4 +226,4 @@ class Envelope:
     def _jumps(self, before: Indices) -> NDArray[np.bool_]:
         phi, piece = self._nodes
         change = np.abs(self.speed(phi[before + 1], piece[before + 1]) - self.speed(phi[before], piece[before]))
-        return (piece[before] != piece[before + 1]) & (change > JUMP * self.prime_radius)
+        return (piece[before] != piece[before + 1]) & (change > JUMP_SHARE * self.prime_radius)

@@ -14,7 +14,7 @@ from graphcam.given.follower import FlatFaced, Limits, Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.mechanism.kinematics import Appearance, Complexes, Contour, Kinematics, Pair, Values
-from graphcam.mechanism.stationary import stationary_places, velocity_range
+from graphcam.mechanism.turn_extremes import stationary_places, velocity_range
 from graphcam.words import say
 
 
@@ -44,11 +44,11 @@ class FlatFacedKinematics(Kinematics):
 
     def normal(self, values: Values) -> Complexes:
         """The normal of the face."""
-        return 1j * _ones(values)
+        return 1j * _ones_like(values)
 
     def pressure(self, values: Values) -> tuple[Pair, Pair]:
         """1 and 0: the face is perpendicular to the motion, and the pressure angle is zero."""
-        one = _ones(values)
+        one = _ones_like(values)
         return (one, 0 * one), (0.0, 0.0)
 
     def steepness(self, values: Values) -> Floats:
@@ -92,7 +92,7 @@ class FlatFacedKinematics(Kinematics):
         _, v, _, j = values
         return self.convex_radius(values), v + j
 
-    def lifted(self, values: Values) -> dict[str, Any]:
+    def lift_per_error(self, values: Values) -> dict[str, Any]:
         """1 by the profile: the face is square to its motion."""
         return {"profile": 1.0 + 0.0 * values[0]}
 
@@ -114,7 +114,7 @@ class FlatFacedKinematics(Kinematics):
     def radius_by_sizes(self, values: Values) -> dict[str, Floats]:
         """The derivatives of rho = r0 + s + a by the sizes."""
         s, _, a, _ = values
-        return {"prime_radius": _ones(values), "lift": s + a}
+        return {"prime_radius": _ones_like(values), "lift": s + a}
 
     @staticmethod
     def radius_of(sharpness: Floats) -> Floats:
@@ -128,7 +128,7 @@ class FlatFacedKinematics(Kinematics):
         return replace(stem, kind="face", trace=1j * stem.trace.imag, face=(-width.left, width.right))
 
 
-def _ones(values: Values) -> Floats:
+def _ones_like(values: Values) -> Floats:
     return np.where(np.isnan(values[0]), np.nan, 1.0)
 
 

@@ -29,14 +29,14 @@ from graphcam.errors import DesignError, check_number
 from graphcam.given.follower import MM_PER_M, omega_of
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, wrap
-from graphcam.given.roots import roots
-from graphcam.mechanism.oscillator import Drive, Driven, Oscillator, check_damping, steady
+from graphcam.given.root_finding import roots
+from graphcam.mechanism.oscillator import Drive, DrivenOscillators, Oscillator, check_damping, steady
 from graphcam.mechanism.shock_response import AnyMotion, turn_edges
-from graphcam.mechanism.stationary import ROUNDING, ValueAt
-from graphcam.showing import Shown, in_lines
+from graphcam.mechanism.turn_extremes import VALUE_ROUNDING, ValueAt
+from graphcam.showing import Plottable, in_lines
 from graphcam.words import say
 
-MOST_VIBRATIONS = 10_000.0
+MAX_VIBRATIONS = 10_000.0
 """Natural vibrations in a turn; beyond, the follower moves as a rigid one."""
 
 
@@ -104,7 +104,7 @@ class FollowerTrain:
         DesignError : angle or speed is not positive
         """
         check_number("angle", angle, say("a finite number greater than 0 rad"), above=0)
-        return angle / omega_of(_turning(speed_rpm)) * self.natural_frequency
+        return angle / omega_of(_angular_velocity(speed_rpm)) * self.natural_frequency
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +125,7 @@ class TrainMotion:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class VibratingFollower(Shown):
+class VibratingFollower(Plottable):
     """The steady motion of an elastic follower on a cam that turns at one speed; call it with cam angles [rad].
 
     Its values are those of a follower that keeps to the cam: see :meth:`lost` before you trust them.
@@ -162,11 +162,11 @@ class VibratingFollower(Shown):
     speed_rpm: float
 
     def __post_init__(self) -> None:
-        _turning(self.speed_rpm)
-        if self.vibrations > MOST_VIBRATIONS:
-            limit = say("so high that at most {most:g} natural vibrations fit into a turn", most=MOST_VIBRATIONS)
+        _angular_velocity(self.speed_rpm)
+        if self.vibrations > MAX_VIBRATIONS:
+            limit = say("so high that at most {most:g} natural vibrations fit into a turn", most=MAX_VIBRATIONS)
             raise DesignError("speed_rpm", self.speed_rpm, limit, say("a rigid follower is gc.Contact"))
-        _ = self._solved
+        _ = self._solution
 
     @property
     def vibrations(self) -> float:
@@ -177,7 +177,7 @@ class VibratingFollower(Shown):
         """The motion of the mass, and the force on the cam, at cam angles phi [rad], any real numbers."""
         phi = np.asarray(phi, dtype=np.float64)
         turned = wrap(phi.ravel())
-        (y,), (y1,) = self._solved.at(np.where(np.isnan(turned), 0.0, turned))
+        (y,), (y1,) = self._solution.at(np.where(np.isnan(turned), 0.0, turned))
         s, v, *_ = self.motion(turned)
         share = self.train.share
         x, x1, x2 = share * s + y, share * v + y1, self._acceleration(v, y, y1)
@@ -187,11 +187,11 @@ class VibratingFollower(Shown):
 
     def least_force(self) -> ValueAt:
         """The minimum N of the turn [N]; of equal ones the first."""
-        return self._first(np.argmin)
+        return self._first_extreme(np.argmin)
 
     def greatest_force(self) -> ValueAt:
         """The maximum N of the turn [N]; of equal ones the first."""
-        return self._first(np.argmax)
+        return self._first_extreme(np.argmax)
 
     def least_preload(self) -> float:
         """The minimum preload [N] with which the follower keeps to the cam at this speed."""
@@ -204,7 +204,7 @@ class VibratingFollower(Shown):
         then, and where it comes down, is another motion.
         """
         phi, force = self._stationary
-        slack = ROUNDING * float(np.abs(force).max())
+        slack = VALUE_ROUNDING * float(np.abs(force).max())
         negative = force < -slack
         negative[-1] = negative[0]  # the turn is closed
         crossing = negative[:-1] != negative[1:]
@@ -231,7 +231,7 @@ class VibratingFollower(Shown):
     # --- how it is found ---------------------------------------------------------------------------------------------
 
     @cached_property
-    def _solved(self) -> Driven:
+    def _solution(self) -> DrivenOscillators:
         train, nu = self.train, self.vibrations
 
         def forcing(phi: Floats) -> Floats:
@@ -264,7 +264,7 @@ class VibratingFollower(Shown):
     @cached_property
     def _stationary(self) -> tuple[Floats, Floats]:
         """Cam angles in order over the turn between which N is monotonous, and N there."""
-        solved, train, nu = self._solved, self.train, self.vibrations
+        solved, train, nu = self._solution, self.train, self.vibrations
 
         def load_and_slope(cell: NDArray[np.intp], tau: Floats) -> tuple[Floats, Floats, Floats]:
             """The cam angle, N less the preload, and dN/dphi at places of cells."""
@@ -285,13 +285,13 @@ class VibratingFollower(Shown):
         order = np.argsort(every, kind="stable")
         return every[order], values[order] + train.preload
 
-    def _first(self, best: Callable[[Floats], np.intp]) -> ValueAt:
+    def _first_extreme(self, best: Callable[[Floats], np.intp]) -> ValueAt:
         phi, force = self._stationary
-        as_good = np.abs(force - force[best(force)]) <= ROUNDING * np.abs(force).max()
+        as_good = np.abs(force - force[best(force)]) <= VALUE_ROUNDING * np.abs(force).max()
         k = int(np.flatnonzero(as_good)[0])
         return ValueAt(float(force[k]), float(phi[k]), "right")
 
 
-def _turning(speed_rpm: float) -> float:
+def _angular_velocity(speed_rpm: float) -> float:
     check_number("speed_rpm", speed_rpm, say("a finite number greater than 0 rpm"), above=0)
     return speed_rpm

@@ -26,7 +26,7 @@ class ExactFunctions(NamedTuple):
     condition: Literal["offset", "curvature"] | None
 
 
-EXACT: dict[type[Follower], ExactFunctions] = {
+EXACT_FUNCTIONS: dict[type[Follower], ExactFunctions] = {
     Translating: ExactFunctions(TranslatingKinematics, translating_minimum_radius, "offset"),
     Oscillating: ExactFunctions(OscillatingKinematics, arm_minimum_radius, None),
     FlatFaced: ExactFunctions(FlatFacedKinematics, flat_minimum_radius, "curvature"),
@@ -46,6 +46,6 @@ def kinematics(follower: Follower, prime_radius: float, sigma: int, lift: float)
     >>> kinematics(gc.Translating(offset=30), prime_radius=50, sigma=+1, lift=20)
     TranslatingKinematics(sigma=1, prime_radius=50, offset=30)
     """
-    found = EXACT[type(follower)].kinematics.of(follower, prime_radius, sigma, lift)
+    found = EXACT_FUNCTIONS[type(follower)].kinematics.of(follower, prime_radius, sigma, lift)
     found.check()
     return found

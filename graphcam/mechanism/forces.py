@@ -60,7 +60,15 @@ from graphcam.mechanism.jamming import (
     transmission,
 )
 from graphcam.mechanism.kinematics import Values
-from graphcam.mechanism.stationary import Places, ValueAt, greatest_of, places_in, places_of, places_told, smooth_pieces
+from graphcam.mechanism.turn_extremes import (
+    Places,
+    ValueAt,
+    places_from,
+    places_in,
+    places_maximum,
+    places_of,
+    smooth_pieces,
+)
 from graphcam.showing import by_parts
 from graphcam.words import say
 
@@ -202,7 +210,7 @@ class CamForces:
         N mm]; normal, along, side, contact_friction [N]; near, far and friction, of the bearings of a guide [N];
         torque, on the cam [N mm]; efficiency, of the guide; transmission.
         """
-        return self.of(places_told(self.cam.motion, phase, u, side))
+        return self.of(places_from(self.cam.motion, phase, u, side))
 
     def of(self, places: Places) -> Forces:
         """The forces at places that belong to phases."""
@@ -220,7 +228,7 @@ class CamForces:
             side=normal * sine,
             near=stem * normal * near,
             far=stem * normal * far,
-            friction=np.abs(normal) * self._held(values)[0],
+            friction=np.abs(normal) * self._guide_friction(values)[0],
             torque=normal * self._turning(values)[0],
             efficiency=np.where(direction == 0, np.nan, stem * works),
             transmission=transmission(self.cam, values, self.friction)[0],
@@ -234,7 +242,7 @@ class CamForces:
         ------
         DesignError : the follower jams, at the cam or in its guide
         """
-        return self._greatest(self.normal_slope, self.normal)
+        return self._extreme(self.normal_slope, self.normal)
 
     def least_normal(self) -> ValueAt:
         """The minimum normal force over the turn [N]; contact is lost where it is negative.
@@ -243,7 +251,7 @@ class CamForces:
         ------
         DesignError : the follower jams, at the cam or in its guide
         """
-        return self._greatest(self.normal_slope, self.normal, -1)
+        return self._extreme(self.normal_slope, self.normal, -1)
 
     def greatest_torque(self) -> ValueAt:
         """The maximum torque that must drive the cam [N mm].
@@ -263,7 +271,7 @@ class CamForces:
         >>> round(torque.value, 1), round(degrees(torque.phi), 2)
         (1953.2, 60.48)
         """
-        return self._greatest(self.torque_slope, self.torque)
+        return self._extreme(self.torque_slope, self.torque)
 
     def least_torque(self) -> ValueAt:
         """The minimum torque on the cam [N mm], negative where the follower drives it.
@@ -272,11 +280,11 @@ class CamForces:
         ------
         DesignError : the follower jams, at the cam or in its guide
         """
-        return self._greatest(self.torque_slope, self.torque, -1)
+        return self._extreme(self.torque_slope, self.torque, -1)
 
     def least_efficiency(self) -> ValueAt:
         """The minimum efficiency of the guide over the rises; at 0 or below it jams."""
-        worst = greatest_of(self.cam.motion, self._slip_slope, self._slip_on_rises)
+        worst = places_maximum(self.cam.motion, self._slip_slope, self._slip_on_rises)
         return worst._replace(value=1 - worst.value)
 
     # --- for other quantities of the contact -------------------------------------------------------------------------
@@ -284,7 +292,7 @@ class CamForces:
     def normal(self, places: Places) -> Floats:
         """N at places that belong to phases [N]; NaN where the follower jams."""
         direction, values = self.cam.motion.directions[places.phase], places.values
-        left = self._left(values, direction)[0]
+        left = self._moving_force(values, direction)[0]
         return self.pressing.force(values, direction, places.phi) / np.where(left > 0, left, np.nan)
 
     def normal_slope(self, places: Places) -> Floats:
@@ -292,7 +300,7 @@ class CamForces:
         # N = Q/D
         direction, values = self.cam.motion.directions[places.phase], places.values
         q, q_slope = self.pressing.force(values, direction, places.phi), self.pressing.slope(values, places.phi)
-        d, d_slope = self._left(values, direction)
+        d, d_slope = self._moving_force(values, direction)
         with np.errstate(divide="ignore", invalid="ignore"):
             return (q_slope * d - q * d_slope) / d**2
 
@@ -319,31 +327,36 @@ class CamForces:
         """True: what jams raises an error."""
         if self.friction and (margin := jamming_margin(self.cam, self.friction)).value <= 0:
             allowed = say("less than the {most_friction:.4g} at which the follower jams, {where}")
-            allowed = allowed.where(most_friction=most_friction(self.cam), where=self._where(margin))
+            allowed = allowed.where(most_friction=most_friction(self.cam), where=self._place_text(margin))
             remedy = say("lubricate, let a roller turn, or enlarge the prime radius")
             raise DesignError("friction", self.friction, allowed, remedy)
         if self.guide.friction:
             self._check_guide()
         return True
 
-    def _greatest(
+    def _extreme(
         self, slope: Callable[[Places], Floats], quantity: Callable[[Places], Floats], sign: int = 1
     ) -> ValueAt:
         """The maximum value, or with -1 the minimum, of a quantity that grows without bound where the follower jams."""
         self.check()
-        found = greatest_of(self.cam.motion, slope, lambda places: sign * quantity(places), knots=self.pressing.knots)
+        found = places_maximum(
+            self.cam.motion, slope, lambda places: sign * quantity(places), knots=self.pressing.knots
+        )
         return found._replace(value=sign * found.value)
 
-    def _left(self, values: Values, direction: Floats) -> tuple[Floats, Floats]:
+    def _moving_force(self, values: Values, direction: Floats) -> tuple[Floats, Floats]:
         """What a unit of normal force moves along the motion, less what the guide holds of it, and its slope.
 
         Of an arm about the pivot [mm].
         """
-        (moved, moved_slope), (held, held_slope) = transmission(self.cam, values, self.friction), self._held(values)
+        (moved, moved_slope), (held, held_slope) = (
+            transmission(self.cam, values, self.friction),
+            self._guide_friction(values),
+        )
         reach = self.cam.kinematics.reach
         return reach * moved - direction * held, reach * moved_slope - direction * held_slope
 
-    def _held(self, values: Values) -> tuple[Floats, Floats]:
+    def _guide_friction(self, values: Values) -> tuple[Floats, Floats]:
         """h, the friction in the guide over the normal force, and its slope."""
         guide, still = self.guide, np.zeros_like(values[0])
         if not guide.friction:
@@ -365,7 +378,7 @@ class CamForces:
         return lever_about_cam(self.cam.kinematics, values, self.friction, self.cam.roller_radius)
 
     def _slip(self, places: Places) -> Floats:
-        return self._held(places.values)[0] / transmission(self.cam, places.values, self.friction)[0]
+        return self._guide_friction(places.values)[0] / transmission(self.cam, places.values, self.friction)[0]
 
     def _slip_on_rises(self, places: Places) -> Floats:
         return np.where(self.cam.motion.directions[places.phase] > 0, self._slip(places), np.nan)
@@ -373,10 +386,10 @@ class CamForces:
     def _slip_slope(self, places: Places) -> Floats:
         """A quantity with the sign of the slope of h/(cos alpha - mu sin alpha)."""
         moved, moved_slope = transmission(self.cam, places.values, self.friction)
-        held, held_slope = self._held(places.values)
+        held, held_slope = self._guide_friction(places.values)
         return held_slope * moved - held * moved_slope
 
-    def _where(self, found: ValueAt) -> str:
+    def _place_text(self, found: ValueAt) -> str:
         alpha = math.degrees(self.cam.pressure_angle(found.phi))
         return f"at a cam angle of {math.degrees(found.phi):.4g} degrees, where the pressure angle is {alpha:.4g}"
 
@@ -385,7 +398,9 @@ class CamForces:
         if worst.value > 0:
             return
         if self.friction:
-            allowed = say("so small that the follower does not jam in its guide, {where}", where=self._where(worst))
+            allowed = say(
+                "so small that the follower does not jam in its guide, {where}", where=self._place_text(worst)
+            )
             raise DesignError("friction", self.friction, allowed, say("lubricate guide and cam, or lengthen the guide"))
         alpha, limit = (
             self.cam.pressure_angle(worst.phi),
@@ -398,9 +413,9 @@ class CamForces:
         raise DesignError(say("pressure angle"), found, allowed, remedy)
 
 
-NODES = 24
+GAUSS_NODE_COUNT = 24
 """The number of Gauss nodes on a part of a smooth piece."""
-PARTS = 4
+PIECE_PARTS = 4
 """A smooth piece is divided into so many equal parts, and where a bearing of the guide changes its side."""
 
 
@@ -423,7 +438,7 @@ def mean_torque(forces: CamForces) -> float:
     938.227
     """
     forces.check()
-    nodes, weights = np.polynomial.legendre.leggauss(NODES)
+    nodes, weights = np.polynomial.legendre.leggauss(GAUSS_NODE_COUNT)
     phase, low, high = _parts(forces)
     half = (high - low) / 2
     places = places_in(forces.cam.motion, phase[:, None], (low + half)[:, None] + half[:, None] * nodes)
@@ -442,7 +457,7 @@ def _parts(forces: CamForces) -> tuple[NDArray[np.intp], Floats, Floats]:
         cuts += zip(found.phase[inner].tolist(), found.u[inner].tolist(), strict=True)
     rows: list[tuple[int, float, float]] = []
     for k, start, end in zip(phase.tolist(), u0.tolist(), u1.tolist(), strict=True):
-        ends = {*np.linspace(start, end, PARTS + 1).tolist(), *(u for i, u in cuts if i == k and start < u < end)}
+        ends = {*np.linspace(start, end, PIECE_PARTS + 1).tolist(), *(u for i, u in cuts if i == k and start < u < end)}
         rows += [(k, a, b) for a, b in pairwise(sorted(ends))]
     of, low, high = zip(*rows, strict=True)
     return np.array(of), np.array(low), np.array(high)

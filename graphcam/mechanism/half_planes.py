@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Any, Literal, NamedTuple, get_args
 
 Line = Literal["rise", "return", "rest"]
-LINES: tuple[Line, ...] = get_args(Line)
+LINE_NAMES: tuple[Line, ...] = get_args(Line)
 
 
 class HalfPlane(NamedTuple):
@@ -24,11 +24,11 @@ class HalfPlane(NamedTuple):
         return self.height - (self.normal.conjugate() * point).real
 
 
-Kept = tuple[complex, tuple[HalfPlane, ...]]
+NearestPoint = tuple[complex, tuple[HalfPlane, ...]]
 """A point, and the lines that hold it off."""
 
 
-def nearest(lines: Sequence[HalfPlane]) -> Kept:
+def nearest_point(lines: Sequence[HalfPlane]) -> NearestPoint:
     """The point nearest to the start of the lift that keeps the lines, and the one or two that hold it off.
 
     One line after another is taken in.  The point stays if it keeps the next one too, else it moves onto that one.
@@ -36,7 +36,7 @@ def nearest(lines: Sequence[HalfPlane]) -> Kept:
     Source: R. Seidel, *Small-dimensional linear programming and convex hulls made easy*, Discrete & Computational
     Geometry 6 (1991), 423-434.
 
-    >>> point, kept = nearest([HalfPlane("rise", 1j, 3.0), HalfPlane("return", 1 + 0j, 4.0)])
+    >>> point, kept = nearest_point([HalfPlane("rise", 1j, 3.0), HalfPlane("return", 1 + 0j, 4.0)])
     >>> abs(point), [line.name for line in kept]
     (5.0, ['return', 'rise'])
     """
@@ -44,11 +44,11 @@ def nearest(lines: Sequence[HalfPlane]) -> Kept:
     for k, line in enumerate(lines):
         _, normal, height, _ = line
         if normal.real * point.real + normal.imag * point.imag < height:
-            point, kept = _nearest_on(line, lines[:k])
+            point, kept = _nearest_on_line(line, lines[:k])
     return point, kept
 
 
-def _nearest_on(line: HalfPlane, others: Sequence[HalfPlane]) -> Kept:
+def _nearest_on_line(line: HalfPlane, others: Sequence[HalfPlane]) -> NearestPoint:
     """The nearest point that keeps the others on one of the lines, whose points are (height + i t) normal."""
     _, normal, height, _ = line
     along, at, low, high = normal.conjugate(), None, -math.inf, math.inf

@@ -15,10 +15,10 @@ from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.given.laws import Floats, Side
-from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG, RollerContact
+from graphcam.given.roller_contact import STEEL_POISSON_RATIO, STEEL_YOUNG_MODULUS, RollerContact
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.kinematics import Kinematics, Values
-from graphcam.mechanism.stationary import Places, TurnCurve, ValueAt, greatest_of, over_turn, places_told
+from graphcam.mechanism.turn_extremes import Places, TurnCurve, ValueAt, over_turn, places_from, places_maximum
 from graphcam.showing import by_parts
 from graphcam.words import say
 
@@ -35,10 +35,10 @@ def hertz_line_contact(
     width: float,
     radius1: float,
     radius2: float,
-    young1: float = STEEL_YOUNG,
-    young2: float = STEEL_YOUNG,
-    poisson1: float = STEEL_POISSON,
-    poisson2: float = STEEL_POISSON,
+    young1: float = STEEL_YOUNG_MODULUS,
+    young2: float = STEEL_YOUNG_MODULUS,
+    poisson1: float = STEEL_POISSON_RATIO,
+    poisson2: float = STEEL_POISSON_RATIO,
 ) -> LineContact:
     """The peak pressure between two cylinders with parallel axes, and the half-width of their contact.
 
@@ -148,7 +148,7 @@ class ContactStress:
         The fields of what it returns, each an array of that shape: phi [rad], force [N], profile_radius [mm],
         peak_pressure [MPa], half_width [mm].
         """
-        return self.of(places_told(self.forces.cam.motion, phase, u, side))
+        return self.of(places_from(self.forces.cam.motion, phase, u, side))
 
     def of(self, places: Places) -> Stresses:
         """The contact at places that belong to phases."""
@@ -178,7 +178,9 @@ class ContactStress:
         if self.forces.greatest_normal().value <= 0:
             found = say("nowhere positive")
             raise DesignError(say("contact force"), found, say("greater than 0 N somewhere"), say("preload the spring"))
-        squared, phi, side = greatest_of(cam.motion, self.slope, self._squared, knots=self.forces.pressing.knots)
+        squared, phi, side = places_maximum(
+            cam.motion, self.slope, self._squared_pressure, knots=self.forces.pressing.knots
+        )
         return ValueAt(math.sqrt(squared), phi, side)
 
     def contact_at(self, found: ValueAt) -> Stresses:
@@ -213,7 +215,7 @@ class ContactStress:
         with np.errstate(divide="ignore"):
             return np.divide(1.0, self._kinematics.curvature(values)) - self._roller
 
-    def _squared(self, places: Places) -> Floats:
+    def _squared_pressure(self, places: Places) -> Floats:
         relative, _ = self._kinematics.relative_radius(places.values, self._roller)
         return self.forces.normal(places) * self.contact.modulus / (math.pi * self.contact.width * relative)
 

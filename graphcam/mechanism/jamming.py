@@ -14,7 +14,7 @@ from graphcam.errors import check_number
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
-from graphcam.mechanism.stationary import Places, ValueAt, greatest_of
+from graphcam.mechanism.turn_extremes import Places, ValueAt, places_maximum
 from graphcam.words import say
 
 
@@ -67,7 +67,7 @@ def jamming_margin(cam: Cam, friction: float) -> ValueAt:
         """Its negative: the minimum coefficient is the maximum of these."""
         return -transmission(cam, places.values, friction)[0]
 
-    worst = greatest_of(cam.motion, lambda places: transmission(cam, places.values, friction)[1], margin)
+    worst = places_maximum(cam.motion, lambda places: transmission(cam, places.values, friction)[1], margin)
     return worst._replace(value=-worst.value)
 
 
@@ -110,5 +110,5 @@ def most_friction(cam: Cam) -> float:
         (plain, plain_slope), (held, held_slope) = (transmission(cam, places.values, mu) for mu in (0.0, 1.0))
         return held * plain_slope - held_slope * plain
 
-    greatest = greatest_of(cam.motion, slope, over).value
+    greatest = places_maximum(cam.motion, slope, over).value
     return math.inf if greatest == 0 else 1 / greatest

@@ -144,7 +144,7 @@ class Kinematics(ABC):
         return 1.0
 
     @abstractmethod
-    def lifted(self, values: Values) -> dict[str, Any]:
+    def lift_per_error(self, values: Values) -> dict[str, Any]:
         """How far the follower is lifted [mm or rad] per mm by which something is too large as it is made.
 
         By "profile", along its normal; by the roller's radius, and by the sizes of the mechanism, which the cam does

@@ -8,10 +8,19 @@ import math
 from typing import overload
 
 from graphcam.errors import DesignError, check_kind
-from graphcam.given.follower import KINDS, FlatFaced, Follower, Limits, Oscillating, Rotation, Translating, sense
+from graphcam.given.follower import (
+    FOLLOWER_CLASSES,
+    FlatFaced,
+    Follower,
+    Limits,
+    Oscillating,
+    Rotation,
+    Translating,
+    sense,
+)
 from graphcam.given.motion import Motion
 from graphcam.mechanism.flat_faced import FlatMinimumRadius
-from graphcam.mechanism.followers import EXACT, LeastRadius
+from graphcam.mechanism.followers import EXACT_FUNCTIONS, LeastRadius
 from graphcam.mechanism.least_radius_arm import ArmMinimumRadius
 from graphcam.mechanism.least_radius_translating import MinimumRadius
 from graphcam.words import say
@@ -95,8 +104,8 @@ def minimum_radius(
     38.0
     """
     check_kind("motion", motion, Motion)
-    check_kind("follower", follower, KINDS)
-    sigma, exact = sense(rotation), EXACT[type(follower)]
+    check_kind("follower", follower, FOLLOWER_CLASSES)
+    sigma, exact = sense(rotation), EXACT_FUNCTIONS[type(follower)]
     if curvature is not None and exact.condition != "curvature":
         limit = say("left out")
         raise DesignError("curvature", curvature, limit, say("only a flat face limits the radius by the curvature"))

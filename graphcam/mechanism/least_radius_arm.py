@@ -35,17 +35,17 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import Limits, Oscillating, swing_remedy
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
-from graphcam.mechanism.half_planes import LINES, HalfPlane, Kept, Line, nearest
+from graphcam.mechanism.half_planes import LINE_NAMES, HalfPlane, Line, NearestPoint, nearest_point
 from graphcam.mechanism.leg_places import LegPlaces, OneLeg, sampled_legs
 from graphcam.words import say
 
-ROUNDING = 1e-15
+LINE_ROUNDING = 1e-15
 """How far a point may lie beyond a line and count as on it, relative to the arm and the distance from its start."""
-KEPT = 1e-12
+KEPT_TOLERANCE = 1e-12
 """How far the minimum point may lie beyond a line, relative to the same, if the limits can be kept at all."""
-SQUARED = 1e-6
+SQUARED_ERROR_STEP = 1e-6
 """A step of so small a part of the place leaves an error of its square, which changes a maximum value by no bit."""
-PATIENCE = 12
+MAX_STEPS = 12
 """Steps after which the search begins anew."""
 
 
@@ -82,11 +82,13 @@ class Side(NamedTuple):
         for k in (rising[:-1] > rising[1:]).nonzero()[0].tolist():
             before, here, after = excess[k : k + 3].tolist()
             # A peak rises above its sample by an eighth of the second difference, if its neighbours are as far.
-            if 3 * here - before - after + self.tau >= 0 and not [line for line in kept if self._touches(line, k + 1)]:
+            if 3 * here - before - after + self.tau >= 0 and not [
+                line for line in kept if self._touches_beside(line, k + 1)
+            ]:
                 found.append(k + 1)
         return found
 
-    def _touches(self, line: HalfPlane, k: int) -> bool:
+    def _touches_beside(self, line: HalfPlane, k: int) -> bool:
         """Whether a line touches beside the k-th place."""
         if line.touch is None or line.touch.side is not self:
             return False
@@ -195,20 +197,20 @@ def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits
     _check_lift(motion, limits)
     region, arm = _region(motion, follower.arm, sigma, limits), follower.arm
     if follower.distance is None:
-        point, lines, _ = _least(region, 0j, nearest)
+        point, lines, _ = _nearest_permitted(region, 0j, nearest_point)
         distance = abs(arm + point)
     else:
         distance = follower.distance
         arc = _Arc(arm, distance)
-        point, lines, beyond = _least(region, arc.point(0.0), arc.first)
-        if beyond > KEPT * (arm + abs(point)):
+        point, lines, beyond = _nearest_permitted(region, arc.point(0.0), arc.first)
+        if beyond > KEPT_TOLERANCE * (arm + abs(point)):
             free = arm_minimum_radius(motion, replace(follower, distance=None), sigma, limits)
             limit = say("one at which the pressure angle can keep its limits over the whole swing")
             remedy = say("leave it open: the minimum prime radius has a centre distance of {distance:.6g} mm")
             remedy = remedy.where(distance=free.distance)
             raise DesignError(say("centre distance"), distance, limit, remedy)
     names = [line.name for line in lines]
-    return ArmMinimumRadius(abs(point), distance, tuple([name for name in LINES if name in names]))
+    return ArmMinimumRadius(abs(point), distance, tuple([name for name in LINE_NAMES if name in names]))
 
 
 def _check_lift(motion: Motion, limits: Limits) -> None:
@@ -232,20 +234,22 @@ class _Region(NamedTuple):
     sides: list[Side]
     fixed: list[HalfPlane]
 
-    def beyond(self, point: complex, kept: Sequence[HalfPlane]) -> list[HalfPlane]:
+    def exceeded_lines(self, point: complex, kept: Sequence[HalfPlane]) -> list[HalfPlane]:
         """The worst line of each side that the point lies beyond by more than rounding; the farthest last."""
-        rounding, lines = ROUNDING * (self.arm + abs(point)), self.fixed
+        rounding, lines = LINE_ROUNDING * (self.arm + abs(point)), self.fixed
         excesses = [(side, side.excess(point)) for side in self.sides]
         for side, excess in excesses:
             k = int(excess.argmax())
             if (excess.item(k) + side.tau) * side.force > rounding:
                 lines = [*lines, side.number(k, point)]
-        if found := _beyond(lines, point, rounding):
+        if found := _lines_exceeded(lines, point, rounding):
             return found
-        return _beyond([side.greatest(k, point) for side, x in excesses for k in side.peaks(x, kept)], point, rounding)
+        return _lines_exceeded(
+            [side.greatest(k, point) for side, x in excesses for k in side.peaks(x, kept)], point, rounding
+        )
 
 
-def _beyond(lines: Sequence[HalfPlane], point: complex, rounding: float) -> list[HalfPlane]:
+def _lines_exceeded(lines: Sequence[HalfPlane], point: complex, rounding: float) -> list[HalfPlane]:
     found = [line for line in lines if line.excess(point) > rounding]
     return sorted(found, key=lambda line: line.excess(point)) if len(found) > 1 else found
 
@@ -274,8 +278,8 @@ def _rest_line(turned: float, tau: int, s: float, arm: float) -> HalfPlane:
 # --- the least point -------------------------------------------------------------------------------------------------
 
 
-def _least(
-    region: _Region, point: complex, meet: Callable[[Sequence[HalfPlane]], Kept]
+def _nearest_permitted(
+    region: _Region, point: complex, meet: Callable[[Sequence[HalfPlane]], NearestPoint]
 ) -> tuple[complex, tuple[HalfPlane, ...], float]:
     """The minimum point that keeps all lines, those that hold it off, and how far it still lies beyond one [mm].
 
@@ -285,15 +289,15 @@ def _least(
     """
     kept: tuple[HalfPlane, ...] = ()
     while True:
-        beyond = region.beyond(point, kept)
+        beyond = region.exceeded_lines(point, kept)
         if not beyond:
             return point, kept, 0.0
         next_point, next_kept = meet((*region.fixed, *kept, *beyond))
-        for _ in range(PATIENCE):
+        for _ in range(MAX_STEPS):
             moved, step = _touching(next_kept, next_point)
             if step > SAME_PLACE:
                 next_point, next_kept = meet(moved)
-            if step <= SQUARED:
+            if step <= SQUARED_ERROR_STEP:
                 break
         if abs(next_point) <= abs(point):  # it grows until nothing but rounding is left
             return point, kept, beyond[-1].excess(point)
@@ -327,7 +331,7 @@ class _Arc:
         """R at that angle."""
         return (self.distance - self.arm) + 2j * self.distance * math.sin(psi0 / 2) * cmath.exp(0.5j * psi0)
 
-    def first(self, lines: Sequence[HalfPlane]) -> Kept:
+    def first(self, lines: Sequence[HalfPlane]) -> NearestPoint:
         """The point of the arc where psi0, as it grows, comes to keep the last line; R = 0 if the arc nowhere does."""
         if not lines:
             return 0j, ()

@@ -21,10 +21,10 @@ from graphcam.given.follower import Limits, Translating
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.motion_law import Law
-from graphcam.given.roots import roots
+from graphcam.given.root_finding import roots
 from graphcam.mechanism.half_planes import Line
 from graphcam.mechanism.leg_places import legs
-from graphcam.mechanism.stationary import SAMPLES
+from graphcam.mechanism.turn_extremes import PIECE_FRACTIONS
 from graphcam.words import say
 
 
@@ -64,7 +64,7 @@ def translating_minimum_radius(
     if limits.rest:
         lines.append(("rest", slope, 0.0))
     if offset is None:
-        across, s0, active = _nearest(slope, height, lines)
+        across, s0, active = _nearest_permitted(slope, height, lines)
         return MinimumRadius(math.hypot(across, s0), sigma * across, active)
     check_number("offset", offset, say("a finite length in mm"), say("leave it out to let it be found"))
     place = sigma * offset
@@ -79,7 +79,7 @@ _Bound = tuple[Line, float, float]
 """Name, slope and height of the line of the returns, or of the rest: s0 slope - e' >= height."""
 
 
-def _nearest(slope: float, height: float, lines: list[_Bound]) -> tuple[float, float, tuple[Line, ...]]:
+def _nearest_permitted(slope: float, height: float, lines: list[_Bound]) -> tuple[float, float, tuple[Line, ...]]:
     """The point (e', s0) nearest to the start of the lift, with s0 slope + e' >= height and the other lines kept."""
     for name, other, its_height in lines:
         # Where the perpendicular meets the line of the returns the rises may be kept too.
@@ -128,7 +128,7 @@ def steepest_tangent(law: Law, k: float) -> tuple[float, float]:
         return k * f2 - f1
 
     edges = np.array([0.0, *law.edges, 1.0])
-    u = (edges[:-1, None] + np.diff(edges)[:, None] * SAMPLES).ravel()
+    u = (edges[:-1, None] + np.diff(edges)[:, None] * PIECE_FRACTIONS).ravel()
     # Of a law that begins as u^n the place is (n - 1) k for small k, which may lie before every sample.
     u = np.append(min(k, u[0]) / 2, u)
     sign = np.sign(slope(u))

@@ -11,11 +11,11 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell, Motion
 from graphcam.given.motion_law import Law
 
-INSIDE = 96
+PHASE_PLACES = 96
 """Places on a whole phase, denser at the ends of its smooth pieces ..."""
-FEWEST = 16
+MIN_PIECE_PLACES = 16
 """The minimum number of places on a piece, however short."""
-CLOSEST = np.logspace(-12, -4, 25)
+END_PLACES = np.logspace(-12, -4, 25)
 """Places nearer the phase's ends, where a steep limit moves the extremes to."""
 
 
@@ -91,8 +91,10 @@ def _places(law: Law) -> Floats:
     """(3, n) places w, and f and f' there."""
     pieces = pairwise((0.0, *law.breaks, 1.0))
     inside = [
-        begin + (end - begin) * np.sin(np.linspace(0, np.pi / 2, max(FEWEST, round(INSIDE * (end - begin))))) ** 2
+        begin
+        + (end - begin)
+        * np.sin(np.linspace(0, np.pi / 2, max(MIN_PIECE_PLACES, round(PHASE_PLACES * (end - begin))))) ** 2
         for begin, end in pieces
     ]
-    w = np.unique(np.concatenate([CLOSEST, *inside, 1 - CLOSEST]))
+    w = np.unique(np.concatenate([END_PLACES, *inside, 1 - END_PLACES]))
     return np.array([w, *law(w, derivatives=1)])

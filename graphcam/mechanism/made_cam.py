@@ -25,14 +25,14 @@ from graphcam.given.laws import Floats
 from graphcam.given.making_errors import Deviations
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Contour, Values
-from graphcam.mechanism.taylor import Taylor
+from graphcam.mechanism.taylor_intervals import Taylor
 from graphcam.words import say
 
-PATIENCE = 20
+MAX_NEWTON_STEPS = 20
 """Newton's steps; three or four do where waves are shallow."""
-CLOSE = 1e-13
+CONVERGED_STEP = 1e-13
 """A step that is no longer [rad] ends the search ..."""
-WRONG = 1e-9
+DIVERGED_STEP = 1e-9
 """A search whose last step [rad] is longer than this has found no contact."""
 
 
@@ -77,16 +77,16 @@ class MadeCam:
         phi = np.asarray(phi, dtype=np.float64)
         theta = phi + np.zeros(self.deviations.shape)
         step = np.full(np.shape(theta), np.inf)
-        for _ in range(PATIENCE):
+        for _ in range(MAX_NEWTON_STEPS):
             contour = self._contour(theta, phi)
             beyond, slope = self.cam.kinematics.gap(contour, self.deviations.sizes)
             with np.errstate(divide="ignore", invalid="ignore"):
                 step = beyond / slope
             theta = theta - step
-            if not np.nanmax(np.abs(step), initial=0.0) > CLOSE:
+            if not np.nanmax(np.abs(step), initial=0.0) > CONVERGED_STEP:
                 break
         contour = self._contour(theta, phi)
-        follows = (np.abs(step) < WRONG) & (contour.speed > 0)
+        follows = (np.abs(step) < DIVERGED_STEP) & (contour.speed > 0)
         if not self.cam.kinematics.takes_roller:
             follows &= contour.turning > 0  # a face lies on summits alone
         s, v, a = self.cam.kinematics.met(contour, self.deviations.sizes)
@@ -101,7 +101,7 @@ class MadeCam:
         (x, y), (nx, ny), kappa = kin.path(values)
         normal = nx + 1j * np.asarray(ny)
         length = kin.speed(values, 0.0)
-        along = cast(Taylor, kin.speed(_followed(values), cast(Any, Taylor(_NONE, r - delta, -slope, -bend, _NONE))))
+        along = cast(Taylor, kin.speed(_followed(values), cast(Any, Taylor(_ZERO, r - delta, -slope, -bend, _ZERO))))
         forwards = np.hypot(along.value, slope)
         leaning = (bend * along.value - slope * along.slope) / (forwards * forwards)
         turning = length * kappa - leaning
@@ -124,7 +124,7 @@ def linear_off(cam: Cam, phi: Floats, deviations: Deviations) -> tuple[Floats, F
     >>> [off.round(4).tolist() for off in linear_off(cam, np.array([0.0]), wave)]
     [[0.01], [0.0], [-4.0]]
     """
-    lifted = lifted_over(cam.kinematics, cam.motion(phi))
+    lifted = lifts_by_error(cam.kinematics, cam.motion(phi))
     delta, slope, bend = deviations.waviness(phi)
     profile = lifted["profile"]
     s = profile.value * delta
@@ -135,12 +135,12 @@ def linear_off(cam: Cam, phi: Floats, deviations: Deviations) -> tuple[Floats, F
     return s, v, a
 
 
-def lifted_over(kin: Any, values: Values) -> dict[str, Taylor]:
+def lifts_by_error(kin: Any, values: Values) -> dict[str, Taylor]:
     """The lift of the follower by what is too large, with the first two derivatives by phi."""
-    return kin.lifted(_followed(values))
+    return kin.lift_per_error(_followed(values))
 
 
-_NONE = np.zeros(())
+_ZERO = np.zeros(())
 
 
 def _followed(values: Values) -> Values:
@@ -150,7 +150,7 @@ def _followed(values: Values) -> Values:
 
 def _derivatives(values: Values) -> Iterator[Any]:
     s, v, a, j = values
-    yield Taylor(_NONE, s, v, a, _NONE)
-    yield Taylor(_NONE, v, a, j, _NONE)
-    yield Taylor(_NONE, a, j, _NONE, _NONE)  # its second derivative is asked for by nobody
+    yield Taylor(_ZERO, s, v, a, _ZERO)
+    yield Taylor(_ZERO, v, a, j, _ZERO)
+    yield Taylor(_ZERO, a, j, _ZERO, _ZERO)  # its second derivative is asked for by nobody
     yield j

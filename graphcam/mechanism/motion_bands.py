@@ -29,27 +29,27 @@ from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
-from graphcam.given.making_errors import SIZES, MakingErrors, deviations_within, wave_name
+from graphcam.given.making_errors import TOLERANCED_SIZES, MakingErrors, deviations_within, wave_name
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Kinematics, Values
-from graphcam.mechanism.made_cam import MadeCam, lifted_over
-from graphcam.mechanism.stationary import ValueAt, places_in, smooth_pieces
-from graphcam.showing import Shown, in_lines
+from graphcam.mechanism.made_cam import MadeCam, lifts_by_error
+from graphcam.mechanism.turn_extremes import ValueAt, places_in, smooth_pieces
+from graphcam.showing import Plottable, in_lines
 from graphcam.words import say
 
-SAMPLES = 2000
+SAMPLE_SIZE = 2000
 """Mechanisms of a sample."""
 COVERAGE = 0.95
 """The part of all mechanisms that a band holds."""
-PLACES, FEWEST = 180, 4
+TURN_PLACES, MIN_PIECE_PLACES = 180, 4
 """Cam angles of a band over the turn, and on a smooth piece of the motion at least."""
-EQUAL = 1e-9
+SAME_HALF_WIDTH = 1e-9
 """Half-widths that differ by less than this part of them are equal."""
-TOGETHER = 2**16
+BATCH_SIZE = 2**16
 """Contacts that are solved at a time, or those at one cam angle if they are more: some tens of megabytes."""
-DEEPEST = 0.5
+MAX_WAVE_SHARE = 0.5
 """Waves are refused that reach so great a part of what makes a cusp: nearer to one the first order says little."""
-OFF_BY: dict[str, tuple[str, float]] = {"roller_diameter": ("roller_radius", 0.5)}
+ERROR_SIZES: dict[str, tuple[str, float]] = {"roller_diameter": ("roller_radius", 0.5)}
 """What a tolerance is an error of, where that has another name, and how much of it."""
 
 
@@ -83,7 +83,7 @@ class MotionSample(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class MotionBands(Shown):
+class MotionBands(Plottable):
     """How far s, v and a may be off over the turn, of cams and followers as they are made.
 
     The first axis of all arrays is s, v, a: mm, mm/rad, mm/rad^2, or of an arm rad, rad/rad, rad/rad^2.
@@ -99,7 +99,7 @@ class MotionBands(Shown):
     errors: MakingErrors
     phi: Floats
     coverage: float = COVERAGE
-    samples: int = SAMPLES
+    samples: int = SAMPLE_SIZE
     seed: int = 0
 
     def __repr__(self) -> str:
@@ -154,7 +154,7 @@ class MotionBands(Shown):
         At the ends the bands are often widest, and no sample is taken there.
         """
         phase, low, high = smooth_pieces(self.cam.motion)
-        share = np.linspace(0, 1, PLACES, endpoint=False)
+        share = np.linspace(0, 1, TURN_PLACES, endpoint=False)
         inside = places_in(self.cam.motion, phase[:, None], low[:, None] * (1 - share) + high[:, None] * share)
         ends = places_in(self.cam.motion, phase, high, "left")
         both = zip(inside.values, ends.values, strict=True)
@@ -167,7 +167,7 @@ class MotionBands(Shown):
         """The dense angles at which the bands of s, v, a are widest, and the half-widths there."""
         half = half_widths(self._dense[1], self.errors, self.coverage)
         # Of equal ones the first, though rounding makes another a little wider.
-        at = [int(np.flatnonzero(row >= row.max() * (1 - EQUAL))[0]) for row in half]
+        at = [int(np.flatnonzero(row >= row.max() * (1 - SAME_HALF_WIDTH))[0]) for row in half]
         return at, half[np.arange(3), at]
 
     @property
@@ -198,7 +198,7 @@ class MotionBands(Shown):
         made, nominal = MadeCam(self.cam, self.errors.sample(self.samples, self.seed)), self.nominal
         ends = (1 - self.coverage) / 2, (1 + self.coverage) / 2
         found = MotionSample(*(np.empty_like(nominal) for _ in range(3)))
-        for here in _together(self.phi.size, self.samples):
+        for here in _batches(self.phi.size, self.samples):
             off = np.array(made(self.phi[here])) - nominal[:, None, here]
             if np.isnan(off).any():
                 remedy = say("take smaller tolerances")
@@ -215,13 +215,13 @@ def motion_bands(
     phi: ArrayLike | None = None,
     *,
     coverage: float = COVERAGE,
-    samples: int = SAMPLES,
+    samples: int = SAMPLE_SIZE,
     seed: int = 0,
 ) -> MotionBands:
     """The bands of s, v and a of a cam and its follower as they are made: to the first order, and of a sample.
 
-    phi : (n,) cam angles [rad]; None takes about :data:`PLACES`, none of them at a jump of the acceleration, which on
-        every cam that is made lies elsewhere
+    phi : (n,) cam angles [rad]; None takes about :data:`TURN_PLACES`, none of them at a jump of the acceleration, which
+        on every cam that is made lies elsewhere
     coverage : the part of all mechanisms that a band holds at each cam angle;  samples, seed : of the sample, 2 or more
 
     Raises
@@ -259,9 +259,9 @@ def effects_of(kin: Kinematics, errors: MakingErrors, values: Values) -> dict[st
 
     A wave reaches its maximum displacement, velocity and acceleration at different phases.
     """
-    lifted, found = lifted_over(kin, values), dict[str, Floats]()
+    lifted, found = lifts_by_error(kin, values), dict[str, Floats]()
     waves = {wave_name(n): n for n in errors.harmonics}
-    for name, size, reach in _reaches(errors):
+    for name, size, reach in _error_reaches(errors):
         by, n = lifted[size], waves.get(name, 0)
         v = np.hypot(by.slope, n * by.value)
         a = np.hypot(by.bend - n * n * by.value, 2 * n * by.slope)
@@ -294,27 +294,27 @@ def position_band(kin: Kinematics, errors: MakingErrors, within: float, values: 
 
     within : standard deviations that it holds of a normal distribution, on either side
     """
-    lifted = kin.lifted(values)
-    scatter = [(reach * errors.part(name), lifted[size]) for name, size, reach in _reaches(errors)]
+    lifted = kin.lift_per_error(values)
+    scatter = [(reach * errors.part(name), lifted[size]) for name, size, reach in _error_reaches(errors)]
     normal = within * np.sqrt(sum(deviation * deviation * by * by for deviation, by in scatter))
-    return np.minimum(normal, sum(reach * np.abs(lifted[size]) for _, size, reach in _reaches(errors)))
+    return np.minimum(normal, sum(reach * np.abs(lifted[size]) for _, size, reach in _error_reaches(errors)))
 
 
 def position_band_slope(kin: Kinematics, errors: MakingErrors, within: float, values: Values) -> Floats:
     """What has the sign of its derivative by phi."""
-    lifted = lifted_over(kin, values)
+    lifted = lifts_by_error(kin, values)
     variance = worst = slope = worst_slope = np.zeros(())
-    for name, size, reach in _reaches(errors):
+    for name, size, reach in _error_reaches(errors):
         by, scatter = lifted[size], (reach * errors.part(name)) ** 2
         variance, slope = variance + scatter * by.value**2, slope + scatter * by.value * by.slope
         worst, worst_slope = worst + reach * np.abs(by.value), worst_slope + reach * np.sign(by.value) * by.slope
     return np.where(within * np.sqrt(variance) <= worst, slope, worst_slope)
 
 
-def _reaches(errors: MakingErrors) -> Iterator[tuple[str, str, float]]:
+def _error_reaches(errors: MakingErrors) -> Iterator[tuple[str, str, float]]:
     """Every error with the name of what it lifts the follower by, and how far that may be off [mm]."""
     for name, reach in errors.reaches.items():
-        size, part = OFF_BY.get(name, (name, 1.0)) if name in SIZES else ("profile", 1.0)
+        size, part = ERROR_SIZES.get(name, (name, 1.0)) if name in TOLERANCED_SIZES else ("profile", 1.0)
         yield name, size, reach * part
 
 
@@ -343,7 +343,7 @@ def check_errors(cam: Cam, errors: MakingErrors) -> None:
     room = kin.speed(values, roller)
     if kin.takes_roller:  # a knife edge reaches into every hollow
         room = room * kin.speed(values, 0.0) / roller if roller else np.inf
-    if sum(waves) >= (room := DEEPEST * float(np.min(room))):
+    if sum(waves) >= (room := MAX_WAVE_SHARE * float(np.min(room))):
         k = int(np.argmax(waves))
         n = errors.harmonics[k]
         why = say("a face would bridge the hollows of deep ones")
@@ -361,10 +361,10 @@ def check_sizes(kin: Kinematics, errors: MakingErrors) -> None:
     DesignError : there is one
     """
     still = np.zeros(())
-    own = kin.lifted((still, still, still, still))
-    for name in SIZES:
+    own = kin.lift_per_error((still, still, still, still))
+    for name in TOLERANCED_SIZES:
         tolerance = getattr(errors, name)
-        if tolerance and OFF_BY.get(name, (name, 1.0))[0] not in own:
+        if tolerance and ERROR_SIZES.get(name, (name, 1.0))[0] not in own:
             limit = say("left out: this follower has no such size")
             raise DesignError(name, tolerance, limit, say("give those that it has"))
 
@@ -375,12 +375,12 @@ def band_places(cam: Cam) -> Floats:
     angles = (high - low) * cam.motion.angles[phase]
     found: list[Floats] = []
     for k, begin, angle in zip(phase, low, angles, strict=True):
-        parts = max(FEWEST, round(PLACES * angle / angles.sum()))
+        parts = max(MIN_PIECE_PLACES, round(TURN_PLACES * angle / angles.sum()))
         found.append(cam.motion.angle_at(k, begin) + angle * (np.arange(parts) + 0.5) / parts)
     return np.concatenate(found)
 
 
-def _together(places: int, samples: int) -> Iterator[slice]:
-    step = max(1, TOGETHER // samples)
+def _batches(places: int, samples: int) -> Iterator[slice]:
+    step = max(1, BATCH_SIZE // samples)
     for k in range(0, places, step):
         yield slice(k, k + step)

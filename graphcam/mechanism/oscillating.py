@@ -17,7 +17,7 @@ from graphcam.errors import DesignError, check_kind
 from graphcam.given.follower import Oscillating, swing_remedy
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
-from graphcam.given.pieces import sine_cosine
+from graphcam.given.piecewise import sine_cosine
 from graphcam.given.spring_load import ArmLoad, FollowerLoad
 from graphcam.mechanism.kinematics import Appearance, Contour, Pair, RollerKinematics, Values
 from graphcam.words import say
@@ -131,7 +131,7 @@ class OscillatingKinematics(RollerKinematics):
         """sigma: alpha is measured in one sense about the arm, whichever way the cam turns."""
         return self.sigma
 
-    def lifted(self, values: Values) -> dict[str, Any]:
+    def lift_per_error(self, values: Values) -> dict[str, Any]:
         """1/(l cos(alpha)) by profile and roller; by c and l what moves the trace point along the normal.
 
         The normal has the angle alpha to the motion i exp(-i psi), so that c moves it by sin(psi - alpha) and l by
@@ -144,14 +144,14 @@ class OscillatingKinematics(RollerKinematics):
 
     def gap(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any]:
         """How far beyond the arm's reach."""
-        arm, distance = self._made(sizes)
+        arm, distance = self._made_sizes(sizes)
         out = contour.point - distance
         along = -1j * self.sigma * contour.speed * contour.normal
         return np.abs(out) - arm, (along * out.conj()).real / np.abs(out)
 
     def met(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any, Any]:
         """psi from the place, tan(alpha) from the normal seen along i exp(-i psi), v from it, a from the curvature."""
-        arm, distance = self._made(sizes)
+        arm, distance = self._made_sizes(sizes)
         inwards = (distance - contour.point) / arm  # exp(-i psi)
         seen = contour.normal * (1j * inwards).conj()
         along, forth = -distance * inwards.imag, distance * inwards.real
@@ -162,7 +162,7 @@ class OscillatingKinematics(RollerKinematics):
         a = (squared + arm * v * (self.sigma + v) * across - bent) / (arm * along)
         return -np.angle(inwards) - self.psi0, v, a
 
-    def _made(self, sizes: Mapping[str, Any]) -> tuple[Any, Any]:
+    def _made_sizes(self, sizes: Mapping[str, Any]) -> tuple[Any, Any]:
         """l and c as they are made [mm]."""
         return self.arm + sizes.get("arm", 0.0), self.distance + sizes.get("distance", 0.0)
 

@@ -5,9 +5,9 @@
 Over a cell, a stretch on which g is smooth, g is the Chebyshev series through its values at :data:`NODES` places, as
 good as the machine's numbers or the cell is halved.  One particular solution of that series is a series again:
 
-- in a short cell, nu times half the cell at most :data:`SHORT`, the one that starts from rest, for w = y'' and the
-  integration S from the cell's start: (I + 2 zeta nu S + nu^2 S^2) w = g, near the identity;
-- in a long one, from :data:`LONG` on, the one that follows g without vibrating, for the differentiation D:
+- in a short cell, nu times half the cell at most :data:`MAX_FAST_RATE`, the one that starts from rest, for w = y'' and
+  the integration S from the cell's start: (I + 2 zeta nu S + nu^2 S^2) w = g, near the identity;
+- in a long one, from :data:`MIN_SLOW_RATE` on, the one that follows g without vibrating, for the differentiation D:
   (nu^2 I + 2 zeta nu D + D^2) y = g, triangular and again near the identity.
 
 In between the cell is divided until it is short.  To it comes the free vibration in closed form, the same from cell to
@@ -32,38 +32,38 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import check_number
 from graphcam.given.laws import Floats
-from graphcam.given.pieces import CHUNK
+from graphcam.given.piecewise import CHUNK_SIZE
 from graphcam.words import say
 
 NODES = 20
 """Places in a cell through which the forcing's series goes."""
-SHORT, LONG = 2.0, 64.0
+MAX_FAST_RATE, MIN_SLOW_RATE = 2.0, 64.0
 """The fast rate of the free vibration times half a cell, at most, and the slow one, at least."""
-RESOLVED = 2e-14
+RESOLVED_SHARE = 2e-14
 """A series whose last three coefficients are no more than this part of the greatest is as good as its values."""
-MOST_CELLS = 64
+MAX_CELLS = 64
 """The maximum number of cells into which a smooth stretch is divided to resolve its forcing."""
-MOST_DAMPING = 10.0
+MAX_DAMPING = 10.0
 """Times the critical damping; from here on a percentage is likelier than a ratio."""
-RESONANCE = 1e-6
+RESONANCE_SHARE = 1e-6
 """A free vibration that comes back after a turn to this part of itself is in resonance."""
-PER_PERIOD, FEWEST = 16, 9
+PLACES_PER_PERIOD, MIN_CELL_PLACES = 16, 9
 """Places a natural period, and a cell, between which a quantity is taken to have one extreme at most."""
 
-_PLACES = np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
-_TO_SERIES = chebyshev.chebvander(_PLACES, NODES - 1).T * (2 / NODES)
-_TO_SERIES[0] /= 2
-_SLOPE = np.zeros((NODES, NODES))
-_SLOPE[:-1] = chebyshev.chebder(np.eye(NODES))
-_ONCE, _TWICE = (chebyshev.chebint(np.eye(NODES), times, lbnd=-1) for times in (1, 2))
+_CHEBYSHEV_NODES = np.cos(np.pi * (np.arange(NODES) + 0.5) / NODES)
+_VALUES_TO_SERIES = chebyshev.chebvander(_CHEBYSHEV_NODES, NODES - 1).T * (2 / NODES)
+_VALUES_TO_SERIES[0] /= 2
+_DERIVATIVE_MATRIX = np.zeros((NODES, NODES))
+_DERIVATIVE_MATRIX[:-1] = chebyshev.chebder(np.eye(NODES))
+_FIRST_INTEGRAL, _SECOND_INTEGRAL = (chebyshev.chebint(np.eye(NODES), times, lbnd=-1) for times in (1, 2))
 _WIDTH = NODES + 2
 """Coefficients of a solution."""
-_AT_START = (-1.0) ** np.arange(_WIDTH)
+_START_SIGNS = (-1.0) ** np.arange(_WIDTH)
 
 
 Which = NDArray[np.intp] | slice
 """Numbers of oscillators, or a slice of them."""
-ALL = slice(None)
+ALL_OSCILLATORS = slice(None)
 
 
 def check_damping(damping: float) -> None:
@@ -71,10 +71,10 @@ def check_damping(damping: float) -> None:
 
     Raises
     ------
-    DesignError : it is negative, not a number, or more than :data:`MOST_DAMPING`
+    DesignError : it is negative, not a number, or more than :data:`MAX_DAMPING`
     """
-    limit = say("a ratio to the critical damping from 0 to {most:g}", most=MOST_DAMPING)
-    check_number("damping", damping, limit, say("2 % is 0.02"), least=0, most=MOST_DAMPING)
+    limit = say("a ratio to the critical damping from 0 to {most:g}", most=MAX_DAMPING)
+    check_number("damping", damping, limit, say("2 % is 0.02"), least=0, most=MAX_DAMPING)
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +101,7 @@ class Oscillator:
         fast = self.frequency * (zeta + math.sqrt((zeta - 1) * (zeta + 1)))
         return self.frequency * (self.frequency / fast), fast  # their product is nu^2: the difference has no digits
 
-    def free(self, t: Floats, y: Floats, y1: Floats, who: Which = ALL) -> tuple[Floats, Floats]:
+    def free(self, t: Floats, y: Floats, y1: Floats, who: Which = ALL_OSCILLATORS) -> tuple[Floats, Floats]:
         """(y, y') at times t after a state (y, y'), left to itself; the leading axis is that of the oscillators.
 
         who : the numbers of those that are meant, as many as the leading axis has
@@ -157,7 +157,7 @@ class Drive:
         start, end = self.edges[stretch : stretch + 2]
         half = (end - start) / (2 * count)
         middles = start + half * (2 * np.arange(count)[:, None] + 1)
-        return self.forcing((middles + half * _PLACES).ravel()).reshape(count, NODES) @ _TO_SERIES.T
+        return self.forcing((middles + half * _CHEBYSHEV_NODES).ravel()).reshape(count, NODES) @ _VALUES_TO_SERIES.T
 
     @cached_property
     def resolved(self) -> list[int]:
@@ -172,7 +172,7 @@ class Drive:
         if not series.any():
             return 0
         count = 1
-        while series[:, -3:].max() > RESOLVED * largest and count < MOST_CELLS:
+        while series[:, -3:].max() > RESOLVED_SHARE * largest and count < MAX_CELLS:
             count *= 2
             series = np.abs(self.series(stretch, count))
         return count
@@ -183,14 +183,14 @@ class Drive:
         columns: list[NDArray[np.intp]] = []
         for resolved, width in zip(self.resolved, np.diff(self.edges).tolist(), strict=True):
             half = width / 2 / max(resolved, 1)
-            finer = np.exp2(np.ceil(np.log2(np.maximum(fast * half / SHORT, 1.0)))).astype(np.intp)
-            long = (slow * half >= LONG) | (resolved == 0)
+            finer = np.exp2(np.ceil(np.log2(np.maximum(fast * half / MAX_FAST_RATE, 1.0)))).astype(np.intp)
+            long = (slow * half >= MIN_SLOW_RATE) | (resolved == 0)
             columns.append(np.where(long, -max(resolved, 1), finer * resolved))
         return np.stack(columns, axis=1)
 
 
 @dataclass(frozen=True, eq=False)
-class Driven:
+class DrivenOscillators:
     """Oscillators under a drive: what they do at any time; before it begins they are taken to be where they begin.
 
     oscillator : of N;  end : when the drive ends; from then on they are free
@@ -221,7 +221,7 @@ class Driven:
         left, left1 = self.final
         y, y1 = self.oscillator.free(np.maximum(t - self.end, 0.0)[None], left[:, None], left1[:, None])
         driven = t < self.end
-        y[:, driven], y1[:, driven], _ = self.values(ALL, cell[driven], np.maximum(tau[driven], -1.0))
+        y[:, driven], y1[:, driven], _ = self.values(ALL_OSCILLATORS, cell[driven], np.maximum(tau[driven], -1.0))
         return y, y1
 
     def values(self, who: Which, cell: NDArray[np.intp], tau: Floats) -> tuple[Floats, Floats, Floats]:
@@ -231,7 +231,7 @@ class Driven:
         """
         count = self.oscillator.frequency.size if isinstance(who, slice) else 1
         out = np.empty((3, count, tau.size))
-        size = max(CHUNK // count, 1)
+        size = max(CHUNK_SIZE // count, 1)
         for here in (slice(k, k + size) for k in range(0, tau.size, size)):
             out[..., here] = self._values(who if isinstance(who, slice) else who[here], cell[here], tau[here])
         y, y1, g = out if isinstance(who, slice) else out[:, 0]
@@ -255,13 +255,13 @@ class Driven:
     def places(self) -> tuple[NDArray[np.intp], Floats]:
         """(P,) cells and places of them, in order, both ends among them, between which extremes lie one by one."""
         fast = float(self.oscillator.rates[1].max())
-        counts = np.ceil(PER_PERIOD * fast * 2 * self.halves / math.tau).astype(np.intp) + FEWEST
+        counts = np.ceil(PLACES_PER_PERIOD * fast * 2 * self.halves / math.tau).astype(np.intp) + MIN_CELL_PLACES
         cell = np.repeat(np.arange(self.starts.size), counts)
         first = np.repeat(np.cumsum(counts) - counts, counts)
         return cell, 2 * (np.arange(cell.size) - first) / (counts[cell] - 1) - 1
 
 
-def driven(oscillator: Oscillator, drive: Drive, start: Floats | None = None) -> Driven:
+def driven(oscillator: Oscillator, drive: Drive, start: Floats | None = None) -> DrivenOscillators:
     """Oscillators under a drive, from a state (2, N) of y and y', or from rest.
 
     All of them must have the same :meth:`Drive.counts`.
@@ -277,9 +277,9 @@ def driven(oscillator: Oscillator, drive: Drive, start: Floats | None = None) ->
         low, high = drive.edges[stretch : stretch + 2].tolist()
         half = (high - low) / (2 * abs(count))
         series = drive.series(stretch, abs(count))
-        position, rate = (_following if count < 0 else _from_rest)(oscillator, series, half)
+        position, rate = (_following if count < 0 else _rest_solution)(oscillator, series, half)
         states = _carried(oscillator, position, rate, half, state)
-        loose.append(states[..., :-1] - np.stack([position @ _AT_START, rate @ _AT_START]))
+        loose.append(states[..., :-1] - np.stack([position @ _START_SIGNS, rate @ _START_SIGNS]))
         state = states[..., -1]
         starts.append(np.linspace(low, high, abs(count), endpoint=False))
         halves.append(np.full(abs(count), half))
@@ -287,7 +287,7 @@ def driven(oscillator: Oscillator, drive: Drive, start: Floats | None = None) ->
         positions.append(position)
         rates.append(rate)
     loose.append(state[..., None])
-    return Driven(
+    return DrivenOscillators(
         oscillator,
         float(drive.edges[-1]),
         np.concatenate(starts),
@@ -299,7 +299,7 @@ def driven(oscillator: Oscillator, drive: Drive, start: Floats | None = None) ->
     )
 
 
-def steady(oscillator: Oscillator, drive: Drive) -> Driven | None:
+def steady(oscillator: Oscillator, drive: Drive) -> DrivenOscillators | None:
     """Oscillators under a drive that repeats itself without end; None where resonance lets no such motion be.
 
     >>> push = Drive(np.array([0.0, 1.0]), lambda t: np.sin(math.tau * t))
@@ -314,7 +314,7 @@ def steady(oscillator: Oscillator, drive: Drive) -> Driven | None:
     one, none = np.ones_like(y), np.zeros_like(y)
     (a, c), (b, d) = oscillator.free(turn, one, none), oscillator.free(turn, none, one)
     determinant = (1 - a) * (1 - d) - b * c
-    if determinant.min() < RESONANCE**2:
+    if determinant.min() < RESONANCE_SHARE**2:
         return None
     start = np.stack([(1 - d) * y + b * y1, c * y + (1 - a) * y1]) / determinant
     return driven(oscillator, drive, start)
@@ -323,17 +323,23 @@ def steady(oscillator: Oscillator, drive: Drive) -> Driven | None:
 def _following(oscillator: Oscillator, series: Floats, half: float) -> tuple[Floats, Floats]:
     """(N, C, W) the series of the solution that follows g, and of its y'."""
     span = (oscillator.frequency * half)[:, None, None]
-    matrix = np.eye(NODES) + (2 * oscillator.damping / span) * _SLOPE + _SLOPE @ _SLOPE / span**2
+    matrix = (
+        np.eye(NODES)
+        + (2 * oscillator.damping / span) * _DERIVATIVE_MATRIX
+        + _DERIVATIVE_MATRIX @ _DERIVATIVE_MATRIX / span**2
+    )
     followed = np.linalg.solve(matrix, series.T[None] / oscillator.frequency[:, None, None] ** 2)
-    return _rows(followed), _rows(_SLOPE @ followed / half)
+    return _rows(followed), _rows(_DERIVATIVE_MATRIX @ followed / half)
 
 
-def _from_rest(oscillator: Oscillator, series: Floats, half: float) -> tuple[Floats, Floats]:
+def _rest_solution(oscillator: Oscillator, series: Floats, half: float) -> tuple[Floats, Floats]:
     """(N, C, W) the series of the solution that starts from rest in each cell, and of its y'."""
     span = (oscillator.frequency * half)[:, None, None]
-    matrix = np.eye(NODES) + 2 * oscillator.damping * span * _ONCE[:NODES] + span**2 * _TWICE[:NODES]
+    matrix = (
+        np.eye(NODES) + 2 * oscillator.damping * span * _FIRST_INTEGRAL[:NODES] + span**2 * _SECOND_INTEGRAL[:NODES]
+    )
     bent = np.linalg.solve(matrix, np.broadcast_to(series.T, (span.shape[0], *series.T.shape)))
-    return _rows(_TWICE @ bent * half**2), _rows(_ONCE @ bent * half)
+    return _rows(_SECOND_INTEGRAL @ bent * half**2), _rows(_FIRST_INTEGRAL @ bent * half)
 
 
 def _rows(columns: Floats) -> Floats:
@@ -346,7 +352,7 @@ def _rows(columns: Floats) -> Floats:
 def _carried(oscillator: Oscillator, position: Floats, rate: Floats, half: float, state: Floats) -> Floats:
     """(2, N, C + 1) the states at the ends of C equal cells, from the first one."""
     n, count, _ = position.shape
-    (y, y1), after = (np.stack([position @ ends, rate @ ends]) for ends in (_AT_START, np.ones(_WIDTH)))
+    (y, y1), after = (np.stack([position @ ends, rate @ ends]) for ends in (_START_SIGNS, np.ones(_WIDTH)))
     width = np.full((n, 1), 2 * half)
     gained = after - np.stack(oscillator.free(width, y, y1))
     step = 1

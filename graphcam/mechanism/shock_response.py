@@ -31,21 +31,29 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats, law as law_of
-from graphcam.given.motion import FULL_TURN, Motion, Moving
+from graphcam.given.motion import FULL_TURN, Motion, MovingPhase
 from graphcam.given.motion_law import Law
-from graphcam.given.roots import roots
+from graphcam.given.root_finding import roots
 from graphcam.mechanism.arc_motion import ArcMotion
-from graphcam.mechanism.oscillator import ALL, Drive, Driven, Oscillator, Which, check_damping, driven
-from graphcam.showing import Shown, in_lines
+from graphcam.mechanism.oscillator import (
+    ALL_OSCILLATORS,
+    Drive,
+    DrivenOscillators,
+    Oscillator,
+    Which,
+    check_damping,
+    driven,
+)
+from graphcam.showing import Plottable, in_lines
 from graphcam.words import say
 
-MOST = 1000.0
+MAX_RATIO = 1000.0
 """Natural periods in a rise; a follower still stiffer follows the cam."""
-TOGETHER = 2048
+BATCH_CELLS = 2048
 """Cells of all oscillators that are solved at a time, which bounds the memory."""
-NEAR = 0.9
+NEAR_MAXIMUM_SHARE = 0.9
 """An extreme cannot be the maximum where the values beside it stay below this part of the maximum one."""
-PREPARED = np.linspace(0.1, 10.0, 397)
+DEFAULT_RATIOS = np.linspace(0.1, 10.0, 397)
 """The ratios n of a spectrum for which none are given, the whole numbers and their halves among them."""
 AnyMotion = Motion | ArcMotion
 
@@ -116,7 +124,7 @@ def _of_motion(motion: AnyMotion) -> Event:
     name = " and ".join(kind for kind, *_ in turned[:count])
     if isinstance(motion, Motion):
         met = [motion.phases[(first + k) % len(phases)] for k in range(count)]
-        moving = [phase for phase in met if isinstance(phase, Moving)]
+        moving = [phase for phase in met if isinstance(phase, MovingPhase)]
         name = moving[0].normalised.name if count == 1 else name
         peak = max(phase.normalised.peak_acceleration * phase.lift / phase.angle**2 for phase in moving)
     else:
@@ -132,7 +140,7 @@ def turn_edges(motion: AnyMotion) -> Floats:
     inner = [
         start + phase.angle * edge
         for start, phase in zip(motion.starts.tolist(), motion.phases, strict=True)
-        if isinstance(phase, Moving)
+        if isinstance(phase, MovingPhase)
         for edge in phase.normalised.edges
     ]
     return np.unique([*motion.starts.tolist(), *inner])
@@ -142,7 +150,7 @@ def turn_edges(motion: AnyMotion) -> Floats:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class FollowerResponse(Shown):
+class FollowerResponse(Plottable):
     """What the mass does during a rise and after it; call it with times in rise times for (x, x', x''), in lifts.
 
     Made by :func:`follower_response`.  Before u = 0 it is at rest, after the event it vibrates freely.
@@ -156,7 +164,7 @@ class FollowerResponse(Shown):
     event: Event
     n: float
     damping: float
-    solved: Driven
+    solved: DrivenOscillators
 
     def __call__(self, u: ArrayLike) -> tuple[Floats, Floats, Floats]:
         """(x, x', x'') at times u [rise times], each shaped like u; NaN stays NaN."""
@@ -227,10 +235,10 @@ def follower_response(law: str | Law | AnyMotion, n: float, damping: float = 0.0
 
 
 def _check_ratios(n: Floats) -> None:
-    for value in n[~((n > 0) & (n <= MOST))][:1].tolist():
-        limit = say("greater than 0 and at most {most:g}", most=MOST)
+    for value in n[~((n > 0) & (n <= MAX_RATIO))][:1].tolist():
+        limit = say("greater than 0 and at most {most:g}", most=MAX_RATIO)
         remedy = say("n is the rise time over the natural period")
-        if value > MOST:
+        if value > MAX_RATIO:
             remedy = say("so stiff a follower follows the cam")
         raise DesignError("n", value, limit, remedy)
     if not n.size:
@@ -241,7 +249,7 @@ def _check_ratios(n: Floats) -> None:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class ShockSpectrum(Shown):
+class ShockSpectrum(Plottable):
     """The maximum accelerations of elastic followers under one law, over n; made by :func:`shock_spectrum`.
 
     law : its name, or the phases from one dwell of a motion to the next;  damping : ratio to the critical one
@@ -303,14 +311,14 @@ def shock_spectrum(law: str | Law | AnyMotion, n: ArrayLike | None = None, dampi
     """
     check_damping(damping)
     event = event_of(law)
-    ratios = PREPARED.copy() if n is None else np.asarray(n, dtype=np.float64).ravel()
+    ratios = DEFAULT_RATIOS.copy() if n is None else np.asarray(n, dtype=np.float64).ravel()
     _check_ratios(ratios)
     primary, residual, amplitude = np.empty((3, ratios.size))
     counts = event.drive.counts(Oscillator(FULL_TURN * ratios, float(damping)))
     _, group = np.unique(counts, axis=0, return_inverse=True)
     for number in range(int(group.max()) + 1):
         members = np.flatnonzero(group.ravel() == number)
-        size = max(TOGETHER // int(np.abs(counts[members[0]]).sum()), 1)
+        size = max(BATCH_CELLS // int(np.abs(counts[members[0]]).sum()), 1)
         for first in range(0, members.size, size):
             some = members[first : first + size]
             solved = driven(Oscillator(FULL_TURN * ratios[some], float(damping)), event.drive)
@@ -319,14 +327,14 @@ def shock_spectrum(law: str | Law | AnyMotion, n: ArrayLike | None = None, dampi
     return ShockSpectrum(event.name, float(damping), ratios, primary, residual, amplitude, event.peak)
 
 
-def _acceleration(oscillator: Oscillator, y: Floats, y1: Floats, who: Which = ALL) -> Floats:
+def _acceleration(oscillator: Oscillator, y: Floats, y1: Floats, who: Which = ALL_OSCILLATORS) -> Floats:
     """x'', by the equation of motion: it needs no second derivative, and does not jump where the cam's does."""
     nu = oscillator.frequency[who]
     nu = nu[:, None] if isinstance(who, slice) and np.ndim(y) > 1 else nu
     return -nu * (2 * oscillator.damping * y1 + nu * y)
 
 
-def _residual(solved: Driven) -> tuple[Floats, Floats]:
+def _residual(solved: DrivenOscillators) -> tuple[Floats, Floats]:
     """(N,) the maximum |x''| and the maximum |y| of the free vibration that the drive leaves."""
     y, y1 = solved.final
     swing = solved.oscillator
@@ -335,7 +343,7 @@ def _residual(solved: Driven) -> tuple[Floats, Floats]:
     return swing.free_peak(a, -swing.frequency * (2 * swing.damping * a + swing.frequency * y1)), swing.free_peak(y, y1)
 
 
-def _primary(solved: Driven) -> Floats:
+def _primary(solved: DrivenOscillators) -> Floats:
     """(N,) the maximum |x''| while the drive lasts."""
     oscillator = solved.oscillator
     cell, tau = solved.places()
@@ -346,10 +354,10 @@ def _primary(solved: Driven) -> Floats:
         a = _acceleration(oscillator, y, y1, who)
         return a, _acceleration(oscillator, y1, g + a, who)
 
-    a, slope = quantity(ALL, cell, tau)
+    a, slope = quantity(ALL_OSCILLATORS, cell, tau)
     size = np.abs(a)
     top = size.max(axis=1)
-    beside = np.maximum(size[:, 1:], size[:, :-1]) >= NEAR * top[:, None]
+    beside = np.maximum(size[:, 1:], size[:, :-1]) >= NEAR_MAXIMUM_SHARE * top[:, None]
     who, left = np.nonzero((slope[:, :-1] * slope[:, 1:] < 0) & (cell[1:] == cell[:-1]) & beside)
     at = roots(lambda tau: quantity(who, cell[left], tau)[1], tau[left], tau[left + 1])
     np.maximum.at(top, who, np.abs(quantity(who, cell[left], at)[0]))

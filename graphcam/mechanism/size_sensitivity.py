@@ -22,14 +22,14 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.followers import kinematics
-from graphcam.mechanism.highest import Search
 from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.least_radius import minimum_radius
-from graphcam.mechanism.made_cam import lifted_over
+from graphcam.mechanism.leg_maxima import MaximumSearch
+from graphcam.mechanism.made_cam import lifts_by_error
 from graphcam.showing import by_parts
 from graphcam.words import say
 
-BINDS = 1e-7
+BINDING_ANGLE = 1e-7
 """How far a pressure angle may be off its limit [rad] where the minimum radius is said to be held by it."""
 
 
@@ -71,7 +71,7 @@ class Sensitivities:
         "profile" is the profile that lies too far out along its normal, everywhere; a wave of it is in
         :func:`~graphcam.motion_bands`.  Where the acceleration jumps, those of v and a are of the right side.
         """
-        lifted = lifted_over(self.cam.kinematics, self.cam.motion(phi))
+        lifted = lifts_by_error(self.cam.kinematics, self.cam.motion(phi))
         return {name: np.array([by.value, by.slope, by.bend]) for name, by in lifted.items()}
 
     def _by_lift(self, found: dict[str, Floats]) -> dict[str, Floats]:
@@ -99,7 +99,7 @@ def sensitivities(cam: Cam) -> Sensitivities:
 # --- the least radius ------------------------------------------------------------------------------------------------
 
 
-class _Held(NamedTuple):
+class _HoldingPlace(NamedTuple):
     """A place of the motion at which sense * alpha has reached the limit of that name."""
 
     limit: str
@@ -151,7 +151,7 @@ def radius_sensitivity(
     free = ["prime_radius"] if fixed else ["prime_radius", least.place_name]
     sized = replace(follower, roller_radius=0.0, **{least.place_name: least.place})
     kin = kinematics(sized, least.prime_radius, sense(rotation), motion.lift)
-    held = list(_held(motion, kin, least.active, limits))[: len(free)]
+    held = list(_holding_places(motion, kin, least.active, limits))[: len(free)]
     slopes = [kin.angle_by_sizes(place.values) for place in held]
     # Of a single place alpha does not change with what is free beside r0: it is the least radius of all.
     matrix = [[place.sense * by[name] for name in free[: len(held)]] for place, by in zip(held, slopes, strict=True)]
@@ -162,20 +162,20 @@ def radius_sensitivity(
     return found | {"lift": found["lift"] / motion.lift}
 
 
-def _held(
+def _holding_places(
     motion: Motion, kin: Kinematics, active: Sequence[str], limits: Mapping[str, float | None]
-) -> Iterator[_Held]:
+) -> Iterator[_HoldingPlace]:
     """The places that hold the minimum radius."""
     for name, direction in (("rise", 1.0), ("return", -1.0)):
         if name in active:
             towards = direction * kin.leaning
-            yield _Held(name, towards, _steepest(motion, kin, direction, towards))
+            yield _HoldingPlace(name, towards, _steepest(motion, kin, direction, towards))
     if "rest" in active:
         for s, towards, (name, limit) in product((0.0, motion.lift), (-1.0, 1.0), limits.items()):
             values = np.array(s), np.zeros(()), np.zeros(()), np.zeros(())
             alpha = math.atan(kin.steepness(values))
-            if limit and abs(towards * alpha - limit) < BINDS:
-                yield _Held(name, towards, values)
+            if limit and abs(towards * alpha - limit) < BINDING_ANGLE:
+                yield _HoldingPlace(name, towards, values)
 
 
 def _steepest(motion: Motion, kin: Kinematics, direction: float, towards: float) -> Values:
@@ -184,7 +184,7 @@ def _steepest(motion: Motion, kin: Kinematics, direction: float, towards: float)
     def steepness(values: Values) -> Floats:
         return towards * kin.steepness(values)
 
-    places = Search(motion).highest(steepness, lambda values: towards * kin.pressure_slope(values))
+    places = MaximumSearch(motion).highest(steepness, lambda values: towards * kin.pressure_slope(values))
     values = places.where(motion.directions[places.phase] == direction).values
     k = np.argmax(steepness(values))
     s, v, a, j = (value[k] for value in values)

@@ -21,19 +21,19 @@ from graphcam.errors import DesignError, check_kind
 from graphcam.given.follower import Rotation
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
-from graphcam.given.ranges import NUMBER
+from graphcam.given.plausible_ranges import NUMBER_TYPES
 from graphcam.given.roller_contact import RollerContact
 from graphcam.given.roller_rule import roller_rule as terms_of
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.sizing_limits import (
-    BINDS,
-    CURVATURE,
-    NO_UNDERCUT,
-    RETURN,
-    RISE,
-    SHARE,
-    STRESS,
+    BINDING_SHARE,
+    CURVATURE_LIMIT,
+    NO_UNDERCUT_RULE,
+    RETURN_LIMIT,
+    RISE_LIMIT,
+    SHARE_LIMIT,
+    STRESS_LIMIT,
     Measure,
     Range,
     Sizes,
@@ -41,20 +41,20 @@ from graphcam.mechanism.sizing_limits import (
     SizingProblem,
     TurnPlaces,
 )
-from graphcam.mechanism.sizing_search import Watched, best, exchange, nearest, polished
+from graphcam.mechanism.sizing_search import WatchedPlaces, best_sizes, exchange, nearest_sizes, polished
 from graphcam.showing import in_lines
 from graphcam.words import Caption, Words, chained, either, say
 
 Objective = Literal["size", "stress"]
 OBJECTIVES: tuple[Objective, ...] = ("size", "stress")
 """The minimum radius, and at it the narrowest face; or the minimum stress, with the widest face."""
-DOMINATED = 1e-6
+DOMINATED_SHARE = 1e-6
 """A cam of the front whose stress is less by no more than this part is no gain."""
 
 
-ALIKE = 1e-3
+SAME_EXCESS = 1e-3
 """Limits that the nearest cam exceeds by parts that differ by less stand in each other's way."""
-MANY = say("no cam in the ranges keeps them all")
+CONFLICT_REASON = say("no cam in the ranges keeps them all")
 
 
 def refuse(problem: SizingProblem) -> NoReturn:
@@ -64,19 +64,23 @@ def refuse(problem: SizingProblem) -> NoReturn:
     ------
     DesignError : always
     """
-    near = nearest(problem)
+    near = nearest_sizes(problem)
     left = problem.exact_margins(near)
     worst = min(left.values())
-    together = [name for name in problem.limits.kept if left[name] <= worst + ALIKE and left[name] < -BINDS]
+    together = [
+        name for name in problem.limits.kept if left[name] <= worst + SAME_EXCESS and left[name] < -BINDING_SHARE
+    ]
     for name in together:
-        alone = nearest(problem, [name])
-        if problem.exact_margins(alone)[name] < -BINDS:
+        alone = nearest_sizes(problem, [name])
+        if problem.exact_margins(alone)[name] < -BINDING_SHARE:
             raise _error(problem, alone, [name], say("no cam in the ranges keeps it, even without the other limits"))
-    raise _error(problem, near, together, say("no cam in the ranges keeps both") if len(together) == 2 else MANY)
+    raise _error(
+        problem, near, together, say("no cam in the ranges keeps both") if len(together) == 2 else CONFLICT_REASON
+    )
 
 
 def _error(problem: SizingProblem, near: Sizes, names: list[str], why: Words) -> DesignError:
-    said = [_told(problem, near, name) for name in names]
+    said = [_limit_values(problem, near, name) for name in names]
     found, limit = map(chained, zip(*said, strict=True))
     sizes = zip(problem.ranges, problem.values(near), strict=True)
     at = ", ".join(f"{name} {value:.6g}" for name, value in sizes)
@@ -84,27 +88,27 @@ def _error(problem: SizingProblem, near: Sizes, names: list[str], why: Words) ->
     return DesignError(chained(names), found, limit, remedy)
 
 
-def _told(problem: SizingProblem, near: Sizes, name: str) -> tuple[Caption, Caption]:
+def _limit_values(problem: SizingProblem, near: Sizes, name: str) -> tuple[Caption, Caption]:
     """What the cam has of a limit, and what is permitted."""
     limits = problem.limits
-    if name in (RISE, RETURN):
-        permitted = limits.rise if name == RISE else limits.return_ or math.inf
+    if name in (RISE_LIMIT, RETURN_LIMIT):
+        permitted = limits.rise if name == RISE_LIMIT else limits.return_ or math.inf
         steepness = math.tan(permitted) * (1 - problem.exact_margins(near)[name])
         return say("{degrees:.4g} degrees", degrees=math.degrees(math.atan(steepness))), say(
             "at most {degrees:.4g} degrees", degrees=math.degrees(permitted)
         )
-    if name in (CURVATURE, SHARE):
+    if name in (CURVATURE_LIMIT, SHARE_LIMIT):
         rho = problem.stress(near).forces.cam.extremes().min_convex_radius[0]
-        kind = "rho" if name == CURVATURE else "r0"
-        terms = [term for term in (*limits.rule, NO_UNDERCUT) if term.of == kind]
+        kind = "rho" if name == CURVATURE_LIMIT else "r0"
+        terms = [term for term in (*limits.rule, NO_UNDERCUT_RULE) if term.of == kind]
         most = min(terms, key=lambda term: term(rho, near.radius))
         least = say("{radius:.4g} mm of prime radius", radius=near.radius)
-        if name == CURVATURE:
+        if name == CURVATURE_LIMIT:
             least = say("{rho:.4g} mm of curvature", rho=rho)
         return say("a roller of {roller:.4g} mm on {least}", roller=near.roller, least=least), say(
             "a roller of at most {text}", text=most.text
         )
-    assert name == STRESS
+    assert name == STRESS_LIMIT
     stress = limits.stress * math.sqrt(problem.exact_width(near) / near.width)
     return say("{stress:.5g} MPa", stress=stress), say("at most {stress:.5g} MPa", stress=limits.stress)
 
@@ -202,17 +206,17 @@ def size_cam(
     >>> import graphcam as gc
     >>> motion = gc.Motion([gc.Rise(12, radians(60)), gc.Dwell(radians(60)), gc.Return(12, radians(60)),
     ...     gc.Dwell(radians(180))])
-    >>> sized = gc.size_cam(motion, gc.SpringLoad(0, 0, 0, preload=6000), prime_radius=(60, 120), offset=0,
+    >>> sized_cam = gc.size_cam(motion, gc.SpringLoad(0, 0, 0, preload=6000), prime_radius=(60, 120), offset=0,
     ...                  roller_radius=(10, 15), face_width=(10, 20), permitted_stress=1500)
-    >>> sized.cam.prime_radius, round(sized.cam.roller_radius, 6), round(sized.face_width, 3)
+    >>> sized_cam.cam.prime_radius, round(sized_cam.cam.roller_radius, 6), round(sized_cam.face_width, 3)
     (60.0, 15.0, 10.694)
-    >>> sized
+    >>> sized_cam
     SizedCam
       prime radius 60 mm, offset 0 mm, roller radius 15 mm, face width 10.6935 mm
       pressure angle up to 18.09°, radius of curvature from 38.01 mm, contact stress up to 1500 MPa
       bound by: minimum prime radius, maximum roller radius
     .cam, .radius, .stress, .least_width, .binding, .active
-    >>> sized.binding
+    >>> sized_cam.binding
     ('minimum prime radius', 'maximum roller radius')
     """
     if (prime_radius is None) == (base_radius is None):
@@ -244,7 +248,9 @@ def _range(name: str, size: Range | float) -> Range:
     """A range as it is given; of a number the one that holds nothing else."""
     if isinstance(size, tuple | list | np.ndarray) and len(size) == 2:
         return float(size[0]), float(size[1])
-    check_kind(say("range of the {name}", name=name), size, NUMBER, say("two lengths in mm, or one that is fixed"))
+    check_kind(
+        say("range of the {name}", name=name), size, NUMBER_TYPES, say("two lengths in mm, or one that is fixed")
+    )
     return float(cast(float, size)), float(cast(float, size))
 
 
@@ -253,14 +259,14 @@ def best_cam(problem: SizingProblem, objective: Objective) -> SizedCam:
     if objective not in OBJECTIVES:
         raise DesignError("objective", objective, either([repr(each) for each in OBJECTIVES]))
     problem.check_contact()
-    found = best(problem, "radius" if objective == "size" else "width")
+    found = best_sizes(problem, "radius" if objective == "size" else "width")
     if found is None:
         refuse(problem)
     if objective == "stress":
-        return sized(problem, replace(found, width=problem.face_width[1]))
+        return sized_cam(problem, replace(found, width=problem.face_width[1]))
     sizes = _narrowest(problem, found)
     low, high = problem.face_width
-    return sized(problem, replace(sizes, width=min(max(problem.exact_width(sizes), low), high)))
+    return sized_cam(problem, replace(sizes, width=min(max(problem.exact_width(sizes), low), high)))
 
 
 def pareto_front(problem: SizingProblem, count: int = 11) -> list[SizedCam]:
@@ -275,9 +281,9 @@ def pareto_front(problem: SizingProblem, count: int = 11) -> list[SizedCam]:
     >>> import graphcam as gc
     >>> motion = gc.Motion([gc.Rise(12, radians(40)), gc.Dwell(radians(60)), gc.Return(12, radians(40)),
     ...     gc.Dwell(radians(220))])
-    >>> sized = gc.size_cam(motion, gc.SpringLoad(0, 0, 0, preload=6000), prime_radius=(30, 90), offset=(-20, 20),
+    >>> sized_cam = gc.size_cam(motion, gc.SpringLoad(0, 0, 0, preload=6000), prime_radius=(30, 90), offset=(-20, 20),
     ...                  roller_radius=(8, 15), face_width=(10, 30), permitted_stress=1500)
-    >>> for cam in pareto_front(sized.problem, 3):
+    >>> for cam in pareto_front(sized_cam.problem, 3):
     ...     print(round(cam.radius, 2), round(cam.stress))
     41.12 1500
     65.56 1030
@@ -286,12 +292,12 @@ def pareto_front(problem: SizingProblem, count: int = 11) -> list[SizedCam]:
     widest = problem.face_width[1]
     smallest = replace(best_cam(problem, "size").sizes, width=widest)
     calmest = best_cam(problem, "stress")
-    front, low, watched = [sized(problem, smallest)], problem.radius[0], Watched(problem)
+    front, low, watched = [sized_cam(problem, smallest)], problem.radius[0], WatchedPlaces(problem)
     for radius in np.linspace(front[0].radius, calmest.radius, count)[1:-1].tolist():
         within = replace(problem, radius=(low, radius))
-        found = best(within, "width", watched, front[-1].sizes)
+        found = best_sizes(within, "width", watched, front[-1].sizes)
         # The last cam of the front keeps these limits too.
-        front.append(sized(problem, replace(found or front[-1].sizes, width=widest)))
+        front.append(sized_cam(problem, replace(found or front[-1].sizes, width=widest)))
     return _undominated([*front, calmest])
 
 
@@ -299,7 +305,7 @@ def _undominated(cams: list[SizedCam]) -> list[SizedCam]:
     """The cams that gain stress for their radius."""
     kept: list[SizedCam] = []
     for cam in sorted(cams, key=lambda cam: (cam.radius, cam.stress)):
-        if not kept or cam.stress < kept[-1].stress * (1 - DOMINATED):
+        if not kept or cam.stress < kept[-1].stress * (1 - DOMINATED_SHARE):
             kept.append(cam)
     return kept
 
@@ -308,22 +314,22 @@ def _narrowest(problem: SizingProblem, smallest: Sizes) -> Sizes:
     """The minimum face width at a radius, by the choice of offset and roller."""
     radius = problem.values(smallest)[0]
     widest = problem.face_width[1]
-    fixed = exchange(replace(problem, radius=(radius, radius)), "width", smallest, Watched(problem))
+    fixed = exchange(replace(problem, radius=(radius, radius)), "width", smallest, WatchedPlaces(problem))
     candidates = [smallest]
     if problem.keeps(found := replace(fixed, width=widest)):
         candidates.append(polished(problem, found))
     # What the second search gains in width must not cost radius.
-    permitted = [sizes for sizes in candidates if problem.values(sizes)[0] <= radius * (1 + BINDS)]
+    permitted = [sizes for sizes in candidates if problem.values(sizes)[0] <= radius * (1 + BINDING_SHARE)]
     return min(permitted, key=problem.exact_width)
 
 
-def sized(problem: SizingProblem, sizes: Sizes) -> SizedCam:
+def sized_cam(problem: SizingProblem, sizes: Sizes) -> SizedCam:
     """A cam of these sizes with its exact extremes and what binds."""
     stress = problem.stress(sizes)
     extremes = stress.forces.cam.extremes()
     ends: list[str] = []
     for (name, (low, high)), value in zip(problem.ranges.items(), problem.values(sizes), strict=True):
-        near = BINDS * (high - low)
+        near = BINDING_SHARE * (high - low)
         if low < high and value <= low + near:
             ends.append(f"minimum {name}")
         if low < high and value >= high - near:
@@ -339,16 +345,16 @@ def sized(problem: SizingProblem, sizes: Sizes) -> SizedCam:
 
 def _no_room(problem: SizingProblem, sizes: Sizes) -> list[str]:
     """The limits of which a cam leaves nothing."""
-    return [name for name, margin in problem.exact_margins(sizes).items() if margin <= BINDS]
+    return [name for name, margin in problem.exact_margins(sizes).items() if margin <= BINDING_SHARE]
 
 
-HALVINGS = 20
+BORDER_HALVINGS = 20
 """The borders are found by halving the range of the radius so often."""
-ROLLERS = 25
+ROLLER_COUNT = 25
 """Rollers that are tried on every cam."""
-FINER = 3
+PLACE_FACTOR = 3
 """How many times as many places as in the search the region begins with."""
-ALL = "all limits"
+ALL_LIMITS = "all limits"
 Across = Literal["offset", "roller radius", "face width"]
 """The size over which a region is drawn."""
 
@@ -370,7 +376,7 @@ class FeasibleRegion:
     least: Floats
 
 
-def across_of(problem: SizingProblem) -> Across:
+def across_size(problem: SizingProblem) -> Across:
     """The first size that has a range; the offset where all others are given."""
     ranges = problem.offset, problem.roller_radius, problem.face_width
     names: tuple[Across, Across, Across] = ("offset", "roller radius", "face width")
@@ -381,15 +387,15 @@ def across_of(problem: SizingProblem) -> Across:
 
 
 def feasible_region(problem: SizingProblem, parts: int = 60) -> FeasibleRegion:
-    """The borders of the region at ``parts + 1`` values of the size of :func:`across_of`.
+    """The borders of the region at ``parts + 1`` values of the size of :func:`across_size`.
 
     A larger radius is taken to be better for every limit, as it is wherever the load does not depend on it.
     """
-    places, across = TurnPlaces.spread(problem.motion, problem.load, FINER), across_of(problem)
+    places, across = TurnPlaces.spread(problem.motion, problem.load, PLACE_FACTOR), across_size(problem)
     values = np.linspace(*problem.ranges[across], parts + 1)
     tried = values[:, None, None]
     low, high = problem.roller_radius
-    rollers = np.linspace(low, high, ROLLERS if low < high else 1)[:, None]
+    rollers = np.linspace(low, high, ROLLER_COUNT if low < high else 1)[:, None]
     offset = tried if across == "offset" else problem.offset[0]
     roller = tried if across == "roller radius" else rollers
     width = tried if across == "face width" else problem.face_width[1]
@@ -399,17 +405,17 @@ def feasible_region(problem: SizingProblem, parts: int = 60) -> FeasibleRegion:
         sizes = problem.sizes(radius[:, None, None], offset, roller, width)
         worst = {name: margin.min(axis=-1) for name, margin in problem.margins(places, sizes).items()}
         together = np.minimum.reduce(np.broadcast_arrays(*worst.values()))
-        return {name: margin.max(axis=-1) for name, margin in (*worst.items(), (ALL, together))}
+        return {name: margin.max(axis=-1) for name, margin in (*worst.items(), (ALL_LIMITS, together))}
 
     borders = {name: _border(problem, left, name, parts + 1) for name in problem.limits.kept}
-    return FeasibleRegion(across, values, borders, _border(problem, left, ALL, parts + 1))
+    return FeasibleRegion(across, values, borders, _border(problem, left, ALL_LIMITS, parts + 1))
 
 
 def _border(problem: SizingProblem, left: Callable[[Floats], dict[str, Floats]], name: str, count: int) -> Floats:
     """The least radius of the range that keeps a limit, by halving; NaN where none does."""
     low, high = (np.full(count, end, dtype=np.float64) for end in problem.radius)
     none, kept_at_once = left(high)[name] < 0, left(low)[name] >= 0
-    for _ in range(HALVINGS):
+    for _ in range(BORDER_HALVINGS):
         middle = (low + high) / 2
         kept = left(middle)[name] >= 0
         low, high = np.where(kept, low, middle), np.where(kept, middle, high)

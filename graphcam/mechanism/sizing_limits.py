@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, check_number
-from graphcam.given.follower import PERMITTED, Rotation, Translating, sense
+from graphcam.given.follower import LIMIT_NAMES, Rotation, Translating, sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.roller_contact import RollerContact
@@ -27,22 +27,22 @@ from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.hertz import ContactStress
 from graphcam.mechanism.jamming import check_friction
 from graphcam.mechanism.kinematics import Values
-from graphcam.mechanism.stationary import Places, places_of, smooth_pieces, stationary_places
 from graphcam.mechanism.translating import TranslatingKinematics
+from graphcam.mechanism.turn_extremes import Places, places_of, smooth_pieces, stationary_places
 from graphcam.words import say
 
-RISE, RETURN, CURVATURE, SHARE, STRESS = LIMITS = (
+RISE_LIMIT, RETURN_LIMIT, CURVATURE_LIMIT, SHARE_LIMIT, STRESS_LIMIT = LIMITS = (
     "pressure angle on the rise",
     "pressure angle on the return",
     "curvature",
     "roller's share of the prime radius",
     "stress",
 )
-SPREAD = 24
+PIECE_PLACES = 24
 """Places on every smooth piece with which the search begins ..."""
-EVERY, FEWEST = 300, 3
+TOTAL_PLACES, MIN_PIECE_PLACES = 300, 3
 """Places in all where there are many pieces, and the minimum on each; the search adds what it needs."""
-NO_UNDERCUT = Candidate("rho", "rho")
+NO_UNDERCUT_RULE = Candidate("rho", "rho")
 """What every cam must keep: the roller is no larger than the radius of curvature."""
 
 
@@ -64,19 +64,19 @@ class SizingLimits:
         check_number(say("permitted stress"), self.stress, say("a finite number greater than 0 MPa"), above=0)
         for name, angle in (("rise", self.rise), ("return", self.return_)):
             if angle is not None and not 0 < angle < math.pi / 2:
-                quantity, limit = PERMITTED[name], say("between 0 and 90 degrees, both excluded")
+                quantity, limit = LIMIT_NAMES[name], say("between 0 and 90 degrees, both excluded")
                 raise DesignError(quantity, say("{degrees:g} degrees", degrees=math.degrees(angle)), limit)
         check_friction(self.friction)
 
     @property
     def kept(self) -> tuple[str, ...]:
         """The names of the limits that there are."""
-        without = {RETURN: self.return_ is None, SHARE: all(term.of == "rho" for term in self.rule)}
+        without = {RETURN_LIMIT: self.return_ is None, SHARE_LIMIT: all(term.of == "rho" for term in self.rule)}
         return tuple(name for name in LIMITS if not without.get(name))
 
     def largest_roller(self, rho: float, prime_radius: float) -> float:
         """The largest roller [mm] that the rule permits with a least convex radius of curvature and a prime radius."""
-        return min(term(rho, prime_radius) for term in (*self.rule, NO_UNDERCUT))
+        return min(term(rho, prime_radius) for term in (*self.rule, NO_UNDERCUT_RULE))
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class TurnPlaces:
     def spread(cls, motion: Motion, load: FollowerLoad, finer: int = 1) -> TurnPlaces:
         """Places all over the turn, ``finer`` times as many as usual, both ends of every piece among them."""
         phase, u0, u1 = smooth_pieces(motion)
-        count = finer * max(FEWEST, min(SPREAD, EVERY // phase.size))
+        count = finer * max(MIN_PIECE_PLACES, min(PIECE_PLACES, TOTAL_PLACES // phase.size))
         share = (1 - np.cos(np.linspace(0, np.pi, count))) / 2
         u = u0[:, None] + (u1 - u0)[:, None] * share
         inside, last = motion.at(phase[:, None], u), motion.at(phase, u1, "left")
@@ -199,22 +199,22 @@ def margins(limits: SizingLimits, places: TurnPlaces, sizes: Sizes, sigma: int) 
 
     def rule(of: str) -> Floats:
         """What is left (..., n) of all terms of a kind."""
-        terms = [term for term in (*limits.rule, NO_UNDERCUT) if term.of == of]
+        terms = [term for term in (*limits.rule, NO_UNDERCUT_RULE) if term.of == of]
         return np.minimum.reduce([roller(term) for term in terms]) if terms else np.full_like(at.kappa, np.inf)
 
     return {
-        RISE: angle(limits.rise, 1),
-        RETURN: angle(limits.return_, -1),
-        CURVATURE: rule("rho"),
-        SHARE: rule("r0"),
-        STRESS: (sizes.width * at.borne - at.pressed) / places.load.max(),
+        RISE_LIMIT: angle(limits.rise, 1),
+        RETURN_LIMIT: angle(limits.return_, -1),
+        CURVATURE_LIMIT: rule("rho"),
+        SHARE_LIMIT: rule("r0"),
+        STRESS_LIMIT: (sizes.width * at.borne - at.pressed) / places.load.max(),
     }
 
 
 Range = tuple[float, float]
 Measure = Literal["prime radius", "base radius"]
 """The size of a cam: the least radius of its pitch curve, or of its profile, which is less by the roller."""
-BINDS = 1e-6
+BINDING_SHARE = 1e-6
 """A limit binds, and a size stands at the end of its range, if they are this part of it apart."""
 
 
@@ -243,7 +243,7 @@ class SizingProblem:
                 found = say("{low:g} to {high:g} mm", low=low, high=high)
                 limit = say("from a size to one that is not smaller")
                 raise DesignError(say("range of the {name}", name=name), found, limit)
-        least = self.radius[0] + self._between(self.roller_radius[0])
+        least = self.radius[0] + self._offset_radius(self.roller_radius[0])
         roller = 0.0 if self.measure == "base radius" else self.roller_radius[1]
         for quantity, most in (("offset", max(map(abs, self.offset))), (say("roller radius"), roller)):
             if not most < least:
@@ -269,20 +269,20 @@ class SizingProblem:
         DesignError : it does not
         """
         least = Contact(self.motion, self.load).least_force()
-        if least.value < -BINDS * abs(self.load.preload):
+        if least.value < -BINDING_SHARE * abs(self.load.preload):
             limit = say("0 N or more, so that the follower stays on its cam")
             remedy = say("preload the spring: spring_preload(...) tells the minimum")
             raise DesignError(say("minimum contact force"), say("{value:.4g} N", value=least.value), limit, remedy)
 
     def sizes(self, radius: Any, offset: Any, roller: Any, width: Any) -> Sizes:
         """The sizes with a radius [mm] of what is measured."""
-        return Sizes(radius + self._between(roller), offset, roller, width)
+        return Sizes(radius + self._offset_radius(roller), offset, roller, width)
 
     def values(self, sizes: Sizes) -> tuple[float, float, float, float]:
         """The sizes in the order of the ranges."""
-        return sizes.radius - self._between(sizes.roller), sizes.offset, sizes.roller, sizes.width
+        return sizes.radius - self._offset_radius(sizes.roller), sizes.offset, sizes.roller, sizes.width
 
-    def _between(self, roller: Any) -> Any:
+    def _offset_radius(self, roller: Any) -> Any:
         """The prime radius less what is measured [mm]."""
         return roller if self.measure == "base radius" else 0.0
 
@@ -309,6 +309,6 @@ class SizingProblem:
         """The least face width [mm] of the exact cam, its greatest stress being the permitted one then."""
         return float(self.needed_width(TurnPlaces.worst(self.stress(sizes)), sizes).max())
 
-    def keeps(self, sizes: Sizes, slack: float = BINDS) -> bool:
+    def keeps(self, sizes: Sizes, slack: float = BINDING_SHARE) -> bool:
         """Whether the exact cam keeps all limits, but for a part of them."""
         return min(self.exact_margins(sizes).values()) >= -slack

@@ -20,48 +20,48 @@ from graphcam.mechanism.sizing_limits import LIMITS, Sizes, SizingProblem, TurnP
 Goal = Literal["radius", "width", "room"]
 """What is sought: the least radius with the widest face, the least face width that bears the load, which has the least
 stress, or the most that is left of all limits, to see how near a cam comes to them."""
-ROUNDS = 30
+MAX_EXCHANGES = 30
 """Exchanges at most; a few are enough."""
-KEPT = 1e-10
+EXCHANGE_SLACK = 1e-10
 """A limit is kept if it is exceeded by less than this part of it while places are exchanged."""
-SPARE = 1e-9
+WIDTH_SLACK = 1e-9
 """The part of a limit by which a search for the width stays within it, so that rounding does not cost radius."""
-SAME = 1e-13
+SAME_SIZE = 1e-13
 """Sizes that differ by less than this part are the same."""
-POLISH = 1e-5
+MAX_LAST_MOVE = 1e-5
 """The last move of the prime radius is smaller than this part of it."""
-NARROWEST = 1e-9
+MIN_WIDTH_SHARE = 1e-9
 """Narrower than this part of the widest face none is sought."""
-STARTS = 3
+START_COUNT = 3
 """The number of the best cams of a coarse grid from which the search starts."""
-GRID = 13, 9, 7
+GRID_SHAPE = 13, 9, 7
 """Cams of the coarse grid, by radius, offset and roller radius."""
 
 
-class Watched:
+class WatchedPlaces:
     """The places of the turn at which limits are constraints; every search adds those that it has found to matter."""
 
     def __init__(self, problem: SizingProblem) -> None:
         self.places = TurnPlaces.spread(problem.motion, problem.load)
 
 
-def best(
-    problem: SizingProblem, goal: Goal, watched: Watched | None = None, first: Sizes | None = None
+def best_sizes(
+    problem: SizingProblem, goal: Goal, watched: WatchedPlaces | None = None, first: Sizes | None = None
 ) -> Sizes | None:
     """The best cam in the ranges that keeps all limits; None where no cam was found that does.
 
     watched : by searches for the same motion and load before;  first : a cam from which the search starts too
     """
-    watched = watched or Watched(problem)
+    watched = watched or WatchedPlaces(problem)
     low, high = problem.radius
     # A radius that is given is not sought: what keeps the limits best is as good as any.
     sought: Goal = "room" if goal == "radius" and low == high else goal
     starts = [first, *_starts(problem, goal)[:1]] if first else _starts(problem, goal)
     found = [exchange(problem, sought, start, watched) for start in starts]
-    kept = [sizes for sizes in found if problem.keeps(_widest(problem, sizes))]
+    kept = [sizes for sizes in found if problem.keeps(_with_widest_face(problem, sizes))]
     if not kept and sought != "room":
-        near = exchange(problem, sought, nearest(problem), watched)
-        kept = [near] if problem.keeps(_widest(problem, near)) else []
+        near = exchange(problem, sought, nearest_sizes(problem), watched)
+        kept = [near] if problem.keeps(_with_widest_face(problem, near)) else []
     if not kept:
         return None
     if goal == "width":
@@ -69,28 +69,28 @@ def best(
     return polished(problem, min(kept, key=lambda sizes: sizes.radius))
 
 
-def nearest(problem: SizingProblem, names: Collection[str] = LIMITS) -> Sizes:
+def nearest_sizes(problem: SizingProblem, names: Collection[str] = LIMITS) -> Sizes:
     """The cam of the ranges, with the widest face, that has most left of the limits of these names, or exceeds them
     least."""
-    watched = Watched(problem)
+    watched = WatchedPlaces(problem)
     found = [exchange(problem, "room", start, watched, names) for start in _starts(problem, "room", names)]
-    return max(found, key=lambda sizes: _least(problem, sizes, names))
+    return max(found, key=lambda sizes: _least_margin(problem, sizes, names))
 
 
 def exchange(
-    problem: SizingProblem, goal: Goal, start: Sizes, watched: Watched, names: Collection[str] = LIMITS
+    problem: SizingProblem, goal: Goal, start: Sizes, watched: WatchedPlaces, names: Collection[str] = LIMITS
 ) -> Sizes:
     """Solve with constraints at places, and add those where the exact extremes exceed a limit, until none does."""
     sizes = start
-    for _ in range(ROUNDS):
+    for _ in range(MAX_EXCHANGES):
         before = sizes
         sizes, room = _solve(problem, goal, watched.places, sizes, names)
         worst = TurnPlaces.worst(problem.stress(sizes))
         left = problem.margins(worst, sizes)
-        chosen = np.any([left[name] < room - KEPT for name in names], axis=0)
+        chosen = np.any([left[name] < room - EXCHANGE_SLACK for name in names], axis=0)
         # Where the radius leaves no room at all, a search for the width comes to rest a little beyond a limit.
         steps = (abs(x - y) for x, y in zip(problem.values(before), problem.values(sizes), strict=True))
-        if not chosen.any() or all(step <= SAME * before.radius for step in steps):
+        if not chosen.any() or all(step <= SAME_SIZE * before.radius for step in steps):
             break
         watched.places = watched.places.joined(worst.where(chosen))
     return sizes
@@ -104,7 +104,7 @@ def polished(problem: SizingProblem, sizes: Sizes) -> Sizes:
         """What is left of the limit that is kept most narrowly, as a part of it, with a prime radius [mm]."""
         return min(problem.exact_margins(replace(sizes, radius=radius)).values())
 
-    low, high = sizes.radius * (1 - POLISH), sizes.radius * (1 + POLISH)
+    low, high = sizes.radius * (1 - MAX_LAST_MOVE), sizes.radius * (1 + MAX_LAST_MOVE)
     _, *others = problem.values(sizes)
     low = max(low, float(problem.sizes(problem.radius[0], others[0], others[1], others[2]).radius))
     if left(low) >= 0:
@@ -117,11 +117,11 @@ def polished(problem: SizingProblem, sizes: Sizes) -> Sizes:
     return replace(sizes, radius=radius)
 
 
-def _widest(problem: SizingProblem, sizes: Sizes) -> Sizes:
+def _with_widest_face(problem: SizingProblem, sizes: Sizes) -> Sizes:
     return replace(sizes, width=problem.face_width[1])
 
 
-def _least(problem: SizingProblem, sizes: Sizes, names: Collection[str]) -> float:
+def _least_margin(problem: SizingProblem, sizes: Sizes, names: Collection[str]) -> float:
     left = problem.exact_margins(sizes)
     return min(left[name] for name in names)
 
@@ -129,7 +129,7 @@ def _least(problem: SizingProblem, sizes: Sizes, names: Collection[str]) -> floa
 def _starts(problem: SizingProblem, goal: Goal, names: Collection[str] = LIMITS) -> list[Sizes]:
     """The best cams of a coarse grid that keep the limits, or those that exceed them least."""
     ranges = list(problem.ranges.values())[:3]
-    axes = [np.linspace(low, high, n if high > low else 1) for (low, high), n in zip(ranges, GRID, strict=True)]
+    axes = [np.linspace(low, high, n if high > low else 1) for (low, high), n in zip(ranges, GRID_SHAPE, strict=True)]
     radius, offset, roller = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
     places, widest = TurnPlaces.spread(problem.motion, problem.load), problem.face_width[1]
     grid = problem.sizes(radius[:, None], offset[:, None], roller[:, None], widest)
@@ -137,7 +137,7 @@ def _starts(problem: SizingProblem, goal: Goal, names: Collection[str] = LIMITS)
     worst = np.min([left[name].min(axis=-1) for name in names], axis=0)
     wanted = {"radius": radius, "width": problem.needed_width(places, grid).max(axis=-1), "room": -worst}[goal]
     order = np.lexsort((-worst, np.where(worst >= 0, wanted, np.inf)))
-    return [problem.sizes(float(radius[k]), float(offset[k]), float(roller[k]), widest) for k in order[:STARTS]]
+    return [problem.sizes(float(radius[k]), float(offset[k]), float(roller[k]), widest) for k in order[:START_COUNT]]
 
 
 def _solve(
@@ -148,7 +148,9 @@ def _solve(
 
     widest = problem.face_width[1]
     *ranges, _ = problem.ranges.values()
-    low, high = np.array([*ranges, (NARROWEST * widest if goal == "width" else widest, widest)], dtype=np.float64).T
+    low, high = np.array(
+        [*ranges, (MIN_WIDTH_SHARE * widest if goal == "width" else widest, widest)], dtype=np.float64
+    ).T
     free = high > low
     count, room = int(np.count_nonzero(free)), goal == "room"
 
@@ -162,7 +164,7 @@ def _solve(
         """What is left of every limit at every place, as a part of it, beyond the room that is sought."""
         found = problem.margins(places, sizes(t))
         of_all = np.concatenate([margin[np.isfinite(margin)] for name in names for margin in [found[name]]])
-        return of_all - (t[count] if room else SPARE if goal == "width" else 0.0)
+        return of_all - (t[count] if room else WIDTH_SLACK if goal == "width" else 0.0)
 
     x = np.array(problem.values(start))
     parts = np.clip((x - low)[free] / (high - low)[free], 0, 1)

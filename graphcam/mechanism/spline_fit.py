@@ -17,7 +17,7 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.envelope import Indices
 from graphcam.mechanism.kinematics import Complexes
 
-SOLUTIONS = 2
+SOLUTION_COUNT = 2
 """The first one, and one of what rounding left of it, which normal equations magnify."""
 
 
@@ -46,7 +46,7 @@ class Basis:
 
     def shares(self, of: Floats) -> Floats:
         """(m,) numbers (n,) at the places, summed for each control point as far as it is there."""
-        return _summed(self.numbers, self.values * of[:, None], self.size)
+        return _sums_by_number(self.numbers, self.values * of[:, None], self.size)
 
     @property
     def products(self) -> Floats:
@@ -55,7 +55,7 @@ class Basis:
         first, second = np.triu_indices(width)
         places = self.numbers[:, first] * width + second - first
         products = self.values[:, first] * self.values[:, second]
-        return _summed(places, products, self.size * width).reshape(self.size, width)
+        return _sums_by_number(places, products, self.size * width).reshape(self.size, width)
 
 
 def basis(knots: Floats, degree: int, at: Floats) -> Basis:
@@ -89,19 +89,19 @@ def _at_start(knots: Floats, degree: int, derivative: int) -> Floats:
     return rows[0]
 
 
-def fitted(splines: Basis, points: Complexes, conditions: Conditions) -> Complexes:
+def fitted_control_points(splines: Basis, points: Complexes, conditions: Conditions) -> Complexes:
     """(m,) the control points of the spline nearest to points (n,), in the sense of least squares.
 
     >>> knots, at = np.array([0.0, 0, 0, 0, 1, 2, 2, 2, 2]), np.linspace(0, 2, 20)
     >>> ends = Conditions(np.stack(at_ends(knots, 3, 0)), np.array([0j, 2 + 2j]))
-    >>> fitted(basis(knots, 3, at), (1 + 1j) * at, ends).imag.round(6)[1:].tolist()
+    >>> fitted_control_points(basis(knots, 3, at), (1 + 1j) * at, ends).imag.round(6)[1:].tolist()
     [0.333333, 1.0, 1.666667, 2.0]
     """
     # Rows of derivatives are as large as their parts are short.
     size = np.abs(conditions.rows).max(axis=1)
     rows, wanted, products = conditions.rows / size[:, None], conditions.values / size, splines.products
     control = np.zeros(splines.size, dtype=complex)
-    for _ in range(SOLUTIONS):
+    for _ in range(SOLUTION_COUNT):
         off, left = points - splines.at(control), wanted - rows @ control
         free = np.stack([splines.shares(off.real), splines.shares(off.imag)], axis=1)
         solved = solve_banded(products, np.hstack([free, rows.T]))
@@ -133,6 +133,6 @@ def solve_banded(bands: Floats, right: Floats) -> Floats:
     return right
 
 
-def _summed(numbers: Indices, values: Floats, size: int) -> Floats:
+def _sums_by_number(numbers: Indices, values: Floats, size: int) -> Floats:
     """The values, summed up for each number."""
     return np.bincount(numbers.ravel(), values.ravel(), size).astype(np.float64)

@@ -71,7 +71,7 @@ class TranslatingKinematics(RollerKinematics):
         _, v, a, j = values
         return (v, a), (a, j)
 
-    def lifted(self, values: Values) -> dict[str, Any]:
+    def lift_per_error(self, values: Values) -> dict[str, Any]:
         """1/cos(alpha) by profile and roller, sigma tan(alpha) by the offset: the trace point slides along the cam."""
         outwards, steep = self.outwards(values)
         return {"profile": outwards, "roller_radius": outwards, "offset": self.sigma * steep}

@@ -24,19 +24,19 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import wrap
 from graphcam.mechanism.envelope import Envelope, Indices
 from graphcam.mechanism.kinematics import Complexes
-from graphcam.plane import cross
+from graphcam.plane_vectors import cross
 from graphcam.words import say
 
 NEWTON_STEPS = 40
-CLOSED = 1e-12
+CROSSING_TOLERANCE = 1e-12
 """How far the two branches may be apart at their crossing, as part of the prime radius."""
-SETTLED = 0.01
+SETTLED_STEP = 0.01
 """Greatest last step of a crossing's cam angles, as part of their difference: rounding leaves so much in tiny loops."""
-SHORTEST_LOOP = 1e-6
+MIN_LOOP_ANGLE = 1e-6
 """A curve without cusps needs more than this angle [rad] to come back to itself."""
-MOST_SAMPLES = 1500
+MAX_SAMPLES = 1500
 """On the whole profile, shared by its pieces."""
-FEWEST_PER_PIECE, MOST_PER_PIECE = 9, 65
+MIN_PIECE_SAMPLES, MAX_PIECE_SAMPLES = 9, 65
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class CutProfile:
 
 
 @dataclass(frozen=True)
-class Lost:
+class LostStretch:
     """What lies between the cam angles begin and end, unwrapped, and where the two branches cross, x + i y."""
 
     begin: float
@@ -89,12 +89,12 @@ def undercuts(envelope: Envelope) -> list[Undercut]:
     DesignError : the loops cannot be told apart
     """
     lost = lost_parts(envelope)
-    cusps = [phi for part in envelope.backward for phi in (part.begin, part.end)]
+    cusps = [phi for part in envelope.backward_stretches for phi in (part.begin, part.end)]
     found = [(part, [phi for phi in cusps if part.begin <= phi <= part.end]) for part in lost]
     for phi in envelope.touching:
         if not any(part.begin < phi < part.end for part in lost):
             at = complex(envelope.point(phi, envelope.piece(phi)))
-            found.append((Lost(phi, phi, at), [phi, phi]))
+            found.append((LostStretch(phi, phi, at), [phi, phi]))
     return [
         Undercut(tuple(map(_wrapped, inside)), (_wrapped(part.begin), _wrapped(part.end), part.at.real, part.at.imag))
         for part, inside in sorted(found, key=lambda item: item[0].begin)
@@ -126,13 +126,13 @@ def trimmed_profile(envelope: Envelope, n: int) -> CutProfile:
     return CutProfile(wrap(phi), np.stack([points.real, points.imag], axis=-1), corner)
 
 
-def kept_arcs(envelope: Envelope, lost: list[Lost]) -> list[tuple[float, float]]:
+def kept_arcs(envelope: Envelope, lost: list[LostStretch]) -> list[tuple[float, float]]:
     """The cam angles, unwrapped, at which each arc that stays begins and ends."""
     ends = [envelope.edges[0], *(phi for part in lost for phi in (part.begin, part.end)), envelope.edges[-1]]
     return [(float(begin), float(end)) for begin, end in zip(ends[::2], ends[1::2], strict=True)]
 
 
-def lost_parts(envelope: Envelope) -> list[Lost]:
+def lost_parts(envelope: Envelope) -> list[LostStretch]:
     """The parts of the profile that are lost, in order.
 
     Raises
@@ -140,21 +140,21 @@ def lost_parts(envelope: Envelope) -> list[Lost]:
     DesignError : the loops cannot be told apart
     """
     phi, piece, arc = _samples(envelope)
-    if not envelope.backward and np.all(envelope.support(phi, piece) > 0):
+    if not envelope.backward_stretches and np.all(envelope.support(phi, piece) > 0):
         return []  # seen from the centre the profile never turns back, so it cannot meet itself
-    arcs = _forward(envelope)
+    arcs = _forward_arcs(envelope)
     i, j = _sides_that_cross(envelope.point(phi, piece), arc)
     middles = (phi[:-1] + phi[1:]) / 2
     # The two arcs that each backward stretch leads from and to may meet, and those that cross as polygons.
     seeds = np.vstack([_seeds(envelope), np.stack([middles[i], middles[j]], axis=1)])
     first, second = np.append(np.arange(len(arcs) - 1), arc[i]), np.append(np.arange(1, len(arcs)), arc[j])
     begin, end, at = _crossings(envelope, seeds, arcs[first], arcs[second])
-    found = np.flatnonzero(end - begin > np.where(first == second, SHORTEST_LOOP, 0))  # not the NaN of those missed
-    lost: list[Lost] = []
+    found = np.flatnonzero(end - begin > np.where(first == second, MIN_LOOP_ANGLE, 0))  # not the NaN of those missed
+    lost: list[LostStretch] = []
     for k in found[np.argsort(begin[found], kind="stable")].tolist():
         if begin[k] >= (lost[-1].end if lost else envelope.edges[0]):
-            lost.append(Lost(float(begin[k]), float(end[k]), complex(at[k])))
-    if not all(any(part.begin <= b.begin and b.end <= part.end for part in lost) for b in envelope.backward):
+            lost.append(LostStretch(float(begin[k]), float(end[k]), complex(at[k])))
+    if not all(any(part.begin <= b.begin and b.end <= part.end for part in lost) for b in envelope.backward_stretches):
         smaller = say("take a roller well below {least_radius:g} mm", least_radius=envelope.least_radius)
         remedy = smaller if envelope.kinematics.takes_roller else say("enlarge the prime radius")
         raise DesignError("undercut", say("made of loops that cannot be told apart"), say("of separate loops"), remedy)
@@ -164,9 +164,9 @@ def lost_parts(envelope: Envelope) -> list[Lost]:
 # --- crossings -------------------------------------------------------------------------------------------------------
 
 
-def _forward(envelope: Envelope) -> Floats:
+def _forward_arcs(envelope: Envelope) -> Floats:
     """(m, 2) where the arcs that run forwards begin and end."""
-    turns = [phi for part in envelope.backward for phi in (part.begin, part.end)]
+    turns = [phi for part in envelope.backward_stretches for phi in (part.begin, part.end)]
     return np.array([envelope.edges[0], *turns, envelope.edges[-1]]).reshape(-1, 2)
 
 
@@ -175,8 +175,8 @@ def _seeds(envelope: Envelope) -> Floats:
 
     By the first terms of the speed about the cusps.
     """
-    cusps = np.array([(part.begin, part.end) for part in envelope.backward]).reshape(-1, 2)
-    jumps = np.array([(part.begin_jumps, part.end_jumps) for part in envelope.backward]).reshape(-1, 2) != 0
+    cusps = np.array([(part.begin, part.end) for part in envelope.backward_stretches]).reshape(-1, 2)
+    jumps = np.array([(part.begin_jumps, part.end_jumps) for part in envelope.backward_stretches]).reshape(-1, 2) != 0
     begin, end = cusps.T
     before, after = envelope.piece(begin, "left"), envelope.piece(end, "right")
     speed = np.stack([envelope.speed(begin, before), envelope.speed(end, after)], axis=1)
@@ -204,20 +204,20 @@ def _crossings(envelope: Envelope, seeds: Floats, first: Floats, second: Floats)
         v2 = envelope.velocity(old2, envelope.piece(old2, "right"))
         across = cross(v1, v2)
         across[across == 0] = np.nan  # parallel branches have no next place
-        new1 = _within(old1, old1 + cross(gap, v2) / across, first[going])
-        new2 = _within(old2, old2 + cross(gap, v1) / across, second[going])
+        new1 = _bounded_angles(old1, old1 + cross(gap, v2) / across, first[going])
+        new2 = _bounded_angles(old2, old2 + cross(gap, v1) / across, second[going])
         moved = np.abs(new1 - old1) + np.abs(new2 - old2)
         phi1[going], phi2[going] = new1, new2
-        settled[going] = moved <= SETTLED * (new2 - new1)
+        settled[going] = moved <= SETTLED_STEP * (new2 - new1)
         rounding = settled[going] & (moved >= last[going] / 2)  # what is left is rounding
         last[going] = moved
         going = going[~rounding & np.isfinite(moved)]
     at = (envelope.point(phi1, envelope.piece(phi1, "left")) + envelope.point(phi2, envelope.piece(phi2))) / 2
-    met = settled & (np.abs(envelope.way(phi1, phi2)) <= CLOSED * envelope.prime_radius)
+    met = settled & (np.abs(envelope.way(phi1, phi2)) <= CROSSING_TOLERANCE * envelope.prime_radius)
     return np.where(met, phi1, np.nan), np.where(met, phi2, np.nan), at
 
 
-def _within(old: Floats, new: Floats, bounds: Floats) -> Floats:
+def _bounded_angles(old: Floats, new: Floats, bounds: Floats) -> Floats:
     """The new angles, or, where they lie beyond a bound, the middle between the old one and the bound."""
     low, high = bounds.T
     return np.where(new < low, (old + low) / 2, np.where(new > high, (old + high) / 2, new))
@@ -225,11 +225,11 @@ def _within(old: Floats, new: Floats, bounds: Floats) -> Floats:
 
 def _samples(envelope: Envelope) -> tuple[Floats, Indices, Indices]:
     """Samples of the forward arcs: cam angle, piece, and number of the arc."""
-    count = min(max(MOST_SAMPLES // (envelope.edges.size - 1), FEWEST_PER_PIECE), MOST_PER_PIECE)
+    count = min(max(MAX_SAMPLES // (envelope.edges.size - 1), MIN_PIECE_SAMPLES), MAX_PIECE_SAMPLES)
     # Densely at the ends, which may be cusps.
     share = np.sin(np.linspace(0, np.pi / 2, count)) ** 2
     parts: list[tuple[Floats, int]] = []
-    for k, (begin, end) in enumerate(_forward(envelope).tolist()):
+    for k, (begin, end) in enumerate(_forward_arcs(envelope).tolist()):
         inner = envelope.edges[(begin < envelope.edges) & (envelope.edges < end)]
         ends = np.concatenate([[begin], inner, [end]])
         phi = (ends[:-1, None] * (1 - share) + ends[1:, None] * share).ravel()
@@ -255,11 +255,11 @@ def _sides_that_cross(points: Complexes, arc: Indices) -> tuple[Indices, Indices
     other = one + 1 + np.arange(one.size) - np.repeat(np.cumsum(count) - count, count)
     over = (bottom[one] <= top[other]) & (bottom[other] <= top[one])
     i, j = np.sort([side[one[over]], side[other[over]]], axis=0)
-    crossing = (j - i >= 2) & _parted(points, i, j) & _parted(points, j, i)
+    crossing = (j - i >= 2) & _ends_on_both_sides(points, i, j) & _ends_on_both_sides(points, j, i)
     return i[crossing], j[crossing]
 
 
-def _parted(points: Complexes, i: Indices, j: Indices) -> NDArray[np.bool_]:
+def _ends_on_both_sides(points: Complexes, i: Indices, j: Indices) -> NDArray[np.bool_]:
     """Whether the ends of the sides j lie on both sides of the sides i."""
     side = points[i + 1] - points[i]
     return (cross(side, points[j] - points[i]) >= 0) != (cross(side, points[j + 1] - points[i]) >= 0)

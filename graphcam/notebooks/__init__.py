@@ -1,25 +1,33 @@
 """Notebooks: what a step-by-step notebook shows, and how one is written, executed and turned into pages.
 
-In a notebook: :func:`~graphcam.notebooks.stages.show_steps` and :func:`~graphcam.notebooks.stages.drawing`,
-:func:`~graphcam.notebooks.shown_tables.compared`, :func:`~graphcam.notebooks.stages.chart`,
-:class:`~graphcam.notebooks.question.Question`, :func:`~graphcam.notebooks.explore.explore` and
-:func:`~graphcam.notebooks.explore.changed`.
+In a notebook: :func:`~graphcam.notebooks.construction_stages.show_steps` and
+:func:`~graphcam.notebooks.construction_stages.drawing`, :func:`~graphcam.notebooks.shown_tables.comparison_table`,
+:func:`~graphcam.notebooks.construction_stages.chart`, :class:`~graphcam.notebooks.question.Question`,
+:func:`~graphcam.notebooks.sliders.explore` and :func:`~graphcam.notebooks.sliders.changed_task`.
 
 The drawings are those of :mod:`graphcam.sheets`: the same marks, the same renderer.
 """
 
-from graphcam.notebooks.explore import Slider, changed, explore
+from graphcam.notebooks.construction_stages import (
+    Picture,
+    chart,
+    drawing,
+    picture_of,
+    picture_of_page,
+    player,
+    show_steps,
+)
 from graphcam.notebooks.question import Question
-from graphcam.notebooks.shown_tables import compared, error_budget, table
-from graphcam.notebooks.stages import Picture, chart, drawing, picture_of, picture_of_page, player, show_steps
+from graphcam.notebooks.shown_tables import comparison_table, error_budget, table
+from graphcam.notebooks.sliders import Slider, changed_task, explore
 
 __all__ = [
     "Picture",
     "Question",
     "Slider",
-    "changed",
+    "changed_task",
     "chart",
-    "compared",
+    "comparison_table",
     "drawing",
     "error_budget",
     "explore",

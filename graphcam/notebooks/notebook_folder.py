@@ -19,20 +19,20 @@ from traitlets.config import Config
 
 from graphcam.drafting.scale import unit
 from graphcam.files import OutputError, whole_folder
-from graphcam.notebooks.running import PYTHON, execute
+from graphcam.notebooks.notebook_execution import PYTHON_METADATA, execute
 from graphcam.report import markdown
 from graphcam.report.documents import mathml
-from graphcam.report.sheet_contents import all_drawn
+from graphcam.report.sheet_contents import all_constructions
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solve import solve
 from graphcam.tasks.arcs_task import ArcsTask
-from graphcam.tasks.sheet_tables import UNNAMED
+from graphcam.tasks.sheet_tables import DEFAULT_NAME
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_writer import TASK_FILE, task_files
 from graphcam.words import Tell, Words, bare, say, say_in
 
-TEMPLATES = Path(__file__).parent / "templates"
-SHOWN = ["text/html", "text/markdown", "image/svg+xml", "image/png", "text/plain"]
+TEMPLATE_FOLDER = Path(__file__).parent / "templates"
+SHOWN_OUTPUT_TYPES = ["text/html", "text/markdown", "image/svg+xml", "image/png", "text/plain"]
 """What a page shows of an output, the first that there is; of sliders it shows the stills."""
 BROWSERS = (
     *("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge"),
@@ -42,46 +42,46 @@ BROWSERS = (
     "/Applications/Chromium.app/Contents/MacOS/Chromium",
 )
 """Programs of Chromium's family, by their names on the path, or where Windows and macOS have them."""
-NO_BROWSER = (
+NO_BROWSER_ERROR = (
     say("there is no Chromium to print it"),
     say("install Chromium or Chrome, or print the page of --html from your browser"),
 )
 """Why there is no PDF, and what to do."""
-LONGEST = 120
+PRINT_SECONDS = 120
 """Seconds that printing may take."""
-NOTEBOOK, PAGE, PRINT = "notebook.ipynb", "notebook.html", "notebook.pdf"
+NOTEBOOK_FILE, PAGE_FILE, PRINT_FILE = "notebook.ipynb", "notebook.html", "notebook.pdf"
 
 
-FIRST = say(
+INTRODUCTION = say(
     "Every construction of this cam, step by step: what is done, the drawing so far with the current step in "
     "colour, and the readings, as millimetres of paper times a scale. graphcam wrote this notebook from the task "
     "below."
 )
-CHECKED = say(
+CHECK_INTRODUCTION = say(
     "Draw it on paper and enter your readings here. Each cell answers with a hint; the tolerance allows for "
     "careful drawing by hand."
 )
-ERRORS = say(
+ERRORS_INTRODUCTION = say(
     "An ideal pencil leaves only the error of the method: curves are replaced by chords, and between stations a "
     "smooth curve is drawn. This error falls with the square of the number of parts. Drawing by hand adds errors "
     "of line position (0.1 to 0.2 mm), dividers (0.1 to 0.3 mm), rule (0.5 mm) and protractor (0.5°), and each "
     "error is passed on to everything drawn from it. With more parts the method becomes more exact and the "
     "drawing errors grow."
 )
-MOVED = say("More parts, fewer parts: what changes, and which is worth the work?")
-QUESTIONS = say(
+PARTS_INTRODUCTION = say("More parts, fewer parts: what changes, and which is worth the work?")
+CLOSING_QUESTIONS = say(
     "1. Which reading decides the size of this cam, and how would you make it more exact?\n2. What changes on the "
     "drawing if the cam turns the other way?\n3. Where does the acceleration jump, and what happens in the "
     "mechanism there?\n4. Which of the drawn values would you trust to 1 %, and which not even to 10 %?"
 )
-SETUP = f"""\
+SETUP_CODE = f"""\
 import graphcam as gc
-from graphcam.notebooks import Question, Slider, changed, compared, drawing, explore, player, show_steps
+from graphcam.notebooks import Question, Slider, changed_task, comparison_table, drawing, sliders, player, show_steps
 
 task = gc.load_task("{TASK_FILE}")
 solution = gc.solve(task)
 tell = task.drawing.tell"""
-PARTS = """\
+PARTS_CODE = """\
 def with_parts(parts):
     finer = gc.solve(changed(task, {{"drawing.divisions": parts}}))
     return drawing(finer.drawn["{construction}"], "{view}", tell=tell)
@@ -114,65 +114,69 @@ def notebook_of(solution: AnySolution) -> NotebookNode:
     toml, tell, title = task_files(solution.task)[TASK_FILE], solution.tell, notebook_title(solution.task)
     warned = (say("**Note:** {warning}", warning=markdown.text(sentence)) for sentence in solution.warnings)
     cells = [
-        _text(f"# {markdown.text(title)}\n\n{tell(FIRST)}"),
+        _text_cell(f"# {markdown.text(title)}\n\n{tell(INTRODUCTION)}"),
         _section(tell, say("The task"), f"```toml\n{toml.strip()}\n```"),
-        _hidden(SETUP),
-        *(_text(f"> {tell(warning)}") for warning in warned),
-        *(cell for number, name in enumerate(all_drawn(solution), 1) for cell in _chapter(number, name, solution)),
-        _section(tell, say("Try it yourself"), CHECKED),
-        *(cell for name in _asked(solution) for cell in _question(solution, name)),
-        _section(tell, say("Move the sliders"), MOVED),
-        _hidden(_parts(solution)),
+        _hidden_cell(SETUP_CODE),
+        *(_text_cell(f"> {tell(warning)}") for warning in warned),
+        *(
+            cell
+            for number, name in enumerate(all_constructions(solution), 1)
+            for cell in _chapter(number, name, solution)
+        ),
+        _section(tell, say("Try it yourself"), CHECK_INTRODUCTION),
+        *(cell for name in _asked_quantities(solution) for cell in _question_cells(solution, name)),
+        _section(tell, say("Move the sliders"), PARTS_INTRODUCTION),
+        _hidden_cell(_parts(solution)),
         _section(tell, say("Drawn and exact"), say("Error and bound are in millimetres on paper.")),
-        _hidden("compared(solution)"),
-        _section(tell, say("Where the error comes from"), ERRORS),
+        _hidden_cell("compared(solution)"),
+        _section(tell, say("Where the error comes from"), ERRORS_INTRODUCTION),
         _section(tell, say("The sheet, step by step")),
-        _hidden("player(solution)"),
-        _section(tell, say("Questions"), QUESTIONS),
+        _hidden_cell("player(solution)"),
+        _section(tell, say("Questions"), CLOSING_QUESTIONS),
     ]
     # Without random names a notebook that is written anew is the same.
     for k, cell in enumerate(cells):
         cell["id"] = f"cell-{k}"
-    return nb.new_notebook(cells=cells, metadata={"title": title, **PYTHON})
+    return nb.new_notebook(cells=cells, metadata={"title": title, **PYTHON_METADATA})
 
 
 def notebook_title(task: Task | ArcsTask) -> str:
     """What the notebook of a task is called: as its sheet."""
     tell = task.drawing.tell
-    return task.title.told_name(tell) or tell(UNNAMED)
+    return task.title.translated_name(tell) or tell(DEFAULT_NAME)
 
 
-def _text(source: str) -> NotebookNode:
+def _text_cell(source: str) -> NotebookNode:
     return nb.new_markdown_cell(source)
 
 
 def _section(tell: Tell, title: Words, *paragraphs: Words) -> NotebookNode:
-    return _text(markdown.blocks(f"## {tell(title)}", *map(tell, paragraphs)))
+    return _text_cell(markdown.blocks(f"## {tell(title)}", *map(tell, paragraphs)))
 
 
-def _hidden(source: str) -> NotebookNode:
+def _hidden_cell(source: str) -> NotebookNode:
     return nb.new_code_cell(source, metadata={"tags": ["remove-input"], "jupyter": {"source_hidden": True}})
 
 
 def _chapter(number: int, name: str, solution: AnySolution) -> list[NotebookNode]:
     """Number, title, why and steps of a construction of the solution, or of its spring."""
-    meaning = all_drawn(solution)[name].meaning
+    meaning = all_constructions(solution)[name].meaning
     title = say("{number}. {title}", number=number, title=meaning.title)
     of = "solution" if name in solution.drawn else "solution.spring"
     # Its rays are drawn in the combined diagram.
     on = ', on=solution.drawn["minimum_radius"]' * (name == "pressure_angle")
-    shown = _hidden(f'show_steps({of}.drawn["{name}"], within=solution{on})')
+    shown = _hidden_cell(f'show_steps({of}.drawn["{name}"], within=solution{on})')
     return [_section(solution.tell, title, meaning.why), shown]
 
 
-def _asked(solution: AnySolution) -> list[str]:
+def _asked_quantities(solution: AnySolution) -> list[str]:
     """The quantities that a reader of the drawing is asked for."""
     asked = ("max_v", "minimum_prime_radius", "max_pressure_angle_rise_deg", "min_pitch_curvature_radius", "lift")
     quantities = solution.comparison.quantities
     return [name for name in asked if name in quantities and quantities[name].drawn == quantities[name].drawn]
 
 
-def _question(solution: AnySolution, name: str) -> list[NotebookNode]:
+def _question_cells(solution: AnySolution, name: str) -> list[NotebookNode]:
     q = solution.comparison.quantities[name]
     question = f'Question.about(solution.comparison.quantities["{name}"], tell)'
     source = f"your_{name} = None  # {solution.tell(unit(q.unit))}\n{question}.check(your_{name})"
@@ -186,7 +190,7 @@ def _parts(solution: AnySolution) -> str:
     start = solution.task.drawing.divisions
     values, shown = sorted({2, 4, 8, 12, 24, start}), tuple(sorted({4, start}))
     parts = solution.tell(say_in("of a slider", "parts"))
-    return PARTS.format(construction=construction, view=view, values=values, start=start, shown=shown, parts=parts)
+    return PARTS_CODE.format(construction=construction, view=view, values=values, start=start, shown=shown, parts=parts)
 
 
 class _Renderer(IPythonRenderer):
@@ -224,10 +228,10 @@ def to_html(notebook: NotebookNode, title: str, language: str = "en") -> str:
     MissingExtraError : the libraries of the extra ``notebooks`` are not installed
     """
     config = Config(
-        NbConvertBase={"display_data_priority": SHOWN},
+        NbConvertBase={"display_data_priority": SHOWN_OUTPUT_TYPES},
         CSSHTMLHeaderPreprocessor={"style": "friendly", "highlight_class": ".highlight"},
     )
-    template = {"template_name": "graphcam", "extra_template_basedirs": [str(TEMPLATES)]}
+    template = {"template_name": "graphcam", "extra_template_basedirs": [str(TEMPLATE_FOLDER)]}
     exporter = HTMLExporter(config=config, language_code=language, **template)
     exporter.register_filter("markdown2html", markdown_page)
     page, _ = exporter.from_notebook_node(notebook, resources={"metadata": {"title": title, "name": title}})
@@ -248,14 +252,14 @@ def print_pdf(page: Path, pdf: Path) -> None:
     """
     program = browser()
     if program is None:
-        raise OutputError(pdf, *NO_BROWSER)
+        raise OutputError(pdf, *NO_BROWSER_ERROR)
     with tempfile.TemporaryDirectory() as profile:
         options = ["--headless", "--disable-gpu", f"--user-data-dir={profile}", "--no-pdf-header-footer"]
         # Chromium does not start its sandbox for the superuser.
         options += ["--no-sandbox"] if hasattr(os, "geteuid") and os.geteuid() == 0 else []
         command = [program, *options, f"--print-to-pdf={pdf.resolve()}", page.resolve().as_uri()]
         try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, check=False)
+            done = subprocess.run(command, capture_output=True, text=True, timeout=PRINT_SECONDS, check=False)
         except (OSError, subprocess.TimeoutExpired) as error:
             raise OutputError(pdf, bare(f"{Path(program).name}: {error}")) from error
     if done.returncode or not pdf.exists():
@@ -286,7 +290,7 @@ def write_folder(
     NotebookError : a cell fails
     """
     if pdf and browser() is None:
-        raise OutputError(Path(folder, PRINT), *NO_BROWSER)
+        raise OutputError(Path(folder, PRINT_FILE), *NO_BROWSER_ERROR)
     progress(say("writing the notebook"))
     notebook, files = write_notebook(task), task_files(task)
     with whole_folder(folder) as draft:
@@ -295,14 +299,14 @@ def write_folder(
         if run or html or pdf:
             progress(say("executing it"))
             notebook = execute(notebook, draft)
-        nbformat.write(notebook, draft / NOTEBOOK)
+        nbformat.write(notebook, draft / NOTEBOOK_FILE)
         if html or pdf:
             progress(say("making a page of it"))
             page = to_html(notebook, notebook_title(task), task.drawing.language)
-            (draft / PAGE).write_text(page, encoding="utf-8", newline="\n")
+            (draft / PAGE_FILE).write_text(page, encoding="utf-8", newline="\n")
         if pdf:
             progress(say("printing the page"))
-            print_pdf(draft / PAGE, draft / PRINT)
+            print_pdf(draft / PAGE_FILE, draft / PRINT_FILE)
         if not html:
-            (draft / PAGE).unlink(missing_ok=True)
+            (draft / PAGE_FILE).unlink(missing_ok=True)
         return sorted(path.name for path in draft.iterdir())

@@ -11,18 +11,18 @@ from html import escape
 from graphcam.comparison.quantities import Quantity
 from graphcam.drafting.ink import Reading
 from graphcam.drafting.scale import UNITS
-from graphcam.language import MINUS
+from graphcam.language import MINUS_SIGN
 from graphcam.words import Caption, Tell, Words, say
 
-EXAMPLE = 12.3
+EXAMPLE_NUMBER = 12.3
 """How a number is written."""
-CAREFUL_HAND = 1.0
+CAREFUL_HAND_ERROR = 1.0
 """How far a careful drawing may be off [mm of paper]: twice half a division, for a line drawn and a length read."""
-RIGHT, NEARLY, WRONG, OPEN = "right", "nearly", "wrong", "open"
-ON_PAPER = say("that is the length on paper; multiply it by the scale")
-STOPPED_TWICE = re.compile(r"([.?!…。？！])[.。](?=\s|$)")
+RIGHT_VERDICT, NEARLY_VERDICT, WRONG_VERDICT, OPEN_VERDICT = "right", "nearly", "wrong", "open"
+PAPER_LENGTH_HINT = say("that is the length on paper; multiply it by the scale")
+DOUBLE_STOP_PATTERN = re.compile(r"([.?!…。？！])[.。](?=\s|$)")
 """A stop after a sentence that ends already: of a hint, or of a place that is asked about."""
-ROUGH = 3.0
+ROUGH_TOLERANCES = 3.0
 """Up to so many tolerances the way was right and the hand was not."""
 
 
@@ -74,8 +74,8 @@ class Question:
         """
         paper = float(reading.paper if at is None else reading.paper[at])
         scale = reading.per_mm
-        on_paper = {} if scale == 1 else {str(ON_PAPER): paper}
-        return cls(scale * paper, CAREFUL_HAND * scale, reading.unit, look, {**on_paper, **(mistakes or {})})
+        on_paper = {} if scale == 1 else {str(PAPER_LENGTH_HINT): paper}
+        return cls(scale * paper, CAREFUL_HAND_ERROR * scale, reading.unit, look, {**on_paper, **(mistakes or {})})
 
     @classmethod
     def about(cls, quantity: Quantity, tell: Tell = str) -> Question:
@@ -88,8 +88,8 @@ class Question:
         """
         # A length of paper that is the value itself is no mistake.
         equal = math.isclose(quantity.per_mm, 1.0)
-        mistakes = {} if equal else {tell(ON_PAPER): quantity.drawn / quantity.per_mm}
-        tolerance = CAREFUL_HAND * quantity.per_mm
+        mistakes = {} if equal else {tell(PAPER_LENGTH_HINT): quantity.drawn / quantity.per_mm}
+        tolerance = CAREFUL_HAND_ERROR * quantity.per_mm
         return cls(quantity.drawn, tolerance, quantity.unit, tell(quantity.title), mistakes, tell)
 
     def check(self, answer: float | str | None) -> Verdict:
@@ -106,28 +106,30 @@ class Question:
         Not yet: that is too small. Look again at step 5: which line was measured?
         """
         status, words = self._verdict(answer)
-        return Verdict(status, STOPPED_TWICE.sub(r"\1", self.tell(words)))
+        return Verdict(status, DOUBLE_STOP_PATTERN.sub(r"\1", self.tell(words)))
 
     def _verdict(self, given: float | str | None) -> tuple[str, Caption]:
         unit = UNITS.get(self.unit, self.unit)
         if given is None or (isinstance(given, str) and not given.strip()):
-            return OPEN, say("Your turn: replace None by your number (in {unit}) and run this cell.", unit=unit)
+            return OPEN_VERDICT, say("Your turn: replace None by your number (in {unit}) and run this cell.", unit=unit)
         answer = _number(given, (self.unit, self.tell(unit)))
         if answer is None:
-            said = {"given": str(given), "example": EXAMPLE, "unit": unit}
-            return WRONG, say('Not yet: "{given}" is not a number; write it like {example}, in {unit}.', **said)
+            said = {"given": str(given), "example": EXAMPLE_NUMBER, "unit": unit}
+            return WRONG_VERDICT, say('Not yet: "{given}" is not a number; write it like {example}, in {unit}.', **said)
         if not math.isfinite(answer):
-            return WRONG, say("Not yet: enter a finite number, in {unit}.", unit=unit)
+            return WRONG_VERDICT, say("Not yet: enter a finite number, in {unit}.", unit=unit)
         off, look = abs(answer - self.value), self.look
         if off <= self.tolerance:
-            return RIGHT, say("Right, within drawing accuracy.")
+            return RIGHT_VERDICT, say("Right, within drawing accuracy.")
         if hint := self._mistake(answer):
-            return WRONG, say("Not yet: {hint}. Look again at {look}.", hint=hint, look=look)
-        if off <= ROUGH * self.tolerance:
-            return NEARLY, say("Nearly: the method is right, but a line is not exact enough. Repeat {look}.", look=look)
+            return WRONG_VERDICT, say("Not yet: {hint}. Look again at {look}.", hint=hint, look=look)
+        if off <= ROUGH_TOLERANCES * self.tolerance:
+            return NEARLY_VERDICT, say(
+                "Nearly: the method is right, but a line is not exact enough. Repeat {look}.", look=look
+            )
         if answer > self.value:
-            return WRONG, say("Not yet: that is too large. Look again at {look}.", look=look)
-        return WRONG, say("Not yet: that is too small. Look again at {look}.", look=look)
+            return WRONG_VERDICT, say("Not yet: that is too large. Look again at {look}.", look=look)
+        return WRONG_VERDICT, say("Not yet: that is too small. Look again at {look}.", look=look)
 
     def _mistake(self, answer: float) -> Words:
         degree = math.degrees(1.0)
@@ -159,7 +161,7 @@ def _number(given: float | str, units: tuple[str, ...]) -> float | None:
     text = str(given).strip()
     for unit in units:
         text = text.removesuffix(unit)
-    text = "".join(text.split()).replace(MINUS, "-")
+    text = "".join(text.split()).replace(MINUS_SIGN, "-")
     # A point beside a comma: one of them parts thousands, and nobody can tell which.
     text = text if "." in text else text.replace(",", ".")
     try:

@@ -14,40 +14,40 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.photo.pencil_ink import Ink
-from graphcam.photo.printed import Points, PrintedView
-from graphcam.photo.raster import DIRECTIONS, PER_MM, Raster, ridges, spread
+from graphcam.photo.printed_page import Points, PrintedView
+from graphcam.photo.raster import DIRECTION_COUNT, PIXELS_PER_MM, Raster, ridges, spread
 
-ACROSS = 0.2
+ACROSS_STEP = 0.2
 """Step across an axis [mm]; the place of a curve is refined afterwards."""
-RELATIVE, WIDEST = 0.0035, 0.4
+RELATIVE_STEP, MAX_STEP = 0.0035, 0.4
 """Step across a curve round an origin, as a share of the distance from it, so that slopes have equal steps everywhere,
 and the widest one [mm], which is as wide as a stroke."""
-MOST_STATES = 900
+MAX_STATES = 900
 """Across an axis: a diagram on A1 takes no more memory than one on A3."""
-ROUND = 360
+ROUND_STATIONS = 360
 """Stations round an origin."""
-SHORTEST, LONGEST = 0.5, 1.0
+MIN_STATION_STEP, MAX_STATION_STEP = 0.5, 1.0
 """Step along an axis [mm]: a drawing over 360 mm has as many stations as one round an origin."""
-INNER = 10.0
+INNER_RADIUS = 10.0
 """No curve runs nearer to its origin [mm]: there all rays of a construction meet."""
-EDGE = 0.8
+EDGE_MARGIN = 0.8
 """The margin beside the edge of the room [mm] in which its own line may be printed."""
-STEEPEST_ROUND = 1.2
+MAX_ROUND_SLOPE = 1.2
 """Slope against the circle, 50 degrees: a cam's pressure angle is less."""
-STEEPEST_OVER = 3.7
+MAX_AXIS_SLOPE = 3.7
 """Slope over an axis, 75 degrees."""
-LOST = -0.02
+OUTSIDE_REWARD = -0.02
 """Reward of a place without room, as little as noise has."""
 
 
-BEND = 0.03
+BEND_PRICE = 0.03
 """Price of a slope that changes by one, in rewards of the best possible station."""
-FARTHEST_BEND = 2
+MAX_BEND = 2
 """The slope changes by at most so much a station, except at a corner."""
-CORNER = 1.5
+CORNER_PRICE = 1.5
 """Price of a corner, at which the slope changes at will: a station and a half without a line."""
-NOWHERE = np.float32(-1e6)
-BLOCK = 32
+FORBIDDEN_REWARD = np.float32(-1e6)
+BLOCK_STATIONS = 32
 """Stations whose values are kept at a time: those of the others are reckoned again on the way back, to save memory."""
 
 Rewards = NDArray[np.float32]
@@ -75,19 +75,19 @@ def best_way(rewards: Rewards, wraps: bool) -> BestWay:
     """
     count = rewards.shape[0]
     if not wraps:
-        return _best(rewards, np.arange(count))
+        return _best_way(rewards, np.arange(count))
     # Two turns, of which the middle one has forgotten where it began and does not know where it ends.
     half = count // 2
-    turned = _best(rewards, np.arange(2 * count) % count)
+    turned = _best_way(rewards, np.arange(2 * count) % count)
     middle = slice(half, half + count)
     return BestWay(np.roll(turned.states[middle], half), np.roll(turned.slopes[middle], half))
 
 
-def _best(rewards: Rewards, stations: NDArray[np.int64]) -> BestWay:
+def _best_way(rewards: Rewards, stations: NDArray[np.int64]) -> BestWay:
     """The best way through the stations in this order."""
     _, states, slopes = rewards.shape
     value = np.zeros((slopes, states), np.float32)
-    blocks = np.split(stations, np.arange(BLOCK, stations.size, BLOCK))
+    blocks = np.split(stations, np.arange(BLOCK_STATIONS, stations.size, BLOCK_STATIONS))
     before: list[NDArray[np.float32]] = []
     for block in blocks:
         before.append(value)
@@ -117,16 +117,16 @@ def _arrived(
     arrived = np.empty((stations.size, slopes, states), np.float32)
     for k, station in enumerate(stations):
         np.take(value + rewards[station].T, arriving, out=arrived[k])
-        arrived[k][from_outside] = NOWHERE
-        value = _turned(arrived[k])
+        arrived[k][from_outside] = FORBIDDEN_REWARD
+        value = _with_slope_changes(arrived[k])
     return arrived, value
 
 
-def _turned(arrived: NDArray[np.float32]) -> NDArray[np.float32]:
+def _with_slope_changes(arrived: NDArray[np.float32]) -> NDArray[np.float32]:
     """The best values (slopes, states) after the slope may have changed."""
-    best = np.maximum(arrived, arrived.max(0) - np.float32(CORNER))
-    for change in range(1, FARTHEST_BEND + 1):
-        price = np.float32(BEND * change)
+    best = np.maximum(arrived, arrived.max(0) - np.float32(CORNER_PRICE))
+    for change in range(1, MAX_BEND + 1):
+        price = np.float32(BEND_PRICE * change)
         np.maximum(best[change:], arrived[:-change] - price, out=best[change:])
         np.maximum(best[:-change], arrived[change:] - price, out=best[:-change])
     return best
@@ -138,8 +138,8 @@ def _traced_back(arrived: NDArray[np.float32], slope: int, state: int) -> NDArra
     arrived : (stations, slopes, states)
     """
     count, slopes, states = arrived.shape
-    prices = np.minimum(BEND * np.arange(slopes), CORNER)
-    prices[FARTHEST_BEND + 1 :] = CORNER
+    prices = np.minimum(BEND_PRICE * np.arange(slopes), CORNER_PRICE)
+    prices[MAX_BEND + 1 :] = CORNER_PRICE
     way = np.empty((2, count), np.int64)
     for k in range(count - 1, -1, -1):
         slope = int(np.argmax(arrived[k, :, state] - prices[np.abs(np.arange(slopes) - slope)]))
@@ -204,43 +204,43 @@ def grid_of(view: PrintedView) -> CurveGrid:
 
 def _round_origin(view: PrintedView) -> CurveGrid:
     left, bottom, right, top = view.room
-    turn = 2 * np.pi / ROUND
-    outwards = np.exp(1j * turn * np.arange(ROUND))[:, None]
+    turn = 2 * np.pi / ROUND_STATIONS
+    outwards = np.exp(1j * turn * np.arange(ROUND_STATIONS))[:, None]
     corners = np.array([complex(x, y) for x in (left, right) for y in (bottom, top)])
-    farthest = max(float(np.abs(corners - view.origin).max()), INNER + 1)
-    relative = min(RELATIVE, WIDEST / farthest)
-    radius = INNER * np.exp(relative * np.arange(int(np.log(farthest / INNER) / relative) + 2))
+    farthest = max(float(np.abs(corners - view.origin).max()), INNER_RADIUS + 1)
+    relative = min(RELATIVE_STEP, MAX_STEP / farthest)
+    radius = INNER_RADIUS * np.exp(relative * np.arange(int(np.log(farthest / INNER_RADIUS) / relative) + 2))
     base = np.full(outwards.shape, view.origin, np.complex128)
     along = 1j * outwards * radius * turn
-    steepest = round(STEEPEST_ROUND * turn / relative)
+    steepest = round(MAX_ROUND_SLOPE * turn / relative)
     return CurveGrid(base, outwards, radius, along, steepest, True, _inside(base + outwards * radius, view))
 
 
 def _over_axis(view: PrintedView) -> CurveGrid:
     _, bottom, _, top = view.room
-    step = min(max((view.end - view.start) / ROUND, SHORTEST), LONGEST)
+    step = min(max((view.end - view.start) / ROUND_STATIONS, MIN_STATION_STEP), MAX_STATION_STEP)
     count = round((view.end - view.start) / step) + 1
     base = np.asarray(view.origin + np.linspace(view.start, view.end, count)[:, None], np.complex128)
-    spacing = max(ACROSS, (top - bottom) / MOST_STATES)
+    spacing = max(ACROSS_STEP, (top - bottom) / MAX_STATES)
     offsets = np.arange(bottom, top, spacing) - view.origin.imag
     upwards = np.full(base.shape, 1j)
     along = np.full((count, offsets.size), complex(base[1, 0] - base[0, 0]))
-    steepest = round(STEEPEST_OVER * step / spacing)
+    steepest = round(MAX_AXIS_SLOPE * step / spacing)
     return CurveGrid(base, upwards, offsets, along, steepest, False, _inside(base + upwards * offsets, view))
 
 
 def _inside(places: Points, view: PrintedView) -> NDArray[np.bool_]:
     """Whether places (...) are in the room; the ends of an axis may lie at its edge."""
     left, bottom, right, top = view.room
-    beside = EDGE if view.closed else -np.inf
+    beside = EDGE_MARGIN if view.closed else -np.inf
     across = (places.real > left + beside) & (places.real < right - beside)
-    return np.asarray(across & (places.imag > bottom + EDGE) & (places.imag < top - EDGE))
+    return np.asarray(across & (places.imag > bottom + EDGE_MARGIN) & (places.imag < top - EDGE_MARGIN))
 
 
 def evidence_of(ink: Ink, grid: CurveGrid) -> Evidence:
     """What the pencil says for every place and slope."""
-    reduced = ink.pencil.reduced(PER_MM)
-    answers = np.empty((DIRECTIONS, *grid.places.shape), np.float32)
+    reduced = ink.pencil.reduced(PIXELS_PER_MM)
+    answers = np.empty((DIRECTION_COUNT, *grid.places.shape), np.float32)
     quiet: list[NDArray[np.float32]] = []
     for k, (_, answer) in enumerate(ridges(reduced)):
         answers[k] = answer.at(grid.places)
@@ -249,12 +249,12 @@ def evidence_of(ink: Ink, grid: CurveGrid) -> Evidence:
     chosen = np.empty((*grid.places.shape, slopes.size), np.float32)
     for k, slope in enumerate(slopes):
         angle = np.angle(grid.along + slope * grid.spacing * grid.across)
-        direction = np.round(angle * DIRECTIONS / np.pi).astype(np.int64) % DIRECTIONS
+        direction = np.round(angle * DIRECTION_COUNT / np.pi).astype(np.int64) % DIRECTION_COUNT
         chosen[:, :, k] = np.take_along_axis(answers, direction[None], 0)[0]
-    chosen[~grid.inside] = LOST
+    chosen[~grid.inside] = OUTSIDE_REWARD
     return Evidence(chosen, answers.max(0), spread(np.concatenate(quiet)))
 
 
-def hidden_in(black: Raster, grid: CurveGrid) -> NDArray[np.bool_]:
+def hidden_places(black: Raster, grid: CurveGrid) -> NDArray[np.bool_]:
     """Whether black print lies at each place (stations, states)."""
     return black.at(grid.places, nearest=True) > 0.5

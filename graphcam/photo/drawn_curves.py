@@ -16,95 +16,113 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
-from graphcam.photo.curve_grid import LOST, BestWay, CurveGrid, Evidence, best_way, evidence_of, grid_of, hidden_in
-from graphcam.photo.flag_runs import LONGEST_GAP, Flags, bridged, long_runs, longest_run, runs
+from graphcam.photo.curve_grid import (
+    OUTSIDE_REWARD,
+    BestWay,
+    CurveGrid,
+    Evidence,
+    best_way,
+    evidence_of,
+    grid_of,
+    hidden_places,
+)
+from graphcam.photo.flag_runs import MAX_GAP, Flags, bridged, flag_runs, long_runs, longest_run
+from graphcam.photo.line_tracks import (
+    MIN_GAP,
+    MIN_RUN_LENGTH,
+    STRENGTH_PERCENTILE,
+    Track,
+    is_stroke,
+    line_places,
+    seen_stations,
+    track_of,
+)
 from graphcam.photo.pencil_ink import Ink
-from graphcam.photo.printed import Points, PrintedView
-from graphcam.photo.tracks import SHORTEST_RUN, STRONG, TRUE_GAP, Track, is_stroke, placed, seen_on, track_of
+from graphcam.photo.printed_page import Points, PrintedView
 from graphcam.words import Words, say
 
-FULL = 12.0
+FULL_REWARD = 12.0
 """Standard deviations of noise from which on more contrast is no better."""
-FULL_AT_FIRST = 0.05
+INITIAL_FULL_DENSITY = 0.05
 """Density that is full reward while it is not known how strong the curve is."""
-OF_STRONG = 0.7
+FULL_STRENGTH_SHARE = 0.7
 """Share of the curve's strong places that is full reward, so that one dark stroke does not outweigh a whole curve."""
-RIVAL_FULL, RIVAL_OF_STRONG = 8.0, 0.35
+RIVAL_FULL_REWARD, RIVAL_STRENGTH_SHARE = 8.0, 0.35
 """Full reward and share of strong places for a second curve, which may be fainter."""
-APART = 1.2
+RIVAL_DISTANCE = 1.2
 """A second curve runs at least so far [mm] from the first; nearer ones are told by their crests."""
-AS_DARK, AS_LONG, MOSTLY = 0.6, 10.0, 0.7
+SAME_STRENGTH_SHARE, SAME_STRENGTH_LENGTH, SAME_STRENGTH_PRESENCE = 0.6, 10.0, 0.7
 """Share of the curve's strength that a second line has, over so many mm, and share of these on which it is seen, to
 leave it open there which of both is the curve."""
-MEETS = 3.0
+MEETING_DISTANCE = 3.0
 """How near [mm] a second line comes to the curve before and behind; the lines of a hatching do not."""
-DARKER = 1.8
+MAX_DARKNESS_RATIO = 1.8
 """Times as dark as the strong places of a curve no long piece of it, nor any other line, may be: a hand presses evenly,
 and what is so much lighter an eraser has left."""
-STEEPEST = 0.2
+STEEPEST_COSINE = 0.2
 """Cosine of the steepest slope for which this is reckoned."""
-RIVAL = 0.45
+MIN_RIVAL_STRENGTH = 0.45
 """Share of the curve's strong places that a second curve must pass, to be one that was meant."""
 
 
-LEAST_SHARE = 0.90
+MIN_SEEN_SHARE = 0.90
 """Share of its length on which a curve is seen: a half has far less, a faint but whole one more."""
-LEAST_COHERENCE = 0.80
+MIN_COHERENCE = 0.80
 """Median share of the best direction's answer that the curve's own direction has: through a scribble the way jumps."""
-MOST_RIVAL = 0.25
+MAX_RIVAL_SHARE = 0.25
 """Share of its length over which a second curve is seen; rays and digits beside a lone curve make less."""
-MOST_BEND = 3.5
+MAX_BEND = 3.5
 """Degrees by which the direction changes from station to station, on average: the way through a scribble turns much."""
-MOST_TWIN = 0.06
+MAX_TWIN_SHARE = 0.06
 """Share of its length along which a second crest runs beside the first."""
-MOST_DARKER = 0.10
+MAX_DARKER_SHARE = 0.10
 """Share of its length along which a line far darker than the curve runs, on it or elsewhere."""
-MOST_HIDDEN = 0.10
+MAX_HIDDEN_SHARE = 0.10
 """Share of its length that lies under black print, where nothing is seen."""
-EMPTY = 0.25
+EMPTY_SHARE = 0.25
 """Below this share there is nothing that looks like a curve."""
 
 
-REACH = 2.2
+PROFILE_HALF_WIDTH = 2.2
 """Half the profile [mm] in which a second crest is looked for."""
-STEP = 0.1
+PROFILE_STEP = 0.1
 """The step along the profile [mm]."""
-CENTRAL = 0.7
+OWN_CREST_DISTANCE = 0.7
 """The curve's own crest lies so near to its path [mm]."""
-NEAREST = 0.55
+MIN_CREST_DISTANCE = 0.55
 """Two crests are at least so far apart [mm]; nearer ones a photograph shows as one."""
-SECOND = 0.45
+MIN_SECOND_CREST = 0.45
 """Share of the first crest's height that a second one has: what an eraser leaves has less."""
-VALLEY = 0.8
+MAX_VALLEY = 0.8
 """Share of the second crest's height below which the profile falls between the two."""
-ALONG = 1.5
+PROFILE_SMOOTHING = 1.5
 """Deviation over which profiles are smoothed along the curve [stations], against crosses and digits."""
 
 
 def twin_share(track: Track, seen: Flags, ink: Ink, wraps: bool) -> float:
     """Share of the seen length along which there are two crests, over at least ``SHORTEST_RUN`` at once."""
-    offsets = np.arange(-REACH, REACH + STEP / 2, STEP)
+    offsets = np.arange(-PROFILE_HALF_WIDTH, PROFILE_HALF_WIDTH + PROFILE_STEP / 2, PROFILE_STEP)
     profiles = ink.at(track.path[:, None] + track.normal[:, None] * offsets)
-    profiles = gaussian_filter1d(profiles, ALONG, axis=0, mode="wrap" if wraps else "nearest")
-    double = long_runs(seen & _two_crests(profiles, offsets), track.lengths, SHORTEST_RUN, wraps)
+    profiles = gaussian_filter1d(profiles, PROFILE_SMOOTHING, axis=0, mode="wrap" if wraps else "nearest")
+    double = long_runs(seen & _two_crests(profiles, offsets), track.lengths, MIN_RUN_LENGTH, wraps)
     return float(track.lengths[double].sum() / max(float(track.lengths[seen].sum()), 1e-6))
 
 
 def _two_crests(profiles: NDArray[Any], offsets: NDArray[np.float64]) -> Flags:
     """Whether profiles (n, m) have a second crest."""
     station = np.arange(profiles.shape[0])
-    central = np.flatnonzero(np.abs(offsets) < CENTRAL)
+    central = np.flatnonzero(np.abs(offsets) < OWN_CREST_DISTANCE)
     crest = central[profiles[:, central].argmax(1)]
     height = profiles[station, crest]
     found = np.zeros(station.size, np.bool_)
     for k in range(1, offsets.size - 1):
         second = profiles[:, k]
         is_crest = (second >= profiles[:, k - 1]) & (second >= profiles[:, k + 1])
-        apart = np.abs(offsets[k] - offsets[crest]) > NEAREST
-        high = is_crest & apart & (second > SECOND * height)
+        apart = np.abs(offsets[k] - offsets[crest]) > MIN_CREST_DISTANCE
+        high = is_crest & apart & (second > MIN_SECOND_CREST * height)
         for row in np.flatnonzero(high):
             low, top = sorted((k, int(crest[row])))
-            found[row] |= profiles[row, low:top].min() < VALLEY * second[row]
+            found[row] |= profiles[row, low:top].min() < MAX_VALLEY * second[row]
     return found
 
 
@@ -150,26 +168,30 @@ def refusal_of(measures: Measures) -> tuple[Words, Words] | None:
     share = say(
         "{share:.0f} % of the curve can be seen, and {least:.0f} % are needed",
         share=100 * measures.share,
-        least=100 * LEAST_SHARE,
+        least=100 * MIN_SEEN_SHARE,
     )
     over = say("draw over the faint parts, also along printed lines, and take the photograph again in even light")
     cases = [
-        (measures.rival > MOST_RIVAL, _rival_refusal(measures), say("erase the one that is not meant")),
+        (measures.rival > MAX_RIVAL_SHARE, _rival_refusal(measures), say("erase the one that is not meant")),
         (
-            measures.darker > MOST_DARKER,
+            measures.darker > MAX_DARKER_SHARE,
             _darker_refusal(measures),
             say("draw over the whole curve, or erase what is not meant"),
         ),
-        (measures.share < EMPTY, say("no curve can be seen"), say("check that this is the right page and in focus")),
-        (measures.twin > MOST_TWIN, _twin_refusal(measures), say("erase the one that is not meant")),
         (
-            measures.coherence < LEAST_COHERENCE or measures.bend > MOST_BEND,
+            measures.share < EMPTY_SHARE,
+            say("no curve can be seen"),
+            say("check that this is the right page and in focus"),
+        ),
+        (measures.twin > MAX_TWIN_SHARE, _twin_refusal(measures), say("erase the one that is not meant")),
+        (
+            measures.coherence < MIN_COHERENCE or measures.bend > MAX_BEND,
             say("the lines do not form one curve"),
             again,
         ),
-        (measures.hidden > MOST_HIDDEN, _hidden_refusal(measures), say("enter it in the review page")),
-        (measures.share < LEAST_SHARE, share, over),
-        (measures.gap > LONGEST_GAP, _gap_refusal(measures), over),
+        (measures.hidden > MAX_HIDDEN_SHARE, _hidden_refusal(measures), say("enter it in the review page")),
+        (measures.share < MIN_SEEN_SHARE, share, over),
+        (measures.gap > MAX_GAP, _gap_refusal(measures), over),
     ]
     return next(((why, remedy) for applies, why, remedy in cases if applies), None)
 
@@ -217,14 +239,14 @@ def read_curve(ink: Ink, view: PrintedView) -> CurveReading:
     """The curve in a view."""
     grid = grid_of(view)
     evidence = evidence_of(ink, grid)
-    black = hidden_in(ink.black, grid)
-    way, track, darker = _found(grid, evidence, black, ink)
-    clear = seen_on(track, evidence, ink, grid.wraps)
+    black = hidden_places(ink.black, grid)
+    way, track, darker = _best_curve(grid, evidence, black, ink)
+    clear = seen_stations(track, evidence, ink, grid.wraps)
     rival = _rival(track, grid, evidence, black, ink)
     seen = clear & ~_by_another_way(track, rival, grid)
     twin = twin_share(track, clear, ink, grid.wraps)
     measures = _measures(way, track, seen, grid, rival.share, twin, darker)
-    points = placed(track, ink.sharp, grid.wraps) - view.origin
+    points = line_places(track, ink.sharp, grid.wraps) - view.origin
     return CurveReading(bridged(points, seen, track.lengths, grid.wraps), seen, measures)
 
 
@@ -241,13 +263,13 @@ class RivalLine:
         return float(self.track.lengths[self.seen].sum() / self.track.lengths.sum())
 
 
-def _found(grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[BestWay, Track, float]:
+def _best_curve(grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[BestWay, Track, float]:
     """The curve, and the share of its length along which a far darker line runs."""
-    full = max(FULL * evidence.noise, FULL_AT_FIRST)
+    full = max(FULL_REWARD * evidence.noise, INITIAL_FULL_DENSITY)
     strong = track_of(best_way(_rewards(evidence, black, full), grid.wraps), grid, evidence, ink).strong
     way, track = _at_strength(strong, grid, evidence, black, ink)
     darker, strength = _darker(track, grid, evidence, black, ink)
-    if darker > MOST_DARKER:
+    if darker > MAX_DARKER_SHARE:
         # What an eraser left of a whole curve outweighs a part of a dark one, until it is known how dark that is.
         way, track = _at_strength(strength, grid, evidence, black, ink)
         darker, _ = _darker(track, grid, evidence, black, ink)
@@ -256,25 +278,27 @@ def _found(grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> tuple
 
 def _at_strength(strong: float, grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[BestWay, Track]:
     """The curve, if its strong places are so dark."""
-    way = best_way(_rewards(evidence, black, max(FULL * evidence.noise, OF_STRONG * strong)), grid.wraps)
+    way = best_way(
+        _rewards(evidence, black, max(FULL_REWARD * evidence.noise, FULL_STRENGTH_SHARE * strong)), grid.wraps
+    )
     return way, track_of(way, grid, evidence, ink)
 
 
 def _darker(track: Track, grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[float, float]:
     """Share of the length along which the darkest line is ``DARKER`` than the curve, and how dark it is there."""
-    full = max(FULL * evidence.noise, 2 * DARKER * track.strong)
+    full = max(FULL_REWARD * evidence.noise, 2 * MAX_DARKNESS_RATIO * track.strong)
     line = track_of(best_way(_rewards(evidence, black, full), grid.wraps), grid, evidence, ink)
     # Of a line so dark its flanks are reward enough, so the way need not run on its crest.
-    dark = (line.best > DARKER * track.strong) & ~line.hidden
-    other = long_runs(~(dark & is_stroke(line, ink.pencil)), line.lengths, TRUE_GAP, grid.wraps)
+    dark = (line.best > MAX_DARKNESS_RATIO * track.strong) & ~line.hidden
+    other = long_runs(~(dark & is_stroke(line, ink.pencil)), line.lengths, MIN_GAP, grid.wraps)
     # Where a ray crosses it is no stroke, but runs on.
-    dark = long_runs(dark & ~other, line.lengths, AS_LONG, grid.wraps)
-    strength = float(np.percentile(line.best[dark], STRONG)) if dark.any() else 0.0
+    dark = long_runs(dark & ~other, line.lengths, SAME_STRENGTH_LENGTH, grid.wraps)
+    strength = float(np.percentile(line.best[dark], STRENGTH_PERCENTILE)) if dark.any() else 0.0
     return float(line.lengths[dark].sum() / line.lengths.sum()), strength
 
 
 def _rewards(evidence: Evidence, black: Flags, full: float) -> NDArray[np.float32]:
-    rewards = np.clip(evidence.answers, LOST, full)
+    rewards = np.clip(evidence.answers, OUTSIDE_REWARD, full)
     rewards /= np.float32(full)
     rewards[black] = 0
     return rewards
@@ -303,29 +327,34 @@ def _measures(
 
 
 def _rival(track: Track, grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> RivalLine:
-    full = max(RIVAL_FULL * evidence.noise, RIVAL_OF_STRONG * track.strong)
+    full = max(RIVAL_FULL_REWARD * evidence.noise, RIVAL_STRENGTH_SHARE * track.strong)
     rewards = _rewards(evidence, black, full)
     room = _room_of(track, grid)
-    rewards[np.abs(grid.offsets - grid.offsets[track.states][:, None]) < room[:, None]] = LOST
+    rewards[np.abs(grid.offsets - grid.offsets[track.states][:, None]) < room[:, None]] = OUTSIDE_REWARD
     second = track_of(best_way(rewards, grid.wraps), grid, evidence, ink)
     apart = np.abs(grid.offsets[second.states] - grid.offsets[track.states]) > room
-    seen = seen_on(second, evidence, ink, grid.wraps) & apart & (second.answers > RIVAL * track.strong)
+    seen = (
+        seen_stations(second, evidence, ink, grid.wraps) & apart & (second.answers > MIN_RIVAL_STRENGTH * track.strong)
+    )
     return RivalLine(second, seen)
 
 
 def _by_another_way(track: Track, rival: RivalLine, grid: CurveGrid) -> Flags:
     """Flags (n,) where a second line leaves the curve and comes back: either may be meant, as about a stain."""
     second = rival.track
-    dark = rival.seen & (second.answers > AS_DARK * track.answers)
+    dark = rival.seen & (second.answers > SAME_STRENGTH_SHARE * track.answers)
     another = np.zeros(dark.shape, np.bool_)
-    for run in runs(np.abs(second.path - track.path) > MEETS, grid.wraps):
+    for run in flag_runs(np.abs(second.path - track.path) > MEETING_DISTANCE, grid.wraps):
         length = float(second.lengths[run].sum())
-        another[run] = length > AS_LONG and float(second.lengths[run][dark[run]].sum()) > MOSTLY * length
+        another[run] = (
+            length > SAME_STRENGTH_LENGTH
+            and float(second.lengths[run][dark[run]].sum()) > SAME_STRENGTH_PRESENCE * length
+        )
     return another
 
 
 def _room_of(track: Track, grid: CurveGrid) -> NDArray[np.float64]:
     """How far (n,) across the grid the curve keeps others away, at stations, which for a steep one is farther."""
     upright = np.abs((track.normal * np.conj(grid.across[:, 0])).real)
-    own = APART / np.maximum(upright, STEEPEST)
+    own = RIVAL_DISTANCE / np.maximum(upright, STEEPEST_COSINE)
     return maximum_filter1d(own, 3, mode="wrap" if grid.wraps else "nearest")

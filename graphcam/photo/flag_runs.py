@@ -3,17 +3,17 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.photo.printed import Points
+from graphcam.photo.printed_page import Points
 
 Flags = NDArray[np.bool_]
 
 
-def runs(flags: Flags, wraps: bool) -> list[NDArray[np.int64]]:
+def flag_runs(flags: Flags, wraps: bool) -> list[NDArray[np.int64]]:
     """The numbers of the stations of each run of true flags (n,), in order; of a closed curve also over its end.
 
-    >>> [run.tolist() for run in runs(np.array([1, 1, 0, 1, 0, 1], bool), wraps=True)]
+    >>> [run.tolist() for run in flag_runs(np.array([1, 1, 0, 1, 0, 1], bool), wraps=True)]
     [[3], [5, 0, 1]]
-    >>> [run.tolist() for run in runs(np.array([1, 1, 0, 1, 0, 1], bool), wraps=False)]
+    >>> [run.tolist() for run in flag_runs(np.array([1, 1, 0, 1, 0, 1], bool), wraps=False)]
     [[0, 1], [3], [5]]
     """
     if flags.all():
@@ -31,7 +31,7 @@ def long_runs(flags: Flags, lengths: NDArray[np.float64], least: float, wraps: b
     [True, True, False, False, False, False]
     """
     kept = np.zeros(flags.shape, np.bool_)
-    for run in runs(flags, wraps):
+    for run in flag_runs(flags, wraps):
         kept[run] = lengths[run].sum() >= least
     return kept
 
@@ -42,12 +42,12 @@ def longest_run(flags: Flags, lengths: NDArray[np.float64], wraps: bool) -> floa
     >>> longest_run(np.array([1, 1, 0, 1], bool), np.ones(4), wraps=True)
     3.0
     """
-    return max((float(lengths[run].sum()) for run in runs(flags, wraps)), default=0.0)
+    return max((float(lengths[run].sum()) for run in flag_runs(flags, wraps)), default=0.0)
 
 
-LONGEST_GAP = 9.0
+MAX_GAP = 9.0
 """The maximum gap of a curve [mm]: less than the distance of two stations, so that it cannot turn unseen."""
-NEIGHBOURS = 5
+NEIGHBOUR_COUNT = 5
 """Stations on either side whose run is prolonged, about 5 mm: less is the hand's tremor."""
 NOWHERE = complex(np.nan, np.nan)
 
@@ -66,9 +66,9 @@ def bridged(points: Points, seen: Flags, lengths: NDArray[np.float64], wraps: bo
     if not seen.any():
         return whole
     count = points.size
-    for gap in runs(~seen, wraps):
+    for gap in flag_runs(~seen, wraps):
         before, behind = int(gap[0]) - 1, int(gap[-1]) + 1
-        if lengths[gap].sum() > LONGEST_GAP or (not wraps and (before < 0 or behind >= count)):
+        if lengths[gap].sum() > MAX_GAP or (not wraps and (before < 0 or behind >= count)):
             continue
         start, from_start = _run(whole, before, -1, wraps)
         end, to_end = _run(whole, behind % count, 1, wraps)
@@ -79,7 +79,7 @@ def bridged(points: Points, seen: Flags, lengths: NDArray[np.float64], wraps: bo
 
 def _run(points: Points, last: int, away: int, wraps: bool) -> tuple[complex, complex]:
     """The point at the edge of a gap and the step from station to station there, by the stations away from it."""
-    stations = last + away * np.arange(NEIGHBOURS)
+    stations = last + away * np.arange(NEIGHBOUR_COUNT)
     if not wraps:
         stations = stations[(stations >= 0) & (stations < points.size)]
     near = points[stations % points.size]

@@ -17,27 +17,27 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.photo.printed import Edges, Points, PrintedPage
+from graphcam.photo.printed_page import Edges, Points, PrintedPage
 from graphcam.photo.raster import Raster, spread
-from graphcam.photo.rectify import Flat
+from graphcam.photo.rectify import EvenPicture
 
-BLUR = 0.22
+BLUR_WIDTH = 0.22
 """All channels are blurred by so much before they are mixed [mm]: print then vanishes a third better."""
 BLUR_PIXELS = 2.0
 """The minimum blur in pixels of the photograph, as wide as its colours are blurred."""
 CAMERA_PIXEL = 0.112
 """Side of a pixel of the photograph on the paper [mm], if it is not given: A3 at 12 megapixels."""
-BLACK_EDGE = 0.45
+BLACK_PRINT_MARGIN = 0.45
 """The width of the margin about black print [mm] that its blur reaches."""
-OF_PRINT = 1.4
+MAX_PRINT_FACTOR = 1.4
 """What is darker than so many times a printed line has been drawn, whatever its colour."""
 PROFILE_BIN = 0.05
 """Steps of the distance to a printed line [mm] in which its profile is measured."""
-PROFILE = 1.2
+PROFILE_REACH = 1.2
 """Half the width of a printed line's profile [mm]."""
-FLANK = 0.9
+FLANK_DISTANCE = 0.9
 """The distance from which on the profile is bare paper [mm]."""
-BESIDE_PRINT = 0.8
+PRINT_NEIGHBOURHOOD = 0.8
 """The distance from a printed line [mm] within which a stroke must be told from what is left of the line."""
 RESIDUE_STEP = 0.5
 """Places along printed lines [mm] at which is looked what is left of them."""
@@ -45,18 +45,18 @@ RESIDUE_STEP = 0.5
 
 Channels = NDArray[np.float32]
 """Values (rows, columns, 3), red, green and blue."""
-LUMA = np.array([0.3, 0.59, 0.11], np.float32)
+LUMA_WEIGHTS = np.array([0.3, 0.59, 0.11], np.float32)
 """Weights of a camera's brightness, which JPEG keeps sharp while it blurs the colours."""
-PAPER = 5.0
+BARE_PAPER_REACH = 5.0
 """Within so many mm there is bare paper beside every line."""
-COARSE = 4
+COARSE_PIXELS = 4
 """Pixels to a side of those in which the paper is looked for."""
-DARKEST = 0.02
+MIN_LIGHT_SHARE = 0.02
 """Below this share of the paper's light nothing is told."""
-COLOURED = 0.2
+MIN_COLOUR_SHARE = 0.2
 """How far the densities of an ink lie from grey, as a share of them, before its colour is used: that of light cyan is
 half of them, that of a grey picture nothing."""
-BARE_LINES = (5, 35)
+BARE_LINE_PERCENTILES = (5, 35)
 """Percentiles of the brightness on printed lines between which they bear no pencil."""
 PATCH_EDGE = 1.2
 """The width of a patch's edge [mm], where blur mixes it with the paper."""
@@ -66,7 +66,7 @@ PATCH_DENSITY = (0.04, 1.2)
 """Densities that a patch of light print may have: others are a finger, or the edge of the photograph."""
 PATCH_UNEVEN = 0.25
 """The difference of the quartiles of a patch, and of the paper about it; a greater one is half covered."""
-GREY = np.ones(3)
+GREY_INK = np.ones(3)
 
 
 def densities(linear: Channels, per_mm: float) -> Channels:
@@ -80,13 +80,15 @@ def densities(linear: Channels, per_mm: float) -> Channels:
     [0.6899999976158142, 0.6899999976158142, 0.6899999976158142]
     """
     rows, columns = linear.shape[:2]
-    small = cv2.resize(linear, (max(columns // COARSE, 1), max(rows // COARSE, 1)), interpolation=cv2.INTER_AREA)
-    width = round(PAPER * per_mm / COARSE) | 1
+    small = cv2.resize(
+        linear, (max(columns // COARSE_PIXELS, 1), max(rows // COARSE_PIXELS, 1)), interpolation=cv2.INTER_AREA
+    )
+    width = round(BARE_PAPER_REACH * per_mm / COARSE_PIXELS) | 1
     closed = cv2.morphologyEx(small, cv2.MORPH_CLOSE, cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (width, width)))
     paper = cv2.resize(cv2.GaussianBlur(closed, (0, 0), width / 4), (columns, rows), interpolation=cv2.INTER_LINEAR)
     np.maximum(paper, 1e-3, out=paper)
     np.divide(linear, paper, out=paper)
-    np.clip(paper, DARKEST, 1.5, out=paper)
+    np.clip(paper, MIN_LIGHT_SHARE, 1.5, out=paper)
     return np.asarray(-cv2.log(paper), np.float32)
 
 
@@ -108,8 +110,8 @@ def ink_of_lines(soft: Raster, lines: Sequence[NDArray[np.complex128]]) -> NDArr
     on = soft.values[lines_mask(lines, soft) > 0]
     if not on.size:
         return None
-    grey = on @ LUMA
-    low, high = np.percentile(grey, BARE_LINES)
+    grey = on @ LUMA_WEIGHTS
+    low, high = np.percentile(grey, BARE_LINE_PERCENTILES)
     return np.median(on[(grey >= low) & (grey <= high)], 0).astype(float)
 
 
@@ -124,14 +126,14 @@ def weights_against(ink: NDArray[np.float64], soft: Channels) -> NDArray[np.floa
     (1.0, 0.0)
     """
     precision = np.linalg.inv(_noise_of_lines(soft))
-    wanted = np.stack([GREY, ink], 1) if is_coloured(ink) else GREY[:, None]
+    wanted = np.stack([GREY_INK, ink], 1) if is_coloured(ink) else GREY_INK[:, None]
     answers = np.eye(wanted.shape[1])[0]
     return (precision @ wanted @ np.linalg.solve(wanted.T @ precision @ wanted, answers)).astype(np.float32)
 
 
 def is_coloured(ink: NDArray[np.float64]) -> bool:
     """Whether an ink's densities (3,) can be told from grey."""
-    return float(np.linalg.norm(ink - ink.mean())) > COLOURED * float(np.linalg.norm(ink))
+    return float(np.linalg.norm(ink - ink.mean())) > MIN_COLOUR_SHARE * float(np.linalg.norm(ink))
 
 
 def lines_mask(lines: Sequence[NDArray[np.complex128]], picture: Raster) -> NDArray[np.uint8]:
@@ -147,13 +149,13 @@ def lines_mask(lines: Sequence[NDArray[np.complex128]], picture: Raster) -> NDAr
 def lines_about(lines: Sequence[NDArray[np.complex128]], picture: Raster) -> NDArray[np.uint8]:
     """How many lines run within a mm of each pixel (rows, columns); where they cross, their densities add."""
     rows, columns = picture.values.shape[:2]
-    count = np.zeros((-(-rows // COARSE), -(-columns // COARSE)), np.uint8)
-    coarse = Raster(count, picture.left, picture.top, picture.per_mm / COARSE)
+    count = np.zeros((-(-rows // COARSE_PIXELS), -(-columns // COARSE_PIXELS)), np.uint8)
+    coarse = Raster(count, picture.left, picture.top, picture.per_mm / COARSE_PIXELS)
     for line in lines:
         mask = np.zeros(count.shape, np.uint8)
         cv2.polylines(mask, [np.round(coarse.pixels(line)).astype(np.int32)], False, 1, round(2 * coarse.per_mm))
         count += mask
-    return np.asarray(np.repeat(np.repeat(count, COARSE, 0), COARSE, 1)[:rows, :columns])
+    return np.asarray(np.repeat(np.repeat(count, COARSE_PIXELS, 0), COARSE_PIXELS, 1)[:rows, :columns])
 
 
 def _patch(linear: Raster, corner: complex, side: float) -> NDArray[np.float64] | None:
@@ -168,12 +170,13 @@ def _patch(linear: Raster, corner: complex, side: float) -> NDArray[np.float64] 
     ring = middle + np.outer(np.array([1, 1j, -1, -1j]), side / 2 + PATCH_RING + 1j * across)
     channels = [linear.like(np.ascontiguousarray(linear.values[..., channel])) for channel in range(3)]
     paper, inked = (
-        np.log(np.maximum([channel.at(places).ravel() for channel in channels], DARKEST)) for places in (ring, inside)
+        np.log(np.maximum([channel.at(places).ravel() for channel in channels], MIN_LIGHT_SHARE))
+        for places in (ring, inside)
     )
     density = np.median(paper, 1) - np.median(inked, 1)
     quartiles = [float(np.ptp(np.percentile(part, (25, 75), axis=1), axis=0).max()) for part in (paper, inked)]
     faintest, darkest = PATCH_DENSITY
-    return density if max(quartiles) < PATCH_UNEVEN and faintest < density @ LUMA < darkest else None
+    return density if max(quartiles) < PATCH_UNEVEN and faintest < density @ LUMA_WEIGHTS < darkest else None
 
 
 def _noise_of_lines(soft: Channels) -> NDArray[np.float64]:
@@ -211,10 +214,12 @@ class Ink:
 
     def beside_print(self, points: Points) -> NDArray[np.bool_]:
         """Whether places on the page (...) lie at a printed light line."""
-        return self.print_distance.at(points, nearest=True) < BESIDE_PRINT
+        return self.print_distance.at(points, nearest=True) < PRINT_NEIGHBOURHOOD
 
 
-def ink_of(flat: Flat, page: PrintedPage, pixel: float = CAMERA_PIXEL, patches: Sequence[Flat] = ()) -> Ink:
+def ink_of(
+    flat: EvenPicture, page: PrintedPage, pixel: float = CAMERA_PIXEL, patches: Sequence[EvenPicture] = ()
+) -> Ink:
     """The pencil in a rectified photograph.
 
     flat : light, linear;  page : what was printed;  pixel : side of a photograph's pixel on the paper [mm]
@@ -222,9 +227,9 @@ def ink_of(flat: Flat, page: PrintedPage, pixel: float = CAMERA_PIXEL, patches: 
     """
     light = _light(flat)
     density = densities(flat.linear, flat.per_mm)
-    blur = max(BLUR, BLUR_PIXELS * pixel) * flat.per_mm
+    blur = max(BLUR_WIDTH, BLUR_PIXELS * pixel) * flat.per_mm
     soft = np.asarray(cv2.GaussianBlur(density, (0, 0), blur), np.float32)
-    sharp, blurred = density @ LUMA, soft @ LUMA
+    sharp, blurred = density @ LUMA_WEIGHTS, soft @ LUMA_WEIGHTS
     del density
     ink = _printed_ink(page, [light, *(_light(part) for part in patches)], light.like(soft))
     black = light.like(_black(page.black + _patch_boxes(page), light))
@@ -232,7 +237,7 @@ def ink_of(flat: Flat, page: PrintedPage, pixel: float = CAMERA_PIXEL, patches: 
     if is_coloured(ink):
         neutral = soft @ weights_against(ink, soft)
         # JPEG smears the print's colour into a dark stroke over it, which then seems to be print; but print is light.
-        most = OF_PRINT * _crest(light.like(blurred), black, page.givens)
+        most = MAX_PRINT_FACTOR * _crest(light.like(blurred), black, page.givens)
         np.maximum(neutral, blurred - np.float32(most) * np.maximum(lines_about(page.givens, light), 1), out=neutral)
         # The sharp picture has no colour of its own: it is dimmed where the soft one is print.
         sharp *= np.clip(neutral / np.maximum(blurred, 0.02), 0, 1)
@@ -247,25 +252,25 @@ def ink_of(flat: Flat, page: PrintedPage, pixel: float = CAMERA_PIXEL, patches: 
     return Ink(pencil, light.like(sharp.astype(np.float32)), black, distance, residue, _noise(pencil))
 
 
-def _light(flat: Flat) -> Raster:
+def _light(flat: EvenPicture) -> Raster:
     return Raster(flat.linear, flat.box[0], flat.box[3], flat.per_mm)
 
 
 def _printed_ink(page: PrintedPage, pictures: Sequence[Raster], soft: Raster) -> NDArray[np.float64]:
     """Densities (3,) of the ink of the givens, as far as any can be told."""
     if page.ink == "grey":
-        return GREY
+        return GREY_INK
     for ink in (ink_of_patches(pictures, page), ink_of_lines(soft, page.givens)):
         if ink is not None:
             return ink
-    return GREY
+    return GREY_INK
 
 
 def _black(boxes: Sequence[Edges], light: Raster) -> NDArray[np.uint8]:
     mask = np.zeros(light.values.shape[:2], np.uint8)
     for left, bottom, right, top in boxes:
         first, last = light.pixels(np.array([complex(left, top), complex(right, bottom)]))
-        edge = BLACK_EDGE * light.per_mm
+        edge = BLACK_PRINT_MARGIN * light.per_mm
         columns, rows = (
             slice(max(0, int(np.floor(low - edge))), max(0, int(np.ceil(high + edge)) + 1))
             for low, high in zip(first, last, strict=True)
@@ -282,9 +287,9 @@ def _patch_boxes(page: PrintedPage) -> tuple[Edges, ...]:
 def _distance(givens: Sequence[Points], light: Raster) -> NDArray[np.float32]:
     lines = lines_mask(givens, light)
     if not lines.any():
-        return np.full(lines.shape, PROFILE, np.float32)
+        return np.full(lines.shape, PROFILE_REACH, np.float32)
     distance = cv2.distanceTransform(255 - lines, cv2.DIST_L2, cv2.DIST_MASK_PRECISE) / light.per_mm
-    return np.minimum(distance, PROFILE).astype(np.float32)
+    return np.minimum(distance, PROFILE_REACH).astype(np.float32)
 
 
 def _without_profile(
@@ -292,12 +297,12 @@ def _without_profile(
 ) -> NDArray[np.float32]:
     """The median profile across the printed lines taken off: most of their length bears no pencil."""
     bins = np.round(distance / PROFILE_BIN).astype(np.uint8)
-    near = (distance < PROFILE) & (black == 0)
+    near = (distance < PROFILE_REACH) & (black == 0)
     values, of = density[near], bins[near]
     order = np.argsort(of, kind="stable")
-    pieces = np.split(values[order], np.searchsorted(of[order], np.arange(1, round(PROFILE / PROFILE_BIN) + 1)))
+    pieces = np.split(values[order], np.searchsorted(of[order], np.arange(1, round(PROFILE_REACH / PROFILE_BIN) + 1)))
     profile = np.array([np.median(piece) if piece.size else 0.0 for piece in pieces], np.float32)
-    flank = round(FLANK / PROFILE_BIN)
+    flank = round(FLANK_DISTANCE / PROFILE_BIN)
     profile = np.maximum(profile - np.median(profile[flank:-1]), 0)
     profile[flank:] = 0
     return density - profile[bins]
@@ -305,8 +310,8 @@ def _without_profile(
 
 def _crest(density: Raster, black: Raster, givens: Sequence[Points]) -> float:
     """How dark the printed lines are: the middle less the flanks, the median along them, pencil or no pencil."""
-    across = np.arange(-PROFILE, PROFILE + 0.05, 0.1)
-    left = [_across(line, across) for line in givens if line.size > 1]
+    across = np.arange(-PROFILE_REACH, PROFILE_REACH + 0.05, 0.1)
+    left = [_places_across(line, across) for line in givens if line.size > 1]
     if not left:
         return 0.0
     places = np.concatenate(left)
@@ -321,7 +326,7 @@ def _crest(density: Raster, black: Raster, givens: Sequence[Points]) -> float:
     return max(0.0, float(np.median(found[free][:, np.abs(across) < 0.25].mean(1) - flanks)))
 
 
-def _across(line: Points, across: NDArray[np.float64]) -> Points:
+def _places_across(line: Points, across: NDArray[np.float64]) -> Points:
     """Places (n, m) across a polyline, every half mm along it."""
     lengths = np.abs(np.diff(line))
     run = np.concatenate([[0.0], np.cumsum(lengths)])

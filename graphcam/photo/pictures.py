@@ -14,28 +14,34 @@ from graphcam.errors import GraphcamError
 from graphcam.words import Words, say
 
 Pixels = NDArray[np.uint8]
-MOST_PIXELS = 120_000_000
+MAX_PIXELS = 120_000_000
 """The maximum number of pixels before a picture is reduced: no telephone makes larger ones."""
-KEPT_PIXELS = 24_000_000
+MAX_KEPT_PIXELS = 24_000_000
 """The maximum number of pixels of a picture that is read: finer ones tell no more about a pencil line."""
-UNPACKED = 320_000_000
+MAX_UNPACKED_BYTES = 320_000_000
 """Bytes that a picture may take when it is unpacked, so that all stays within 600 MB."""
-WIDE = 4
+COLOUR_PIXEL_BYTES = 4
 """Bytes a pixel in memory for colours; grey ones and those of a palette take one."""
-NARROW: Mapping[str, int] = {"1": 1, "L": 1, "P": 1, "I;16": 2, "I;16B": 2, "I;16L": 2}
+PIXEL_BYTES_BY_MODE: Mapping[str, int] = {"1": 1, "L": 1, "P": 1, "I;16": 2, "I;16B": 2, "I;16L": 2}
 """Bytes a pixel of the other modes."""
-STRIP = 256
+STRIP_ROWS = 256
 """Rows that are copied at a time."""
-ORIENTATION = 0x0112
+ORIENTATION_TAG = 0x0112
 """EXIF says here how the camera was held."""
-LENS = 0x8769
+LENS_TAG = 0x8769
 """EXIF tells about the lens in a table of its own, by the following numbers."""
-FOCAL_35, FOCAL_MM, PLANE_RESOLUTION, PLANE_UNIT, PLANE_WIDTH = 0xA405, 0x920A, 0xA20E, 0xA210, 0xA002
-UNITS: Mapping[int, float] = {2: 25.4, 3: 10.0, 4: 1.0}
+FOCAL_35_TAG, FOCAL_MM_TAG, PLANE_RESOLUTION_TAG, PLANE_UNIT_TAG, PLANE_WIDTH_TAG = (
+    0xA405,
+    0x920A,
+    0xA20E,
+    0xA210,
+    0xA002,
+)
+MM_PER_EXIF_UNIT: Mapping[int, float] = {2: 25.4, 3: 10.0, 4: 1.0}
 """mm of EXIF's units of length."""
 DIAGONAL_35 = 43.27
 """mm of the film to which focal lengths are compared."""
-FOCALS = (0.4, 4.0)
+FOCAL_RANGE = (0.4, 4.0)
 """Focal lengths that are believed, in diagonals of the picture."""
 
 
@@ -65,7 +71,7 @@ def _linear() -> NDArray[np.float32]:
     return np.where(said <= 0.04045, said / 12.92, ((said + 0.055) / 1.055) ** 2.4).astype(np.float32)
 
 
-LINEAR = _linear()
+LINEAR_LIGHT = _linear()
 """Light (256,) in parts of all of it, by the value of a pixel."""
 
 
@@ -92,7 +98,7 @@ def check_size(width: int, height: int, bytes_a_pixel: int = 1) -> None:
     """
     if min(width, height) < 1:
         raise PhotographError(say("the picture is empty"), say("send it again"))
-    if width * height > MOST_PIXELS or width * height * bytes_a_pixel > UNPACKED:
+    if width * height > MAX_PIXELS or width * height * bytes_a_pixel > MAX_UNPACKED_BYTES:
         raise PhotographError(
             say("the picture is too large, {width} x {height} pixels", width=width, height=height),
             say("send it with 12 megapixels, or scan it at 300 dpi"),
@@ -109,15 +115,15 @@ def picture_of(image: Image.Image, name: str) -> Photograph:
     """
     size = image.size
     check_size(*size)
-    if image.format in ("JPEG", "MPO") and image.width * image.height > 2 * KEPT_PIXELS:
+    if image.format in ("JPEG", "MPO") and image.width * image.height > 2 * MAX_KEPT_PIXELS:
         # A JPEG can be unpacked at half its size, which takes a quarter of the memory.
         image.draft(None, (image.width // 2, image.height // 2))
-    check_size(*image.size, NARROW.get(image.mode, WIDE))
+    check_size(*image.size, PIXEL_BYTES_BY_MODE.get(image.mode, COLOUR_PIXEL_BYTES))
     # Not before the size is known to be bounded, as Pillow unpacks a PNG when it is asked for its EXIF.
     image.load()
     exif = image.getexif()
     picture = bounded(_colours(image), name, focal_length(exif, size), max(size))
-    return Photograph(name, turned(picture.pixels, orientation(exif)), picture.focal)
+    return Photograph(name, upright_pixels(picture.pixels, orientation(exif)), picture.focal)
 
 
 def bounded(pixels: Pixels, name: str, focal: float | None, longer: int) -> Photograph:
@@ -126,7 +132,7 @@ def bounded(pixels: Pixels, name: str, focal: float | None, longer: int) -> Phot
     focal : the lens's in pixels, where the picture's longer side was ``longer`` of them
     """
     height, width = pixels.shape[:2]
-    shrink = float(np.sqrt(KEPT_PIXELS / (width * height)))
+    shrink = float(np.sqrt(MAX_KEPT_PIXELS / (width * height)))
     if shrink < 1:
         size = int(width * shrink), int(height * shrink)
         pixels = np.asarray(cv2.resize(pixels, size, interpolation=cv2.INTER_AREA), np.uint8)
@@ -137,7 +143,7 @@ def bounded(pixels: Pixels, name: str, focal: float | None, longer: int) -> Phot
 
 def _colours(image: Image.Image) -> Pixels:
     """The pixels (h, w) of a grey picture, or (h, w, 3) red, green, blue; what is transparent shows white paper."""
-    if image.width * image.height > 2 * KEPT_PIXELS and image.mode in ("L", "RGB", "RGBA", "CMYK"):
+    if image.width * image.height > 2 * MAX_KEPT_PIXELS and image.mode in ("L", "RGB", "RGBA", "CMYK"):
         image = image.reduce(2)
     if image.mode.startswith("I"):
         return np.clip(np.asarray(image) >> 8, 0, 255).astype(np.uint8)
@@ -157,13 +163,13 @@ def _copied(image: Image.Image, mode: str) -> Pixels:
     """The pixels of a picture, strip by strip: all at once they would be in memory three times."""
     width, height = image.size
     copy = np.empty((height, width) if mode == "L" else (height, width, 3), np.uint8)
-    for top in range(0, height, STRIP):
-        bottom = min(top + STRIP, height)
+    for top in range(0, height, STRIP_ROWS):
+        bottom = min(top + STRIP_ROWS, height)
         copy[top:bottom] = np.asarray(image.crop((0, top, width, bottom)).convert(mode))
     return copy
 
 
-def turned(pixels: Pixels, orientation: int) -> Pixels:
+def upright_pixels(pixels: Pixels, orientation: int) -> Pixels:
     """Pixels (h, w, 3) as they are to be seen, for one of EXIF's orientations 1 to 8."""
     upright = {
         2: pixels[:, ::-1],
@@ -179,7 +185,7 @@ def turned(pixels: Pixels, orientation: int) -> Pixels:
 
 def orientation(exif: Image.Exif) -> int:
     """How the camera was held, 1 to 8; 1 if nobody says."""
-    said = exif.get(ORIENTATION, 1)
+    said = exif.get(ORIENTATION_TAG, 1)
     return said if isinstance(said, int) and 1 <= said <= 8 else 1
 
 
@@ -187,12 +193,12 @@ def focal_length(exif: Image.Exif, size: tuple[int, int]) -> float | None:
     """The focal length in pixels of a picture of so many columns and rows; None if nobody says, or it cannot be."""
     diagonal = float(np.hypot(*size))
     try:
-        said = exif.get_ifd(LENS)
-        focal = float(said.get(FOCAL_35, 0)) / DIAGONAL_35 * diagonal
+        said = exif.get_ifd(LENS_TAG)
+        focal = float(said.get(FOCAL_35_TAG, 0)) / DIAGONAL_35 * diagonal
         if not focal:
-            per_mm = float(said[PLANE_RESOLUTION]) / UNITS[int(said.get(PLANE_UNIT, 2))]
-            focal = float(said[FOCAL_MM]) * per_mm * size[0] / float(said.get(PLANE_WIDTH, size[0]))
+            per_mm = float(said[PLANE_RESOLUTION_TAG]) / MM_PER_EXIF_UNIT[int(said.get(PLANE_UNIT_TAG, 2))]
+            focal = float(said[FOCAL_MM_TAG]) * per_mm * size[0] / float(said.get(PLANE_WIDTH_TAG, size[0]))
     except (KeyError, TypeError, ValueError, ZeroDivisionError, OSError, SyntaxError):
         return None
-    least, most = FOCALS
+    least, most = FOCAL_RANGE
     return focal if least * diagonal <= focal <= most * diagonal else None

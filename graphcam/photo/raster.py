@@ -15,9 +15,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.photo.printed import Edges, Points
+from graphcam.photo.printed_page import Edges, Points
 
-MOST_COLUMNS = 20_000
+MAX_COLUMNS = 20_000
 """Places that OpenCV looks up in one row; it takes no more than 32767."""
 
 
@@ -60,7 +60,7 @@ class Raster:
         how = cv2.INTER_NEAREST if nearest else cv2.INTER_LINEAR
         pieces = [
             cv2.remap(self.values, piece[None, :, 0], piece[None, :, 1], how, borderMode=cv2.BORDER_CONSTANT)[0]
-            for piece in np.array_split(looked_up, looked_up.shape[0] // MOST_COLUMNS + 1)
+            for piece in np.array_split(looked_up, looked_up.shape[0] // MAX_COLUMNS + 1)
         ]
         return np.concatenate(pieces).reshape(np.shape(points)).astype(np.float32)
 
@@ -78,30 +78,30 @@ class Raster:
         return Raster(cv2.resize(filled, size, interpolation=cv2.INTER_AREA), self.left, self.top, per_mm)
 
 
-PER_MM = 5.0
+PIXELS_PER_MM = 5.0
 """Pixels of the picture in which ridges are looked for: a pencil line is two wide."""
-DIRECTIONS = 24
+DIRECTION_COUNT = 24
 """Directions of the filters; their neighbours lie 7.5 degrees apart, a third of what one filter lets through."""
-ALONG = 1.1
+ALONG_DEVIATION = 1.1
 """Deviation of the Gauss curve along a line [mm]: shorter than the pieces between the stations of a drawing."""
-ACROSS = 0.22
+ACROSS_DEVIATION = 0.22
 """Deviation across a line [mm]: a pencil's stroke as a telephone shows it."""
-FLANK = 1.0
+FLANK_DISTANCE = 1.0
 """Distance of the flanks from the middle [mm]: outside the softest stroke, inside a second one at 2 mm."""
-FLANK_ACROSS = 0.25
+FLANK_DEVIATION = 0.25
 """Deviation of the flanks [mm]."""
-REACH = 2.4
+FILTER_HALF_SIDE = 2.4
 """Half the side of a filter [mm], two deviations along."""
 
 
 def ridges(picture: Raster) -> Iterator[tuple[float, Raster]]:
     """For each direction [rad from x, 0 to pi] how much more ink lies everywhere on a line than beside it.
 
-    >>> blank = Raster(np.ones((60, 60), np.float32), 0.0, 12.0, PER_MM)
+    >>> blank = Raster(np.ones((60, 60), np.float32), 0.0, 12.0, PIXELS_PER_MM)
     >>> round(max(float(np.abs(answer.values).max()) for _, answer in ridges(blank)), 5)
     0.0
     """
-    for angle in np.pi * np.arange(DIRECTIONS) / DIRECTIONS:
+    for angle in np.pi * np.arange(DIRECTION_COUNT) / DIRECTION_COUNT:
         yield float(angle), picture.like(cv2.filter2D(picture.values, -1, _filter(float(angle))))
 
 
@@ -116,10 +116,12 @@ def spread(answers: NDArray[np.float32]) -> float:
 
 def _filter(angle: float) -> NDArray[np.float32]:
     """Weights (n, n) of one direction: they sum to nought, and a straight wide stroke answers with its density."""
-    side = np.arange(-round(REACH * PER_MM), round(REACH * PER_MM) + 1) / PER_MM
+    side = (
+        np.arange(-round(FILTER_HALF_SIDE * PIXELS_PER_MM), round(FILTER_HALF_SIDE * PIXELS_PER_MM) + 1) / PIXELS_PER_MM
+    )
     x, y = np.meshgrid(side, -side)
     along, across = x * np.cos(angle) + y * np.sin(angle), y * np.cos(angle) - x * np.sin(angle)
-    lengthwise = np.exp(-((along / ALONG) ** 2) / 2)
-    middle = lengthwise * np.exp(-((across / ACROSS) ** 2) / 2)
-    flanks = lengthwise * np.exp(-(((np.abs(across) - FLANK) / FLANK_ACROSS) ** 2) / 2)
+    lengthwise = np.exp(-((along / ALONG_DEVIATION) ** 2) / 2)
+    middle = lengthwise * np.exp(-((across / ACROSS_DEVIATION) ** 2) / 2)
+    flanks = lengthwise * np.exp(-(((np.abs(across) - FLANK_DISTANCE) / FLANK_DEVIATION) ** 2) / 2)
     return (middle / middle.sum() - flanks / flanks.sum()).astype(np.float32)

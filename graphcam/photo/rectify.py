@@ -9,23 +9,23 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import make_interp_spline
 
-from graphcam.photo.pictures import LINEAR
-from graphcam.photo.printed import Edges
+from graphcam.photo.pictures import LINEAR_LIGHT
+from graphcam.photo.printed_page import Edges
 from graphcam.photo.registration import Registration
 
 Places = NDArray[np.complex128]
 Photograph = NDArray[np.uint8]
 Light = NDArray[np.float32]
-PER_MM = 8.0
+PIXELS_PER_MM = 8.0
 """Pixels a mm: a pencil line is three or four wide."""
-COARSE = 8.0
+LOOKUP_SPACING = 8.0
 """mm between the places that are looked up; a lens bends no faster."""
-AT_A_FOLD = 1.0
+FOLD_LOOKUP_SPACING = 1.0
 """mm between them if the paper is folded, as no smooth curve follows the fold."""
 
 
 @dataclass(frozen=True, eq=False)
-class Flat:
+class EvenPicture:
     """A part of the paper, even.
 
     linear : (rows, columns, 3) red, green, blue in parts of all light; rows go down
@@ -54,25 +54,25 @@ class Flat:
         return sampled(self.linear, self.pixels(points))
 
 
-def rectify(picture: Photograph, registration: Registration, box: Edges, per_mm: float = PER_MM) -> Flat:
+def rectify(picture: Photograph, registration: Registration, box: Edges, per_mm: float = PIXELS_PER_MM) -> EvenPicture:
     """A box of the paper [mm] out of a picture (h, w, 3), blue, green, red as OpenCV has it.
 
     What lies outside of the picture looks like its edge.
     """
     left, _, _, top = box
-    column, row = looked_up(registration, box, per_mm)
+    column, row = lookup_maps(registration, box, per_mm)
     rows, columns = column.shape
     seen = cv2.remap(picture, column, row, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
-    linear = np.asarray(cv2.LUT(cv2.cvtColor(seen, cv2.COLOR_BGR2RGB), LINEAR), np.float32)
-    return Flat(linear, (left, top - rows / per_mm, left + columns / per_mm, top), per_mm)
+    linear = np.asarray(cv2.LUT(cv2.cvtColor(seen, cv2.COLOR_BGR2RGB), LINEAR_LIGHT), np.float32)
+    return EvenPicture(linear, (left, top - rows / per_mm, left + columns / per_mm, top), per_mm)
 
 
-def looked_up(registration: Registration, box: Edges, per_mm: float) -> tuple[Light, Light]:
+def lookup_maps(registration: Registration, box: Edges, per_mm: float) -> tuple[Light, Light]:
     """The column and the row (rows, columns) of the picture that the pixels of a box [mm] are taken from."""
     left, bottom, right, top = box
     columns, rows = round((right - left) * per_mm), round((top - bottom) * per_mm)
     smooth = registration.kind != "fold"
-    step, degree = (COARSE, 3) if smooth else (AT_A_FOLD, 1)
+    step, degree = (LOOKUP_SPACING, 3) if smooth else (FOLD_LOOKUP_SPACING, 1)
     across, across_map = _enlarging(left, columns, per_mm, step, degree)
     down, down_map = _enlarging(-top, rows, per_mm, step, degree)
     coarse = registration.pixels(across - 1j * down[:, None])

@@ -7,27 +7,36 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.photo.fitting import Numbers
-from graphcam.photo.laying import EXPECTED, LEAST_TAGS, Frame, Kind, Laid, Sight, Surface, laid_surfaces
+from graphcam.photo.page_surfaces import (
+    CORNER_ERROR,
+    MIN_TAGS,
+    Frame,
+    Kind,
+    LaidSurface,
+    SeenTags,
+    Surface,
+    laid_surfaces,
+)
 from graphcam.photo.pictures import PhotographError
-from graphcam.photo.printed import Edges, PrintedPage, half, side_seen
+from graphcam.photo.printed_page import Edges, PrintedPage, half, side_seen
+from graphcam.photo.robust_fit import Numbers
 from graphcam.photo.tags import Tags
 from graphcam.words import say
 
 Places = NDArray[np.complex128]
-WORST = 0.7
+MAX_CORNER_ERROR = 0.7
 """Pixels by which the corners may miss on the average."""
-ELSEWHERE = 15.0
+OTHER_PAGE_ERROR = 15.0
 """Pixels by which they miss if they are another page's."""
-SURE = 2.0
+DOUBT_DEVIATIONS = 2.0
 """Standard deviations that the doubt is."""
-MOST_BLURRED = 0.7
+MAX_BLUR = 0.7
 """mm of paper over which an edge may be smeared: twice as wide as a pencil line."""
-MOST_DOUBT = 0.5
+MAX_DOUBT = 0.5
 """mm by which what is read may be misplaced, as far as the tags tell."""
-GRID = 7
+DOUBT_GRID = 7
 """Points of a view each way for which the doubt is looked at."""
-OUTWARD = np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j])
+CORNER_DIRECTIONS = np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j])
 """Directions from the middle of a tag to its corners, in their order."""
 
 
@@ -77,26 +86,26 @@ def register(tags: Tags, page: PrintedPage, size: tuple[int, int], focal: float 
     if page.seam is not None:
         page = half(page, side_seen(tags.numbers, page))
     mine = tags.only(np.isin(tags.numbers, list(page.tags)))
-    _enough(len(mine), len(tags), len(page.tags))
+    _check_tag_count(len(mine), len(tags), len(page.tags))
     corners = np.array([page.tags[number] for number in mine.numbers.tolist()])
-    outward = np.broadcast_to(OUTWARD, mine.corners.shape)
+    outward = np.broadcast_to(CORNER_DIRECTIONS, mine.corners.shape)
     points = corners[:, None] + page.tag_side / 2 * (1 + 1j + outward)
-    sight = Sight(points, outward, mine.corners)
+    sight = SeenTags(points, outward, mine.corners)
     blur = _blur(mine, page)
     laid = laid_surfaces(
         sight, Frame.of(np.array(list(page.tags.values())) + page.tag_side * (0.5 + 0.5j), size), focal
     )
-    if laid[0].residual > ELSEWHERE:
+    if laid[0].residual > OTHER_PAGE_ERROR:
         raise PhotographError(say("the marks are not in the positions of this page"), say("check which page it is"))
-    if laid[0].residual > WORST:
+    if laid[0].residual > MAX_CORNER_ERROR:
         raise PhotographError(
             say("the paper is bent too much: its marks miss by {miss:.1f} pixels", miss=laid[0].residual),
             say("press the sheet flat on a table, or scan it"),
         )
-    return _checked(laid, page, size, blur)
+    return _checked_registration(laid, page, size, blur)
 
 
-def _enough(mine: int, seen: int, expected: int) -> None:
+def _check_tag_count(mine: int, seen: int, expected: int) -> None:
     if not seen:
         raise PhotographError(
             say("none of the {expected} marks along the edges is seen", expected=expected),
@@ -104,7 +113,7 @@ def _enough(mine: int, seen: int, expected: int) -> None:
         )
     if not mine:
         raise PhotographError(say("the marks along the edges belong to another page"), say("check which page it is"))
-    if mine < LEAST_TAGS:
+    if mine < MIN_TAGS:
         raise PhotographError(
             say("only {seen} of {expected} marks along the edges are seen", seen=mine, expected=expected),
             say("include the whole sheet, and keep fingers off its marks"),
@@ -124,7 +133,7 @@ def _blur(tags: Tags, page: PrintedPage) -> float | None:
     # What smears an edge shortens or lengthens as the sides across it do.
     smeared = tags.widths / np.roll(sides, 1, axis=1) * page.tag_side
     blur = float(max(np.median(smeared[:, ::2]), np.median(smeared[:, 1::2])))
-    if blur > MOST_BLURRED:
+    if blur > MAX_BLUR:
         raise PhotographError(
             say("the picture is blurred: edges are {width:.1f} mm wide", width=blur),
             say("hold still, use more light, or let the camera focus"),
@@ -132,7 +141,9 @@ def _blur(tags: Tags, page: PrintedPage) -> float | None:
     return blur
 
 
-def _checked(plausible: list[Laid], page: PrintedPage, size: tuple[int, int], blur: float | None) -> Registration:
+def _checked_registration(
+    plausible: list[LaidSurface], page: PrintedPage, size: tuple[int, int], blur: float | None
+) -> Registration:
     best = plausible[0]
     points = np.concatenate([_grid(room) for room in _rooms(page)])
     doubt = max([_doubt(laid, points) for laid in plausible])
@@ -152,7 +163,7 @@ def _checked(plausible: list[Laid], page: PrintedPage, size: tuple[int, int], bl
     for other in plausible[1:]:
         apart = other.surface.unproject(other.fit.parameters[:-1], places) - points
         found = replace(found, doubt=max(found.doubt, float(np.abs(apart).max())))
-    if not found.doubt <= MOST_DOUBT:
+    if not found.doubt <= MAX_DOUBT:
         raise PhotographError(
             say(
                 "{seen} of {expected} marks are seen, which does not fix the position of a line: it may be "
@@ -163,13 +174,13 @@ def _checked(plausible: list[Laid], page: PrintedPage, size: tuple[int, int], bl
             ),
             say("lay the sheet flat, include the marks on all its sides, and keep fingers off them"),
         )
-    inside = _within(places, size)
+    inside = _inside_picture(places, size)
     if not inside.all():
         raise PhotographError(say("part of the drawing is outside the picture"), say("include the whole sheet"))
     return found
 
 
-def _within(places: Places, size: tuple[int, int]) -> NDArray[np.bool_]:
+def _inside_picture(places: Places, size: tuple[int, int]) -> NDArray[np.bool_]:
     columns, rows = size
     across, down = np.abs(places.real - (columns - 1) / 2), np.abs(places.imag - (rows - 1) / 2)
     return (across <= columns / 2) & (down <= rows / 2)
@@ -181,10 +192,10 @@ def _rooms(page: PrintedPage) -> list[Edges]:
 
 def _grid(room: Edges) -> Places:
     left, bottom, right, top = room
-    return (np.linspace(left, right, GRID) + 1j * np.linspace(bottom, top, GRID)[:, None]).ravel()
+    return (np.linspace(left, right, DOUBT_GRID) + 1j * np.linspace(bottom, top, DOUBT_GRID)[:, None]).ravel()
 
 
-def _doubt(laid: Laid, points: Places) -> float:
+def _doubt(laid: LaidSurface, points: Places) -> float:
     """How far points (n,) may be misplaced [mm], the worst of them: the spread that the corners' misses leave."""
     parameters, project = laid.fit.parameters[:-1], laid.surface.project
     count = len(parameters)
@@ -192,9 +203,9 @@ def _doubt(laid: Laid, points: Places) -> float:
     shifted = project(parameters + step * np.eye(count), points[None])
     here = project(parameters, points)
     slopes = (shifted - here) / step
-    covariance = laid.fit.covariance[:-1, :-1] * max(1.0, laid.residual / np.sqrt(2) / EXPECTED) ** 2
+    covariance = laid.fit.covariance[:-1, :-1] * max(1.0, laid.residual / np.sqrt(2) / CORNER_ERROR) ** 2
     variance = np.einsum("mn,mk,kn->n", slopes.real, covariance, slopes.real)
     variance += np.einsum("mn,mk,kn->n", slopes.imag, covariance, slopes.imag)
     enlarged = np.abs(project(parameters, points + 0.5) - project(parameters, points - 0.5))
     upward = np.abs(project(parameters, points + 0.5j) - project(parameters, points - 0.5j))
-    return SURE * float(np.max(np.sqrt(np.maximum(variance, 0)) / np.minimum(enlarged, upward)))
+    return DOUBT_DEVIATIONS * float(np.max(np.sqrt(np.maximum(variance, 0)) / np.minimum(enlarged, upward)))

@@ -6,12 +6,12 @@ A tag is 8 x 8 cells: a black border of one cell about 6 x 6 cells that say its 
 import numpy as np
 from numpy.typing import NDArray
 
-CELLS = 8
+CELLS_PER_SIDE = 8
 """The number of cells of a tag in either direction, its border included."""
-COUNT = 48
+TAG_COUNT = 48
 """Tags that are known, numbered from 0."""
-_INSIDE = CELLS - 2
-_CODES = (
+_INNER_CELLS = CELLS_PER_SIDE - 2
+_TAG_CODES = (
     *(0x21A146BAB, 0x92D18FE9B, 0x7089014BB, 0x193979E27, 0x44153D3D7, 0x35CD5B8CF),
     *(0xA10BA56A0, 0x2B874A608, 0xB57FB8D44, 0x4E20B5A64, 0x61D897F2C, 0xAB3469FFC),
     *(0x594CA45C2, 0xFA1C2D2E2, 0x97C24B972, 0x75928624A, 0x1CAAFE99A, 0x3236DDC16),
@@ -34,10 +34,10 @@ def dark_cells(number: int) -> NDArray[np.bool_]:
     >>> dark_cells(0)[1].astype(int).tolist()
     [1, 1, 1, 0, 1, 1, 1, 1]
     """
-    if not 0 <= number < COUNT:
+    if not 0 <= number < TAG_COUNT:
         raise IndexError(number)
-    code = _CODES[number]
-    white = [code >> (_INSIDE**2 - 1 - k) & 1 for k in range(_INSIDE**2)]
-    cells = np.ones((CELLS, CELLS), dtype=np.bool_)
-    cells[1:-1, 1:-1] = np.reshape(white, (_INSIDE, _INSIDE)) == 0
+    code = _TAG_CODES[number]
+    white = [code >> (_INNER_CELLS**2 - 1 - k) & 1 for k in range(_INNER_CELLS**2)]
+    cells = np.ones((CELLS_PER_SIDE, CELLS_PER_SIDE), dtype=np.bool_)
+    cells[1:-1, 1:-1] = np.reshape(white, (_INNER_CELLS, _INNER_CELLS)) == 0
     return cells

@@ -12,35 +12,35 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.photo.pictures import LINEAR
-from graphcam.photo.tag_family import CELLS, COUNT, dark_cells
+from graphcam.photo.pictures import LINEAR_LIGHT
+from graphcam.photo.tag_family import CELLS_PER_SIDE, TAG_COUNT, dark_cells
 
 Places = NDArray[np.complex128]
 """Places of a picture, in pixels."""
 Grey = NDArray[np.uint8]
-SEARCHED = 2000
+SEARCH_PIXELS = 2000
 """Pixels along the longer side of the picture in which tags are looked for; corners are then found in all of it."""
-SMALLEST = 0.02
+MIN_CIRCUMFERENCE = 0.02
 """The circumference of a tag, as a share of the picture's longer side: 10 pixels a side."""
-MOST_SQUARES = 400
+MAX_SQUARES = 400
 """The maximum number of squares that may be tags; the largest are looked at."""
-MOST_WRONG = 3
+MAX_WRONG_CELLS = 3
 """Cells of a tag; any two tags differ in eleven at least."""
-ALONG = np.linspace(0.08, 0.92, 49)
+EDGE_FRACTIONS = np.linspace(0.08, 0.92, 49)
 """Fractions of an edge at which it is looked at: not where another one is near."""
-REACH = 0.7
+EDGE_REACH = 0.7
 """Cells to both sides of an edge that are looked at: the rim is one wide, and so is the white around it."""
-LOOKS = 24
+MIN_EDGE_SAMPLES = 24
 """Across an edge at least, so that a small tag is looked at in small steps; two a pixel otherwise."""
-ROUNDS = 3
+REFINEMENT_ROUNDS = 3
 """The later ones start from better corners."""
-LEVELS = np.array([0.2, 0.5, 0.8])
+EDGE_LEVELS = np.array([0.2, 0.5, 0.8])
 """Parts of the way from black to white: the edge is at the middle one, its width is between the others."""
-_UNIT = np.array([[0, 1], [1, 1], [1, 0], [0, 0]], np.float32)
+_UNIT_SQUARE = np.array([[0, 1], [1, 1], [1, 0], [0, 0]], np.float32)
 """The corners of a square as those of a tag go round, rows down."""
-LEAST_CONTRAST = 0.08
+MIN_CONTRAST = 0.08
 """The minimum contrast of white over black, in parts of all light."""
-LEAST_SEEN = 0.6
+MIN_VISIBLE_SHARE = 0.6
 """The part of an edge that must be seen: a finger may hide the rest."""
 
 
@@ -71,15 +71,15 @@ def find_tags(grey: Grey) -> Tags:
     """The tags in a picture (h, w), each number once: of a number that is there twice nobody knows which is meant."""
     found: dict[int, list[tuple[Places, NDArray[np.float64]]]] = {}
     for square in _squares(grey):
-        sharp = _sharp(grey, square)
-        read = None if sharp is None else _read(grey, sharp[0])
+        sharp = _sharpened_corners(grey, square)
+        read = None if sharp is None else _read_tag(grey, sharp[0])
         if sharp is None or read is None:
             continue
         number, turns = read
         corners, widths = np.roll(sharp[0], -turns), np.roll(sharp[1], -turns)
         others = found.setdefault(number, [])
         # One that was found along both sides of its rim is one.
-        if all(np.abs(corners - other).max() > np.abs(corners[2] - corners[0]) / CELLS for other, _ in others):
+        if all(np.abs(corners - other).max() > np.abs(corners[2] - corners[0]) / CELLS_PER_SIDE for other, _ in others):
             others.append((corners, widths))
     single = {number: places[0] for number, places in sorted(found.items()) if len(places) == 1}
     return Tags(
@@ -91,7 +91,7 @@ def find_tags(grey: Grey) -> Tags:
 
 def _squares(grey: Grey) -> Places:
     """Black squares (n, 4), and others: their corners against the clock on the paper, from any of them on."""
-    shrink = max(1.0, max(grey.shape) / SEARCHED)
+    shrink = max(1.0, max(grey.shape) / SEARCH_PIXELS)
     small = cv2.resize(grey, None, fx=1 / shrink, fy=1 / shrink, interpolation=cv2.INTER_AREA) if shrink > 1 else grey
     tags, _, others = _detector().detectMarkers(small)
     found = np.array([*tags, *others], float).reshape(-1, 4, 2)
@@ -101,14 +101,14 @@ def _squares(grey: Grey) -> Places:
     area = (diagonals[0].conj() * diagonals[1]).imag
     # With rows that go down, what goes round with the clock in the picture has a positive area.
     corners = np.where((area > 0)[:, None], corners[:, ::-1], corners)
-    large = np.argsort(-np.abs(area), kind="stable")[:MOST_SQUARES]
+    large = np.argsort(-np.abs(area), kind="stable")[:MAX_SQUARES]
     return corners[np.sort(large)]
 
 
 @cache
 def _detector() -> cv2.aruco.ArucoDetector:
     settings = cv2.aruco.DetectorParameters()
-    settings.minMarkerPerimeterRate = SMALLEST
+    settings.minMarkerPerimeterRate = MIN_CIRCUMFERENCE
     family = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_APRILTAG_36h11)
     return cv2.aruco.ArucoDetector(family, settings)
 
@@ -116,16 +116,18 @@ def _detector() -> cv2.aruco.ArucoDetector:
 @cache
 def _family() -> NDArray[np.float64]:
     """The cells (n, 4, 64) of every tag, white 1 and black -1, turned by none to three quarters."""
-    cells = [np.where(dark_cells(number), -1.0, 1.0) for number in range(COUNT)]
+    cells = [np.where(dark_cells(number), -1.0, 1.0) for number in range(TAG_COUNT)]
     return np.array([[np.rot90(tag, turns).ravel() for turns in range(4)] for tag in cells])
 
 
-def _read(grey: Grey, corners: Places) -> tuple[int, int] | None:
+def _read_tag(grey: Grey, corners: Places) -> tuple[int, int] | None:
     """The number of the tag within corners (4,), and by how many places they must be rolled; None if it is none."""
-    middles = (np.arange(CELLS) + 0.5) / CELLS
+    middles = (np.arange(CELLS_PER_SIDE) + 0.5) / CELLS_PER_SIDE
     right, down = np.meshgrid(middles, middles)
     ends = np.stack([corners.real, corners.imag], -1).astype(np.float32)
-    inside = np.asarray(cv2.perspectiveTransform(np.stack([right, down], -1), cv2.getPerspectiveTransform(_UNIT, ends)))
+    inside = np.asarray(
+        cv2.perspectiveTransform(np.stack([right, down], -1), cv2.getPerspectiveTransform(_UNIT_SQUARE, ends))
+    )
     light = _sampled(grey, inside[..., 0] + 1j * inside[..., 1])
     if light is None:
         return None
@@ -133,13 +135,13 @@ def _read(grey: Grey, corners: Places) -> tuple[int, int] | None:
     middle = (rim.mean() + np.sort(light[1:-1, 1:-1], axis=None)[-6:].mean()) / 2
     wrong = (_family() * np.sign(light - middle).ravel() < 0).sum(-1)
     number, turns = np.unravel_index(np.argmin(wrong), wrong.shape)
-    return (int(number), int(turns)) if wrong[number, turns] <= MOST_WRONG else None
+    return (int(number), int(turns)) if wrong[number, turns] <= MAX_WRONG_CELLS else None
 
 
-def _sharp(grey: Grey, corners: Places) -> tuple[Places, NDArray[np.float64]] | None:
+def _sharpened_corners(grey: Grey, corners: Places) -> tuple[Places, NDArray[np.float64]] | None:
     """The corners (4,) where the lines through the black square's edges meet, and the widths (4,) of the edges."""
     widths = np.zeros(4)
-    for _ in range(ROUNDS):
+    for _ in range(REFINEMENT_ROUNDS):
         edges = _edges(grey, corners)
         if edges is None:
             return None
@@ -158,9 +160,9 @@ def _edges(grey: Grey, corners: Places) -> tuple[Places, Places, NDArray[np.floa
     lengths = np.abs(sides)
     # The corners go round against the clock on the paper, and so they do in the picture, whose rows go down.
     outward = 1j * sides / lengths
-    reach = REACH * lengths.min() / CELLS
-    across = np.linspace(-reach, reach, max(LOOKS, round(4 * reach)))
-    base = corners[:, None] + sides[:, None] * ALONG
+    reach = EDGE_REACH * lengths.min() / CELLS_PER_SIDE
+    across = np.linspace(-reach, reach, max(MIN_EDGE_SAMPLES, round(4 * reach)))
+    base = corners[:, None] + sides[:, None] * EDGE_FRACTIONS
     light = _sampled(grey, base[..., None] + outward[:, None, None] * across)
     if light is None:
         return None
@@ -170,8 +172,8 @@ def _edges(grey: Grey, corners: Places) -> tuple[Places, Places, NDArray[np.floa
     with np.errstate(divide="ignore", invalid="ignore"):
         parts = (light - black[..., None]) / rise[..., None]
     places, crossed = _crossings(parts, across)
-    good = crossed.all(0) & (rise > LEAST_CONTRAST)
-    if (good.mean(-1) < LEAST_SEEN).any():
+    good = crossed.all(0) & (rise > MIN_CONTRAST)
+    if (good.mean(-1) < MIN_VISIBLE_SHARE).any():
         return None
     ends = np.array([_line(offsets, seen) for offsets, seen in zip(places[1], good, strict=True)])
     widths = [np.median((high - low)[seen]) for low, high, seen in zip(places[0], places[2], good, strict=True)]
@@ -185,8 +187,8 @@ def _sampled(grey: Grey, places: Places) -> NDArray[np.float64] | None:
     if columns.min() < 0 or rows.min() < 0 or columns.max() > width - 2 or rows.max() > height - 2:
         return None
     right, down = places.real - columns, places.imag - rows
-    above = LINEAR[grey[rows, columns]] * (1 - right) + LINEAR[grey[rows, columns + 1]] * right
-    below = LINEAR[grey[rows + 1, columns]] * (1 - right) + LINEAR[grey[rows + 1, columns + 1]] * right
+    above = LINEAR_LIGHT[grey[rows, columns]] * (1 - right) + LINEAR_LIGHT[grey[rows, columns + 1]] * right
+    below = LINEAR_LIGHT[grey[rows + 1, columns]] * (1 - right) + LINEAR_LIGHT[grey[rows + 1, columns + 1]] * right
     return above * (1 - down) + below * down
 
 
@@ -195,7 +197,7 @@ def _crossings(
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
     """Where profiles (..., k) pass each level for the last time before they are white, and whether they do so."""
     places, crossed = [], []
-    for level in LEVELS:
+    for level in EDGE_LEVELS:
         above = parts >= level
         # The last step from below to above.
         step = ~above[..., :-1] & above[..., 1:]
@@ -210,7 +212,7 @@ def _crossings(
 
 def _line(offsets: NDArray[np.float64], seen: NDArray[np.bool_]) -> tuple[float, float]:
     """The offsets at both ends of the straight line through those that are seen, in which strays weigh little."""
-    along, found = ALONG[seen] - 0.5, offsets[seen]
+    along, found = EDGE_FRACTIONS[seen] - 0.5, offsets[seen]
     weights = np.ones_like(found)
     middle = slope = 0.0
     for _ in range(4):

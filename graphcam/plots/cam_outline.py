@@ -8,25 +8,25 @@ from matplotlib.figure import Figure
 
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
-from graphcam.mechanism.arcs import ThreeArcCam
 from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.three_arc_cam import ThreeArcCam
 from graphcam.plots.figures import axes_on
-from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
+from graphcam.sheets.styles import ACCENT, BLACK, CURRENT_COLOUR, GREY
 
-SIZE = 6.0, 6.5
+FIGURE_SIZE = 6.0, 6.5
 """The size of a new figure [inches]."""
-POINTS = 181
+PIECE_POINTS = 181
 """The number of points of each curve between two breaks."""
-BELOW = 0.22
+LEGEND_ROOM = 0.22
 """Room for the legend, as a part of the cam's height."""
-FACE = 0.5
+FACE_HALF_LENGTH = 0.5
 """Half of the drawn face, as a part of the prime radius."""
-TURNS = {"ccw": "anticlockwise", "cw": "clockwise"}
+SENSE_NAMES = {"ccw": "anticlockwise", "cw": "clockwise"}
 
 
 def plot(cam: Cam, on: Axes | Figure | None = None) -> Axes:
     """Draw a cam in its own coordinates, mm, as it stands at the start of the turn."""
-    axes = axes_on(on, *SIZE)
+    axes = axes_on(on, *FIGURE_SIZE)
     phi = turn(cam.motion.breaks)
     pitch, profile = cam.pitch_curve(phi), cam.profile(phi)
     flat = np.array_equal(pitch, profile)
@@ -38,19 +38,19 @@ def plot(cam: Cam, on: Axes | Figure | None = None) -> Axes:
     axes.plot(*(cam.prime_radius * circle).T, color=GREY, linewidth=1.0, linestyle="--", label=prime)
     if cam.roller_radius:
         roller = cam.pitch_curve(0.0) + cam.roller_radius * circle
-        axes.plot(*roller.T, color=CURRENT, linewidth=1.5, label=f"roller, {cam.roller_radius:.6g} mm")
+        axes.plot(*roller.T, color=CURRENT_COLOUR, linewidth=1.5, label=f"roller, {cam.roller_radius:.6g} mm")
     if flat:
-        half, up = FACE * cam.prime_radius, profile[0, 1]
-        axes.plot([-half, half], [up, up], color=CURRENT, linewidth=1.5, label="flat face")
+        half, up = FACE_HALF_LENGTH * cam.prime_radius, profile[0, 1]
+        axes.plot([-half, half], [up, up], color=CURRENT_COLOUR, linewidth=1.5, label="flat face")
     mark_centre(axes)
-    axes.set_title(f"Cam that turns {TURNS[cam.rotation]}, at φ = 0", fontsize="medium")
-    return finished(axes)
+    axes.set_title(f"Cam that turns {SENSE_NAMES[cam.rotation]}, at φ = 0", fontsize="medium")
+    return finish_axes(axes)
 
 
 def turn(breaks: Floats) -> Floats:
     """Cam angles [rad] over a whole turn, the breaks among them."""
     ends = np.append(breaks, FULL_TURN)
-    return np.unique(np.linspace(ends[:-1], ends[1:], POINTS))
+    return np.unique(np.linspace(ends[:-1], ends[1:], PIECE_POINTS))
 
 
 def mark_centre(axes: Axes) -> None:
@@ -58,30 +58,30 @@ def mark_centre(axes: Axes) -> None:
     axes.plot([0.0], [0.0], "+", color=ACCENT, markersize=10, label="cam centre")
 
 
-def finished(axes: Axes) -> Axes:
+def finish_axes(axes: Axes) -> Axes:
     """Equal scales, what the axes measure, and the legend below the cam, in room of its own."""
     bottom, top = axes.get_ylim()
-    axes.set(xlabel="x, mm", ylabel="y, mm", aspect="equal", ylim=(bottom - BELOW * (top - bottom), top))
+    axes.set(xlabel="x, mm", ylabel="y, mm", aspect="equal", ylim=(bottom - LEGEND_ROOM * (top - bottom), top))
     axes.legend(loc="lower center", ncols=2, frameon=False, fontsize="small")
     return axes
 
 
-NEAR = 1.2
+MAX_CENTRE_DISTANCE = 1.2
 """A centre farther away than so many of the cam's greatest radii is not shown."""
 
 
 def plot_arcs(cam: ThreeArcCam, on: Axes | Figure | None = None) -> Axes:
     """Draw the profile of a sound cam, its flank's arcs and their centres, in mm."""
     motion = cam.motion()  # of a knife edge, which runs on the profile itself
-    axes = axes_on(on, *SIZE)
+    axes = axes_on(on, *FIGURE_SIZE)
     axes.plot(*motion.pitch_curve(turn(motion.breaks)).T, color=BLACK, linewidth=2.0, label="profile")
     joints = np.array([cam.A, cam.G, cam.F, cam.D])
-    reach = NEAR * float(np.max(np.hypot(*joints.T)))
+    reach = MAX_CENTRE_DISTANCE * float(np.max(np.hypot(*joints.T)))
     centres = {name: at for name in ("C1", "C2", "C3") if np.hypot(*(at := getattr(cam, name))) <= reach}
-    axes.plot(*joints.T, "o", color=CURRENT, markersize=4, label="arc ends")
+    axes.plot(*joints.T, "o", color=CURRENT_COLOUR, markersize=4, label="arc ends")
     axes.plot(*np.array(list(centres.values())).reshape(-1, 2).T, "o", color=GREY, markersize=4, label="arc centres")
     for name, at in {**dict(zip("AGFD", joints, strict=True)), **centres}.items():
         axes.annotate(name, (at[0], at[1]), xytext=(5, 5), textcoords="offset points")
     mark_centre(axes)
     axes.margins(0.1)  # for the names
-    return finished(axes)
+    return finish_axes(axes)

@@ -12,11 +12,11 @@ from graphcam.errors import DesignError
 from graphcam.plots.figures import axes_on
 from graphcam.plots.step_board import StepBoard, board_of
 from graphcam.report.documents import sheet_of
-from graphcam.sheets.matplotlib_renderer import INCH, draw_on
+from graphcam.sheets.matplotlib_renderer import MM_PER_INCH, draw_on
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.words import say
 
-AROUND = 1.0
+FIGURE_MARGIN = 1.0
 """What the axes of a new figure need beside the drawing [inches]."""
 
 
@@ -46,7 +46,7 @@ def plot(
         limit = say("an index of the steps, 0 to {value}, or None for all of them", value=count - 1)
         raise DesignError("step", step, limit, say("axes to draw on are given as axes=..."))
     page = board.page(step)
-    axes = axes_on(on, page.width / INCH + AROUND, page.height / INCH + AROUND)
+    axes = axes_on(on, page.width / MM_PER_INCH + FIGURE_MARGIN, page.height / MM_PER_INCH + FIGURE_MARGIN)
     draw_on(axes, page, board.origin, board.factor)
     axes.set(xlabel="mm of paper", ylabel="mm of paper")
     if len(board.views) == 1:
@@ -57,7 +57,7 @@ def plot(
 def plot_sheet(solution: AnySolution, on: Axes | Figure | None = None) -> Axes:
     """Draw the first page of the finished sheet on axes in mm of paper, from its lower left corner."""
     page = sheet_of(solution).pages[0]
-    axes = axes_on(on, page.width / INCH, page.height / INCH)
+    axes = axes_on(on, page.width / MM_PER_INCH, page.height / MM_PER_INCH)
     draw_on(axes, page)
     axes.set_axis_off()  # the sheet has a frame of its own
     return axes

@@ -8,9 +8,9 @@ import matplotlib as mpl
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
 
-from graphcam.showing import Shown
+from graphcam.showing import Plottable
 
-WIDEST = 12.0
+MAX_WIDTH = 12.0
 """The maximum width of a new figure [inches]: a larger drawing is shown reduced."""
 
 
@@ -26,12 +26,12 @@ def axes_on(on: Axes | FigureBase | None, width: float, height: float) -> Axes:
 
         on = pyplot.figure(layout="tight")
     if isinstance(on, Figure):
-        times = min(1.0, WIDEST / width, WIDEST / height)
+        times = min(1.0, MAX_WIDTH / width, MAX_WIDTH / height)
         on.set_size_inches(times * width, times * height)
     return on.add_subplot()
 
 
-def svg_of(shown: Shown) -> str:
+def svg_of(shown: Plottable) -> str:
     """What a value plots, as SVG; pyplot hears nothing of it.
 
     >>> import graphcam as gc

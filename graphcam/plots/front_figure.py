@@ -6,10 +6,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from graphcam.sheets.styles import ACCENT, BLACK, GREY
-from graphcam.sweeps.front import ANGLE, SIZE
+from graphcam.sweeps.pareto_front import ANGLE, SIZE
 from graphcam.sweeps.sweep import Columns
 
-INCHES = 6.4, 4.2
+FIGURE_SIZE = 6.4, 4.2
 """The size of the figure [inches]."""
 
 
@@ -19,7 +19,7 @@ def front_figure(front: Columns, limit: float) -> Figure:
     front : by column, with the pressure angle [degrees];  limit : of the pressure angle on the rise [degrees]
     """
     size, angle = front[SIZE], np.abs(front[ANGLE])
-    figure = Figure(figsize=INCHES, layout="tight")
+    figure = Figure(figsize=FIGURE_SIZE, layout="tight")
     axes = figure.add_subplot()
     axes.margins(0.12)
     axes.plot(size, angle, "o", color=ACCENT, markersize=5, zorder=3, clip_on=False)

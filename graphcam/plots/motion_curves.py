@@ -13,20 +13,20 @@ from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN
 from graphcam.mechanism.motion_bands import MotionBands
 from graphcam.plots.figures import axes_on
-from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
+from graphcam.sheets.styles import ACCENT, BLACK, CURRENT_COLOUR, GREY
 
-CURVES = (("lift s", BLACK), ("v = ds/dφ", CURRENT), ("a = dv/dφ", ACCENT), ("j = da/dφ", GREY))
+CURVE_LABELS = (("lift s", BLACK), ("v = ds/dφ", CURRENT_COLOUR), ("a = dv/dφ", ACCENT), ("j = da/dφ", GREY))
 """What the axes say, and the colour of the curve, from the top."""
-ACROSS = "cam angle φ, degrees\ns in mm, of an arm in rad; v, a and j per rad of cam angle"
-SIZE = 7.0, 7.0
+ANGLE_LABEL = "cam angle φ, degrees\ns in mm, of an arm in rad; v, a and j per rad of cam angle"
+FIGURE_SIZE = 7.0, 7.0
 """The size of a new figure [inches]."""
-POINTS = 61
+PIECE_POINTS = 61
 """The number of points of each curve between two breaks."""
-GAP = 0.03
+DIAGRAM_GAP = 0.03
 """The gap between two diagrams, as a part of the axes."""
-BEFORE = -0.125
+AXIS_NAME_OFFSET = -0.125
 """The place of the names of the axes, as a part of the diagram's width."""
-BESIDE, UPRIGHT = 28.0, 8.0
+MIN_NAME_ANGLE, MIN_UPRIGHT_NAME_ANGLE = 28.0, 8.0
 """A phase of at least so many degrees has room for its name, one of at least so many for its name turned."""
 
 
@@ -50,12 +50,14 @@ class PhasedMotion(Protocol):
 
 def plot(motion: PhasedMotion, on: Axes | Figure | None = None) -> Axes:
     """Draw s, v, a and j in four diagrams inside of axes; returns the axes, whose ``child_axes`` are the diagrams."""
-    axes = axes_on(on, *SIZE)
+    axes = axes_on(on, *FIGURE_SIZE)
     axes.set_axis_off()
     phi, values = _curves(motion)
-    height = (1 + GAP) / len(CURVES)
-    diagrams = [axes.inset_axes((0.0, k * height, 1.0, height - GAP)) for k in reversed(range(len(CURVES)))]
-    for diagram, (up, colour), value in zip(diagrams, CURVES, values, strict=True):
+    height = (1 + DIAGRAM_GAP) / len(CURVE_LABELS)
+    diagrams = [
+        axes.inset_axes((0.0, k * height, 1.0, height - DIAGRAM_GAP)) for k in reversed(range(len(CURVE_LABELS)))
+    ]
+    for diagram, (up, colour), value in zip(diagrams, CURVE_LABELS, values, strict=True):
         diagram.plot(np.degrees(phi), value, color=colour, linewidth=1.5)
         if not np.any(value):
             diagram.set(ylim=(-1.0, 1.0), yticks=[0.0])  # of no height there would be divisions of a hundredth
@@ -65,17 +67,17 @@ def plot(motion: PhasedMotion, on: Axes | Figure | None = None) -> Axes:
         diagram.set(xlim=(0, 360), xticks=range(0, 361, 30), ylabel=up)
         diagram.tick_params(labelbottom=diagram is diagrams[-1])
         # Their labels stand one under the other, however wide the numbers are.
-        diagram.yaxis.set_label_coords(BEFORE, 0.5)
+        diagram.yaxis.set_label_coords(AXIS_NAME_OFFSET, 0.5)
         diagram.spines[["top", "right"]].set_visible(False)
     _name_phases(diagrams[0], motion)
-    diagrams[-1].set_xlabel(ACROSS)
+    diagrams[-1].set_xlabel(ANGLE_LABEL)
     return axes
 
 
 def _curves(motion: PhasedMotion) -> tuple[Floats, Floats]:
     """Cam angles [rad] over the turn, those of jumps twice, and (4, n) the values there, of both sides of a jump."""
     ends = np.append(motion.breaks, FULL_TURN)
-    phi = np.linspace(ends[:-1], ends[1:], POINTS, axis=1)
+    phi = np.linspace(ends[:-1], ends[1:], PIECE_POINTS, axis=1)
     right, left = np.array(motion(phi[:, :-1])), np.array(motion(phi[:, -1:], "left"))
     return phi.ravel(), np.concatenate([right, left], axis=2).reshape(4, -1)
 
@@ -84,18 +86,18 @@ def _name_phases(diagram: Axes, motion: PhasedMotion) -> None:
     """The name of every phase over the diagram."""
     for kind, start, end in motion.timing:
         wide = np.degrees(end - start)
-        if wide >= UPRIGHT:
-            middle, turned = float(np.degrees(start + end) / 2), 0 if wide >= BESIDE else 90
+        if wide >= MIN_UPRIGHT_NAME_ANGLE:
+            middle, turned = float(np.degrees(start + end) / 2), 0 if wide >= MIN_NAME_ANGLE else 90
             above = diagram.get_xaxis_transform()
             diagram.text(middle, 1.02, kind, transform=above, rotation=turned, ha="center", va="bottom", size="small")
 
 
 SIZE_OF_BANDS = 7.0, 7.5
 """The size of a new figure [inches]."""
-SYMBOLS = "s", "v", "a"
-OF_RANGE = 0.12
+CURVE_SYMBOLS = "s", "v", "a"
+BAND_HEIGHT_SHARE = 0.12
 """The widest place of a band is drawn about so many times as high as the nominal curve ranges."""
-ROUND = 1.0, 2.0, 5.0, 10.0
+ROUND_FACTORS = 1.0, 2.0, 5.0, 10.0
 BEFORE_BANDS = -0.12
 """The place of the names of the axes, as a part of the diagrams' width."""
 
@@ -104,15 +106,15 @@ def plot_bands(bands: MotionBands, on: Axes | Figure | None = None) -> Axes:
     """Draw s, v and a in three diagrams inside of axes; returns the axes, whose ``child_axes`` they are."""
     axes = axes_on(on, *SIZE_OF_BANDS)
     axes.set_axis_off()
-    height = (1 + GAP) / 3
-    diagrams = [axes.inset_axes((0.0, k * height, 1.0, height - GAP)) for k in (2, 1, 0)]
+    height = (1 + DIAGRAM_GAP) / 3
+    diagrams = [axes.inset_axes((0.0, k * height, 1.0, height - DIAGRAM_GAP)) for k in (2, 1, 0)]
     degrees, sample = np.degrees(bands.phi), bands.sample
-    for k, (diagram, symbol) in enumerate(zip(diagrams, SYMBOLS, strict=True)):
+    for k, (diagram, symbol) in enumerate(zip(diagrams, CURVE_SYMBOLS, strict=True)):
         nominal, half = bands.nominal[k], bands.half_width[k]
         times = magnified(nominal, half)
         low, high = nominal + times * sample.low[k], nominal + times * sample.high[k]
         label = f"{bands.samples} mechanisms, solved"
-        diagram.fill_between(degrees, low, high, color=CURRENT, alpha=0.3, linewidth=0, label=label)
+        diagram.fill_between(degrees, low, high, color=CURRENT_COLOUR, alpha=0.3, linewidth=0, label=label)
         for sign in (-1, 1):
             label = "to the first order" if sign > 0 else None
             diagram.plot(degrees, nominal + sign * times * half, color=ACCENT, linewidth=1.0, label=label)
@@ -128,7 +130,7 @@ def plot_bands(bands: MotionBands, on: Axes | Figure | None = None) -> Axes:
             1.01, 0.5, f"bands × {times:g}", rotation=90, transform=diagram.transAxes, va="center", color=ACCENT
         )
     diagrams[0].legend(frameon=False, fontsize="small", loc="best")
-    diagrams[-1].set_xlabel(ACROSS.replace("; v, a and j", "; v and a"))
+    diagrams[-1].set_xlabel(ANGLE_LABEL.replace("; v, a and j", "; v and a"))
     diagrams[0].set_title(f"{100 * bands.coverage:g} of 100 mechanisms lie within the bands", fontsize="medium")
     return axes
 
@@ -139,6 +141,6 @@ def magnified(nominal: Floats, half_width: Floats) -> float:
     >>> magnified(np.array([0.0, 30.0]), np.array([0.01, 0.02]))
     100.0
     """
-    wanted = OF_RANGE * float(np.ptp(nominal)) / max(float(half_width.max()), 1e-300)
+    wanted = BAND_HEIGHT_SHARE * float(np.ptp(nominal)) / max(float(half_width.max()), 1e-300)
     power = 10.0 ** np.floor(np.log10(max(wanted, 1.0)))
-    return float(max(times * power for times in ROUND if times * power <= max(wanted, 1.0)))
+    return float(max(times * power for times in ROUND_FACTORS if times * power <= max(wanted, 1.0)))

@@ -11,25 +11,25 @@ from graphcam.given.motion import FULL_TURN
 from graphcam.mechanism.follower_train import VibratingFollower
 from graphcam.mechanism.shock_response import FollowerResponse, ShockSpectrum
 from graphcam.plots.figures import axes_on
-from graphcam.plots.motion_curves import GAP
-from graphcam.sheets.styles import ACCENT, BLACK, CURRENT, GREY
+from graphcam.plots.motion_curves import DIAGRAM_GAP
+from graphcam.sheets.styles import ACCENT, BLACK, CURRENT_COLOUR, GREY
 
-SIZE = 7.0, 5.0
+FIGURE_SIZE = 7.0, 5.0
 """The size of a new figure [inches]."""
-PER_PERIOD, FEWEST = 24, 400
+POINTS_PER_PERIOD, MIN_POINTS = 24, 400
 """Points of a curve in a natural period, and in all."""
-AFTER = 0.6, 3.0
+SHOWN_AFTER_RISE = 0.6, 3.0
 """The time shown after the rise: rise times, or natural periods, whichever is longer."""
-BEFORE = -0.11
+AXIS_NAME_OFFSET = -0.11
 """The place of the names of the axes, as a part of the diagrams' width."""
 
 
 def plot(shown: FollowerResponse | VibratingFollower, on: Axes | Figure | None = None) -> Axes:
     """Draw two diagrams inside of axes, one above the other; returns the axes, whose ``child_axes`` they are."""
-    axes = axes_on(on, *SIZE)
+    axes = axes_on(on, *FIGURE_SIZE)
     axes.set_axis_off()
-    height = (1 + GAP) / 2
-    upper, lower = (axes.inset_axes((0.0, low, 1.0, height - GAP)) for low in (height, 0.0))
+    height = (1 + DIAGRAM_GAP) / 2
+    upper, lower = (axes.inset_axes((0.0, low, 1.0, height - DIAGRAM_GAP)) for low in (height, 0.0))
     if isinstance(shown, FollowerResponse):
         _response(shown, upper, lower)
     else:
@@ -37,7 +37,7 @@ def plot(shown: FollowerResponse | VibratingFollower, on: Axes | Figure | None =
     for diagram in (upper, lower):
         diagram.axhline(0.0, color=BLACK, linewidth=0.6)
         diagram.spines[["top", "right"]].set_visible(False)
-        diagram.yaxis.set_label_coords(BEFORE, 0.5)
+        diagram.yaxis.set_label_coords(AXIS_NAME_OFFSET, 0.5)
         diagram.legend(frameon=False, fontsize="small")
     upper.tick_params(labelbottom=False)
     return axes
@@ -46,8 +46,8 @@ def plot(shown: FollowerResponse | VibratingFollower, on: Axes | Figure | None =
 def _response(response: FollowerResponse, upper: Axes, lower: Axes) -> None:
     """Plot over the time where the cam is and where the mass is, and their accelerations."""
     end = response.event.end
-    until = end + max(AFTER[0], AFTER[1] / response.n)
-    u = np.linspace(0, until, FEWEST + round(PER_PERIOD * response.n * until))
+    until = end + max(SHOWN_AFTER_RISE[0], SHOWN_AFTER_RISE[1] / response.n)
+    u = np.linspace(0, until, MIN_POINTS + round(POINTS_PER_PERIOD * response.n * until))
     # Twice where the cam's acceleration may jump, seen from either side.
     edges = response.event.drive.edges
     u = np.sort(np.concatenate([u, np.nextafter(edges, -1), np.nextafter(edges, until)]))
@@ -57,7 +57,7 @@ def _response(response: FollowerResponse, upper: Axes, lower: Axes) -> None:
     s[u <= 0] = 0.0
     x, _, x2 = response(u)
     upper.plot(u, s, color=GREY, linewidth=1.5, linestyle=(0, (6, 3)), label="cam")
-    upper.plot(u, x, color=CURRENT, linewidth=1.5, label="mass")
+    upper.plot(u, x, color=CURRENT_COLOUR, linewidth=1.5, label="mass")
     lower.plot(u, a, color=GREY, linewidth=1.5, linestyle=(0, (6, 3)), label="cam")
     lower.plot(u, x2, color=ACCENT, linewidth=1.5, label="mass")
     for diagram in (upper, lower):
@@ -76,7 +76,7 @@ def _turn(follower: VibratingFollower, upper: Axes, lower: Axes) -> None:
     found = follower(phi)
     degrees = np.degrees(phi)
     upper.plot(degrees, follower.motion(phi)[2], color=GREY, linewidth=1.2, linestyle=(0, (6, 3)), label="cam")
-    upper.plot(degrees, found.a, color=CURRENT, linewidth=1.5, label="mass")
+    upper.plot(degrees, found.a, color=CURRENT_COLOUR, linewidth=1.5, label="mass")
     lower.plot(degrees, found.force, color=BLACK, linewidth=1.5, label="force on the cam")
     for number, (start, end) in enumerate(follower.lost()):
         for turned in (0.0, FULL_TURN):  # an end beyond the turn is shown at its beginning
@@ -95,20 +95,20 @@ def _turn(follower: VibratingFollower, upper: Axes, lower: Axes) -> None:
 def _dense(follower: VibratingFollower) -> Floats:
     """Cam angles [rad] over the turn, on both sides of every break, so dense that vibrations are seen."""
     breaks = follower.motion.breaks
-    phi = np.linspace(0, FULL_TURN, FEWEST + round(PER_PERIOD * follower.vibrations))
+    phi = np.linspace(0, FULL_TURN, MIN_POINTS + round(POINTS_PER_PERIOD * follower.vibrations))
     before = np.nextafter(breaks[breaks > 0], 0)
     return np.sort(np.concatenate([phi[:-1], breaks, before, [np.nextafter(FULL_TURN, 0)]]))
 
 
 SIZE_OF_SPECTRUM = 7.0, 4.2
 """The size of a new figure [inches]."""
-BELOW = -0.16
+LEGEND_OFFSET = -0.16
 """The place where the legend begins, as a part of the diagram's height."""
-ROOM = 1.05
+AXIS_ROOM = 1.05
 """The height of the axes, as a multiple of the highest value."""
-FEW = 3
+MIN_CURVE_POINTS = 3
 """Fewer ratios are points and no curve."""
-DECADES = 2.0
+MAX_LINEAR_DECADES = 2.0
 """Ratios over more decades stand on a scale of logarithms."""
 
 
@@ -118,7 +118,7 @@ def plot_spectrum(spectrum: ShockSpectrum, on: Axes | Figure | None = None) -> A
     order = np.argsort(spectrum.n)
     n = spectrum.n[order]
     axes.axhline(spectrum.peak, color=GREY, linewidth=1.0, linestyle=(0, (6, 4)), label="the cam's own, $C_a$")
-    marker = "o" if n.size < FEW else ""
+    marker = "o" if n.size < MIN_CURVE_POINTS else ""
     for values, colour, label in (
         (spectrum.primary, BLACK, "during the rise (primary)"),
         (spectrum.residual, ACCENT, "in the dwell after it (residual)"),
@@ -127,9 +127,9 @@ def plot_spectrum(spectrum: ShockSpectrum, on: Axes | Figure | None = None) -> A
     axes.set(
         xlabel="n, time of the rise over natural period",
         ylabel="maximum acceleration, $h/T^2$",
-        ylim=(0, ROOM * max(float(spectrum.greatest.max()), spectrum.peak)),
+        ylim=(0, AXIS_ROOM * max(float(spectrum.greatest.max()), spectrum.peak)),
     )
-    if n[-1] > 10**DECADES * n[0]:
+    if n[-1] > 10**MAX_LINEAR_DECADES * n[0]:
         axes.set_xscale("log")
     elif n.size > 1:
         axes.set_xlim(n[0], n[-1])
@@ -138,5 +138,5 @@ def plot_spectrum(spectrum: ShockSpectrum, on: Axes | Figure | None = None) -> A
     axes.grid(visible=True, color="#dddddd", linewidth=0.5)
     axes.spines[["top", "right"]].set_visible(False)
     # Below the diagram: inside, some law's curve would run through it.
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, BELOW), ncols=3, frameon=False, fontsize="small")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, LEGEND_OFFSET), ncols=3, frameon=False, fontsize="small")
     return axes

@@ -7,26 +7,26 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+from graphcam.drafting.act_order import pieces_of
 from graphcam.drafting.ink import Construction, Step, View
 from graphcam.drafting.marks import Origin
-from graphcam.drafting.moves import pieces_of
-from graphcam.sheets.expand import Placement, expand
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.labels import lettered, shading_parted
-from graphcam.sheets.model import Box, Entity, Group, Page, Source, around_all, by_place
-from graphcam.sheets.panels import Panel, clusters, panels, stand
-from graphcam.sheets.styles import CURRENT_PART, CURRENT_STEP, FORMER_STEP, in_progress
+from graphcam.sheets.mark_entities import Placement, expand
+from graphcam.sheets.model import Box, Entity, Group, Page, Source, bounding_box, by_place
+from graphcam.sheets.styles import CURRENT_PART_ROLE, CURRENT_STEP_ROLE, FORMER_STEP_ROLE, in_progress
+from graphcam.sheets.view_panels import Panel, clusters, panels, stand
 from graphcam.words import Tell
 
-LETTERS = Lettering(3.5, 3.0, 2.4)
+LETTER_HEIGHTS = Lettering(3.5, 3.0, 2.4)
 """Heights of letters [mm], for a drawing that is read on a screen."""
-WIDEST, HIGHEST = 230.0, 175.0
+MAX_WIDTH, MAX_HEIGHT = 230.0, 175.0
 """What a screen shows well [mm]: a larger view is shown reduced."""
-MARGIN = 5.0
+DRAWING_MARGIN = 5.0
 """Free margin around a drawing, where its outermost labels find room [mm]."""
-GAP = 8.0
+VIEW_GAP = 8.0
 """The gap between views [mm]."""
-LYING = 1.1
+MAX_ASPECT_RATIO = 1.1
 """Views that share no axis are laid out in columns, so that all are at most about so many times as wide as high."""
 
 
@@ -55,7 +55,7 @@ class StepBoard:
     def factor(self) -> float:
         """What all views are shown reduced by."""
         sizes = [panel.content for panel in self._full_size]
-        return min(1.0, *(min(WIDEST / size.width, HIGHEST / size.height) for size in sizes))
+        return min(1.0, *(min(MAX_WIDTH / size.width, MAX_HEIGHT / size.height) for size in sizes))
 
     @property
     def origin(self) -> complex:
@@ -64,35 +64,37 @@ class StepBoard:
 
     @cached_property
     def _full_size(self) -> list[Panel]:
-        return panels((step for step in (*self.former, *self.steps) if step.marks), LETTERS)
+        return panels((step for step in (*self.former, *self.steps) if step.marks), LETTER_HEIGHTS)
 
     @cached_property
-    def _placed(self) -> dict[str, tuple[Panel, complex]]:
+    def _view_origins(self) -> dict[str, tuple[Panel, complex]]:
         """The views by name, each with its origin, that of the first one at 0."""
         shown, factor = self._full_size, self.factor
         return _arranged(shown if factor == 1.0 else [replace(panel, factor=factor) for panel in shown])
 
     @cached_property
-    def _titled(self) -> bool:
-        return len(self._placed) > 1
+    def _has_titles(self) -> bool:
+        return len(self._view_origins) > 1
 
     @cached_property
     def _box(self) -> Box:
-        boxes = ((panel.box if self._titled else panel.content).moved(at) for panel, at in self._placed.values())
-        return around_all(boxes).grown(MARGIN)
+        boxes = (
+            (panel.box if self._has_titles else panel.content).moved(at) for panel, at in self._view_origins.values()
+        )
+        return bounding_box(boxes).grown(DRAWING_MARGIN)
 
     @cached_property
     def _titles(self) -> tuple[Entity, ...]:
         """The titles of several views; a single one is named beside the drawing."""
-        titles = (e for panel, at in self._placed.values() for e in panel.title(self.origin + at))
-        return tuple(titles) if self._titled else ()
+        titles = (e for panel, at in self._view_origins.values() for e in panel.title(self.origin + at))
+        return tuple(titles) if self._has_titles else ()
 
     @cached_property
     def _drawn(self) -> list[list[Entity]]:
-        places = {name: Placement(self.origin + at, self.factor) for name, (_, at) in self._placed.items()}
+        places = {name: Placement(self.origin + at, self.factor) for name, (_, at) in self._view_origins.items()}
         # A step without marks may name a view in which nothing is drawn.
         steps = (*self.former, *self.steps)
-        expanded = [expand(s.marks, places.get(s.view.name, Placement(0j)), LETTERS) for s in steps]
+        expanded = [expand(s.marks, places.get(s.view.name, Placement(0j)), LETTER_HEIGHTS) for s in steps]
         return lettered(expanded, self._titles, self._box.moved(self.origin))
 
     def page(self, current: int | None = None, part: int | None = None) -> Page:
@@ -101,11 +103,11 @@ class StepBoard:
         part : index of the part up to which the step is drawn, which alone is in colour then; by default all are
         """
         count = len(self._drawn) if current is None else len(self.former) + current + 1
-        groups = [Group("titles", self._titles)] if self._titled else []
-        stages = [(FORMER_STEP, entities) for entities in self._drawn[:count]]
+        groups = [Group("titles", self._titles)] if self._has_titles else []
+        stages = [(FORMER_STEP_ROLE, entities) for entities in self._drawn[:count]]
         if current is not None:
             *stages, (_, last) = stages
-            stages += [(CURRENT_STEP, last)] if part is None else _up_to(self.steps[current], part, last)
+            stages += [(CURRENT_STEP_ROLE, last)] if part is None else _up_to(self.steps[current], part, last)
         for k, entities in enumerate(shading_parted([entities for _, entities in stages])):
             if current is not None:
                 entities = tuple(replace(e, role=in_progress(e.role, stages[k][0])) for e in entities)
@@ -135,7 +137,7 @@ def _up_to(step: Step, part: int, entities: Sequence[Entity]) -> list[tuple[str,
 
     pieces = [(since(entity.source, at), piece) for entity in entities for at, piece in by_place(entity)]
     before, own = ([e for k, e in pieces if k < part], [e for k, e in pieces if k == part])
-    return [(FORMER_STEP, before), (CURRENT_PART, own)]
+    return [(FORMER_STEP_ROLE, before), (CURRENT_PART_ROLE, own)]
 
 
 def _in_view(steps: Sequence[Step], name: str) -> tuple[Step, ...]:
@@ -159,9 +161,11 @@ def _arranged(views: Sequence[Panel]) -> dict[str, tuple[Panel, complex]]:
     """Views by name with their origins, the first one's 0: those that share an axis as it asks, others in columns."""
     if len(views) == 1:
         return {views[0].view.name: (views[0], 0j)}
-    groups = [(group, stand(group, GAP)) for group in clusters(views)]
-    boxes = [around_all(p.box.moved(at) for p, at in zip(*group, strict=True)) for group in groups]
-    room = max(*(box.height for box in boxes), math.sqrt(sum(box.width * box.height for box in boxes) / LYING))
+    groups = [(group, stand(group, VIEW_GAP)) for group in clusters(views)]
+    boxes = [bounding_box(p.box.moved(at) for p, at in zip(*group, strict=True)) for group in groups]
+    room = max(
+        *(box.height for box in boxes), math.sqrt(sum(box.width * box.height for box in boxes) / MAX_ASPECT_RATIO)
+    )
     placed: dict[str, tuple[Panel, complex]] = {}
     columns, right = list[Column](), 0.0
     # The highest first: the low ones find room under them, where no column grows wider.
@@ -171,10 +175,10 @@ def _arranged(views: Sequence[Panel]) -> dict[str, tuple[Panel, complex]]:
         if column is None:
             column = Column(right, box.width)
             columns.append(column)
-            right += box.width + GAP
+            right += box.width + VIEW_GAP
         by = complex(column.left, -column.down) - complex(box.left, box.top)
         placed |= {panel.view.name: (panel, at + by) for panel, at in zip(*groups[k], strict=True)}
-        column.down += box.height + GAP
+        column.down += box.height + VIEW_GAP
     _, first = placed[views[0].view.name]
     return {panel.view.name: (panel, placed[panel.view.name][1] - first) for panel in views}
 

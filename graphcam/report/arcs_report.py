@@ -4,41 +4,41 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from graphcam.comparison.speed import PER_SPEED
-from graphcam.constructions.axes import turning
+from graphcam.comparison.phase_speeds import UNITS_PER_SPEED
+from graphcam.constructions.axes import sense_caption
 from graphcam.given.follower import omega_of
 from graphcam.given.laws import Floats
-from graphcam.mechanism.arcs import ThreeArcCam
+from graphcam.mechanism.three_arc_cam import ThreeArcCam
 from graphcam.report.markdown import Block, Grid, number
 from graphcam.report.note import (
     against_exact,
     constructions,
-    drawn_how,
     errors_of_the_hand,
+    hand_description,
     heading,
+    jumps_sentence,
     of_sheet,
-    told_jumps,
     whole_note,
 )
 from graphcam.report.note_tables import station_table
 from graphcam.report.sheet_contents import Contents, scaled_steps, title_block
-from graphcam.report.sheet_data import ADOPTED, GIVEN, Row, comparison, data_table, mm, speed
+from graphcam.report.sheet_data import ADOPTED_LABEL, GIVEN_LABEL, Row, comparison, data_table, mm, speed
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.words import Caption, Words, say, sequence
 
-CASES = {
+CASE_CAPTIONS = {
     1: say("both centres C1 and C2 are given"),
     2: say("C1 is given, and C2 is found on the line OA"),
     3: say("C2 is given, and C1 is found on the line OD"),
     4: say("C1 is found on the line OD and C2 on the line OA"),
 }
-IMPACT = say(
+IMPACT_NOTE = say(
     "The arcs touch, so the velocity is continuous, and the acceleration jumps where one arc meets the next: the "
     "impact is soft."
 )
-DRAWN = say("drawn")
-OF_ARCS, OF_MOTION = say("Sizes of the arcs: drawn and exact"), say("Motion: drawn and exact")
+DRAWN_LABEL = say("drawn")
+ARC_SIZES_TITLE, MOTION_TITLE = say("Sizes of the arcs: drawn and exact"), say("Motion: drawn and exact")
 
 
 def arcs_contents(solution: ArcsSolution) -> Contents:
@@ -48,7 +48,7 @@ def arcs_contents(solution: ArcsSolution) -> Contents:
     on_arcs = {said.name for _, said in solution.drawn["three_arcs"].meaning.compared}
     of_arcs = {name: q for name, q in quantities.items() if name in on_arcs}
     of_motion = {name: q for name, q in quantities.items() if name not in on_arcs}
-    results = comparison(of_arcs, OF_ARCS), comparison(of_motion, OF_MOTION)
+    results = comparison(of_arcs, ARC_SIZES_TITLE), comparison(of_motion, MOTION_TITLE)
     title = title_block(solution.task.title, solution.tell, solution.task.drawing.remark)
     return Contents(solution, title, solution.drawn, scaled_steps(solution.drawn), (_data(solution),), results)
 
@@ -66,16 +66,16 @@ def _data(solution: ArcsSolution) -> Table:
     points = {name: getattr(given, name) for name in ("A", "D", "G", "C1", "C2")}
     found = [name for name, point in points.items() if point is None and name != "A"] + ["C3", "F"]
     rows: list[Row] = [
-        *((name, _xy(point), GIVEN) for name, point in points.items() if point is not None),
-        ("ρ₁", mm(given.rho1), GIVEN),
-        *((name, _xy([float(arcs.value(f"{name}_{axis}")) for axis in "xy"]), DRAWN) for name in found),
-        *((name, _radius(float(arcs.value(key))), DRAWN) for name, key in (("ρ₂", "rho2"), ("ρ₃", "rho3"))),
-        (say("upper dwell"), say("{angle:g}°", angle=task.arcs.dwell), GIVEN),
-        (say("roller radius"), mm(task.follower.roller_radius), GIVEN),
-        (say("rotation"), turning(solution.rotation), ADOPTED),
+        *((name, _xy(point), GIVEN_LABEL) for name, point in points.items() if point is not None),
+        ("ρ₁", mm(given.rho1), GIVEN_LABEL),
+        *((name, _xy([float(arcs.value(f"{name}_{axis}")) for axis in "xy"]), DRAWN_LABEL) for name in found),
+        *((name, _radius(float(arcs.value(key))), DRAWN_LABEL) for name, key in (("ρ₂", "rho2"), ("ρ₃", "rho3"))),
+        (say("upper dwell"), say("{angle:g}°", angle=task.arcs.dwell), GIVEN_LABEL),
+        (say("roller radius"), mm(task.follower.roller_radius), GIVEN_LABEL),
+        (say("rotation"), sense_caption(solution.rotation), ADOPTED_LABEL),
         *_at_speed(solution),
     ]
-    return data_table(rows, (DRAWN,))
+    return data_table(rows, (DRAWN_LABEL,))
 
 
 def _at_speed(solution: ArcsSolution) -> list[Row]:
@@ -84,11 +84,11 @@ def _at_speed(solution: ArcsSolution) -> list[Row]:
     if rpm is None:
         return []
     omega, tops = omega_of(rpm), solution.drawn["arc_diagrams"]
-    v, a = (float(tops.value(f"max_{name}")) * omega**k / PER_SPEED["mm"] for k, name in ((1, "v"), (2, "a")))
+    v, a = (float(tops.value(f"max_{name}")) * omega**k / UNITS_PER_SPEED["mm"] for k, name in ((1, "v"), (2, "a")))
     return [
         *speed(rpm),
-        (say("v max"), say("{v:.4g} m/s", v=v), DRAWN),
-        (say("a max"), say("{a:.4g} m/s²", a=a), DRAWN),
+        (say("v max"), say("{v:.4g} m/s", v=v), DRAWN_LABEL),
+        (say("a max"), say("{a:.4g} m/s²", a=a), DRAWN_LABEL),
     ]
 
 
@@ -105,14 +105,14 @@ def arcs_note(solution: ArcsSolution) -> str:
         "the design case {case} of Lanni, Ceccarelli and Figliolini (2002): {told}. The cam moves a central "
         "translating follower; the return is the mirror image of the rise.",
         case=case,
-        told=CASES[case],
+        told=CASE_CAPTIONS[case],
     )
     paper = heading(solution.task.title, solution.task.drawing)
-    head = [*paper, designed, of_sheet(_data(solution)), drawn_how(solution.chain.pencil)]
+    head = [*paper, designed, of_sheet(_data(solution)), hand_description(solution.chain.pencil)]
     chapters = [
         *constructions(solution),
         (say("Both roots"), _roots(solution)),
-        (say("Kind of impact"), [IMPACT, told_jumps(solution.motion.jumps, "a", "mm/rad²")]),
+        (say("Kind of impact"), [IMPACT_NOTE, jumps_sentence(solution.motion.jumps, "a", "mm/rad²")]),
         (say("Values at the stations"), _stations(solution)),
         (say("Drawn against exact"), against_exact(solution)),
         *errors_of_the_hand(solution),

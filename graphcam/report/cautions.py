@@ -91,17 +91,17 @@ def perfect_roller(solution: Solution) -> Iterator[Block]:
         yield say("The ideal pencil gives {radius} mm.", radius=number(perfect))
 
 
-INSIDE = {
+INSIDE_CAPTIONS = {
     "rise": say("Inside the rise, at φ = {at}°, the maximum is {alpha}°; the larger one is at an end of the phase."),
     "return": say(
         "Inside the return, at φ = {at}°, the maximum is {alpha}°; the larger one is at an end of the phase."
     ),
 }
-EXACTLY = {
+EXACT_CAPTIONS = {
     "rise": say("The limit of the rise is satisfied as drawn; exactly the angle is {exact}°, {over}° over."),
     "return": say("The limit of the return is satisfied as drawn; exactly the angle is {exact}°, {over}° over."),
 }
-EXCEEDED = {
+EXCEEDED_CAPTIONS = {
     "rise": say("On the rise only {limit} are permitted, so the limit is exceeded: {why}."),
     "return": say("On the return only {limit} are permitted, so the limit is exceeded: {why}."),
 }
@@ -115,15 +115,15 @@ def greatest_angles(solution: Solution) -> Iterator[Block]:
         if other := inside(plotted, name):
             alpha = math.degrees(other.place.imag * plotted.givens.mu_alpha.per_mm)
             phi = math.degrees(other.place.real * board.mu_phi.per_mm)
-            yield INSIDE[name].where(at=number(phi, 1), alpha=number(alpha))
+            yield INSIDE_CAPTIONS[name].where(at=number(phi, 1), alpha=number(alpha))
         if limit is None:
             continue
         angle, over = float(plotted.value(f"max_{name}")), math.degrees(abs(exactly[name]) - limit)
         unlimited = name == "rise" and exactly[name] < 0 and not board.limits.rest  # the angle at the low rest
         if math.degrees(abs(angle)) > math.degrees(limit) + LAST_DIGIT:
-            yield warning(EXCEEDED[name].where(limit=degrees(limit), why=_why_exceeded(name, angle, solution)))
+            yield warning(EXCEEDED_CAPTIONS[name].where(limit=degrees(limit), why=_why_exceeded(name, angle, solution)))
         elif over > LAST_DIGIT and not unlimited:
-            yield EXACTLY[name].where(exact=number(math.degrees(abs(exactly[name]))), over=number(over))
+            yield EXACT_CAPTIONS[name].where(exact=number(math.degrees(abs(exactly[name]))), over=number(over))
 
 
 def _why_exceeded(name: str, angle: float, solution: Solution) -> Caption:
@@ -211,7 +211,7 @@ MOST_BESIDE = 3
 """So many pairs of columns a table of places has at the most."""
 WIDEST, BETWEEN = 108, 5
 """So many letters stand in a line of a table, and so many are lost between the columns of a pair."""
-FEW = 4
+MIN_TABLE_ROWS = 4
 """So many places are told in the paragraph itself."""
 
 Known = set[tuple[str, str]]
@@ -240,7 +240,7 @@ def _step(number: str, step: Step, tell: Tell) -> Iterator[Block]:
     """A step in one paragraph, and the tables of its longer runs."""
     parts = step.parts
     runs = [part for part in parts if len({tell(row.setting) for row in part.rows}) > 1]
-    short, long = ([part for part in runs if (len(part.rows) > FEW) is many] for many in (False, True))
+    short, long = ([part for part in runs if (len(part.rows) > MIN_TABLE_ROWS) is many] for many in (False, True))
     said = [each for part in parts for each in (part.caption, *(_beside(part, tell) if part in short else ()))]
     whole = sequence([*said, *([step.why] if str(step.why) else [])], " ")
     yield say("**{number}. {title}.** {said}", number=number, title=step.title, said=whole)

@@ -9,25 +9,25 @@ from graphcam.constructions.views import PROFILE
 from graphcam.drafting.scale import ratio_text
 from graphcam.errors import DesignError
 from graphcam.report.arcs_report import arcs_contents, arcs_note
-from graphcam.report.markdown import FORMULA
+from graphcam.report.markdown import FORMULA_PATTERN
 from graphcam.report.mechanism_view import MechanismScene, arcs_scene, cam_scene
 from graphcam.report.note import note
-from graphcam.report.sheet_contents import Contents, all_drawn, motion_contents, scaled_steps
-from graphcam.sheets.filling import GAPS, TooLargeError
+from graphcam.report.sheet_contents import Contents, all_constructions, motion_contents, scaled_steps
 from graphcam.sheets.layout import compose_parts
-from graphcam.sheets.leaves import fits
 from graphcam.sheets.model import Drawing
-from graphcam.sheets.panels import panels
+from graphcam.sheets.page_filling import DIAGRAM_GAPS, TooLargeError
+from graphcam.sheets.page_space import fits_on_sheet
+from graphcam.sheets.view_panels import panels
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solution import Solution, solved_on
-from graphcam.solving.task_board import HOPELESS, board_of, check_given_sizes, format_of, given_profile_scale
+from graphcam.solving.task_board import MAX_OVERSIZE, board_of, check_given_sizes, format_of, given_profile_scale
 from graphcam.words import say
 
-COMMA = re.compile(r"<mn>(\d+)</mn><mrow><mo>&#x0002C;</mo></mrow><mn>(\d+)</mn>")
+DECIMAL_COMMA = re.compile(r"<mn>(\d+)</mn><mrow><mo>&#x0002C;</mo></mrow><mn>(\d+)</mn>")
 """A decimal comma, which is no operator with a gap behind it."""
 TAG = re.compile(r"\\tag\{(\d+)\}")
 TABLE = re.compile("<table>(?=(.*?)</thead>)", re.DOTALL)
-WIDE = 7
+MIN_WIDE_COLUMNS = 7
 """Tables that have more of "<th" than this in their heads, the head itself counted, have smaller letters."""
 
 
@@ -40,7 +40,7 @@ def mathml(latex: str, display: str = "inline") -> str:
     # The engine of the studio runs where there is no such library.
     from latex2mathml.converter import convert
 
-    return COMMA.sub(r"<mn>\1,\2</mn>", convert(latex.strip(), display=display))
+    return DECIMAL_COMMA.sub(r"<mn>\1,\2</mn>", convert(latex.strip(), display=display))
 
 
 def note_page(note: str, language: str) -> str:
@@ -52,10 +52,12 @@ def note_page(note: str, language: str) -> str:
     """
     import mistune
 
-    parts = FORMULA.split(note)
+    parts = FORMULA_PATTERN.split(note)
     source = "".join(_formula(part) if k % 2 else part for k, part in enumerate(parts))
     body = str(mistune.create_markdown(escape=False, plugins=["table"])(source))
-    body = TABLE.sub(lambda found: '<table class="wide">' if found[1].count("<th") > WIDE else "<table>", body)
+    body = TABLE.sub(
+        lambda found: '<table class="wide">' if found[1].count("<th") > MIN_WIDE_COLUMNS else "<table>", body
+    )
     css = resources.files("graphcam").joinpath("data", "note", "note.css").read_text(encoding="utf-8")
     title = escape(re.sub(r"\\(.)", r"\1", note.partition("\n")[0].removeprefix("# ")))
     head = f'<meta charset="utf-8"><title>{title}</title>\n<style>\n{css}</style>'
@@ -89,10 +91,10 @@ def check_profile_size(solution: Solution) -> None:
     graphcam.errors.DesignError: drawing.profile_scale is 5:1, but must be at most 2.5:1 on A1 landscape; take ...
     """
     task = solution.task
-    if (given := given_profile_scale(task.drawing)) is None or _fits(solution, given):
+    if (given := given_profile_scale(task.drawing)) is None or _scale_fits(solution, given):
         return
     smaller = (1 / ratio for ratio in solution.chain.board.paper.ratios if 1 / ratio > given)
-    largest = next(mu for mu in smaller if _fits(solution, mu))
+    largest = next(mu for mu in smaller if _scale_fits(solution, mu))
     value = ratio_text(given)
     limit = say("at most {ratio_text} on {said}", ratio_text=ratio_text(largest), said=format_of(task.drawing).said)
     raise DesignError("drawing.profile_scale", value, limit, say("take a larger format, or leave it out"))
@@ -106,25 +108,25 @@ def check_profile_hopeful(solution: Solution) -> None:
     DesignError : it is
     """
     given = given_profile_scale(solution.task.drawing)
-    if given is not None and _hopeless(solution, given):
+    if given is not None and _is_far_too_large(solution, given):
         check_profile_size(solution)
 
 
-def _hopeless(solution: Solution, per_mm: float) -> bool:
+def _is_far_too_large(solution: Solution, per_mm: float) -> bool:
     """Whether a scale is many times that at which the profile fits its room."""
     board = board_of(replace(solution.task, drawing=replace(solution.task.drawing, profile_scale=None)))
-    return HOPELESS * per_mm < solved_on(board, solution.task).chain.profile_scale.per_mm
+    return MAX_OVERSIZE * per_mm < solved_on(board, solution.task).chain.profile_scale.per_mm
 
 
-def _fits(solution: Solution, per_mm: float) -> bool:
+def _scale_fits(solution: Solution, per_mm: float) -> bool:
     """Whether a page takes the profile at a scale [mm/mm]."""
-    if _hopeless(solution, per_mm):
+    if _is_far_too_large(solution, per_mm):
         return False
     board, sheet = solution.chain.board, format_of(solution.task.drawing)
     held = {**board.paper.held, PROFILE.name: per_mm}
     tried = solved_on(replace(board, paper=replace(board.paper, held=held)), solution.task)
-    steps = (step for _, _, step in scaled_steps(all_drawn(tried)) if step.view.name == PROFILE.name)
-    return all(fits(sheet, [panel], GAPS[-1]) for panel in panels(steps, sheet.lettering))
+    steps = (step for _, _, step in scaled_steps(all_constructions(tried)) if step.view.name == PROFILE.name)
+    return all(fits_on_sheet(sheet, [panel], DIAGRAM_GAPS[-1]) for panel in panels(steps, sheet.lettering))
 
 
 def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:

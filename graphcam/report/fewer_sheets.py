@@ -13,31 +13,31 @@ from graphcam.constructions.views import ACCELERATION, COMBINED, DISPLACEMENT, V
 from graphcam.drafting.ink import Caption, say
 from graphcam.errors import DesignError
 from graphcam.report.sheet_contents import Contents, scaled_steps
-from graphcam.sheets.filling import ONE_PAGE
 from graphcam.sheets.layout import SheetPart, fewest_pages, views_of_pages
-from graphcam.solving.diagram_sizes import ORDINATES, POLES, USUAL_POLE
+from graphcam.sheets.page_filling import ONE_PAGE
+from graphcam.solving.diagram_sizes import DEFAULT_POLE, STANDARD_ORDINATES, STANDARD_POLES
 from graphcam.solving.solution import Solution
 from graphcam.solving.task_board import board_of, format_of
 from graphcam.tasks.task import DrawingTable, Task
 
-CARRIED_OVER = ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name, COMBINED.name
+PROJECTED_VIEWS = ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name, COMBINED.name
 """The views from one to the other of which lines are drawn across."""
-SMALLEST = 0.5
+MIN_ORDINATE_SHARE = 0.5
 """So small a part of the chosen ordinate is still suggested."""
-TRIED = 3
+MAX_TRIED_ORDINATES = 3
 """So many ordinates are tried at most, for a layout takes its time."""
-FEWER = say(
+FEWER_SHEETS_NOTE = say(
     "{before} sheets of format {format}; with ordinate = {ordinate:g} and poles = [{first:g}, {second:g}] in [drawing] "
     "it would be {after}."
 )
-TOGETHER = say(
+ONE_SHEET_NOTE = say(
     "The diagrams that are carried over to one another stand on several sheets; with ordinate = {ordinate:g} and "
     "poles = [{first:g}, {second:g}] in [drawing] they would stand on one."
 )
 
 
 @dataclass(frozen=True)
-class _Laid:
+class _PageCounts:
     """How many pages there are, and how many of them hold views that are carried over to one another."""
 
     pages: int
@@ -58,27 +58,29 @@ def fewer_sheets(contents: Contents, pages: int) -> Caption | None:
     solution = contents.solution
     if pages < 2 or not isinstance(solution, Solution) or not _open(drawing := solution.task.drawing):
         return None
-    now = _Laid(pages, 1) if drawing.format in ONE_PAGE else _laid(drawing, _part(contents, solution.chain))
+    now = (
+        _PageCounts(pages, 1) if drawing.format in ONE_PAGE else _page_counts(drawing, _part(contents, solution.chain))
+    )
     # Where even the smallest is of no use, the others are not laid out.
     tables = _smaller(solution)
-    if not tables or (said := _said(contents, solution.task, now, tables[-1])) is None:
+    if not tables or (said := _suggestion(contents, solution.task, now, tables[-1])) is None:
         return None
-    return next(filter(None, (_said(contents, solution.task, now, tried) for tried in tables[:-1])), said)
+    return next(filter(None, (_suggestion(contents, solution.task, now, tried) for tried in tables[:-1])), said)
 
 
-def _said(contents: Contents, task: Task, now: _Laid, tried: DrawingTable) -> Caption | None:
+def _suggestion(contents: Contents, task: Task, now: _PageCounts, tried: DrawingTable) -> Caption | None:
     """What a table with an ordinate and poles would bring; nothing where it is of no use."""
     # What makes a view too large for the format is no suggestion.
     with suppress(DesignError):
         part = _part(contents, Chain(board_of(replace(task, drawing=tried))))
         if now.spread == 1 and fewest_pages(format_of(tried), part) >= now.pages:
             return None
-        found = _laid(tried, part)
+        found = _page_counts(tried, part)
         (first, second), fewer = tried.poles or (0.0, 0.0), found.pages < now.pages
         if fewer or (found.pages == now.pages and found.spread == 1 < now.spread):
             sizes = {"ordinate": tried.ordinate, "first": first, "second": second}
             known = {"before": now.pages, "after": found.pages, "format": tried.format} if fewer else {}
-            return (FEWER if fewer else TOGETHER).where(**known, **sizes)
+            return (FEWER_SHEETS_NOTE if fewer else ONE_SHEET_NOTE).where(**known, **sizes)
     return None
 
 
@@ -89,10 +91,10 @@ def _open(drawing: DrawingTable) -> bool:
 def _smaller(solution: Solution) -> list[DrawingTable]:
     """The tables with the next smaller ordinates, the largest first, and the usual poles."""
     board, drawing = solution.chain.board, solution.task.drawing
-    usual = USUAL_POLE / math.degrees(board.mu_phi.per_mm)
-    pole = min(POLES, key=lambda pole: abs(pole - usual))
-    below = [y for y in ORDINATES if SMALLEST * board.ordinate <= y < board.ordinate]
-    return [replace(drawing, ordinate=y, poles=(pole, pole)) for y in below[:TRIED]]
+    usual = DEFAULT_POLE / math.degrees(board.mu_phi.per_mm)
+    pole = min(STANDARD_POLES, key=lambda pole: abs(pole - usual))
+    below = [y for y in STANDARD_ORDINATES if MIN_ORDINATE_SHARE * board.ordinate <= y < board.ordinate]
+    return [replace(drawing, ordinate=y, poles=(pole, pole)) for y in below[:MAX_TRIED_ORDINATES]]
 
 
 def _part(contents: Contents, chain: Chain) -> SheetPart:
@@ -101,6 +103,6 @@ def _part(contents: Contents, chain: Chain) -> SheetPart:
     return replace(contents.whole, steps=scaled_steps(drawn)).told(contents.solution.tell)
 
 
-def _laid(drawing: DrawingTable, part: SheetPart) -> _Laid:
+def _page_counts(drawing: DrawingTable, part: SheetPart) -> _PageCounts:
     pages = views_of_pages(format_of(drawing), part)
-    return _Laid(len(pages), sum(any(name in CARRIED_OVER for name in page) for page in pages))
+    return _PageCounts(len(pages), sum(any(name in PROJECTED_VIEWS for name in page) for page in pages))

@@ -8,7 +8,7 @@ from graphcam.given.load_curve import LoadCurve
 from graphcam.given.spring_load import ArmLoad, SpringLoad
 from graphcam.report.markdown import Block, Equation, Grid, formula, general, number, numbers, warning
 from graphcam.solving.solution import Solution
-from graphcam.solving.spring_design import IDLE, SpringDesign, with_unit
+from graphcam.solving.spring_design import IDLE_CAPTION, SpringDesign, with_unit
 from graphcam.solving.stress_design import StressDesign, rounded_up
 from graphcam.solving.turn_diagrams import at_side
 from graphcam.words import Caption, Words, joined, say, sequence
@@ -59,7 +59,7 @@ def contact(solution: Solution) -> list[Block]:
         else say("The minimum torque with which the cam pushes the arm is {force} {unit}, {at}.", **least_values),
     ]
     if spring.idle:
-        said.append(IDLE)
+        said.append(IDLE_CAPTION)
     too_small = say("Contact is lost, φ = {where}: the spring's preload is too small.", where=lost)
     return [_presses(spring), Equation(_formula(load)), sequence(said, " "), warning(too_small) if lost else ""]
 
@@ -118,7 +118,7 @@ def _presses(spring: SpringDesign) -> Caption:
     return sequence([*sentences, bears], " ")
 
 
-NORMAL = {
+NORMAL_FORCE = {
     (True, False): r"N = \frac{\xi}{\cos\alpha}, \qquad M = N\,v\cos\alpha.",
     (True, True): (
         r"N = \frac{\xi}{\cos\alpha - \mu\sin\alpha}, \qquad "
@@ -159,7 +159,7 @@ def forces(solution: Solution) -> list[Block]:
     return [
         rubs if spring.friction else "",
         say("The cam pushes along the normal with $N$, and the torque on the shaft is $M$:"),
-        Equation(NORMAL[isinstance(spring.load, SpringLoad), bool(spring.friction)]),
+        Equation(NORMAL_FORCE[isinstance(spring.load, SpringLoad), bool(spring.friction)]),
         extremes,
         _at_stations(solution, spring),
     ]
@@ -189,7 +189,7 @@ SHEAR, DEPTH = 0.300, 0.786
 """The greatest shear stress under a line contact as a part of the peak pressure, and its depth in half-widths."""
 MODULUS = r"\frac{1}{E'} = \frac{1-\nu_1^2}{E_1} + \frac{1-\nu_2^2}{E_2},\qquad E' = <modulus>\ \text{<unit>}."
 PRESSURE = r"p_0 = \sqrt{\frac{N E'}{\pi\,w\,R}},\qquad b = \sqrt{\frac{4 N R}{\pi\,w\,E'}},\qquad "
-RELATIVE = {
+RELATIVE_RADIUS = {
     "roller": PRESSURE + r"\frac{1}{R} = \frac{1}{\varrho} + \frac{1}{r}.",
     "face": PRESSURE + r"R = \varrho.",
 }
@@ -201,7 +201,7 @@ SHAPES = {
     "concave": say("There the profile is concave with a radius of $|\\varrho| = {radius}$ mm; $\\varrho$ is negative."),
     "flat": say("There the profile is straight: $\\varrho$ is infinite."),
 }
-WITHOUT = {
+NO_STRESS_REASONS = {
     "knife edge": say(
         "The follower has a knife edge. It touches the cam along a line without width, so by Hertz the pressure "
         "is infinite under any force: there is no finite stress to compare. Give the follower a roller."
@@ -226,7 +226,7 @@ def contact_stress(solution: Solution) -> list[Block]:
     )
     modulus = Equation(formula(MODULUS, modulus=number(stress.material().modulus, 0), unit=unit("MPa")))
     if stress.without:
-        said = WITHOUT[stress.without]
+        said = NO_STRESS_REASONS[stress.without]
         return [given, modulus, warning(said) if stress.without != "no force" else said]
     return [given, modulus, *_found(stress)]
 
@@ -267,7 +267,7 @@ def _found(stress: StressDesign) -> list[Block]:
     )
     kind = "roller" if roller else "face"
     shape = SHAPES[stress.shape].where(**numbers(radius=abs(radius)))
-    return [law, Equation(RELATIVE[kind]), where, shape, in_numbers, below, *_verdict(stress)]
+    return [law, Equation(RELATIVE_RADIUS[kind]), where, shape, in_numbers, below, *_verdict(stress)]
 
 
 def _verdict(stress: StressDesign) -> list[Caption]:

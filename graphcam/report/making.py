@@ -7,23 +7,23 @@ from graphcam.drafting.scale import unit
 from graphcam.given.making_errors import deviations_within
 from graphcam.report.markdown import Block, Equation, Grid, number, warning
 from graphcam.solving.solution import Solution
-from graphcam.solving.tolerance_design import ERRORS, ToleranceDesign, error_name, most_important, significant
+from graphcam.solving.tolerance_design import ERROR_NAMES, ToleranceDesign, error_name, most_important, significant
 from graphcam.words import Caption, joined, say
 
-SLIDING = (
+SLIDING_FORMULA = (
     r"\Delta s = \frac{\delta + \Delta r}{\cos\alpha} + \sigma\,\Delta e\,\tan\alpha,\qquad "
     r"\delta = A\cos(n\varphi + \beta)."
 )
-SWINGING = (
+SWINGING_FORMULA = (
     r"\Delta s = \frac{1}{l}\left(\frac{\delta + \Delta r}{\cos\alpha} - \Delta c\,\frac{\sin(\psi - \alpha)}"
     r"{\cos\alpha} - \Delta l\,\tan\alpha\right),\qquad \delta = A\cos(n\varphi + \beta)."
 )
 ON_A_FACE = r"\Delta s = \delta = A\cos(n\varphi + \beta)."
-SPREAD = {
+SPREAD_CAPTIONS = {
     "normal": say("A size is normally distributed, with three standard deviations on either side within its zone."),
     "uniform": say("A size is uniformly distributed in its zone."),
 }
-MATTERS = say("Most of the variance of ${symbol}$, {part:.0f} %, is due to one tolerance: {name}.")
+VARIANCE_CAPTION = say("Most of the variance of ${symbol}$, {part:.0f} %, is due to one tolerance: {name}.")
 
 
 def errors_of_making(solution: Solution) -> list[Block]:
@@ -33,7 +33,7 @@ def errors_of_making(solution: Solution) -> list[Block]:
     if design.undercut:
         return [warning(say("The profile is undercut: how errors of making move the follower is not told."))]
     kin = solution.cam.kinematics
-    law = SWINGING if kin.swings else SLIDING if kin.takes_roller else ON_A_FACE
+    law = SWINGING_FORMULA if kin.swings else SLIDING_FORMULA if kin.takes_roller else ON_A_FACE
     first = say(
         "An error of the profile along its normal, $\\delta$, and errors of the sizes move the follower, to the first "
         "order, by"
@@ -54,7 +54,7 @@ def errors_of_making(solution: Solution) -> list[Block]:
         "and which part of the variance is due to it."
     )
     names = design.given().reaches
-    sizes = [SPREAD[design.given.distribution]] if names.keys() & ERRORS.keys() else []
+    sizes = [SPREAD_CAPTIONS[design.given.distribution]] if names.keys() & ERROR_NAMES.keys() else []
     rows = Grid(told.title, told.header, told.rows)
     return [first, Equation(law), waves, bands, *sizes, below, rows, *_matters(design), _solved(design)]
 
@@ -64,7 +64,7 @@ def _matters(design: ToleranceDesign) -> list[Caption]:
     if len(shares) == 1:
         return []
     return [
-        MATTERS.where(symbol=told.symbol, part=100 * float(most.shares[k]), name=error_name(most.name))
+        VARIANCE_CAPTION.where(symbol=told.symbol, part=100 * float(most.shares[k]), name=error_name(most.name))
         for k, told in enumerate(design.quantities)
         for most in [most_important(shares, k)]
     ]

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from itertools import count
 from typing import Any
 
-from graphcam.indices import in_html
-from graphcam.language import MINUS, SUPERSCRIPTS
+from graphcam.language import MINUS_SIGN, SUPERSCRIPTS
+from graphcam.subscripts import in_html
 from graphcam.words import Caption, Tell, Words, say, sequence
 
 FINEST_READING = 0.01
@@ -63,7 +63,7 @@ def text(plain: str) -> str:
     return re.sub(r"([\\`*_\[\]<>|#$~])", r"\\\1", plain)
 
 
-FORMULA = re.compile(r"((?<!\\)\$\$?[^$]+\$\$?)")
+FORMULA_PATTERN = re.compile(r"((?<!\\)\$\$?[^$]+\$\$?)")
 
 
 def printed(note: str) -> str:
@@ -74,11 +74,11 @@ def printed(note: str) -> str:
     >>> printed("φ_у = 1,5, $r = −1,5·10⁵$ mm, \\\\$2,5")
     'φ<sub>у</sub> = 1,5, $r = -1{,}5 \\\\cdot 10^{5}$ mm, \\\\$2,5'
     """
-    return "".join(_in_tex(part) if k % 2 else in_html(part) for k, part in enumerate(FORMULA.split(note)))
+    return "".join(_in_tex(part) if k % 2 else in_html(part) for k, part in enumerate(FORMULA_PATTERN.split(note)))
 
 
 def _in_tex(tex: str) -> str:
-    tex = re.sub(r"(?<=\d),(?=\d)", "{,}", tex).replace(MINUS, "-")
+    tex = re.sub(r"(?<=\d),(?=\d)", "{,}", tex).replace(MINUS_SIGN, "-")
     raised = {high: low for low, high in zip("0123456789-", SUPERSCRIPTS, strict=True)}
     power = rf"·10([{SUPERSCRIPTS}]+)"
     return re.sub(power, lambda found: f" \\cdot 10^{{{''.join(raised[c] for c in found[1])}}}", tex)

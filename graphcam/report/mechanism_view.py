@@ -16,25 +16,25 @@ from graphcam.drafting.ink import Caption, Points, say
 from graphcam.drafting.scale import unit as unit_of
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
-from graphcam.indices import in_html
 from graphcam.mechanism.cam import Cam
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.solving.shown_solution import plain_number
 from graphcam.solving.solution import Solution
+from graphcam.subscripts import in_html
 from graphcam.words import Tell
 
 DECIMALS = 3
 """Of lengths [mm] and angles [degrees]: far more than a screen shows."""
-ABOUT = {
+DESCRIPTIONS = {
     "stem": say("Cam and translating follower; the normal and the line of motion make the pressure angle."),
     "arm": say("Cam and oscillating follower; the normal and the direction of motion make the pressure angle."),
     "face": say("Cam and flat-faced follower; the normal of the face is its line of motion."),
 }
-LIVE = ("pressure_angle", "displacement", "velocity")
+LIVE_READINGS = ("pressure_angle", "displacement", "velocity")
 """What is read off while the cam turns; a flat face has no pressure angle."""
 
 
-POSITIONS = 720
+POSITION_COUNT = 720
 """In a turn, so that the cam angle goes in halves of a degree."""
 
 
@@ -106,7 +106,7 @@ def cam_scene(solution: Solution) -> MechanismScene:
 def _outline(cam: Cam, contact: Points, phi: Floats) -> Points:
     """The profile that is cut; where none can be cut, the whole envelope with its loops."""
     try:
-        points = cam.trimmed_profile(POSITIONS)
+        points = cam.trimmed_profile(POSITION_COUNT)
     except DesignError:
         return (contact * np.exp(-1j * cam.sigma * phi))[:-1]
     return points[:, 0] + 1j * points[:, 1]
@@ -129,7 +129,7 @@ def arcs_scene(solution: ArcsSolution) -> MechanismScene:
 
 
 def _turn() -> Floats:
-    return np.linspace(0.0, 2 * math.pi, POSITIONS + 1)
+    return np.linspace(0.0, 2 * math.pi, POSITION_COUNT + 1)
 
 
 def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dict[str, Any]:
@@ -144,14 +144,14 @@ def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dic
     pitch = None if scene.kind == "face" else _points((scene.trace * np.exp(-1j * scene.sigma * scene.phi))[:-1])
     stem, face = top + 1.5 * unit - float(scene.trace.imag.min()), (scene.face[0] - 2 * unit, scene.face[1] + 2 * unit)
     sizes = {"unit": unit, "roller": scene.roller, "reach": 0.55 * greatest, "stem": stem}
-    live = dict(zip(LIVE, (np.degrees(scene.alpha), degree * scene.s, scene.v), strict=True))
+    live = dict(zip(LIVE_READINGS, (np.degrees(scene.alpha), degree * scene.s, scene.v), strict=True))
     if scene.kind == "face":
         del live["pressure_angle"]
     of_velocity = unit_of("rad/rad" if swings else "mm/rad")
     units = "°", "°" if swings else " " + tell(unit_of("mm")), " " + tell(of_velocity)
     data: dict[str, Any] = {
         "kind": scene.kind,
-        "about": tell(ABOUT[scene.kind]),
+        "about": tell(DESCRIPTIONS[scene.kind]),
         "sigma": scene.sigma,
         "step": 360 / (scene.phi.size - 1),
         "phases": [_phase(phase, tell) for phase in scene.phases],
@@ -160,15 +160,16 @@ def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dic
         "mark": _point(0.92 * scene.profile[0]),
         "pivot": _point(scene.pivot),
         "ground": ground,
-        "sizes": {name: _rounded(size) for name, size in sizes.items()} | {"face": [_rounded(x) for x in face]},
+        "sizes": {name: _rounded_number(size) for name, size in sizes.items()}
+        | {"face": [_rounded_number(x) for x in face]},
         "arrays": {
             **{name: _points(getattr(scene, name)) for name in ("trace", "contact")},
             **{name: _numbers(np.degrees(np.angle(getattr(scene, name)))) for name in ("motion", "normal")},
             **{name: _numbers(values) for name, values in live.items()},
         },
         "live": list(live),
-        "units": dict(zip(LIVE, units, strict=True)),
-        "digits": dict(zip(LIVE, (2, 2, 3 if swings else 2), strict=True)),
+        "units": dict(zip(LIVE_READINGS, units, strict=True)),
+        "digits": dict(zip(LIVE_READINGS, (2, 2, 3 if swings else 2), strict=True)),
         "decimal": decimal,
     }
     return data | {"box": _box(scene, data, unit)}
@@ -218,19 +219,19 @@ def _box(scene: MechanismScene, data: dict[str, Any], unit: float) -> list[float
         corners.append(scene.trace[np.argmax(scene.trace.imag)] + 1j * data["sizes"]["stem"])
     x, y = np.real(corners), np.imag(corners)
     left, top = float(x.min()) - 2 * unit, -float(y.max()) - 2 * unit
-    return [_rounded(n) for n in (left, top, float(np.ptp(x)) + 4 * unit, float(np.ptp(y)) + 4 * unit)]
+    return [_rounded_number(n) for n in (left, top, float(np.ptp(x)) + 4 * unit, float(np.ptp(y)) + 4 * unit)]
 
 
 def _mark(kind: str, points: Points, *, closed: bool = False) -> dict[str, Any]:
     return {"kind": kind, "points": _points(points), "closed": closed}
 
 
-def _rounded(value: float) -> float:
+def _rounded_number(value: float) -> float:
     return round(value, DECIMALS) + 0.0
 
 
 def _point(point: complex) -> list[float]:
-    return [_rounded(point.real), _rounded(point.imag)]
+    return [_rounded_number(point.real), _rounded_number(point.imag)]
 
 
 def _points(points: Points) -> list[list[float]]:
@@ -238,4 +239,4 @@ def _points(points: Points) -> list[list[float]]:
 
 
 def _numbers(values: Floats) -> list[float | None]:
-    return [plain_number(_rounded(value)) for value in values.tolist()]
+    return [plain_number(_rounded_number(value)) for value in values.tolist()]

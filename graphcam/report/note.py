@@ -3,14 +3,14 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 
-from graphcam.comparison.bounds import CHANGE_TO_ERROR, DEVIATIONS, FINER, HANDS
-from graphcam.comparison.speed import PER_SPEED
+from graphcam.comparison.bounds import CHANGE_TO_ERROR_FACTOR, DEVIATION_COUNT, HAND_COUNT, REFINEMENTS
+from graphcam.comparison.phase_speeds import UNITS_PER_SPEED
 from graphcam.constructions.axes import phase_title
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import unit
 from graphcam.given.follower import omega_of
 from graphcam.given.impact import Jump, acceleration_jumps, velocity_jumps
-from graphcam.given.motion import Moving
+from graphcam.given.motion import MovingPhase
 from graphcam.report.cautions import CAUTIONS, Known, chapter
 from graphcam.report.loads import contact, contact_stress, forces
 from graphcam.report.making import errors_of_making
@@ -27,9 +27,9 @@ from graphcam.report.markdown import (
     text,
     warning,
 )
-from graphcam.report.note_tables import at_stations, budget_table, compared, polar_coordinates
-from graphcam.report.sheet_contents import all_drawn
-from graphcam.report.sheet_data import ADOPTED, AT_SPEED, conditions, data, phases, sizes
+from graphcam.report.note_tables import at_stations, budget_table, comparison_table, polar_coordinates
+from graphcam.report.sheet_contents import all_constructions
+from graphcam.report.sheet_data import ADOPTED_LABEL, SPEED_HEADINGS, conditions, data, phases, sizes
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
@@ -64,7 +64,7 @@ def note(solution: Solution) -> str:
         (say("Drawn against exact"), against_exact(solution)),
         *errors_of_the_hand(solution),
     ]
-    head = [*heading(solution.task.title, solution.task.drawing), drawn_how(solution.chain.pencil)]
+    head = [*heading(solution.task.title, solution.task.drawing), hand_description(solution.chain.pencil)]
     return whole_note(head, chapters, solution)
 
 
@@ -78,11 +78,11 @@ def whole_note(head: Sequence[Block], chapters: Sequence[Chapter], solution: Any
 
 def comparison_file(solution: AnySolution) -> str:
     """The table of drawn against exact values as a Markdown file of its own."""
-    title = say("{name}: drawn against exact", name=text(solution.task.title.told_name(solution.tell)))
+    title = say("{name}: drawn against exact", name=text(solution.task.title.translated_name(solution.tell)))
     return printed(blocks(f"# {solution.tell(title)}", *against_exact(solution), tell=solution.tell) + "\n")
 
 
-BEFORE: Mapping[str, Callable[[Solution], Sequence[Block]]] = {
+CHAPTER_OPENINGS: Mapping[str, Callable[[Solution], Sequence[Block]]] = {
     "scheme": lambda solution: task_data(solution),
     "contact": contact,
     "turn_forces": forces,
@@ -96,11 +96,11 @@ def constructions(solution: AnySolution) -> list[Chapter]:
     """A chapter on each construction: why it is drawn, its steps with formulas, and what is to be noted."""
     known, of_lift = Known(), solution.chain.board.follower.unit if isinstance(solution, Solution) else "mm"
     chapters: list[Chapter] = []
-    for k, (name, drawn) in enumerate(all_drawn(solution).items(), 1):
+    for k, (name, drawn) in enumerate(all_constructions(solution).items(), 1):
         why, *steps = chapter(drawn, k, of_lift, known, solution.tell)
         before, after = [], []
         if isinstance(solution, Solution):
-            before = BEFORE[name](solution) if name in BEFORE else []
+            before = CHAPTER_OPENINGS[name](solution) if name in CHAPTER_OPENINGS else []
             after = CAUTIONS[name](solution) if name in CAUTIONS else []
         chapters.append((drawn.meaning.title, [why, *before, *steps, *after]))
     return chapters
@@ -112,11 +112,11 @@ def heading(title: TitleTable, drawing: SheetTable) -> list[Block]:
     lines = [title.organisation, title.document, title.group, title.author, title.checked]
     names = (say("Organisation"), say("Document"), say("Group"), say("Author"), say("Checked by"))
     signed = [f"{tell(name)}: {text(line)}" for name, line in zip(names, lines, strict=True) if line]
-    head = tell(say("{name}: calculation note", name=text(title.told_name(tell))))
+    head = tell(say("{name}: calculation note", name=text(title.translated_name(tell))))
     return [f"# {head}", f"*{drawing.remark}*" if drawing.remark else "", "  \n".join(signed)]
 
 
-MOVED = {
+ASSIGNMENT_CAPTIONS = {
     "translating": (
         say("A disk cam is to move a translating follower with a knife edge by the following motion."),
         say("A disk cam is to move a translating follower with a roller by the following motion."),
@@ -133,16 +133,16 @@ MOVED = {
 def task_data(solution: Solution) -> list[Block]:
     """What is given, and what is to be found."""
     roller, given, asked = solution.chain.board.roller_radius != 0, data(solution), conditions(solution)
-    rows = tuple((name, say("to be found") if by == ADOPTED else value) for name, value, by in given.rows)
+    rows = tuple((name, say("to be found") if by == ADOPTED_LABEL else value) for name, value, by in given.rows)
     return [
-        MOVED[solution.task.follower.kind][roller],
+        ASSIGNMENT_CAPTIONS[solution.task.follower.kind][roller],
         of_sheet(phases(solution)),
         *([of_sheet(asked)] if asked else []),
         Grid(given.title, given.header[:2], rows),
     ]
 
 
-def drawn_how(pencil: Pencil) -> Caption:
+def hand_description(pencil: Pencil) -> Caption:
     """What is to be known of the hand."""
     said = [say("Everything below was found on the drawing board: a length in millimetres of paper times a scale.")]
     if pencil.perfect:
@@ -159,11 +159,11 @@ def drawn_how(pencil: Pencil) -> Caption:
     return sequence(said, " ")
 
 
-IN_GENERAL = (
+SPEED_FORMULA = (
     r"t = \frac{\varphi}{\omega}, \qquad v_{\max} = C_v\,h\,\frac{\omega}{\varphi}, \qquad "
     r"a_{\max} = C_a\,h\,\frac{\omega^2}{\varphi^2}."
 )
-IN_NUMBERS = (
+SPEED_NUMBERS = (
     r"t = \frac{<angle>}{<omega>} = <time>\ \text{<s>}, \qquad v_{\max} = <cv> \cdot <lift> \cdot "
     r"\frac{<omega>}{<angle>} = <v>\ \text{<per_s>}, \qquad a_{\max} = <ca> \cdot <lift> \cdot "
     r"\frac{<omega>^2}{<angle>^2} = <a>\ \text{<per_s>²}."
@@ -178,13 +178,13 @@ def _at_speed(solution: Solution) -> list[Block]:
         (phase_title(motion, k), number(p.time, 4), *(number(x or math.nan, 3) for x in p.greatest))
         for k, p in enumerate(speeds)
     ]
-    k, first = next((k, phase) for k, phase in enumerate(motion.phases) if isinstance(phase, Moving))
+    k, first = next((k, phase) for k, phase in enumerate(motion.phases) if isinstance(phase, MovingPhase))
     omega, law = general(omega_of(rpm), 5), first.normalised
     values = {
         "s": unit("s"),
         "per_s": unit({"mm": "m/s", "rad": "rad/s"}[of_lift]),
         "angle": general(first.angle, 5),
-        "lift": general(first.lift / PER_SPEED[of_lift]),
+        "lift": general(first.lift / UNITS_PER_SPEED[of_lift]),
         "cv": general(law.peak_velocity, 5),
         "ca": general(law.peak_acceleration, 5),
         "time": number(speeds[k].time, 4),
@@ -198,11 +198,13 @@ def _at_speed(solution: Solution) -> list[Block]:
     )
     return [
         said.where(rpm=rpm, omega=omega),
-        Equation(IN_GENERAL),
+        Equation(SPEED_FORMULA),
         say("For the phase {phase}:", phase=phase_title(motion, k)),
-        formula(f"$${IN_NUMBERS}$$", omega=omega, **values),
+        formula(f"$${SPEED_NUMBERS}$$", omega=omega, **values),
         Grid(
-            say("Times, maximum velocities and accelerations of the phases"), (say("phase"), *AT_SPEED[of_lift]), rows
+            say("Times, maximum velocities and accelerations of the phases"),
+            (say("phase"), *SPEED_HEADINGS[of_lift]),
+            rows,
         ),
     ]
 
@@ -212,17 +214,17 @@ def _impact(solution: Solution) -> list[Block]:
     motion, of_lift = solution.cam.motion, solution.chain.board.follower.unit
     if rigid := velocity_jumps(motion):
         said = warning(say("The velocity jumps: the impact is rigid."))
-        return [said, told_jumps(rigid, "v", f"{of_lift}/rad")]
+        return [said, jumps_sentence(rigid, "v", f"{of_lift}/rad")]
     if soft := acceleration_jumps(motion):
         said = say(
             "The velocity is continuous and the acceleration jumps: the impact is soft. The force on the follower "
             "jumps with the acceleration."
         )
-        return [said, told_jumps(soft, "a", f"{of_lift}/rad²")]
+        return [said, jumps_sentence(soft, "a", f"{of_lift}/rad²")]
     return [say("Velocity and acceleration are continuous: there is no impact.")]
 
 
-def told_jumps(jumps: list[Jump], symbol: str, of_symbol: str) -> Grid:
+def jumps_sentence(jumps: list[Jump], symbol: str, of_symbol: str) -> Grid:
     """Where a quantity jumps, from what to what."""
     header = ("φ", say("{symbol} before", symbol=symbol), say("{symbol} after", symbol=symbol), say("jump"))
     rows = [
@@ -265,14 +267,14 @@ def against_exact(solution: AnySolution) -> list[Block]:
         "The bound is an estimate, from redrawing, of how far the drawn value may deviate from the exact one on "
         "this paper: for the finite number of parts it is {factor:g} times the maximum change when every part is "
         "divided into {parts}.",
-        factor=CHANGE_TO_ERROR,
-        parts=joined([str(k) for k in FINER]),
+        factor=CHANGE_TO_ERROR_FACTOR,
+        parts=joined([str(k) for k in REFINEMENTS]),
     )
     hands = say(
         "For drawing errors it includes the bias and {deviations:g} standard deviations of {count} drawings with "
         "the same pencil.",
-        deviations=DEVIATIONS,
-        count=pencil.samples or HANDS,
+        deviations=DEVIATION_COUNT,
+        count=pencil.samples or HAND_COUNT,
     )
     proved = say(
         "For the double integration a bound is proved beforehand, from the derivatives of the laws alone; it "
@@ -282,7 +284,7 @@ def against_exact(solution: AnySolution) -> list[Block]:
     meaning = sequence([meaning, *([proved] if beforehand else [])], " ")
     said = [meaning, *([] if pencil.perfect else [hands]), *_verdict(solution), *_other_sides(solution)]
     minus = say("The error is the drawn value minus the exact one.")
-    return [minus, compared(solution.comparison.quantities), sequence(said, " ")]
+    return [minus, comparison_table(solution.comparison.quantities), sequence(said, " ")]
 
 
 def errors_of_the_hand(solution: AnySolution) -> list[Chapter]:
@@ -295,7 +297,7 @@ def errors_of_the_hand(solution: AnySolution) -> list[Chapter]:
         "several values the one that scatters most is given. The other columns show the share of its variance, "
         "in percent, due to each kind of operation. “Together” is the share that errors of several kinds cause "
         "only in combination, for example when they make the eye choose another point.",
-        count=pencil.samples or HANDS,
+        count=pencil.samples or HAND_COUNT,
     )
     title = say("Where the drawing errors come from")
     return [(title, [meaning, Grid(title, *budget_table(solution.chain, pencil))])]
@@ -313,7 +315,7 @@ def _verdict(solution: AnySolution) -> list[Caption]:
             "Outside the bound: {names}; this is the scatter of the drawing errors, which seldom exceeds "
             "{deviations:g} standard deviations.",
             names=outside,
-            deviations=DEVIATIONS,
+            deviations=DEVIATION_COUNT,
         )
     elif unknown:
         verdict = say("Every drawn value lies within its bound, where there is one.")

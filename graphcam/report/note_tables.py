@@ -9,7 +9,7 @@ import numpy as np
 from graphcam.comparison.bounds import ErrorBudget, Shares
 from graphcam.comparison.quantities import Quantity, transmission_deg
 from graphcam.constructions.arc_chain import ArcChain
-from graphcam.constructions.axes import station_names, turning
+from graphcam.constructions.axes import sense_caption, station_names
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.acts import Kind
 from graphcam.drafting.ink import Construction
@@ -21,23 +21,23 @@ from graphcam.report.markdown import Block, Grid, digits, number, numbers
 from graphcam.report.sheet_data import on_paper
 from graphcam.solving.solution import Solution
 from graphcam.words import Caption, Words, say
-from graphcam.workshop.outline import of_cam
+from graphcam.workshop.part_outline import of_cam
 from graphcam.workshop.polar_table import PolarCurve
 
-SIDES = (say("{name} drawn"), say("{name} exact"))
+SIDE_HEADINGS = (say("{name} drawn"), say("{name} exact"))
 EXACT_DIGITS = 4
 """Decimals of an exact value, at least."""
 ROUND_DIGITS = 3
 """Decimals of a radius of the exact profile [mm]."""
-TOLD = say(
+STATION_TABLE_NOTE = say(
     "Displacement s in {s}, velocity v in {v}, acceleration a in {a}, pressure angle α and transmission angle γ = "
     "90° − |α| in degrees, drawn and exact. The acceleration at both ends of a phase is the one inside the phase."
 )
-TOLD_OF_ARM = say(
+STATION_TABLE_NOTE_ARM = say(
     "Displacement s in degrees, velocity v in {v}, acceleration a in {a}, pressure angle α and transmission angle γ = "
     "90° − |α| in degrees, drawn and exact. The acceleration at both ends of a phase is the one inside the phase."
 )
-TOLD_OF_FACE = say(
+STATION_TABLE_NOTE_FACE = say(
     "Displacement s in {s}, velocity v in {v} and acceleration a in {a}, drawn and exact. The acceleration at both "
     "ends of a phase is the one inside the phase."
 )
@@ -58,7 +58,13 @@ def at_stations(solution: Solution) -> list[Block]:
     ]
     if swings:
         columns[0] = ("s", np.degrees(drawn["s"]), np.degrees(exact.values[0]), 3)
-    said = TOLD_OF_FACE if "pressure_angle" not in solution.drawn else TOLD_OF_ARM if swings else TOLD
+    said = (
+        STATION_TABLE_NOTE_FACE
+        if "pressure_angle" not in solution.drawn
+        else STATION_TABLE_NOTE_ARM
+        if swings
+        else STATION_TABLE_NOTE
+    )
     if "pressure_angle" in solution.drawn:
         columns.append(("α", np.degrees(drawn["alpha"]), np.degrees(exact.pressure_angle), 2))
         columns.append(("γ", transmission_deg(drawn["alpha"]), transmission_deg(exact.pressure_angle), 2))
@@ -67,7 +73,11 @@ def at_stations(solution: Solution) -> list[Block]:
 
 def station_table(names: Sequence[str], phi: Floats, columns: Sequence[Column]) -> Grid:
     """The stations, their cam angles [rad], and what was drawn at them beside what is exact."""
-    header = [say("station"), "φ", *(replace(side, values={"name": name}) for name, *_ in columns for side in SIDES)]
+    header = [
+        say("station"),
+        "φ",
+        *(replace(side, values={"name": name}) for name, *_ in columns for side in SIDE_HEADINGS),
+    ]
     told = [
         [number(float(value), places) for value in values]
         for _, drawn, exact, decimals in columns
@@ -114,17 +124,17 @@ def _at_round_angles(solution: Solution) -> list[Block]:
         "The exact working profile every {step}° of the polar angle ϑ, counted {turning} on the cam from the direction "
         "in which the follower meets it at φ = 0 (θ = {zero}°):",
         step=step,
-        turning=turning("ccw" if outline.sense > 0 else "cw"),
+        turning=sense_caption("ccw" if outline.sense > 0 else "cw"),
         zero=number(math.degrees(outline.zero)),
     )
     rows = zip((f"{angle:g}°" for angle in angles), (number(r, ROUND_DIGITS) for r in radii.tolist()), strict=True)
     return [said, Grid(say("The exact working profile"), ("ϑ", say("R profile")), rows)]
 
 
-def compared(quantities: Mapping[str, Quantity]) -> Grid:
+def comparison_table(quantities: Mapping[str, Quantity]) -> Grid:
     """Every quantity drawn and exact, its error in machine units and in mm of paper, and the bounds that are known."""
     there = [q for q in quantities.values() if q.exists]
-    rows = [(q.title, unit(q.unit), number(q.drawn, 3), *_exactly(q), *on_paper(q)) for q in there]
+    rows = [(q.title, unit(q.unit), number(q.drawn, 3), *_exact_captions(q), *on_paper(q)) for q in there]
     header = (say("quantity"), say("unit"), say("drawn"), say("exact"), say("error"))
     header += say("error, mm of paper"), say("estimated bound, mm of paper")
     if any(math.isfinite(q.proved_paper) for q in there):
@@ -133,11 +143,11 @@ def compared(quantities: Mapping[str, Quantity]) -> Grid:
     return Grid(say("Drawn against exact"), header, rows)
 
 
-def _exactly(q: Quantity) -> tuple[Caption, Caption]:
+def _exact_captions(q: Quantity) -> tuple[Caption, Caption]:
     return number(q.exact, EXACT_DIGITS), number(q.error, EXACT_DIGITS, sign=True)
 
 
-BROUGHT_BY: Mapping[Kind | None, Caption] = {
+SHARE_SOURCES: Mapping[Kind | None, Caption] = {
     Kind.DIVIDE: say("divisions"),
     Kind.ERECT: say("verticals"),
     Kind.PROJECT: say("projections"),
@@ -152,7 +162,7 @@ BROUGHT_BY: Mapping[Kind | None, Caption] = {
     None: say("together"),
 }
 """What brings a share: the acts of a kind, or those of several kinds together only."""
-NOTHING = 0.005
+NEGLIGIBLE_SHARE = 0.005
 """A share of less is not shown."""
 
 
@@ -170,13 +180,13 @@ def budget_table(drawn: Chain | ArcChain, pencil: Pencil) -> tuple[tuple[Words, 
         for construction in drawn.values()
         for reading in construction.meaning.readings
     ]
-    kinds = [kind for kind in BROUGHT_BY if any(_share(shares, kind) >= NOTHING for *_, shares in told)]
-    header = (say("reading"), say("scatter"), *(BROUGHT_BY[kind] for kind in kinds))
+    kinds = [kind for kind in SHARE_SOURCES if any(_share(shares, kind) >= NEGLIGIBLE_SHARE for *_, shares in told)]
+    header = (say("reading"), say("scatter"), *(SHARE_SOURCES[kind] for kind in kinds))
     return header, [
         (
             say("{construction}: {reading}", construction=c.meaning.title, reading=c.meaning.reading(reading).title),
             _scatter(c, reading, shares.deviation),
-            *(number(100 * share, 0) if (share := _share(shares, kind)) >= NOTHING else "" for kind in kinds),
+            *(number(100 * share, 0) if (share := _share(shares, kind)) >= NEGLIGIBLE_SHARE else "" for kind in kinds),
         )
         for c, reading, shares in told
         if shares.deviation > 0

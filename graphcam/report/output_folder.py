@@ -11,34 +11,34 @@ from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from graphcam.errors import DesignError, LetteringWarning, meant
+from graphcam.errors import DesignError, LetteringWarning, suggestion
 from graphcam.files import digest, whole_folder
 from graphcam.report.documents import contents_of, drawing_of, note_of, note_page_of
 from graphcam.report.note import comparison_file
 from graphcam.report.step_player import player_of
 from graphcam.sheets.model import Drawing
-from graphcam.sheets.typefaces import unknown
+from graphcam.sheets.typefaces import missing_characters
 from graphcam.solving.arcs_solution import AnySolution
-from graphcam.solving.shown_solution import CUTTING, FILES, USUAL, without_answers
+from graphcam.solving.shown_solution import CUTTING_KINDS, DEFAULT_KINDS, FILE_KINDS, without_answers
 from graphcam.solving.solution import Solution
-from graphcam.tasks.sheet_tables import one_of
+from graphcam.tasks.sheet_tables import check_choice
 from graphcam.words import Words, chained, say
-from graphcam.workshop.profile_files import NAMES, write_curves
+from graphcam.workshop.profile_files import FILE_NAMES, write_curves
 
 if TYPE_CHECKING:
     from graphcam.workshop.part_contents import PartContents
 
-DXF = "plain", "cad"
+DXF_KINDS = "plain", "cad"
 """Kinds of DXF."""
-REMEDY = "fonts-noto-cjk"
+FONT_PACKAGE = "fonts-noto-cjk"
 """A package of fonts with more letters than any other."""
-MOST_NAMED = 12
+MAX_NAMED_CHARACTERS = 12
 """Characters that no font has; of a sheet in Chinese there are hundreds."""
-SHEETS = "pdf", "svg", "png", "dxf"
+SHEET_KINDS = "pdf", "svg", "png", "dxf"
 """The kinds of files that show the sheet."""
-SOLUTION = "solution.json"
+SOLUTION_FILE = "solution.json"
 """The file that names all others."""
-PART = "pdf", "svg", "dxf"
+PART_KINDS = "pdf", "svg", "dxf"
 """Those that show the working drawing of the cam."""
 
 
@@ -65,7 +65,7 @@ def check_choices(
 def _check_names(
     solution: AnySolution, upto: int | str | None, dxf: str, files: Collection[str] | None, *, working_drawing: bool
 ) -> None:
-    one_of("dxf", dxf, DXF)
+    check_choice("dxf", dxf, DXF_KINDS)
     if upto is not None:
         if working_drawing:
             unfinished = say("left out where the sheet is drawn up to a step"), say("it would give the answers away")
@@ -75,10 +75,10 @@ def _check_names(
     if isinstance(files, str):
         limit = say("a list of kinds")
         raise DesignError("files", files, limit, say("for this one alone write ['{files}']", files=files))
-    unknown = [kind for kind in files or () if kind not in FILES]
+    unknown = [kind for kind in files or () if kind not in FILE_KINDS]
     if unknown:
-        limit = say("a list of kinds among {names}", names=", ".join(FILES))
-        raise DesignError("files", unknown[0], limit, meant(unknown[0], FILES))
+        limit = say("a list of kinds among {names}", names=", ".join(FILE_KINDS))
+        raise DesignError("files", unknown[0], limit, suggestion(unknown[0], FILE_KINDS))
 
 
 def _checked_part(solution: AnySolution) -> PartContents:
@@ -106,11 +106,11 @@ def write(
     _check_names(solution, upto, dxf, files, working_drawing=working_drawing)
     part = _checked_part(solution) if working_drawing else None
     finished, report = upto is None, progress or unheard
-    wanted = _wanted(files, finished=finished, working_drawing=working_drawing)
-    written: dict[str, str | None] = dict.fromkeys(FILES)
+    wanted = _wanted_kinds(files, finished=finished, working_drawing=working_drawing)
+    written: dict[str, str | None] = dict.fromkeys(FILE_KINDS)
     contents = contents_of(solution)
-    with whole_folder(directory, written_before(Path(directory), SOLUTION)) as folder:
-        sheets = [kind for kind in SHEETS if kind in wanted]
+    with whole_folder(directory, written_before(Path(directory), SOLUTION_FILE)) as folder:
+        sheets = [kind for kind in SHEET_KINDS if kind in wanted]
         drawing = None
         if sheets:
             report(say("laying out the sheet"))
@@ -133,17 +133,17 @@ def write(
     return written
 
 
-def _wanted(files: Collection[str] | None, *, finished: bool, working_drawing: bool) -> list[str]:
+def _wanted_kinds(files: Collection[str] | None, *, finished: bool, working_drawing: bool) -> list[str]:
     """The kinds of files that are written: those that are asked for, or the usual ones."""
-    usual = (*USUAL, *CUTTING) if working_drawing else USUAL
+    usual = (*DEFAULT_KINDS, *CUTTING_KINDS) if working_drawing else DEFAULT_KINDS
     # What is not a sheet holds answers.
-    return [kind for kind in (usual if files is None else files) if finished or kind in SHEETS]
+    return [kind for kind in (usual if files is None else files) if finished or kind in SHEET_KINDS]
 
 
 def _write_texts(solution: AnySolution, folder: Path, wanted: Collection[str]) -> dict[str, str]:
     """Tables and note, as far as they are wanted; returns their names by kind."""
     written: dict[str, str] = {}
-    for kind, (name, text) in TABLES.items():
+    for kind, (name, text) in TEXT_FILES.items():
         if kind in wanted:
             (folder / name).write_text(text(solution), encoding="utf-8", newline="")
             written[kind] = name
@@ -158,7 +158,7 @@ def _write_list(
     digests = {path.name: digest(path) for path in sorted(folder.iterdir())}
     document = (document if finished else without_answers(document)) | {"written": digests}
     text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
-    (folder / SOLUTION).write_text(text + "\n", encoding="utf-8", newline="\n")
+    (folder / SOLUTION_FILE).write_text(text + "\n", encoding="utf-8", newline="\n")
 
 
 def written_before(folder: Path, names: str) -> dict[str, str]:
@@ -172,17 +172,17 @@ def written_before(folder: Path, names: str) -> dict[str, str]:
 
 def written_files(folder: Path | str) -> list[str]:
     """All files that the last run wrote into a folder, ``solution.json`` too; none where there was no run."""
-    names = [*written_before(Path(folder), SOLUTION)]
-    return [*names, SOLUTION] if names else names
+    names = [*written_before(Path(folder), SOLUTION_FILE)]
+    return [*names, SOLUTION_FILE] if names else names
 
 
 def _warn_of_boxes(drawing: Drawing) -> None:
     """Say which characters of a drawing are shown as boxes, because nothing on the machine has them."""
-    if missing := unknown(text.text for text in drawing.texts):
-        named = " ".join(missing[:MOST_NAMED]) + (
-            f" and {more} more" if (more := len(missing) - MOST_NAMED) > 0 else ""
+    if missing := missing_characters(text.text for text in drawing.texts):
+        named = " ".join(missing[:MAX_NAMED_CHARACTERS]) + (
+            f" and {more} more" if (more := len(missing) - MAX_NAMED_CHARACTERS) > 0 else ""
         )
-        said = f"no font on this machine has {named}, shown as boxes; install one that has, such as {REMEDY}"
+        said = f"no font on this machine has {named}, shown as boxes; install one that has, such as {FONT_PACKAGE}"
         warnings.warn(said, LetteringWarning, stacklevel=3)
 
 
@@ -194,7 +194,7 @@ def _write_profiles(
     solution: AnySolution, folder: Path, wanted: Collection[str]
 ) -> tuple[dict[str, str], dict[str, Any]]:
     """The files of the exact profile that are wanted: their names by kind, and what ``solution.json`` says of them."""
-    if not isinstance(solution, Solution) or not any(kind in NAMES for kind in wanted):
+    if not isinstance(solution, Solution) or not any(kind in FILE_NAMES for kind in wanted):
         return {}, {}
     try:
         spline = solution.profile_spline if "profile_dxf" in wanted else None
@@ -214,7 +214,7 @@ def _write_cutting(
     solution: AnySolution, part: PartContents | None, folder: Path, wanted: Collection[str]
 ) -> dict[str, str]:
     """The files by which a machine cuts the cam, as far as they are wanted: their names by kind."""
-    if not any(kind in CUTTING for kind in wanted):
+    if not any(kind in CUTTING_KINDS for kind in wanted):
         return {}
     from graphcam.workshop.cutting_files import write_cutting
     from graphcam.workshop.part_contents import PartContents
@@ -253,7 +253,7 @@ def _write_part(part: PartContents, folder: Path, report: Callable[[Words], None
     from graphcam.workshop.working_drawing import working_drawing_of
 
     report(say("laying out the working drawing"))
-    written = write_sheet(working_drawing_of(part), folder, "working-drawing", PART, "cad", report)
+    written = write_sheet(working_drawing_of(part), folder, "working-drawing", PART_KINDS, "cad", report)
     return {f"working_drawing_{kind}": name for kind, name in written.items()}
 
 
@@ -267,7 +267,7 @@ def _csv(solution: AnySolution) -> str:
     return text.getvalue()
 
 
-TABLES: Mapping[str, tuple[str, Callable[[AnySolution], str]]] = {
+TEXT_FILES: Mapping[str, tuple[str, Callable[[AnySolution], str]]] = {
     "csv": ("comparison.csv", _csv),
     "md": ("comparison.md", comparison_file),
     "note": ("note.md", note_of),

@@ -14,16 +14,16 @@ from graphcam.drafting.scale import ratio_text, unit
 from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam
 from graphcam.report.sheet_data import comparison, data, on_sheet, phases_at_speed
-from graphcam.sheets.frame import TitleBlock
 from graphcam.sheets.layout import Numbered, SheetPart
+from graphcam.sheets.sheet_frame import TitleBlock
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
-from graphcam.solving.task_board import HOPELESS, check_given_sizes
+from graphcam.solving.task_board import MAX_OVERSIZE, check_given_sizes
 from graphcam.tasks.sheet_tables import TitleTable
 from graphcam.words import Tell
 
-MOST_LIFTS = 1000
+MAX_LIFT_RATIO = 1000
 """Of a prime radius: of more, the paper would be as long as a hall."""
 
 
@@ -105,22 +105,22 @@ def chapters_of(names: Iterable[str]) -> dict[str, int]:
     return {name: k for k, name in enumerate(dict.fromkeys(names), 1)}
 
 
-def all_drawn(solution: AnySolution) -> dict[str, Construction]:
+def all_constructions(solution: AnySolution) -> dict[str, Construction]:
     """All constructions of a solution by name, in the order in which they are shown: its chain, and what was added."""
-    return {name: drawn_of(solution, name) for name in names_of(solution)}
+    return {name: construction_named(solution, name) for name in names_of(solution)}
 
 
 def names_of(solution: AnySolution) -> list[str]:
     """The names of all its constructions, in that order, none of which is drawn for it."""
-    return [*solution.drawn, *_added(solution)]
+    return [*solution.drawn, *_added_constructions(solution)]
 
 
-def drawn_of(solution: AnySolution, name: str) -> Construction:
+def construction_named(solution: AnySolution, name: str) -> Construction:
     """One of its constructions, of that name."""
-    return solution.drawn[name] if name in solution.drawn else _added(solution)[name]
+    return solution.drawn[name] if name in solution.drawn else _added_constructions(solution)[name]
 
 
-def _added(solution: AnySolution) -> Mapping[str, Construction]:
+def _added_constructions(solution: AnySolution) -> Mapping[str, Construction]:
     """What a spring, the materials and the tolerances add."""
     designs = (solution.spring, solution.stress, solution.tolerances) if isinstance(solution, Solution) else ()
     return {name: drawn for design in designs if design for name, drawn in design.drawn.items()}
@@ -134,8 +134,8 @@ def motion_contents(solution: Solution) -> Contents:
     DesignError : the lift is too small to be drawn beside the cam
     """
     _check_drawable(solution.cam)
-    check_given_sizes(solution.task, HOPELESS)
-    drawn = all_drawn(solution)
+    check_given_sizes(solution.task, MAX_OVERSIZE)
+    drawn = all_constructions(solution)
     results = [comparison(solution.comparison.quantities)]
     if solution.spring:
         results.append(solution.spring.table())
@@ -153,9 +153,9 @@ def _check_drawable(cam: Cam) -> None:
     still = np.zeros(2)
     low, high = cam.kinematics.point((np.array([0.0, cam.motion.lift]), still, still, still)).tolist()
     travel = abs(high - low)
-    if cam.prime_radius > MOST_LIFTS * travel:
+    if cam.prime_radius > MAX_LIFT_RATIO * travel:
         limit = say("at most {most} times the lift of {travel:g} mm, to be drawn at one scale with it")
-        limit = limit.where(most=MOST_LIFTS, travel=travel)
+        limit = limit.where(most=MAX_LIFT_RATIO, travel=travel)
         found = say("{length:g} mm", length=cam.prime_radius)
         raise DesignError(say("prime radius"), found, limit, say("check the units of both"))
 
@@ -163,7 +163,7 @@ def _check_drawable(cam: Cam) -> None:
 def title_block(title: TitleTable, tell: Tell = str, remark: str = "") -> TitleBlock:
     """What the title block says: the task's table; and a remark below it."""
     return TitleBlock(
-        name=title.told_name(tell),
+        name=title.translated_name(tell),
         number=title.document,
         organisation=title.organisation,
         group=title.group,
@@ -182,7 +182,7 @@ def scaled_steps(drawn: Mapping[str, Construction], silent: Collection[str] = ()
     """
     settled = {view: by for by in drawn.values() for view in by.meaning.scales}
     steps = steps_of({name: each for name, each in drawn.items() if name not in silent})
-    return tuple((number, name, _scaled(step, settled.get(step.view.name))) for number, name, step in steps)
+    return tuple((number, name, _with_scale_title(step, settled.get(step.view.name))) for number, name, step in steps)
 
 
 def steps_of(drawn: Mapping[str, Construction]) -> Numbered:
@@ -208,7 +208,7 @@ def scales_found(drawn: Mapping[str, Construction], steps: Numbered) -> dict[str
     }
 
 
-def _scaled(step: Step, by: Construction | None) -> Step:
+def _with_scale_title(step: Step, by: Construction | None) -> Step:
     """The step with its view's title, whose scale is an answer if drawing finds it."""
     if by is None:
         return step

@@ -4,11 +4,11 @@ from collections.abc import Mapping, Sequence
 from itertools import product
 
 from graphcam.comparison.quantities import Quantity
-from graphcam.constructions.axes import degrees, phase_title, turning
+from graphcam.constructions.axes import degrees, phase_title, sense_caption
 from graphcam.constructions.law_names import LAW_TITLES, law_title
 from graphcam.drafting.scale import unit
 from graphcam.given.boundary_motion import BoundaryMotion
-from graphcam.given.boundary_parts import ORDERS
+from graphcam.given.boundary_parts import DERIVATIVE_NAMES
 from graphcam.given.measured import MeasuredMotion
 from graphcam.report.markdown import number
 from graphcam.sheets.tables import Table
@@ -18,18 +18,21 @@ from graphcam.words import Caption, Words, say, sequence
 
 Row = tuple[Words, Words, Words]
 """What something is called, its value, and where it comes from."""
-DRAWN_AND_EXACT = say("Drawn and exact")
-GIVEN, ADOPTED, LIMIT = say("given"), say("adopted"), say("limit")
-AT_SPEED: Mapping[str, tuple[Caption, ...]] = {
+DRAWN_AND_EXACT_TITLE = say("Drawn and exact")
+GIVEN_LABEL, ADOPTED_LABEL, LIMIT_LABEL = say("given"), say("adopted"), say("limit")
+SPEED_HEADINGS: Mapping[str, tuple[Caption, ...]] = {
     "mm": (say("t, s"), say("v, m/s"), say("a, m/s²")),
     "rad": (say("t, s"), say("v, rad/s"), say("a, rad/s²")),
 }
 """What is told of a phase at a speed, by the unit of the lift: v and a are the greatest."""
 
 
-MOST_ON_SHEET = 16
+MAX_SHEET_ROWS = 16
 """A longer table stands in the note only."""
-IN_MM, IN_DEGREES = say("Conditions of the motion, mm and rad"), say("Conditions of the motion, degrees and rad")
+TITLE_IN_MM, TITLE_IN_DEGREES = (
+    say("Conditions of the motion, mm and rad"),
+    say("Conditions of the motion, degrees and rad"),
+)
 
 
 def conditions(solution: Solution) -> Table | None:
@@ -43,7 +46,7 @@ def conditions(solution: Solution) -> Table | None:
     if not isinstance(motion, BoundaryMotion) or tables is None:
         return None
     points = [point for table in tables for point in table.points]
-    asked = [name for name in ORDERS if any(getattr(point, name) is not None for point in points)]
+    asked = [name for name in DERIVATIVE_NAMES if any(getattr(point, name) is not None for point in points)]
     rows: list[tuple[Words, ...]] = []
     for table, part in zip(tables, motion.parts, strict=True):
         named: Words = say("{name}, degree {degree}", name=LAW_TITLES[part.name], degree=part.highest_power)
@@ -53,13 +56,13 @@ def conditions(solution: Solution) -> Table | None:
             rows.append((named, say("{angle:g}°", angle=point.angle), *values))
             named = ""
     swings = solution.task.follower.column == "s_deg"
-    return Table(IN_DEGREES if swings else IN_MM, (say("part of the motion"), "φ", *asked), tuple(rows))
+    return Table(TITLE_IN_DEGREES if swings else TITLE_IN_MM, (say("part of the motion"), "φ", *asked), tuple(rows))
 
 
 def on_sheet(solution: Solution) -> tuple[Table, ...]:
     """The same where there is room for it."""
     table = conditions(solution)
-    return () if table is None or len(table.rows) > MOST_ON_SHEET else (table,)
+    return () if table is None or len(table.rows) > MAX_SHEET_ROWS else (table,)
 
 
 def sizes(solution: Solution) -> list[Row]:
@@ -68,9 +71,9 @@ def sizes(solution: Solution) -> list[Row]:
     follower, prime_radius = board.follower, mm(cam.prime_radius)
     asked = {follower.place_name: follower.place, "roller_radius": board.roller_radius}
     return [
-        (say("prime radius r₀"), prime_radius, _by(board.prime_radius)),
+        (say("prime radius r₀"), prime_radius, _limit_origin(board.prime_radius)),
         *(
-            (size.title, mm(size.value + 0.0), _by(asked.get(size.name, size.value)))
+            (size.title, mm(size.value + 0.0), _limit_origin(asked.get(size.name, size.value)))
             for size in follower.sizes(solution.chain.place, cam.roller_radius)
             if size.value is not None
         ),
@@ -84,9 +87,9 @@ def _face(face: FaceDesign | None) -> list[Row]:
         return []
     (left, right), whole = face.adopted, sum(face.adopted)
     return [
-        (say("face margin on each side"), mm(face.margin), GIVEN),
-        (say("face, left + right"), say("{left:g} + {right:g} mm", left=left, right=right), ADOPTED),
-        (say("width of the face"), mm(whole), ADOPTED),
+        (say("face margin on each side"), mm(face.margin), GIVEN_LABEL),
+        (say("face, left + right"), say("{left:g} + {right:g} mm", left=left, right=right), ADOPTED_LABEL),
+        (say("width of the face"), mm(whole), ADOPTED_LABEL),
     ]
 
 
@@ -95,27 +98,27 @@ def mm(length: float) -> Caption:
     return say("{length:g} mm", length=length)
 
 
-def _by(asked: float | None) -> Caption:
-    return ADOPTED if asked is None else GIVEN
+def _limit_origin(asked: float | None) -> Caption:
+    return ADOPTED_LABEL if asked is None else GIVEN_LABEL
 
 
 def data(solution: Solution) -> Table:
     """The data of the cam, and which of them the task gives; a limit may be the usual one."""
     task = solution.task
     rows: list[Row] = [
-        (say("rotation"), turning(task.rotation), GIVEN),
+        (say("rotation"), sense_caption(task.rotation), GIVEN_LABEL),
         *speed(task.speed_rpm),
         *sizes(solution),
         *_limits(solution),
         *_measured(solution),
         *_by_conditions(solution),
     ]
-    return data_table(rows, (ADOPTED, ""))
+    return data_table(rows, (ADOPTED_LABEL, ""))
 
 
 def speed(rpm: float | None) -> list[Row]:
     """The row of a speed that is given."""
-    return [(say("speed"), say("{rpm:g} rpm", rpm=rpm), GIVEN)] if rpm else []
+    return [(say("speed"), say("{rpm:g} rpm", rpm=rpm), GIVEN_LABEL)] if rpm else []
 
 
 def data_table(rows: Sequence[Row], found: Sequence[Words]) -> Table:
@@ -134,8 +137,8 @@ def _measured(solution: Solution) -> list[Row]:
     greatest, rms = motion.greatest_residual / lift_unit, motion.rms_residual / lift_unit
     residual = say("{greatest:.2g}, rms {rms:.2g}", greatest=greatest, rms=rms)
     return [
-        (say("table of the motion"), table.file, GIVEN),
-        (say("tolerance"), degrees(motion.tolerance) if swings else mm(motion.tolerance), GIVEN),
+        (say("table of the motion"), table.file, GIVEN_LABEL),
+        (say("tolerance"), degrees(motion.tolerance) if swings else mm(motion.tolerance), GIVEN_LABEL),
         (say("residual"), residual, ""),
         *([(say("cam angle 0 of the table at"), degrees(-motion.zero), "")] if motion.zero else []),
     ]
@@ -156,9 +159,12 @@ def _by_conditions(solution: Solution) -> list[Row]:
 def _limits(solution: Solution) -> list[Row]:
     limits, least = solution.chain.board.limits, solution.task.limits.min_curvature_radius
     if "pressure_angle" not in solution.drawn:
-        return [(say("permitted radius of curvature"), mm(least or 0), LIMIT)]
+        return [(say("permitted radius of curvature"), mm(least or 0), LIMIT_LABEL)]
     back = degrees(limits.return_) if limits.return_ else say("force closure")
-    return [(say("permitted angle, rise"), degrees(limits.rise), LIMIT), (say("permitted angle, return"), back, LIMIT)]
+    return [
+        (say("permitted angle, rise"), degrees(limits.rise), LIMIT_LABEL),
+        (say("permitted angle, return"), back, LIMIT_LABEL),
+    ]
 
 
 def phases(solution: Solution) -> Table:
@@ -182,7 +188,7 @@ def phases_at_speed(solution: Solution) -> Table:
         (*row, number(p.time, 4), *(say("{x:.4g}", x=x) if x else "" for x in p.greatest))
         for row, p in zip(table.rows, at_speed, strict=True)
     )
-    header = (*table.header, *AT_SPEED[solution.chain.board.follower.unit])
+    header = (*table.header, *SPEED_HEADINGS[solution.chain.board.follower.unit])
     found = frozenset(product(range(len(rows)), range(len(table.header), len(header))))
     return Table(say("Motion, maximum v and a"), header, rows, found)
 
@@ -192,7 +198,7 @@ def on_paper(q: Quantity) -> tuple[Caption, Caption]:
     return number(q.error_paper, 3, sign=True), number(q.tolerance_paper, 3)
 
 
-def comparison(quantities: Mapping[str, Quantity], title: Caption = DRAWN_AND_EXACT) -> Table:
+def comparison(quantities: Mapping[str, Quantity], title: Caption = DRAWN_AND_EXACT_TITLE) -> Table:
     """Every quantity, drawn and exact, with its error and the bound in mm of paper."""
     rows = tuple(
         (sequence([q.title, unit(q.unit)]), number(q.drawn, 3), number(q.exact, 3), *on_paper(q))

@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 
 from graphcam.files import digest, whole_folder
 from graphcam.language import language as language_of
-from graphcam.report.output_folder import SHEETS, unheard, write_sheet, written_before
+from graphcam.report.output_folder import SHEET_KINDS, unheard, write_sheet, written_before
 from graphcam.report.sheet_contents import title_block
 from graphcam.report.sizing_sheet import sizing_sheet
-from graphcam.report.sizing_tables import TITLES
+from graphcam.report.sizing_tables import TITLES_BY_OBJECTIVE
 from graphcam.solving.sizing_design import plain_cam
 from graphcam.tasks.task_writer import TASK_FILE, task_files
 from graphcam.words import Words, say
@@ -23,12 +23,12 @@ if TYPE_CHECKING:
     from graphcam.sheets.model import Drawing
     from graphcam.solving.sizing_design import Sizing
 
-RESULTS = "sizing.json"
+RESULTS_FILE = "sizing.json"
 """The file that names all others."""
-FRONT = "front.csv"
-SIZED = "sized.toml"
+FRONT_FILE = "front.csv"
+SIZED_TASK_FILE = "sized.toml"
 """The task that ``graphcam solve`` draws."""
-STEM = "sizing"
+FILE_STEM = "sizing"
 
 
 def write(
@@ -36,16 +36,16 @@ def write(
 ) -> dict[str, str]:
     """Write a sizing into a folder, as :meth:`~graphcam.solving.sizing_design.Sizing.write` says."""
     report = progress or unheard
-    with whole_folder(folder, written_before(Path(folder), RESULTS)) as draft:
+    with whole_folder(folder, written_before(Path(folder), RESULTS_FILE)) as draft:
         report(say("laying out the chart"))
-        files = write_sheet(chart(sizing, language), draft, STEM, SHEETS, "plain", report)
-        (draft / FRONT).write_text(_csv(sizing), encoding="utf-8", newline="")
-        files |= {"csv": FRONT, **write_task(sizing, draft)}
-        files["json"] = RESULTS
+        files = write_sheet(chart(sizing, language), draft, FILE_STEM, SHEET_KINDS, "plain", report)
+        (draft / FRONT_FILE).write_text(_csv(sizing), encoding="utf-8", newline="")
+        files |= {"csv": FRONT_FILE, **write_task(sizing, draft)}
+        files["json"] = RESULTS_FILE
         digests = {path.name: digest(path) for path in sorted(draft.iterdir())}
         document = {**sizing.to_dict(), "files": files, "written": digests}
         text = json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False)
-        (draft / RESULTS).write_text(text + "\n", encoding="utf-8", newline="\n")
+        (draft / RESULTS_FILE).write_text(text + "\n", encoding="utf-8", newline="\n")
     return files
 
 
@@ -65,7 +65,7 @@ def chart(sizing: Sizing, language: str | None = None) -> Drawing:
         language,
         front=sizing.front,
         adopted=sizing.adopted,
-        title=TITLES[sizing.objective],
+        title=TITLES_BY_OBJECTIVE[sizing.objective],
         block=block,
         orientation=paper.orientation,
     )
@@ -75,7 +75,7 @@ def write_task(sizing: Sizing, folder: Path) -> dict[str, str]:
     """The sized task, and the table of a measured motion beside it."""
     written: dict[str, str] = {}
     for name, text in task_files(sizing.sized_task).items():
-        kind, name = ("task", SIZED) if name == TASK_FILE else ("table", name)
+        kind, name = ("task", SIZED_TASK_FILE) if name == TASK_FILE else ("table", name)
         (folder / name).write_text(text, encoding="utf-8", newline="")
         written[kind] = name
     return written

@@ -11,48 +11,55 @@ from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Points, Regi
 from graphcam.given.laws import Floats
 from graphcam.language import ENGLISH, language as language_of
 from graphcam.mechanism.sizing import Across, FeasibleRegion, SizedCam, feasible_region
-from graphcam.mechanism.sizing_limits import STRESS
-from graphcam.report.sizing_tables import BINDING, FRONT, SIZES, SMALLEST, cam_table, front_table
+from graphcam.mechanism.sizing_limits import STRESS_LIMIT
+from graphcam.report.sizing_tables import (
+    BINDING_CAPTIONS,
+    FRONT_TITLE,
+    SIZE_CAPTIONS,
+    SMALLEST_CAM_TITLE,
+    cam_table,
+    front_table,
+)
 from graphcam.sheets.formats import Format
-from graphcam.sheets.frame import TitleBlock
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Drawing
+from graphcam.sheets.sheet_frame import TitleBlock
 from graphcam.words import Caption, sequence
 
-CHARTS = {"A1": 280 + 230j, "A2": 185 + 150j, "A3": 125 + 105j, "A4": 100 + 80j}
+CHART_SIZES = {"A1": 280 + 230j, "A2": 185 + 150j, "A3": 125 + 105j, "A4": 100 + 80j}
 """Width and height of a chart by format [mm of paper]; its axes have scales of their own."""
-MARGIN = 0.05
+MIN_AXIS_SHARE = 0.05
 """An axis is at least this part of the maximum radius long, so that a range of one size has an axis too."""
-ABOVE = say(
+ABOVE_LINE_NOTE = say(
     "Above its line a limit is kept, whatever the others: with the roller that suits it best and with the widest face, "
     "where roller or face are not what the axis shows. Lines that hold the best cam back are drawn in the accent."
 )
-OVER = say(
+ABOVE_ALL_LINES_NOTE = say(
     "Over all lines the cams are permitted. The best one: {measure} {radius:.3f} mm, {across} {value:.3f} mm. Active "
     "there: {active}."
 )
-EVERY = say(
+FRONT_NOTE = say(
     "Every point is a cam with the widest face that none beats in both: a smaller one has more stress, and one of less "
     "stress is larger. The stress falls as the root of the width grows, so a cam below the level line may have a "
     "narrower face."
 )
-BEST = say("{stress:.0f} MPa, face {width:.1f} mm")
-AXES: dict[Across, Caption] = {
+BEST_CAM_LABEL = say("{stress:.0f} MPa, face {width:.1f} mm")
+AXIS_LABELS: dict[Across, Caption] = {
     "offset": say("e, mm"),
     "roller radius": say("roller radius, mm"),
     "face width": say("face width, mm"),
 }
-RADII = {"prime radius": say("r₀, mm"), "base radius": say("base radius, mm")}
-OVER_WHAT: dict[Across, Caption] = {
+RADIUS_LABELS = {"prime radius": say("r₀, mm"), "base radius": say("base radius, mm")}
+REGION_TITLES: dict[Across, Caption] = {
     "offset": say("Permitted cams, {radius} over the offset e"),
     "roller radius": say("Permitted cams, {radius} over the roller radius"),
     "face width": say("Permitted cams, {radius} over the face width"),
 }
 
 
-TICKS = 6
+MAX_TICKS = 6
 """Parts of an axis with numbers, at most."""
-BEYOND = 8.0
+AXIS_OVERHANG = 8.0
 """By so much an axis is longer than its span [mm of paper]."""
 Span = tuple[float, float]
 
@@ -80,12 +87,12 @@ class ChartAxes:
         """Both axes with their numbers and names."""
         across, up = self.size.real + 0j, self.size.imag * UP
         return (
-            Arrow(0j, across + BEYOND, Role.SCALE),
-            Arrow(0j, up + BEYOND * UP, Role.SCALE),
+            Arrow(0j, across + AXIS_OVERHANG, Role.SCALE),
+            Arrow(0j, up + AXIS_OVERHANG * UP, Role.SCALE),
             *_ticks(across, self.across, -UP),
             *_ticks(up, self.up, -1 + 0j),
-            Label(across + BEYOND, self.names[0], towards=1 - 1j),
-            Label(up + BEYOND * UP, self.names[1], towards=-1 + 0j),
+            Label(across + AXIS_OVERHANG, self.names[0], towards=1 - 1j),
+            Label(up + AXIS_OVERHANG * UP, self.names[1], towards=-1 + 0j),
         )
 
 
@@ -109,7 +116,7 @@ def round_values(low: float, high: float) -> Floats:
     """
     from matplotlib.ticker import MaxNLocator
 
-    round_ = np.asarray(MaxNLocator(TICKS, steps=[1, 2, 5, 10]).tick_values(low, high))
+    round_ = np.asarray(MaxNLocator(MAX_TICKS, steps=[1, 2, 5, 10]).tick_values(low, high))
     # With the slack of a rounding at either end.
     return round_[(round_ >= low - 1e-9 * (high - low)) & (round_ <= high + 1e-9 * (high - low))]
 
@@ -122,7 +129,7 @@ def sizing_sheet(
     *,
     front: Sequence[SizedCam] = (),
     adopted: SizedCam | None = None,
-    title: Caption = SMALLEST,
+    title: Caption = SMALLEST_CAM_TITLE,
     block: TitleBlock | None = None,
     orientation: str | None = None,
 ) -> Drawing:
@@ -137,7 +144,7 @@ def sizing_sheet(
     ------
     DesignError : there is no such format, frame or language
     """
-    tell, size = language_of(language).text, CHARTS[Format(paper, frame).name]
+    tell, size = language_of(language).text, CHART_SIZES[Format(paper, frame).name]
     chart = _Chart.of(sized, feasible_region(sized.problem), size)
     steps = [*chart.steps(title), *([_front_step(sized, front, size)] if len(front) > 1 else [])]
     tables = [cam_table(sized, adopted, title), *([front_table(front)] if len(front) > 1 else [])]
@@ -158,21 +165,24 @@ class _Chart:
         """On axes as long as the ranges."""
         problem = sized.problem
         across, radii = problem.ranges[region.across], problem.radius
-        spans = _long(across, radii[1]), _long(radii, radii[1])
-        return cls(sized, region, ChartAxes(size, *spans, (AXES[region.across], RADII[problem.measure])))
+        spans = _nonzero_span(across, radii[1]), _nonzero_span(radii, radii[1])
+        return cls(sized, region, ChartAxes(size, *spans, (AXIS_LABELS[region.across], RADIUS_LABELS[problem.measure])))
 
     def steps(self, title: Caption) -> list[Step]:
         """The limits, and the best cam among them."""
         problem, across = self.sized.problem, self.region.across
-        radius = SIZES[problem.measure]
+        radius = SIZE_CAPTIONS[problem.measure]
         view = View(
-            "sizing", OVER_WHAT[across].where(radius=radius), across=f"sizing {across}", up=f"sizing {problem.measure}"
+            "sizing",
+            REGION_TITLES[across].where(radius=radius),
+            across=f"sizing {across}",
+            up=f"sizing {problem.measure}",
         )
-        values = {"measure": radius, "radius": self.sized.radius, "across": SIZES[across], "value": self._value}
-        values["active"] = sequence([BINDING[name] for name in self.sized.active])
+        values = {"measure": radius, "radius": self.sized.radius, "across": SIZE_CAPTIONS[across], "value": self._value}
+        values["active"] = sequence([BINDING_CAPTIONS[name] for name in self.sized.active])
         return [
-            Step(say("The limits"), (Part(ABOVE),), view, (*self.axes.marks(), *self._limits())),
-            Step(title, (Part(OVER.where(**values)),), view, self._best()),
+            Step(say("The limits"), (Part(ABOVE_LINE_NOTE),), view, (*self.axes.marks(), *self._limits())),
+            Step(title, (Part(ABOVE_ALL_LINES_NOTE.where(**values)),), view, self._best_marks()),
         ]
 
     @property
@@ -191,7 +201,7 @@ class _Chart:
             if line.size > 1 and np.nanmax(radius) > self.axes.up[0]:
                 marks += [
                     Line(line, Role.LIMIT if name in self.sized.active else Role.CURVE),
-                    Label(complex(line[line.size // 2]), BINDING[name], towards=UP),
+                    Label(complex(line[line.size // 2]), BINDING_CAPTIONS[name], towards=UP),
                 ]
         return (*marks, *self._ends())
 
@@ -207,7 +217,7 @@ class _Chart:
         lines = {name: self.axes.place(*np.array(corners, dtype=np.float64).T) for name, corners in ends.items()}
         return tuple(Line(line, Role.LIMIT) for name, line in lines.items() if name in self.sized.active)
 
-    def _best(self) -> tuple[Mark, ...]:
+    def _best_marks(self) -> tuple[Mark, ...]:
         region, place = self.region, self.axes.place
         kept = ~np.isnan(region.least)
         border, top = place(region.values[kept], region.least[kept]), place(region.values[kept], self.axes.up[1])
@@ -219,10 +229,10 @@ class _Chart:
         )
 
 
-def _long(span: Span, greatest: float) -> Span:
+def _nonzero_span(span: Span, greatest: float) -> Span:
     """A span with a length, even of one size."""
     low, high = span
-    return low, max(high, low + MARGIN * greatest)
+    return low, max(high, low + MIN_AXIS_SHARE * greatest)
 
 
 def _front_step(sized: SizedCam, front: Sequence[SizedCam], size: complex) -> Step:
@@ -233,14 +243,14 @@ def _front_step(sized: SizedCam, front: Sequence[SizedCam], size: complex) -> St
     step = round_[1] - round_[0] if round_.size > 1 else high - low
     axes = ChartAxes(
         size,
-        _long(problem.radius, problem.radius[1]),
+        _nonzero_span(problem.radius, problem.radius[1]),
         (float(np.floor(low / step) * step), float(np.ceil(high / step - 1e-6) * step)),
-        (RADII[problem.measure], say("stress, MPa")),
+        (RADIUS_LABELS[problem.measure], say("stress, MPa")),
     )
     marks: list[Mark] = [*axes.marks()]
     if axes.up[0] <= problem.limits.stress <= axes.up[1]:
         level = axes.place(np.array(axes.across), problem.limits.stress)
-        role = Role.LIMIT if STRESS in sized.active else Role.CURVE
+        role = Role.LIMIT if STRESS_LIMIT in sized.active else Role.CURVE
         marks += [Line(level, role), Label(complex(level[1]), say("permitted"), towards=-1 + 1j)]
     points = axes.place(radii, stresses)
     found = complex(axes.place(sized.radius, sized.stress))
@@ -249,8 +259,8 @@ def _front_step(sized: SizedCam, front: Sequence[SizedCam], size: complex) -> St
         Dots(points),
         Dots(np.array([found]), Role.RESULT),
         Label(complex(points[points.size // 2]), say("face {width:g} mm", width=problem.face_width[1]), towards=1 + 1j),
-        Label(found, BEST.where(stress=sized.stress, width=sized.face_width), towards=1 + 1j),
+        Label(found, BEST_CAM_LABEL.where(stress=sized.stress, width=sized.face_width), towards=1 + 1j),
     ]
-    title = say("Stress over {radius}", radius=SIZES[problem.measure])
+    title = say("Stress over {radius}", radius=SIZE_CAPTIONS[problem.measure])
     view = View("front", title, across="front radius", up="front stress")
-    return Step(FRONT, (Part(EVERY),), view, tuple(marks))
+    return Step(FRONT_TITLE, (Part(FRONT_NOTE),), view, tuple(marks))

@@ -4,11 +4,18 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 
 from graphcam.mechanism.sizing import SizedCam
-from graphcam.mechanism.sizing_limits import CURVATURE, NO_UNDERCUT, RETURN, RISE, SHARE, STRESS
+from graphcam.mechanism.sizing_limits import (
+    CURVATURE_LIMIT,
+    NO_UNDERCUT_RULE,
+    RETURN_LIMIT,
+    RISE_LIMIT,
+    SHARE_LIMIT,
+    STRESS_LIMIT,
+)
 from graphcam.sheets.tables import Table
 from graphcam.words import Caption, Words, say, sequence
 
-BINDING: Mapping[str, Caption] = {
+BINDING_CAPTIONS: Mapping[str, Caption] = {
     str(words): words
     for words in (
         *(say("pressure angle on the rise"), say("pressure angle on the return"), say("curvature"), say("stress")),
@@ -20,22 +27,22 @@ BINDING: Mapping[str, Caption] = {
     )
 }
 """What can bind, limits and ends of ranges, by their names in :class:`~graphcam.mechanism.sizing.SizedCam`."""
-SIZES: Mapping[str, Caption] = {
+SIZE_CAPTIONS: Mapping[str, Caption] = {
     str(words): words
     for words in (say("prime radius"), say("base radius"), say("offset"), say("roller radius"), say("face width"))
 }
 """The sizes by their names in :class:`~graphcam.mechanism.sizing_limits.SizingProblem`."""
-SMALLEST, CALMEST = say("The smallest cam"), say("The cam under the minimum stress")
-TITLES = {"size": SMALLEST, "stress": CALMEST}
+SMALLEST_CAM_TITLE, LEAST_STRESS_TITLE = say("The smallest cam"), say("The cam under the minimum stress")
+TITLES_BY_OBJECTIVE = {"size": SMALLEST_CAM_TITLE, "stress": LEAST_STRESS_TITLE}
 """By the objective."""
-FRONT = say("Radius against stress")
+FRONT_TITLE = say("Radius against stress")
 
 
-def cam_table(best: SizedCam, adopted: SizedCam | None = None, title: Caption = SMALLEST) -> Table:
+def cam_table(best: SizedCam, adopted: SizedCam | None = None, title: Caption = SMALLEST_CAM_TITLE) -> Table:
     """Sizes and limits with what is permitted; a star where that binds."""
     cams = [best, adopted] if adopted else [best]
     rows = tuple(
-        (said, *columns, sequence([limit, "*"], " ") if _binds(name, best) else limit)
+        (said, *columns, sequence([limit, "*"], " ") if _is_binding(name, best) else limit)
         for name, said, columns, limit in (*_sizes(cams), *_limits(cams))
     )
     values = (say("value"),) if adopted is None else (say("best"), say("rounded"))
@@ -46,7 +53,7 @@ def front_table(front: Sequence[SizedCam]) -> Table:
     """The cams of a front: sizes, stress with the widest face, and the least width for the permitted stress."""
     measure = front[0].problem.measure
     header = (
-        *(say("{size}, mm", size=SIZES[name]) for name in (measure, "offset", "roller radius", "face width")),
+        *(say("{size}, mm", size=SIZE_CAPTIONS[name]) for name in (measure, "offset", "roller radius", "face width")),
         say("stress, MPa"),
         say("minimum width, mm"),
     )
@@ -61,14 +68,14 @@ def front_table(front: Sequence[SizedCam]) -> Table:
         )
         for cam in front
     )
-    return Table(FRONT, header, rows)
+    return Table(FRONT_TITLE, header, rows)
 
 
 Row = tuple[str, Caption, list[Words], Words]
 """The name, what is said, the value of each cam, and what is permitted."""
 
 
-def _binds(name: str, best: SizedCam) -> bool:
+def _is_binding(name: str, best: SizedCam) -> bool:
     return bool({name, f"minimum {name}", f"maximum {name}"} & set(best.active))
 
 
@@ -77,28 +84,28 @@ def _sizes(cams: Sequence[SizedCam]) -> Iterator[Row]:
     values = [problem.values(cam.sizes) for cam in cams]
     for (name, (low, high)), found in zip(problem.ranges.items(), zip(*values, strict=True), strict=True):
         permitted = say("{low:g} to {high:g}", low=low, high=high) if low < high else say("given")
-        yield name, SIZES[name], [_length(x) for x in found], permitted
+        yield name, SIZE_CAPTIONS[name], [_length(x) for x in found], permitted
         if name == "base radius":
-            yield "prime radius", SIZES["prime radius"], [_length(cam.cam.prime_radius) for cam in cams], ""
+            yield "prime radius", SIZE_CAPTIONS["prime radius"], [_length(cam.cam.prime_radius) for cam in cams], ""
 
 
 def _limits(cams: Sequence[SizedCam]) -> Iterator[Row]:
     limits = cams[0].problem.limits
-    for name, permitted, way in ((RISE, limits.rise, "rise"), (RETURN, limits.return_, "return")):
+    for name, permitted, way in ((RISE_LIMIT, limits.rise, "rise"), (RETURN_LIMIT, limits.return_, "return")):
         if permitted is not None:
             found = [abs(getattr(cam.cam.extremes(), f"pressure_angle_{way}")[0]) for cam in cams]
             angles: list[Words] = [say("{angle:.2f}°", angle=math.degrees(angle)) for angle in found]
-            yield name, BINDING[name], angles, say("{angle:g}°", angle=math.degrees(permitted))
-    terms = [term for term in (*limits.rule, NO_UNDERCUT) if term.of == "rho"]
+            yield name, BINDING_CAPTIONS[name], angles, say("{angle:g}°", angle=math.degrees(permitted))
+    terms = [term for term in (*limits.rule, NO_UNDERCUT_RULE) if term.of == "rho"]
     # What holds for the best cam's roller is told.
     least = max((cams[0].cam.roller_radius + term.margin) / term.factor for term in terms)
     found = [_length(cam.min_convex_radius) for cam in cams]
-    yield CURVATURE, say("minimum radius of curvature"), found, say("{length:.3f}", length=least)
-    for factor in [min(term.factor for term in limits.rule if term.of == "r0")] if SHARE in limits.kept else []:
+    yield CURVATURE_LIMIT, say("minimum radius of curvature"), found, say("{length:.3f}", length=least)
+    for factor in [min(term.factor for term in limits.rule if term.of == "r0")] if SHARE_LIMIT in limits.kept else []:
         shares: list[Words] = [say("{share:.3f}", share=cam.cam.roller_radius / cam.cam.prime_radius) for cam in cams]
-        yield SHARE, BINDING[SHARE], shares, say("{value:g}", value=factor)
+        yield SHARE_LIMIT, BINDING_CAPTIONS[SHARE_LIMIT], shares, say("{value:g}", value=factor)
     stresses: list[Words] = [say("{stress:.1f} MPa", stress=cam.stress) for cam in cams]
-    yield STRESS, say("contact stress"), stresses, say("{stress:g}", stress=limits.stress)
+    yield STRESS_LIMIT, say("contact stress"), stresses, say("{stress:g}", stress=limits.stress)
 
 
 def _length(value: float) -> Words:

@@ -8,21 +8,21 @@ from typing import Any, Protocol
 import numpy as np
 
 from graphcam.constructions.readings import ReadingRow, rows
+from graphcam.drafting.act_data import WrittenActs
+from graphcam.drafting.act_order import ActPlaces, FollowedBoard, Moves, all_places, visible_places
 from graphcam.drafting.acts import Act, Drawn, Floats, Kind, Setting
 from graphcam.drafting.euclid import unit
 from graphcam.drafting.ink import Construction, Reading, Row, Step, say
-from graphcam.drafting.moves import ActPlaces, FollowedBoard, Moves, all_of, visible_in
-from graphcam.drafting.scale import NOTHING, UNITS
-from graphcam.drafting.telling import SET
-from graphcam.drafting.written_acts import WrittenActs
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE, UNITS
+from graphcam.drafting.telling import SETTING_ROLES
 from graphcam.language import language
-from graphcam.plane import cross
+from graphcam.plane_vectors import cross
 from graphcam.report.documents import scene_of
 from graphcam.report.mechanism_view import mechanism_view
 from graphcam.report.sheet_contents import Contents, scales_found
 from graphcam.sheets.layout import Numbered
 from graphcam.sheets.model import Drawing
-from graphcam.sheets.player import WORDS, Acts, PartText, Pieces, ReadingText, RowText, RunText, Slide, player
+from graphcam.sheets.player import PAGE_CAPTIONS, Acts, PartText, Pieces, ReadingText, RowText, RunText, Slide, player
 from graphcam.words import Caption, Tell
 
 INSTRUMENTS: Mapping[str, Caption] = {
@@ -36,9 +36,9 @@ INSTRUMENTS: Mapping[str, Caption] = {
     "curve template": say("French curve"),
 }
 """The instruments by the names that kinds of acts give them."""
-REACH = 150.0
+MAX_DIVIDER_OPENING = 150.0
 """Dividers open so far [mm]; longer lengths are set off with the ruler."""
-STRAIGHT = 0.02
+STRAIGHTNESS = 0.02
 """Points no farther than this from the line through the ends of a piece are joined with the ruler [mm]."""
 
 
@@ -46,7 +46,7 @@ def instruments(moves: Iterable[ActPlaces]) -> list[Caption]:
     """The instruments of moves in the order in which they are taken up, each with its setting, none twice.
 
     >>> import graphcam as gc
-    >>> from graphcam.drafting.moves import pieces_of
+    >>> from graphcam.drafting.act_order import pieces_of
     >>> inversion = gc.solve(gc.builtin_task()).drawn["inversion"]
     >>> [str(said) for said in instruments(pieces_of([inversion.acts["pitch"][4]]))]
     ['dividers 13.33 mm = 11.11 mm × 1.2']
@@ -63,34 +63,34 @@ def _instrument(piece: ActPlaces) -> Caption | None:
     """With what one move is done; None for what is done by eye or in the head."""
     act, kind = piece.act, piece.act.kind
     if kind is Kind.READ:
-        return _read_with(act)
+        return _reading_instrument(act)
     if not kind.instrument:
         return None
-    instrument = INSTRUMENTS["ruler" if kind is Kind.FAIR and _straight(act) else kind.instrument]
+    instrument = INSTRUMENTS["ruler" if kind is Kind.FAIR and _is_straight(act) else kind.instrument]
     if kind is Kind.ERECT and _level(act.takes["along"]):
         return INSTRUMENTS["T-square"]
-    if kind is Kind.LAY_OFF and _swung(piece):
+    if kind is Kind.LAY_OFF and _is_arc(piece):
         instrument = INSTRUMENTS["compass"]
-    if kind in SET:
-        return _set_to(instrument, act.takes[SET[kind]], piece)
+    if kind in SETTING_ROLES:
+        return _set_instrument(instrument, act.takes[SETTING_ROLES[kind]], piece)
     if kind is Kind.PROTRACTOR:
-        return _turned_by(instrument, np.degrees(_amounts(act.takes["angle"], piece)))
+        return _protractor_setting(instrument, np.degrees(_amounts(act.takes["angle"], piece)))
     return instrument
 
 
-def _straight(act: Act) -> bool:
+def _is_straight(act: Act) -> bool:
     """Whether every piece of a faired curve goes through points of one line."""
     points = act.takes["points"].shown
     ways = [points[piece] - points[piece][0] for piece in act.takes["pieces"] if points[piece].size]
-    off = [np.abs(cross(unit(way[-1]), way)).max() for way in ways if abs(way[-1]) > NOTHING]
-    return bool(off) and max(off) < STRAIGHT
+    off = [np.abs(cross(unit(way[-1]), way)).max() for way in ways if abs(way[-1]) > NEGLIGIBLE_SIZE]
+    return bool(off) and max(off) < STRAIGHTNESS
 
 
-def _swung(piece: ActPlaces) -> bool:
+def _is_arc(piece: ActPlaces) -> bool:
     """Whether one length is laid off along many rays: an arc."""
     along, amounts = piece.act.takes["along"], _amounts(piece.act.takes["length"], piece)
     rays = isinstance(along, Drawn) and along.act.kind is Kind.PROTRACTOR
-    return rays and len(piece.at) > 2 and float(np.ptp(amounts)) < NOTHING
+    return rays and len(piece.at) > 2 and float(np.ptp(amounts)) < NEGLIGIBLE_SIZE
 
 
 def _level(along: object) -> bool:
@@ -98,7 +98,7 @@ def _level(along: object) -> bool:
     return isinstance(along, complex | float | int) and complex(along).imag == 0
 
 
-def _read_with(act: Act) -> Caption | None:
+def _reading_instrument(act: Act) -> Caption | None:
     """A length is read off a ruler, an angle off a protractor; what is carried over or reckoned is not read again."""
     if "line" in act.takes:
         return INSTRUMENTS["protractor"]
@@ -113,15 +113,15 @@ def _amounts(length: object, piece: ActPlaces) -> Floats:
     return amounts[list(piece.at)] if amounts.size == piece.act.size else amounts
 
 
-def _set_to(instrument: Caption, length: object, piece: ActPlaces) -> Caption | None:
+def _set_instrument(instrument: Caption, length: object, piece: ActPlaces) -> Caption | None:
     """Dividers or a compass, and the length that they are set to."""
     amounts = np.abs(_amounts(length, piece))
     low, high = float(np.fmin.reduce(amounts)), float(np.fmax.reduce(amounts))
-    if not high > NOTHING:
+    if not high > NEGLIGIBLE_SIZE:
         return None
-    if instrument == INSTRUMENTS["dividers"] and high > REACH:
+    if instrument == INSTRUMENTS["dividers"] and high > MAX_DIVIDER_OPENING:
         return INSTRUMENTS["ruler"]
-    if high - low > NOTHING:
+    if high - low > NEGLIGIBLE_SIZE:
         return say("{instrument} {low:.2f} to {high:.2f} mm", instrument=instrument, low=low, high=high)
     if source := _source(length, high):
         set_to = say("{instrument} {length:.2f} mm = {source}", source=source)
@@ -142,13 +142,13 @@ def _source(length: object, amount: float) -> Caption | None:
     return say("{paper:.2f} mm × {factor:.5g}", paper=amount / factor, factor=factor) if factor != 1 else None
 
 
-def _turned_by(instrument: Caption, degrees: Floats) -> Caption | None:
+def _protractor_setting(instrument: Caption, degrees: Floats) -> Caption | None:
     """A protractor, and the angle that it is set to."""
     # A protractor has no angles below zero.
     low, high = (float(np.round(bound(np.abs(degrees)), 2)) for bound in (np.fmin.reduce, np.fmax.reduce))
-    if high < NOTHING:
+    if high < NEGLIGIBLE_SIZE:
         return None
-    if high - low > NOTHING:
+    if high - low > NEGLIGIBLE_SIZE:
         return say("{instrument} {low:.2f}° to {high:.2f}°", instrument=instrument, low=low, high=high)
     left = float(np.fmax.reduce(degrees)) > 0
     turned = say("{instrument} {angle:.2f}° anticlockwise") if left else say("{instrument} {angle:.2f}° clockwise")
@@ -162,7 +162,7 @@ def player_of(contents: Contents, drawing: Drawing) -> str:
     """
     solution = contents.solution
     spoken = language(solution.task.drawing.language)
-    words = {name: spoken.text(word) for name, word in WORDS.items()}
+    words = {name: spoken.text(word) for name, word in PAGE_CAPTIONS.items()}
     turning = mechanism_view(scene_of(solution), spoken.text, spoken.decimal)
     said, acts = slides(contents, spoken.text)
     return player(drawing, said, turning, words, spoken.name, acts)
@@ -174,7 +174,7 @@ def slides(contents: Contents, tell: Tell = str) -> tuple[list[Slide], Acts]:
     answers = {step.view.name: tell(step.view.answer) for _, _, step in contents.steps if step.view.answer}
     said = [
         replace(slide, finds={view: answers[view] for view, step in found.items() if step == number})
-        for number, slide in told(contents.drawn, contents.steps, contents.numbers, record, tell)
+        for number, slide in step_slides(contents.drawn, contents.steps, contents.numbers, record, tell)
     ]
     marks = (mark for _, _, step in contents.steps for mark in step.marks)
     shown = {mark.of: record.number(mark.of) for mark in marks if isinstance(mark.of, Act)}
@@ -193,7 +193,7 @@ class ActNumbers(Protocol):
         ...
 
 
-def told(
+def step_slides(
     drawn: Mapping[str, Construction],
     steps: Numbered,
     numbers: Mapping[int, str],
@@ -207,13 +207,13 @@ def told(
     record : numbers the acts
     """
     every = [step for _, _, step in steps]
-    telling = _Telling(tell, FollowedBoard(visible_in(every)), record, _views(every))
+    telling = _Telling(tell, FollowedBoard(visible_places(every)), record, _views(every))
     for name, of_one in groupby(steps, key=lambda step: step[1]):
         for k, (number, _, step) in enumerate(of_one):
             if asked(step):
                 yield number, telling.slide(drawn[name], step, numbers[number], opens=k == 0)
             else:
-                telling.board.passed(step, (drawn[name].readings[read] for read in step.reads))
+                telling.board.pass_step(step, (drawn[name].readings[read] for read in step.reads))
 
 
 def drawn_in_parts(slides: Iterable[Slide]) -> set[int]:
@@ -329,7 +329,7 @@ class _Telling:
         """What is seen of what is read, all or at some places."""
         if read.act is None:
             return []
-        return self._pieces(self.board.seen([ActPlaces(read.act, places) if places else all_of(read.act)]))
+        return self._pieces(self.board.seen([ActPlaces(read.act, places) if places else all_places(read.act)]))
 
     def _line(self, row: ReadingRow, read: Reading, place: int) -> RowText:
         """One value of many: where, on paper, value."""

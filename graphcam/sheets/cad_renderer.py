@@ -13,15 +13,15 @@ from typing import Any
 from ezdxf.document import Drawing as Document
 from ezdxf.layouts import Modelspace
 
-from graphcam.indices import parts
 from graphcam.sheets import dxf_renderer as dxf
-from graphcam.sheets.dxf_renderer import LETTERS, draw, layer, set_text, xy
-from graphcam.sheets.expand import GAP, OVERRUN
+from graphcam.sheets.dxf_renderer import TEXT_STYLE, draw, layer, set_text, xy
+from graphcam.sheets.mark_entities import EXTENSION_GAP, EXTENSION_OVERRUN
 from graphcam.sheets.model import Angle, Drawing, Group, Length, Text
+from graphcam.subscripts import parts
 
-STYLE = "GRAPHCAM"
+DIMENSION_STYLE = "GRAPHCAM"
 """The name of the style of dimensions."""
-HEAD = 3.5
+ARROW_HEAD_LENGTH = 3.5
 """Length of the heads of arrows, mm."""
 
 
@@ -29,8 +29,15 @@ def write_cad(drawing: Drawing, path: str | os.PathLike[str]) -> None:
     """All pages of a drawing, side by side in the model space, each with a layout in paper space that shows it 1:1."""
     with dxf.repeatable():
         document = dxf.sheet_document(drawing)
-        lengths = {"dimasz": HEAD, "dimexo": GAP, "dimexe": OVERRUN, "dimgap": 0.8, "dimscale": 1.0, "dimlfac": 1.0}
-        document.dimstyles.add(STYLE, dxfattribs={"dimtxsty": LETTERS, "dimtad": 1, **lengths})
+        lengths = {
+            "dimasz": ARROW_HEAD_LENGTH,
+            "dimexo": EXTENSION_GAP,
+            "dimexe": EXTENSION_OVERRUN,
+            "dimgap": 0.8,
+            "dimscale": 1.0,
+            "dimlfac": 1.0,
+        }
+        document.dimstyles.add(DIMENSION_STYLE, dxfattribs={"dimtxsty": TEXT_STYLE, "dimtad": 1, **lengths})
         dxf.draw_pages(document, drawing, _draw_group)
         _add_layouts(document, drawing)
         dxf.save(document, path)
@@ -110,4 +117,4 @@ def _lettering(text: Text, on: str, left: float) -> dict[str, Any]:
     middle = xy(text.at + cmath.rect(text.height / 2, text.angle + math.pi / 2) + left)
     letters = "".join(f"\\S^ {part};" if index else part for part, index in parts(text.text))
     said = {"text": letters, "location": middle, "text_rotation": math.degrees(text.angle)}
-    return said | {"dimstyle": STYLE, "override": {"dimtxt": text.height}, "dxfattribs": {"layer": on}}
+    return said | {"dimstyle": DIMENSION_STYLE, "override": {"dimtxt": text.height}, "dxfattribs": {"layer": on}}

@@ -22,7 +22,6 @@ from ezdxf.layouts import BaseLayout
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.fonts import letters_of, start_of
 from graphcam.sheets.model import (
     ArcEntity,
     Circles,
@@ -36,15 +35,16 @@ from graphcam.sheets.model import (
     Strokes,
     Text,
 )
-from graphcam.sheets.smooth import clamped_spline
-from graphcam.sheets.styles import ACCENT, CENTER, CYAN_TINT, DASHED, GREY, GREY_TINT, STYLES
+from graphcam.sheets.smooth_curves import clamped_spline
+from graphcam.sheets.styles import ACCENT, CENTER, CYAN_TINT, DASHED, GREY, GREY_TINT, STYLES_BY_ROLE
+from graphcam.sheets.text_measures import letters_of, start_of
 from graphcam.sheets.typefaces import is_chinese
 
-BETWEEN_PAGES = 40.0
+PAGE_GAP = 40.0
 """Several pages stand side by side, so far apart, mm."""
-LETTERS = "lc_opengost-br"
+TEXT_STYLE = "lc_opengost-br"
 """LibreCAD takes the name of the text style for its font; this one of its fonts has Cyrillic, Greek and primes."""
-CHINESE = "unicode"
+CHINESE_TEXT_STYLE = "unicode"
 """The text style of LibreCAD's font with Chinese; other programs are told of FangSong, as GB/T 14691 has it."""
 LINETYPES: dict[tuple[float, ...], tuple[str, str]] = {
     CENTER: ("CENTER", "Center ____ _ ____ _"),
@@ -52,7 +52,7 @@ LINETYPES: dict[tuple[float, ...], tuple[str, str]] = {
 }
 POINT_STYLE, POINT_SIZE = 34, 3.0
 """A POINT is shown as a cross in a circle, so many mm wide."""
-COLOURS = {GREY: 8, ACCENT: 1, CYAN_TINT: 4, GREY_TINT: 9}
+COLOUR_NUMBERS = {GREY: 8, ACCENT: 1, CYAN_TINT: 4, GREY_TINT: 9}
 """Numbers of the AutoCAD palette; 7 is black on paper and white on a screen."""
 DrawGroup = Callable[[Document, Group, str, float], None]
 """Draws a group; takes what stands before the names of its layers, and how far to the right it is moved, mm."""
@@ -79,7 +79,7 @@ def _mark_origins(document: Document, drawing: Drawing, origins: Mapping[str, st
     for name, view in origins.items():
         for left, page in side_by_side(drawing):
             if view in page.origins:
-                document.layers.add(name, color=COLOURS[ACCENT])
+                document.layers.add(name, color=COLOUR_NUMBERS[ACCENT])
                 document.modelspace().add_point(xy(page.origins[view] + left), dxfattribs={"layer": name})
                 document.header["$PDMODE"], document.header["$PDSIZE"] = POINT_STYLE, POINT_SIZE
 
@@ -97,7 +97,7 @@ def write_spline(
     told : properties of the drawing, which CAD programs show beside it
     """
     with repeatable():
-        document = _empty()
+        document = _empty_document()
         low, high = control.min(axis=0).tolist(), control.max(axis=0).tolist()
         _set_extents(document, (*low, 0.0), (*high, 0.0))
         for name, value in told.items():
@@ -127,7 +127,7 @@ def save(document: Document, path: str | os.PathLike[str]) -> None:
     document.saveas(path)
 
 
-def _empty() -> Document:
+def _empty_document() -> Document:
     document = ezdxf.new("R2010", setup=False)
     document.units = units.MM
     document.header["$MEASUREMENT"] = 1
@@ -136,24 +136,24 @@ def _empty() -> Document:
 
 def sheet_document(drawing: Drawing) -> Document:
     """A document with the size, line types and letters of a drawing, and nothing drawn."""
-    document = _empty()
+    document = _empty_document()
     document.header["$LTSCALE"] = 1.0
     document.header["$LWDISPLAY"] = 1
     # The style of dimension texts, which LibreCAD takes for their font too.
-    document.header["$DIMTXSTY"] = LETTERS
+    document.header["$DIMTXSTY"] = TEXT_STYLE
     # LibreCAD prints an empty page where this is 0.
     document.header["$PSVPSCALE"] = 1.0
     first = drawing.pages[0]
-    total = sum(page.width for page in drawing.pages) + BETWEEN_PAGES * (len(drawing.pages) - 1)
+    total = sum(page.width for page in drawing.pages) + PAGE_GAP * (len(drawing.pages) - 1)
     _set_extents(document, (0.0, 0.0, 0.0), (total, first.height, 0.0))
     document.modelspace().reset_limits((0.0, 0.0), (total, first.height))
     document.paperspace().page_setup(size=(first.width, first.height), margins=(0, 0, 0, 0), units="mm")
     for pattern, (name, description) in LINETYPES.items():
         signed = [mm if k % 2 == 0 else -mm for k, mm in enumerate(pattern)]
         document.linetypes.add(name, [sum(pattern), *signed], description=description)
-    document.styles.add(LETTERS, font="osifont.ttf")
+    document.styles.add(TEXT_STYLE, font="osifont.ttf")
     if any(is_chinese(letter) for text in drawing.texts for letter in text.text):
-        document.styles.add(CHINESE, font="simfang.ttf")
+        document.styles.add(CHINESE_TEXT_STYLE, font="simfang.ttf")
     document.set_modelspace_vport(height=first.height, center=(total / 2, first.height / 2))
     return document
 
@@ -171,7 +171,7 @@ def side_by_side(drawing: Drawing) -> Generator[tuple[float, Page]]:
     left = 0.0
     for page in drawing.pages:
         yield left, page
-        left += page.width + BETWEEN_PAGES
+        left += page.width + PAGE_GAP
 
 
 def _set_extents(document: Document, low: tuple[float, float, float], high: tuple[float, float, float]) -> None:
@@ -191,8 +191,8 @@ def layer(document: Document, group: Group, prefix: str, role: str) -> str:
     # A name of a layer may hold letters, digits, hyphens and underscores in every program.
     name = prefix + re.sub(r"[^\w-]+", "-", f"{group.name}-{role}")
     if name not in document.layers:
-        style = STYLES[role]
-        colour, linetype = COLOURS.get(style.colour, 7), LINETYPES.get(style.pattern, ("CONTINUOUS",))[0]
+        style = STYLES_BY_ROLE[role]
+        colour, linetype = COLOUR_NUMBERS.get(style.colour, 7), LINETYPES.get(style.pattern, ("CONTINUOUS",))[0]
         document.layers.add(name, color=colour, linetype=linetype, lineweight=round(100 * style.width))
     return name
 
@@ -234,7 +234,7 @@ def _add_text(space: BaseLayout, text: Text, layer: str, left: float) -> None:
         made = space.add_text(letters)
         _set_style(made, layer, piece.height, text.angle)
         if is_chinese(letters[0]):
-            made.dxf.style = CHINESE
+            made.dxf.style = CHINESE_TEXT_STYLE
         start, end = (text.at + (begin + end) * turn + left for end in ends)
         if len(letters) > 1:
             made.set_placement(xy(start), xy(end), align=TextEntityAlignment.FIT)
@@ -250,7 +250,7 @@ def set_text(made: DXFText, text: Text, layer: str, left: float = 0.0) -> None:
 
 
 def _set_style(made: DXFText, layer: str, height: float, angle: float) -> None:
-    made.dxf.update({"layer": layer, "style": LETTERS, "height": height, "rotation": math.degrees(angle)})
+    made.dxf.update({"layer": layer, "style": TEXT_STYLE, "height": height, "rotation": math.degrees(angle)})
 
 
 def _add_spline(

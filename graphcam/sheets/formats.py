@@ -6,12 +6,12 @@ from graphcam.errors import DesignError, among
 from graphcam.sheets.model import Box
 from graphcam.words import Words, say
 
-SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0), "A3": (420.0, 297.0), "A4": (297.0, 210.0)}
+SHEET_SIZES = {"A1": (841.0, 594.0), "A2": (594.0, 420.0), "A3": (420.0, 297.0), "A4": (297.0, 210.0)}
 """Width and height of the sheets in landscape, mm."""
 ORIENTATIONS = ("landscape", "portrait")
-UPRIGHT_ONLY = ("A4", "gost")
+UPRIGHT_FORMAT = ("A4", "gost")
 """Format and frame of GOST 2.301, which uses sheets A4 upright only, the title block along the short side."""
-MARGINS = {"gost": (20.0, 5.0, 5.0, 5.0), "iso": (20.0, 10.0, 10.0, 10.0)}
+FRAME_MARGINS = {"gost": (20.0, 5.0, 5.0, 5.0), "iso": (20.0, 10.0, 10.0, 10.0)}
 """Between the edge of the paper and the frame, mm: left, bottom, right, top."""
 
 
@@ -46,11 +46,11 @@ class Format:
     orientation: str | None = None
 
     def __post_init__(self) -> None:
-        known = {"format": SIZES, "frame": MARGINS, "orientation": ORIENTATIONS}
+        known = {"format": SHEET_SIZES, "frame": FRAME_MARGINS, "orientation": ORIENTATIONS}
         for (quantity, names), given in zip(known.items(), (self.name, self.frame, self.orientation), strict=True):
             if given is not None and given not in names:
                 raise DesignError(quantity, given, *among(given, names))
-        if self.orientation == "landscape" and self._upright_only:
+        if self.orientation == "landscape" and self._is_upright_only:
             limit = say("portrait: GOST 2.301 uses A4 in portrait only")
             remedy = say('leave orientation out, or choose another format or frame = "iso"')
             raise DesignError("orientation", self.orientation, limit, remedy)
@@ -58,13 +58,13 @@ class Format:
     @property
     def size(self) -> tuple[float, float]:
         """Width and height of the paper, mm."""
-        width, height = SIZES[self.name]
+        width, height = SHEET_SIZES[self.name]
         return (height, width) if self.upright else (width, height)
 
     @property
     def upright(self) -> bool:
         """Whether the sheet stands on its short side."""
-        return self.orientation == "portrait" or self._upright_only
+        return self.orientation == "portrait" or self._is_upright_only
 
     @property
     def said(self) -> Words:
@@ -76,13 +76,13 @@ class Format:
         return say("{name} portrait", name=self.name) if self.upright else say("{name} landscape", name=self.name)
 
     @property
-    def _upright_only(self) -> bool:
-        return (self.name, self.frame) == UPRIGHT_ONLY
+    def _is_upright_only(self) -> bool:
+        return (self.name, self.frame) == UPRIGHT_FORMAT
 
     @property
     def content(self) -> Box:
         """The inside of the frame."""
-        (width, height), (left, bottom, right, top) = self.size, MARGINS[self.frame]
+        (width, height), (left, bottom, right, top) = self.size, FRAME_MARGINS[self.frame]
         return Box(left, bottom, width - right, height - top)
 
     @property

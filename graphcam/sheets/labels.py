@@ -25,41 +25,48 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points, Role
-from graphcam.sheets.expand import Drawn
+from graphcam.sheets.label_candidates import Floats, LabelText
+from graphcam.sheets.mark_entities import Drawn
 from graphcam.sheets.model import ArcEntity, Box, Circles, Entity, Stroke, Strokes, Text
-from graphcam.sheets.sampling import around, box_of, corners, linework, pieces, sampled, within
-from graphcam.sheets.styles import BOLD, MEDIUM, STYLES, THIN
-from graphcam.sheets.writing import Floats, Writing
+from graphcam.sheets.sampling import box_around, box_of, corners, linework, pieces, sampled, spans_in_box
+from graphcam.sheets.styles import BOLD, MEDIUM, STYLES_BY_ROLE, THIN
 
-CELL = 0.5
+CELL_SIDE = 0.5
 """Side of a cell of the raster, mm."""
-AIR = 0.45
+TEXT_MARGIN = 0.45
 """Free margin around a text, mm."""
-ON_TEXT, FORBIDDEN, ON_MEASURE, ON_MEDIUM, ON_THIN, ON_HATCH = 2000.0, 200.0, 80.0, 80.0, 2.0, 0.4
+TEXT_COST, BOLD_LINE_COST, MEASURE_COST, MEDIUM_LINE_COST, THIN_LINE_COST, HATCH_COST = (
+    2000.0,
+    200.0,
+    80.0,
+    80.0,
+    2.0,
+    0.4,
+)
 """Cost of a cell with another text in it, a bold line, a dimension, leader or axis, or a lighter line."""
-COSTS: Mapping[str, float] = {Role.HATCH: ON_HATCH, Role.DIMENSION: ON_MEASURE, Role.SCALE: ON_MEASURE}
+ROLE_COSTS: Mapping[str, float] = {Role.HATCH: HATCH_COST, Role.DIMENSION: MEASURE_COST, Role.SCALE: MEASURE_COST}
 """Of roles that cost more or less than the width of their lines says."""
-AROUND_TEXT = 0.8
+HATCHING_MARGIN = 0.8
 """Free margin in the hatching around a text, mm."""
-NEAR = 24
+FIRST_PLACES = 24
 """So many places of a text are looked at before the further ones."""
-LEADER_SHARES = np.linspace(0.1, 0.95, 60)
+LEADER_FRACTIONS = np.linspace(0.1, 0.95, 60)
 """Fractions of a leader at which it is looked at what it crosses."""
 
 
-PARTED = Role.CONSTRUCTION, Role.AXIS, Role.HIDDEN, Role.DIMENSION
+PARTED_ROLES = Role.CONSTRUCTION, Role.AXIS, Role.HIDDEN, Role.DIMENSION
 """The roles of lines that are parted; of dimensions only the leaders."""
-GAP = 0.6
+TEXT_GAP = 0.6
 """Between a text and the ends of the line that it parts, mm."""
-STEP = 0.05
+ARC_STEP = 0.05
 """An arc is followed in steps of this length to find where it runs into a text, mm."""
 
 
-def parted(steps: Sequence[Sequence[Entity]]) -> list[list[Entity]]:
+def parted_steps(steps: Sequence[Sequence[Entity]]) -> list[list[Entity]]:
     """The steps with their thin lines parted where a text of any of them stands on one.
 
     >>> line = Stroke(np.array([-10 + 1j, 20 + 1j]), Role.CONSTRUCTION)
-    >>> (around,), _ = parted([[line], [Text(0j, "A", 3.5)]])
+    >>> (around,), _ = parted_steps([[line], [Text(0j, "A", 3.5)]])
     >>> [points.real.round(1).tolist() for points in pieces(around)]
     [[-10.0, 3.5], [-0.6, 20.0]]
     """
@@ -73,7 +80,7 @@ def parted(steps: Sequence[Sequence[Entity]]) -> list[list[Entity]]:
 def _can_be_parted(entity: Entity) -> bool:
     if isinstance(entity, Circles) and entity.opaque:
         return False
-    return entity.role in PARTED and isinstance(entity, Stroke | Strokes | Circles | ArcEntity)
+    return entity.role in PARTED_ROLES and isinstance(entity, Stroke | Strokes | Circles | ArcEntity)
 
 
 def _crossed(thin: Sequence[Entity], texts: Sequence[Points]) -> Iterator[tuple[int, list[Points]]]:
@@ -89,7 +96,7 @@ def _crossed(thin: Sequence[Entity], texts: Sequence[Points]) -> Iterator[tuple[
         near = np.flatnonzero((left < east) & (right > west) & (low < north) & (high > south))
         # Most texts stand off every thin line.
         if near.size:
-            enter, leave = within(starts[near], ends[near], box, THIN / 2)
+            enter, leave = spans_in_box(starts[near], ends[near], box, THIN / 2)
             for k in np.unique(owner[near[enter < leave]]).tolist():
                 found.setdefault(id(thin[k]), []).append(box)
     yield from found.items()
@@ -99,9 +106,9 @@ def _parts(entity: Entity, boxes: Sequence[Points]) -> list[Entity]:
     """The entity without what stands in boxes."""
     match entity:
         case Stroke() if boxes:
-            return [_without(_segments(entity), boxes)]
+            return [_lines_outside(_segments(entity), boxes)]
         case Strokes() if boxes:
-            return [_without(entity, boxes)]
+            return [_lines_outside(entity, boxes)]
         case Circles() if boxes:
             return list(_bows_of(entity, boxes))
         case ArcEntity() if boxes:
@@ -117,10 +124,10 @@ def _segments(line: Stroke) -> Strokes:
     return Strokes(starts, ends, line.role, line.source and line.source.part(arriving, len(line.points)))
 
 
-def _without(lines: Strokes, boxes: Sequence[Points]) -> Strokes:
+def _lines_outside(lines: Strokes, boxes: Sequence[Points]) -> Strokes:
     starts, ends, piece = lines.starts, lines.ends, np.arange(len(lines.starts))
     for box in boxes:
-        low, high = within(starts, ends, box, GAP)
+        low, high = spans_in_box(starts, ends, box, TEXT_GAP)
         cut, steps = low < high, ends - starts
         before, after = cut & (low > 0), cut & (high < 1)
         starts, ends, piece = (
@@ -153,20 +160,20 @@ def _bows_of(circles: Circles, boxes: Sequence[Points]) -> Iterator[Entity]:
 
 def _open(arc: ArcEntity, boxes: Sequence[Points]) -> list[tuple[float, float]]:
     """The parts of an arc outside boxes, from where to where [rad]."""
-    count = max(2, math.ceil((arc.end - arc.start) * arc.radius / STEP))
+    count = max(2, math.ceil((arc.end - arc.start) * arc.radius / ARC_STEP))
     ways = np.linspace(arc.start, arc.end, count + 1)
     free = np.ones(len(ways), dtype=bool)
     for box in boxes:
-        near = np.flatnonzero(_seen(ways, box - arc.centre))
+        near = np.flatnonzero(_visible_directions(ways, box - arc.centre))
         free[near] &= ~_inside(arc.centre + arc.radius * np.exp(1j * ways[near]), box)
     edges = np.flatnonzero(np.diff(np.concatenate([[False], free, [False]]).astype(int)))
     return [(float(ways[a]), float(ways[b - 1])) for a, b in pairwise(edges.tolist()) if free[a] and b - a > 1]
 
 
-def _seen(ways: Floats, box: Points) -> NDArray[np.bool_]:
+def _visible_directions(ways: Floats, box: Points) -> NDArray[np.bool_]:
     """In which directions from the origin a text's box, or what is so near to it, may be seen."""
     middle = complex(box.mean())
-    reach = float(np.abs(box - middle).max()) + 2 * GAP
+    reach = float(np.abs(box - middle).max()) + 2 * TEXT_GAP
     if abs(middle) <= reach:
         return np.ones(len(ways), dtype=bool)
     off = ways - cmath.phase(middle)
@@ -177,8 +184,8 @@ def _inside(points: Points, box: Points) -> NDArray[np.bool_]:
     """Which points stand in a text's box or so near to it."""
     turn = cmath.exp(-1j * cmath.phase(complex(box[1] - box[0])))
     at, level = points * turn, box * turn
-    across = (level.real.min() - GAP < at.real) & (at.real < level.real.max() + GAP)
-    return across & (level.imag.min() - GAP < at.imag) & (at.imag < level.imag.max() + GAP)
+    across = (level.real.min() - TEXT_GAP < at.real) & (at.real < level.real.max() + TEXT_GAP)
+    return across & (level.imag.min() - TEXT_GAP < at.imag) & (at.imag < level.imag.max() + TEXT_GAP)
 
 
 class Occupancy:
@@ -193,27 +200,27 @@ class Occupancy:
     def __init__(self, inside: Box) -> None:
         self.corner = inside.corner
         # A ring of forbidden cells keeps texts inside.
-        shape = math.ceil(inside.height / CELL) + 2, math.ceil(inside.width / CELL) + 2
-        self.cells: NDArray[np.float32] = np.full(shape, FORBIDDEN, dtype=np.float32)
+        shape = math.ceil(inside.height / CELL_SIDE) + 2, math.ceil(inside.width / CELL_SIDE) + 2
+        self.cells: NDArray[np.float32] = np.full(shape, BOLD_LINE_COST, dtype=np.float32)
         self.cells[1:-1, 1:-1] = 0.0
 
-    def _where(self, x: NDArray[np.floating[Any]], y: NDArray[np.floating[Any]]) -> NDArray[np.intp]:
+    def _cell_numbers(self, x: NDArray[np.floating[Any]], y: NDArray[np.floating[Any]]) -> NDArray[np.intp]:
         """The numbers of the cells, row after row, that places lie in; those outside lie in the ring."""
         (rows, columns), corner = self.cells.shape, self.corner
-        return _within(y - corner.imag, rows) * columns + _within(x - corner.real, columns)
+        return _cell_numbers(y - corner.imag, rows) * columns + _cell_numbers(x - corner.real, columns)
 
     def take(self, points: Points, cost: float) -> None:
         """Occupy the cells of the points, unless they cost more already."""
-        cells, where = self.cells.reshape(-1), self._where(points.real, points.imag)
+        cells, where = self.cells.reshape(-1), self._cell_numbers(points.real, points.imag)
         cells[where] = np.maximum(cells[where], cost)
 
     def cost(self, points: Points) -> Floats:
         """What letters in the cells of points (..., n) cost together, (...)."""
-        return self._cost(self._where(points.real, points.imag))
+        return self._cost(self._cell_numbers(points.real, points.imag))
 
     def cost_level(self, x: Floats, y: Floats) -> Floats:
         """What letters in all cells of columns at x (k, n) and rows at y (k, m) cost together, (k,)."""
-        where = self._where(x[:, None, :], y[:, :, None])
+        where = self._cell_numbers(x[:, None, :], y[:, :, None])
         return self._cost(where.reshape(len(where), -1))
 
     def _cost(self, where: NDArray[np.intp]) -> Floats:
@@ -225,23 +232,23 @@ class Occupancy:
         for entity in entities:
             if isinstance(entity, Text):
                 a, b, _, d = corners(entity).tolist()
-                self.take(_grid(a, b - a, d - a), ON_TEXT)
+                self.take(_grid(a, b - a, d - a), TEXT_COST)
             else:
                 lines.setdefault(_line_cost(entity.role), []).append(entity)
         for cost, alike in lines.items():
-            self.take(sampled(*linework(alike), 0.7 * CELL), cost)
+            self.take(sampled(*linework(alike), 0.7 * CELL_SIDE), cost)
 
 
-def _within(along: NDArray[np.floating[Any]], count: int) -> NDArray[np.intp]:
+def _cell_numbers(along: NDArray[np.floating[Any]], count: int) -> NDArray[np.intp]:
     """The cells of a row, of ``count``, in which places lie, the first and the last of them beyond the ends."""
-    return np.minimum(np.maximum(np.floor(along / CELL), -1), count - 2).astype(np.intp) + 1
+    return np.minimum(np.maximum(np.floor(along / CELL_SIDE), -1), count - 2).astype(np.intp) + 1
 
 
 def _line_cost(role: str) -> float:
-    if role in COSTS:
-        return COSTS[role]
-    width = STYLES[role].width
-    return FORBIDDEN if width >= BOLD else ON_MEDIUM if width >= MEDIUM else ON_THIN
+    if role in ROLE_COSTS:
+        return ROLE_COSTS[role]
+    width = STYLES_BY_ROLE[role].width
+    return BOLD_LINE_COST if width >= BOLD else MEDIUM_LINE_COST if width >= MEDIUM else THIN_LINE_COST
 
 
 def _grid(corner: complex, along: complex, up: complex) -> Points:
@@ -252,10 +259,10 @@ def _grid(corner: complex, along: complex, up: complex) -> Points:
 @lru_cache(maxsize=1024)
 def _shares(length: float) -> Floats:
     """The fractions of a length, from 0 to 1, at which points stand in every cell."""
-    return np.linspace(0.0, 1.0, math.ceil(length / CELL) + 1)
+    return np.linspace(0.0, 1.0, math.ceil(length / CELL_SIDE) + 1)
 
 
-def chosen_places(writings: Sequence[Writing], drawn: Iterable[Entity], inside: Box) -> list[int]:
+def chosen_places(writings: Sequence[LabelText], drawn: Iterable[Entity], inside: Box) -> list[int]:
     """The place that every label takes, kept off what is drawn and inside a box.
 
     Texts of dimensions choose first: they belong to their lines.
@@ -265,14 +272,14 @@ def chosen_places(writings: Sequence[Writing], drawn: Iterable[Entity], inside: 
     chosen = [0] * len(writings)
     for k in sorted(range(len(writings)), key=lambda k: not writings[k].bound):
         chosen[k] = _choose(writings[k], paper)
-        paper.take_entities(set_at(writings[k], chosen[k]))
+        paper.take_entities(placed_label(writings[k], chosen[k]))
     return chosen
 
 
-def _choose(writing: Writing, paper: Occupancy) -> int:
+def _choose(writing: LabelText, paper: Occupancy) -> int:
     """The cheapest place.  The near ones are tried first: most texts need no other."""
     best, least = 0, math.inf
-    for start, end in ((0, NEAR), (NEAR, len(writing.centres))):
+    for start, end in ((0, FIRST_PLACES), (FIRST_PLACES, len(writing.centres))):
         part = start + np.flatnonzero(writing.cost[start:end] < least)
         if part.size:
             cost = writing.cost[part] + _letters_cost(writing, part, paper) + _leader_cost(writing, part, paper)
@@ -282,8 +289,8 @@ def _choose(writing: Writing, paper: Occupancy) -> int:
     return best
 
 
-def _letters_cost(writing: Writing, part: NDArray[np.intp], paper: Occupancy) -> Floats:
-    size, centres, angles = writing.size + 2 * AIR * (1 + 1j), writing.centres[part], writing.angles[part]
+def _letters_cost(writing: LabelText, part: NDArray[np.intp], paper: Occupancy) -> Floats:
+    size, centres, angles = writing.size + 2 * TEXT_MARGIN * (1 + 1j), writing.centres[part], writing.angles[part]
     if angles.any():
         turned = _grid(-size / 2, complex(size.real), 1j * size.imag) * np.exp(1j * angles)[:, None]
         return paper.cost(centres[:, None] + turned)
@@ -292,24 +299,24 @@ def _letters_cost(writing: Writing, part: NDArray[np.intp], paper: Occupancy) ->
     return paper.cost_level(centres.real[:, None] + across, centres.imag[:, None] + up)
 
 
-def _leader_cost(writing: Writing, part: NDArray[np.intp], paper: Occupancy) -> Floats:
+def _leader_cost(writing: LabelText, part: NDArray[np.intp], paper: Occupancy) -> Floats:
     anchors, centres = writing.anchors[part], writing.centres[part]
     led = np.isfinite(anchors)
     cost = np.zeros(len(centres))
     if led.any():
         ends = _leader_end(writing, centres[led], anchors[led])
         # A leader may cross lines, at a small cost, but no text.
-        cost[led] = 0.04 * paper.cost(anchors[led][:, None] + LEADER_SHARES * (ends - anchors[led])[:, None])
+        cost[led] = 0.04 * paper.cost(anchors[led][:, None] + LEADER_FRACTIONS * (ends - anchors[led])[:, None])
     return cost
 
 
-def _leader_end(writing: Writing, centres: Points, anchors: Points) -> Points:
+def _leader_end(writing: LabelText, centres: Points, anchors: Points) -> Points:
     """The place on the text's box that is nearest to the anchor."""
     half, away = writing.size / 2 + 0.4 * (1 + 1j), anchors - centres
     return centres + np.clip(away.real, -half.real, half.real) + 1j * np.clip(away.imag, -half.imag, half.imag)
 
 
-def set_at(writing: Writing, k: int) -> list[Entity]:
+def placed_label(writing: LabelText, k: int) -> list[Entity]:
     """The text in one of its places, and its leader where that is far."""
     drawn: list[Entity] = [writing.set_at(k)]
     if np.isfinite(writing.anchors[k]):
@@ -323,7 +330,7 @@ def lettered(steps: Sequence[Drawn], beside: Iterable[Entity], inside: Box) -> l
 
     A thin line is parted where a text found no place off it.
 
-    steps : from :func:`graphcam.sheets.expand.expand`, in the order in which they are drawn
+    steps : from :func:`graphcam.sheets.mark_entities.expand`, in the order in which they are drawn
     inside : the box that no text leaves
     """
     return with_texts(steps, places_of(steps, beside, inside))
@@ -342,8 +349,8 @@ def with_texts(steps: Sequence[Drawn], places: Sequence[int | None]) -> list[lis
     """
     at = iter(places)
     placed = [[(writing, next(at)) for writing in writings] for _, writings in steps]
-    texts = [[e for writing, k in of_one if k is not None for e in set_at(writing, k)] for of_one in placed]
-    return parted([[*entities, *own] for (entities, _), own in zip(steps, texts, strict=True)])
+    texts = [[e for writing, k in of_one if k is not None for e in placed_label(writing, k)] for of_one in placed]
+    return parted_steps([[*entities, *own] for (entities, _), own in zip(steps, texts, strict=True)])
 
 
 def shading_parted(steps: Sequence[Sequence[Entity]]) -> list[tuple[Entity, ...]]:
@@ -364,9 +371,9 @@ def interrupted(entity: Entity, texts: Iterable[Text]) -> Entity:
     starts, ends = entity.starts, entity.ends
     drawn = box_of([entity])
     for box in map(corners, texts):
-        if drawn is None or not around(box).grown(AROUND_TEXT).meets(drawn):
+        if drawn is None or not box_around(box).grown(HATCHING_MARGIN).meets(drawn):
             continue
-        low, high = within(starts, ends, box, AROUND_TEXT)
+        low, high = spans_in_box(starts, ends, box, HATCHING_MARGIN)
         cut = low < high
         steps = ends - starts
         before, after = cut & (low > 0), cut & (high < 1)
@@ -377,9 +384,9 @@ def interrupted(entity: Entity, texts: Iterable[Text]) -> Entity:
     return Strokes(starts, ends, entity.role)
 
 
-FARTHEST_HOP = 9.0
+MAX_HOP = 9.0
 """A label that would move farther at once is left out until the hand is lifted [mm]."""
-TURN = 10.0
+TURN_COST = 10.0
 """What a turn of 1 rad counts beside a way on the paper [mm]."""
 
 
@@ -391,19 +398,19 @@ class LabelPlace:
     angle: float
 
 
-def nearest_place(writing: Writing, former: LabelPlace) -> int | None:
+def nearest_place(writing: LabelText, former: LabelPlace) -> int | None:
     """The place of a text that is nearest to its former one; None if even that is too far away.
 
-    >>> from graphcam.sheets.writing import around
-    >>> label = around(0j, "A", 3.5, 1j)
+    >>> from graphcam.sheets.label_candidates import label_around
+    >>> label = label_around(0j, "A", 3.5, 1j)
     >>> k = nearest_place(label, LabelPlace(-4 + 0.5j, 0.0))
     >>> bool(label.centres[k].real < -2), nearest_place(label, LabelPlace(90j, 0.0))
     (True, None)
     """
     ways = np.abs(writing.centres - former.centre)
     turned = np.abs(np.angle(np.exp(1j * (writing.angles - former.angle)))) if writing.angles.any() else 0.0
-    k = int(np.argmin(ways + TURN * turned))
-    return k if ways[k] <= FARTHEST_HOP else None
+    k = int(np.argmin(ways + TURN_COST * turned))
+    return k if ways[k] <= MAX_HOP else None
 
 
 def held_places(names: Sequence[str], steps: Sequence[Drawn], former: Mapping[str, LabelPlace]) -> list[int | None]:

@@ -3,7 +3,7 @@
 Diagrams that share an axis stand exactly one under the other or side by side.  A1 takes everything on one page; on the
 smaller formats, and where there is too much, further pages follow.  Everything is drawn at the scale that it says: what
 does not fit on a page of its own is refused, so scales are chosen beforehand, by :func:`profile_room` and by what
-:func:`~graphcam.sheets.leaves.free_rooms` a page has.
+:func:`~graphcam.sheets.page_space.free_rooms` a page has.
 
 An unfinished sheet is laid out and lettered as the finished one and then drawn in part, so that one laid over the other
 agrees line for line.
@@ -17,25 +17,25 @@ from dataclasses import dataclass, field, replace
 
 from graphcam.drafting.ink import Step
 from graphcam.drafting.scale import ratio_text
-from graphcam.sheets.expand import Drawn, Placement, expand
-from graphcam.sheets.filling import ONE_PAGE, fewest, fill
 from graphcam.sheets.formats import Format
-from graphcam.sheets.frame import TitleBlock, frame as empty_sheet, title_box
 from graphcam.sheets.labels import lettered, shading_parted
-from graphcam.sheets.leaves import BORDER, Leaf
+from graphcam.sheets.mark_entities import Drawn, Placement, expand
 from graphcam.sheets.model import Drawing, Entity, Group, Page
 from graphcam.sheets.packing import MESH
-from graphcam.sheets.panels import panels
+from graphcam.sheets.page_filling import ONE_PAGE, fill, min_pages
+from graphcam.sheets.page_space import FRAME_MARGIN, OpenPage
+from graphcam.sheets.sheet_frame import TitleBlock, frame as empty_sheet, title_box
 from graphcam.sheets.tables import Block, Table, notes_block, table_blocks
+from graphcam.sheets.view_panels import panels
 from graphcam.words import Tell
 
 NOTES_WIDTH = 180.0
 """The maximum width of the notes, mm."""
-HEADING = 12.0
+HEADING_HEIGHT = 12.0
 """The height of the title of a view, mm."""
-BESIDE_FRAME = 2.0
+FRAME_GAP = 2.0
 """The gap between a label and the frame, mm."""
-FURNITURE = 30.0
+FURNITURE_HEIGHT = 30.0
 """What gauge, marks and margins take of a sheet's height above its title block, mm."""
 
 
@@ -106,7 +106,7 @@ def compose_parts(
     tell : says all texts in the language of the sheets
     """
     parts = [part.told(tell) for part in parts]
-    laid_out = [(part, leaf) for part in parts for leaf in _leaves(sheet, part)]
+    laid_out = [(part, leaf) for part in parts for leaf in _filled_pages(sheet, part)]
     titles = [_with_scale(title, leaf, tell) for _, leaf in laid_out]
     sheets = [empty_sheet(sheet, each, k, len(laid_out), tell) for k, each in enumerate(titles, 1)]
     shown = math.inf if upto is None else upto
@@ -114,7 +114,7 @@ def compose_parts(
     return Drawing(title.name, tuple(pages))
 
 
-def _with_scale(title: TitleBlock, leaf: Leaf, tell: Tell) -> TitleBlock:
+def _with_scale(title: TitleBlock, leaf: OpenPage, tell: Tell) -> TitleBlock:
     """The title block of a page: where the task names no scale, with that of its main view, else of the largest other.
 
     Views at other scales carry them in their titles.
@@ -130,15 +130,15 @@ def _with_scale(title: TitleBlock, leaf: Leaf, tell: Tell) -> TitleBlock:
 def profile_room(paper: str, frame: str, orientation: str | None = None) -> tuple[float, float]:
     """Width and height [mm] for the cam's profile, rollers included, labels and title not."""
     sheet = Format(paper, frame, orientation)
-    inside, block = sheet.content.grown(-BORDER), title_box(sheet)
+    inside, block = sheet.content.grown(-FRAME_MARGIN), title_box(sheet)
     if paper in ONE_PAGE and not sheet.upright:
         # To the right of 360 mm of cam angle and the poles; above the combined diagram and the details.
         return inside.width - 424.0, inside.height - 170.0
     if paper in ONE_PAGE:
         # Below the diagrams, left of the title block.
         return inside.width - block.width, inside.height - 445.0
-    above = inside.width, inside.height - block.height - HEADING
-    beside = inside.width - block.width, inside.height - HEADING
+    above = inside.width, inside.height - block.height - HEADING_HEIGHT
+    beside = inside.width - block.width, inside.height - HEADING_HEIGHT
     return max(above, beside, key=min)
 
 
@@ -149,15 +149,15 @@ def views_of_pages(sheet: Format, part: SheetPart) -> list[list[str]]:
     ------
     DesignError : a view does not fit on a page of its own
     """
-    return [list(leaf.views) for leaf in _leaves(sheet, part)]
+    return [list(leaf.views) for leaf in _filled_pages(sheet, part)]
 
 
 def fewest_pages(sheet: Format, part: SheetPart) -> int:
     """The number of pages that the views of a part fill; how they stand on pages is not looked for."""
-    return fewest(sheet, panels((step for _, _, step in part.steps), sheet.lettering))
+    return min_pages(sheet, panels((step for _, _, step in part.steps), sheet.lettering))
 
 
-def _leaves(sheet: Format, part: SheetPart) -> list[Leaf]:
+def _filled_pages(sheet: Format, part: SheetPart) -> list[OpenPage]:
     """The pages of a part."""
     views = panels((step for _, _, step in part.steps), sheet.lettering)
     heights = sorted({sheet.lettering.label, sheet.lettering.small}, reverse=True)
@@ -171,8 +171,8 @@ def _leaves(sheet: Format, part: SheetPart) -> list[Leaf]:
 
 def _blocks(sheet: Format, part: SheetPart, height: float) -> list[Block]:
     # Room is found on a grid: a cell is lost at either edge.
-    room = sheet.content.width - 2 * BORDER - 2 * MESH
-    tall = sheet.content.height - title_box(sheet).height - FURNITURE
+    room = sheet.content.width - 2 * FRAME_MARGIN - 2 * MESH
+    tall = sheet.content.height - title_box(sheet).height - FURNITURE_HEIGHT
     blocks = [block for table in part.tables for block in table_blocks(table, height, room, tall)]
     if part.notes:
         blocks.append(notes_block(part.notes, height, min(NOTES_WIDTH, room)))
@@ -188,7 +188,7 @@ class StepPart:
     drawn: Drawn
 
 
-def _pieces(part: SheetPart, leaf: Leaf) -> Iterator[StepPart]:
+def _pieces(part: SheetPart, leaf: OpenPage) -> Iterator[StepPart]:
     """What the steps of a part draw on a page."""
     for number, _, step in part.steps:
         if step.view.name in leaf.views:
@@ -198,11 +198,11 @@ def _pieces(part: SheetPart, leaf: Leaf) -> Iterator[StepPart]:
                     yield StepPart(number, since, expand(marks, Placement(origin), panel.letters))
 
 
-def _page(sheet: Format, leaf: Leaf, part: SheetPart, empty: Group, upto: float) -> Page:
+def _page(sheet: Format, leaf: OpenPage, part: SheetPart, empty: Group, upto: float) -> Page:
     """Draw all that a page holds; the labels when every line of the finished page stands."""
     pieces = list(_pieces(part, leaf))
     finished = [*empty.entities, *_tables(leaf, math.inf), *_titles(leaf, part, math.inf)]
-    inside = sheet.content.grown(-BESIDE_FRAME)
+    inside = sheet.content.grown(-FRAME_GAP)
     placed = zip(pieces, lettered([piece.drawn for piece in pieces], finished, inside), strict=True)
     shown = [(piece.step, entities) for piece, entities in placed if piece.since <= upto]
     steps: dict[int, list[Entity]] = {}
@@ -216,12 +216,12 @@ def _page(sheet: Format, leaf: Leaf, part: SheetPart, empty: Group, upto: float)
     return Page(*sheet.size, sheet.content, tuple(groups), origins)
 
 
-def _tables(leaf: Leaf, upto: float) -> tuple[Entity, ...]:
+def _tables(leaf: OpenPage, upto: float) -> tuple[Entity, ...]:
     """The tables and notes of a page; those of an unfinished sheet have no answers."""
     return tuple(e for block, at in leaf.blocks for e in block.drawn(at, answered=upto == math.inf))
 
 
-def _titles(leaf: Leaf, part: SheetPart, upto: float) -> tuple[Entity, ...]:
+def _titles(leaf: OpenPage, part: SheetPart, upto: float) -> tuple[Entity, ...]:
     """The titles of the views of a page, with what has been found up to a step."""
     last = {name: number for number, name, _ in part.steps}
     views = leaf.views.values()

@@ -15,22 +15,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
-from graphcam.photo.tag_family import CELLS
-from graphcam.sheets.model import Box, Drawing, Entity, Group, Page, Polygons, Strokes, moved
+from graphcam.photo.tag_family import CELLS_PER_SIDE
+from graphcam.sheets.model import Box, Drawing, Entity, Group, Page, Polygons, Strokes, moved_entity
 from graphcam.sheets.sampling import box_of
-from graphcam.sheets.styles import CODE
+from graphcam.sheets.styles import CODE_ROLE
 
-PATCH = 7.0
+PATCH_SIDE = 7.0
 """The side of a patch that is filled with the ink of the givens, mm."""
 BAR_ROOM = 5.5
 """What a bar takes beside a strip, mm."""
-FROM_STRIP = 1.0
+STRIP_GAP = 1.0
 """The gap between a strip and the line of a bar, mm."""
-LARGEST = 420.0
+MAX_ROOM = 420.0
 """The side of a room for a drawing about its centre, mm, however large the paper: no compass draws a larger circle."""
-TITLE = 5.0
+TITLE_ROOM = 5.0
 """The room beside or above a view for its title, mm."""
-CODE_COLUMN = 24.0
+CODE_COLUMN_WIDTH = 24.0
 """The width of a column left of the views of the left tile, for a code of its own, mm."""
 
 
@@ -64,14 +64,14 @@ class MarkedPaper:
     seam: float | None = None
 
     @property
-    def quiet(self) -> float:
+    def quiet_zone(self) -> float:
         """The white about a tag: a cell of it."""
-        return self.side / CELLS
+        return self.side / CELLS_PER_SIDE
 
     @property
     def strip(self) -> float:
         """The width of the strips along the edges."""
-        return self.edge + self.side + self.quiet
+        return self.edge + self.side + self.quiet_zone
 
     @property
     def upright(self) -> bool:
@@ -87,13 +87,13 @@ class MarkedPaper:
     def free(self) -> Box:
         """What the marks leave free."""
         beside = 0.0 if self.up_in_strip else BAR_ROOM
-        left = self.strip + beside + (CODE_COLUMN if self.seam else 0.0)
+        left = self.strip + beside + (CODE_COLUMN_WIDTH if self.seam else 0.0)
         return Box(left, self.strip + BAR_ROOM, self.width - self.strip, self.height - self.strip)
 
     @property
     def square(self) -> float:
         """The side of the square room for a drawing about its centre, with room for a title above it, mm."""
-        return min(self.free.width, self.free.height - TITLE, LARGEST)
+        return min(self.free.width, self.free.height - TITLE_ROOM, MAX_ROOM)
 
     @cached_property
     def tags(self) -> dict[int, complex]:
@@ -107,33 +107,33 @@ class MarkedPaper:
     def bars(self) -> tuple[tuple[complex, complex], tuple[complex, complex]]:
         """Start and end of the bars, across and up."""
         (x, wide), (y, high) = self.bar_across, self.bar_up
-        low = self.strip + FROM_STRIP
+        low = self.strip + STRIP_GAP
         left = self.edge + self.side / 2 if self.up_in_strip else low
         return (complex(x, low), complex(x + wide, low)), (complex(left, y), complex(left, y + high))
 
     def gaps_below(self) -> list[Box]:
         """The places between the tags along the bottom."""
-        return [Box(low, self.edge, high, self.edge + self.side) for low, high in self._between(self.across)]
+        return [Box(low, self.edge, high, self.edge + self.side) for low, high in self._intervals(self.across)]
 
     def gaps_above(self) -> list[Box]:
         """The places between the tags along the top."""
         top = self.height - self.edge
-        return [Box(low, top - self.side, high, top) for low, high in self._between(self.across)]
+        return [Box(low, top - self.side, high, top) for low, high in self._intervals(self.across)]
 
     def gaps_beside(self, left: float) -> list[Box]:
         """The places between the tags along a side whose tags have that ``left`` edge, from below."""
         ends = self.edge, *self.up, self.height - self.edge - self.side
-        return [Box(left, low, left + self.side, high) for low, high in self._between(ends)]
+        return [Box(left, low, left + self.side, high) for low, high in self._intervals(ends)]
 
-    def _between(self, starts: Sequence[float]) -> list[tuple[float, float]]:
-        return [(low + self.side + self.quiet, high - self.quiet) for low, high in pairwise(starts)]
+    def _intervals(self, starts: Sequence[float]) -> list[tuple[float, float]]:
+        return [(low + self.side + self.quiet_zone, high - self.quiet_zone) for low, high in pairwise(starts)]
 
     @property
     def patches(self) -> tuple[complex, ...]:
         """Lower left corners of the patches: along the bottom, and on the right above."""
         below = [self.gaps_below()[k] for k in self.patch_gaps]
         beside = self.gaps_beside(self.width - self.edge - self.side)[-1]
-        half = PATCH * (1 + 1j) / 2
+        half = PATCH_SIDE * (1 + 1j) / 2
         return tuple((box.corner + complex(box.right, box.top)) / 2 - half for box in (*below, beside))
 
     @property
@@ -181,9 +181,9 @@ MARKED_PAPERS = {
 """The papers by name."""
 
 
-RULED = 10.0
+BAR_STROKE_SPACING = 10.0
 """From one stroke of a bar to the next, mm."""
-STROKE, END = 1.5, 3.0
+BAR_STROKE_LENGTH, BAR_END_LENGTH = 1.5, 3.0
 """Lengths of the strokes of a bar, mm: of all, and of those at its ends."""
 
 
@@ -202,7 +202,7 @@ def cells(dark: NDArray[np.bool_], corner: complex, cell: float) -> Polygons:
         for start, stop in ends.reshape(-1, 2).tolist():
             low, high = 1j * (rows - row - 1), 1j * (rows - row)
             boxes.append(np.array([start + low, stop + low, stop + high, start + high]))
-    return Polygons(corner + cell * np.array(boxes), CODE)
+    return Polygons(corner + cell * np.array(boxes), CODE_ROLE)
 
 
 def square(corner: complex, side: float, role: str) -> Polygons:
@@ -213,13 +213,13 @@ def square(corner: complex, side: float, role: str) -> Polygons:
 def bar(start: complex, end: complex) -> list[Entity]:
     """A ruled bar of a multiple of 10 mm, its strokes to the left of the way from ``start`` to ``end``."""
     way = (end - start) / abs(end - start)
-    at = start + way * np.arange(0.0, abs(end - start) + RULED / 2, RULED)
-    long = np.full(len(at), STROKE)
-    long[[0, -1]] = END
+    at = start + way * np.arange(0.0, abs(end - start) + BAR_STROKE_SPACING / 2, BAR_STROKE_SPACING)
+    long = np.full(len(at), BAR_STROKE_LENGTH)
+    long[[0, -1]] = BAR_END_LENGTH
     return [Strokes(np.array([start]), np.array([end]), "gauge"), Strokes(at, at + 1j * way * long, "ruling")]
 
 
-LINE = 0.5
+LINE_REACH = 0.5
 """What a line may reach beyond its middle, mm."""
 
 
@@ -236,10 +236,10 @@ def _tile(page: Page, part: Box) -> Page:
     def seen(entity: Entity) -> bool:
         """Whether any of it lies on the part."""
         box = box_of([entity])
-        return box is not None and box.grown(LINE).meets(part)
+        return box is not None and box.grown(LINE_REACH).meets(part)
 
     groups = [
-        Group(group.name, tuple(moved(entity, -part.corner) for entity in group.entities if seen(entity)))
+        Group(group.name, tuple(moved_entity(entity, -part.corner) for entity in group.entities if seen(entity)))
         for group in page.groups
     ]
     frame = Box(0.0, 0.0, part.width, part.height).grown(-page.frame.left)

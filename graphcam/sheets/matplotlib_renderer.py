@@ -36,7 +36,6 @@ from matplotlib.transforms import Affine2D, Transform
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.fonts import Letters, letters_of, points_size, start_of
 from graphcam.sheets.model import (
     ArcEntity,
     Circles,
@@ -50,15 +49,16 @@ from graphcam.sheets.model import (
     Strokes,
     Text,
 )
-from graphcam.sheets.smooth import bezier
-from graphcam.sheets.styles import STYLES
-from graphcam.sheets.typefaces import ELSEWHERE, FAMILY, cubic, font_faces
+from graphcam.sheets.smooth_curves import bezier
+from graphcam.sheets.styles import STYLES_BY_ROLE
+from graphcam.sheets.text_measures import Letters, letters_of, points_size, start_of
+from graphcam.sheets.typefaces import FALLBACK_FAMILY, FONT_FAMILY, cubic, font_faces
 
-INCH = 25.4
-POINT = 72 / INCH
+MM_PER_INCH = 25.4
+POINTS_PER_MM = 72 / MM_PER_INCH
 """Points to a millimetre."""
-PAPER = (1.0, 1.0, 1.0, 1.0)
-_SETTINGS: dict[Any, Any] = {
+PAPER_COLOUR = (1.0, 1.0, 1.0, 1.0)
+_RC_SETTINGS: dict[Any, Any] = {
     "pdf.fonttype": 42,
     "svg.fonttype": "none",
     "svg.hashsalt": "graphcam",
@@ -69,7 +69,7 @@ _SETTINGS: dict[Any, Any] = {
 def write_pdf(drawing: Drawing, path: str | os.PathLike[str] | IO[bytes]) -> None:
     """All pages of a drawing in one PDF, 1 mm of the drawing 1 mm of paper."""
     about = {"Title": drawing.title, "Creator": "graphcam", "CreationDate": None}
-    with mpl.rc_context(_SETTINGS), PdfPages(path, metadata=about) as pdf:
+    with mpl.rc_context(_RC_SETTINGS), PdfPages(path, metadata=about) as pdf:
         for page in drawing.pages:
             pdf.savefig(_figure(page, embeds_cubic=False))
 
@@ -82,7 +82,7 @@ def write_svg(page: Page, path: str | os.PathLike[str]) -> None:
 def svg(page: Page) -> str:
     """One page as SVG: its size in mm, a ``<g id="step-03">`` for each group, texts as texts with their letters."""
     text = StringIO()
-    with mpl.rc_context(_SETTINGS):
+    with mpl.rc_context(_RC_SETTINGS):
         _figure(page).savefig(text, format="svg", metadata={"Date": None, "Creator": "graphcam"})
     # matplotlib gives the size in points.
     size = f'width="{page.width:g}mm" height="{page.height:g}mm"'
@@ -93,7 +93,7 @@ def svg(page: Page) -> str:
 
 def write_png(page: Page, path: str | os.PathLike[str] | IO[bytes], dpi: float = 100) -> None:
     """One page as a picture of ``dpi`` dots an inch, into a file by its name or open for writing."""
-    with mpl.rc_context(_SETTINGS):
+    with mpl.rc_context(_RC_SETTINGS):
         figure = _figure(page)
         figure.dpi = dpi
         canvas = FigureCanvasAgg(figure)
@@ -120,9 +120,9 @@ def draw_on(axes: Axes, page: Page, origin: complex = 0j, factor: float = 1.0) -
 
 def _figure(page: Page, *, embeds_cubic: bool = True) -> Figure:
     """The page as a figure, for a kind of file that has a place for typefaces of every kind or not."""
-    figure = Figure(figsize=(page.width / INCH, page.height / INCH))
+    figure = Figure(figsize=(page.width / MM_PER_INCH, page.height / MM_PER_INCH))
     for group in page.groups:
-        to_device = Affine2D().scale(1 / INCH) + figure.dpi_scale_trans
+        to_device = Affine2D().scale(1 / MM_PER_INCH) + figure.dpi_scale_trans
         figure.add_artist(_GroupArtist(group, to_device, embeds_cubic=embeds_cubic), clip=False)
     return figure
 
@@ -142,7 +142,7 @@ class _GroupArtist(Artist):
     def draw(self, renderer: RendererBase) -> None:
         """Draw into the group of the renderer that bears the group's key."""
         renderer.open_group("group", gid=self.group.key)
-        for kind, role, run in _runs(self.group):
+        for kind, role, run in _path_runs(self.group):
             if isinstance(run, Path):
                 self._draw_path(renderer, run, kind, role)
             else:
@@ -156,31 +156,31 @@ class _GroupArtist(Artist):
         if self.axes is None or figure is None:
             return 1.0
         origin, unit = self.to_device.transform([(0.0, 0.0), (1.0, 0.0)])
-        return math.hypot(*(unit - origin)) * INCH / figure.dpi
+        return math.hypot(*(unit - origin)) * MM_PER_INCH / figure.dpi
 
     def _context(self, renderer: RendererBase, colour: str, width: float) -> GraphicsContextBase:
         """A graphics context for lines of a width [mm of the page]."""
         context = renderer.new_gc()
         context.set_foreground(colour)
-        context.set_linewidth(self._times * width * POINT)
+        context.set_linewidth(self._times * width * POINTS_PER_MM)
         if self.axes is not None:
             context.set_clip_rectangle(self.axes.bbox)
         return context
 
     def _draw_path(self, renderer: RendererBase, path: Path, kind: str, role: str) -> None:
-        style = STYLES[role]
+        style = STYLES_BY_ROLE[role]
         context = self._context(renderer, style.colour, 0.0 if kind == "filled" else style.width)
         context.set_joinstyle("miter" if kind == "filled" else "round")
         context.set_capstyle("butt")
         context.set_snap(False)
         if style.pattern and kind == "line":
-            context.set_dashes(0.0, [self._times * POINT * mm for mm in style.pattern])
-        fill = {"filled": to_rgba(style.colour), "opaque": PAPER}.get(kind)
+            context.set_dashes(0.0, [self._times * POINTS_PER_MM * mm for mm in style.pattern])
+        fill = {"filled": to_rgba(style.colour), "opaque": PAPER_COLOUR}.get(kind)
         renderer.draw_path(context, path, self.to_device, fill)
         context.restore()
 
     def _draw_texts(self, renderer: RendererBase, texts: Sequence[Text], role: str) -> None:
-        context = self._context(renderer, STYLES[role].colour, STYLES[role].width)
+        context = self._context(renderer, STYLES_BY_ROLE[role].colour, STYLES_BY_ROLE[role].width)
         set_pieces = [(piece, at, text.angle) for text in texts for piece, at in _set_pieces(text)]
         places = self.to_device.transform(_xy(np.array([at for _, at, _ in set_pieces])))
         if renderer.flipy():
@@ -214,12 +214,12 @@ def _draw_outlines(
 @cache
 def _font(face: File, height: float) -> FontProperties:
     # A drawing names the family; that it is drawn by the face itself asks for no search among the machine's.
-    return FontProperties(family=[FAMILY, ELSEWHERE], fname=str(face), size=points_size(height))
+    return FontProperties(family=[FONT_FAMILY, FALLBACK_FAMILY], fname=str(face), size=points_size(height))
 
 
 # PDF, SVG and PNG of a page are drawn one after another from the same paths.
 @lru_cache(maxsize=256)
-def _runs(group: Group) -> list[tuple[str, str, Path | list[Text]]]:
+def _path_runs(group: Group) -> list[tuple[str, str, Path | list[Text]]]:
     """The runs of a group, the lines of each as one path."""
     found: list[tuple[str, str, Path | list[Text]]] = []
     for kind, role, run in group.runs():
@@ -258,10 +258,10 @@ def _xy(points: Points) -> Any:
     return np.column_stack([points.real, points.imag])
 
 
-SIGNATURE = b"\x89PNG\r\n\x1a\n"
+PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 METRES_AN_INCH = 0.0254
 """m"""
-QUICK = 1
+COMPRESSION_LEVEL = 1
 """How hard is compressed: lines on white get hardly smaller by more."""
 
 
@@ -282,10 +282,10 @@ def png_of(pixels: NDArray[np.uint8], dpi: float) -> bytes:
         (b"IHDR", header),
         (b"tEXt", b"Software\0graphcam"),
         (b"pHYs", struct.pack(">IIB", a_metre, a_metre, 1)),
-        (b"IDAT", zlib.compress(rows.data, QUICK)),
+        (b"IDAT", zlib.compress(rows.data, COMPRESSION_LEVEL)),
         (b"IEND", b""),
     )
-    return SIGNATURE + b"".join(_chunk(name, data) for name, data in chunks)
+    return PNG_SIGNATURE + b"".join(_chunk(name, data) for name, data in chunks)
 
 
 def _chunk(name: bytes, data: bytes) -> bytes:

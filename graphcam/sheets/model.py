@@ -87,10 +87,10 @@ class Box:
         return across and self.bottom <= other.bottom and other.top <= self.top
 
 
-def around_all(boxes: Iterable[Box]) -> Box:
+def bounding_box(boxes: Iterable[Box]) -> Box:
     """The smallest box that holds all of at least one box.
 
-    >>> around_all([Box(0, 0, 1, 1), Box(5, -2, 6, 0)])
+    >>> bounding_box([Box(0, 0, 1, 1), Box(5, -2, 6, 0)])
     Box(left=0, bottom=-2, right=6, top=1)
     """
     lefts, bottoms, rights, tops = zip(*((box.left, box.bottom, box.right, box.top) for box in boxes), strict=True)
@@ -175,7 +175,7 @@ class Polygons:
 
 
 @dataclass(frozen=True, eq=False)
-class Heads(Polygons):
+class ArrowHeads(Polygons):
     """Filled triangles with corners (n, 3): the heads of arrows."""
 
 
@@ -296,7 +296,7 @@ class Drawing:
         return [entity for entity in entities if isinstance(entity, Text)]
 
 
-def moved(entity: Entity, by: complex) -> Entity:
+def moved_entity(entity: Entity, by: complex) -> Entity:
     """The entity moved ``by`` x + iy."""
     match entity:
         case Strokes():

@@ -16,9 +16,9 @@ Preference = Callable[[Grid, Grid], Grid]
 """Cost of putting the lower left corner of the whole at x, y, in cells; the least is taken."""
 MESH = 2.0
 """The mesh of the grid on which room is sought, mm."""
-AT_ONCE = 20_000
+BATCH_PAIRS = 20_000
 """The number of pairs of a place and a box that are looked at together."""
-EDGE = 1e-6
+EDGE_TOLERANCE = 1e-6
 """A box that ends on a line of the grid does not touch the cells beyond it."""
 
 
@@ -50,8 +50,8 @@ class Room:
     def _cells(self, box: Box) -> tuple[int, int, int, int]:
         """The cells that a box touches: left, bottom, and the first ones beyond it."""
         box = box.moved(-self.corner)
-        left, bottom = math.floor(box.left / MESH + EDGE), math.floor(box.bottom / MESH + EDGE)
-        return left, bottom, math.ceil(box.right / MESH - EDGE), math.ceil(box.top / MESH - EDGE)
+        left, bottom = math.floor(box.left / MESH + EDGE_TOLERANCE), math.floor(box.bottom / MESH + EDGE_TOLERANCE)
+        return left, bottom, math.ceil(box.right / MESH - EDGE_TOLERANCE), math.ceil(box.top / MESH - EDGE_TOLERANCE)
 
     def take(self, box: Box) -> None:
         """Occupy a box."""
@@ -100,7 +100,7 @@ class Room:
         columns, rows = (self.full.shape[::-1] - (most - least) + 1).tolist()
         if columns <= 0 or rows <= 0:
             return None
-        places = self._free(cells - np.tile(least, 2), rows, columns)
+        places = self._free_points(cells - np.tile(least, 2), rows, columns)
         if not places.size:
             return None
         wide = self.full.shape[1] + 1
@@ -109,7 +109,7 @@ class Room:
         best = int(np.argmin(preference(x, y.astype(np.float64))))
         return MESH * complex(x[best] - least[0], y[best] - least[1])
 
-    def _free(self, cells: NDArray[np.int_], rows: int, columns: int) -> NDArray[np.intp]:
+    def _free_points(self, cells: NDArray[np.int_], rows: int, columns: int) -> NDArray[np.intp]:
         """The points of the grid, numbered row after row, to which boxes of cells can be moved; all in order."""
         sums, wide = self._counts, self.full.shape[1] + 1
         # The largest box first: it leaves the fewest places to look at for the others.
@@ -124,7 +124,9 @@ class Room:
         places += places // columns * (wide - columns)
         counts, done = sums.reshape(-1), 1
         while done < len(cells) and places.size:
-            lefts, bottoms, rights, tops = cells[done : done + max(1, AT_ONCE // places.size), :, None].swapaxes(0, 1)
+            lefts, bottoms, rights, tops = cells[done : done + max(1, BATCH_PAIRS // places.size), :, None].swapaxes(
+                0, 1
+            )
             below, above = bottoms * wide + places, tops * wide + places
             inside = counts.take(above + rights) - counts.take(above + lefts)
             free = inside == counts.take(below + rights) - counts.take(below + lefts)
@@ -132,25 +134,25 @@ class Room:
         return places
 
 
-def least(across: float, up: float) -> Preference:
+def least_weighted(across: float, up: float) -> Preference:
     """The preference for the place where a weighted sum of x and y is minimal.
 
     >>> import numpy as np
-    >>> least(10, -1)(np.array([2.0]), np.array([5.0])).tolist()
+    >>> least_weighted(10, -1)(np.array([2.0]), np.array([5.0])).tolist()
     [15.0]
     """
     return lambda x, y: across * x + up * y
 
 
-top_left, top_right = least(10, -1), least(-1, -10)
+prefer_top_left, prefer_top_right = least_weighted(10, -1), least_weighted(-1, -10)
 """Preferences: at the left, then high; high, then at the right."""
-bottom_left, bottom_right = least(1, 10), least(-3, 1)
+prefer_bottom_left, prefer_bottom_right = least_weighted(1, 10), least_weighted(-3, 1)
 """Preferences: low, then at the left; at the right, then low."""
-high = least(1, -10)
+prefer_high = least_weighted(1, -10)
 """The preference: high, then at the left."""
 
 
-def left(x: Grid, y: Grid) -> Grid:
+def at_left(x: Grid, y: Grid) -> Grid:
     """The preference for a place at the left, at middle height."""
     return 10 * x + abs(y - y.mean())
 

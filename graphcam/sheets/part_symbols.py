@@ -15,23 +15,23 @@ from itertools import pairwise
 import numpy as np
 
 from graphcam.drafting.marks import Role
-from graphcam.sheets.expand import head
-from graphcam.sheets.fonts import width
-from graphcam.sheets.model import ArcEntity, Box, Entity, Heads, Strokes, Text, moved
+from graphcam.sheets.mark_entities import head
+from graphcam.sheets.model import ArcEntity, ArrowHeads, Box, Entity, Strokes, Text, moved_entity
+from graphcam.sheets.text_measures import width
 
-LINE = Role.DIMENSION
+SYMBOL_ROLE = Role.DIMENSION
 """The role of all lines and letters of symbols."""
-LEGS = math.radians(60)
+LEG_ANGLE = math.radians(60)
 """The angle of the legs of the roughness symbol to the surface."""
-SHORT, LONG = 1.4, 3.0
+SHORT_LEG_HEIGHT, LONG_LEG_HEIGHT = 1.4, 3.0
 """Heights of its legs, in heights of the letters."""
-CLEAR = 0.6
+LETTER_GAP = 0.6
 """The gap between a line and the letters over or under it, mm."""
-HALF_SIDE = 0.577
+TRIANGLE_HALF_SIDE = 0.577
 """Half the side of a datum's triangle, whose sides are equal, in its heights: tan 30°."""
-COMPARTMENT = 2.0
+COMPARTMENT_SIZE = 2.0
 """Height of a tolerance frame, and width of its first compartment, in heights of the letters."""
-PROFILE_OF_A_LINE, PERPENDICULAR = "profile of a line", "perpendicular"
+LINE_PROFILE_TOLERANCE, PERPENDICULARITY_TOLERANCE = "profile of a line", "perpendicular"
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,10 +43,10 @@ class PartSymbol:
 
     def drawn(self, corner: complex) -> list[Entity]:
         """The symbol with the lower left corner of its box there."""
-        return [moved(entity, corner) for entity in self.entities]
+        return [moved_entity(entity, corner) for entity in self.entities]
 
 
-def segments(*ends: tuple[complex, complex], role: str = LINE) -> Strokes:
+def segments(*ends: tuple[complex, complex], role: str = SYMBOL_ROLE) -> Strokes:
     """Separate straight lines."""
     starts, stops = zip(*ends, strict=True)
     return Strokes(np.array(starts), np.array(stops), role)
@@ -59,15 +59,15 @@ def roughness(text: str, height: float) -> PartSymbol:
     >>> symbol.box.height, len(symbol.entities)
     (7.5, 2)
     """
-    left = SHORT * height / math.tan(LEGS)
+    left = SHORT_LEG_HEIGHT * height / math.tan(LEG_ANGLE)
     foot = complex(left, 0.0)
-    short = foot + SHORT * height * complex(-1 / math.tan(LEGS), 1)
-    level = foot + SHORT * height * complex(1 / math.tan(LEGS), 1)
-    top = foot + LONG * height * complex(1 / math.tan(LEGS), 1)
-    wide = width(text, height) + 2 * CLEAR + 0.4 * height
+    short = foot + SHORT_LEG_HEIGHT * height * complex(-1 / math.tan(LEG_ANGLE), 1)
+    level = foot + SHORT_LEG_HEIGHT * height * complex(1 / math.tan(LEG_ANGLE), 1)
+    top = foot + LONG_LEG_HEIGHT * height * complex(1 / math.tan(LEG_ANGLE), 1)
+    wide = width(text, height) + 2 * LETTER_GAP + 0.4 * height
     lines = segments((foot, short), (short, level), (foot, top), (top, top + wide))
-    letters = Text(complex(top.real + CLEAR, top.imag - CLEAR - height), text, height)
-    return PartSymbol((lines, letters), Box(0, 0, top.real + wide, LONG * height))
+    letters = Text(complex(top.real + LETTER_GAP, top.imag - LETTER_GAP - height), text, height)
+    return PartSymbol((lines, letters), Box(0, 0, top.real + wide, LONG_LEG_HEIGHT * height))
 
 
 def other_faces(text: str, height: float) -> PartSymbol:
@@ -75,9 +75,9 @@ def other_faces(text: str, height: float) -> PartSymbol:
     first = roughness(text, height)
     start = first.box.right + 0.6 * height
     bracket = width("(", 1.4 * height)
-    foot = complex(start + bracket + 0.5 * height + SHORT * height / math.tan(LEGS), 0.3 * height)
-    short = foot + SHORT * height * complex(-1 / math.tan(LEGS), 1)
-    top = foot + 2.2 * height * complex(1 / math.tan(LEGS), 1)
+    foot = complex(start + bracket + 0.5 * height + SHORT_LEG_HEIGHT * height / math.tan(LEG_ANGLE), 0.3 * height)
+    short = foot + SHORT_LEG_HEIGHT * height * complex(-1 / math.tan(LEG_ANGLE), 1)
+    top = foot + 2.2 * height * complex(1 / math.tan(LEG_ANGLE), 1)
     end = top.real + 0.5 * height
     brackets = (Text(complex(x, 0.5 * height), sign, 1.4 * height) for x, sign in ((start, "("), (end, ")")))
     box = Box(0, 0, end + bracket, first.box.height)
@@ -86,7 +86,7 @@ def other_faces(text: str, height: float) -> PartSymbol:
 
 def tolerance_frame(kind: str, value: str, datum: str, height: float) -> PartSymbol:
     """A frame with the symbol of the tolerance, its value and its datum."""
-    high = COMPARTMENT * height
+    high = COMPARTMENT_SIZE * height
     ends = np.cumsum([0.0, high, width(value, height) + height, width(datum, height) + height]).tolist()
     frame = segments(
         *((complex(x), complex(x, high)) for x in ends), (0j, ends[-1] + 0j), (1j * high, ends[-1] + 1j * high)
@@ -104,15 +104,15 @@ def tolerance_frame(kind: str, value: str, datum: str, height: float) -> PartSym
 def _characteristic(kind: str, middle: complex, height: float) -> list[Entity]:
     """The symbol of what is tolerated, in the middle of its compartment."""
     half = 0.55 * height
-    if kind == PROFILE_OF_A_LINE:
-        return [ArcEntity(middle - 0.5j * half, half, 0.0, math.pi, LINE)]
+    if kind == LINE_PROFILE_TOLERANCE:
+        return [ArcEntity(middle - 0.5j * half, half, 0.0, math.pi, SYMBOL_ROLE)]
     base = middle - 1j * half
     return [segments((base - half, base + half), (base, base + 2j * half))]
 
 
 def datum_letter(letter: str, height: float) -> PartSymbol:
     """The letter of a datum in its square."""
-    side = COMPARTMENT * height
+    side = COMPARTMENT_SIZE * height
     corners = (0j, side + 0j, side + 1j * side, 1j * side)
     lines = segments(*zip(corners, (*corners[1:], corners[0]), strict=True))
     return PartSymbol(
@@ -120,30 +120,30 @@ def datum_letter(letter: str, height: float) -> PartSymbol:
     )
 
 
-def datum_triangle(at: complex, away: complex, height: float) -> Heads:
+def datum_triangle(at: complex, away: complex, height: float) -> ArrowHeads:
     """The filled triangle that stands on a line ``at`` a place and points ``away`` from it."""
     up = height * away / abs(away)
-    half = HALF_SIDE * 1j * up
-    return Heads(np.array([[at + up, at - half, at + half]]), LINE)
+    half = TRIANGLE_HALF_SIDE * 1j * up
+    return ArrowHeads(np.array([[at + up, at - half, at + half]]), SYMBOL_ROLE)
 
 
-def nearest(box: Box, to: complex) -> complex:
+def nearest_place(box: Box, to: complex) -> complex:
     """The place of a box that is nearest to another."""
     return complex(np.clip(to.real, box.left, box.right), np.clip(to.imag, box.bottom, box.top))
 
 
 def leader(symbol: Box, to: complex, *, arrowed: bool = True) -> list[Entity]:
     """A line from the nearest corner or side of a symbol's box to a place, with an arrow there."""
-    beside = nearest(symbol, to)
+    beside = nearest_place(symbol, to)
     line = segments((beside, to))
-    return [line, head(to, to - beside, LINE)] if arrowed and to != beside else [line]
+    return [line, head(to, to - beside, SYMBOL_ROLE)] if arrowed and to != beside else [line]
 
 
 def shelf_leader(symbol: Box, to: complex) -> list[Entity]:
     """A shelf under a symbol, and from its nearer end a line with an arrow to a place."""
     ends = [complex(symbol.left, symbol.bottom), complex(symbol.right, symbol.bottom)]
     near, far = sorted(ends, key=lambda end: abs(end - to))
-    return [segments((far, near), (near, to)), head(to, to - near, LINE)]
+    return [segments((far, near), (near, to)), head(to, to - near, SYMBOL_ROLE)]
 
 
 def cutting_plane(at: complex, outwards: complex, look: complex, letter: str, height: float) -> list[Entity]:
@@ -156,7 +156,7 @@ def cutting_plane(at: complex, outwards: complex, look: complex, letter: str, he
     return [
         segments((at, end), role="frame"),
         segments((arrow_at - reach * look, arrow_at)),
-        head(arrow_at - 0.6 * look, look, LINE),
+        head(arrow_at - 0.6 * look, look, SYMBOL_ROLE),
         Text(base, letter, height, "center"),
     ]
 
@@ -168,4 +168,4 @@ def sense_arrow(centre: complex, radius: float, start: float, sweep: float) -> l
     tip = centre + cmath.rect(radius, end)
     # On the chord of its own length, so that the head does not leave the arc.
     along = 1j * math.copysign(1, sweep) * cmath.rect(1, end - math.copysign(min(1.0, 1.8 / radius), sweep))
-    return [ArcEntity(centre, radius, low, high, LINE), head(tip, along, LINE)]
+    return [ArcEntity(centre, radius, low, high, SYMBOL_ROLE), head(tip, along, SYMBOL_ROLE)]

@@ -15,9 +15,8 @@ from importlib.resources import files
 from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
+from graphcam.drafting.act_data import WrittenActs
 from graphcam.drafting.ink import Caption, say
-from graphcam.drafting.written_acts import WrittenActs
-from graphcam.indices import in_html
 from graphcam.language import language as language_of
 from graphcam.sheets.model import (
     Box,
@@ -27,17 +26,18 @@ from graphcam.sheets.model import (
     Page,
     Source,
     Text,
-    around_all,
+    bounding_box,
 )
 from graphcam.sheets.player_svg import group_svg, roles_css
 from graphcam.sheets.sampling import box_of
 from graphcam.sheets.typefaces import font_faces
+from graphcam.subscripts import in_html
 
 if TYPE_CHECKING:
     from jinja2 import Template
     from markupsafe import Markup
 
-WORDS: Mapping[str, Caption] = {
+PAGE_CAPTIONS: Mapping[str, Caption] = {
     "construction": say("Construction"),
     "mechanism": say("Mechanism"),
     "contents": say("Contents"),
@@ -94,13 +94,13 @@ WORDS: Mapping[str, Caption] = {
     "noscript": say("JavaScript is off: only the finished sheet is shown."),
 }
 """What the page itself says."""
-INDENT = re.compile(r"\n\s+(?=<)")
+INDENT_PATTERN = re.compile(r"\n\s+(?=<)")
 """What stands before an element that begins a line of the template: nothing is seen of it."""
-IDLE = re.compile(r'(?P<text>"(?:[^"\\]|\\.)*")|(?<=\d)\.0(?=[,\]}])')
+IDLE_PATTERN = re.compile(r'(?P<text>"(?:[^"\\]|\\.)*")|(?<=\d)\.0(?=[,\]}])')
 """Texts, which stay as they are, and the idle digits of whole numbers."""
-SCRIPTS = ("gestures.js", "camera.js", "board.js", "lights.js", "player.js")
+SCRIPT_FILES = ("gestures.js", "camera.js", "board.js", "lights.js", "player.js")
 """What shows the steps; later ones use the functions of earlier ones."""
-MARGIN = 8.0
+STEP_MARGIN = 8.0
 """The margin around what a step shows when it is looked at closely [mm]."""
 
 
@@ -233,7 +233,7 @@ class Acts:
         return number, number in self.in_parts
 
 
-UNKNOWN = Acts()
+NO_ACTS = Acts()
 
 
 def player(
@@ -242,14 +242,14 @@ def player(
     mechanism: Mapping[str, Any] | None,
     words: Mapping[str, str],
     language: str,
-    acts: Acts = UNKNOWN,
+    acts: Acts = NO_ACTS,
 ) -> str:
     """The page.
 
     slides : one for each step of the drawing, in order
     acts : what the drawing shows, by the numbers that the slides' parts have it
     mechanism : what turns, see ``data/player/mechanism.js``; None for a drawing that nothing turns in
-    words : what the page itself says, by the names of :data:`WORDS`
+    words : what the page itself says, by the names of :data:`PAGE_CAPTIONS`
     """
     from markupsafe import Markup
 
@@ -272,12 +272,12 @@ def player(
         slides=slides,
         chapters=[(name, [k for k, _ in run]) for name, run in groupby(enumerate(slides), key=lambda s: s[1].chapter)],
         style=whole("player.css") + Markup(roles_css()),
-        scripts=[whole(name) for name in (*SCRIPTS, *(("mechanism.js", "turning.js") if mechanism else ()))],
+        scripts=[whole(name) for name in (*SCRIPT_FILES, *(("mechanism.js", "turning.js") if mechanism else ()))],
         mechanism=mechanism,
         fonts=Markup(font_faces([*said, *lettering])),
         data=Markup(_json(data)),
     )
-    return INDENT.sub("\n", page)
+    return INDENT_PATTERN.sub("\n", page)
 
 
 @cache
@@ -300,7 +300,7 @@ def _json(data: object) -> str:
     {"a":[1,-20.5,30],"b":"[1.0]\\u003c/script>"}
     """
     written = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
-    return IDLE.sub(lambda found: found["text"] or "", written).replace("<", "\\u003c")
+    return IDLE_PATTERN.sub(lambda found: found["text"] or "", written).replace("<", "\\u003c")
 
 
 def _indexed(text: str) -> Markup:
@@ -366,7 +366,7 @@ def _box_of_view(page: Page, view: str, keys: Set[str]) -> list[float]:
         box_of(e for e in group.entities if group.key in keys or (isinstance(e, Text) and e.view == view))
         for group in page.groups
     ]
-    box = around_all([box for box in shown if box] or [Box(0, 0, page.width, page.height)]).grown(MARGIN)
+    box = bounding_box([box for box in shown if box] or [Box(0, 0, page.width, page.height)]).grown(STEP_MARGIN)
     left, top = max(0.0, box.left), max(0.0, page.height - box.top)
     width, height = min(page.width, box.right) - left, min(page.height, page.height - box.bottom) - top
     return [round(x, 1) for x in (left, top, width, height)]

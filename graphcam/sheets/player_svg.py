@@ -11,7 +11,6 @@ from typing import cast
 import numpy as np
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.fonts import letters_of, points_size
 from graphcam.sheets.model import (
     ArcEntity,
     Circles,
@@ -26,15 +25,16 @@ from graphcam.sheets.model import (
     by_place,
     kind_of,
 )
-from graphcam.sheets.smooth import bezier
-from graphcam.sheets.styles import STYLES, Style
+from graphcam.sheets.smooth_curves import bezier
+from graphcam.sheets.styles import STYLES_BY_ROLE, Style
+from graphcam.sheets.text_measures import letters_of, points_size
 
 MM_PER_POINT = 25.4 / 72
-ANCHORS = {"left": "", "center": " middle", "right": " end"}
-IDLE = re.compile(r"\.00|(?<=\.\d)0")
+ANCHOR_CLASSES = {"left": "", "center": " middle", "right": " end"}
+IDLE_DIGITS_PATTERN = re.compile(r"\.00|(?<=\.\d)0")
 """The idle digits of a number with two decimals."""
-UPRIGHT = re.compile(r"M([-\d.]+) ([-\d.]+)L\1 ([-\d.]+)(?=M|$)")
-LEVEL = re.compile(r"M([-\d.]+) ([-\d.]+)L([-\d.]+) \2(?=M|$)")
+UPRIGHT_PATTERN = re.compile(r"M([-\d.]+) ([-\d.]+)L\1 ([-\d.]+)(?=M|$)")
+LEVEL_PATTERN = re.compile(r"M([-\d.]+) ([-\d.]+)L([-\d.]+) \2(?=M|$)")
 """A single stroke along an axis of the page, of which one number says where it ends."""
 
 
@@ -71,7 +71,7 @@ def _in_pieces(entity: Entity, numbers: Numbers) -> Iterator[tuple[str, Entity]]
 def roles_css() -> str:
     """The width, the line type and the ink in print of every role, as variables of its class."""
     # Roles of a drawing in progress have two words: the style sheet knows what is former and what current.
-    return "\n".join(_role_css(role, style) for role, style in STYLES.items() if " " not in role)
+    return "\n".join(_role_css(role, style) for role, style in STYLES_BY_ROLE.items() if " " not in role)
 
 
 def _role_css(role: str, style: Style) -> str:
@@ -90,7 +90,7 @@ def _text(text: Text, where: str, height: float) -> str:
     x, y = _number(text.at.real), _number(height - text.at.imag)
     size = _size(text.height)
     turn = f' transform="rotate({-math.degrees(text.angle):.2f} {x} {y})"' if text.angle else ""
-    classes = f"text{ANCHORS[text.align]}" + (f" {text.role}" if text.role != "text" else "")
+    classes = f"text{ANCHOR_CLASSES[text.align]}" + (f" {text.role}" if text.role != "text" else "")
     return f'<text class="{classes}"{where} x="{x}" y="{y}" font-size="{size}"{turn}>{_letters(text)}</text>'
 
 
@@ -115,7 +115,7 @@ def _path(entity: Entity, height: float) -> str:
     match entity:
         case Strokes(starts=starts, ends=ends):
             strokes = _numbers("M%.2f %.2fL%.2f %.2f" * len(starts), np.column_stack([starts, ends]), height)
-            return LEVEL.sub(r"M\1 \2H\3", UPRIGHT.sub(r"M\1 \2V\3", strokes))
+            return LEVEL_PATTERN.sub(r"M\1 \2H\3", UPRIGHT_PATTERN.sub(r"M\1 \2V\3", strokes))
         case Stroke(points=points, closed=closed):
             return _numbers("M" + "L".join(["%.2f %.2f"] * len(points)) + "Z" * closed, points, height)
         case Curve(points=points):
@@ -157,4 +157,4 @@ def _number(mm: float) -> str:
 
 def _without_idle(numbers: str) -> str:
     """Numbers of two decimals without the digits and signs that say nothing."""
-    return IDLE.sub("", numbers.replace("-0.00", "0.00"))
+    return IDLE_DIGITS_PATTERN.sub("", numbers.replace("-0.00", "0.00"))

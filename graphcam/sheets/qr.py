@@ -4,13 +4,13 @@ import numpy as np
 import segno
 from numpy.typing import NDArray
 
-LEVEL = "m"
+CORRECTION_LEVEL = "m"
 """The level of error correction: what 15 % of damage leaves readable."""
-SMALLEST = 18.0
+MIN_CODE_SIDE = 18.0
 """The minimum side of a code, mm, without the white about it."""
-FINEST, FINEST_OF_A_TILE = 0.75, 0.6
+MIN_MODULE, MIN_TILE_MODULE = 0.75, 0.6
 """The minimum module, mm: in a photograph of 5 megapixels of a whole sheet of A3 four pixels; half a sheet has more."""
-QUIET = 4
+QUIET_MODULES = 4
 """Modules that stay white about a code."""
 
 
@@ -20,14 +20,14 @@ def modules(text: str) -> NDArray[np.bool_]:
     >>> modules("GC1").shape
     (21, 21)
     """
-    code = segno.make_qr(text, error=LEVEL, boost_error=False)
+    code = segno.make_qr(text, error=CORRECTION_LEVEL, boost_error=False)
     return np.array([list(row) for row in code.matrix]) == 1
 
 
-def module_size(count: int, finest: float = FINEST) -> float:
+def module_size(count: int, finest: float = MIN_MODULE) -> float:
     """The side of a module in mm, of a code with so many in a row.
 
-    >>> round(module_size(21), 3), module_size(33), module_size(33, FINEST_OF_A_TILE)
+    >>> round(module_size(21), 3), module_size(33), module_size(33, MIN_TILE_MODULE)
     (0.857, 0.75, 0.6)
     """
-    return max(finest, SMALLEST / count)
+    return max(finest, MIN_CODE_SIDE / count)

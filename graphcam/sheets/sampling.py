@@ -9,13 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.fonts import extent, start_of
 from graphcam.sheets.model import ArcEntity, Box, Circles, Curve, Entity, Polygons, Stroke, Strokes, Text
+from graphcam.sheets.text_measures import extent, start_of
 
 Floats = NDArray[np.float64]
 FLATNESS = 0.02
 """A curve is replaced by chords that stay so close to it, mm."""
-DIRECTIONS = 72
+DIRECTION_COUNT = 72
 """The number of directions in which the outermost points are looked for: of a circle they miss 0.1 % of its radius."""
 
 
@@ -60,7 +60,7 @@ def outermost(points: Points) -> Points:
     >>> outermost(np.array([0j, 2, 1 + 0.5j, 2 + 1j, 1j])).tolist()
     [(2+1j), 1j, 0j, (2+0j)]
     """
-    angles = 2 * np.pi * (np.arange(DIRECTIONS) + 0.5) / DIRECTIONS
+    angles = 2 * np.pi * (np.arange(DIRECTION_COUNT) + 0.5) / DIRECTION_COUNT
     # One direction after the other: a product of matrices would wake threads, which take longer than the work.
     x, y, ways = points.real.copy(), points.imag.copy(), zip(np.cos(angles), np.sin(angles), strict=True)
     farthest = np.array([np.argmax(across * x + up * y) for across, up in ways])
@@ -98,12 +98,12 @@ def corners(text: Text) -> Points:
     return text.at + box * cmath.rect(1.0, text.angle)
 
 
-def within(starts: Points, ends: Points, box: Points, margin: float) -> tuple[Floats, Floats]:
+def spans_in_box(starts: Points, ends: Points, box: Points, margin: float) -> tuple[Floats, Floats]:
     """The parts of lines (n,), from 0 at the start to 1 at the end, in a text's box (4 corners) with a margin.
 
     A line has no part in it where the first number is not less than the second.
 
-    >>> low, high = within(np.array([0j]), np.array([10 + 0j]), np.array([4 - 1j, 6 - 1j, 6 + 1j, 4 + 1j]), 0.0)
+    >>> low, high = spans_in_box(np.array([0j]), np.array([10 + 0j]), np.array([4 - 1j, 6 - 1j, 6 + 1j, 4 + 1j]), 0.0)
     >>> low.tolist(), high.tolist()
     ([0.4], [0.6])
     """
@@ -129,9 +129,9 @@ def box_of_lines(starts: Points, ends: Points) -> Box | None:
     """The box around straight pieces; None if there is nothing to see."""
     points = np.concatenate([starts, ends])
     points = points[np.isfinite(points)]
-    return around(points) if len(points) else None
+    return box_around(points) if len(points) else None
 
 
-def around(points: Points) -> Box:
+def box_around(points: Points) -> Box:
     """The box around at least one point."""
     return Box(points.real.min().item(), points.imag.min().item(), points.real.max().item(), points.imag.max().item())

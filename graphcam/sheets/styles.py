@@ -24,7 +24,7 @@ class Style:
     colour: str = BLACK
 
 
-_FINISHED: dict[str, Style] = {
+_FINISHED_STYLES: dict[str, Style] = {
     Role.CONSTRUCTION: Style(THIN, colour=GREY),
     Role.HATCH: Style(THIN, colour=GREY),
     Role.DIMENSION: Style(THIN),
@@ -42,20 +42,20 @@ _FINISHED: dict[str, Style] = {
 }
 CYAN_TINT, GREY_TINT = "#a6e3fa", "#b3b3b3"
 """Ink of what is drawn over by hand and photographed: tints of 35 % and 30 %, lighter than any pencil."""
-LIGHT: Mapping[str, str] = {"colour": "light colour", "grey": "light grey"}
+LIGHT_ROLES: Mapping[str, str] = {"colour": "light colour", "grey": "light grey"}
 """The role of what a printer of colours, or of black alone, prints so."""
-CODE = "printed code"
+CODE_ROLE = "printed code"
 """The role of the cells of tags and codes."""
-FADED, CURRENT = "#9b9b9b", "#0b57a4"
+FADED_COLOUR, CURRENT_COLOUR = "#9b9b9b", "#0b57a4"
 """Ink of a drawing in progress: what stood before the current step, and what the step adds."""
-FORMER_STEP, CURRENT_STEP, CURRENT_PART = "former", "current", "part"
+FORMER_STEP_ROLE, CURRENT_STEP_ROLE, CURRENT_PART_ROLE = "former", "current", "part"
 """What a part of a step adds is bold, as it is shown small."""
 
 
 def in_progress(role: str, stage: str) -> str:
     """The role of a line in a drawing in progress, by the ``stage`` in which it was drawn.
 
-    >>> STYLES[in_progress(Role.RESULT, FORMER_STEP)].colour == FADED
+    >>> STYLES_BY_ROLE[in_progress(Role.RESULT, FORMER_STEP_ROLE)].colour == FADED_COLOUR
     True
     """
     return f"{stage} {role}"
@@ -63,24 +63,24 @@ def in_progress(role: str, stage: str) -> str:
 
 def _current(style: Style) -> Style:
     # A limit keeps its accent: it is told by its colour.
-    return style if style.colour == ACCENT else Style(style.width, style.pattern, CURRENT)
+    return style if style.colour == ACCENT else Style(style.width, style.pattern, CURRENT_COLOUR)
 
 
 def _bold(style: Style) -> Style:
     return Style(BOLD, style.pattern, style.colour)
 
 
-STYLES: dict[str, Style] = {
-    **_FINISHED,
-    LIGHT["colour"]: Style(THIN, colour=CYAN_TINT),
-    LIGHT["grey"]: Style(THIN, colour=GREY_TINT),
-    CODE: Style(THIN),
+STYLES_BY_ROLE: dict[str, Style] = {
+    **_FINISHED_STYLES,
+    LIGHT_ROLES["colour"]: Style(THIN, colour=CYAN_TINT),
+    LIGHT_ROLES["grey"]: Style(THIN, colour=GREY_TINT),
+    CODE_ROLE: Style(THIN),
     **{
-        in_progress(role, FORMER_STEP): Style(min(style.width, MEDIUM), style.pattern, FADED)
-        for role, style in _FINISHED.items()
+        in_progress(role, FORMER_STEP_ROLE): Style(min(style.width, MEDIUM), style.pattern, FADED_COLOUR)
+        for role, style in _FINISHED_STYLES.items()
     },
-    **{in_progress(role, CURRENT_STEP): _current(style) for role, style in _FINISHED.items()},
-    **{in_progress(role, CURRENT_PART): _bold(_current(style)) for role, style in _FINISHED.items()},
+    **{in_progress(role, CURRENT_STEP_ROLE): _current(style) for role, style in _FINISHED_STYLES.items()},
+    **{in_progress(role, CURRENT_PART_ROLE): _bold(_current(style)) for role, style in _FINISHED_STYLES.items()},
 }
 """The style of each role of ink, and of what the sheet itself adds; all of them also for a drawing in progress.
 

@@ -7,20 +7,20 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from graphcam.sheets.fonts import broken, width, words_of, wrap
-from graphcam.sheets.frame import Ruling, outline, rules, stacked
-from graphcam.sheets.model import Box, Entity, Text, moved
+from graphcam.sheets.model import Box, Entity, Text, moved_entity
+from graphcam.sheets.sheet_frame import Ruling, outline, rules, stacked_lines
+from graphcam.sheets.text_measures import broken_lines, width, words_of, wrap
 from graphcam.words import Tell, Words
 
-ROW = 2.2
+ROW_HEIGHT = 2.2
 """Height of a row, in heights of its letters."""
-LEADING = 1.5
+LINE_SPACING = 1.5
 """The distance from line to line in a header, in heights of its letters."""
-MARGIN = 1.5
+CELL_MARGIN = 1.5
 """The margins left and right of the text in a cell, in heights of its letters, both together."""
-SAME = 1e-6
+WIDTH_ROUNDING = 1e-6
 """A text that is wider than its column by less fits it: the column was made for it, mm."""
-LONGEST = 40.0
+MAX_NAME_WIDTH = 40.0
 """A name that is longer, in heights of its letters, is broken into lines: a question, not what a quantity is called."""
 
 
@@ -52,11 +52,11 @@ class Block:
 
     def drawn(self, by: complex, answered: bool = True) -> list[Entity]:
         """The entities moved ``by`` x + iy, with the answers or without."""
-        return [moved(entity, by) for entity in (self.entities + self.answers if answered else self.entities)]
+        return [moved_entity(entity, by) for entity in (self.entities + self.answers if answered else self.entities)]
 
 
 def table_blocks(
-    table: Table, height: float, room: float = math.inf, tall: float = math.inf, *, row_height: float = ROW
+    table: Table, height: float, room: float = math.inf, tall: float = math.inf, *, row_height: float = ROW_HEIGHT
 ) -> list[Block]:
     """A table in letters of ``height`` mm, in a block no wider than ``room`` and no higher than ``tall`` mm.
 
@@ -115,14 +115,14 @@ def _columns(table: Table, height: float) -> list[_Column]:
     found: list[_Column] = []
     for k, header in enumerate(table.header):
         cells = (str(header), *(str(row[k]) for row in table.rows))
-        longest = math.inf if k else LONGEST * height
+        longest = math.inf if k else MAX_NAME_WIDTH * height
         below = max((_widest(wrap(cell, height, longest), height) for cell in cells[1:]), default=0.0)
         # A header is as wide as what stands below it, but in no more than two or three lines.
         lines = wrap(cells[0], height, max(below, 0.6 * width(cells[0], height)))
         wanted = max(below, _widest(lines, height))
         # A cell of spaces alone is room to write in.
         least = max(width(word, height) for cell in cells for word in ([w for _, w in words_of(cell)] or [cell]))
-        found.append(_Column(cells, max(wanted, least) + MARGIN * height, least + MARGIN * height))
+        found.append(_Column(cells, max(wanted, least) + CELL_MARGIN * height, least + CELL_MARGIN * height))
     return found
 
 
@@ -139,24 +139,24 @@ def _widths(columns: Sequence[_Column], room: float) -> list[float]:
     return [narrow if column.least <= narrow else room - narrow for column in columns]
 
 
-def table_block(table: Table, height: float, room: float = math.inf, *, row_height: float = ROW) -> Block:
+def table_block(table: Table, height: float, room: float = math.inf, *, row_height: float = ROW_HEIGHT) -> Block:
     """A table in letters of ``height`` mm, its lower left corner at the origin: names to the left, the rest centred.
 
     row_height : in heights of its letters
     """
     title, columns = str(table.title), _columns(table, height)
     widths = _widths(columns, room)
-    titled = broken(title, height, room) or [""]
+    titled = broken_lines(title, height, room) or [""]
     # The title must not stand over the edge.
     widths[-1] += max(0.0, _widest(titled, height) - sum(widths))
     told = [
-        [broken(c, height, w - MARGIN * height + SAME) for c in column.cells]
+        [broken_lines(c, height, w - CELL_MARGIN * height + WIDTH_ROUNDING) for c in column.cells]
         for column, w in zip(columns, widths, strict=True)
     ]
     headers, *rows = (list(row) for row in zip(*told, strict=True))
     headed = int(any(headers))
     grid = [headers, *rows][1 - headed :]
-    heights = [(row_height + (max(1, *map(len, row)) - 1) * LEADING) * height for row in grid]
+    heights = [(row_height + (max(1, *map(len, row)) - 1) * LINE_SPACING) * height for row in grid]
     # Columns end from the left edge on, rows from the upper edge down.
     ends = [sum(widths[:k]) for k in range(len(widths) + 1)]
     levels = [sum(heights[j:]) for j in range(len(grid) + 1)]
@@ -165,8 +165,8 @@ def table_block(table: Table, height: float, room: float = math.inf, *, row_heig
     thin = [*across[headed:-1], *((x, 0, x, high) for x in ends[1:-1])]
     entities: list[Entity] = [rules(0j, outline(wide, high) + across[:headed], "table")]
     entities += [rules(0j, thin, "ruling")] if thin else []
-    above = high + (len(titled) - 1) * LEADING * height
-    entities += stacked(titled, complex(0, above + 0.7 * height), LEADING, height, "left")
+    above = high + (len(titled) - 1) * LINE_SPACING * height
+    entities += stacked_lines(titled, complex(0, above + 0.7 * height), LINE_SPACING, height, "left")
     answers: list[Entity] = []
     for j, (row, (upper, lower)) in enumerate(zip(grid, pairwise(levels), strict=True), -headed):
         for k, (lines, (left, right)) in enumerate(zip(row, pairwise(ends), strict=True)):
@@ -177,9 +177,9 @@ def table_block(table: Table, height: float, room: float = math.inf, *, row_heig
 
 def _cell(lines: list[str], box: Box, height: float) -> list[Text]:
     """Lines in the middle of a cell; in the first column they begin at the left."""
-    y = (box.top + box.bottom) / 2 + (len(lines) - 1) * LEADING / 2 * height - height / 2
-    x, align = ((box.left + box.right) / 2, "center") if box.left else (MARGIN / 2 * height, "left")
-    return stacked(lines, complex(x, y), LEADING, height, align)
+    y = (box.top + box.bottom) / 2 + (len(lines) - 1) * LINE_SPACING / 2 * height - height / 2
+    x, align = ((box.left + box.right) / 2, "center") if box.left else (CELL_MARGIN / 2 * height, "left")
+    return stacked_lines(lines, complex(x, y), LINE_SPACING, height, align)
 
 
 def _widest(lines: Iterable[str], height: float) -> float:

@@ -23,19 +23,19 @@ from typing import TYPE_CHECKING, NamedTuple
 if TYPE_CHECKING:
     from matplotlib.ft2font import FT2Font
 
-FAMILY = "osifont"
+FONT_FAMILY = "osifont"
 """The family of the letters, by the name that drawings have for it."""
-ELSEWHERE = "DejaVu Sans"
+FALLBACK_FAMILY = "DejaVu Sans"
 """The family that comes nearest to osifont where that is not installed."""
-BOX = "□"
+MISSING_CHARACTER = "□"
 """The sign that stands for a character that no face has."""
 ALPHABET = "".join(map(chr, (*range(0x20, 0x7F), *range(0xA0, 0x100), *range(0x391, 0x3CA), *range(0x400, 0x460))))
 """What nearly every sheet is lettered with, in any language that the program speaks."""
-UPRIGHT = "regular", "medium", "book", "roman"
+UPRIGHT_STYLES = "regular", "medium", "book", "roman"
 """How files are named that hold neither bold nor slanted letters."""
 
 
-FILE = "glyphs.json"
+GLYPHS_FILE = "glyphs.json"
 """Beside the letters; ``tests/sheets/measured_glyphs.py`` writes it."""
 
 
@@ -100,7 +100,7 @@ def glyph_table() -> GlyphTable:
     >>> table.faces[0]["H"].top == table.capital, table.face("H"), table.face("√"), table.face("漢")
     (True, 0, 1, None)
     """
-    said = json.loads((files("graphcam") / "data" / "fonts" / FILE).read_text(encoding="utf-8"))
+    said = json.loads((files("graphcam") / "data" / "fonts" / GLYPHS_FILE).read_text(encoding="utf-8"))
     faces = ({character: Design(*row) for character, row in face.items()} for face in said["faces"])
     return GlyphTable(said["ems"], said["capital"], tuple(faces))
 
@@ -141,9 +141,9 @@ def face_of(character: str) -> Path | None:
     """
     face = glyph_table().face(character)
     if face is None:
-        return _found(character)
+        return _face_with(character)
     # osifont has a few Chinese characters, thinner than those of the face that has the rest.
-    return (_found(character) if is_chinese(character) else None) or shipped()[face]
+    return (_face_with(character) if is_chinese(character) else None) or shipped()[face]
 
 
 def is_chinese(character: str) -> bool:
@@ -155,7 +155,7 @@ def is_chinese(character: str) -> bool:
     return "\u3000" <= character <= "\u9fff" or "\uff00" <= character <= "\uff60"
 
 
-def _found(character: str) -> Path | None:
+def _face_with(character: str) -> Path | None:
     """The first of the machine's own faces that has a character; nobody draws those for private use alike."""
     if not (opens_fonts() and character.isprintable()):
         return None
@@ -175,7 +175,7 @@ def installed() -> tuple[Path, ...]:
 def _is_upright(face: Path) -> bool:
     name = face.stem.lower()
     styled = any(style in name for style in ("bold", "italic", "oblique", "light", "black", "thin", "mono"))
-    return any(style in name for style in UPRIGHT) or not styled
+    return any(style in name for style in UPRIGHT_STYLES) or not styled
 
 
 @cache
@@ -211,10 +211,10 @@ def glyph(character: str) -> Glyph:
         face = face_of(character)
     if number is not None and face in (None, *shipped()):
         return table.faces[number][character].glyph(table.capital)
-    return glyph(BOX) if face is None else _opened(face, character)
+    return glyph(MISSING_CHARACTER) if face is None else _machine_glyph(face, character)
 
 
-def _opened(face: Path, character: str) -> Glyph:
+def _machine_glyph(face: Path, character: str) -> Glyph:
     """The measures of a character in a face of the machine."""
     return design(face, character).glyph(font(face).units_per_EM * capital())
 
@@ -233,10 +233,10 @@ def capital() -> float:
     return glyph_table().capital / glyph_table().ems
 
 
-def unknown(texts: Iterable[str]) -> str:
+def missing_characters(texts: Iterable[str]) -> str:
     """The characters that no face of the machine has.
 
-    >>> unknown(["φ = 80°", "漢" if face_of("漢") else ""])
+    >>> missing_characters(["φ = 80°", "漢" if face_of("漢") else ""])
     ''
     """
     return "".join(character for character in sorted(set("".join(texts))) if face_of(character) is None)
@@ -258,7 +258,7 @@ def _rules(by_face: dict[Path, str]) -> Iterator[str]:
         source = f'url(data:font/woff;base64,{_woff(face, letters)}) format("woff")'
         # A face under the same name has only what the first one lacks.
         only = "" if face == lettering_file() else f" unicode-range: {', '.join(f'U+{ord(c):X}' for c in letters)};"
-        yield f'@font-face {{ font-family: "{FAMILY}"; src: {source};{only} }}'
+        yield f'@font-face {{ font-family: "{FONT_FAMILY}"; src: {source};{only} }}'
 
 
 # The pages of a drawing and its step player have nearly always the same letters.

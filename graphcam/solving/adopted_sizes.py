@@ -17,18 +17,18 @@ from graphcam.constructions.chain import Chain
 from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.least_radius import minimum_radius
-from graphcam.solving.warnings import LAST_DIGIT, Caution, angles_exceeded
+from graphcam.solving.solution_warnings import PRINT_ROUNDING, Caution, angles_exceeded
 from graphcam.words import Caption, Words, joined, say, sequence
 
-MORE = (2, 3, 4)
+DIVISION_FACTORS = (2, 3, 4)
 """Times as many divisions, of which the first that helps is named."""
-MOST_BY_HAND = 72
+MAX_DIVISIONS = 72
 """Divisions of a phase; nobody draws more."""
-FURTHER = 4
+FURTHER_MULTIPLES = 4
 """How many multiples of the rounding are tried on from the first radius that may help."""
-BESIDE = (0, 1, -1, 2, -2)
+PLACE_MULTIPLES = (0, 1, -1, 2, -2)
 """The multiples to either side of an adopted offset or centre distance that are tried."""
-EXACTLY = 1e-9
+ARITHMETIC_TOLERANCE = 1e-9
 """mm or degrees: what a size that is named as a remedy may miss a limit by, for the arithmetic."""
 
 
@@ -67,10 +67,11 @@ class FaceDesign:
         return left, right
 
     @property
-    def wide_enough(self) -> bool:
+    def is_wide_enough(self) -> bool:
         """Whether the adopted face has the margin beyond the exact contact too."""
         return all(
-            exact + self.margin <= adopted + LAST_DIGIT for exact, adopted in zip(self.exact, self.adopted, strict=True)
+            exact + self.margin <= adopted + PRINT_ROUNDING
+            for exact, adopted in zip(self.exact, self.adopted, strict=True)
         )
 
     def to_dict(self) -> dict[str, Any]:
@@ -112,9 +113,9 @@ def _satisfies(cam: Cam, board: Board, slack: float) -> bool:
 def _radius(chain: Chain, cam: Cam) -> Iterator[Caution]:
     board = chain.board
     decided = board.prime_radius is not None and board.follower.place is not None
-    if decided or _satisfies(cam, board, LAST_DIGIT):
+    if decided or _satisfies(cam, board, PRINT_ROUNDING):
         return
-    radius, least = chain.prime_radius, _least_at(chain)
+    radius, least = chain.prime_radius, _exact_least_radius(chain)
     if board.prime_radius is None and least > radius:
         drawn = chain.adopted().least
         said = say(
@@ -126,38 +127,42 @@ def _radius(chain: Chain, cam: Cam) -> Iterator[Caution]:
     remedies = _remedies(chain)
     if board.prime_radius is not None and not remedies:  # it is too small at any place, which is told of a given one
         return
-    told = [said.where(radius=radius, there=_there(chain)), *_sharp(cam, board), _take(remedies)]
+    told = [said.where(radius=radius, there=_place_words(chain)), *_curvature_remarks(cam, board), _take(remedies)]
     yield Caution(sequence(told, " "), "prime radius")
 
 
-def _there(chain: Chain) -> Words:
+def _place_words(chain: Chain) -> Words:
     """The words for the adopted place beside which a radius is told."""
     name = chain.board.follower.place_name
-    return PLACES[name].where(place=chain.place) if name in PLACES and "curvature" not in _asked(chain) else ""
+    return (
+        PLACE_CAPTIONS[name].where(place=chain.place)
+        if name in PLACE_CAPTIONS and "curvature" not in _limit_arguments(chain)
+        else ""
+    )
 
 
-PLACES = {
+PLACE_CAPTIONS = {
     "offset": say(" at the offset of {place:g} mm"),
     "distance": say(" at the centre distance of {place:g} mm"),
 }
 
 
-def _asked(chain: Chain) -> dict[str, Any]:
+def _limit_arguments(chain: Chain) -> dict[str, Any]:
     """What the exact least radius is asked for at the adopted place."""
     asked = asdict(chain.board.limits) | dict(chain.board.follower.conditions)
     return asked | ({"offset": chain.place} if "offset" in asked else {})
 
 
-def _least_at(chain: Chain) -> float:
+def _exact_least_radius(chain: Chain) -> float:
     """The exact least prime radius at the adopted place [mm]; NaN where that satisfies no limits."""
     board = chain.board
     follower = board.follower.built(chain.place, 0.0)
     with suppress(DesignError):
-        return minimum_radius(board.motion, follower, board.rotation, **_asked(chain)).prime_radius
+        return minimum_radius(board.motion, follower, board.rotation, **_limit_arguments(chain)).prime_radius
     return math.nan
 
 
-def _sharp(cam: Cam, board: Board) -> list[Caption]:
+def _curvature_remarks(cam: Cam, board: Board) -> list[Caption]:
     """The sentence on a radius of curvature below the permitted one; the pressure angle has a warning of its own."""
     least, rho = board.follower.conditions.get("curvature"), cam.extremes().min_convex_radius[0]
     if not least or rho >= least:
@@ -167,7 +172,9 @@ def _sharp(cam: Cam, board: Board) -> list[Caption]:
 
 def _remedies(chain: Chain) -> list[Words]:
     """What satisfies the exact limits: more divisions, or other sizes."""
-    finer = _divisions(chain, lambda other: _satisfies(_built(chain, *_sizes(other)), chain.board, EXACTLY))
+    finer = _divisions(
+        chain, lambda other: _satisfies(_exact_cam(chain, *_sizes(other)), chain.board, ARITHMETIC_TOLERANCE)
+    )
     return [*finer, *_other_sizes(chain)]
 
 
@@ -175,22 +182,22 @@ def _sizes(chain: Chain) -> tuple[float, float]:
     return chain.prime_radius, chain.place
 
 
-def _built(chain: Chain, radius: float, place: float) -> Cam:
+def _exact_cam(chain: Chain, radius: float, place: float) -> Cam:
     """The exact cam of these sizes, on whose pitch curve a roller has no influence."""
     return Cam(chain.board.motion, chain.board.follower.built(place, 0.0), radius, chain.board.rotation)
 
 
 def _other_sizes(chain: Chain) -> list[Words]:
     """The next round sizes within the exact limits, none if they are farther."""
-    board, step, least = chain.board, chain.rounding, _least_at(chain)
+    board, step, least = chain.board, chain.rounding, _exact_least_radius(chain)
     first = max(chain.prime_radius, 0.0 if math.isnan(least) else least)
-    radii = [multiple(steps_up(first, step) + k, step) for k in range(FURTHER)]
-    places = [chain.place + step * k for k in BESIDE]
+    radii = [multiple(steps_up(first, step) + k, step) for k in range(FURTHER_MULTIPLES)]
+    places = [chain.place + step * k for k in PLACE_MULTIPLES]
     radii = radii if board.prime_radius is None else [chain.prime_radius]
     places = places if board.follower.place is None else [chain.place]
     for radius, place in product(radii, places):
         with suppress(DesignError):
-            if _satisfies(_built(chain, radius, place), board, EXACTLY):
+            if _satisfies(_exact_cam(chain, radius, place), board, ARITHMETIC_TOLERANCE):
                 return [_named_sizes(chain, radius, place)]
     return []
 
@@ -217,15 +224,15 @@ def _roller(chain: Chain, cam: Cam) -> Iterator[Caution]:
         return
     rho = cam.extremes().min_convex_radius[0]
     most = _by_rule(board, cam)
-    if not adopted > most + LAST_DIGIT:
+    if not adopted > most + PRINT_ROUNDING:
         return
     said = say(
         "The adopted roller radius of {radius:g} mm is larger than the rule permits, {most:.5g} mm with the exact "
         "minimum radius of curvature, {rho:.5g} mm. {remedy}"
     )
-    smaller = multiple(math.floor(most / chain.rounding + EXACTLY), chain.rounding)
+    smaller = multiple(math.floor(most / chain.rounding + ARITHMETIC_TOLERANCE), chain.rounding)
     takes = [_key("follower.roller_radius", smaller)] if smaller > 0 else []
-    finer = _divisions(chain, lambda other: other.roller_radius <= _by_rule(board, _built(chain, *_sizes(other))))
+    finer = _divisions(chain, lambda other: other.roller_radius <= _by_rule(board, _exact_cam(chain, *_sizes(other))))
     yield Caution(said.where(radius=adopted, most=most, rho=rho, remedy=_take([*finer, *takes])), "roller radius")
 
 
@@ -237,15 +244,15 @@ def _by_rule(board: Board, cam: Cam) -> float:
 def _face(chain: Chain, face: FaceDesign | None) -> Iterator[Caution]:
     if face is None:
         return
-    for adopted, exact, said in zip(face.adopted, face.exact, SIDES, strict=True):
-        if (least := exact + face.margin) > adopted + LAST_DIGIT:
-            finer = _divisions(chain, lambda other: face_design(other, face.exact, face.margin).wide_enough)
+    for adopted, exact, said in zip(face.adopted, face.exact, FACE_REMARKS, strict=True):
+        if (least := exact + face.margin) > adopted + PRINT_ROUNDING:
+            finer = _divisions(chain, lambda other: face_design(other, face.exact, face.margin).is_wide_enough)
             wider = say("{length:g} mm", length=multiple(steps_up(least, face.rounding), face.rounding))
             remedy = _take([*finer, wider])
             yield Caution(said.where(adopted=adopted, least=least, margin=face.margin, remedy=remedy), "face")
 
 
-SIDES = (
+FACE_REMARKS = (
     say(
         "The adopted face, {adopted:g} mm to the left, is smaller than the exact minimum with its margin of "
         "{margin:g} mm, {least:.5g} mm. {remedy}"
@@ -263,7 +270,7 @@ SIDES = (
 def _divisions(chain: Chain, helps: Callable[[Chain], bool]) -> list[Words]:
     """The number of divisions with which the drawing proposes sizes that satisfy the limits; none if too many."""
     given = chain.board.divisions
-    for count in (times * given for times in MORE if times * given <= MOST_BY_HAND):
+    for count in (times * given for times in DIVISION_FACTORS if times * given <= MAX_DIVISIONS):
         with suppress(DesignError):
             if helps(Chain(replace(chain.board, divisions=count))):
                 return [_key("drawing.divisions", count)]

@@ -10,22 +10,22 @@ import numpy as np
 
 from graphcam import __version__
 from graphcam.comparison.arc_quantities import ArcsComparison
-from graphcam.constructions.arc_chain import AROUND_CENTRES, ArcBoard, ArcChain
+from graphcam.constructions.arc_chain import CENTRES_ROOM, ArcBoard, ArcChain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import NOTHING_HELD, Scale
+from graphcam.drafting.scale import NO_HELD_SCALES, Scale
 from graphcam.errors import DesignError
 from graphcam.given.follower import Rotation, omega_of
 from graphcam.mechanism.arc_motion import ArcMotion
-from graphcam.mechanism.arcs import ThreeArcCam, three_arc_cam
-from graphcam.solving.shown_solution import FILES, ShownSolution, plain_number, plain_quantities, plain_stations
+from graphcam.mechanism.three_arc_cam import ThreeArcCam, three_arc_cam
+from graphcam.solving.shown_solution import FILE_KINDS, ShownSolution, plain_number, plain_quantities, plain_stations
 from graphcam.solving.solution import Solution
 from graphcam.solving.task_board import diagram_room, largest_drawn, profile_paper
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.words import Tell, say
 
-POINTS = ("A", "D", "F", "G", "C1", "C2", "C3")
-SHARE = 0.9
+POINT_NAMES = ("A", "D", "F", "G", "C1", "C2", "C3")
+VIEW_SHARE = 0.9
 """The share of the room for a profile, for each of the two views of the cam."""
 
 
@@ -95,7 +95,7 @@ class ArcsSolution(ShownSolution):
             "quantities": plain_quantities(self.comparison.quantities),
             "stations": self._stations(),
             "warnings": self.warnings,
-            "files": dict.fromkeys(FILES),
+            "files": dict.fromkeys(FILE_KINDS),
         }
 
     @property
@@ -122,7 +122,9 @@ class ArcsSolution(ShownSolution):
         return plain_stations(phi, self.chain.stations.arc.tolist(), pairs, (read, pitch))
 
 
-def solve_arcs(task: ArcsTask, pencil: Pencil | None = None, held: Mapping[str, float] = NOTHING_HELD) -> ArcsSolution:
+def solve_arcs(
+    task: ArcsTask, pencil: Pencil | None = None, held: Mapping[str, float] = NO_HELD_SCALES
+) -> ArcsSolution:
     """Solve a task: draw its constructions with the pencil (by default an ideal one) and compute the cam exactly.
 
     held : scales that views keep, as :class:`~graphcam.drafting.scale.Paper` has them
@@ -149,9 +151,9 @@ def solve_arcs(task: ArcsTask, pencil: Pencil | None = None, held: Mapping[str, 
         roller_radius=task.follower.roller_radius,
         divisions=drawing.divisions,
         mu_phi=Scale(math.radians(diagrams.degrees_per_mm), "rad"),
-        paper=replace(profile_paper(drawing, SHARE), held=held),
+        paper=replace(profile_paper(drawing, VIEW_SHARE), held=held),
         extent=extent,
-        page=largest_drawn(drawing, extent, AROUND_CENTRES),
+        page=largest_drawn(drawing, extent, CENTRES_ROOM),
         heights={"a": diagrams.a, "v": diagrams.v, "s": diagrams.s},
         omega=None if task.speed_rpm is None else omega_of(task.speed_rpm),
     )
@@ -171,6 +173,6 @@ AnySolution = Solution | ArcsSolution
 
 
 def _root(root: ThreeArcCam) -> dict[str, Any]:
-    points = {name: [plain_number(x) for x in getattr(root, name)] for name in POINTS}
+    points = {name: [plain_number(x) for x in getattr(root, name)] for name in POINT_NAMES}
     radii = {name: plain_number(getattr(root, name)) for name in ("rho1", "rho2", "rho3")}
     return {**points, **radii, "sound": root.sound, "why": root.why}

@@ -14,22 +14,22 @@ from numpy.typing import NDArray
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion, Rise
 
-ORDINATES = (80.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
+STANDARD_ORDINATES = (80.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
 """Ordinates that are chosen from [mm of paper]."""
-SMALLER = (40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
+SMALL_ORDINATES = (40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
 """Tenths of these, hundredths and so on where even the last of them is too large."""
-POLES = (12.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 80.0)
+STANDARD_POLES = (12.0, 15.0, 20.0, 25.0, 30.0, 40.0, 50.0, 60.0, 80.0)
 """Pole distances that are chosen from [mm of paper]."""
-USUAL_POLE = 40.0
+DEFAULT_POLE = 40.0
 """At 1 degree a millimetre [mm of paper]; where the axis is shorter it is shorter in proportion, so that chords keep
 their slopes."""
-LOW = 0.7
+LOW_DIAGRAM_SHARE = 0.7
 """A diagram that is lower than this part of its room gets a shorter pole, as long as it keeps to the room."""
-LONGEST_POLE = 0.25
+MAX_POLE_SHARE = 0.25
 """The maximum pole, as a part of the axis of the cam angle: a longer one would take the room of the diagrams."""
-WITH_JERK = 0.75
+HEIGHT_SHARE_WITH_JERK = 0.75
 """The part of their heights that the diagrams keep where that of the jerk shares their column."""
-SAMPLES = 361
+PHASE_SAMPLES = 361
 """The number of samples of each phase, however short it is."""
 
 
@@ -51,7 +51,7 @@ class DiagramRoom:
     @property
     def beside_jerk(self) -> DiagramRoom:
         """The room where the jerk stands in the column too."""
-        a, v, s = (WITH_JERK * high for high in (self.a, self.v, self.s))
+        a, v, s = (HEIGHT_SHARE_WITH_JERK * high for high in (self.a, self.v, self.s))
         return replace(self, a=a, v=v, s=s)
 
 
@@ -124,14 +124,14 @@ class DrawnHeights:
         sides = np.concatenate([self.motion.at(phase, u, side)[3] for side in ("right", "left")])
         # A pole of 1 mm cuts off the slope of the acceleration on paper.
         height = _height(sides) * math.radians(self.degrees_per_mm) / mu_a
-        longest = min(LONGEST_POLE * self.turn, room.pole)
+        longest = min(MAX_POLE_SHARE * self.turn, room.pole)
         return next(pole for pole in _jerk_poles(longest) if pole * height <= room.v)
 
     def _chosen_ordinate(self, room: DiagramRoom, most: DiagramRoom) -> float:
         """The largest of a round series at which the acceleration keeps to its room."""
         a, _, _ = self.unit
         # Rather than a very small ordinate a diagram that is higher than usual.
-        usual = (y for y in ORDINATES if y * a <= (most if y == ORDINATES[-1] else room).a)
+        usual = (y for y in STANDARD_ORDINATES if y * a <= (most if y == STANDARD_ORDINATES[-1] else room).a)
         return next(usual, None) or next(y for y in _ordinates() if y * a <= most.a)
 
     def _chosen_poles(self, room: DiagramRoom, most: DiagramRoom, ordinate: float) -> tuple[float, float]:
@@ -141,8 +141,8 @@ class DrawnHeights:
         its room.
         """
         _, v, s = (ordinate * height for height in self.unit)
-        longest = min(LONGEST_POLE * self.turn, most.pole)
-        possible = [pole for pole in POLES if pole <= longest]
+        longest = min(MAX_POLE_SHARE * self.turn, most.pole)
+        possible = [pole for pole in STANDARD_POLES if pole <= longest]
         first = self._pole(possible, min(room.v, most.v), lambda pole: v / pole)
         second = self._pole(possible, min(room.s, most.s), lambda pole: s / (first * pole))
         if s > most.s * first * second:
@@ -152,11 +152,11 @@ class DrawnHeights:
         return first, second
 
     def _pole(self, possible: Sequence[float], high: float, height: Callable[[float], float]) -> float:
-        usual = USUAL_POLE / self.degrees_per_mm
+        usual = DEFAULT_POLE / self.degrees_per_mm
         k = min(range(len(possible)), key=lambda k: abs(possible[k] - usual))
         while k + 1 < len(possible) and height(possible[k]) > high:
             k += 1
-        while k > 0 and height(possible[k]) < LOW * high and height(possible[k - 1]) <= high:
+        while k > 0 and height(possible[k]) < LOW_DIAGRAM_SHARE * high and height(possible[k - 1]) <= high:
             k -= 1
         return possible[k]
 
@@ -169,7 +169,7 @@ def over_the_turn(motion: Motion) -> tuple[Floats, Floats, Floats]:
 
 def _places(motion: Motion) -> tuple[NDArray[np.intp], Floats]:
     """Phases and fractions of them."""
-    phase, u = np.meshgrid(np.arange(len(motion.phases)), np.linspace(0.0, 1.0, SAMPLES), indexing="ij")
+    phase, u = np.meshgrid(np.arange(len(motion.phases)), np.linspace(0.0, 1.0, PHASE_SAMPLES), indexing="ij")
     return phase.ravel(), u.ravel()
 
 
@@ -180,13 +180,13 @@ def _height(values: Floats) -> float:
 
 def _jerk_poles(longest: float) -> Iterator[float]:
     """The poles that are usually chosen from, the longest first, and ever smaller ones."""
-    yield from (pole for pole in reversed(POLES) if pole <= longest)
+    yield from (pole for pole in reversed(STANDARD_POLES) if pole <= longest)
     for k in count(0):
         yield from (y / 10**k for y in (10.0, 8.0, 6.0, 5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.2))
 
 
 def _ordinates() -> Iterator[float]:
     """The ordinates that are usually chosen from, and ever smaller ones."""
-    yield from ORDINATES
+    yield from STANDARD_ORDINATES
     for k in count(1):
-        yield from (y / 10**k for y in SMALLER)
+        yield from (y / 10**k for y in SMALL_ORDINATES)

@@ -8,23 +8,23 @@ from typing import Any
 
 from graphcam.comparison.quantities import Quantity
 from graphcam.given.laws import Floats
-from graphcam.showing import WIDTH, Shown, from_above, in_lines
+from graphcam.showing import MAX_WIDTH, Plottable, from_above, in_lines
 from graphcam.words import Words
 
-USUAL = (
+DEFAULT_KINDS = (
     *("pdf", "svg", "png", "dxf", "csv", "md", "note", "note_html", "player"),
     *("profile_dxf", "profile_csv", "profile_xyz"),
 )
 """The kinds of files that a solution is written to if nothing else is said."""
-CUTTING = "profile_step", "profile_gcode"
+CUTTING_KINDS = "profile_step", "profile_gcode"
 """The kinds of files by which a machine cuts the cam."""
-FILES = (*USUAL, *CUTTING)
+FILE_KINDS = (*DEFAULT_KINDS, *CUTTING_KINDS)
 """All kinds of files that there are."""
-GIVEN = "graphcam", "task", "files"
+UNFINISHED_KEYS = "graphcam", "task", "files"
 """What ``solution.json`` says of an unfinished sheet: no answers."""
 
 
-class ShownSolution(Shown):
+class ShownSolution(Plottable):
     """A solution that plots its sheet and writes its files."""
 
     _drawn_in = "construction_drawing.plot_sheet"
@@ -77,7 +77,7 @@ class ShownSolution(Shown):
         # The last line of the mechanism says how to go on from there.
         *sizes, _ = repr(mechanism).splitlines()
         last = ".drawn[name], .comparison, .to_dict(); .plot() draws the sheet, .write(folder) writes the files"
-        rows = [size.strip() for size in sizes] + wrap("drawn: " + ", ".join(drawn), WIDTH)
+        rows = [size.strip() for size in sizes] + wrap("drawn: " + ", ".join(drawn), MAX_WIDTH)
         return in_lines(f"{type(self).__name__} of {name!r}", rows, last)
 
 
@@ -87,7 +87,7 @@ def without_answers(document: Mapping[str, Any]) -> dict[str, Any]:
     >>> without_answers({"graphcam": "1.0", "task": {}, "quantities": {"max_v": 43.0}, "files": {}})
     {'graphcam': '1.0', 'task': {}, 'files': {}}
     """
-    return {key: document[key] for key in GIVEN}
+    return {key: document[key] for key in UNFINISHED_KEYS}
 
 
 def plain_number(value: float) -> float | None:

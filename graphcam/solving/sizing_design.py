@@ -18,7 +18,7 @@ from graphcam.given.roller_rule import roller_rule
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import least_preload
-from graphcam.mechanism.sizing import Objective, SizedCam, best_cam, pareto_front, sized
+from graphcam.mechanism.sizing import Objective, SizedCam, best_cam, pareto_front, sized_cam
 from graphcam.mechanism.sizing_limits import Measure, Sizes, SizingLimits, SizingProblem
 from graphcam.showing import from_above, in_lines
 from graphcam.tasks.arcs_task import ArcsTask
@@ -27,9 +27,9 @@ from graphcam.tasks.spring_tables import SpringTable
 from graphcam.tasks.task import CamTable, Task
 from graphcam.words import Words, say
 
-FINER = 4
+ROUNDING_LEVELS = 4
 """How often sizes are rounded more finely (tenths, hundredths, ...) where no round sizes keep the limits."""
-TRIED = 50
+MAX_TRIED_RADII = 50
 """Round radii that are tried, from the minimum one upwards."""
 
 
@@ -157,31 +157,31 @@ def plain_cam(cam: SizedCam) -> dict[str, float]:
 
 def adopted(best: SizedCam, objective: Objective, step: float) -> SizedCam:
     """The best cam of sizes that are multiples of a step [mm] and keeps all limits; of a finer step where none does."""
-    for finer in range(FINER):
-        rounded = list(_rounded(best, objective, step / 10**finer))
+    for finer in range(ROUNDING_LEVELS):
+        rounded = list(_rounded_sizes(best, objective, step / 10**finer))
         kept = [sizes for sizes in rounded if best.problem.keeps(sizes, slack=0.0)]
         if kept:
-            cams = [sized(best.problem, sizes) for sizes in kept]
+            cams = [sized_cam(best.problem, sizes) for sizes in kept]
             if objective == "stress":
                 return min(cams, key=lambda cam: cam.stress)
             return min(cams, key=lambda cam: (cam.radius, cam.face_width))
     return best
 
 
-def _rounded(best: SizedCam, objective: Objective, step: float) -> list[Sizes]:
+def _rounded_sizes(best: SizedCam, objective: Objective, step: float) -> list[Sizes]:
     """Cams of round sizes about the best one; of the smallest ones every radius is raised until the limits are kept."""
     problem = best.problem
     radius, offset, roller, _ = problem.values(best.sizes)
     ranges = list(problem.ranges.values())
-    others = product(_about(offset, ranges[1], step), _about(roller, ranges[2], step))
+    others = product(_nearest_multiples(offset, ranges[1], step), _nearest_multiples(roller, ranges[2], step))
     if objective == "stress":
-        near, widest = _about(radius, ranges[0], step), problem.face_width[1]
+        near, widest = _nearest_multiples(radius, ranges[0], step), problem.face_width[1]
         return [problem.sizes(each, e, r, widest) for e, r in others for each in near]
     found = [_smallest(problem, radius, e, r, step) for e, r in others]
     return [sizes for sizes in found if sizes is not None]
 
 
-def _about(value: float, within: tuple[float, float], step: float) -> list[float]:
+def _nearest_multiples(value: float, within: tuple[float, float], step: float) -> list[float]:
     """The multiples below and above a value in its range; the value itself where no multiple is in it."""
     low, high = within
     if low == high:
@@ -196,7 +196,9 @@ def _smallest(problem: SizingProblem, radius: float, offset: float, roller: floa
     low, high = problem.radius
     widest, narrowest = problem.face_width[1], problem.face_width[0]
     first = steps_up(radius, step)
-    tried = [low] if low == high else [x for k in range(TRIED) if low <= (x := multiple(first + k, step)) <= high]
+    tried = (
+        [low] if low == high else [x for k in range(MAX_TRIED_RADII) if low <= (x := multiple(first + k, step)) <= high]
+    )
     for each in tried:
         wide = problem.sizes(each, offset, roller, widest)
         if problem.keeps(wide, slack=0.0):

@@ -20,14 +20,14 @@ from graphcam.errors import DesignError
 from graphcam.given.impact import acceleration_jumps
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.spline import ProfileSpline, profile_spline
+from graphcam.mechanism.profile_spline import ProfileSpline, profile_spline
 from graphcam.solving.adopted_sizes import FaceDesign, adopted_cautions, face_design
-from graphcam.solving.shown_solution import FILES, ShownSolution, plain_number, plain_quantities, plain_stations
+from graphcam.solving.shown_solution import FILE_KINDS, ShownSolution, plain_number, plain_quantities, plain_stations
+from graphcam.solving.solution_warnings import Caution, less_round, title_scale, unit_slips, warnings_of
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.stress_design import StressDesign
 from graphcam.solving.task_board import board_of
 from graphcam.solving.tolerance_design import ToleranceDesign
-from graphcam.solving.warnings import Caution, less_round, title_scale, unit_slips, warnings_of
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import Task
 from graphcam.words import Tell, say
@@ -146,7 +146,7 @@ class Solution(ShownSolution):
             **({"spring": self.spring.to_dict()} if self.spring else {}),
             **({"contact_stress": self.stress.to_dict()} if self.stress else {}),
             **({"tolerances": self.tolerances.to_dict()} if self.tolerances else {}),
-            "files": dict.fromkeys(FILES),
+            "files": dict.fromkeys(FILE_KINDS),
         }
 
     def _low_dwells(self) -> list[dict[str, Any]]:

@@ -21,11 +21,11 @@ from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import Contact, SpringPreload, least_preload
 from graphcam.mechanism.forces import CamForces, Forces, mean_torque
 from graphcam.mechanism.jamming import jamming_margin
-from graphcam.mechanism.stationary import Places, TurnCurve, ValueAt, over_turn, places_in, smooth_pieces
+from graphcam.mechanism.turn_extremes import Places, TurnCurve, ValueAt, over_turn, places_in, smooth_pieces
 from graphcam.sheets.tables import Table
 from graphcam.showing import by_parts
+from graphcam.solving.solution_warnings import Caution
 from graphcam.solving.turn_diagrams import TurnDiagram, at_side, plain_place, turn_diagrams
-from graphcam.solving.warnings import Caution
 from graphcam.words import Words, joined, sequence
 
 CONTACT_MEANING = Meaning(
@@ -42,7 +42,7 @@ FORCES_MEANING = Meaning(
     ),
 )
 Row = tuple[Words, Words, Words]
-PLAIN_PARTS = 12
+PLAIN_POINTS = 12
 """Points of a smooth piece in the plain data."""
 
 
@@ -163,7 +163,7 @@ class SpringDesign:
             "friction": self.friction,
             "least_transmission": plain_place(jamming_margin(self.cam, self.friction), ""),
             "torque": {
-                "mean": {"value": _clean(mean), "unit": "N·mm"},
+                "mean": {"value": _without_rounding(mean), "unit": "N·mm"},
                 "greatest": plain_place(most, "N·mm"),
                 "least": plain_place(fewest, "N·mm"),
             },
@@ -172,12 +172,12 @@ class SpringDesign:
 
     def _over_turn(self) -> dict[str, list[float]]:
         """What the diagrams show, at points of every smooth piece and both its ends."""
-        motion, knots, share = self.cam.motion, self.forces.pressing.knots, np.linspace(0, 1, PLAIN_PARTS + 1)
+        motion, knots, share = self.cam.motion, self.forces.pressing.knots, np.linspace(0, 1, PLAIN_POINTS + 1)
         phase, u0, u1 = smooth_pieces(motion, knots)
         inside = places_in(motion, phase[:, None], u0[:, None] * (1 - share) + u1[:, None] * share)
         at, ends = self.forces.of(inside), self.forces.of(places_in(motion, phase, u1, "left"))
         columns = {"phi_deg": np.degrees(inside.phi).ravel().tolist()}
-        for key, name in PLAIN_FORCES.items():
+        for key, name in PLAIN_FORCE_COLUMNS.items():
             values = getattr(at, name) + 0.0
             values[:, -1] = getattr(ends, name)
             columns[key] = values.ravel().tolist()
@@ -208,7 +208,7 @@ class SpringDesign:
             contact.motion,
             TurnCurve(curve.phi, curve.force),
             said.where(formula=contact_formula(self.load)),
-            marked=((least, with_unit(_clean(least.value), along)),),
+            marked=((least, with_unit(_without_rounding(least.value), along)),),
             wrong=lost,
         )
 
@@ -223,7 +223,9 @@ class SpringDesign:
             say("τ"),
             "",
             curve=self._curve(lambda places: forces.of(places).transmission),
-            caption=(TRANSMITTED_BY_ARM if self.units[0] != "N" else TRANSMITTED).where(friction=self.friction),
+            caption=(ARM_TRANSMISSION_CAPTION if self.units[0] != "N" else TRANSMISSION_CAPTION).where(
+                friction=self.friction
+            ),
             why=say("The normal makes the angle α with the motion, and friction acts along the profile."),
             marked=((margin, say("{value:.3f}", value=margin.value)),),
         )
@@ -254,7 +256,7 @@ class SpringDesign:
                 "M is the torque that drives the cam, at {mu:g} N·mm/mm; where it is negative the follower drives the "
                 "cam. Its peak is {peak} and its mean {mean}.",
                 peak=with_unit(peak.value, "N·mm"),
-                mean=with_unit(_clean(mean), "N·mm"),
+                mean=with_unit(_without_rounding(mean), "N·mm"),
             ),
             why=say("The power of the shaft equals that of the follower and of friction."),
             marked=((peak, with_unit(peak.value, "N·mm")),),
@@ -309,11 +311,11 @@ class SpringDesign:
         contact = say("minimum contact force") if along == "N" else say("minimum contact torque")
         rows: list[Row] = [
             (say("minimum preload"), with_unit(self.needed, preload), say("at {phi}", phi=degrees(self.least.phi))),
-            (contact, with_unit(_clean(least.value), along), at_side(least, self.cam.motion)),
+            (contact, with_unit(_without_rounding(least.value), along), at_side(least, self.cam.motion)),
             (say("maximum normal force"), with_unit(greatest.value, "N"), at_side(greatest, self.cam.motion)),
             (say("maximum torque"), with_unit(most.value, "N·mm"), at_side(most, self.cam.motion)),
             (say("minimum torque"), with_unit(fewest.value, "N·mm"), at_side(fewest, self.cam.motion)),
-            (say("mean torque"), with_unit(_clean(mean), "N·mm"), ""),
+            (say("mean torque"), with_unit(_without_rounding(mean), "N·mm"), ""),
         ]
         if self.friction:
             rows.append(
@@ -326,7 +328,7 @@ class SpringDesign:
         return [*rows, (say("contact"), say("lost, {where}", where=lost) if self.lost else say("kept"), "")]
 
 
-PLAIN_FORCES = {
+PLAIN_FORCE_COLUMNS = {
     "transmission": "transmission",
     "normal_force": "normal",
     "along": "along",
@@ -362,15 +364,15 @@ CONTACT_CAPTIONS = {
     ),
 }
 """What is said of the contact function, of a force or a torque, where contact is lost, kept, or kept by nothing."""
-IDLE = say(
+IDLE_CAPTION = say(
     "With F₀ = 0 the contact force is zero during the whole lower dwell; in practice choose a preload greater than "
     "zero."
 )
-TRANSMITTED = say(
+TRANSMISSION_CAPTION = say(
     "τ = cos α − μ sin α, with μ = {friction:g} at the cam, is the part of the normal force that moves the follower, "
     "at {mu:g}/mm. Where it falls to zero the follower jams."
 )
-TRANSMITTED_BY_ARM = say(
+ARM_TRANSMISSION_CAPTION = say(
     "τ, the lever of the normal force with its friction μ = {friction:g} about the pivot, in lengths of the arm, is "
     "the part of it that moves the arm, at {mu:g}/mm. Where it falls to zero the arm jams."
 )
@@ -408,6 +410,6 @@ def _rounded_up(force: float) -> float:
     return math.ceil(force / unit_of_last) * unit_of_last
 
 
-def _clean(force: float) -> float:
+def _without_rounding(force: float) -> float:
     """A force without the rounding that is left where it is zero."""
     return round(force, 9) + 0.0

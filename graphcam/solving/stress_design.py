@@ -16,13 +16,13 @@ from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.scale import unit
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.hertz import ContactStress, Stresses
-from graphcam.mechanism.stationary import TurnCurve, ValueAt
+from graphcam.mechanism.turn_extremes import TurnCurve, ValueAt
 from graphcam.sheets.tables import Table
 from graphcam.showing import by_parts
 from graphcam.solving.shown_solution import plain_number
-from graphcam.solving.spring_design import PLAIN_PARTS, Row, with_unit
+from graphcam.solving.solution_warnings import Caution
+from graphcam.solving.spring_design import PLAIN_POINTS, Row, with_unit
 from graphcam.solving.turn_diagrams import TurnDiagram, at_side, plain_place, turn_diagrams
-from graphcam.solving.warnings import Caution
 from graphcam.tasks.material_table import MaterialTable
 from graphcam.words import Words, say_in
 
@@ -31,33 +31,33 @@ STRESS_MEANING = Meaning(
     say("Contact stress"),
     say("Cam and follower touch in a narrow strip. The pressure in its middle decides how long the surfaces last."),
 )
-STRESS = say(
+STRESS_CAPTION = say(
     "p₀ is the pressure in the middle of the contact by Hertz, from the force along the normal and the curvatures of "
     "profile and follower, at {mu:g} MPa/mm."
 )
-JUDGED = say(
+JUDGED_STRESS_CAPTION = say(
     "p₀ is the pressure in the middle of the contact by Hertz, from the force along the normal and the "
     "curvatures of profile and follower, at {mu:g} MPa/mm. The horizontal line is the permitted stress; "
     "{verdict}."
 )
-BEYOND = say(
+FAR_LIMIT_CAPTION = say(
     "p₀ is the pressure in the middle of the contact by Hertz, from the force along the normal and the curvatures of "
     "profile and follower, at {mu:g} MPa/mm. The permitted stress of {limit:g} MPa lies beyond the diagram."
 )
-FAR = 3.0
+FAR_LIMIT_FACTOR = 3.0
 """A permitted stress of more than so many times the greatest would leave no room for the curve."""
-KEPT = say("the curve does not cross it")
-PASSED = say("where the curve lies above it, the axis is marked")
-ENLARGED = {True: say("the roller and the prime radius"), False: say("the prime radius")}
+KEPT_CAPTION = say("the curve does not cross it")
+PASSED_CAPTION = say("where the curve lies above it, the axis is marked")
+ENLARGED_SIZES = {True: say("the roller and the prime radius"), False: say("the prime radius")}
 """What flattens the contact where it is made larger, with a roller and without one."""
-FLAT = 1e6
+FLAT_RADIUS_RATIO = 1e6
 """A profile whose radius is so many times the roller's is told as flat: by then its curvature no longer matters."""
-SHAPES = {
+PROFILE_SHAPES = {
     "convex": say_in("a profile", "convex"),
     "concave": say_in("a profile", "concave"),
     "flat": say_in("a profile", "flat"),
 }
-WITHOUT = {
+NO_STRESS_REASONS = {
     "knife edge": say("a knife edge has no width of contact: the stress is infinite"),
     "undercut": say("the profile is undercut, and ends in an edge there"),
     "no force": say("nothing presses the follower onto the cam"),
@@ -121,7 +121,7 @@ class StressDesign:
         """The shape of the profile where the stress is greatest."""
         assert self.contact is not None
         radius, roller = float(self.contact.profile_radius), self.forces.cam.roller_radius
-        if roller and abs(radius) > FLAT * roller:
+        if roller and abs(radius) > FLAT_RADIUS_RATIO * roller:
             return "flat"
         return "convex" if radius > 0 else "concave"
 
@@ -131,7 +131,7 @@ class StressDesign:
         if self.permitted is not False:
             return
         if self.greatest is None:
-            said = say("No contact stress is permitted: {why}.", why=WITHOUT[str(self.without)])
+            said = say("No contact stress is permitted: {why}.", why=NO_STRESS_REASONS[str(self.without)])
             yield Caution(said, "contact stress")
             return
         said = say(
@@ -141,7 +141,7 @@ class StressDesign:
             phi=degrees(self.greatest.phi),
             limit=self.material.permitted_stress,
             width=rounded_up(self.least_width or 0.0),
-            sizes=ENLARGED[self.forces.cam.kinematics.takes_roller],
+            sizes=ENLARGED_SIZES[self.forces.cam.kinematics.takes_roller],
         )
         yield Caution(said, "contact stress", (self.greatest.phi,))
 
@@ -163,27 +163,31 @@ class StressDesign:
             "MPa",
             self.forces.cam.motion,
             curve,
-            self._said,
+            self._caption,
             why=say("Surfaces suffer pitting where they are pressed too hard too often."),
             marked=((self.greatest, with_unit(self.greatest.value, "MPa")),),
-            limit=None if limit is None or self._far else (limit, with_unit(limit, "MPa")),
-            wrong=() if limit is None else tuple(_above(curve, limit)),
+            limit=None if limit is None or self._is_limit_far else (limit, with_unit(limit, "MPa")),
+            wrong=() if limit is None else tuple(_stretches_above(curve, limit)),
         )
         return turn_diagrams(STRESS_MEANING, [diagram], self.chain.pencil)
 
     @property
-    def _far(self) -> bool:
+    def _is_limit_far(self) -> bool:
         """Whether the permitted stress lies far above the greatest."""
         limit = self.material.permitted_stress
-        return limit is not None and self.greatest is not None and limit > FAR * self.greatest.value
+        return limit is not None and self.greatest is not None and limit > FAR_LIMIT_FACTOR * self.greatest.value
 
     @property
-    def _said(self) -> Caption:
+    def _caption(self) -> Caption:
         """What is said of the diagram."""
         limit = self.material.permitted_stress
         if limit is None:
-            return STRESS
-        return BEYOND.where(limit=limit) if self._far else JUDGED.where(verdict=KEPT if self.permitted else PASSED)
+            return STRESS_CAPTION
+        return (
+            FAR_LIMIT_CAPTION.where(limit=limit)
+            if self._is_limit_far
+            else JUDGED_STRESS_CAPTION.where(verdict=KEPT_CAPTION if self.permitted else PASSED_CAPTION)
+        )
 
     def to_dict(self) -> dict[str, Any]:
         """The results as plain data: MPa, N, mm and degrees."""
@@ -201,7 +205,7 @@ class StressDesign:
             "profile_radius": {"value": plain_number(float(at.profile_radius)), "unit": "mm", "shape": self.shape},
             "half_width": {"value": float(at.half_width), "unit": "mm"},
         }
-        curve = self.stress.curve(PLAIN_PARTS)
+        curve = self.stress.curve(PLAIN_POINTS)
         over_turn = {"phi_deg": np.degrees(curve.phi).tolist(), "peak_pressure": curve.values.tolist()}
         return found | {"greatest": {**plain_place(self.greatest, "MPa"), **there}, "over_turn": over_turn}
 
@@ -219,7 +223,7 @@ class StressDesign:
     def _results(self) -> Iterator[Row]:
         """The rows of what was found."""
         if self.greatest is None or (at := self.contact) is None:
-            yield say("maximum stress"), say("none"), WITHOUT[str(self.without)]
+            yield say("maximum stress"), say("none"), NO_STRESS_REASONS[str(self.without)]
             return
         yield (
             say("maximum stress"),
@@ -228,7 +232,7 @@ class StressDesign:
         )
         yield say("normal force there"), with_unit(float(at.force), "N"), ""
         radius = "∞" if self.shape == "flat" else with_unit(abs(float(at.profile_radius)), "mm")
-        yield say("radius of the profile there"), radius, SHAPES[self.shape]
+        yield say("radius of the profile there"), radius, PROFILE_SHAPES[self.shape]
         yield say("half-width of the strip"), with_unit(float(at.half_width), "mm"), ""
 
     def _judged(self) -> Iterator[Row]:
@@ -250,7 +254,7 @@ def rounded_up(width: float) -> float:
     return math.ceil(width * 100) / 100
 
 
-def _above(curve: TurnCurve, limit: float) -> Iterator[tuple[float, float]]:
+def _stretches_above(curve: TurnCurve, limit: float) -> Iterator[tuple[float, float]]:
     """The stretches of the cam angle [rad] in which a curve passes a limit, straight between its points."""
     over = curve.values - limit
     ends = np.flatnonzero(np.diff(np.concatenate([[False], over > 0, [False]]).astype(np.int8)))

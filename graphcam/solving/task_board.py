@@ -6,19 +6,19 @@ from dataclasses import replace
 from functools import singledispatch
 
 from graphcam.constructions.board import Board, DrawnFollower
-from graphcam.constructions.drawn_arm import ARM_ON_PAPER, DrawnOscillating, positions_extent
+from graphcam.constructions.drawn_arm import MAX_ARM_ON_PAPER, DrawnOscillating, positions_extent
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.scale import STANDARD_RATIOS, Paper, Scale, coarsest, ratio_said, ratio_text, standard_scale
+from graphcam.drafting.scale import STANDARD_RATIOS, Paper, Scale, coarsest, ratio_from_text, ratio_text, standard_scale
 from graphcam.errors import DesignError
 from graphcam.given.follower import Oscillating, omega_of
 from graphcam.given.roller_rule import roller_rule
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import profile_room
-from graphcam.sheets.leaves import free_rooms
-from graphcam.solving.diagram_sizes import POLES, DiagramRoom, DrawnHeights, over_the_turn
+from graphcam.sheets.page_space import free_rooms
+from graphcam.solving.diagram_sizes import STANDARD_POLES, DiagramRoom, DrawnHeights, over_the_turn
 from graphcam.tasks.sheet_tables import SheetTable
 from graphcam.tasks.task import DrawingTable, FlatFacedTable, FollowerTable, OscillatingTable, Task, TranslatingTable
 from graphcam.words import say
@@ -94,7 +94,7 @@ def given_profile_scale(drawing: DrawingTable) -> float | None:
     """
     if drawing.profile_scale is None:
         return None
-    ratios, said = STANDARD_RATIOS[drawing.frame], ratio_said(drawing.profile_scale)
+    ratios, said = STANDARD_RATIOS[drawing.frame], ratio_from_text(drawing.profile_scale)
     if said is None or not any(math.isclose(said * ratio, 1) for ratio in ratios):
         usual = ", ".join(str(ratio_text(1 / ratio)) for ratio in ratios if 1 / 10 <= ratio <= 10)
         limit = say("a standard drawing scale, such as {usual}", usual=usual)
@@ -124,7 +124,7 @@ def _(table: FlatFacedTable, task: Task) -> DrawnFlatFaced:
     return DrawnFlatFaced(task.limits.min_curvature_radius or 0.0)
 
 
-ROOMS = {
+DIAGRAM_ROOMS = {
     ("A1", False): DiagramRoom(1.0, 180.0, 130.0, 60.0),
     ("A1", True): DiagramRoom(1.0, 120.0, 100.0, 50.0),
     ("A2", False): DiagramRoom(1.0, 75.0, 60.0, 36.0),
@@ -135,7 +135,7 @@ ROOMS = {
     ("A4", True): DiagramRoom(3.0, 75.0, 65.0, 40.0),
 }
 """The rooms for diagrams by format, and whether it stands upright."""
-WITHOUT_ANGLES = 1.6
+MAX_HEIGHT_FACTOR = 1.6
 """So many times its height the displacement may have where no diagram of the pressure angle stands under it; not on A4,
 where the combined diagram, which has the same scale, would be wider than the sheet."""
 
@@ -143,14 +143,14 @@ where the combined diagram, which has the same scale, would be wider than the sh
 def diagram_room(drawing: SheetTable, *, angles: bool = True) -> DiagramRoom:
     """What the diagrams of a sheet are drawn for, with or without that of the pressure angle."""
     upright = format_of(drawing).upright
-    room = ROOMS[drawing.format, upright]
-    return room if angles or drawing.format == "A4" else replace(room, s=WITHOUT_ANGLES * room.s)
+    room = DIAGRAM_ROOMS[drawing.format, upright]
+    return room if angles or drawing.format == "A4" else replace(room, s=MAX_HEIGHT_FACTOR * room.s)
 
 
-AROUND = complex(60.0, 52.0)
+DIAGRAM_MARGINS = complex(60.0, 52.0)
 """What numbers, letters, arrows and the title need about the curves of a diagram."""
 
-BESIDE_POLE = 24.0
+POLE_MARGIN = 24.0
 """What stands to the left of a pole, and to the right of a turn."""
 
 
@@ -159,21 +159,21 @@ def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> Dia
 
     The displacement is kept so low that the combined diagram, which has its scale, fits a page too.
     """
-    beside = heights.turn + BESIDE_POLE
-    diagram = max(papers(task.drawing, complex(beside + POLES[0], 0.0)), key=lambda paper: paper.height)
+    beside = heights.turn + POLE_MARGIN
+    diagram = max(papers(task.drawing, complex(beside + STANDARD_POLES[0], 0.0)), key=lambda paper: paper.height)
     size = follower.extent(heights.values, task.limits(), task.rotation, task.cam.prime_radius)
     # So many units of the lift for a millimetre of paper let the combined diagram into one of the rooms.
-    free = [complex(paper.width, paper.height) - AROUND for paper in papers(task.drawing, AROUND)]
+    free = [complex(paper.width, paper.height) - DIAGRAM_MARGINS for paper in papers(task.drawing, DIAGRAM_MARGINS)]
     mu_s = min(max(size.real / each.real, size.imag / each.imag) for each in free)
     low = heights.motion.lift / mu_s if mu_s else math.inf
-    high, pole = diagram.height - AROUND.imag, diagram.width - beside
+    high, pole = diagram.height - DIAGRAM_MARGINS.imag, diagram.width - beside
     # Of few parts velocity and displacement are drawn higher: by so much of a cycloid, less of other laws.
     part = math.pi / max(task.drawing.divisions, 2)
     surplus = (part / math.sin(part)) ** 2
     return DiagramRoom(heights.degrees_per_mm, high, high / surplus, min(high, low) / surplus, pole)
 
 
-HOPELESS = 10.0
+MAX_OVERSIZE = 10.0
 """Diagrams that exceed a page so many times are not laid out: their strokes alone would fill the memory."""
 
 
@@ -208,7 +208,7 @@ def check_given_sizes(task: Task, times: float = 1.0) -> None:
         raise DesignError("drawing.ordinate", say("{length:g} mm", length=given), limit, larger)
 
 
-AROUND_ARM = complex(40.0, 62.0)
+ARM_MARGINS = complex(40.0, 62.0)
 """What stands about the arm positions: letters, the region below the cam centre, the title."""
 
 
@@ -221,5 +221,5 @@ def _scale_of_positions(task: Task, arm: Oscillating) -> Scale:
         least = minimum_radius(task.motion(), arm, task.rotation, limits.rise, limits.return_, rest=limits.rest)
         centres.append((least.prime_radius, least.distance))
     size = positions_extent(arm.arm, over_the_turn(task.motion()), task.rotation, limits, centres)
-    paper = largest_drawn(task.drawing, size, AROUND_ARM)
-    return coarsest(standard_scale(arm.arm, ARM_ON_PAPER, paper.ratios), paper.scale(size, AROUND_ARM))
+    paper = largest_drawn(task.drawing, size, ARM_MARGINS)
+    return coarsest(standard_scale(arm.arm, MAX_ARM_ON_PAPER, paper.ratios), paper.scale(size, ARM_MARGINS))

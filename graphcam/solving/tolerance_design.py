@@ -15,7 +15,7 @@ from graphcam.drafting.scale import unit
 from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.motion_bands import MotionBands, Share, effects_of, half_widths, motion_bands
-from graphcam.mechanism.stationary import Places, over_turn
+from graphcam.mechanism.turn_extremes import Places, over_turn
 from graphcam.sheets.tables import Table
 from graphcam.showing import by_parts
 from graphcam.solving.turn_diagrams import TurnDiagram, plain_place, turn_diagrams
@@ -27,7 +27,7 @@ TOLERANCE_MEANING = Meaning(
     say("Errors of making"),
     say("No cam is made exactly. What is permitted decides how far the follower may be off, and how much it shakes."),
 )
-ERRORS = {
+ERROR_NAMES = {
     "roller_diameter": say("roller diameter"),
     "offset": say("offset"),
     "distance": say("centre distance"),
@@ -36,7 +36,7 @@ ERRORS = {
 """What the sizes with a tolerance are called."""
 
 
-class Told(NamedTuple):
+class QuantityUnits(NamedTuple):
     """A quantity as it is told: its symbol, the unit, and how many units one of the API is."""
 
     symbol: str
@@ -44,27 +44,27 @@ class Told(NamedTuple):
     times: float
 
 
-QUANTITIES = {
-    "mm": (Told("s", "µm", 1e3), Told("v", "µm/rad", 1e3), Told("a", "mm/rad²", 1.0)),
-    "rad": (Told("s", "mrad", 1e3), Told("v", "mrad/rad", 1e3), Told("a", "mrad/rad²", 1e3)),
+QUANTITIES_BY_UNIT = {
+    "mm": (QuantityUnits("s", "µm", 1e3), QuantityUnits("v", "µm/rad", 1e3), QuantityUnits("a", "mm/rad²", 1.0)),
+    "rad": (QuantityUnits("s", "mrad", 1e3), QuantityUnits("v", "mrad/rad", 1e3), QuantityUnits("a", "mrad/rad²", 1e3)),
 }
 """The displacement, velocity and acceleration of a follower, by the unit of its lift."""
-TITLES = (
+DIAGRAM_TITLES = (
     say("How far the displacement may be off"),
     say("How far the velocity may be off"),
     say("How far the acceleration may be off"),
 )
-HEADINGS = (
+DIAGRAM_HEADINGS = (
     say("Band of s, μ = {mu:g} {unit}/mm"),
     say("Band of v, μ = {mu:g} {unit}/mm"),
     say("Band of a, μ = {mu:g} {unit}/mm"),
 )
-WHYS = (
+DIAGRAM_REASONS = (
     say("On a steep flank an error of the profile lifts the follower by more than itself."),
     say("Every wave of the profile counts as often as it occurs in a turn."),
     say("The force of inertia grows with the square of the number of waves."),
 )
-SAID = say(
+BAND_CAPTION = say(
     "{coverage:g} of 100 mechanisms stay so near to the nominal value, above or below it, at {mu:g} {unit}/mm. The "
     "band is widest at {phi}."
 )
@@ -107,9 +107,9 @@ class ToleranceDesign:
             raise DesignError(f"tolerances.{error.quantity}", *error.args[1:]) from None
 
     @property
-    def quantities(self) -> tuple[Told, Told, Told]:
+    def quantities(self) -> tuple[QuantityUnits, QuantityUnits, QuantityUnits]:
         """How s, v and a are told."""
-        return QUANTITIES[self.chain.board.follower.unit]
+        return QUANTITIES_BY_UNIT[self.chain.board.follower.unit]
 
     @property
     def drawn(self) -> dict[str, Construction]:
@@ -130,14 +130,14 @@ class ToleranceDesign:
         top, of_unit = widest._replace(value=told.times * widest.value), unit(told.unit)
         return TurnDiagram(
             f"band_{told.symbol}",
-            TITLES[k],
-            HEADINGS[k].where(unit=of_unit),
+            DIAGRAM_TITLES[k],
+            DIAGRAM_HEADINGS[k].where(unit=of_unit),
             say("± {symbol}, {unit}", symbol=told.symbol, unit=of_unit),
             told.unit,
             self.cam.motion,
             over_turn(self.cam.motion, half_width),
-            SAID.where(coverage=100 * self.given.coverage, unit=of_unit, phi=degrees(widest.phi)),
-            why=WHYS[k],
+            BAND_CAPTION.where(coverage=100 * self.given.coverage, unit=of_unit, phi=degrees(widest.phi)),
+            why=DIAGRAM_REASONS[k],
             marked=((top, say("{value} {unit}", value=significant(top.value), unit=of_unit)),),
         )
 
@@ -203,7 +203,7 @@ def error_name(name: str) -> Caption:
     >>> str(error_name("waviness 24")), str(error_name("distance"))
     ('waviness, n = 24', 'centre distance')
     """
-    return ERRORS[name] if name in ERRORS else say("waviness, n = {harmonic}", harmonic=name.split()[1])
+    return ERROR_NAMES[name] if name in ERROR_NAMES else say("waviness, n = {harmonic}", harmonic=name.split()[1])
 
 
 def significant(value: float) -> Caption:

@@ -20,13 +20,13 @@ from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.given.motion import FULL_TURN, Motion
-from graphcam.mechanism.stationary import TurnCurve, ValueAt
+from graphcam.mechanism.turn_extremes import TurnCurve, ValueAt
 
-WIDTH = 120.0
+TURN_WIDTH = 120.0
 """A turn is this long on paper [mm]."""
-HEIGHT = 50.0
+MAX_HEIGHT = 50.0
 """Diagrams have the largest round scale at which no ordinate is longer [mm]."""
-BREAK = 1e-9
+BREAK_DISTANCE = 1e-9
 """What lies so near to a break of the motion lies on one side of it [rad]."""
 ROUND_NUMBERS = (1.0, 2.0, 2.5, 5.0, 10.0)
 """Round scales are these times a power of ten."""
@@ -88,41 +88,41 @@ def diagram_steps(drawn: Construction[TurnDiagrams]) -> list[Step]:
 
 
 def diagram_scale(greatest: float, unit: str) -> Scale:
-    """The largest round scale at which an ordinate is not longer than :data:`HEIGHT`.
+    """The largest round scale at which an ordinate is not longer than :data:`MAX_HEIGHT`.
 
     >>> diagram_scale(160, "N").per_mm, diagram_scale(0.9, "").per_mm
     (5.0, 0.02)
     """
-    return Scale(round_up(max(greatest, 1e-6) / HEIGHT, ROUND_NUMBERS)[0], unit)
+    return Scale(round_up(max(greatest, 1e-6) / MAX_HEIGHT, ROUND_NUMBERS)[0], unit)
 
 
 def diagram_step(diagram: TurnDiagram) -> Step:
     """The curve with its axes, its marked extremes, its limit, and what is wrong."""
-    motion, mu, mu_phi = diagram.motion, diagram.mu, Scale(FULL_TURN / WIDTH, "rad")
+    motion, mu, mu_phi = diagram.motion, diagram.mu, Scale(FULL_TURN / TURN_WIDTH, "rad")
     points = diagram.curve.phi / mu_phi.per_mm + UP * diagram.curve.values / mu.per_mm
     level = [] if diagram.limit is None else [diagram.limit[0] / mu.per_mm]
     heights = np.append(points.imag, level)
     low, high = reach(heights)
     ends = phase_ends(motion, mu_phi)
     axes = (
-        *axes_over_phi(WIDTH, mu_phi, heights, diagram.ordinate),
+        *axes_over_phi(TURN_WIDTH, mu_phi, heights, diagram.ordinate),
         *graduated(heights, mu.per_mm),
-        *degrees_below(WIDTH, mu_phi, low),
+        *degrees_below(TURN_WIDTH, mu_phi, low),
         Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION),
         *(
             Label(complex((a + b) / 2), phase_symbol(motion, k), towards=-UP, small=True)
             for k, (a, b) in enumerate(pairwise(ends))
         ),
     )
-    marks: list[Mark] = [*axes, *(Line(run, Role.RESULT) for run in _runs(points))]
+    marks: list[Mark] = [*axes, *(Line(run, Role.RESULT) for run in _number_stretches(points))]
     for found, said in diagram.marked:
         place = found.phi / mu_phi.per_mm + UP * found.value / mu.per_mm
         side = -UP if found.value <= np.nanmean(diagram.curve.values) else UP
         # Beside the mark, for over it stands the line of a phase's end, where extremes often lie.
-        beside = 1 if place.real < WIDTH / 2 else -1
+        beside = 1 if place.real < TURN_WIDTH / 2 else -1
         marks += [Dots(np.array([place]), Role.LIMIT), Label(place, said, towards=side + beside)]
     if diagram.limit is not None:
-        across = np.array([0.0, WIDTH]) + UP * level[0]
+        across = np.array([0.0, TURN_WIDTH]) + UP * level[0]
         marks += [Line(across, Role.LIMIT), Label(complex(across[1]), diagram.limit[1], towards=UP - 1)]
     wrong = [part for stretch in diagram.wrong for part in _in_turn(*stretch)]
     marks += [Line(np.array(each) / mu_phi.per_mm + 0j, Role.LIMIT) for each in wrong]
@@ -135,7 +135,7 @@ def diagram_step(diagram: TurnDiagram) -> Step:
 def at_side(found: ValueAt, motion: Motion) -> Caption:
     """The cam angle at which a value stands, and the side of it where the motion has a break."""
     phi = degrees(found.phi)
-    if np.abs(np.append(motion.breaks, FULL_TURN) - found.phi).min() > BREAK:
+    if np.abs(np.append(motion.breaks, FULL_TURN) - found.phi).min() > BREAK_DISTANCE:
         return say("at {phi}", phi=phi)
     return say("just before {phi}", phi=phi) if found.side == "left" else say("just after {phi}", phi=phi)
 
@@ -145,7 +145,7 @@ def plain_place(found: ValueAt, unit: str) -> dict[str, float | str]:
     return {"value": found.value, "unit": unit, "phi_deg": math.degrees(found.phi), "side": found.side}
 
 
-def _runs(points: np.ndarray) -> list[np.ndarray]:
+def _number_stretches(points: np.ndarray) -> list[np.ndarray]:
     """The stretches of points that are numbers, of two at least."""
     known = np.flatnonzero(np.isfinite(points))
     runs = np.split(known, np.flatnonzero(np.diff(known) > 1) + 1)

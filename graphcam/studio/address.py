@@ -16,15 +16,15 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphcam.errors import DesignError
-from graphcam.studio.task_paths import changed
+from graphcam.studio.task_paths import changed_task
 from graphcam.words import say
 
-VERSION = "#1."
-LONGEST = 2000
+VERSION_PREFIX = "#1."
+MAX_LENGTH = 2000
 """Characters; longer addresses are cut by some mail programs and learning platforms."""
-SAVE = say("save the task file and pass that on")
-WHOLE_ADDRESS = say("open the address as it was given, from # to the end")
-_RAW = -15
+SAVE_REMEDY = say("save the task file and pass that on")
+WHOLE_ADDRESS_REMEDY = say("open the address as it was given, from # to the end")
+_RAW_DEFLATE = -15
 """zlib's number for deflate without a header."""
 
 
@@ -50,11 +50,11 @@ class StudioPlace:
     exercise: Mapping[str, Any] | None = None
 
 
-_SHOWN = {"v": "view", "s": "step", "p": "phi", "m": "mode", "x": "exercise"}
-_KINDS: dict[str, type | tuple[type, ...]] = {"v": str, "s": str, "p": (int, float), "m": str, "x": dict}
+_STATE_KEYS = {"v": "view", "s": "step", "p": "phi", "m": "mode", "x": "exercise"}
+_STATE_TYPES: dict[str, type | tuple[type, ...]] = {"v": str, "s": str, "p": (int, float), "m": str, "x": dict}
 
 
-def address_of(place: StudioPlace, built_in: Mapping[str, Mapping[str, Any]], longest: int = LONGEST) -> str:
+def address_of(place: StudioPlace, built_in: Mapping[str, Mapping[str, Any]], longest: int = MAX_LENGTH) -> str:
     """The part of an address from ``#`` on.
 
     built_in : the built-in tasks by their names, in the form of the place's task
@@ -74,14 +74,14 @@ def address_of(place: StudioPlace, built_in: Mapping[str, Mapping[str, Any]], lo
     base, state = built_in[place.built_in], dict[str, Any](b=place.built_in)
     state |= {"d": moved} if (moved := dict(differences(base, place.task))) else {}
     state |= {} if place.pin is None else {"n": dict(differences(base, place.pin))}
-    state |= {key: value for key, name in _SHOWN.items() if (value := getattr(place, name)) is not None}
-    packer = zlib.compressobj(9, zlib.DEFLATED, _RAW)
+    state |= {key: value for key, name in _STATE_KEYS.items() if (value := getattr(place, name)) is not None}
+    packer = zlib.compressobj(9, zlib.DEFLATED, _RAW_DEFLATE)
     said = json.dumps(state, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     packed = packer.compress(said.encode()) + packer.flush()
-    address = VERSION + base64.urlsafe_b64encode(packed).decode().rstrip("=")
+    address = VERSION_PREFIX + base64.urlsafe_b64encode(packed).decode().rstrip("=")
     if len(address) > longest:
         quantity = say("length of the address")
-        raise DesignError(quantity, len(address), say("at most {longest} characters", longest=longest), SAVE)
+        raise DesignError(quantity, len(address), say("at most {longest} characters", longest=longest), SAVE_REMEDY)
     return address
 
 
@@ -104,24 +104,24 @@ it was given, from # to the end
     name, moved, pinned = state.get("b", "coursework"), state.get("d", {}), state.get("n")
     if not isinstance(name, str) or name not in built_in or not isinstance(moved, dict):
         raise _no_address(address)
-    shown = {_SHOWN[key]: state[key] for key, kind in _KINDS.items() if isinstance(state.get(key), kind)}
+    shown = {_STATE_KEYS[key]: state[key] for key, kind in _STATE_TYPES.items() if isinstance(state.get(key), kind)}
     pin = _with_differences(built_in[name], pinned) if isinstance(pinned, dict) else None
     return StudioPlace(_with_differences(built_in[name], moved), name, **shown, pin=pin)
 
 
 def _no_address(address: str) -> DesignError:
     shown = address if len(address) <= 60 else address[:60] + "..."
-    return DesignError("address", shown, say("an address of the studio"), WHOLE_ADDRESS)
+    return DesignError("address", shown, say("an address of the studio"), WHOLE_ADDRESS_REMEDY)
 
 
 def _unpacked(address: str) -> dict[str, Any]:
     """The table in an address."""
-    if not address.startswith(VERSION) or len(address) > LONGEST:
+    if not address.startswith(VERSION_PREFIX) or len(address) > MAX_LENGTH:
         raise _no_address(address)
-    packed = address.removeprefix(VERSION)
+    packed = address.removeprefix(VERSION_PREFIX)
     try:
         # Deflate packs a thousand to one at most, so that a short address cannot become a large text.
-        said = zlib.decompress(base64.b64decode(packed + "=" * (-len(packed) % 4), b"-_", validate=True), _RAW)
+        said = zlib.decompress(base64.b64decode(packed + "=" * (-len(packed) % 4), b"-_", validate=True), _RAW_DEFLATE)
         state = json.loads(said)
     except (binascii.Error, zlib.error, ValueError, RecursionError):
         raise _no_address(address) from None
@@ -155,5 +155,5 @@ def _with_differences(task: Mapping[str, Any], moved: Mapping[str, Any]) -> dict
     found = dict(task)
     for path, value in moved.items():
         with suppress(DesignError):
-            found = changed(found, {path: value})
+            found = changed_task(found, {path: value})
     return found

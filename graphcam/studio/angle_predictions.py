@@ -11,19 +11,19 @@ from graphcam.constructions.chain import Chain
 from graphcam.constructions.views import ANGLE, COMBINED, VELOCITY
 from graphcam.drafting.marks import Points
 from graphcam.given.follower import sense
-from graphcam.studio.foretold import PENCIL_LINE, Foretold, JudgedGuess, shown_steps, steps_in
+from graphcam.studio.guesses import PENCIL_LINE, JudgedGuess, Prediction, shown_steps, steps_in
 from graphcam.words import Caption, say, sequence
 
-STEEPEST_RAY = math.radians(75)
+MAX_RAY_ANGLE = math.radians(75)
 """The ray turns so far from the motion."""
-LENGTH = 0.95
+RAY_LENGTH_SHARE = 0.95
 """The length of the ray, in parts of the height from A to the end of the lift."""
-POINTS = 76
-ALPHA = say("pressure angle α")
-PHI = say("cam angle φ")
+CURVE_POINTS = 76
+ALPHA_NAME = say("pressure angle α")
+PHI_NAME = say("cam angle φ")
 
 
-def angle_foretold(chain: Chain) -> Foretold:
+def angle_foretold(chain: Chain) -> Prediction:
     """How far the ray with the greatest pressure angle of the rise leans.
 
     >>> import graphcam as gc
@@ -33,8 +33,8 @@ def angle_foretold(chain: Chain) -> Foretold:
     """
     measured, sigma = chain.pressure_angle, sense(chain.board.rotation)
     centre, ends = complex(measured.first("centre")), measured.acts["ends"].first.shown
-    alpha = np.where(_rising(chain), measured.first("alpha"), -np.inf)
-    k, radius = int(np.argmax(alpha)), LENGTH * float((ends - centre).imag.max())
+    alpha = np.where(_rising_stations(chain), measured.first("alpha"), -np.inf)
+    k, radius = int(np.argmax(alpha)), RAY_LENGTH_SHARE * float((ends - centre).imag.max())
     greatest = float(alpha[k])
     answer = centre + cmath.rect(radius, math.pi / 2 + sigma * greatest)
 
@@ -44,17 +44,17 @@ def angle_foretold(chain: Chain) -> Foretold:
         difference = math.degrees(lean - greatest)
         paper = abs(complex(ends[k]) - centre) * abs(lean - greatest)
         said = _by_degrees(difference, math.degrees(lean), paper)
-        return JudgedGuess(answer, paper, difference, "deg", ALPHA, said, _outermost(chain, k))
+        return JudgedGuess(answer, paper, difference, "deg", ALPHA_NAME, said, _outermost(chain, k))
 
     steps = steps_in(chain, "pressure_angle", COMBINED.name)
     given = [*steps_in(chain, "minimum_radius", COMBINED.name)[:2], *steps[:-1]]
     construct = [step for step in shown_steps(chain, "pressure_angle", COMBINED.name) if step.step == steps[-1]]
-    way = centre + radius * np.exp(1j * (math.pi / 2 + sigma * np.linspace(0.0, STEEPEST_RAY, POINTS)))
+    way = centre + radius * np.exp(1j * (math.pi / 2 + sigma * np.linspace(0.0, MAX_RAY_ANGLE, CURVE_POINTS)))
     question = say("At what angle to the motion is the ray from A that shows the maximum pressure angle of the rise?")
-    return Foretold(question, COMBINED.name, given, construct, way, complex(way[0]), judged, pole=centre)
+    return Prediction(question, COMBINED.name, given, construct, way, complex(way[0]), judged, pole=centre)
 
 
-def _rising(chain: Chain) -> NDArray[np.bool_]:
+def _rising_stations(chain: Chain) -> NDArray[np.bool_]:
     """Flags of the stations at which the follower rises."""
     return np.array([chain.board.motion.phases[k].direction > 0 for k in chain.board.stations.phase])
 
@@ -87,7 +87,7 @@ def _outermost(chain: Chain, k: int) -> Caption:
     return said.where(station=station_names(chain.board.stations)[k], across=abs(end.real), up=end.imag)
 
 
-def steepest_foretold(chain: Chain) -> Foretold:
+def steepest_foretold(chain: Chain) -> Prediction:
     """The prediction of the cam angle of the rises at which the pressure angle is greatest.
 
     >>> import graphcam as gc
@@ -96,7 +96,7 @@ def steepest_foretold(chain: Chain) -> Foretold:
     ('velocity', -10.0)
     """
     integrated, angles, per_mm = chain.integration, chain.angle_diagram, math.degrees(chain.board.mu_phi.per_mm)
-    curve, rising = integrated.acts["v_curve"].first.shown, _rising(chain)
+    curve, rising = integrated.acts["v_curve"].first.shown, _rising_stations(chain)
     top = complex(angles.first("max_rise"))
 
     def on_curve(x: float) -> complex:
@@ -108,13 +108,13 @@ def steepest_foretold(chain: Chain) -> Foretold:
         difference, paper = (guess.real - top.real) * per_mm, abs(guess.real - top.real)
         beside = {ANGLE.name: (guess.real + 0j, top.real + 0j)}
         said, why = _by_phi(difference, guess.real * per_mm, paper), _where_steep(chain, guess.real, curve, rising)
-        return JudgedGuess(on_curve(top.real), paper, difference, "deg", PHI, said, why, beside)
+        return JudgedGuess(on_curve(top.real), paper, difference, "deg", PHI_NAME, said, why, beside)
 
     given = steps_in(chain, "integration", VELOCITY.name)
     way = curve[rising]
     question = say("Where on the rise does the pressure angle have its maximum?")
     construct = shown_steps(chain, "angle_diagram", ANGLE.name)
-    return Foretold(question, VELOCITY.name, given, construct, way, complex(way[1]), judged)
+    return Prediction(question, VELOCITY.name, given, construct, way, complex(way[1]), judged)
 
 
 def _by_phi(difference: float, phi: float, paper: float) -> Caption:

@@ -13,19 +13,19 @@ from graphcam.drafting.euclid import UP
 from graphcam.drafting.marks import Points
 from graphcam.drafting.pencil import Pencil
 from graphcam.errors import DesignError
-from graphcam.studio.foretold import PENCIL_LINE, Foretold, JudgedGuess, shown_steps, steps_in
+from graphcam.studio.guesses import PENCIL_LINE, JudgedGuess, Prediction, shown_steps, steps_in
 from graphcam.words import Caption, say, sequence
 
-GIVEN_STEPS = 2
+SHOWN_STEPS = 2
 """The number of steps of the region that are drawn before: what is laid off, and the curve; then come the limits."""
-BEYOND = 1.7
+GUESS_RANGE = 1.7
 """The guess may move so many times as far as the lift is high, or as the centre lies away."""
-POINTS = 73
+CURVE_POINTS = 73
 """The number of points of a curve on which the guess moves."""
-LEAST_RADIUS = say("minimum prime radius")
+LEAST_RADIUS_NAME = say("minimum prime radius")
 
 
-def centre_foretold(chain: Chain) -> Foretold:
+def centre_foretold(chain: Chain) -> Prediction:
     """The prediction of the cam centre with the least radius.
 
     >>> import graphcam as gc
@@ -37,7 +37,7 @@ def centre_foretold(chain: Chain) -> Foretold:
     flat = _by_curvature(chain)
     view = region.steps()[0].view.name
     steps = steps_in(chain, "minimum_radius", view)
-    construct = [step for step in shown_steps(chain, "minimum_radius") if step.step not in steps[:GIVEN_STEPS]]
+    construct = [step for step in shown_steps(chain, "minimum_radius") if step.step not in steps[:SHOWN_STEPS]]
     origin = complex(region.acts["start"].first.place) if _about_pivot(chain) else 0j
     answer = complex((region.acts["A"] if flat else region.acts["centre"]).first.place)
     mu = region.readings["prime_radius"].per_mm
@@ -48,12 +48,12 @@ def centre_foretold(chain: Chain) -> Foretold:
         difference = radius - abs(answer - origin) * mu
         near = abs(guess - answer) <= PENCIL_LINE
         why = _convex(chain, radius) if flat else _permitted(chain, guess, origin, mu, near)
-        said = _said(radius, difference, abs(guess - answer))
-        return JudgedGuess(answer, abs(guess - answer), difference, "mm", LEAST_RADIUS, said, why)
+        said = _answer_caption(radius, difference, abs(guess - answer))
+        return JudgedGuess(answer, abs(guess - answer), difference, "mm", LEAST_RADIUS_NAME, said, why)
 
     way, free = _way(chain, answer, origin)
     start = complex(way.mean()) if free else complex(way[4 * len(way) // 5])
-    return Foretold(_question(chain, free), view, steps[:GIVEN_STEPS], construct, way, start, judged, free)
+    return Prediction(_question(chain, free), view, steps[:SHOWN_STEPS], construct, way, start, judged, free)
 
 
 def _about_pivot(chain: Chain) -> bool:
@@ -86,21 +86,21 @@ def _way(chain: Chain, answer: complex, origin: complex) -> tuple[Points, bool]:
     region, follower = chain.minimum_radius, chain.board.follower
     if _by_curvature(chain):
         height = float(region.acts["displacements"].first.shown.imag.max())
-        return _downwards(BEYOND * _round_up(max(height, abs(answer)))), False
+        return _line_downwards(GUESS_RANGE * _round_up(max(height, abs(answer)))), False
     places = region.acts["tips" if _about_pivot(chain) else "ends"].first.shown
     size = _round_up(max(float(np.ptp(places.imag)), abs(answer - origin)))
     if follower.place is None:
-        corners = origin + np.array([-size - BEYOND * size * UP, size + 0j])
+        corners = origin + np.array([-size - GUESS_RANGE * size * UP, size + 0j])
         return corners, True
     if _about_pivot(chain):
         # From the line of B₀ downwards: the cam lies below the arm.
         radius, towards = abs(answer), math.pi
-        turns = np.linspace(0.0, min(1.2, BEYOND * size / radius), POINTS)
+        turns = np.linspace(0.0, min(1.2, GUESS_RANGE * size / radius), CURVE_POINTS)
         return np.exp(1j * (towards + turns)) * np.complex128(radius), False
-    return answer.real + _downwards(BEYOND * size), False
+    return answer.real + _line_downwards(GUESS_RANGE * size), False
 
 
-def _downwards(length: float) -> Points:
+def _line_downwards(length: float) -> Points:
     """A line down from the origin."""
     return np.linspace(0.0, -length, 6) * np.complex128(UP)
 
@@ -110,7 +110,7 @@ def _round_up(mm: float) -> float:
     return 20.0 * math.ceil(mm / 20)
 
 
-def _said(radius: float, difference: float, paper: float) -> Caption:
+def _answer_caption(radius: float, difference: float, paper: float) -> Caption:
     if paper <= PENCIL_LINE:
         return say("Your A lies on the cam centre: {paper:.1f} mm off on paper.", paper=paper)
     apart = say("Your A lies {paper:.1f} mm from the cam centre on paper.", paper=paper)
@@ -126,7 +126,7 @@ def _permitted(chain: Chain, guess: complex, origin: complex, mu: float, near: b
     """What the pressure angles of a cam with its centre there come to."""
     if near:
         return say("A line at a permitted angle just touches what was laid off: higher up, a limit is exceeded.")
-    worst = _worst(chain, guess, origin, mu)
+    worst = _worst_station(chain, guess, origin, mu)
     if worst is None:
         return say("The follower cannot be in this position: the prime circle does not reach its line of motion.")
     station, angle, limit = worst
@@ -144,7 +144,7 @@ def _permitted(chain: Chain, guess: complex, origin: complex, mu: float, near: b
     return said.where(**values)
 
 
-def _worst(chain: Chain, guess: complex, origin: complex, mu: float) -> tuple[str, float, float] | None:
+def _worst_station(chain: Chain, guess: complex, origin: complex, mu: float) -> tuple[str, float, float] | None:
     """The station that is nearest to its limit or passes it most, its angle and the limit [rad]; None without a cam."""
     board, integrated, limits = chain.board, chain.integration, chain.board.limits
     arm = _about_pivot(chain)

@@ -10,28 +10,28 @@ from itertools import chain
 from graphcam.drafting.ink import Step
 from graphcam.drafting.marks import AngleMark, Dimension, Label
 from graphcam.errors import DesignError
-from graphcam.sheets.expand import Drawn, Placement, expand
-from graphcam.sheets.fonts import points_size
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.labels import held_places, label_places, places_of, shading_parted, with_texts
+from graphcam.sheets.mark_entities import Drawn, Placement, expand
 from graphcam.sheets.model import Box, Entity, Group
-from graphcam.sheets.panels import AIR
 from graphcam.sheets.player_svg import MM_PER_POINT, Numbers, group_svg
 from graphcam.sheets.sampling import box_of
-from graphcam.studio.held_board import TALLEST, HeldView
-from graphcam.studio.request import AskedView
+from graphcam.sheets.text_measures import points_size
+from graphcam.sheets.view_panels import LABEL_MARGIN
+from graphcam.studio.held_solutions import MAX_HEIGHT, HeldView
 from graphcam.studio.view_steps import NamedStep
+from graphcam.studio.views_request import AskedView
 from graphcam.words import Caption, Tell, say
 
-ROOM_FOR_LABELS = 12.0
+LABEL_ROOM = 12.0
 """The room for labels around the drawing [mm]."""
-LEAST_LETTERS = 10.0
+MIN_LETTER_HEIGHT = 10.0
 """No letter on the screen is smaller [px]."""
-INDEX = math.sqrt(0.5)
+INDEX_HEIGHT_SHARE = math.sqrt(0.5)
 """The height of an index, in heights of its letter."""
-STEP_OF_HEIGHT = 0.25
+HEIGHT_STEP = 0.25
 """Letters grow in steps, so that they do not change with every pixel [mm]."""
-EMPTY = Box(0.0, 0.0, 1.0, 1.0)
+EMPTY_FRAME = Box(0.0, 0.0, 1.0, 1.0)
 """The frame of a view in which nothing is drawn."""
 
 
@@ -43,8 +43,11 @@ def screen_letters(paper: Lettering, px_per_mm: float) -> Lettering:
     """
     # What is asked for is the size of a font, which is more than the height of its capitals.
     font = points_size(1.0) * MM_PER_POINT
-    small = LEAST_LETTERS / (font * px_per_mm)
-    heights = (math.ceil(each / STEP_OF_HEIGHT) * STEP_OF_HEIGHT for each in (small / INDEX, small / INDEX, small))
+    small = MIN_LETTER_HEIGHT / (font * px_per_mm)
+    heights = (
+        math.ceil(each / HEIGHT_STEP) * HEIGHT_STEP
+        for each in (small / INDEX_HEIGHT_SHARE, small / INDEX_HEIGHT_SHARE, small)
+    )
     return Lettering(*map(max, (paper.title, paper.label, paper.small), heights))
 
 
@@ -127,17 +130,17 @@ def label_names(named: NamedStep) -> list[str]:
 def _room(drawn: Iterable[Drawn]) -> Box:
     """The box that no label leaves; it is looked through point by point, so it has an end."""
     lines = [entity for entities, _ in drawn for entity in entities]
-    room = (box_of(lines) or EMPTY).grown(ROOM_FOR_LABELS)
-    if (largest := max(room.width, room.height)) > TALLEST:
+    room = (box_of(lines) or EMPTY_FRAME).grown(LABEL_ROOM)
+    if (largest := max(room.width, room.height)) > MAX_HEIGHT:
         remedy = say("take sizes of which none is so much greater than the others")
         found = say("{length:.3g} mm", length=largest)
-        raise DesignError("drawing", found, say("at most {most:g} mm wide and high", most=TALLEST), remedy)
+        raise DesignError("drawing", found, say("at most {most:g} mm wide and high", most=MAX_HEIGHT), remedy)
     return room
 
 
 def _frame(entities: Iterable[Entity]) -> Box:
     """The box of a whole view."""
-    return (box_of(entities) or EMPTY).grown(AIR)
+    return (box_of(entities) or EMPTY_FRAME).grown(LABEL_MARGIN)
 
 
 def digest(svg: str) -> str:

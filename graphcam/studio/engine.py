@@ -7,24 +7,24 @@ from typing import Any
 
 from graphcam.errors import DesignError, GraphcamError, TaskError, among
 from graphcam.language import ENGLISH, Language, language, languages
-from graphcam.studio.task_paths import PATH, steps_of, value_at
-from graphcam.tasks.task_file import EXAMPLE
+from graphcam.studio.task_paths import PATH_PATTERN, steps_of, value_at
+from graphcam.tasks.task_file import EXAMPLE_REMEDY
 from graphcam.words import message
 
 Plain = dict[str, Any]
-ASKS: Mapping[str, str] = {
+REQUEST_FUNCTIONS: Mapping[str, str] = {
     "views": "graphcam.studio.views_answer.views_answer",
-    "predict": "graphcam.studio.predictions.predicted",
-    "tours": "graphcam.studio.tours.told_tours",
-    "exercise": "graphcam.studio.exercise_checks.checked",
+    "predict": "graphcam.studio.predictions.prediction_answer",
+    "tours": "graphcam.studio.tours.tours_answer",
+    "exercise": "graphcam.studio.exercise_checks.exercise_answer",
     "task_file": "graphcam.studio.task_text.task_file",
-    "open": "graphcam.studio.task_text.opened",
+    "open": "graphcam.studio.task_text.opened_task",
     "sweep": "graphcam.studio.what_if.sweep_answer",
 }
 """The functions that answer requests; the module is loaded when it is first asked."""
 
 
-FIELDS: Mapping[str, str] = {
+FIELDS_BY_QUANTITY: Mapping[str, str] = {
     "angle": "motion.phases",
     "lift": "motion.phases",
     "law": "motion.phases",
@@ -102,7 +102,7 @@ FIELDS: Mapping[str, str] = {
 """The field of a quantity; where several sizes together are wrong, the one that its remedy names first."""
 TABLES = "motion", "follower", "cam", "limits", "spring", "material", "tolerances", "drawing", "arcs", "title", "part"
 """The tables of a task file: what begins so is a place of it."""
-OF_WHOLE = re.compile(r" \(.*\)$")
+ADDITION_PATTERN = re.compile(r" \(.*\)$")
 """What a message adds to a place in words, such as "(sum of the angles)"."""
 
 
@@ -122,7 +122,7 @@ def field_of(error: GraphcamError, task: Mapping[str, Any]) -> str:
         return _place(error.field)
     if not isinstance(error, DesignError):
         return ""
-    field = FIELDS.get(error.quantity) or _place(error.quantity)
+    field = FIELDS_BY_QUANTITY.get(error.quantity) or _place(error.quantity)
     if error.quantity == "minimum prime radius" and value_at(task, "cam.prime_radius") is not None:
         return "follower.distance" if value_at(task, "follower.kind") == "oscillating" else "follower.offset"
     if field == "motion.phases" and value_at(task, "motion.table") is not None:
@@ -132,12 +132,12 @@ def field_of(error: GraphcamError, task: Mapping[str, Any]) -> str:
 
 def _place(words: str) -> str:
     """A place of the task file, if words are one."""
-    path = OF_WHOLE.sub("", words)
-    if not PATH.fullmatch(path):
+    path = ADDITION_PATTERN.sub("", words)
+    if not PATH_PATTERN.fullmatch(path):
         return ""
     first = steps_of(path)[0]
     if first not in TABLES:
-        return FIELDS.get(path, "") if first == path else ""
+        return FIELDS_BY_QUANTITY.get(path, "") if first == path else ""
     return path
 
 
@@ -157,7 +157,7 @@ def answer(request: Mapping[str, Any]) -> Plain:
     try:
         return {"seq": seq, "ok": True, **_function(request.get("ask") or "views")(request)}
     except GraphcamError as error:
-        told = told_error(error, spoken_in(request))
+        told = error_data(error, spoken_in(request))
         return {"seq": seq, "ok": False, "error": {**told, "field": _field(error, request)}}
 
 
@@ -165,13 +165,13 @@ def _field(error: GraphcamError, request: Mapping[str, Any]) -> str:
     """The field of the form, or the key of the request, that an error is about."""
     task = given if isinstance(given := request.get("task"), dict) else {}
     quantity = getattr(error, "quantity", "")
-    return field_of(error, task) or (quantity if PATH.fullmatch(quantity) else "")
+    return field_of(error, task) or (quantity if PATH_PATTERN.fullmatch(quantity) else "")
 
 
 def _function(ask: Any) -> Callable[[Mapping[str, Any]], Plain]:
-    if not isinstance(ask, str) or ask not in ASKS:
-        raise DesignError("ask", str(ask), *among(ask, ASKS))
-    module, _, name = ASKS[ask].rpartition(".")
+    if not isinstance(ask, str) or ask not in REQUEST_FUNCTIONS:
+        raise DesignError("ask", str(ask), *among(ask, REQUEST_FUNCTIONS))
+    module, _, name = REQUEST_FUNCTIONS[ask].rpartition(".")
     return getattr(import_module(module), name)
 
 
@@ -181,9 +181,9 @@ def spoken_in(request: Mapping[str, Any]) -> Language:
     return language(name) if name in languages() else ENGLISH
 
 
-def told_error(error: GraphcamError, spoken: Language) -> Plain:
+def error_data(error: GraphcamError, spoken: Language) -> Plain:
     """An error as plain data: what is wrong, and apart from it what to do about it."""
     fault, advice = (spoken.text(message(words)) for words in (error.fault, error.advice))
     # The page has no files: what the message says of one is left out.
     path = f"{error.path}: " if isinstance(error, TaskError) else ""
-    return {"message": fault.removeprefix(path), "remedy": "" if error.advice == EXAMPLE else advice}
+    return {"message": fault.removeprefix(path), "remedy": "" if error.advice == EXAMPLE_REMEDY else advice}

@@ -24,13 +24,13 @@ from graphcam.words import say
 ITERATIONS = 20_000
 """Iterations of PBKDF2 with SHA-256: a course has fifty hashes a student, and no number of them withstands guessing."""
 MOST_ITERATIONS = 1_000_000
-LENGTH = 6
+HASH_BYTES = 6
 """Bytes of a hash that are kept: they stand in an address, and a number hits one of them by chance once in 10^14."""
-DIGITS = 7
+CELL_DIGITS = 7
 """Digits to which offset and width are written."""
-MARGIN = 1e-5
+CELL_MARGIN = 1e-5
 """A cell is wider than the tolerance by this part, which writing takes away again."""
-MOST_ANSWERS = 100
+MAX_ANSWERS = 100
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ def check_of(
     >>> [is_right("r0", x, made.plain, b"salt") for x in (42.87, 42.88, 43.3, 43.68, 43.69)]
     [False, True, True, True, False]
     """
-    width = _written(2 * tolerance * (1 + MARGIN))
+    width = _written(2 * tolerance * (1 + CELL_MARGIN))
     offset = _written((key - width / 2) % width)
     right = cell(key, offset, width)
     hints: dict[str, int] = {}
@@ -97,7 +97,7 @@ def hashed(name: str, number: int, salt: bytes, iterations: int = ITERATIONS) ->
     >>> hashed("r0", 53, b"salt", 1)
     '5Cs5zhFq'
     """
-    made = hashlib.pbkdf2_hmac("sha256", f"{name}:{number}".encode(), salt, iterations, LENGTH)
+    made = hashlib.pbkdf2_hmac("sha256", f"{name}:{number}".encode(), salt, iterations, HASH_BYTES)
     return base64.urlsafe_b64encode(made).decode()
 
 
@@ -108,7 +108,7 @@ def salt_of(secret: bytes, *said: str) -> bytes:
 
 def _written(number: float) -> float:
     """A number as it is written down, so that everybody calculates with the same."""
-    return float(f"{number:.{DIGITS}g}")
+    return float(f"{number:.{CELL_DIGITS}g}")
 
 
 def is_right(name: str, answer: float, check: Mapping[str, Any], salt: bytes, iterations: int = ITERATIONS) -> bool:
@@ -117,7 +117,7 @@ def is_right(name: str, answer: float, check: Mapping[str, Any], salt: bytes, it
     return hmac.compare_digest(made, str(check["right"]))
 
 
-def checked(request: Mapping[str, Any]) -> dict[str, Any]:
+def exercise_answer(request: Mapping[str, Any]) -> dict[str, Any]:
     """The answer to a request "exercise", for a page without WebCrypto: which answers are right, and which hint fits.
 
     It takes ``exercise``, as the page has it, and ``given``, numbers by the answers' names.
@@ -127,7 +127,7 @@ def checked(request: Mapping[str, Any]) -> dict[str, Any]:
     DesignError : senseless data
     """
     exercise, given = request.get("exercise"), request.get("given")
-    if not isinstance(exercise, Mapping) or not isinstance(given, Mapping) or len(given) > MOST_ANSWERS:
+    if not isinstance(exercise, Mapping) or not isinstance(given, Mapping) or len(given) > MAX_ANSWERS:
         shown = say("not readable")
         raise DesignError("exercise", shown, say("a table with the exercise, and one with the answers given"))
     iterations = exercise.get("iterations", ITERATIONS)
@@ -136,14 +136,16 @@ def checked(request: Mapping[str, Any]) -> dict[str, Any]:
     try:
         salt = base64.urlsafe_b64decode(str(exercise["salt"]))
         checks = {str(asked["name"]): asked["check"] for asked in exercise["answers"] if "check" in asked}
-        found = {name: _found(name, given[name], checks[name], salt, iterations) for name in given if name in checks}
+        found = {
+            name: _check_result(name, given[name], checks[name], salt, iterations) for name in given if name in checks
+        }
     except (KeyError, TypeError, ValueError, OverflowError, ZeroDivisionError) as error:
         shown = say("not readable ({error})", error=str(error))
         raise DesignError("exercise", shown, say("an exercise as a link of graphcam has it")) from None
     return {"checked": found}
 
 
-def _found(name: str, answer: Any, check: Mapping[str, Any], salt: bytes, iterations: int) -> dict[str, Any]:
+def _check_result(name: str, answer: Any, check: Mapping[str, Any], salt: bytes, iterations: int) -> dict[str, Any]:
     made = hashed(name, cell(float(answer), float(check["offset"]), float(check["width"])), salt, iterations)
     right = hmac.compare_digest(made, str(check["right"]))
     return {"right": right, "hint": None if right else dict(check.get("hints", {})).get(made)}

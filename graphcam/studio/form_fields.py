@@ -12,8 +12,8 @@ from graphcam.words import Caption, Tell, Words, say
 Field = dict[str, Any]
 MOTION, FOLLOWER, CAM = say("Motion"), say("Follower"), say("Cam")
 LIMITS, SPRING, MATERIAL, DRAWING = say("Limits"), say("Spring"), say("Material"), say("Drawing")
-DEGREES = "°"
-UNITS = {
+DEGREE_SIGN = "°"
+UNIT_CAPTIONS = {
     str(unit): unit
     for unit in (
         *(say("rpm"), say("kg"), say("N/mm"), say("N"), say("mm"), say("MPa")),
@@ -21,7 +21,7 @@ UNITS = {
     )
 }
 
-NUMBERS: dict[str, tuple[Caption, Caption, str]] = {
+NUMBER_FIELDS: dict[str, tuple[Caption, Caption, str]] = {
     "motion.tolerance": (MOTION, say("Tolerance of the fit"), "mm"),
     "speed_rpm": (MOTION, say("Speed"), "rpm"),
     "follower.offset": (FOLLOWER, say("Offset e"), "mm"),
@@ -29,8 +29,8 @@ NUMBERS: dict[str, tuple[Caption, Caption, str]] = {
     "follower.distance": (FOLLOWER, say("Centre distance c"), "mm"),
     "follower.roller_radius": (FOLLOWER, say("Roller radius r"), "mm"),
     "cam.prime_radius": (CAM, say("Prime radius r₀"), "mm"),
-    "limits.pressure_angle_rise": (LIMITS, say("Permitted pressure angle, rise"), DEGREES),
-    "limits.pressure_angle_return": (LIMITS, say("Permitted pressure angle, return"), DEGREES),
+    "limits.pressure_angle_rise": (LIMITS, say("Permitted pressure angle, rise"), DEGREE_SIGN),
+    "limits.pressure_angle_return": (LIMITS, say("Permitted pressure angle, return"), DEGREE_SIGN),
     "limits.min_curvature_radius": (LIMITS, say("Minimum radius of curvature of the profile"), "mm"),
     "spring.mass": (SPRING, say("Moving mass"), "kg"),
     "spring.stiffness": (SPRING, say("Stiffness c"), "N/mm"),
@@ -54,17 +54,17 @@ NUMBERS: dict[str, tuple[Caption, Caption, str]] = {
     "drawing.poles[1]": (DRAWING, say("Pole distance H₂"), "mm"),
     "pencil": (DRAWING, say("Error of the pencil"), "mm"),
     "arcs.rho1": (CAM, say("Radius of the first arc ρ₁"), "mm"),
-    "arcs.dwell": (MOTION, say("Upper dwell"), DEGREES),
+    "arcs.dwell": (MOTION, say("Upper dwell"), DEGREE_SIGN),
 }
 """Group, name and unit of the numbers by their paths."""
-POINTS = {
+POINT_NAMES = {
     "D": say("Point D, end of the rise"),
     "G": say("Point G, where the second and third arcs meet"),
     "A": say("Point A, start of the rise"),
     "C1": say("Centre C₁ of the first arc"),
     "C2": say("Centre C₂ of the second arc"),
 }
-AXES = ("x", "y")
+AXIS_NAMES = ("x", "y")
 
 
 def must_agree(arcs: ArcsTable, name: str) -> list[str]:
@@ -95,7 +95,7 @@ class FieldMaker:
 
     def number(self, path: str) -> Field:
         """A number that always stands in the task."""
-        group, name, unit = NUMBERS[path]
+        group, name, unit = NUMBER_FIELDS[path]
         return {
             "path": path,
             "group": self.tell(group),
@@ -118,7 +118,7 @@ class FieldMaker:
     def coordinate(self, arcs: ArcsTable, name: str, k: int, adopted: tuple[float, ...] | None) -> Field:
         """A coordinate of a point of the arcs, with what was found if the point may be left out."""
         path = f"arcs.{name}"
-        called = say("{point}, {axis}", point=POINTS[name], axis=AXES[k])
+        called = say("{point}, {axis}", point=POINT_NAMES[name], axis=AXIS_NAMES[k])
         field: Field = {
             "path": f"{path}[{k}]",
             "group": self.tell(CAM),
@@ -153,7 +153,7 @@ class FieldMaker:
 
     def unit(self, unit: str) -> str:
         """A unit in the language of the page."""
-        return self.tell(UNITS.get(unit, unit))
+        return self.tell(UNIT_CAPTIONS.get(unit, unit))
 
     def span(self, path: str) -> dict[str, float]:
         """The range of a number."""

@@ -19,12 +19,12 @@ from graphcam.words import Caption, Tell, say
 
 Changes = dict[str, Any]
 """New values of a task by their paths."""
-PULL = 2.5
+MAGNET_REACH = 2.5
 """A magnet draws what comes this near to it [mm of paper]."""
-COARSE = 10
+COARSE_STEPS = 10
 """A coarse step is so many steps."""
 DECIMALS = 3
-TURN = SizeRange(0.0, 360.0, 0.5)
+TURN_RANGE = SizeRange(0.0, 360.0, 0.5)
 """The range of the cam angle [degrees]."""
 
 
@@ -57,7 +57,7 @@ class HandleAxis:
             "value": self.value,
             **each.plain(),
             "fine": round(each.step / 5, 9),
-            "coarse": COARSE * each.step,
+            "coarse": COARSE_STEPS * each.step,
             "screen": self.screen,
             **(self.extra or {}),
         }
@@ -124,10 +124,10 @@ def on_page(place: complex) -> list[float]:
     return [round(place.real, DECIMALS) + 0.0, round(-place.imag, DECIMALS) + 0.0]
 
 
-def drawn_to(value: float, magnets: Sequence[float], reach: float) -> float | None:
+def nearest_magnet(value: float, magnets: Sequence[float], reach: float) -> float | None:
     """The magnet that a value is drawn to, if any.
 
-    >>> drawn_to(4.2, [0.0, 5.0], 1.0), drawn_to(3.0, [0.0, 5.0], 1.0)
+    >>> nearest_magnet(4.2, [0.0, 5.0], 1.0), nearest_magnet(3.0, [0.0, 5.0], 1.0)
     (5.0, None)
     """
     near = [each for each in magnets if abs(each - value) <= reach]
@@ -138,7 +138,7 @@ def snapped(
     value: float, within: SizeRange, *, fine: bool = False, magnets: Sequence[float] = (), reach: float = 0.0
 ) -> float:
     """A value on a magnet, or else on a step, within its range; finely there are no magnets."""
-    pulled = None if fine else drawn_to(value, magnets, reach)
+    pulled = None if fine else nearest_magnet(value, magnets, reach)
     if pulled is not None and within.least <= pulled <= within.most:
         return pulled
     return within.kept(value, fine=fine)
@@ -146,7 +146,7 @@ def snapped(
 
 def phi_axis(phi: float, screen: str = "x") -> HandleAxis:
     """The cam angle."""
-    return HandleAxis("phi", say("Cam angle φ"), "°", phi, TURN, screen)
+    return HandleAxis("phi", say("Cam angle φ"), "°", phi, TURN_RANGE, screen)
 
 
 def over_stations(

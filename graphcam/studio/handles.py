@@ -20,12 +20,12 @@ from graphcam.studio.handle import Changes, Handle, HandleState, phi_axis, point
 from graphcam.studio.size_ranges import has_angles, sizes_of
 from graphcam.words import Tell, say
 
-MECHANISM = "mechanism"
+MECHANISM_VIEW = "mechanism"
 """The view of the turning mechanism, which the page draws itself."""
-HALVINGS = 7
+WAY_HALVINGS = 7
 """Halvings of the way of a hand that goes where there is no design."""
 Solved = TypeVar("Solved")
-FAR = 1e6
+MAX_DISTANCE = 1e6
 """No place on paper is farther away [mm]."""
 
 
@@ -93,7 +93,7 @@ def dragged_within(
     fine = bool(drag.get("fine", False))
     found: tuple[Changes, Solved] | None = None
     reached, beyond = 0.0, 2.0
-    for _ in range(HALVINGS):
+    for _ in range(WAY_HALVINGS):
         share = (reached + beyond) / 2
         changes = handle.drag(handle.at + share * (to - handle.at), fine)
         try:
@@ -120,21 +120,21 @@ def _place(to: Any) -> complex:
         x, y = (float(coordinate) for coordinate in to)
     except (TypeError, ValueError):
         x = y = math.nan
-    if not (abs(x) <= FAR and abs(y) <= FAR):
+    if not (abs(x) <= MAX_DISTANCE and abs(y) <= MAX_DISTANCE):
         raise DesignError("drag.to", f"{to!r}"[:40], say("two numbers, x and y in mm of the view"))
     return complex(x, -y)
 
 
 def _of_view(solution: AnySolution, view: str, state: HandleState) -> Iterator[Handle]:
     """The handles of a view, each made when it is come to."""
-    if view == MECHANISM:
-        yield _turning(state)
+    if view == MECHANISM_VIEW:
+        yield _cam_handle(state)
     elif isinstance(solution, ArcsSolution):
         yield from arcs.of_view(solution, view, state)
     elif view in (ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name):
         yield from _of_diagram(solution, view, state)
-    elif view in VIEWS and VIEWS[view][0] in solution.chain.names:
-        yield from VIEWS[view][1](solution, state)
+    elif view in VIEW_HANDLES and VIEW_HANDLES[view][0] in solution.chain.names:
+        yield from VIEW_HANDLES[view][1](solution, state)
 
 
 def _of_diagram(solution: Solution, view: str, state: HandleState) -> Iterator[Handle]:
@@ -183,7 +183,7 @@ def _of_plan(solution: Solution, state: HandleState) -> Iterator[Handle]:
     yield from plan.station(solution)
 
 
-VIEWS: dict[str, tuple[str, Callable[[Solution, HandleState], Iterator[Handle]]]] = {
+VIEW_HANDLES: dict[str, tuple[str, Callable[[Solution, HandleState], Iterator[Handle]]]] = {
     ANGLE.name: ("angle_diagram", _of_angles),
     COMBINED.name: ("minimum_radius", _of_combined),
     REGION.name: ("minimum_radius", _of_positions),
@@ -193,11 +193,11 @@ VIEWS: dict[str, tuple[str, Callable[[Solution, HandleState], Iterator[Handle]]]
 """The construction that a view needs, and its handles."""
 
 
-def _turning(state: HandleState) -> Handle:
+def _cam_handle(state: HandleState) -> Handle:
     """The cam itself, which the page turns."""
 
     def drag(to: complex, fine: bool) -> Changes:
         """The page knows how far it was turned."""
         return {}
 
-    return Handle(MECHANISM, "phi", say("Cam angle φ"), 0j, "turn", (phi_axis(state.phi),), drag)
+    return Handle(MECHANISM_VIEW, "phi", say("Cam angle φ"), 0j, "turn", (phi_axis(state.phi),), drag)

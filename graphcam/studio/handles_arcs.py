@@ -9,7 +9,7 @@ from graphcam.constructions.arc_outline import ARCS
 from graphcam.constructions.arc_profile import ROLLER
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
 from graphcam.solving.arcs_solution import ArcsSolution
-from graphcam.studio.form_fields import POINTS, must_agree
+from graphcam.studio.form_fields import POINT_NAMES, must_agree
 from graphcam.studio.handle import (
     Changes,
     Handle,
@@ -24,7 +24,7 @@ from graphcam.studio.handles_diagrams import cursor
 from graphcam.studio.size_ranges import ranges
 from graphcam.words import say
 
-RHO = say("Radius of the first arc ρ₁")
+RHO_NAME = say("Radius of the first arc ρ₁")
 
 
 def of_view(solution: ArcsSolution, view: str, state: HandleState) -> Iterator[Handle]:
@@ -54,7 +54,7 @@ def points(solution: ArcsSolution) -> Iterator[Handle]:
 
         value = round(at.real * mu, 6), round(at.imag * mu, 6)
         first = {"first": freed if given is not None else {**freed, f"arcs.{name}": list(value)}}
-        title = POINTS[name]
+        title = POINT_NAMES[name]
         axes = tuple(
             HandleAxis(path, say("{point}, {axis}", point=title, axis=screen), "mm", x, rooms[path], screen, first)
             for path, screen, x in zip((across, up), "xy", value, strict=True)
@@ -73,9 +73,9 @@ def first_arc(solution: ArcsSolution) -> Iterator[Handle]:
         """The radius."""
         return {"arcs.rho1": snapped(((to - end) * towards.conjugate()).real * mu, room, fine=fine), **freed}
 
-    axis = HandleAxis("arcs.rho1", RHO, "mm", given.rho1, room, "x", {"first": freed, "sign": -1})
+    axis = HandleAxis("arcs.rho1", RHO_NAME, "mm", given.rho1, room, "x", {"first": freed, "sign": -1})
     at = end + towards * given.rho1 / mu
-    yield Handle(ARCS.name, "C1", POINTS["C1"], at, "along", (axis,), drag, along=towards)
+    yield Handle(ARCS.name, "C1", POINT_NAMES["C1"], at, "along", (axis,), drag, along=towards)
 
 
 def roller(solution: ArcsSolution, state: HandleState) -> Iterator[Handle]:

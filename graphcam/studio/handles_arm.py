@@ -11,15 +11,24 @@ from graphcam.constructions.arm_positions import cam_centre
 from graphcam.constructions.views import PROFILE, REGION
 from graphcam.drafting.euclid import circles_meet
 from graphcam.drafting.marks import Points
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 from graphcam.solving.solution import Solution
-from graphcam.studio.handle import PULL, Changes, Handle, HandleAxis, HandleState, point_on_curve, snapped
+from graphcam.studio.handle import MAGNET_REACH, Changes, Handle, HandleAxis, HandleState, point_on_curve, snapped
 from graphcam.studio.handles_profile import scale_of
-from graphcam.studio.size_ranges import SizeRange, above, lift_of, ranges, round_up, sizes_of, step_for, third_side
+from graphcam.studio.size_ranges import (
+    SizeRange,
+    lift_of,
+    multiple_above,
+    ranges,
+    round_up,
+    sizes_of,
+    step_for,
+    third_side,
+)
 from graphcam.words import say
 
 ARM, DISTANCE, RADIUS = say("Arm length l"), say("Centre distance c"), say("Prime radius r₀")
-KEPT = 1e-6
+EDGE_TOLERANCE = 1e-6
 """What lies so little outside of the region [mm of paper] is on its edge."""
 
 
@@ -42,12 +51,12 @@ class ArmRegionPlaces:
     def inside(self, distance: float, radius: float) -> bool:
         """Whether all limits are kept there."""
         centre = cam_centre(self.arm, distance, radius, flat=True) / self.mu
-        return bool((dot(self.inwards, centre - self.touches) >= -KEPT).all())
+        return bool((dot(self.inwards, centre - self.touches) >= -EDGE_TOLERANCE).all())
 
     def radii(self, distance: float) -> SizeRange:
         """The prime radii that close a triangle."""
         sides = third_side(self.arm, distance, self.step)
-        return sides._replace(least=max(sides.least, above(self.roller, self.step)))
+        return sides._replace(least=max(sides.least, multiple_above(self.roller, self.step)))
 
     def distances(self) -> SizeRange:
         """The centre distances that leave some prime radius."""
@@ -56,7 +65,7 @@ class ArmRegionPlaces:
     def sizes(self, to: complex, *, fine: bool) -> tuple[float, float]:
         """The centre distance and the prime radius of a cam centre that is put to a place [mm of paper]."""
         # The cam centre lies below the line of the arm at rest.
-        below = complex(to.real, min(to.imag, -KEPT))
+        below = complex(to.real, min(to.imag, -EDGE_TOLERANCE))
         distance = self.distances().kept(abs(below) * self.mu, fine=fine)
         wanted, room = abs(below * self.mu + self.arm), self.radii(distance)
         edge = None if fine else self._edge(distance, wanted, room)
@@ -65,7 +74,7 @@ class ArmRegionPlaces:
     def _edge(self, distance: float, wanted: float, room: SizeRange) -> float | None:
         """The prime radius nearest to a wanted one at which the arc about the pivot enters the region, if near."""
         step = self.step / 5
-        count = math.ceil(PULL * self.mu / step)
+        count = math.ceil(MAGNET_REACH * self.mu / step)
         tried = [round(step * (round(wanted / step) + k), 9) for k in range(-count, count + 1)]
         tried = [radius for radius in tried if room.least <= radius <= room.most]
         inside = [self.inside(distance, radius) for radius in tried]
@@ -119,7 +128,7 @@ def _arm_at_rest(solution: Solution) -> Iterator[Handle]:
 
     def drag(to: complex, fine: bool) -> Changes:
         """The arm's length."""
-        return {"follower.arm": snapped(-to.real * mu, room, fine=fine), **_others(solution)}
+        return {"follower.arm": snapped(-to.real * mu, room, fine=fine), **_fixed_sizes(solution)}
 
     axis = HandleAxis("follower.arm", ARM, "mm", arm, room, "x", {"sign": -1})
     yield Handle(REGION.name, "B0", ARM, complex(-arm / mu), "x", (axis,), drag)
@@ -127,19 +136,19 @@ def _arm_at_rest(solution: Solution) -> Iterator[Handle]:
 
 def arms(solution: Solution) -> SizeRange:
     """The lengths of the arm at which the mechanism closes; any where both other sizes are found for it."""
-    if _all_found(solution):
+    if _all_open(solution):
         return ranges(solution)["follower.arm"]
     return third_side(solution.chain.place, solution.chain.prime_radius, step_for(lift_of(solution)))
 
 
-def _all_found(solution: Solution) -> bool:
+def _all_open(solution: Solution) -> bool:
     """Whether prime radius and centre distance are both left open."""
     return solution.task.cam.prime_radius is None and sizes_of(solution.task)["distance"] is None
 
 
-def _others(solution: Solution) -> Changes:
+def _fixed_sizes(solution: Solution) -> Changes:
     """What must stay as it is while the arm's length changes, unless all is found for it."""
-    if _all_found(solution):
+    if _all_open(solution):
         return {}
     return {"follower.distance": solution.chain.place, "cam.prime_radius": solution.chain.prime_radius}
 

@@ -11,14 +11,14 @@ from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELO
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.solving.solution import Solution
 from graphcam.studio.handle import Changes, Handle, HandleAxis, HandleState, over_stations, phi_axis, snapped
-from graphcam.studio.size_ranges import LEAST_ANGLE, SizeRange, ranges
+from graphcam.studio.size_ranges import MIN_PHASE_ANGLE, SizeRange, ranges
 from graphcam.words import Caption, say
 
-MAGNET = 5.0
+MAGNET_STEP = 5.0
 """Round phase angles [degrees] draw a border ..."""
-NEAR = 1.0
+MAGNET_REACH = 1.0
 """The distance [degrees] within which a magnet draws a border."""
-NAMES = {ACCELERATION.name: "a", VELOCITY.name: "v", DISPLACEMENT.name: "s"}
+READING_NAMES = {ACCELERATION.name: "a", VELOCITY.name: "v", DISPLACEMENT.name: "s"}
 """The readings over the cam angle by the names of their views."""
 
 
@@ -38,7 +38,7 @@ def borders(solution: Solution, view: str) -> Iterator[Handle]:
             angle = border_angle(to.real * degrees, start, total, fine=fine)
             return {paths[0]: angle, paths[1]: round(total - angle, 9)}
 
-        room = SizeRange(LEAST_ANGLE, total - LEAST_ANGLE, 1.0)
+        room = SizeRange(MIN_PHASE_ANGLE, total - MIN_PHASE_ANGLE, 1.0)
         title = say("Angle of the {phase}", phase=phase_title(solution.cam.motion, k))
         axis = HandleAxis(paths[0], title, "°", first.angle, room, "x", {"sum": {"path": paths[1], "total": total}})
         name = say("End of the {phase}", phase=phase_title(solution.cam.motion, k))
@@ -53,9 +53,9 @@ def border_angle(phi: float, start: float, total: float, *, fine: bool = False) 
     >>> border_angle(84.3, 0.0, 125.0), border_angle(82.7, 0.0, 125.0), border_angle(300.0, 0.0, 125.0)
     (85.0, 83.0, 124.0)
     """
-    room = SizeRange(LEAST_ANGLE, total - LEAST_ANGLE, 1.0)
-    magnet = MAGNET * round((phi - start) / MAGNET)
-    return snapped(phi - start, room, fine=fine, magnets=[magnet], reach=NEAR)
+    room = SizeRange(MIN_PHASE_ANGLE, total - MIN_PHASE_ANGLE, 1.0)
+    magnet = MAGNET_STEP * round((phi - start) / MAGNET_STEP)
+    return snapped(phi - start, room, fine=fine, magnets=[magnet], reach=MAGNET_REACH)
 
 
 def ordinate(solution: Solution) -> Iterator[Handle]:
@@ -124,7 +124,7 @@ def limits(solution: Solution) -> Iterator[Handle]:
         yield Handle(ANGLE.name, f"limit {way}", name, at, "y", (axis,), drag, limit=reached > given + 0.005)
 
 
-CURSOR: Caption = say("Cam angle φ")
+CURSOR_NAME: Caption = say("Cam angle φ")
 
 
 def cursor(solution: Solution | ArcsSolution, view: str, state: HandleState) -> Iterator[Handle]:
@@ -136,19 +136,19 @@ def cursor(solution: Solution | ArcsSolution, view: str, state: HandleState) -> 
         """The cam angle under the hand."""
         return {"phi": snapped(to.real * degrees, phi_axis(0.0).range, fine=fine)}
 
-    yield Handle(view, "phi", CURSOR, complex(state.phi / degrees, height), "x", (phi_axis(state.phi),), drag)
+    yield Handle(view, "phi", CURSOR_NAME, complex(state.phi / degrees, height), "x", (phi_axis(state.phi),), drag)
 
 
 def curve_height(solution: Solution | ArcsSolution, view: str, phi: float) -> float:
     """How high a curve stands over the axis at a cam angle [rad], from its stations [mm of paper]."""
     if isinstance(solution, ArcsSolution):
-        drawn = solution.chain["arc_diagrams"].first(NAMES.get(view, "alpha"))
+        drawn = solution.chain["arc_diagrams"].first(READING_NAMES.get(view, "alpha"))
         # Only the rise is drawn.
         return float(np.interp(phi / solution.chain.board.mu_phi.per_mm, drawn.real, drawn.imag))
     stations = solution.chain.board.stations
     if view == ANGLE.name:
         return over_stations(stations, phi, solution.chain["angle_diagram"].first("curve")).imag
     integrated = solution.chain["integration"]
-    name = NAMES[view]
+    name = READING_NAMES[view]
     before = integrated.first("a_before") if name == "a" else None
     return over_stations(stations, phi, integrated.first(name), before, rests=name != "s").real

@@ -14,7 +14,7 @@ from graphcam.studio.handle import Changes, Handle, HandleAxis, nearest_station
 from graphcam.studio.size_ranges import SizeRange, sizes_of
 from graphcam.words import say
 
-STATION = say("Station of the velocity plan")
+STATION_NAME = say("Station of the velocity plan")
 
 
 def station(solution: Solution) -> Iterator[Handle]:
@@ -28,8 +28,8 @@ def station(solution: Solution) -> Iterator[Handle]:
         return {"station": int(possible[nearest_station(places[possible], to)])}
 
     room = SizeRange(float(possible[0]), float(possible[-1]), 1.0)
-    axis = HandleAxis("station", STATION, "", shown, room, "x", {"fine": 1.0, "coarse": 1.0})
-    yield Handle(PLAN.name, "station", STATION, complex(places[shown]), "xy", (axis,), drag)
+    axis = HandleAxis("station", STATION_NAME, "", shown, room, "x", {"fine": 1.0, "coarse": 1.0})
+    yield Handle(PLAN.name, "station", STATION_NAME, complex(places[shown]), "xy", (axis,), drag)
 
 
 def _ends(solution: Solution, shown: int) -> Points:

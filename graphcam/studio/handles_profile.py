@@ -11,7 +11,7 @@ from graphcam.drafting.euclid import UP
 from graphcam.given.follower import sense
 from graphcam.solving.solution import Solution
 from graphcam.studio.handle import (
-    PULL,
+    MAGNET_REACH,
     Changes,
     Handle,
     HandleAxis,
@@ -25,8 +25,8 @@ from graphcam.studio.handle import (
 from graphcam.studio.size_ranges import SizeRange, lift_of, ranges, sizes_of, step_for, third_side
 from graphcam.words import say
 
-PRIME, OFFSET = say("Prime circle"), say("Offset circle")
-RIM, PITCH = say("Rim of the roller"), say("Point of the pitch curve")
+PRIME_CIRCLE_NAME, OFFSET_CIRCLE_NAME = say("Prime circle"), say("Offset circle")
+RIM_NAME, PITCH_POINT_NAME = say("Rim of the roller"), say("Point of the pitch curve")
 
 
 def scale_of(solution: Solution) -> float:
@@ -44,12 +44,12 @@ def prime_circle(solution: Solution) -> Iterator[Handle]:
 
     def drag(to: complex, fine: bool) -> Changes:
         """The prime radius; the least one draws it."""
-        r0 = snapped(-to.imag * mu, room, fine=fine, magnets=found, reach=PULL * mu)
+        r0 = snapped(-to.imag * mu, room, fine=fine, magnets=found, reach=MAGNET_REACH * mu)
         return {"cam.prime_radius": r0, **kept_place(solution)}
 
     axis = HandleAxis("cam.prime_radius", say("Prime radius r₀"), "mm", radius, room, "y", {"sign": -1})
     too_small = radius < least - fine / 10
-    yield Handle(PROFILE.name, "r0", PRIME, -UP * radius / mu, "y", (axis,), drag, limit=too_small)
+    yield Handle(PROFILE.name, "r0", PRIME_CIRCLE_NAME, -UP * radius / mu, "y", (axis,), drag, limit=too_small)
 
 
 def radii(solution: Solution) -> SizeRange:
@@ -76,7 +76,7 @@ def offset_circle(solution: Solution) -> Iterator[Handle]:
         return {"follower.offset": snapped(to.real * mu, room, fine=fine)}
 
     axis = HandleAxis("follower.offset", say("Offset e"), "mm", offset, room, "x")
-    yield Handle(PROFILE.name, "e", OFFSET, complex(offset / mu), "x", (axis,), drag)
+    yield Handle(PROFILE.name, "e", OFFSET_CIRCLE_NAME, complex(offset / mu), "x", (axis,), drag)
 
 
 def pitch_at(solution: Solution, phi: float) -> complex:
@@ -100,12 +100,12 @@ def roller_rim(solution: Solution, state: HandleState) -> Iterator[Handle]:
     def drag(to: complex, fine: bool) -> Changes:
         """The roller radius; the one at which the profile gets an edge draws it."""
         length = ((to - centre) * out.conjugate()).real * mu
-        return {"follower.roller_radius": snapped(length, room, fine=fine, magnets=sharpest, reach=PULL * mu)}
+        return {"follower.roller_radius": snapped(length, room, fine=fine, magnets=sharpest, reach=MAGNET_REACH * mu)}
 
     axis = HandleAxis("follower.roller_radius", say("Roller radius r"), "mm", radius, room, "y")
     undercut = radius >= rho
     at = centre + out * radius / mu
-    yield Handle(PROFILE.name, "r", RIM, at, "along", (axis,), drag, along=out, limit=undercut)
+    yield Handle(PROFILE.name, "r", RIM_NAME, at, "along", (axis,), drag, along=out, limit=undercut)
 
 
 def pitch_point(solution: Solution, state: HandleState) -> Iterator[Handle]:
@@ -118,4 +118,4 @@ def pitch_point(solution: Solution, state: HandleState) -> Iterator[Handle]:
         return {"phi": in_degrees(stations.phi[nearest_station(pitch, to)])}
 
     at = pitch_at(solution, math.radians(state.phi))
-    yield Handle(PROFILE.name, "phi", PITCH, at, "xy", (phi_axis(state.phi),), drag)
+    yield Handle(PROFILE.name, "phi", PITCH_POINT_NAME, at, "xy", (phi_axis(state.phi),), drag)

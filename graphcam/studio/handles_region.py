@@ -9,14 +9,14 @@ import numpy as np
 from graphcam.constructions.axes import pieces_of
 from graphcam.constructions.region import Boundary, boundary
 from graphcam.constructions.views import COMBINED
-from graphcam.drafting.curve import farthest_of
+from graphcam.drafting.curve import farthest_in
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.marks import Points
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
 from graphcam.solving.solution import Solution
 from graphcam.studio.handle import (
-    PULL,
+    MAGNET_REACH,
     Changes,
     Handle,
     HandleAxis,
@@ -27,14 +27,14 @@ from graphcam.studio.handle import (
     phi_axis,
     snapped,
 )
-from graphcam.studio.size_ranges import LIMITS, SizeRange, above, lift_of, ranges, round_up, step_for
+from graphcam.studio.size_ranges import ANGLE_RANGE, SizeRange, lift_of, multiple_above, ranges, round_up, step_for
 from graphcam.words import say
 
-LINES = "rise", "return", "rest"
+LINE_NAMES = "rise", "return", "rest"
 """The lines that bound the region, where they are drawn."""
-KEPT = 1e-6
+EDGE_TOLERANCE = 1e-6
 """What lies so little outside of the region [mm of paper] is on its edge."""
-CENTRE = say("Cam centre A")
+CENTRE_NAME = say("Cam centre A")
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,19 +66,19 @@ class CentreOfRegion:
 
     def inside(self, offset: float, radius: float) -> bool:
         """Whether all limits are kept there."""
-        return radius >= self.edge(offset) - KEPT * self.mu
+        return radius >= self.edge(offset) - EDGE_TOLERANCE * self.mu
 
     def sizes(self, to: complex, *, fine: bool) -> tuple[float, float]:
         """The offset and the prime radius of a cam centre that is put to a place [mm of paper]."""
         aside = SizeRange(-self.aside, self.aside, self.step)
-        place = None if fine else next((each for each in self.places if abs(each - to) <= PULL), None)
+        place = None if fine else next((each for each in self.places if abs(each - to) <= MAGNET_REACH), None)
         if place is not None and abs(place.real) * self.mu <= self.aside:
             offset = aside._replace(step=self.step / 5).kept(-place.real * self.mu)
             return offset, self._radius(offset, self.edge(offset), rounded_up=True, fine=True)
         offset = aside.kept(-to.real * self.mu, fine=fine)
         radius = self.mu * abs(complex(offset / self.mu, min(to.imag, 0.0)))
         edge = self.edge(offset)
-        if not fine and abs(radius - edge) <= PULL * self.mu:
+        if not fine and abs(radius - edge) <= MAGNET_REACH * self.mu:
             return offset, self._radius(offset, edge, rounded_up=True, fine=True)
         return offset, self._radius(offset, radius, fine=fine)
 
@@ -86,7 +86,7 @@ class CentreOfRegion:
         """A prime radius on a step, larger than the offset and the roller."""
         step = self.step / 5 if fine else self.step
         steps = math.ceil(wanted / step - 1e-9) if rounded_up else round(wanted / step)
-        return round(min(max(steps * step, above(max(abs(offset), self.roller), step)), self.most), 9)
+        return round(min(max(steps * step, multiple_above(max(abs(offset), self.roller), step)), self.most), 9)
 
 
 def centre_of_region(solution: Solution) -> CentreOfRegion:
@@ -98,7 +98,7 @@ def centre_of_region(solution: Solution) -> CentreOfRegion:
     named = (region.acts.get(name) for name in ("nearest", "foot on rise", "central"))
     places = (complex(np.ravel(each.first.shown)[0]) for each in named if each is not None)
     return CentreOfRegion(
-        lines=tuple(boundary(region.acts[name].first) for name in LINES if name in region.acts),
+        lines=tuple(boundary(region.acts[name].first) for name in LINE_NAMES if name in region.acts),
         mu=region.readings["prime_radius"].per_mm,
         step=step,
         most=max(most, radius),
@@ -119,14 +119,14 @@ def cam_centre(solution: Solution) -> Iterator[Handle]:
         return {"follower.offset": e, "cam.prime_radius": r0}
 
     aside = SizeRange(-free.aside, free.aside, free.step)
-    radii = SizeRange(above(max(abs(offset), free.roller), free.step), free.most, free.step)
+    radii = SizeRange(multiple_above(max(abs(offset), free.roller), free.step), free.most, free.step)
     axes = (
         HandleAxis("follower.offset", say("Offset e"), "mm", offset, aside, "x", {"sign": -1}),
         HandleAxis("cam.prime_radius", say("Prime radius r₀"), "mm", radius, radii, "y", {"sign": -1}),
     )
     at = complex(chain["pressure_angle"].first("centre"))
     outside = not free.inside(offset, radius)
-    yield Handle(COMBINED.name, "A", CENTRE, at, "xy", axes, drag, limit=outside)
+    yield Handle(COMBINED.name, "A", CENTRE_NAME, at, "xy", axes, drag, limit=outside)
 
 
 # --- the tangents ----------------------------------------------------------------------------------------------------
@@ -146,12 +146,14 @@ def tangents(solution: Solution) -> Iterator[Handle]:
 
         def drag(to: complex, fine: bool, name: str = name, path: str = path) -> Changes:
             """The angle at which the tangent comes nearest to the hand."""
-            angles = np.arange(LIMITS[0], LIMITS[1] + 0.1, 0.2 if fine else 1.0).round(6)
+            angles = np.arange(ANGLE_RANGE[0], ANGLE_RANGE[1] + 0.1, 0.2 if fine else 1.0).round(6)
             met = tangents_meet(solution, name, np.radians(angles), level)
             return {path: float(angles[np.argmin(np.abs(met - to.real))])}
 
         at = float(tangents_meet(solution, name, np.radians([permitted]), level)[0])
-        axis = HandleAxis(path, title, "°", permitted, SizeRange(*LIMITS, 1.0), "x", {"sign": _side(solution, name)})
+        axis = HandleAxis(
+            path, title, "°", permitted, SizeRange(*ANGLE_RANGE, 1.0), "x", {"sign": _side(solution, name)}
+        )
         yield Handle(COMBINED.name, f"tangent {name}", title, complex(at, level), "x", (axis,), drag)
 
 
@@ -166,7 +168,7 @@ def tangents_meet(solution: Solution, name: str, angles: Floats, level: float) -
     side, pieces = _side(solution, name), pieces_of(motion, stations, 1 if name == "rise" else -1)
     ends = np.asarray(solution.chain["pressure_angle"].first("ends"))
     along: Points = -side * UP * np.exp(1j * side * angles)
-    touch = farthest_of(np.broadcast_to(ends, (angles.size, ends.size)), pieces, along * -UP)
+    touch = farthest_in(np.broadcast_to(ends, (angles.size, ends.size)), pieces, along * -UP)
     return touch.real + (level - touch.imag) * along.real / along.imag
 
 
@@ -182,13 +184,13 @@ def flat_centre(solution: Solution) -> Iterator[Handle]:
 
     def drag(to: complex, fine: bool) -> Changes:
         """The prime radius; the least one draws it."""
-        radius = snapped(-to.imag * mu, sizes, fine=fine, magnets=[round(found, 9)], reach=PULL * mu)
+        radius = snapped(-to.imag * mu, sizes, fine=fine, magnets=[round(found, 9)], reach=MAGNET_REACH * mu)
         return {"cam.prime_radius": radius}
 
     axis = HandleAxis("cam.prime_radius", say("Prime radius r₀"), "mm", chain.prime_radius, sizes, "y", {"sign": -1})
     at = complex(0.0, -chain.prime_radius / mu)
-    outside = chain.prime_radius < least - KEPT * mu
-    yield Handle(COMBINED.name, "A", CENTRE, at, "y", (axis,), drag, limit=outside)
+    outside = chain.prime_radius < least - EDGE_TOLERANCE * mu
+    yield Handle(COMBINED.name, "A", CENTRE_NAME, at, "y", (axis,), drag, limit=outside)
 
 
 def flat_point(solution: Solution, state: HandleState) -> Iterator[Handle]:

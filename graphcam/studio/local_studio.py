@@ -10,27 +10,27 @@ from typing import Any
 from graphcam.errors import DesignError, GraphcamError, among
 from graphcam.language import ENGLISH, language
 from graphcam.showing import from_above
-from graphcam.solving.shown_solution import CUTTING, USUAL
+from graphcam.solving.shown_solution import CUTTING_KINDS, DEFAULT_KINDS
 from graphcam.solving.solve import solve
 from graphcam.studio.address import StudioPlace, address_of
 from graphcam.studio.engine import answer
-from graphcam.studio.page import page
-from graphcam.studio.request import task_data, task_in
 from graphcam.studio.server import StudioServer
+from graphcam.studio.studio_page import page
 from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
+from graphcam.studio.views_request import task_data, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.words import message
 
-TABLE = "measured.csv"
+TABLE_FILE = "measured.csv"
 """What the file of a measured table is called, for the page can name no file."""
-PART, NOTEBOOK = "working drawing", "notebook"
-KINDS: Mapping[str, tuple[str, ...]] = {
+PART_CHOICE, NOTEBOOK_CHOICE = "working drawing", "notebook"
+FILES_BY_CHOICE: Mapping[str, tuple[str, ...]] = {
     "sheet": ("pdf", "svg", "png", "dxf", "player"),
     "note": ("csv", "md", "note", "note_html"),
-    NOTEBOOK: (),
-    PART: ("profile_dxf", "profile_csv", "profile_xyz", *CUTTING),
-    "all": USUAL,
+    NOTEBOOK_CHOICE: (),
+    PART_CHOICE: ("profile_dxf", "profile_csv", "profile_xyz", *CUTTING_KINDS),
+    "all": DEFAULT_KINDS,
 }
 """What can be asked for, and the kinds of files of a solution that it is."""
 
@@ -70,17 +70,17 @@ class WrittenFiles:
         task = task_in(data, self.language if said is None else said)
         if isinstance(task, ArcsTask) or task.motion.table is None:
             return task
-        return replace(task, motion=replace(task.motion, table=replace(task.motion.table, file=TABLE)))
+        return replace(task, motion=replace(task.motion, table=replace(task.motion.table, file=TABLE_FILE)))
 
     def _written(self, kind: str, task: Task | ArcsTask) -> tuple[Path, list[str]]:
-        if kind == NOTEBOOK:
-            folder = self.folder / NOTEBOOK
+        if kind == NOTEBOOK_CHOICE:
+            folder = self.folder / NOTEBOOK_CHOICE
             return folder, from_above("notebooks.notebook_folder.write_folder")(task, folder)
         solution, kinds = solve(task), self.kinds | {kind}
-        part = PART in kinds
-        if part and kind != PART:
+        part = PART_CHOICE in kinds
+        if part and kind != PART_CHOICE:
             part = _has_part(solution)
-        wanted = _files(kinds if part else kinds - {PART})
+        wanted = _files(kinds if part else kinds - {PART_CHOICE})
         names = solution.write(self.folder, wanted, working_drawing=part)
         self.kinds = kinds
         return self.folder, [name for name in names.values() if name]
@@ -88,8 +88,8 @@ class WrittenFiles:
 
 def _kind(request: Mapping[str, Any]) -> str:
     kind = request.get("kind")
-    if not isinstance(kind, str) or kind not in KINDS:
-        raise DesignError("kind", kind, *among(kind, KINDS))
+    if not isinstance(kind, str) or kind not in FILES_BY_CHOICE:
+        raise DesignError("kind", kind, *among(kind, FILES_BY_CHOICE))
     return kind
 
 
@@ -105,12 +105,12 @@ def _has_part(solution: Any) -> bool:
 
 
 def _files(kinds: Iterable[str]) -> list[str]:
-    return list(dict.fromkeys(file for kind in kinds for file in KINDS[kind]))
+    return list(dict.fromkeys(file for kind in kinds for file in FILES_BY_CHOICE[kind]))
 
 
-WRITES = "sheet", "note", NOTEBOOK, PART
+WRITTEN_KINDS = "sheet", "note", NOTEBOOK_CHOICE, PART_CHOICE
 """What the page offers to write."""
-LONGEST = 100_000
+MAX_ADDRESS_LENGTH = 100_000
 """Characters of an address that is opened here and sent to nobody, and may tell a measured table."""
 
 
@@ -131,7 +131,7 @@ def local_studio(folder: Path, language: str = ENGLISH.name) -> StudioServer:
         "name": "coursework",
         "builtin": builtin,
         "language": language,
-        "writes": WRITES,
+        "writes": WRITTEN_KINDS,
     }
     return StudioServer(page(config), answer, WrittenFiles(folder, language).write)
 
@@ -149,4 +149,4 @@ def opened_address(server: StudioServer, task: Task | ArcsTask) -> str:
     '&1.'
     """
     place = StudioPlace(plain_task(task), nearest_built_in(task))
-    return f"{server.address}&{address_of(place, built_in_tasks(), LONGEST).removeprefix('#')}"
+    return f"{server.address}&{address_of(place, built_in_tasks(), MAX_ADDRESS_LENGTH).removeprefix('#')}"

@@ -15,20 +15,20 @@ from graphcam.language import language
 from graphcam.solving.solution import Solution, solve_motion
 from graphcam.studio.angle_predictions import angle_foretold, steepest_foretold
 from graphcam.studio.centre_prediction import centre_foretold
-from graphcam.studio.foretold import Foretold, JudgedGuess, ShownStep
-from graphcam.studio.request import number, some, task_data, task_in, whole
+from graphcam.studio.guesses import JudgedGuess, Prediction, ShownStep
 from graphcam.studio.sharpest_prediction import sharpest_foretold
+from graphcam.studio.views_request import number, optional_value, optional_whole_number, task_data, task_in
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import builtin_task
 from graphcam.words import Caption, Tell, say
 
-MOST_SEEDS = 10**9
-MILLIMETRES = say("{size:.1f} mm")
-DIFFERENCES = {"mm": say("{size:+.1f} mm"), "deg": say("{size:+.1f}°")}
+MAX_SEED = 10**9
+MILLIMETRES_CAPTION = say("{size:.1f} mm")
+DIFFERENCE_CAPTIONS = {"mm": say("{size:+.1f} mm"), "deg": say("{size:+.1f}°")}
 """How far a guess is off in the machine, by the unit."""
-FARTHEST = 1e5
+MAX_DISTANCE = 1e5
 """A guess lies no farther away [mm]."""
-KINDS: Mapping[str, tuple[Caption, Callable[[Solution], Foretold], Callable[[Chain], bool]]] = {
+PREDICTION_KINDS: Mapping[str, tuple[Caption, Callable[[Solution], Prediction], Callable[[Chain], bool]]] = {
     "centre": (say("The cam centre"), lambda solution: centre_foretold(solution.chain), lambda chain: True),
     "angle": (
         say("The maximum pressure angle"),
@@ -45,25 +45,25 @@ KINDS: Mapping[str, tuple[Caption, Callable[[Solution], Foretold], Callable[[Cha
 """What can be foretold: its name, the question of a solution, and whether a chain has it."""
 
 
-BASES = {"translating": "coursework", "oscillating": "arm", "flat-faced": "flat"}
+BASE_TASKS = {"translating": "coursework", "oscillating": "arm", "flat-faced": "flat"}
 """The built-in task of each kind of follower."""
-LAWS = ("cosine", "cycloidal", "3-4-5", "modified-sine", "rectangular")
-SMOOTH = ("cycloidal", "3-4-5", "modified-sine")
+DRAWN_LAWS = ("cosine", "cycloidal", "3-4-5", "modified-sine", "rectangular")
+SMOOTH_LAWS = ("cycloidal", "3-4-5", "modified-sine")
 """Laws whose acceleration does not jump: under a flat face a jump hides where the profile is sharpest."""
-SIZES: Mapping[str, Mapping[str, Sequence[float | str]]] = {
-    "translating": {"offset": range(-16, 17, 2), "limit": range(25, 38), "lift": range(20, 46, 5), "laws": LAWS},
-    "oscillating": {"limit": range(38, 48), "lift": range(12, 19), "laws": LAWS},
-    "flat-faced": {"curvature": range(5, 13), "lift": range(20, 36, 5), "laws": SMOOTH},
+SIZE_RANGES: Mapping[str, Mapping[str, Sequence[float | str]]] = {
+    "translating": {"offset": range(-16, 17, 2), "limit": range(25, 38), "lift": range(20, 46, 5), "laws": DRAWN_LAWS},
+    "oscillating": {"limit": range(38, 48), "lift": range(12, 19), "laws": DRAWN_LAWS},
+    "flat-faced": {"curvature": range(5, 13), "lift": range(20, 36, 5), "laws": SMOOTH_LAWS},
 }
 """Ranges in which one would draw the cam oneself."""
-RISES, DWELLS, RETURNS = range(80, 131, 5), range(20, 61, 5), range(70, 121, 5)
+RISE_ANGLES, DWELL_ANGLES, RETURN_ANGLES = range(80, 131, 5), range(20, 61, 5), range(70, 121, 5)
 """Cam angles of the first three phases [degrees]; the last dwell is what is left of the turn."""
 
 
-class Draws:
+class SeededDraws:
     """Whole numbers out of a seed, one after another.
 
-    >>> Draws("a").one_of(range(10)) == Draws("a").one_of(range(10))
+    >>> SeededDraws("a").one_of(range(10)) == SeededDraws("a").one_of(range(10))
     True
     """
 
@@ -82,10 +82,10 @@ def seeded_task(kind: str, seed: int) -> dict[str, Any]:
     >>> seeded_task("translating", 7) == seeded_task("translating", 7) != seeded_task("translating", 8)
     True
     """
-    draws, sizes = Draws(f"{kind} {seed}"), SIZES[kind]
-    task = builtin_task(BASES[kind]).to_dict()
+    draws, sizes = SeededDraws(f"{kind} {seed}"), SIZE_RANGES[kind]
+    task = builtin_task(BASE_TASKS[kind]).to_dict()
     lift, law, back = draws.one_of(sizes["lift"]), draws.one_of(sizes["laws"]), draws.one_of(sizes["laws"])
-    rise, dwell, fall = (float(draws.one_of(angles)) for angles in (RISES, DWELLS, RETURNS))
+    rise, dwell, fall = (float(draws.one_of(angles)) for angles in (RISE_ANGLES, DWELL_ANGLES, RETURN_ANGLES))
     rest = 360.0 - rise - dwell - fall
     task["rotation"] = draws.one_of(("ccw", "cw"))
     task["motion"] = {
@@ -115,14 +115,14 @@ def kinds_of(chain: Chain) -> list[str]:
     >>> kinds_of(gc.solve(gc.builtin_task("flat")).chain)
     ['centre', 'sharpest']
     """
-    return [name for name, (_, _, has) in KINDS.items() if has(chain)]
+    return [name for name, (_, _, has) in PREDICTION_KINDS.items() if has(chain)]
 
 
-def predicted(request: Mapping[str, Any]) -> dict[str, Any]:
+def prediction_answer(request: Mapping[str, Any]) -> dict[str, Any]:
     """The answer to a request "predict"."""
-    spoken = some(request, "language", str, "en")
+    spoken = optional_value(request, "language", str, "en")
     tell, task = language(spoken).text, task_data(request)
-    seed = whole(request, "seed", None, 0, MOST_SEEDS)
+    seed = optional_whole_number(request, "seed", None, 0, MAX_SEED)
     solution = solution_of(task, spoken)
     if seed is not None:
         kind_of_follower = solution.task.follower.kind
@@ -132,15 +132,15 @@ def predicted(request: Mapping[str, Any]) -> dict[str, Any]:
     kind = request.get("kind") or kinds[0]
     if kind not in kinds:
         raise DesignError("kind", kind, *among(kind, kinds))
-    asked = KINDS[kind][1](solution)
+    asked = PREDICTION_KINDS[kind][1](solution)
     said = {
         "kind": kind,
-        "kinds": [{"kind": name, "title": tell(KINDS[name][0])} for name in kinds],
-        **_plain(asked, tell),
+        "kinds": [{"kind": name, "title": tell(PREDICTION_KINDS[name][0])} for name in kinds],
+        **_prediction_data(asked, tell),
         "task": task,
-        "name": BASES[solution.task.follower.kind],
+        "name": BASE_TASKS[solution.task.follower.kind],
     }
-    guess = some(request, "guess", list, None)
+    guess = optional_value(request, "guess", list, None)
     return said if guess is None else said | {"judged": _judged(asked, _place(guess), tell)}
 
 
@@ -148,13 +148,13 @@ def _place(guess: list[Any]) -> complex:
     """A guess in the view's millimetres as a place of the construction."""
     if len(guess) != 2:
         raise DesignError("guess", len(guess), say("two numbers, x and y [mm of the view]"))
-    x, y = (number({"guess": each}, "guess", math.nan, -FARTHEST, FARTHEST) for each in guess)
+    x, y = (number({"guess": each}, "guess", math.nan, -MAX_DISTANCE, MAX_DISTANCE) for each in guess)
     if math.isnan(x + y):
         raise DesignError("guess", say("missing"), say("two numbers, x and y [mm of the view]"))
     return complex(x, -y)
 
 
-def _plain(asked: Foretold, tell: Tell) -> dict[str, Any]:
+def _prediction_data(asked: Prediction, tell: Tell) -> dict[str, Any]:
     """What the view shows before, and where the guess may move."""
     return {
         "question": tell(asked.question),
@@ -172,18 +172,18 @@ def _plain_step(shown: ShownStep, tell: Tell) -> dict[str, str]:
     return {"view": shown.view, "step": shown.step, "title": tell(shown.title)}
 
 
-def _judged(asked: Foretold, guess: complex, tell: Tell) -> dict[str, Any]:
+def _judged(asked: Prediction, guess: complex, tell: Tell) -> dict[str, Any]:
     """What is said of a guess."""
     place = asked.on_the_way(guess)
     found: JudgedGuess = asked.judge(place)
-    finite = abs(found.machine) < FARTHEST
+    finite = abs(found.machine) < MAX_DISTANCE
     at = {asked.view: (place, found.answer)} | dict(found.beside)
     return {
         "at": {view: dict(zip(("guess", "answer"), _in_view(pair), strict=True)) for view, pair in at.items()},
         "paper": round(found.paper, 3),
-        "paper_said": tell(MILLIMETRES.where(size=found.paper)),
+        "paper_said": tell(MILLIMETRES_CAPTION.where(size=found.paper)),
         "machine": round(found.machine, 4) if finite else None,
-        "machine_said": tell(DIFFERENCES[found.unit].where(size=found.machine + 0.0)) if finite else "",
+        "machine_said": tell(DIFFERENCE_CAPTIONS[found.unit].where(size=found.machine + 0.0)) if finite else "",
         "unit": found.unit,
         "quantity": tell(found.quantity),
         "said": tell(found.said),

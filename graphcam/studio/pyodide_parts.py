@@ -23,37 +23,37 @@ from pathlib import Path, PurePosixPath
 from graphcam.errors import MissingFileError, TaskError
 from graphcam.words import bare, either, say
 
-LOADER, GLUE, BINARY = "pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm"
-STANDARD_LIBRARY, LOCK = "python_stdlib.zip", "pyodide-lock.json"
-CORE = (LOADER, GLUE, BINARY, STANDARD_LIBRARY, LOCK)
+LOADER_FILE, GLUE_FILE, BINARY_FILE = "pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm"
+STANDARD_LIBRARY_FILE, LOCK_FILE = "python_stdlib.zip", "pyodide-lock.json"
+CORE_FILES = (LOADER_FILE, GLUE_FILE, BINARY_FILE, STANDARD_LIBRARY_FILE, LOCK_FILE)
 """The files of Pyodide itself."""
-NUMPY = "numpy.zip"
+NUMPY_FILE = "numpy.zip"
 """NumPy as the page carries it."""
-KNOWN: Mapping[str, str] = {
-    LOADER: "b4cb23a53aba19c221659b9fb40a2f18281d685691dc06647fb0afd0681baf98",
-    GLUE: "6b4c90de5b7172873f04f21884d0e9d2274e305fe32116558fe3e4fbe3618d51",
-    BINARY: "a50dd1843f805a0b7c45b61037ee0d7b26dfe85efe0e18ef95a34ad24e401f5f",
-    STANDARD_LIBRARY: "16611534726e5d8ac2bd8f926410b2dcb8d6f49aa24913463533b457a2115c16",
-    LOCK: "9c45b916001a750f4102fc287494f3eab215909c7535c626a20db80fd6333e2c",
+KNOWN_SUMS: Mapping[str, str] = {
+    LOADER_FILE: "b4cb23a53aba19c221659b9fb40a2f18281d685691dc06647fb0afd0681baf98",
+    GLUE_FILE: "6b4c90de5b7172873f04f21884d0e9d2274e305fe32116558fe3e4fbe3618d51",
+    BINARY_FILE: "a50dd1843f805a0b7c45b61037ee0d7b26dfe85efe0e18ef95a34ad24e401f5f",
+    STANDARD_LIBRARY_FILE: "16611534726e5d8ac2bd8f926410b2dcb8d6f49aa24913463533b457a2115c16",
+    LOCK_FILE: "9c45b916001a750f4102fc287494f3eab215909c7535c626a20db80fd6333e2c",
     "numpy-2.0.1-py312h4e66579_0.tar.gz": "608a8525a002505e620f9264738a9f95710de52d577276b37ccb881d662be6d6",
 }
 """SHA-256 of what graphcam was tested with: npm's pyodide 0.27.7 and @emscripten-forge/numpy 2.0.1."""
-PACKING = say("npm pack pyodide@0.27.7 @emscripten-forge/numpy@2.0.1-py312h4e66579-0")
-SUMS = "SHA256SUMS"
+PACKING_COMMAND = say("npm pack pyodide@0.27.7 @emscripten-forge/numpy@2.0.1-py312h4e66579-0")
+SUMS_FILE = "SHA256SUMS"
 """A user's own file of sums, as ``sha256sum`` writes it."""
-_A_NUMPY = re.compile(r"numpy-[^-]+-.*\.(whl|tar\.gz)")
+_NUMPY_PATTERN = re.compile(r"numpy-[^-]+-.*\.(whl|tar\.gz)")
 
 
 UNUSED_FOLDERS = frozenset({"tests", "testing", "fft", "f2py", "include", "_examples", "_pyinstaller", "pkgconfig"})
 UNUSED_ENDINGS = (".pyi", ".pxd", ".pyx", ".h", ".c", ".a", "RECORD")
 """Endings of NumPy's files for tests, compilers, type checkers or installers, and transforms that no drawing needs."""
-ABOVE = frozenset({"__main__.py", "cli", "exercises", "notebooks", "bench", "plots"})
+ROOMS_ABOVE = frozenset({"__main__.py", "cli", "exercises", "notebooks", "bench", "plots"})
 """The rooms of graphcam that the studio stands below, so that its engine cannot import them."""
-KEPT = frozenset({".py", ".pyi", ".json", ".po", ".toml", ".csv"})
+KEPT_ENDINGS = frozenset({".py", ".pyi", ".json", ".po", ".toml", ".csv"})
 """Kinds of files of graphcam that the engine reads; pages, scripts and fonts are not for it."""
-LIBRARIES = ("lazy_loader", "tomli_w", "typing_extensions")
+ENGINE_LIBRARIES = ("lazy_loader", "tomli_w", "typing_extensions")
 """What the engine imports besides NumPy."""
-LONG_AGO = (1980, 1, 1, 0, 0, 0)
+ENTRY_DATE = (1980, 1, 1, 0, 0, 0)
 """The date of every file in an archive, so that the same files always make the same archive."""
 
 
@@ -66,7 +66,7 @@ def stored_zip(contents: Mapping[str, bytes]) -> bytes:
     written = io.BytesIO()
     with zipfile.ZipFile(written, "w", zipfile.ZIP_STORED) as archive:
         for name in sorted(contents):
-            archive.writestr(zipfile.ZipInfo(name, LONG_AGO), contents[name])
+            archive.writestr(zipfile.ZipInfo(name, ENTRY_DATE), contents[name])
     return written.getvalue()
 
 
@@ -103,7 +103,7 @@ def _of_conda(content: bytes) -> Iterator[tuple[str, bytes]]:
 def engine_archive() -> bytes:
     """The engine of the studio, and what it imports but NumPy."""
     contents = dict(_of_graphcam())
-    for library in LIBRARIES:
+    for library in ENGINE_LIBRARIES:
         contents |= _of_library(library)
     return stored_zip(contents)
 
@@ -113,7 +113,7 @@ def _of_graphcam() -> Iterator[tuple[str, bytes]]:
     package = Path(str(files("graphcam")))
     for path in package.rglob("*"):
         inside = path.relative_to(package)
-        if inside.parts[0] not in ABOVE and path.suffix in KEPT and path.is_file():
+        if inside.parts[0] not in ROOMS_ABOVE and path.suffix in KEPT_ENDINGS and path.is_file():
             yield f"graphcam/{inside.as_posix()}", path.read_bytes()
 
 
@@ -124,7 +124,7 @@ def _of_library(name: str) -> dict[str, bytes]:
 
 
 def pyodide_parts(folder: Path) -> dict[str, bytes]:
-    """The files of :data:`CORE` and :data:`NUMPY`, whole and checked.
+    """The files of :data:`CORE_FILES` and :data:`NUMPY_FILE`, whole and checked.
 
     folder : has the files themselves, or the packages of npm that they come in
 
@@ -133,34 +133,36 @@ def pyodide_parts(folder: Path) -> dict[str, bytes]:
     TaskError : one is not there, or its sum is not known
     """
     found = dict(_contents(folder))
-    for name in CORE:
+    for name in CORE_FILES:
         if name not in found:
-            raise _missing(folder, name)
+            raise _missing_file_error(folder, name)
     own = _own_sums(found)
-    for name in CORE:
-        _check(folder, name, found[name], {KNOWN[name], own.get(name)})
-    lock = json.loads(found[LOCK])
+    for name in CORE_FILES:
+        _check(folder, name, found[name], {KNOWN_SUMS[name], own.get(name)})
+    lock = json.loads(found[LOCK_FILE])
     name = _numpy_for(folder, list(found), lock["info"]["python"])
     listed = lock["packages"].get("numpy", {})
     of_lock = listed.get("sha256") if listed.get("file_name") == name else None
-    _check(folder, name, found[name], {KNOWN.get(name), own.get(name), of_lock})
-    return {**{core: found[core] for core in CORE}, NUMPY: numpy_archive(name, found[name])}
+    _check(folder, name, found[name], {KNOWN_SUMS.get(name), own.get(name), of_lock})
+    return {**{core: found[core] for core in CORE_FILES}, NUMPY_FILE: numpy_archive(name, found[name])}
 
 
 def _contents(folder: Path) -> Iterator[tuple[str, bytes]]:
     """The files that matter of a folder, and of the packages of npm in it, by their names."""
     if not folder.is_dir():
-        raise _missing(folder, LOADER)
+        raise _missing_file_error(folder, LOADER_FILE)
     try:
         for path in sorted(folder.iterdir()):
             if path.suffix == ".tgz":
                 yield from _packed(path)
-            elif _matters(path.name):
+            elif _is_checked_name(path.name):
                 yield path.name, path.read_bytes()
     except (OSError, tarfile.TarError, EOFError) as error:
         broken = say("not readable ({error})", error=str(error))
         what = say("a file there")
-        raise TaskError(str(folder), what, broken, say("whole"), say("run there: {packing}", packing=PACKING)) from None
+        raise TaskError(
+            str(folder), what, broken, say("whole"), say("run there: {packing}", packing=PACKING_COMMAND)
+        ) from None
 
 
 def _packed(package: Path) -> Iterator[tuple[str, bytes]]:
@@ -168,17 +170,17 @@ def _packed(package: Path) -> Iterator[tuple[str, bytes]]:
     with tarfile.open(package) as archive:
         for member in archive:
             name = member.name.rpartition("/")[2]
-            if member.isfile() and _matters(name) and (file := archive.extractfile(member)) is not None:
+            if member.isfile() and _is_checked_name(name) and (file := archive.extractfile(member)) is not None:
                 yield name, file.read()
 
 
-def _matters(name: str) -> bool:
-    return name in CORE or name == SUMS or _A_NUMPY.fullmatch(name) is not None
+def _is_checked_name(name: str) -> bool:
+    return name in CORE_FILES or name == SUMS_FILE or _NUMPY_PATTERN.fullmatch(name) is not None
 
 
 def _own_sums(found: Mapping[str, bytes]) -> dict[str, str]:
     """The sums that the user states, by the names of the files."""
-    lines = (line.split(maxsplit=1) for line in found.get(SUMS, b"").decode(errors="replace").splitlines())
+    lines = (line.split(maxsplit=1) for line in found.get(SUMS_FILE, b"").decode(errors="replace").splitlines())
     return {line[1].lstrip("*").strip(): line[0].lower() for line in lines if len(line) == 2}
 
 
@@ -189,18 +191,18 @@ def _check(folder: Path, name: str, content: bytes, known: set[str | None]) -> N
         trusted = sorted(each for each in known if each)
         sums = either(trusted) if trusted else say("one that is known")
         remedy = say("take the files of '{packing}', or state the sums that you trust in a file {sums} there")
-        remedy = remedy.where(packing=PACKING, sums=SUMS)
+        remedy = remedy.where(packing=PACKING_COMMAND, sums=SUMS_FILE)
         raise TaskError(str(folder), say("the SHA-256 of {name}", name=name), found, sums, remedy)
 
 
 def _numpy_for(folder: Path, names: list[str], python: str) -> str:
     """The one NumPy that is for a version of Python, by its name."""
     tag = "".join(python.split(".")[:2])
-    fitting = [name for name in names if _A_NUMPY.fullmatch(name) and re.search(rf"-(cp|py){tag}(?!\d)", name)]
+    fitting = [name for name in names if _NUMPY_PATTERN.fullmatch(name) and re.search(rf"-(cp|py){tag}(?!\d)", name)]
     if not fitting:
         raise MissingFileError(
             "numpy-*.whl or numpy-*.tar.gz",
-            say("run there: {packing}", packing=PACKING),
+            say("run there: {packing}", packing=PACKING_COMMAND),
             where=say("for Python {python} in {folder}", python=python, folder=folder),
         )
     if len(fitting) > 1:
@@ -209,6 +211,6 @@ def _numpy_for(folder: Path, names: list[str], python: str) -> str:
     return fitting[0]
 
 
-def _missing(folder: Path, name: str) -> TaskError:
-    remedy = say("run there: {packing}", packing=PACKING)
+def _missing_file_error(folder: Path, name: str) -> TaskError:
+    remedy = say("run there: {packing}", packing=PACKING_COMMAND)
     return MissingFileError(name, remedy, where=say("in the folder {folder}", folder=folder))

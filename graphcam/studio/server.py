@@ -29,26 +29,26 @@ from http.server import BaseHTTPRequestHandler
 from socketserver import ThreadingTCPServer
 from typing import Any
 
-from graphcam.studio.page import script_names
+from graphcam.studio.studio_page import script_names
 
-READING = 10.0
+REQUEST_SECONDS = 10.0
 """Seconds in which a request must have arrived."""
-WORKING = 2.0
+ANSWER_SECONDS = 2.0
 """Seconds after which the engine's answer is no longer waited for."""
-QUIET = 10.0
+QUIET_SECONDS = 10.0
 """Seconds after the last sign of life of a tab, when the server ends."""
-HIDDEN = 150.0
+HIDDEN_TAB_SECONDS = 150.0
 """Seconds after the last sign of life of a hidden tab: browsers let its clock tick once a minute."""
-ALIVE = {"/alive": QUIET, "/alive?hidden": HIDDEN, "/alive?end": QUIET}
+LIFE_SECONDS = {"/alive": QUIET_SECONDS, "/alive?hidden": HIDDEN_TAB_SECONDS, "/alive?end": QUIET_SECONDS}
 """How long a server lives on after a sign of life; a page that ends may come back, for it is loaded anew."""
-DROPPING = 1.0
+DRAIN_SECONDS = 1.0
 """Seconds for which what is left of a refused request is read."""
-LOOKED = 0.25
+CHECK_INTERVAL = 0.25
 """Seconds between two looks whether there is a tab."""
 Engine = Callable[[Mapping[str, Any]], Mapping[str, Any]]
-NOTHING = "default-src 'none'; frame-ancestors 'none'"
+EMPTY_POLICY = "default-src 'none'; frame-ancestors 'none'"
 """What a browser may do with an answer that is no page."""
-POLICY = (
+PAGE_POLICY = (
     "default-src 'none'; script-src {scripts}; style-src 'unsafe-inline'; connect-src 'self'; img-src data: blob:; "
     "font-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
@@ -63,9 +63,9 @@ HEADERS = {
 
 
 TOKEN_BYTES = 32
-LARGEST = 1 << 20
+MAX_BODY_BYTES = 1 << 20
 """Bytes of a request's body."""
-JSON = "application/json"
+JSON_TYPE = "application/json"
 
 
 class RefusedError(Exception):
@@ -109,9 +109,9 @@ class Gatekeeper:
         ------
         RefusedError : it names another host, or comes from another origin
         """
-        if _only(headers, "Host") not in self.hosts:
+        if _single_header(headers, "Host") not in self.hosts:
             raise RefusedError(HTTPStatus.FORBIDDEN, f"the host must be {self.hosts[0]}")
-        if "Origin" in headers and _only(headers, "Origin") not in [f"http://{host}" for host in self.hosts]:
+        if "Origin" in headers and _single_header(headers, "Origin") not in [f"http://{host}" for host in self.hosts]:
             raise RefusedError(HTTPStatus.FORBIDDEN, "no other origin may ask")
 
     def check_token(self, headers: Message) -> None:
@@ -121,7 +121,7 @@ class Gatekeeper:
         ------
         RefusedError : it does not
         """
-        given, right = _only(headers, "Authorization") or "", f"Bearer {self.token}"
+        given, right = _single_header(headers, "Authorization") or "", f"Bearer {self.token}"
         if not hmac.compare_digest(given.encode("utf-8", "surrogateescape"), right.encode()):
             raise RefusedError(HTTPStatus.UNAUTHORIZED, "open the address that 'graphcam studio' has printed")
 
@@ -139,18 +139,18 @@ def body_length(headers: Message) -> int:
     """
     if "Transfer-Encoding" in headers:
         raise RefusedError(HTTPStatus.LENGTH_REQUIRED, "a body is sent with its Content-Length, not in chunks")
-    said = _only(headers, "Content-Length")
+    said = _single_header(headers, "Content-Length")
     if said is None:
         raise RefusedError(HTTPStatus.LENGTH_REQUIRED, "a body is sent with its Content-Length")
     if not re.fullmatch(r"[0-9]{1,18}", said):
         raise RefusedError(HTTPStatus.BAD_REQUEST, "Content-Length is a number")
-    if int(said) > LARGEST:
-        raise RefusedError(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"a body has at most {LARGEST} bytes")
+    if int(said) > MAX_BODY_BYTES:
+        raise RefusedError(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, f"a body has at most {MAX_BODY_BYTES} bytes")
     return int(said)
 
 
 def check_json(headers: Message) -> None:
-    """Check that a body is JSON: a form of a foreign page, which needs no leave to be sent, cannot say that.
+    """Check that a body is JSON_TYPE: a form of a foreign page, which needs no leave to be sent, cannot say that.
 
     Raises
     ------
@@ -159,11 +159,11 @@ def check_json(headers: Message) -> None:
     >>> from email import message_from_string
     >>> check_json(message_from_string("Content-Type: application/json; charset=utf-8"))
     """
-    if headers.get_content_type() != JSON:
-        raise RefusedError(HTTPStatus.UNSUPPORTED_MEDIA_TYPE, f"the Content-Type must be {JSON}")
+    if headers.get_content_type() != JSON_TYPE:
+        raise RefusedError(HTTPStatus.UNSUPPORTED_MEDIA_TYPE, f"the Content-Type must be {JSON_TYPE}")
 
 
-def _only(headers: Message, name: str) -> str | None:
+def _single_header(headers: Message, name: str) -> str | None:
     """The value of a header that stands there once."""
     values = headers.get_all(name, [])
     return str(values[0]) if len(values) == 1 else None
@@ -186,9 +186,9 @@ class StudioServer(ThreadingTCPServer):
     def __init__(self, page: str, engine: Engine, write: Engine) -> None:
         super().__init__(("127.0.0.1", 0), _Handler)
         # A new connection is looked for so often, see run.
-        self.timeout = LOOKED
+        self.timeout = CHECK_INTERVAL
         self.page = page.encode()
-        self.policy = POLICY.format(scripts=script_names(page) or "'none'")
+        self.policy = PAGE_POLICY.format(scripts=script_names(page) or "'none'")
         self.gatekeeper = Gatekeeper(self.server_address[1], new_token())
         self.engine, self.write = engine, write
         self._engine_room, self._writing_room = ThreadPoolExecutor(1), ThreadPoolExecutor(1)
@@ -211,7 +211,7 @@ class StudioServer(ThreadingTCPServer):
         for room in (self._engine_room, self._writing_room):
             room.shutdown(wait=False, cancel_futures=True)
 
-    def alive(self, seconds: float = QUIET) -> None:
+    def keep_alive(self, seconds: float = QUIET_SECONDS) -> None:
         """Hear a sign of life of a tab, which gives its server so many seconds."""
         self._ends = max(self._ends or 0.0, time.monotonic() + seconds)
 
@@ -224,10 +224,10 @@ class StudioServer(ThreadingTCPServer):
         """The engine's answer, or the error that it takes too long; it is not interrupted, but nobody waits for it."""
         work = self._engine_room.submit(self.engine, request)
         try:
-            return work.result(WORKING)
+            return work.result(ANSWER_SECONDS)
         except TimeoutError:
             work.cancel()
-            message = f"the answer takes longer than {WORKING:g} s"
+            message = f"the answer takes longer than {ANSWER_SECONDS:g} s"
             error = {"field": "", "message": message, "remedy": "try again, or draw with fewer divisions"}
             return {"seq": request.get("seq"), "ok": False, "error": error}
 
@@ -269,7 +269,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def handle_one_request(self) -> None:
         """Read a request and answer it."""
-        self._stream.until = time.monotonic() + READING
+        self._stream.until = time.monotonic() + REQUEST_SECONDS
         super().handle_one_request()
 
     def do_GET(self) -> None:
@@ -298,9 +298,9 @@ class _Handler(BaseHTTPRequestHandler):
             self._check_method("POST")
             given = self._request()
             self._send_json(self.server.answer(given) if self.path == "/engine" else self.server.written(given))
-        elif self.path in ALIVE:
+        elif self.path in LIFE_SECONDS:
             self._check_method("POST")
-            self._send_json(self._alive(ALIVE[self.path]))
+            self._send_json(self._keep_alive(LIFE_SECONDS[self.path]))
         else:
             raise RefusedError(HTTPStatus.NOT_FOUND, "there is nothing here")
 
@@ -308,10 +308,10 @@ class _Handler(BaseHTTPRequestHandler):
         if self.command != method:
             raise RefusedError(HTTPStatus.METHOD_NOT_ALLOWED, f"it must be {method}")
 
-    def _alive(self, seconds: float) -> Mapping[str, Any]:
+    def _keep_alive(self, seconds: float) -> Mapping[str, Any]:
         self.server.gatekeeper.check_token(self.headers)
         self._body()
-        self.server.alive(seconds)
+        self.server.keep_alive(seconds)
         return {}
 
     def _request(self) -> Mapping[str, Any]:
@@ -332,33 +332,33 @@ class _Handler(BaseHTTPRequestHandler):
         try:
             body = self.rfile.read(length)
         except TimeoutError:
-            raise RefusedError(HTTPStatus.REQUEST_TIMEOUT, f"a request arrives within {READING:g} s") from None
+            raise RefusedError(HTTPStatus.REQUEST_TIMEOUT, f"a request arrives within {REQUEST_SECONDS:g} s") from None
         if len(body) < length:
             raise RefusedError(HTTPStatus.BAD_REQUEST, "the body is shorter than its Content-Length")
         return body
 
     def _send_json(self, answer: Mapping[str, Any]) -> None:
         text = json.dumps(answer, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-        self._send(HTTPStatus.OK, JSON, text.encode())
+        self._send(HTTPStatus.OK, JSON_TYPE, text.encode())
 
     def _refuse(self, error: RefusedError) -> None:
         """Say why, and end the connection: a body that nobody has read would be taken for the next request."""
         self.close_connection = True
         text = json.dumps({"ok": False, "error": {"field": "", "message": error.why, "remedy": ""}})
-        self._send(error.status, JSON, text.encode())
+        self._send(error.status, JSON_TYPE, text.encode())
         # What still comes is read and dropped for a moment: a connection that is closed upon it takes the answer along.
         self.connection.shutdown(socket.SHUT_WR)
-        self._stream.until = time.monotonic() + DROPPING
+        self._stream.until = time.monotonic() + DRAIN_SECONDS
         with suppress(OSError):
-            while self.rfile.read1(LARGEST):
+            while self.rfile.read1(MAX_BODY_BYTES):
                 pass
 
     def send_error(self, code: int, message: str | None = None, explain: str | None = None) -> None:
         """What the base class refuses is refused as everything else."""
         self._refuse(RefusedError(HTTPStatus(code), message or HTTPStatus(code).phrase))
 
-    def _send(self, status: HTTPStatus, kind: str, body: bytes, policy: str = NOTHING) -> None:
-        self.connection.settimeout(READING)
+    def _send(self, status: HTTPStatus, kind: str, body: bytes, policy: str = EMPTY_POLICY) -> None:
+        self.connection.settimeout(REQUEST_SECONDS)
         self.send_response(status)
         headers = {"Content-Type": kind, "Content-Length": str(len(body)), "Content-Security-Policy": policy, **HEADERS}
         for name, value in (headers | ({"Connection": "close"} if self.close_connection else {})).items():

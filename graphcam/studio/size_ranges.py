@@ -9,21 +9,21 @@ from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solution import Solution
 from graphcam.studio.task_paths import value_at
 from graphcam.tasks.arcs_task import ArcsTask
-from graphcam.tasks.sheet_tables import plain
+from graphcam.tasks.sheet_tables import plain_data
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 from graphcam.tasks.task import Task
 
-PARTS = 60
+STEPS_PER_LIFT = 60
 """A lift has about so many steps; a step is a round number."""
-ROUND = 1.0, 2.0, 5.0
-LIMITS = 15.0, 60.0
+ROUND_FACTORS = 1.0, 2.0, 5.0
+ANGLE_RANGE = 15.0, 60.0
 """Permitted pressure angles [degrees]; beyond, a follower jams or needs no limit."""
-USUAL_STRESS = 1200.0
+DEFAULT_STRESS = 1200.0
 """Permitted of hardened steel [MPa]; a slider begins there where no stress is judged."""
-MOST_PHASES = 36
-CLEAR = 4
+MAX_PHASES = 36
+TRIANGLE_MARGIN_STEPS = 4
 """How many steps a triangle stays from a flat one."""
-LEAST_ANGLE = 1.0
+MIN_PHASE_ANGLE = 1.0
 """The minimum angle of a phase [degrees]."""
 
 
@@ -63,7 +63,7 @@ def round_up(value: float) -> float:
     (50.0, 0.5, 5.0)
     """
     power = 10.0 ** math.floor(math.log10(value))
-    return next((n * power for n in ROUND if value <= n * power * (1 + 1e-12)), 10 * power)
+    return next((n * power for n in ROUND_FACTORS if value <= n * power * (1 + 1e-12)), 10 * power)
 
 
 def step_for(length: float) -> float:
@@ -72,22 +72,22 @@ def step_for(length: float) -> float:
     >>> step_for(30.0), step_for(0.3)
     (0.5, 0.005)
     """
-    return round_up(length / PARTS)
+    return round_up(length / STEPS_PER_LIFT)
 
 
-def below(limit: float, step: float) -> float:
+def multiple_below(limit: float, step: float) -> float:
     """The last multiple of a step that is less than a limit.
 
-    >>> below(44.0, 0.5), below(44.2, 0.5)
+    >>> multiple_below(44.0, 0.5), multiple_below(44.2, 0.5)
     (43.5, 44.0)
     """
     return round((math.ceil(limit / step - 1e-9) - 1) * step, 9)
 
 
-def above(limit: float, step: float) -> float:
+def multiple_above(limit: float, step: float) -> float:
     """The first multiple of a step that is greater than a limit.
 
-    >>> above(10.0, 0.5), above(10.2, 0.5)
+    >>> multiple_above(10.0, 0.5), multiple_above(10.2, 0.5)
     (10.5, 10.5)
     """
     return round((math.floor(limit / step + 1e-9) + 1) * step, 9)
@@ -107,16 +107,18 @@ def ranges(solution: AnySolution) -> dict[str, SizeRange]:
 @ranges.register
 def _(solution: Solution) -> dict[str, SizeRange]:
     found = {**_of_follower(solution), **_of_limits(solution.task), **_of_drawing(solution)}
-    found["speed_rpm"] = _about(solution.task.speed_rpm or 300.0)
+    found["speed_rpm"] = _usual_range(solution.task.speed_rpm or 300.0)
     if (spring := solution.task.spring) is not None:
         found |= _of_spring(solution, spring)
     if (material := solution.task.material) is not None:
-        sized = {"permitted_stress": USUAL_STRESS} | {key: value for key, value in plain(material).items() if value}
-        found |= {f"material.{name}": _about(value) for name, value in sized.items()}
+        sized = {"permitted_stress": DEFAULT_STRESS} | {
+            key: value for key, value in plain_data(material).items() if value
+        }
+        found |= {f"material.{name}": _usual_range(value) for name, value in sized.items()}
         found |= {f"material.poisson_{body}": SizeRange(0.0, 0.5, 0.01) for body in ("cam", "follower")}
     if solution.task.motion.table is not None:
         found["motion.tolerance"] = SizeRange(0.002, 0.2, 0.001)
-    return _wide_enough(found, solution.task)
+    return _widened_ranges(found, solution.task)
 
 
 @ranges.register
@@ -128,21 +130,21 @@ def _(solution: ArcsSolution) -> dict[str, SizeRange]:
     step = step_for(outer)
     coordinates = [f"arcs.{name}[{axis}]" for name in ("D", "G", "A", "C1", "C2") for axis in (0, 1)]
     found = {path: SizeRange(-reach, reach, step / 5) for path in coordinates}
-    found["arcs.rho1"] = SizeRange(step, below(outer, step), step)
+    found["arcs.rho1"] = SizeRange(step, multiple_below(outer, step), step)
     found["arcs.dwell"] = SizeRange(0.0, 180.0, 1.0)
-    found["follower.roller_radius"] = SizeRange(0.0, below(outer, step), step)
+    found["follower.roller_radius"] = SizeRange(0.0, multiple_below(outer, step), step)
     found["drawing.divisions"] = SizeRange(2, 12, 1)
-    found["speed_rpm"] = _about(solution.task.speed_rpm or 300.0)
-    return _wide_enough(found, solution.task)
+    found["speed_rpm"] = _usual_range(solution.task.speed_rpm or 300.0)
+    return _widened_ranges(found, solution.task)
 
 
-def _wide_enough(found: dict[str, SizeRange], task: Task | ArcsTask) -> dict[str, SizeRange]:
+def _widened_ranges(found: dict[str, SizeRange], task: Task | ArcsTask) -> dict[str, SizeRange]:
     """The ranges with the values that stand in the task, though they lie outside what is usual."""
     said = task.to_dict()
     return {path: each.around(value_at(said, path)) for path, each in found.items()}
 
 
-def _about(value: float) -> SizeRange:
+def _usual_range(value: float) -> SizeRange:
     most = round_up(1.6 * value)
     return SizeRange(most / 100, most, most / 100)
 
@@ -151,16 +153,16 @@ def _of_spring(solution: Solution, spring: SpringTable | ArmSpringTable) -> dict
     """What presses the follower on the cam."""
     preload = spring.preload if spring.preload is not None else _preload(solution)
     found = {
-        "spring.stiffness": _about(spring.stiffness),
-        "spring.preload": _about(preload or 100.0)._replace(least=0.0),
+        "spring.stiffness": _usual_range(spring.stiffness),
+        "spring.preload": _usual_range(preload or 100.0)._replace(least=0.0),
         "spring.friction": SizeRange(0.0, 0.5, 0.01),
         "spring.acceleration": SizeRange(-500.0, 500.0, 5.0),
     }
     if not isinstance(spring.load, tuple):
-        found["spring.load"] = _about(abs(spring.load) or 100.0)._replace(least=0.0)
+        found["spring.load"] = _usual_range(abs(spring.load) or 100.0)._replace(least=0.0)
     if isinstance(spring, SpringTable):
-        return found | {"spring.mass": _about(spring.mass)}
-    found["spring.inertia"] = _about(spring.inertia)
+        return found | {"spring.mass": _usual_range(spring.mass)}
+    found["spring.inertia"] = _usual_range(spring.inertia)
     if spring.at is not None:
         reach = round_up(2.0 * max(abs(spring.at.arm), *map(abs, spring.at.anchor)))
         step = step_for(reach)
@@ -198,17 +200,19 @@ def _of_follower(solution: Solution) -> dict[str, SizeRange]:
     follower, given = sizes_of(solution.task), solution.task.cam.prime_radius
     radius, step = solution.chain.prime_radius, step_for(lift_of(solution))
     roller = (
-        {"follower.roller_radius": SizeRange(0.0, below(radius, step), step)} if "roller_radius" in follower else {}
+        {"follower.roller_radius": SizeRange(0.0, multiple_below(radius, step), step)}
+        if "roller_radius" in follower
+        else {}
     )
     if "arm" in follower:
         return roller | _of_arm(solution, step)
     most = round_up(max(1.6 * radius, 2 * lift_of(solution)))
     least = max(abs(follower.get("offset") or 0.0), follower.get("roller_radius") or 0.0)
-    sizes = roller | {"cam.prime_radius": SizeRange(above(least, step), most, step)}
+    sizes = roller | {"cam.prime_radius": SizeRange(multiple_above(least, step), most, step)}
     if "offset" not in follower:
         return sizes
     # Where the prime radius is given the follower must stay on its circle; else the radius follows the offset.
-    aside = below(given, step) if given is not None else round_up(lift_of(solution))
+    aside = multiple_below(given, step) if given is not None else round_up(lift_of(solution))
     return sizes | {"follower.offset": SizeRange(-aside, aside, step)}
 
 
@@ -218,8 +222,8 @@ def third_side(first: float, second: float, step: float) -> SizeRange:
     >>> third_side(125.0, 150.0, 1.0)
     SizeRange(least=29.0, most=271.0, step=1.0)
     """
-    least = math.ceil(abs(first - second) / step + CLEAR) * step
-    most = math.floor((first + second) / step - CLEAR) * step
+    least = math.ceil(abs(first - second) / step + TRIANGLE_MARGIN_STEPS) * step
+    most = math.floor((first + second) / step - TRIANGLE_MARGIN_STEPS) * step
     return SizeRange(round(max(least, step), 9), round(most, 9), step)
 
 
@@ -232,7 +236,7 @@ def _of_arm(solution: Solution, step: float) -> dict[str, SizeRange]:
     arms, distances, radii = (
         third_side(*sides, step) if closed else free for sides in ((distance, radius), (arm, radius), (arm, distance))
     )
-    least = max(radii.least, above(follower["roller_radius"] or 0.0, step))
+    least = max(radii.least, multiple_above(follower["roller_radius"] or 0.0, step))
     return {
         "follower.arm": arms,
         "follower.distance": distances,
@@ -243,7 +247,7 @@ def _of_arm(solution: Solution, step: float) -> dict[str, SizeRange]:
 def _of_limits(task: Task) -> dict[str, SizeRange]:
     if not has_angles(task):
         return {"limits.min_curvature_radius": SizeRange(0.5, 50.0, 0.5)}
-    return {f"limits.pressure_angle_{way}": SizeRange(*LIMITS, 1.0) for way in ("rise", "return")}
+    return {f"limits.pressure_angle_{way}": SizeRange(*ANGLE_RANGE, 1.0) for way in ("rise", "return")}
 
 
 def _of_drawing(solution: Solution) -> dict[str, SizeRange]:

@@ -15,10 +15,10 @@ from graphcam.language import languages
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solution import Solution
 from graphcam.solving.spring_design import SpringDesign
-from graphcam.studio.form_fields import DEGREES, DRAWING, FOLLOWER, LIMITS, MOTION, Field, FieldMaker, must_agree
+from graphcam.studio.form_fields import DEGREE_SIGN, DRAWING, FOLLOWER, LIMITS, MOTION, Field, FieldMaker, must_agree
 from graphcam.studio.size_ranges import (
-    LEAST_ANGLE,
-    MOST_PHASES,
+    MAX_PHASES,
+    MIN_PHASE_ANGLE,
     SizeRange,
     has_angles,
     lift_of,
@@ -27,23 +27,23 @@ from graphcam.studio.size_ranges import (
     sizes_of,
     step_for,
 )
-from graphcam.tasks.sheet_tables import Format, Frame, plain
+from graphcam.tasks.sheet_tables import Format, Frame, plain_data
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 from graphcam.words import Caption, Tell, Words, say, say_in
 
-PENCIL = SizeRange(0.0, 0.5, 0.05)
+PENCIL_RANGE = SizeRange(0.0, 0.5, 0.05)
 """Standard deviation of a line [mm]; 0.2 is a careful student's."""
-RATIO = SizeRange(0.2, 5.0, 0.1)
+RATIO_RANGE = SizeRange(0.2, 5.0, 0.1)
 """The range of the ratio of accelerations of the rectangular law's parts."""
 KIND_NAMES = {"rise": say("rise"), "dwell": say("dwell"), "return": say_in("a phase", "return")}
-TURNING = {"cw": say("clockwise"), "ccw": say("anticlockwise")}
-LIFTS = {"angle": say("angle of the arm, degrees"), "arc": say("arc of its end, mm")}
-JERK = {False: say("not drawn"), True: say("drawn by differentiation")}
+SENSE_NAMES = {"cw": say("clockwise"), "ccw": say("anticlockwise")}
+LIFT_NAMES = {"angle": say("angle of the arm, degrees"), "arc": say("arc of its end, mm")}
+JERK_CHOICES = {False: say("not drawn"), True: say("drawn by differentiation")}
 """Whether the diagram of the jerk is drawn."""
-AT_REST = {True: say("within the limit"), False: say("not limited")}
-LANGUAGES = {"en": "English", "ru": "русский", "vi": "tiếng Việt", "zh": "简体中文"}
+DWELL_LIMIT_CHOICES = {True: say("within the limit"), False: say("not limited")}
+LANGUAGE_NAMES = {"en": "English", "ru": "русский", "vi": "tiếng Việt", "zh": "简体中文"}
 """Each in itself; another one by its sign."""
-FRAMES = {"gost": say("frame by GOST"), "iso": say("frame by ISO")}
+FRAME_NAMES = {"gost": say("frame by GOST"), "iso": say("frame by ISO")}
 
 
 PhaseData = dict[str, Any]
@@ -51,14 +51,14 @@ PhaseData = dict[str, Any]
 PhaseList = list[PhaseData]
 
 
-def without(phases: Sequence[PhaseData], k: int) -> PhaseList | None:
+def phases_without(phases: Sequence[PhaseData], k: int) -> PhaseList | None:
     """The phases without one of them; None where it must stay.
 
     The angle of a dwell goes to the phase before it; angle and lift of a rise or return to another one of its kind.
 
     >>> turn = [{"kind": "rise", "angle": 100, "lift": 9}, {"kind": "dwell", "angle": 80},
     ...     {"kind": "return", "angle": 180, "lift": 9}]
-    >>> [phase["angle"] for phase in without(turn, 1)], without(turn, 0)
+    >>> [phase["angle"] for phase in phases_without(turn, 1)], phases_without(turn, 0)
     ([180, 180], None)
     """
     left = [dict(phase) for phase in phases]
@@ -128,7 +128,7 @@ def _parts(phases: Sequence[PhaseData], k: int, count: int) -> list[float] | Non
     """The angle of a phase in parts of whole degrees but one; None if these, or so many phases, are too many."""
     angle = phases[k]["angle"]
     part = angle // count
-    if part < LEAST_ANGLE or len(phases) + count - 1 > MOST_PHASES:
+    if part < MIN_PHASE_ANGLE or len(phases) + count - 1 > MAX_PHASES:
         return None
     # The first takes what is left; one degree more goes to each of the next while there are some.
     return [angle - (count - 1) * part, *[part] * (count - 1)]
@@ -145,7 +145,7 @@ def form_of(solution: AnySolution, tell: Tell) -> list[Field]:
     >>> [(field["path"], field["value"], field["adopted"]) for field in fields if "adopted" in field][1:4]
     [('follower.offset', -10.0, -10.0), ('follower.roller_radius', None, 17.0), ('cam.prime_radius', None, 44.0)]
     """
-    found = ranges(solution) | {"pencil": PENCIL}
+    found = ranges(solution) | {"pencil": PENCIL_RANGE}
     # What the task leaves out has its default.
     said = solution.task.to_dict() | {"pencil": solution.chain.pencil.line}
     make = FieldMaker(said, found, tell)
@@ -177,7 +177,7 @@ def _motion(make: FieldMaker, solution: Solution) -> Iterator[Field]:
         yield make.number("motion.tolerance")
     elif solution.task.motion.phases is not None:
         yield _phases(make, solution)
-    yield make.choice("rotation", MOTION, say("Rotation of the cam"), TURNING.items())
+    yield make.choice("rotation", MOTION, say("Rotation of the cam"), SENSE_NAMES.items())
     yield make.open_number("speed_rpm", None)
 
 
@@ -191,7 +191,11 @@ def _phases(make: FieldMaker, solution: Solution) -> Field:
             **phase,
             "name": tell(KIND_NAMES[phase["kind"]]),
             "symbol": tell(phase_symbol(motion, k)),
-            "edits": {"remove": without(phases, k), "dwell": with_dwell(phases, k), "step": with_step(phases, k)},
+            "edits": {
+                "remove": phases_without(phases, k),
+                "dwell": with_dwell(phases, k),
+                "step": with_step(phases, k),
+            },
         }
         for k, phase in enumerate(phases)
     ]
@@ -204,15 +208,16 @@ def _phases(make: FieldMaker, solution: Solution) -> Field:
         "phases": rows,
         "laws": [{"value": law, "name": tell(LAW_TITLES[law])} for law in (*LAWS, CONSTANT_VELOCITY)],
         # Only this law has parts whose accelerations differ.
-        "ratio": RATIO.plain() | {"law": "rectangular"},
-        "angle": SizeRange(LEAST_ANGLE, 360.0 - LEAST_ANGLE * (len(rows) - 1), 1.0).plain() | {"unit": DEGREES},
+        "ratio": RATIO_RANGE.plain() | {"law": "rectangular"},
+        "angle": SizeRange(MIN_PHASE_ANGLE, 360.0 - MIN_PHASE_ANGLE * (len(rows) - 1), 1.0).plain()
+        | {"unit": DEGREE_SIGN},
         "lift": lifts.plain() | {"unit": _lift_unit(make, solution)},
-        "most": MOST_PHASES,
+        "most": MAX_PHASES,
     }
 
 
 def _lift_unit(make: FieldMaker, solution: Solution) -> str:
-    return DEGREES if sizes_of(solution.task).get("lift") == "angle" else make.unit("mm")
+    return DEGREE_SIGN if sizes_of(solution.task).get("lift") == "angle" else make.unit("mm")
 
 
 def _follower(make: FieldMaker, solution: Solution) -> Iterator[Field]:
@@ -225,7 +230,7 @@ def _follower(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     if "arm" in sizes:
         yield make.number("follower.arm")
         yield make.open_number("follower.distance", chain.place)
-        yield make.choice("follower.lift", FOLLOWER, say("Lifts of the phases"), LIFTS.items())
+        yield make.choice("follower.lift", FOLLOWER, say("Lifts of the phases"), LIFT_NAMES.items())
     if "roller_radius" in sizes:
         yield make.open_number("follower.roller_radius", chain.roller_radius)
         rules: list[tuple[str, Words]] = [(DEFAULT_RULE, DEFAULT_RULE)]
@@ -241,7 +246,7 @@ def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     else:
         yield make.number("limits.pressure_angle_rise")
         yield make.open_number("limits.pressure_angle_return", None)
-        yield make.choice("limits.rest", LIMITS, say("Angle in the lower dwell"), AT_REST.items())
+        yield make.choice("limits.rest", LIMITS, say("Angle in the lower dwell"), DWELL_LIMIT_CHOICES.items())
     if solution.spring is not None:
         yield from _spring(make, solution.spring)
     if solution.task.material is not None:
@@ -270,15 +275,15 @@ def _drawing(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     yield make.number("drawing.divisions")
     yield make.open_number("drawing.ordinate", board.ordinate)
     yield from (make.entry("drawing.poles", board.poles, k) for k in (0, 1))
-    yield make.choice("drawing.jerk", DRAWING, say("Jerk"), JERK.items())
+    yield make.choice("drawing.jerk", DRAWING, say("Jerk"), JERK_CHOICES.items())
 
 
 def _sheet(make: FieldMaker) -> Iterator[Field]:
     """The hand, and what the sheet is."""
     yield make.number("pencil")
     yield make.choice("drawing.format", DRAWING, say("Format"), [(each, each) for each in get_args(Format)])
-    yield make.choice("drawing.frame", DRAWING, say("Frame"), [(each, FRAMES[each]) for each in get_args(Frame)])
-    spoken = [(each, LANGUAGES.get(each, each)) for each in languages()]
+    yield make.choice("drawing.frame", DRAWING, say("Frame"), [(each, FRAME_NAMES[each]) for each in get_args(Frame)])
+    spoken = [(each, LANGUAGE_NAMES.get(each, each)) for each in languages()]
     yield make.choice("drawing.language", DRAWING, say("Language of the sheet"), spoken)
 
 
@@ -287,11 +292,11 @@ KINDS: dict[str, Caption] = {
     "oscillating": say_in("a kind of follower", "oscillating"),
     "flat-faced": say_in("a kind of follower", "flat-faced"),
 }
-ARM_OVER_LIFT = 4.0
+ARM_LIFT_RATIO = 4.0
 """An arm about so many times as long as its tip's path swings by some 14 degrees."""
-ARM = 100.0
+DEFAULT_ARM = 100.0
 """One whose lifts are angles [mm]."""
-PLACES = 4
+SIZE_DIGITS = 4
 """Digits of the sizes of a spring that goes with another kind of follower."""
 
 
@@ -306,22 +311,22 @@ def kind_choices(solution: Solution, tell: Tell) -> list[dict[str, Any]]:
     return [
         {"value": kind, "name": tell(KINDS[kind]), "table": table, "changes": _changes(solution, table)}
         for kind, table in tables.items()
-        if _follows(solution, table)
+        if _can_follow(solution, table)
     ]
 
 
 def _table(solution: Solution, kind: str) -> dict[str, Any]:
     """The present follower if it is of that kind; else one whose place and roller are found."""
-    present = plain(solution.task.follower)
+    present = plain_data(solution.task.follower)
     if kind == present["kind"]:
         return present
     # Lifts in mm stay what they are: they are the arc that the tip of the arm describes.
     in_mm = solution.task.follower.column == "s_mm"
-    arm = round_up(ARM_OVER_LIFT * lift_of(solution)) if in_mm else ARM
+    arm = round_up(ARM_LIFT_RATIO * lift_of(solution)) if in_mm else DEFAULT_ARM
     return {"kind": kind, **{"oscillating": {"arm": arm, "lift": "arc"}}.get(kind, {})}
 
 
-def _follows(solution: Solution, table: dict[str, Any]) -> bool:
+def _can_follow(solution: Solution, table: dict[str, Any]) -> bool:
     """Whether a follower can do what was measured: angles of an arm are nothing for a stem."""
     measured = solution.task.motion.table
     in_mm = table.get("lift") != "angle"
@@ -330,7 +335,7 @@ def _follows(solution: Solution, table: dict[str, Any]) -> bool:
 
 def _changes(solution: Solution, follower: dict[str, Any]) -> dict[str, Any]:
     """The follower, sizes of the cam found anew, its spring, and no limits, ranges or tolerances that it lacks."""
-    if follower == plain(solution.task.follower):
+    if follower == plain_data(solution.task.follower):
         return {"follower": follower}
     angles = dict.fromkeys(("limits.pressure_angle_rise", "limits.pressure_angle_return"))
     other: dict[str, Any] = {"follower": follower, "cam.prime_radius": None, **angles}
@@ -346,16 +351,16 @@ def _spring_of_kind(solution: Solution, follower: dict[str, Any]) -> dict[str, A
     spring, swings = solution.task.spring, follower["kind"] == "oscillating"
     if spring is None or spring.swings == swings:
         return {}
-    present = plain(solution.task.follower)
+    present = plain_data(solution.task.follower)
     lever = float((follower if swings else present)["arm"])
-    said = plain(spring)
+    said = plain_data(spring)
     kept = {key: said[key] for key in ("acceleration", "friction", "load")}
     if isinstance(spring, SpringTable):
         turned = {"inertia": spring.mass * lever**2, "stiffness": spring.stiffness * lever**2}
         turned |= {} if spring.preload is None else {"preload": spring.preload * lever}
     else:
         turned = _straightened(spring, lever)
-    return {"spring": {**{key: float(f"{value:.{PLACES}g}") for key, value in turned.items()}, **kept}}
+    return {"spring": {**{key: float(f"{value:.{SIZE_DIGITS}g}") for key, value in turned.items()}, **kept}}
 
 
 def _straightened(spring: ArmSpringTable, lever: float) -> dict[str, float]:

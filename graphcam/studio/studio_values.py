@@ -12,19 +12,19 @@ from graphcam.report.markdown import number
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.shown_solution import plain_number
 from graphcam.solving.solution import Solution
-from graphcam.solving.warnings import Caution
+from graphcam.solving.solution_warnings import Caution
 from graphcam.words import Caption, say
 
-SAID_DIGITS = 3
+VALUE_DECIMALS = 3
 """Decimals of a value that is said."""
 
 
-def compared_in(drawn: Mapping[str, Construction]) -> set[str]:
+def compared_quantities(drawn: Mapping[str, Construction]) -> set[str]:
     """The names of the quantities that are read in these constructions.
 
     >>> import graphcam as gc
     >>> drawn = gc.solve(gc.builtin_task()).drawn
-    >>> sorted(compared_in({"roller": drawn["roller"]}))
+    >>> sorted(compared_quantities({"roller": drawn["roller"]}))
     ['roller_radius']
     """
     return {said.name for each in drawn.values() for _, said in each.meaning.compared}
@@ -47,10 +47,10 @@ def _value(quantity: Quantity, spoken: Language) -> dict[str, Any]:
         plain_number(each) for each in (quantity.drawn, quantity.exact, quantity.error_paper, quantity.tolerance_paper)
     )
     said = {
-        "drawn": _said(quantity.drawn, quantity.unit),
-        "exact": _said(quantity.exact, quantity.unit),
-        "error_paper": number(quantity.error_paper, SAID_DIGITS, sign=True),
-        "bound": number(quantity.tolerance_paper, SAID_DIGITS),
+        "drawn": _value_caption(quantity.drawn, quantity.unit),
+        "exact": _value_caption(quantity.exact, quantity.unit),
+        "error_paper": number(quantity.error_paper, VALUE_DECIMALS, sign=True),
+        "bound": number(quantity.tolerance_paper, VALUE_DECIMALS),
     }
     return {
         "id": quantity.name,
@@ -64,11 +64,11 @@ def _value(quantity: Quantity, spoken: Language) -> dict[str, Any]:
     }
 
 
-def _said(value: float, of: str) -> Caption:
+def _value_caption(value: float, of: str) -> Caption:
     """A value with its unit; an angle with the sign of degrees."""
     if of == "deg":
-        return say("{value}°", value=number(value, SAID_DIGITS))
-    return say("{value} {unit}", value=number(value, SAID_DIGITS), unit=unit(of))
+        return say("{value}°", value=number(value, VALUE_DECIMALS))
+    return say("{value} {unit}", value=number(value, VALUE_DECIMALS), unit=unit(of))
 
 
 def given_sizes(solution: AnySolution) -> dict[str, float | None]:
@@ -102,7 +102,7 @@ def sizes(solution: AnySolution) -> dict[str, float | None]:
     return {"prime_radius": chain.prime_radius, **{size.name: size.value for size in of_follower}}
 
 
-VIEWS = {"profile": PROFILE.name, "pressure angle": ANGLE.name}
+CAUTION_VIEWS = {"profile": PROFILE.name, "pressure angle": ANGLE.name}
 """The views in which a caution has a place."""
 
 
@@ -125,7 +125,7 @@ def warnings(solution: AnySolution, spoken: Language) -> list[dict[str, Any]]:
 
 
 def _warning(solution: Solution, caution: Caution, spoken: Language) -> dict[str, Any]:
-    view = VIEWS.get(caution.of)
+    view = CAUTION_VIEWS.get(caution.of)
     at = _place(solution, caution) if view else None
     return {
         "text": spoken.text(caution.said),

@@ -8,9 +8,9 @@ from typing import Any
 from graphcam.errors import DesignError
 from graphcam.words import say
 
-STEP = re.compile(r"([A-Za-z_]\w*)|\[(\d+)\]")
-PATH = re.compile(r"[A-Za-z_]\w*(\[\d+\])*(\.[A-Za-z_]\w*(\[\d+\])*)*")
-REMEDY = say("the paths are those of the task file, such as motion.phases[0].angle")
+STEP_PATTERN = re.compile(r"([A-Za-z_]\w*)|\[(\d+)\]")
+PATH_PATTERN = re.compile(r"[A-Za-z_]\w*(\[\d+\])*(\.[A-Za-z_]\w*(\[\d+\])*)*")
+PATH_REMEDY = say("the paths are those of the task file, such as motion.phases[0].angle")
 
 
 def steps_of(path: str) -> tuple[str | int, ...]:
@@ -23,9 +23,9 @@ def steps_of(path: str) -> tuple[str | int, ...]:
     >>> steps_of("motion.phases[0].angle")
     ('motion', 'phases', 0, 'angle')
     """
-    if not PATH.fullmatch(path):
-        raise DesignError("path", path, say("keys with points between them, and numbers in brackets"), REMEDY)
-    return tuple(key or int(number) for key, number in STEP.findall(path))
+    if not PATH_PATTERN.fullmatch(path):
+        raise DesignError("path", path, say("keys with points between them, and numbers in brackets"), PATH_REMEDY)
+    return tuple(key or int(number) for key, number in STEP_PATTERN.findall(path))
 
 
 def value_at(task: Mapping[str, Any], path: str) -> Any:
@@ -43,14 +43,14 @@ def value_at(task: Mapping[str, Any], path: str) -> Any:
     return found
 
 
-def changed(task: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+def changed_task(task: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """The task with other values at some paths; None leaves a key out, and so open.  The task itself stays as it is.
 
     Raises
     ------
     DesignError : a path leads through what is no table, or to an entry that its list does not have
 
-    >>> changed({"cam": {"prime_radius": 40.0}}, {"cam.prime_radius": None, "follower.offset": -10.0})
+    >>> changed_task({"cam": {"prime_radius": 40.0}}, {"cam.prime_radius": None, "follower.offset": -10.0})
     {'cam': {}, 'follower': {'offset': -10.0}}
     """
     new = copy.deepcopy(dict(task))
@@ -59,7 +59,7 @@ def changed(task: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
         table: Any = new
         for step in way:
             table = _entered(table, step, path)
-        _put(table, last, copy.deepcopy(value), path)
+        _set_value(table, last, copy.deepcopy(value), path)
     return new
 
 
@@ -71,7 +71,7 @@ def _entered(table: Any, step: str | int, path: str) -> Any:
     return table[step]
 
 
-def _put(table: Any, step: str | int, value: Any, path: str) -> None:
+def _set_value(table: Any, step: str | int, value: Any, path: str) -> None:
     _check(table, step, path)
     if value is None and isinstance(step, str):
         table.pop(step, None)
@@ -83,4 +83,4 @@ def _check(table: Any, step: str | int, path: str) -> None:
     """Check that a step leads into a table, or to an entry that a list has."""
     fits = isinstance(table, dict) if isinstance(step, str) else isinstance(table, list) and step < len(table)
     if not fits:
-        raise DesignError("path", path, say("one that the task has"), REMEDY)
+        raise DesignError("path", path, say("one that the task has"), PATH_REMEDY)

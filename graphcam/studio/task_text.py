@@ -4,19 +4,19 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
-from graphcam.given.table_file import CurveTable, table_in
-from graphcam.studio.request import some, task_data, task_in
+from graphcam.given.table_file import CurveTable, table_from_text
+from graphcam.studio.views_request import optional_value, task_data, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
-from graphcam.tasks.task_file import BUILT_IN, builtin_arcs_task, builtin_task, parse_toml
+from graphcam.tasks.task_file import BUILTIN_TASK_NAMES, builtin_arcs_task, builtin_task, parse_toml
 from graphcam.tasks.task_writer import TASK_FILE, task_files
 
 Plain = dict[str, Any]
-LONGEST = 500_000
+MAX_LENGTH = 500_000
 """Characters of a task file."""
 
 
-ARCS = "arcs"
+ARCS_TASK = "arcs"
 """The built-in task of a cam of three circular arcs."""
 
 
@@ -27,7 +27,9 @@ def built_in_tasks() -> dict[str, dict[str, Any]]:
     >>> list(built_in_tasks())
     ['coursework', 'arm', 'flat', 'measured', 'arcs']
     """
-    return {name: plain_task(builtin_task(name)) for name in BUILT_IN} | {ARCS: plain_task(builtin_arcs_task())}
+    return {name: plain_task(builtin_task(name)) for name in BUILTIN_TASK_NAMES} | {
+        ARCS_TASK: plain_task(builtin_arcs_task())
+    }
 
 
 def nearest_built_in(task: Task | ArcsTask) -> str:
@@ -38,8 +40,8 @@ def nearest_built_in(task: Task | ArcsTask) -> str:
     ('flat', 'arcs')
     """
     if isinstance(task, ArcsTask):
-        return ARCS
-    alike = {name: builtin_task(name) for name in BUILT_IN}
+        return ARCS_TASK
+    alike = {name: builtin_task(name) for name in BUILTIN_TASK_NAMES}
     kind, measured = task.follower.kind, task.motion.table is not None
 
     def likeness(name: str) -> int:
@@ -82,12 +84,12 @@ def task_file(request: Mapping[str, Any]) -> Plain:
     >>> found["name"], found["text"].splitlines()[0]
     ('task.toml', 'rotation = "cw"')
     """
-    spoken = some(request, "language", str, "en")
+    spoken = optional_value(request, "language", str, "en")
     files = task_files(task_in(task_data(request), spoken))
     return {"name": TASK_FILE, "text": files.pop(TASK_FILE), "files": files}
 
 
-def opened(request: Mapping[str, Any]) -> Plain:
+def opened_task(request: Mapping[str, Any]) -> Plain:
     """The answer to "open": the task that the text of a file says.
 
     A file that names a table is given the table's text under ``files``, by its name.
@@ -99,13 +101,15 @@ def opened(request: Mapping[str, Any]) -> Plain:
     >>> import graphcam as gc
     >>> task = plain_task(gc.builtin_task("measured"))
     >>> files = task_file({"task": task})
-    >>> opened({"text": files["text"], "files": files["files"]})["task"] == task
+    >>> opened_task({"text": files["text"], "files": files["files"]})["task"] == task
     True
     """
-    text = some(request, "text", str, "")[:LONGEST]
+    text = optional_value(request, "text", str, "")[:MAX_LENGTH]
     data = parse_toml(TASK_FILE, text.encode())
     spoken = drawing.get("language") if isinstance(drawing := data.get("drawing"), dict) else None
-    task = task_in(_with_table(data, some(request, "files", dict, {})), spoken if isinstance(spoken, str) else "en")
+    task = task_in(
+        _with_table(data, optional_value(request, "files", dict, {})), spoken if isinstance(spoken, str) else "en"
+    )
     return {"task": plain_task(task)}
 
 
@@ -116,5 +120,5 @@ def _with_table(data: Plain, files: Mapping[str, Any]) -> Plain:
     if not isinstance(motion, dict) or not isinstance(name, str) or not isinstance(files.get(name), str):
         return data
     tolerance = motion.get("tolerance")
-    table = table_in(files[name], name, name, tolerance if isinstance(tolerance, int | float) else None)
+    table = table_from_text(files[name], name, name, tolerance if isinstance(tolerance, int | float) else None)
     return {**data, "motion": {**motion, "table": plain_table(table)}}

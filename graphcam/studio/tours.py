@@ -23,21 +23,21 @@ from typing import Any
 
 from graphcam.errors import DesignError
 from graphcam.language import language
-from graphcam.studio.task_paths import changed, steps_of, value_at
+from graphcam.studio.task_paths import changed_task, steps_of, value_at
 from graphcam.tasks.task_file import builtin_task
 from graphcam.words import Caption, Tell, say
 
-TEXTS = ("title", "about", "ask", "why", "choices")
+TEXT_KEYS = ("title", "about", "ask", "why", "choices")
 """The keys under which texts stand that are translated."""
 
 
-GOAL = re.compile(r"\s*([\w.\[\]]+)\s*(<=|>=|==|<|>)\s*(-?\d+(?:\.\d+)?)\s*")
-SAME = 1e-9
+GOAL_PATTERN = re.compile(r"\s*([\w.\[\]]+)\s*(<=|>=|==|<|>)\s*(-?\d+(?:\.\d+)?)\s*")
+SAME_NUMBER = 1e-9
 """Numbers that differ by less are equal."""
 OPERATORS: Mapping[str, Callable[[float, float], bool]] = {
-    "<=": lambda size, value: size <= value + SAME,
-    ">=": lambda size, value: size >= value - SAME,
-    "==": lambda size, value: math.isclose(size, value, abs_tol=SAME),
+    "<=": lambda size, value: size <= value + SAME_NUMBER,
+    ">=": lambda size, value: size >= value - SAME_NUMBER,
+    "==": lambda size, value: math.isclose(size, value, abs_tol=SAME_NUMBER),
     "<": lambda size, value: size < value,
     ">": lambda size, value: size > value,
 }
@@ -81,7 +81,7 @@ def goal_of(text: str) -> Goal:
     Traceback (most recent call last):
     graphcam.errors.DesignError: goal is "__import__('os')", but must be a path, one of <=, >=, ==, <, > and a number
     """
-    found = GOAL.fullmatch(text)
+    found = GOAL_PATTERN.fullmatch(text)
     if found is None:
         raise DesignError("goal", text, say("a path, one of {names} and a number", names=", ".join(OPERATORS)))
     path, operator, value = found.groups()
@@ -100,7 +100,7 @@ def tours() -> list[dict[str, Any]]:
     return json.loads(file.read_text(encoding="utf-8"))["tours"]
 
 
-def told_tours(request: Mapping[str, Any]) -> dict[str, Any]:
+def tours_answer(request: Mapping[str, Any]) -> dict[str, Any]:
     """The answer to a request "tours": all of them, in a language."""
     tell = language(str(request.get("language", "en"))).text
     return {"tours": [_tour(tour, tell) for tour in tours()]}
@@ -123,7 +123,7 @@ def _card(card: Mapping[str, Any], built_in: str, tell: Tell) -> dict[str, Any]:
 
 def card_task(built_in: str, card: Mapping[str, Any]) -> dict[str, Any]:
     """The task that a card shows, as plain data."""
-    return changed(builtin_task(built_in).to_dict(), card.get("changes", {}))
+    return changed_task(builtin_task(built_in).to_dict(), card.get("changes", {}))
 
 
 def texts_of(node: Any, within: bool = False) -> Iterator[str]:
@@ -137,7 +137,7 @@ def texts_of(node: Any, within: bool = False) -> Iterator[str]:
             yield node
     elif isinstance(node, Mapping):
         for key, value in node.items():
-            yield from texts_of(value, key in TEXTS)
+            yield from texts_of(value, key in TEXT_KEYS)
     elif isinstance(node, Sequence):
         for value in node:
             yield from texts_of(value, within)

@@ -6,19 +6,19 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+from graphcam.drafting.act_order import ActPlaces
 from graphcam.drafting.acts import Act
 from graphcam.drafting.ink import Construction, Step, View
-from graphcam.drafting.moves import ActPlaces
 from graphcam.errors import DesignError, among
-from graphcam.report.sheet_contents import chapter_numbers, drawn_of, names_of, scaled_steps, scales_found
-from graphcam.report.step_player import drawn_in_parts, told
+from graphcam.report.sheet_contents import chapter_numbers, construction_named, names_of, scaled_steps, scales_found
+from graphcam.report.step_player import drawn_in_parts, step_slides
 from graphcam.sheets.layout import Numbered
 from graphcam.sheets.model import Source
 from graphcam.sheets.player import PartText, Pieces, ReadingText, Slide
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.words import Caption, Tell, say
 
-SHORT: Mapping[str, Caption] = {
+SHORT_VIEW_NAMES: Mapping[str, Caption] = {
     "scheme": say("Diagram"),
     "acceleration": say("a(φ)"),
     "velocity": say("v(φ)"),
@@ -71,14 +71,14 @@ class ViewSteps:
         return [each for each in self.steps if each.step.view.name == name]
 
     @property
-    def numbered(self) -> Numbered:
+    def numbered_steps(self) -> Numbered:
         """The steps with their running numbers and constructions."""
         return tuple((each.number, each.construction, each.step) for each in self.steps)
 
     @property
     def numbers(self) -> Mapping[int, str]:
         """The numbers within the task, such as "3.2", by the running ones."""
-        return chapter_numbers(self.numbered)
+        return chapter_numbers(self.numbered_steps)
 
     @property
     def views(self) -> dict[str, View]:
@@ -100,7 +100,7 @@ class ViewSteps:
             {
                 "name": name,
                 "title": tell(view.title),
-                "short": tell(SHORT.get(name, view.title)),
+                "short": tell(SHORT_VIEW_NAMES.get(name, view.title)),
                 "steps": counts[name],
             }
             for name, view in self.views.items()
@@ -127,11 +127,11 @@ def view_steps(
         if upto not in names:
             raise DesignError("upto", upto, *among(upto, names))
         names = names[: names.index(upto) + 1]
-    drawn = {name: drawn_of(solution, name) for name in names if only is None or name in only}
-    return ViewSteps(drawn, tuple(named(scaled_steps(drawn, silent))))
+    drawn = {name: construction_named(solution, name) for name in names if only is None or name in only}
+    return ViewSteps(drawn, tuple(named_steps(scaled_steps(drawn, silent))))
 
 
-def named(steps: Numbered) -> Iterable[NamedStep]:
+def named_steps(steps: Numbered) -> Iterable[NamedStep]:
     """The steps with their names, "-2" and "-3" behind those of steps alike in one construction."""
     taken = Counter[str]()
     for number, construction, step in steps:
@@ -151,7 +151,7 @@ def slug(template: str) -> str:
 
 
 @dataclass(frozen=True)
-class SeenActs:
+class ActNumbering:
     """Numbers for the acts that can be seen: the same for the same task, whichever of its views are told."""
 
     numbers: Mapping[Act, int]
@@ -166,14 +166,14 @@ class SeenActs:
 
 
 @dataclass(frozen=True, eq=False)
-class ToldSteps:
+class StepsData:
     """What is said of steps, by their running numbers, and the numbers of the acts that they show.
 
     headings : of views whose scales are found by drawing, without them, and the steps that find them
     """
 
     slides: Mapping[int, Slide]
-    acts: SeenActs
+    acts: ActNumbering
     headings: Mapping[str, tuple[str, int]] = field(default_factory=dict[str, tuple[str, int]])
     in_parts: Collection[int] = field(default_factory=frozenset[int])
 
@@ -200,15 +200,15 @@ class ToldSteps:
         }
 
 
-def told_steps(known: ViewSteps, views: Collection[str], tell: Tell) -> ToldSteps:
+def steps_data(known: ViewSteps, views: Collection[str], tell: Tell) -> StepsData:
     """What is said of the steps in some views."""
     marks = (mark for each in known.steps for mark in each.step.marks)
     seen = dict.fromkeys(mark.of for mark in marks if isinstance(mark.of, Act))
-    acts = SeenActs({act: number for number, act in enumerate(seen)})
+    acts = ActNumbering({act: number for number, act in enumerate(seen)})
     last = max((each.number for each in known.steps if each.step.view.name in views), default=0)
-    steps = told(
+    steps = step_slides(
         known.drawn,
-        known.numbered,
+        known.numbered_steps,
         known.numbers,
         acts,
         tell,
@@ -220,24 +220,24 @@ def told_steps(known: ViewSteps, views: Collection[str], tell: Tell) -> ToldStep
         if number == last:
             break
     titles = {each.step.view.name: tell(each.step.view.title).replace("，", ", ") for each in known.steps}
-    found = scales_found(known.drawn, known.numbered)
+    found = scales_found(known.drawn, known.numbered_steps)
     headings = {view: (titles[view].partition(", ")[0], step) for view, step in found.items() if view in titles}
-    return ToldSteps(slides, acts, headings, drawn_in_parts(slides.values()))
+    return StepsData(slides, acts, headings, drawn_in_parts(slides.values()))
 
 
 def _part(part: PartText) -> dict[str, Any]:
     """A part as plain data."""
-    pieces = {name: _seen(getattr(part, name)) for name in ("draws", "lit", "moves")}
+    pieces = {name: _visible_pieces(getattr(part, name)) for name in ("draws", "lit", "moves")}
     return {"caption": part.caption, "tools": list(part.tools), **pieces, "views": list(part.views)}
 
 
 def _reading(construction: str, reading: ReadingText) -> dict[str, Any]:
     """A reading as plain data."""
-    table = [{**asdict(row), "lit": _seen(row.lit)} for row in reading.table]
+    table = [{**asdict(row), "lit": _visible_pieces(row.lit)} for row in reading.table]
     said = {"title": reading.title, "taken": reading.taken, "value": reading.value}
-    return {"id": f"{construction}/{reading.name}", **said, "lit": _seen(reading.lit), "table": table}
+    return {"id": f"{construction}/{reading.name}", **said, "lit": _visible_pieces(reading.lit), "table": table}
 
 
-def _seen(pieces: Iterable[list[Any]]) -> Pieces:
+def _visible_pieces(pieces: Iterable[list[Any]]) -> Pieces:
     """The pieces that can be seen."""
     return [piece for piece in pieces if piece[0] >= 0]

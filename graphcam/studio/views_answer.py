@@ -14,19 +14,19 @@ from graphcam.solving.solution import Solution
 from graphcam.solving.task_board import format_of
 from graphcam.studio.drawn_views import DrawnView, digest, drawn_view, key_of
 from graphcam.studio.handle import Changes
-from graphcam.studio.handles import MECHANISM, dragged_within, handles_of
-from graphcam.studio.held_board import Hold, diagrams_of, hold_of, scales_of, solved, station_of
-from graphcam.studio.request import AskedView, ViewsRequest, views_request
+from graphcam.studio.handles import MECHANISM_VIEW, dragged_within, handles_of
+from graphcam.studio.held_solutions import DragHold, diagrams_of, held_solution, hold_of, scales_of, station_of
 from graphcam.studio.sizes_form import form_of
-from graphcam.studio.studio_values import compared_in, given_sizes, sizes, values, warnings
-from graphcam.studio.task_paths import changed
-from graphcam.studio.view_steps import ToldSteps, ViewSteps, told_steps, view_steps
+from graphcam.studio.studio_values import compared_quantities, given_sizes, sizes, values, warnings
+from graphcam.studio.task_paths import changed_task
+from graphcam.studio.view_steps import StepsData, ViewSteps, steps_data, view_steps
+from graphcam.studio.views_request import AskedView, ViewsRequest, views_request
 
 T = TypeVar("T")
 Plain = dict[str, Any]
 
 
-SHOWN = "phi", "station"
+STATE_PATHS = "phi", "station"
 """What a handle may change that is no size of the task."""
 
 
@@ -45,7 +45,7 @@ class MovedTask:
     station: int | None
 
 
-def moved_task(request: ViewsRequest, hold: Hold | None) -> MovedTask:
+def moved_task(request: ViewsRequest, hold: DragHold | None) -> MovedTask:
     """The solution of a request's task, its handle dragged if one is.
 
     Raises
@@ -55,9 +55,9 @@ def moved_task(request: ViewsRequest, hold: Hold | None) -> MovedTask:
 
     def with_changes(changes: Changes) -> AnySolution:
         """The solution with other sizes; what is only shown changes nothing."""
-        sizes: dict[str, Any] = {path: value for path, value in changes.items() if path not in SHOWN}
-        task = changed(request.task, sizes) if sizes else request.task
-        return solved(task, request.language, hold, changes.get("station", request.station))
+        sizes: dict[str, Any] = {path: value for path, value in changes.items() if path not in STATE_PATHS}
+        task = changed_task(request.task, sizes) if sizes else request.task
+        return held_solution(task, request.language, hold, changes.get("station", request.station))
 
     if request.drag is None:
         return MovedTask(with_changes({}), {}, request.phi, request.station)
@@ -93,8 +93,8 @@ def views_answer(data: Mapping[str, Any]) -> Plain:
     solution = moved.solution
     known = clock.timed("construct", lambda: _steps(solution, request, hold))
     asked = [view for view in request.views if view.name in known.views]
-    told = clock.timed("told", lambda: _told(request, known, asked, spoken))
-    drawn = clock.timed("svg", lambda: _drawn(solution, known, asked, spoken, hold))
+    told = clock.timed("told", lambda: _steps_of_request(request, known, asked, spoken))
+    drawn = clock.timed("svg", lambda: _drawn_views(solution, known, asked, spoken, hold))
     plain = clock.timed("svg", lambda: [_view(view, drawn[key_of(view)], told, spoken) for view in asked])
     names = list(hold.names) if hold else known.names(spoken.text)
     return {
@@ -106,13 +106,13 @@ def views_answer(data: Mapping[str, Any]) -> Plain:
         "form": form_of(solution, spoken.text) if request.form and not request.upto else [],
         "handles": clock.timed("handles", lambda: _handles(moved, asked, request, spoken)),
         # What is kept tells scales and accelerations, and where nothing is dragged nothing need be kept.
-        "hold": None if request.upto else _kept(solution, known, drawn, names, hold).plain(),
+        "hold": None if request.upto else _kept_hold(solution, known, drawn, names, hold).plain(),
         "station": moved.station,
         "ms": clock.ms,
     }
 
 
-def _steps(solution: AnySolution, request: ViewsRequest, hold: Hold | None) -> ViewSteps:
+def _steps(solution: AnySolution, request: ViewsRequest, hold: DragHold | None) -> ViewSteps:
     """The steps that are drawn: at rest all of them, while the hand is down those of the views that are asked for."""
     needs = hold.needs(key_of(view) for view in request.views) if hold and not request.told else None
     if needs is None:
@@ -124,16 +124,18 @@ def _handles(moved: MovedTask, asked: Iterable[AskedView], request: ViewsRequest
     """The handles of the views that are asked for, and of the mechanism with it; an exercise has none."""
     if request.upto:
         return []
-    views = [*(view.name for view in asked), *([MECHANISM] if request.mechanism else [])]
+    views = [*(view.name for view in asked), *([MECHANISM_VIEW] if request.mechanism else [])]
     return handles_of(moved.solution, views, spoken.text, moved.phi, moved.station)
 
 
-def _told(request: ViewsRequest, known: ViewSteps, asked: Iterable[AskedView], spoken: Language) -> ToldSteps | None:
-    return told_steps(known, {view.name for view in asked}, spoken.text) if request.told else None
+def _steps_of_request(
+    request: ViewsRequest, known: ViewSteps, asked: Iterable[AskedView], spoken: Language
+) -> StepsData | None:
+    return steps_data(known, {view.name for view in asked}, spoken.text) if request.told else None
 
 
-def _drawn(
-    solution: AnySolution, known: ViewSteps, asked: Iterable[AskedView], spoken: Language, hold: Hold | None
+def _drawn_views(
+    solution: AnySolution, known: ViewSteps, asked: Iterable[AskedView], spoken: Language, hold: DragHold | None
 ) -> dict[str, DrawnView]:
     """The views that are asked for, by what they are kept by."""
     paper: Lettering = format_of(solution.task.drawing).lettering
@@ -146,7 +148,7 @@ def _drawn(
     return found
 
 
-def _view(asked: AskedView, drawn: DrawnView, told: ToldSteps | None, spoken: Language) -> Plain:
+def _view(asked: AskedView, drawn: DrawnView, told: StepsData | None, spoken: Language) -> Plain:
     """A view as plain data; of a step that the page has already only its hash."""
     svg = drawn.svg(told.shown_by if told else None)
     steps: dict[str, Plain] = {}
@@ -162,7 +164,7 @@ def _numbers(solution: AnySolution, known: ViewSteps, request: ViewsRequest, spo
     """What is asked for in numbers; of an exercise no more than is read in the constructions that are shown."""
     quantities = solution.comparison.quantities if request.values else {}
     if request.upto:
-        there = compared_in(known.drawn)
+        there = compared_quantities(known.drawn)
         kept = {name: quantity for name, quantity in quantities.items() if name in there}
         return {"values": values(kept, spoken), "warnings": [], "scales": {}, "mechanism": None}
     return {
@@ -173,14 +175,14 @@ def _numbers(solution: AnySolution, known: ViewSteps, request: ViewsRequest, spo
     }
 
 
-def _kept(
-    solution: AnySolution, known: ViewSteps, drawn: Mapping[str, DrawnView], names: list[Plain], hold: Hold | None
-) -> Hold:
+def _kept_hold(
+    solution: AnySolution, known: ViewSteps, drawn: Mapping[str, DrawnView], names: list[Plain], hold: DragHold | None
+) -> DragHold:
     """What the next answer may keep of this one; what was held before stays held."""
-    former = hold or Hold()
+    former = hold or DragHold()
     shown = {name: view.mu_l for name, view in known.views.items() if view.mu_l}
     scales = former.scales if hold else scales_of(solution, shown)
     of_motion = diagrams_of(solution) if isinstance(solution, Solution) else None
     views = {**former.views, **{key: view.kept for key, view in drawn.items()}}
     station = former.station if hold else station_of(known.drawn)
-    return Hold(scales, former.diagrams if hold else of_motion, station, views, tuple(names))
+    return DragHold(scales, former.diagrams if hold else of_motion, station, views, tuple(names))

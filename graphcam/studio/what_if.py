@@ -14,34 +14,38 @@ from graphcam.given.follower import Follower
 from graphcam.given.measured import MeasuredMotion
 from graphcam.given.roller_rule import roller_rule
 from graphcam.language import language
-from graphcam.mechanism.arcs import three_arc_cam
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.least_radius import minimum_radius
+from graphcam.mechanism.three_arc_cam import three_arc_cam
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.shown_solution import plain_number
 from graphcam.solving.solution import Solution
-from graphcam.studio.form_fields import DRAWING, NUMBERS, POINTS, must_agree
-from graphcam.studio.held_board import solved
-from graphcam.studio.request import number, some, task_data, task_in, whole
-from graphcam.studio.size_ranges import LEAST_ANGLE, SizeRange, has_angles, ranges, round_up, sizes_of, step_for
-from graphcam.studio.task_paths import changed, value_at
+from graphcam.studio.form_fields import DRAWING, NUMBER_FIELDS, POINT_NAMES, must_agree
+from graphcam.studio.held_solutions import held_solution
+from graphcam.studio.size_ranges import MIN_PHASE_ANGLE, SizeRange, has_angles, ranges, round_up, sizes_of, step_for
+from graphcam.studio.task_paths import changed_task, value_at
+from graphcam.studio.views_request import number, optional_value, optional_whole_number, task_data, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.words import Caption, Tell, say
 
-DESIGNS, MOST_DESIGNS = 200, 400
-MOST_MEASURED = 60
+DEFAULT_DESIGNS, MAX_DESIGNS = 200, 400
+MAX_MEASURED_DESIGNS = 60
 """The maximum number of designs of a measured motion, whose extremes take ten times as long."""
-UNMOVED = "motion.tolerance", "speed_rpm", *(path for path in NUMBERS if path.startswith(("spring.", "material.")))
+UNSWEPT_PATHS = (
+    "motion.tolerance",
+    "speed_rpm",
+    *(path for path in NUMBER_FIELDS if path.startswith(("spring.", "material."))),
+)
 """Sizes that change none of the curves, or too slowly."""
-LARGEST = 1e6
-TIMES = 2.5
+MAX_SIZE = 1e6
+PHASE_FACTOR = 2.5
 """How many times shorter and longer a phase is looked at: of much less angle every cam is huge."""
-NEARBY = 0.15
+POINT_MOVE_SHARE = 0.15
 """A point of the arcs is moved by so much of the outer circle's radius: few places make a sound cam."""
 
 
-CURVES: dict[str, tuple[Caption, str]] = {
+CURVE_TITLES: dict[str, tuple[Caption, str]] = {
     "least_prime_radius": (say("minimum prime radius"), "mm"),
     "prime_radius": (say("prime radius"), "mm"),
     "pressure_angle_rise": (say("maximum pressure angle, rise"), "°"),
@@ -55,7 +59,7 @@ Design = dict[str, float | None]
 
 
 def exact_design(task: Task | ArcsTask) -> Design:
-    """The quantities of a design by the names of :data:`CURVES`; None for what it does not have.
+    """The quantities of a design by the names of :data:`CURVE_TITLES`; None for what it does not have.
 
     What the task leaves open is what the exact side finds, not rounded as a drawing adopts it.
 
@@ -75,7 +79,7 @@ def exact_design(task: Task | ArcsTask) -> Design:
 def _of_motion(task: Task) -> dict[str, float | None]:
     """The design of a cam whose follower moves by laws, or as it was measured."""
     motion, given = task.motion(), task.follower
-    least, place = _least(task)
+    least, place = _exact_least_radius(task)
     r0 = least if task.cam.prime_radius is None else task.cam.prime_radius
     # The pitch curve does not depend on the roller, which the rule takes from it.
     cam = Cam(motion, _follower(task, place), r0, task.rotation)
@@ -90,7 +94,7 @@ def _of_motion(task: Task) -> dict[str, float | None]:
     return found | {"pressure_angle_rise": rise, "pressure_angle_return": back, "roller_radius": roller}
 
 
-def _least(task: Task) -> tuple[float, float]:
+def _exact_least_radius(task: Task) -> tuple[float, float]:
     """The least prime radius and the place that goes with it [mm]; NaN where a given place keeps the limits nowhere."""
     limits = task.limits()
     asked: dict[str, Any] = {"rise": limits.rise, "return_": limits.return_, "rest": limits.rest, **_condition(task)}
@@ -147,18 +151,18 @@ def sweep_answer(data: Mapping[str, Any]) -> dict[str, Any]:
     >>> found["at"], [round(r0, 2) for r0 in found["curves"][0]["values"]]
     ([-10.0, -5.0, 0.0], [43.28, 51.01, 59.43])
     """
-    task, spoken = task_data(data), language(some(data, "language", str, "en"))
-    solution = solved(task, spoken.name)
+    task, spoken = task_data(data), language(optional_value(data, "language", str, "en"))
+    solution = held_solution(task, spoken.name)
     sizes = swept_sizes(solution)
-    path = some(data, "path", str, next(iter(sizes)))
+    path = optional_value(data, "path", str, next(iter(sizes)))
     if path not in sizes:
         raise DesignError("path", path, say("a size of the task that can be swept"))
     at = _places(data, sizes[path][1], solution)
-    designs = [_design(changed(task, with_size(solution, path, value))) for value in at]
-    wanted = some(data, "quantities", list, list(CURVES))
+    designs = [_design(changed_task(task, with_size(solution, path, value))) for value in at]
+    wanted = optional_value(data, "quantities", list, list(CURVE_TITLES))
     return {
         "path": path,
-        "now": _now(solution, path),
+        "now": _present_value(solution, path),
         "at": at,
         "curves": _curves(designs, wanted, spoken.text),
         "limits": _limits(solution),
@@ -171,11 +175,11 @@ def sweep_answer(data: Mapping[str, Any]) -> dict[str, Any]:
 
 def _places(data: Mapping[str, Any], room: SizeRange, solution: AnySolution) -> list[float]:
     """The values of the size."""
-    first = number(data, "from", room.least, -LARGEST, LARGEST)
-    last = number(data, "to", room.most, -LARGEST, LARGEST)
-    count = whole(data, "count", DESIGNS, 2, MOST_DESIGNS) or DESIGNS
+    first = number(data, "from", room.least, -MAX_SIZE, MAX_SIZE)
+    last = number(data, "to", room.most, -MAX_SIZE, MAX_SIZE)
+    count = optional_whole_number(data, "count", DEFAULT_DESIGNS, 2, MAX_DESIGNS) or DEFAULT_DESIGNS
     if isinstance(solution, Solution) and isinstance(solution.cam.motion, MeasuredMotion):
-        count = min(count, MOST_MEASURED)
+        count = min(count, MAX_MEASURED_DESIGNS)
     return [round(value, 9) for value in np.linspace(first, last, count).tolist()]
 
 
@@ -184,8 +188,8 @@ def swept_sizes(solution: AnySolution) -> dict[str, tuple[Caption, SizeRange, st
     found = ranges(solution)
     sizes = {
         path: (name, found[path], unit)
-        for path, (group, name, unit) in NUMBERS.items()
-        if path in found and path not in UNMOVED and group is not DRAWING
+        for path, (group, name, unit) in NUMBER_FIELDS.items()
+        if path in found and path not in UNSWEPT_PATHS and group is not DRAWING
     }
     return sizes | (_of_points(solution) if isinstance(solution, ArcsSolution) else _of_phases(solution))
 
@@ -193,9 +197,9 @@ def swept_sizes(solution: AnySolution) -> dict[str, tuple[Caption, SizeRange, st
 def _of_points(solution: ArcsSolution) -> dict[str, tuple[Caption, SizeRange, str]]:
     """The coordinates of the points that are given; C1 goes with the radius of its arc."""
     arcs, found = solution.task.arcs, ranges(solution)
-    nearby = NEARBY * math.hypot(*arcs.D)
+    nearby = POINT_MOVE_SHARE * math.hypot(*arcs.D)
     sizes: dict[str, tuple[Caption, SizeRange, str]] = {}
-    for name, title in POINTS.items():
+    for name, title in POINT_NAMES.items():
         given = None if name == "C1" else getattr(arcs, name)
         for k, (axis, value) in enumerate(zip("xy", given or (), strict=bool(given))):
             path = f"arcs.{name}[{k}]"
@@ -211,9 +215,9 @@ def _of_phases(solution: Solution) -> dict[str, tuple[Caption, SizeRange, str]]:
         return {}
     sizes: dict[str, tuple[Caption, SizeRange, str]] = {}
     for k, phase in enumerate(phases):
-        room = phase.angle + phases[(k + 1) % len(phases)].angle - LEAST_ANGLE
+        room = phase.angle + phases[(k + 1) % len(phases)].angle - MIN_PHASE_ANGLE
         name = say("Angle of the {phase}", phase=phase_title(motion, k))
-        least, most = max(LEAST_ANGLE, phase.angle / TIMES), min(room, phase.angle * TIMES)
+        least, most = max(MIN_PHASE_ANGLE, phase.angle / PHASE_FACTOR), min(room, phase.angle * PHASE_FACTOR)
         sizes[f"motion.phases[{k}].angle"] = name, SizeRange(round(least), round(most), 1.0), "°"
     k, lift = next((k, phase.lift) for k, phase in enumerate(phases) if phase.kind == "rise")
     step = step_for(lift)
@@ -262,12 +266,12 @@ def _curves(designs: Sequence[Design], wanted: Sequence[Any], tell: Tell) -> lis
             "unit": tell(UNITS.get(unit, unit)),
             "values": [None if (x := each.get(name)) is None else round(x, 6) for each in designs],
         }
-        for name, (title, unit) in CURVES.items()
+        for name, (title, unit) in CURVE_TITLES.items()
         if name in wanted and any(each.get(name) is not None for each in designs)
     ]
 
 
-def _now(solution: AnySolution, path: str) -> float | None:
+def _present_value(solution: AnySolution, path: str) -> float | None:
     """The present value of the size, found where the task leaves it open."""
     given = value_at(solution.task.to_dict(), path)
     if given is not None or isinstance(solution, ArcsSolution):

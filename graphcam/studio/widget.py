@@ -15,21 +15,21 @@ import anywidget
 import traitlets
 
 from graphcam.sheets.player_svg import roles_css
-from graphcam.sheets.typefaces import FAMILY, font_faces
+from graphcam.sheets.typefaces import FONT_FAMILY, font_faces
 from graphcam.showing import from_above
 from graphcam.studio.address import differences
 from graphcam.studio.engine import answer
-from graphcam.studio.page import WORDS, page
-from graphcam.studio.task_paths import changed
+from graphcam.studio.studio_page import PAGE_CAPTIONS, page
+from graphcam.studio.task_paths import changed_task
 from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
 from graphcam.studio.views_answer import views_answer
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import task_from
 
-HEIGHT = 720
+FRAME_HEIGHT = 720
 """The height of the frame, in pixels of a page."""
-ID = "widget"
+WIDGET_ID = "widget"
 """How the page and the frame around it know each other's messages."""
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 Plain = dict[str, Any]
@@ -38,12 +38,12 @@ AnyTask = Task | ArcsTask | Mapping[str, Any]
 
 PX_PER_MM = 1.2
 """How large it is shown at least: two of them side by side on a page; it settles how large the letters are."""
-FIRST = "combined", "profile"
+DEFAULT_VIEWS = "combined", "profile"
 """The view that is shown if none is named; where there is none of these, the first."""
-INKS = f"""
+INK_STYLES = f"""
 .line, .opaque {{ fill: none; stroke: var(--print); stroke-width: var(--width); stroke-linejoin: round }}
 .page .opaque {{ fill: #fff }}
-.filled, .text {{ fill: var(--print, #000); font-family: {FAMILY} }}
+.filled, .text {{ fill: var(--print, #000); font-family: {FONT_FAMILY} }}
 .middle {{ text-anchor: middle }}
 .end {{ text-anchor: end }}
 """
@@ -82,7 +82,7 @@ def still_picture(task: Mapping[str, Any], view: str | None = None, language: st
     asked = {"task": task, "language": language, "told": True}
     if view is None:
         names = [each["name"] for each in views_answer({**asked, "told": False})["names"]]
-        view = next((name for name in FIRST if name in names), names[0])
+        view = next((name for name in DEFAULT_VIEWS if name in names), names[0])
     (drawn,) = views_answer({**asked, "views": [{"name": view, "px_per_mm": PX_PER_MM}]})["views"]
     steps = [drawn["steps"][name] for name in drawn["order"]]
     lines = "".join(step["svg"] for step in steps)
@@ -90,7 +90,7 @@ def still_picture(task: Mapping[str, Any], view: str | None = None, language: st
     letters = font_faces(re.findall(r">([^<]+)<", lines))
     svg = (
         f'<svg xmlns="http://www.w3.org/2000/svg" class="page" viewBox="{frame}">'
-        f"<style>{letters}{roles_css()}{INKS}</style>{lines}</svg>"
+        f"<style>{letters}{roles_css()}{INK_STYLES}</style>{lines}</svg>"
     )
     return StillPicture(svg, drawn["title"], steps[-1]["caption"])
 
@@ -117,7 +117,7 @@ class StudioWidget(anywidget.AnyWidget):
     view = traitlets.Unicode(None, allow_none=True).tag(sync=True)
     page = traitlets.Unicode().tag(sync=True)
     title = traitlets.Unicode().tag(sync=True)
-    height = traitlets.Int(HEIGHT).tag(sync=True)
+    height = traitlets.Int(FRAME_HEIGHT).tag(sync=True)
     changes = traitlets.Dict()
 
     def __init__(self, task: AnyTask, view: str | None, stills: Mapping[str, Mapping[str, Any]]) -> None:
@@ -126,7 +126,7 @@ class StudioWidget(anywidget.AnyWidget):
         self._language = given.drawing.language
         config = {
             "transport": "parent",
-            "id": ID,
+            "id": WIDGET_ID,
             "task": self._start,
             "view": view,
             "name": nearest_built_in(given),
@@ -135,8 +135,8 @@ class StudioWidget(anywidget.AnyWidget):
         }
         # The page around this one settles what may be asked for.
         text = page(config, policy="")
-        super().__init__(task=self._start, view=view, page=text, title=str(WORDS["studio"]))
-        self.on_msg(self._asked)
+        super().__init__(task=self._start, view=view, page=text, title=str(PAGE_CAPTIONS["studio"]))
+        self.on_msg(self._answer_request)
 
     @property
     def given(self) -> Task | ArcsTask:
@@ -152,14 +152,16 @@ class StudioWidget(anywidget.AnyWidget):
     def html(self) -> str:
         """The still pictures that stand in its place where no kernel runs; without any the task as it is now."""
         if not self._stills:
-            return self._still({}).html
-        pictures = {says: self._still(changes) for says, changes in self._stills.items()}
-        return from_above("notebooks.explore.side_by_side")(pictures)
+            return self._still_picture({}).html
+        pictures = {says: self._still_picture(changes) for says, changes in self._stills.items()}
+        return from_above("notebooks.sliders.side_by_side")(pictures)
 
-    def _still(self, changes: Mapping[str, Any]) -> Any:
+    def _still_picture(self, changes: Mapping[str, Any]) -> Any:
         """A picture of the task with other values."""
-        still = still_picture(changed(self._start if changes else self.task, changes), self.view, self._language)
-        return from_above("notebooks.stages.Picture")(still.svg, f"{still.title}. {still.caption}", still.title)
+        still = still_picture(changed_task(self._start if changes else self.task, changes), self.view, self._language)
+        return from_above("notebooks.construction_stages.Picture")(
+            still.svg, f"{still.title}. {still.caption}", still.title
+        )
 
     def _repr_mimebundle_(self, **_: Any) -> tuple[Plain, Plain]:
         view = {"version_major": 2, "version_minor": 0, "model_id": self.model_id}
@@ -173,8 +175,8 @@ class StudioWidget(anywidget.AnyWidget):
     def _changed(self, _: Any) -> None:
         # What was changed by moving is there already.
         if self.changes != dict(differences(self._start, self.task)):
-            self.task = changed(self._start, self.changes)
+            self.task = changed_task(self._start, self.changes)
 
-    def _asked(self, _: Any, letter: Any, __: Any) -> None:
+    def _answer_request(self, _: Any, letter: Any, __: Any) -> None:
         """Answer a request of the page."""
         self.send({"frame": letter.get("frame"), "id": letter.get("id"), "response": answer(letter.get("request", {}))})

@@ -14,19 +14,19 @@ from typing import Any
 from graphcam.files import whole_file, whole_folder
 from graphcam.language import ENGLISH
 from graphcam.studio.engine import answer
-from graphcam.studio.page import page, script_names
 from graphcam.studio.pyodide_parts import engine_archive, pyodide_parts
+from graphcam.studio.studio_page import page, script_names
 from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 
-ENGINE = "graphcam.zip"
+ENGINE_FILE = "graphcam.zip"
 """The engine as the page carries it."""
 FIRST_VIEWS = ("combined", "region", "profile")
 """The view that the page opens with: the first of these that there is."""
 PX_PER_MM = 2.0
 """The scale for which the first view is lettered."""
-LICENCES = """\
+LICENCE_NOTE = """\
 graphcam: MIT.  Its lettering, osifont: LGPL-3.0-only or GPL-3.0-only with the font exception.
 Pyodide: Mozilla Public License 2.0, https://github.com/pyodide/pyodide
 CPython: Python Software Foundation License 2.0, https://github.com/python/cpython
@@ -44,7 +44,7 @@ def engine_parts(pyodide: Path) -> dict[str, bytes]:
     ------
     TaskError : a file of them is not there, or not known
     """
-    parts = {**pyodide_parts(pyodide), ENGINE: engine_archive()}
+    parts = {**pyodide_parts(pyodide), ENGINE_FILE: engine_archive()}
     # Without the time: the same parts make the same bytes.
     return {name: gzip.compress(part, 9, mtime=0) for name, part in parts.items()}
 
@@ -111,7 +111,7 @@ def write_one_file(path: Path, pyodide: Path, task: Task | ArcsTask, language: s
     )
     before, end, after = text.rpartition("</body>")
     with whole_file(path) as draft:
-        draft.write_text(f"{before}<!--\n{LICENCES}-->\n{carried}\n{end}{after}", encoding="utf-8", newline="\n")
+        draft.write_text(f"{before}<!--\n{LICENCE_NOTE}-->\n{carried}\n{end}{after}", encoding="utf-8", newline="\n")
 
 
 SITE_POLICY = (
@@ -150,7 +150,7 @@ def write_site(folder: Path, pyodide: Path, task: Task | ArcsTask, language: str
             (draft / name).write_bytes(content)
         (draft / "index.html").write_text(text, encoding="utf-8", newline="\n")
         (draft / "service-worker.js").write_text(service, encoding="utf-8", newline="\n")
-        (draft / "licences.txt").write_text(LICENCES, encoding="utf-8", newline="\n")
+        (draft / "licences.txt").write_text(LICENCE_NOTE, encoding="utf-8", newline="\n")
 
 
 def _build(contents: dict[str, bytes]) -> str:

@@ -22,24 +22,24 @@ import numpy as np
 from graphcam import __version__
 from graphcam.errors import install_advice
 from graphcam.files import OutputError, whole_file
-from graphcam.sweeps.front import FoundBest, joined_front
-from graphcam.sweeps.shared_folder import Sealed, SharedFolder
-from graphcam.sweeps.space import Space
+from graphcam.sweeps.design_space import Space
+from graphcam.sweeps.pareto_front import FoundBest, joined_front
+from graphcam.sweeps.shared_folder import SealedFile, SharedFolder
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, JOBS_AHEAD, Columns
 from graphcam.words import Caption, Words, say, sequence
 from graphcam.workers import WorkerPool, in_order, results
 
-MANIFEST = "_manifest.json"
+MANIFEST_FILE = "_manifest.json"
 """Readers of data sets pass over what begins with an underscore or a dot."""
-BLOCK = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS
+BLOCK_DESIGNS = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS
 """Designs that a worker has in memory at a time."""
-PART = 32 * BLOCK
+MAX_PART_DESIGNS = 32 * BLOCK_DESIGNS
 """Most designs of a part, seconds of work: what a dead worker loses."""
-SHARED_OUT, MOST_PARTS = 256, 10_000
+MIN_PARTS, MAX_PARTS = 256, 10_000
 """Parts of a small space, so that many workers share it, and of a large one, whose manifest stays small."""
-SAVED_EVERY = 1.0
+SAVE_INTERVAL = 1.0
 """Seconds between two states of the manifest; what a killed run has not recorded is computed again."""
-SHARE_OF_SAVING = 20
+MIN_WORK_PER_SAVE = 20
 """Saving takes at most one part in so many of the time."""
 Record = dict[str, Any]
 
@@ -73,10 +73,10 @@ def sweep_to_file(
     OutputError : the file cannot be written, has another ending, or is Parquet without pyarrow
     """
     path = Path(path)
-    if path.suffix not in _WRITERS:
+    if path.suffix not in _WRITERS_BY_ENDING:
         why = say("the ending is neither .csv nor .parquet")
         raise OutputError(path, why, say("give it one of these, or name a folder"))
-    with whole_file(path) as draft, _WRITERS[path.suffix](path, draft) as write:
+    with whole_file(path) as draft, _WRITERS_BY_ENDING[path.suffix](path, draft) as write:
         size, n = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS, len(space)
         blocks = ((k, min(k + size, n)) for k in range(0, n, size))
         found = FoundBest(0)
@@ -138,7 +138,7 @@ def parquet_rows(path: Path | str, draft: Any) -> Generator[Write]:
             writer.close()
 
 
-_WRITERS = {".csv": _csv, ".parquet": parquet_rows}
+_WRITERS_BY_ENDING = {".csv": _csv, ".parquet": parquet_rows}
 
 
 @dataclass(frozen=True)
@@ -205,7 +205,7 @@ def sweep_to_folder(
         raise OutputError(folder, why, say("start again to go on"))
     place.clear_drafts()
     size, seconds = (sum(part[key] for part in parts) for key in ("bytes", "seconds"))
-    summary = Summary(len(space), len(parts), size, seconds, **joined(parts))
+    summary = Summary(len(space), len(parts), size, seconds, **joined_records(parts))
     told = asdict(summary)
     del told["front"]
     manifest |= {"whole": True, "summary": told}
@@ -240,7 +240,7 @@ def _compute_missing(
             done += stop - first
             progress(done)
             if time.monotonic() >= due:
-                due = time.monotonic() + max(SAVED_EVERY, SHARE_OF_SAVING * save())
+                due = time.monotonic() + max(SAVE_INTERVAL, MIN_WORK_PER_SAVE * save())
 
 
 def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, str, int, int]) -> Record | Words:
@@ -253,26 +253,26 @@ def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, 
         )
     start, blocks, seen = time.thread_time(), list[Record](), FoundBest(0)
     try:
-        if MANIFEST not in place.sizes():
+        if MANIFEST_FILE not in place.sizes():
             unseen = say("the worker on {host} does not see it; all workers must share it")
             return unseen.where(host=socket.gethostname())
         with place.whole(file) as opened:
-            sealed = Sealed(opened)
+            sealed = SealedFile(opened)
             with parquet_rows(place.url, sealed) as write:
-                for k in range(first, stop, BLOCK):
-                    columns = space.results((k, min(k + BLOCK, stop)))
+                for k in range(first, stop, BLOCK_DESIGNS):
+                    columns = space.results((k, min(k + BLOCK_DESIGNS, stop)))
                     write(columns)
-                    blocks.append(_seen(columns, len(space.varied)))
+                    blocks.append(_block_record(columns, len(space.varied)))
                     seen = seen.with_block(space, columns)
     except OutputError as error:
         return sequence([error.why, error.advice], "; ")
     except Exception as error:  # noqa: BLE001  every kind of storage fails in its own way, and what is raised is not told
         return f"{type(error).__name__} on {socket.gethostname()}: {error}"
     found = {"front": seen.front, "seconds": time.thread_time() - start}
-    return sealed.record() | found | joined(blocks)
+    return sealed.record() | found | joined_records(blocks)
 
 
-def _seen(columns: Columns, varied: int) -> Record:
+def _block_record(columns: Columns, varied: int) -> Record:
     """What a summary keeps of a block; the sizes that vary stand first in it."""
     found = dict(list(columns.items())[varied:])
     feasible = found.pop("feasible", None)
@@ -281,10 +281,10 @@ def _seen(columns: Columns, varied: int) -> Record:
     return {"feasible": None if feasible is None else int(np.count_nonzero(feasible)), "ranges": ends}
 
 
-def joined(records: Sequence[Record]) -> Record:
+def joined_records(records: Sequence[Record]) -> Record:
     """What a summary keeps of blocks, or of parts, taken together.
 
-    >>> joined([{"feasible": 3, "ranges": {"max_v": [1.0, 2.0]}}, {"feasible": 1, "ranges": {"max_v": None}}])
+    >>> joined_records([{"feasible": 3, "ranges": {"max_v": [1.0, 2.0]}}, {"feasible": 1, "ranges": {"max_v": None}}])
     {'feasible': 4, 'ranges': {'max_v': [1.0, 2.0]}}
     """
     counted = [record["feasible"] for record in records if record["feasible"] is not None]
@@ -303,15 +303,15 @@ def _manifest(place: SharedFolder, space: Space) -> Record:
     sizes = place.sizes()
     # As it is read back: lists in place of tuples.
     wanted = json.loads(json.dumps({"graphcam": __version__, "space": asdict(space)}))
-    if MANIFEST not in sizes:
+    if MANIFEST_FILE not in sizes:
         if others := sorted(name for name in sizes if not name.startswith(".")):
             why = say("it holds other files, such as {others}", others=others[0])
             raise OutputError(place.url, why, say("choose an empty folder"))
         return wanted | {"designs": len(space), "whole": False, "front": None, "parts": parts_of(len(space))}
     try:
-        found = json.loads(place.read(MANIFEST))
+        found = json.loads(place.read(MANIFEST_FILE))
     except ValueError:
-        why = say("its {manifest} is no JSON", manifest=MANIFEST)
+        why = say("its {manifest} is no JSON", manifest=MANIFEST_FILE)
         raise OutputError(place.url, why, say("choose an empty folder")) from None
     if different := _difference(found, wanted):
         why = say("it is of another sweep: {different} differs", different=different)
@@ -327,7 +327,7 @@ def parts_of(n: int) -> list[Record]:
     >>> [part["stop"] for part in parts_of(70_000)], parts_of(10**9)[0]["stop"], parts_of(10**12)[0]["stop"]
     ([32768, 65536, 70000], 1048576, 100007936)
     """
-    size = BLOCK * math.ceil(max(min(PART, n / SHARED_OUT), n / MOST_PARTS) / BLOCK)
+    size = BLOCK_DESIGNS * math.ceil(max(min(MAX_PART_DESIGNS, n / MIN_PARTS), n / MAX_PARTS) / BLOCK_DESIGNS)
     starts = range(0, n, size)
     return [
         {"file": f"part-{k:05d}.parquet", "first": first, "stop": min(first + size, n), "whole": False}
@@ -346,6 +346,6 @@ def _difference(found: Any, wanted: Any, name: str = "") -> str:
 def _save(place: SharedFolder, manifest: Record) -> float:
     """Write the manifest; how long this took [s]."""
     start = time.monotonic()
-    with place.whole(MANIFEST) as file:
+    with place.whole(MANIFEST_FILE) as file:
         file.write((json.dumps(manifest, indent=1, allow_nan=False) + "\n").encode())
     return time.monotonic() - start

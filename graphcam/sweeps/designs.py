@@ -8,20 +8,20 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, nearest
-from graphcam.given.follower import FOLLOWERS, Follower, swing_remedy
-from graphcam.given.laws import LAW_WORDS, LAWS, Floats
-from graphcam.given.motion import CLOSURE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
+from graphcam.given.follower import FOLLOWERS_BY_KIND, Follower, swing_remedy
+from graphcam.given.laws import LAW_SYNONYMS, LAWS, Floats
+from graphcam.given.motion import CLOSURE_TOLERANCE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.cam import Cam
 from graphcam.words import bare, chained, say
 
 Part = slice | NDArray[np.integer[Any]] | NDArray[np.bool_]
-_SIZES = "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius"
-_OF_FOLLOWERS = "offset", "arm", "distance", "roller_radius"
-NUMBERS = (*_SIZES, *_OF_FOLLOWERS)
+_COMMON_SIZES = "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius"
+_FOLLOWER_SIZES = "offset", "arm", "distance", "roller_radius"
+SIZE_NAMES = (*_COMMON_SIZES, *_FOLLOWER_SIZES)
 """The sizes of a design."""
 Kind = Literal["translating", "oscillating", "flat-faced"]
-OWN = {kind: tuple(size.name for size in fields(follower)) for kind, follower in FOLLOWERS.items()}
+OWN_SIZE_NAMES = {kind: tuple(size.name for size in fields(follower)) for kind, follower in FOLLOWERS_BY_KIND.items()}
 """The sizes that not every follower has."""
 
 
@@ -67,12 +67,12 @@ class Designs:
     follower: Kind = "translating"
 
     def __post_init__(self) -> None:
-        for name in NUMBERS:
+        for name in SIZE_NAMES:
             object.__setattr__(self, name, _numbers(name, getattr(self, name)))
         for name in ("rise_law", "return_law"):
             object.__setattr__(self, name, _choices(name, getattr(self, name), LAWS, Law))
         object.__setattr__(self, "rotation", _choices("rotation", self.rotation, ("ccw", "cw")))
-        _choices("follower", self.follower, tuple(OWN))
+        _choices("follower", self.follower, tuple(OWN_SIZE_NAMES))
         sizes = {array.size for array in self._columns.values() if array.ndim}
         if len(sizes) > 1:
             found = chained([bare(str(size)) for size in sorted(sizes)])
@@ -81,8 +81,8 @@ class Designs:
         self._check_follower()
 
     def _check_follower(self) -> None:
-        own, a = OWN[self.follower], "an" if self.follower.startswith("o") else "a"
-        for name in _OF_FOLLOWERS:
+        own, a = OWN_SIZE_NAMES[self.follower], "an" if self.follower.startswith("o") else "a"
+        for name in _FOLLOWER_SIZES:
             given = bool(np.any(getattr(self, name)))
             if given and name not in own:
                 found = say("given")
@@ -124,7 +124,7 @@ class Designs:
     def low_dwell(self) -> Floats:
         """(n,) the angle of the low dwell [rad]; 0 for what rounding leaves, negative where the phases do not fit."""
         rest = FULL_TURN - (self.column("rise_angle") + self.column("dwell_angle") + self.column("return_angle"))
-        return np.where(np.abs(rest) <= CLOSURE, 0.0, rest)
+        return np.where(np.abs(rest) <= CLOSURE_TOLERANCE, 0.0, rest)
 
     @property
     def possible(self) -> NDArray[np.bool_]:
@@ -146,7 +146,7 @@ class Designs:
         """
         for name in ("rise_angle", "dwell_angle", "return_angle"):
             angle = float(np.min(getattr(self, name), initial=np.inf))
-            if FULL_TURN + CLOSURE < angle < np.inf:
+            if FULL_TURN + CLOSURE_TOLERANCE < angle < np.inf:
                 remedy = say("write math.radians({angle:.6g}) if it is in degrees", angle=angle)
                 found = say("{angle:.6g} rad", angle=angle)
                 raise DesignError(name, found, say("at most a full turn, 2 pi rad"), remedy)
@@ -161,7 +161,7 @@ class Designs:
             if -np.inf < most <= 0:
                 raise DesignError(name, most, limit)
         lift = float(np.min(self.lift, initial=np.inf))
-        if "arm" in OWN[self.follower] and FULL_TURN < lift < np.inf:
+        if "arm" in OWN_SIZE_NAMES[self.follower] and FULL_TURN < lift < np.inf:
             remedy = swing_remedy(lift, "swing the arm less")
             raise DesignError("lift", say("{lift:.6g} rad", lift=lift), say("at most a full turn, 2 pi rad"), remedy)
 
@@ -172,15 +172,15 @@ class Designs:
         ------
         DesignError : there is no such cam
         """
-        sizes = {name: float(self.column(name)[k]) for name in NUMBERS}
+        sizes = {name: float(self.column(name)[k]) for name in SIZE_NAMES}
         rise_law, return_law, rotation = (self.column(name).item(k) for name in ("rise_law", "return_law", "rotation"))
         low = float(self.low_dwell[k])
         phases: list[Phase] = [Rise(sizes["lift"], sizes["rise_angle"], rise_law)]
         phases += [Dwell(sizes["dwell_angle"])] if sizes["dwell_angle"] else []
         phases += [Return(sizes["lift"], sizes["return_angle"], return_law)]
         phases += [Dwell(low)] if low else []
-        own = {name: sizes[name] for name in OWN[self.follower]}
-        follower: Follower = FOLLOWERS[self.follower](**own)
+        own = {name: sizes[name] for name in OWN_SIZE_NAMES[self.follower]}
+        follower: Follower = FOLLOWERS_BY_KIND[self.follower](**own)
         return Cam(Motion(phases), follower, sizes["prime_radius"], rotation)
 
 
@@ -197,7 +197,7 @@ def _choices(name: str, values: Any, known: tuple[str, ...], own: type | tuple[(
     array = np.asarray(values)
     for word in dict.fromkeys(array.ravel().tolist()):
         if not isinstance(word, own) and word not in known:
-            raise DesignError(name, word, say("a name that graphcam knows"), nearest(str(word), known, LAW_WORDS))
+            raise DesignError(name, word, say("a name that graphcam knows"), nearest(str(word), known, LAW_SYNONYMS))
     return _one_axis(name, array)
 
 

@@ -40,7 +40,7 @@ class SharedFolder:
             raise OutputError(folder, " ".join(str(error).split()) or type(error).__name__) from None
         return SharedFolder(system.unstrip_protocol(path))
 
-    def _opened(self) -> tuple[Any, str]:
+    def _file_system(self) -> tuple[Any, str]:
         """The file system, and the folder's path in it."""
         from fsspec.core import url_to_fs
 
@@ -51,13 +51,13 @@ class SharedFolder:
 
     def sizes(self) -> dict[str, int]:
         """The names of the files in it and their sizes [bytes]."""
-        system, path = self._opened()
+        system, path = self._file_system()
         found = system.ls(path, detail=True)
         return {entry["name"].rstrip("/").rpartition("/")[2]: entry["size"] or 0 for entry in found}
 
     def read(self, name: str) -> bytes:
         """The content of a file."""
-        system, path = self._opened()
+        system, path = self._file_system()
         return system.cat_file(f"{path}/{name}")
 
     @contextmanager
@@ -66,7 +66,7 @@ class SharedFolder:
 
         Until then it has a name that readers of data sets pass over, and that nobody else writes.
         """
-        system, path = self._opened()
+        system, path = self._file_system()
         draft = f"{path}/.{name}.{uuid4().hex}"
         try:
             with system.open(draft, "wb") as file:
@@ -79,13 +79,13 @@ class SharedFolder:
 
     def clear_drafts(self) -> None:
         """Remove what workers that died had begun."""
-        system, path = self._opened()
+        system, path = self._file_system()
         for name in self.sizes():
             if name.startswith("."):
                 system.rm_file(f"{path}/{name}")
 
 
-class Sealed(io.RawIOBase):
+class SealedFile(io.RawIOBase):
     """A file that is written, with its size and its checksum."""
 
     def __init__(self, file: Any) -> None:

@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, check_kind, nearest
-from graphcam.given.follower import FOLLOWERS, Limits
+from graphcam.given.follower import FOLLOWERS_BY_KIND, Limits
 from graphcam.given.making_errors import MakingErrors
 from graphcam.given.spring_load import ArmLoad, SpringLoad
 from graphcam.mechanism.motion_bands import COVERAGE
 from graphcam.sweeps.designs import Designs
-from graphcam.sweeps.sweep_forces import FORCES, SweptLoad
-from graphcam.sweeps.sweep_quantities import BANDS, QUANTITIES, Chunk, SweptErrors
+from graphcam.sweeps.sweep_forces import FORCE_QUANTITIES, SweptLoad
+from graphcam.sweeps.sweep_quantities import BAND_QUANTITIES, QUANTITIES, Chunk, SweptErrors
 from graphcam.words import say
 from graphcam.workers import in_order
 
@@ -106,12 +106,12 @@ def sweep(
     designs.check_units()
     wanted = (quantities,) if isinstance(quantities, str) else tuple(quantities)
     for name in wanted:
-        if name not in (known := (*QUANTITIES, *FORCES, *BANDS)):
+        if name not in (known := (*QUANTITIES, *FORCE_QUANTITIES, *BAND_QUANTITIES)):
             raise DesignError("quantity", name, say("one that a sweep can find"), nearest(name, known))
-        if name in FORCES and load is None:
+        if name in FORCE_QUANTITIES and load is None:
             given = say("given where {name} is asked for", name=name)
             raise DesignError("load", say("left out"), given, say("give a SpringLoad or an ArmLoad"))
-        if name in BANDS and errors is None:
+        if name in BAND_QUANTITIES and errors is None:
             limit = say("given where {name} is asked for", name=name)
             raise DesignError("errors", say("left out"), limit, say("give MakingErrors"))
     if chunk < 1:
@@ -123,10 +123,10 @@ def sweep(
     limits = limits or Limits(usual_limit(designs.follower))
     compute = partial(computed, quantities=wanted, limits=limits, chunk=chunk, swept=swept, made=made)
     if made:
-        made.check(Chunk(designs.part(slice(0, 1)), limits).many, designs.roller_radius)
+        made.check(Chunk(designs.part(slice(0, 1)), limits).all_kinematics, designs.roller_radius)
     if executor is None:
         return compute(designs)
-    out, size = _empty(wanted, len(designs)), CHUNKS_PER_JOB * chunk
+    out, size = _empty_columns(wanted, len(designs)), CHUNKS_PER_JOB * chunk
     starts = range(0, len(designs), size)
     jobs = (designs.part(slice(k, k + size)) for k in starts)
     for k, columns in zip(starts, in_order(executor, compute, jobs, JOBS_AHEAD), strict=True):
@@ -141,7 +141,7 @@ def usual_limit(follower: str) -> float:
     >>> np.degrees(usual_limit("oscillating")).round(9).tolist()
     45.0
     """
-    return math.radians(FOLLOWERS[follower].usual_limit_deg)
+    return math.radians(FOLLOWERS_BY_KIND[follower].usual_limit_deg)
 
 
 def computed(
@@ -154,14 +154,14 @@ def computed(
 ) -> Columns:
     """The quantities of designs, chunk by chunk, without an executor."""
     n = len(designs)
-    out = _empty(quantities, n)
+    out = _empty_columns(quantities, n)
     for k in range(0, n, chunk):
         here = slice(k, min(k + chunk, n))
         some = Chunk(designs.part(here), limits, swept, made)
         for name in quantities:
-            out[name][here] = some.under_load(name) if name in FORCES else getattr(some, name)
+            out[name][here] = some.under_load(name) if name in FORCE_QUANTITIES else getattr(some, name)
     return out
 
 
-def _empty(quantities: tuple[str, ...], n: int) -> Columns:
+def _empty_columns(quantities: tuple[str, ...], n: int) -> Columns:
     return {name: np.empty(n, dtype=bool if name == "feasible" else np.float64) for name in quantities}

@@ -11,7 +11,7 @@ from graphcam.given.load_curve import LoadCurve
 from graphcam.given.spring_load import ArmLoad, FollowerLoad, PlacedArmLoad, SpringLoad
 from graphcam.mechanism.jamming import check_friction, lever_about_cam, transmitted
 from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
-from graphcam.sweeps.greatest import Numbers, Sought
+from graphcam.sweeps.sweep_maxima import Numbers, SoughtQuantity
 from graphcam.words import say
 
 
@@ -50,7 +50,7 @@ class SweptLoad:
 
 
 @dataclass(frozen=True, eq=False)
-class SoughtForce(Sought):
+class SoughtForce(SoughtQuantity):
     """A quantity of the forces, of many cams with rollers [mm], on rises (direction 1) or returns (-1)."""
 
     swept: SweptLoad
@@ -71,7 +71,7 @@ class SoughtForce(Sought):
         load = self.swept.beside(self.kin)
         return load.force(values, self.direction), load.slope(values)
 
-    def _moved(self, values: Values) -> tuple[Floats, Floats]:
+    def _moving_force(self, values: Values) -> tuple[Floats, Floats]:
         """What a unit of normal force moves, and its slope; NaN where the follower jams."""
         moved, slope = transmitted(self.kin, values, self.swept.friction, self.roller)
         return self.kin.reach * np.where(moved > 0, moved, np.nan), self.kin.reach * slope
@@ -102,7 +102,7 @@ class GreatestNormal(SoughtForce):
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:
         """N = Q/D, and what has the sign of N'."""
-        (q, q_slope), (d, d_slope) = self._load(values), self._moved(values)
+        (q, q_slope), (d, d_slope) = self._load(values), self._moving_force(values)
         return q / d, q_slope * d - q * d_slope
 
 
@@ -131,7 +131,7 @@ class GreatestTorque(SoughtForce):
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:
         """M, and its slope."""
-        (q, q_slope), (d, d_slope) = self._load(values), self._moved(values)
+        (q, q_slope), (d, d_slope) = self._load(values), self._moving_force(values)
         lever, lever_slope = lever_about_cam(self.kin, values, self.swept.friction, self.roller)
         normal = q / d
         return normal * lever, (q_slope - normal * d_slope) / d * lever + normal * lever_slope
@@ -185,13 +185,13 @@ class Rubbing(SoughtForce):
         return self.reading(values), slope
 
 
-SOUGHT: dict[str, tuple[type[SoughtForce], int]] = {
+SOUGHT_FORCES: dict[str, tuple[type[SoughtForce], int]] = {
     "max_normal_force": (GreatestNormal, 1),
     "min_normal_force": (LeastNormal, -1),
     "max_torque": (GreatestTorque, 1),
     "least_preload": (NeededPreload, 1),
     "jamming_margin": (Jamming, -1),
 }
-"""What is sought for each of :data:`FORCES`, and the sign with which its greatest value is the quantity."""
-FORCES = tuple(SOUGHT)
+"""What is sought for each of :data:`FORCE_QUANTITIES`, and the sign with which its greatest value is the quantity."""
+FORCE_QUANTITIES = tuple(SOUGHT_FORCES)
 """What a sweep can find under a load."""

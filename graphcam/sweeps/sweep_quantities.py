@@ -10,17 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
-from graphcam.given.follower import FOLLOWERS, Limits
+from graphcam.given.follower import FOLLOWERS_BY_KIND, Limits
 from graphcam.given.laws import Floats, law, law_of_return
 from graphcam.given.making_errors import MakingErrors, deviations_within
 from graphcam.given.motion_law import Law
 from graphcam.given.spring_load import PlacedArmLoad
-from graphcam.mechanism.followers import EXACT
+from graphcam.mechanism.followers import EXACT_FUNCTIONS
 from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.mechanism.motion_bands import check_sizes, position_band, position_band_slope
-from graphcam.sweeps.designs import OWN, Designs
-from graphcam.sweeps.greatest import Legs, Numbers, Sought, greatest
-from graphcam.sweeps.sweep_forces import SOUGHT, Rubbing, SoughtForce, SweptLoad
+from graphcam.sweeps.designs import OWN_SIZE_NAMES, Designs
+from graphcam.sweeps.sweep_forces import SOUGHT_FORCES, Rubbing, SoughtForce, SweptLoad
+from graphcam.sweeps.sweep_maxima import Legs, Numbers, SoughtQuantity, leg_maxima
 from graphcam.words import say
 
 QUANTITIES = (
@@ -28,11 +28,11 @@ QUANTITIES = (
     *("max_v", "max_a", "feasible"),
 )
 
-JAMS = "max_normal_force", "min_normal_force", "max_torque"
+JAMMING_QUANTITIES = "max_normal_force", "min_normal_force", "max_torque"
 """What does not exist where the follower jams."""
 
 
-BANDS = ("position_band",)
+BAND_QUANTITIES = ("position_band",)
 
 
 @dataclass(frozen=True)
@@ -48,10 +48,10 @@ class SweptErrors:
     coverage: float
 
     def __post_init__(self) -> None:
-        _ = self.within
+        _ = self.band_half_width
 
     @property
-    def within(self) -> float:
+    def band_half_width(self) -> float:
         """How many standard deviations a band holds on either side."""
         return deviations_within(self.coverage)
 
@@ -65,7 +65,7 @@ class SweptErrors:
 
 
 @dataclass(frozen=True, eq=False)
-class SoughtBand(Sought):
+class SoughtBand(SoughtQuantity):
     """The half-width of the band of s [mm; rad of an arm], to the first order."""
 
     swept: SweptErrors
@@ -76,15 +76,15 @@ class SoughtBand(Sought):
 
     def reading(self, values: Values) -> Floats:
         """The half-width."""
-        return position_band(self.kin, self.swept.errors, self.swept.within, values)
+        return position_band(self.kin, self.swept.errors, self.swept.band_half_width, values)
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:
         """The half-width, and what has the sign of its derivative."""
-        slope = position_band_slope(self.kin, self.swept.errors, self.swept.within, values)
+        slope = position_band_slope(self.kin, self.swept.errors, self.swept.band_half_width, values)
         return self.reading(values), slope
 
 
-class Steepness(Sought):
+class Steepness(SoughtQuantity):
     """tan(alpha), which grows with the pressure angle."""
 
     signed = True
@@ -99,7 +99,7 @@ class Steepness(Sought):
         return np.divide(q[1], q[0]), pair_cross(q, q1)
 
 
-class Sharpness(Sought):
+class Sharpness(SoughtQuantity):
     """What is greatest where the radius of curvature is least: the curvature of the pitch curve, or -rho."""
 
     def reading(self, values: Values) -> Floats:
@@ -124,7 +124,7 @@ class Chunk:
     def position_band(self) -> Floats:
         """The greatest half-width of the band of s [mm; of an arm rad] as the cams are made."""
         assert self.made is not None
-        sought = SoughtBand(self.many, self.made)
+        sought = SoughtBand(self.all_kinematics, self.made)
         found = np.maximum(self._over_legs(sought, self._rises), self._over_legs(sought, self._returns))
         for level, angle in self._dwells:
             still = np.zeros_like(level)
@@ -134,9 +134,9 @@ class Chunk:
     def under_load(self, name: str) -> Floats:
         """A quantity of the forces, by its name among :data:`FORCES`; NaN where the follower jams somewhere."""
         assert self.swept is not None
-        kind, sign = SOUGHT[name]
+        kind, sign = SOUGHT_FORCES[name]
         found = self._greatest_force(kind)
-        if name in JAMS:
+        if name in JAMMING_QUANTITIES:
             found = np.where(self._moves, found, np.nan)
         return sign * found
 
@@ -144,11 +144,11 @@ class Chunk:
         assert self.swept is not None
         found = np.full(len(self.designs), -np.inf)
         for legs in (self._rises, self._returns):
-            sought = kind(self.many, self.swept, self.designs.column("roller_radius"), legs[1])
+            sought = kind(self.all_kinematics, self.swept, self.designs.column("roller_radius"), legs[1])
             found = np.maximum(found, self._over_legs(sought, legs))
         for level, angle in self._dwells:
             found = np.maximum(found, np.where(angle > 0, sought.at_rest(level), -np.inf))
-        placed = self.swept.beside(self.many)
+        placed = self.swept.beside(self.all_kinematics)
         if isinstance(placed, PlacedArmLoad):
             found = np.where(placed.presses(self._lift), found, np.nan)
         return found
@@ -157,7 +157,7 @@ class Chunk:
     def _moves(self) -> NDArray[np.bool_]:
         """Flags of the cams whose follower jams nowhere."""
         assert self.swept is not None
-        friction, kin, roller = self.swept.friction, self.many, self.designs.column("roller_radius")
+        friction, kin, roller = self.swept.friction, self.all_kinematics, self.designs.column("roller_radius")
         steep = kin.steepest(self._lift, self.max_v)
         rim = roller / kin.reach if kin.swings else 0.0
         moves = friction * (steep + rim * np.sqrt(1 + steep * steep)) < 1
@@ -192,7 +192,7 @@ class Chunk:
             still = np.zeros_like(level)
             resting = np.where(angle > 0, self._sharpness.reading((level, still, still, still)), -np.inf)
             sharpest = np.maximum(sharpest, resting)
-        return self.many.radius_of(sharpest)
+        return self.all_kinematics.radius_of(sharpest)
 
     @cached_property
     def max_v(self) -> Floats:
@@ -223,14 +223,16 @@ class Chunk:
 
     @cached_property
     def _sharpness(self) -> Sharpness:
-        return Sharpness(self.many)
+        return Sharpness(self.all_kinematics)
 
     @cached_property
-    def many(self) -> Kinematics:
+    def all_kinematics(self) -> Kinematics:
         """The kinematics of all of them."""
         designs = self.designs
-        sizes = SimpleNamespace(**{name: designs.column(name) for name in OWN[designs.follower]})
-        return EXACT[FOLLOWERS[designs.follower]].kinematics.of(sizes, self._prime_radius, designs.sigma, self._lift)
+        sizes = SimpleNamespace(**{name: designs.column(name) for name in OWN_SIZE_NAMES[designs.follower]})
+        return EXACT_FUNCTIONS[FOLLOWERS_BY_KIND[designs.follower]].kinematics.of(
+            sizes, self._prime_radius, designs.sigma, self._lift
+        )
 
     @property
     def _rises(self) -> tuple[str, int, Floats]:
@@ -241,15 +243,15 @@ class Chunk:
         return "return_law", -1, self.designs.column("return_angle")
 
     def _pressure_angle(self, legs: tuple[str, int, Floats]) -> Floats:
-        if not self.many.has_pressure_angle:
+        if not self.all_kinematics.has_pressure_angle:
             return 0 * self._lift * self._prime_radius  # the face is perpendicular to the motion
-        return np.arctan(self._over_legs(Steepness(self.many), legs))
+        return np.arctan(self._over_legs(Steepness(self.all_kinematics), legs))
 
-    def _over_legs(self, sought: Sought, legs: tuple[str, int, Floats]) -> Floats:
+    def _over_legs(self, sought: SoughtQuantity, legs: tuple[str, int, Floats]) -> Floats:
         key, direction, angle = legs
         out = np.full(len(self.designs), np.nan)
         for each, which in self._laws[key]:
-            out[which] = greatest(sought.part(which), Legs(each, direction, self._lift[which], angle[which]))
+            out[which] = leg_maxima(sought.part(which), Legs(each, direction, self._lift[which], angle[which]))
         return out
 
     @cached_property

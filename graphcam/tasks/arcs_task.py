@@ -6,14 +6,14 @@ from typing import Any, Literal
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
-from graphcam.given.ranges import bounded, positive
+from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.three_arcs import ThreeArcs
 from graphcam.showing import by_parts
 from graphcam.tasks.part_table import PartTable
-from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain
+from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain_data
 from graphcam.words import say
 
-MOST_PARTS = 200
+MAX_PARTS = 200
 """Parts of an arc; more cannot be drawn apart."""
 XY = tuple[float, float]
 
@@ -37,7 +37,7 @@ class ArcsTable:
         if not (math.isfinite(self.dwell) and 0 <= self.dwell < 360):
             raise DesignError("dwell", self.dwell, say("at least 0 and less than 360 degrees"))
         self()
-        positive("rho1", self.rho1, "mm")
+        check_positive("rho1", self.rho1, "mm")
         for name in ("D", "G", "A", "C1", "C2"):
             for coordinate in getattr(self, name) or ():
                 bounded(name, coordinate, "mm")
@@ -56,7 +56,7 @@ class RollerTable:
 
     def __post_init__(self) -> None:
         self()
-        positive(say("roller radius"), self.roller_radius or None, "mm")
+        check_positive(say("roller radius"), self.roller_radius or None, "mm")
 
     def __call__(self) -> Translating:
         """The follower."""
@@ -71,8 +71,8 @@ class ArcsDrawingTable(SheetTable):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not 2 <= self.divisions <= MOST_PARTS:
-            raise DesignError("divisions", self.divisions, say("from 2 to {most} parts of each arc", most=MOST_PARTS))
+        if not 2 <= self.divisions <= MAX_PARTS:
+            raise DesignError("divisions", self.divisions, say("from 2 to {most} parts of each arc", most=MAX_PARTS))
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class ArcsTask:
     __repr__ = by_parts
 
     def __post_init__(self) -> None:
-        positive("speed_rpm", self.speed_rpm, "rpm")
+        check_positive("speed_rpm", self.speed_rpm, "rpm")
 
     def to_dict(self) -> dict[str, Any]:
         """The task with the keys of its file, as plain lists, numbers and text; what is open is left out.
@@ -110,4 +110,4 @@ class ArcsTask:
         >>> gc.ArcsTask(table).to_dict()["arcs"]["A"]
         [0, 40]
         """
-        return plain(self)
+        return plain_data(self)

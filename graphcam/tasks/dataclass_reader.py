@@ -21,7 +21,7 @@ from graphcam.words import Words, either, say
 
 Place = tuple[int | str, ...]
 """Where in a file: keys, numbers of list entries, and the choices among classes by their kind."""
-A_TABLE = say("a table")
+TABLE_FORM = say("a table")
 _Read = TypeVar("_Read")
 
 
@@ -38,7 +38,7 @@ class ByName:
 
 
 @dataclass(frozen=True)
-class Missing:
+class MissingKey:
     """A key that must be there."""
 
     place: Place
@@ -78,7 +78,7 @@ class Misfit:
     error: DesignError
 
 
-Fault = Missing | UnknownKey | UnknownKind | WrongType | Misfit
+Fault = MissingKey | UnknownKey | UnknownKind | WrongType | Misfit
 Reader = Callable[[Any, Place, list[Fault]], Any]
 """Makes a value of what a file says at a place; what is wrong goes into the list, and the value is then of no use."""
 
@@ -113,13 +113,13 @@ def _dataclass_reader(kind: type) -> Reader:
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
         if not isinstance(said, dict):
-            return faults.append(WrongType(place, A_TABLE))
+            return faults.append(WrongType(place, TABLE_FORM))
         table, before, values = cast(dict[str, Any], said), len(faults), dict[str, Any]()
         for key, (name, reader) in readers.items():
             if key in table:
                 values[name] = reader(table[key], (*place, key), faults)
             elif name in needed:
-                faults.append(Missing((*place, key)))
+                faults.append(MissingKey((*place, key)))
         faults.extend(UnknownKey((*place, key)) for key in table if key not in readers)
         if len(faults) > before:
             return None
@@ -153,7 +153,7 @@ def _reader(hint: Any) -> Reader:
         return _list_reader(parts[0]) if parts[1:] == (...,) else _tuple_reader(parts)
     if origin is Mapping:
         return _mapping_reader(parts[1])
-    return _PLAIN[hint] if hint in _PLAIN else _dataclass_reader(hint)
+    return _PLAIN_READERS[hint] if hint in _PLAIN_READERS else _dataclass_reader(hint)
 
 
 def _number(said: Any, place: Place, faults: list[Fault]) -> Any:
@@ -167,7 +167,7 @@ def _number(said: Any, place: Place, faults: list[Fault]) -> Any:
     return number if math.isfinite(number) else faults.append(WrongType(place, say("a finite number")))
 
 
-def _whole(said: Any, place: Place, faults: list[Fault]) -> Any:
+def _whole_number(said: Any, place: Place, faults: list[Fault]) -> Any:
     whole = isinstance(said, int) and not isinstance(said, bool)
     return said if whole else faults.append(WrongType(place, say("a whole number (without quotes)")))
 
@@ -180,11 +180,11 @@ def _switch(said: Any, place: Place, faults: list[Fault]) -> Any:
     return said if isinstance(said, bool) else faults.append(WrongType(place, say("true or false")))
 
 
-def _anything(said: Any, _place: Place, _faults: list[Fault]) -> Any:
+def _any_value(said: Any, _place: Place, _faults: list[Fault]) -> Any:
     return said
 
 
-_PLAIN: dict[Any, Reader] = {float: _number, int: _whole, str: _text, bool: _switch, Any: _anything}
+_PLAIN_READERS: dict[Any, Reader] = {float: _number, int: _whole_number, str: _text, bool: _switch, Any: _any_value}
 
 
 def _literal_reader(choices: tuple[Any, ...]) -> Reader:
@@ -217,12 +217,12 @@ def _union_reader(hints: tuple[Any, ...]) -> Reader:
             if not wrong:
                 return value
             found.append(wrong)
-        return faults.extend(_furthest(found, place))
+        return faults.extend(_closest_faults(found, place))
 
     return read
 
 
-def _furthest(found: list[list[Fault]], place: Place) -> list[Fault]:
+def _closest_faults(found: list[list[Fault]], place: Place) -> list[Fault]:
     """The faults of the choice that fits best; where none fits at all, what each of them expected."""
     best = max(found, key=lambda faults: len(faults[0].place))
     if len(found) == 1 or best[0].place != place:
@@ -238,7 +238,7 @@ def _kind_reader(classes: tuple[type, ...]) -> Reader:
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
         if not isinstance(said, dict):
-            return faults.append(WrongType(place, A_TABLE))
+            return faults.append(WrongType(place, TABLE_FORM))
         tag = cast(dict[str, Any], said).get("kind")
         if not isinstance(tag, str) or tag not in readers:
             return faults.append(UnknownKind(place))
@@ -286,7 +286,7 @@ def _tuple_reader(hints: tuple[Any, ...]) -> Reader:
             reader(item, (*place, number), faults)
             for number, (reader, item) in enumerate(zip(readers, items, strict=False))
         )
-        faults.extend(Missing((*place, number)) for number in range(len(items), len(readers)))
+        faults.extend(MissingKey((*place, number)) for number in range(len(items), len(readers)))
         return values
 
     return read
@@ -298,7 +298,7 @@ def _mapping_reader(hint: Any) -> Reader:
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
         if not isinstance(said, dict):
-            return faults.append(WrongType(place, A_TABLE))
+            return faults.append(WrongType(place, TABLE_FORM))
         table = cast(dict[str, Any], said)
         return {key: reader(value, (*place, key), faults) for key, value in table.items()}
 

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from graphcam.errors import DesignError
-from graphcam.given.ranges import positive
-from graphcam.given.roller_contact import STEEL_POISSON, STEEL_YOUNG, RollerContact
+from graphcam.given.plausible_ranges import check_positive
+from graphcam.given.roller_contact import STEEL_POISSON_RATIO, STEEL_YOUNG_MODULUS, RollerContact
 from graphcam.words import say
 
 
@@ -26,16 +26,16 @@ class MaterialTable:
     """
 
     width: float
-    young_cam: float = STEEL_YOUNG
-    young_follower: float = STEEL_YOUNG
-    poisson_cam: float = STEEL_POISSON
-    poisson_follower: float = STEEL_POISSON
+    young_cam: float = STEEL_YOUNG_MODULUS
+    young_follower: float = STEEL_YOUNG_MODULUS
+    poisson_cam: float = STEEL_POISSON_RATIO
+    poisson_follower: float = STEEL_POISSON_RATIO
     permitted_stress: float | None = None
 
     def __post_init__(self) -> None:
-        positive("width", self.width, "mm")
+        check_positive("width", self.width, "mm")
         for name in ("young_cam", "young_follower", "permitted_stress"):
-            positive(name, getattr(self, name), "MPa")
+            check_positive(name, getattr(self, name), "MPa")
         for name in ("poisson_cam", "poisson_follower"):
             if not 0 <= getattr(self, name) <= 0.5:
                 raise DesignError(name, getattr(self, name), say("from 0 to 0.5"), say("metals have about 0.3"))

@@ -7,11 +7,11 @@ from typing import Annotated, ClassVar, Literal
 
 from graphcam.errors import DesignError
 from graphcam.given.boundary_motion import BoundaryMotion, boundary_motion
-from graphcam.given.boundary_parts import ORDERS, MotionPoint, PolynomialPart, SplinePart
-from graphcam.given.motion import FULL_TURN, NEARLY, Dwell, Motion, Phase, Return, Rise
+from graphcam.given.boundary_parts import DERIVATIVE_NAMES, MotionPoint, PolynomialPart, SplinePart
+from graphcam.given.motion import FULL_TURN, NEAR_TURN_SHARE, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
+from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law
-from graphcam.given.ranges import bounded, positive
 from graphcam.given.table_file import CurveTable
 from graphcam.tasks.dataclass_reader import ByKind, ByName
 from graphcam.words import Words, say
@@ -45,13 +45,13 @@ class PointTable:
 
     def __post_init__(self) -> None:
         _check_angle(self.angle)
-        for name in ORDERS:
+        for name in DERIVATIVE_NAMES:
             bounded(name, getattr(self, name), "mm/rad^2")
         self()
 
     def __call__(self, unit: float = 1.0) -> MotionPoint:
         """The point in radians, its values times ``unit`` (radians per degree for an arm, else 1)."""
-        values = {name: None if (x := getattr(self, name)) is None else x * unit for name in ORDERS}
+        values = {name: None if (x := getattr(self, name)) is None else x * unit for name in DERIVATIVE_NAMES}
         return MotionPoint(math.radians(self.angle), **values)
 
 
@@ -115,7 +115,7 @@ class DwellTable:
     kind: Literal["dwell"] = "dwell"
 
     def __post_init__(self) -> None:
-        positive("angle", self.angle, "degrees")
+        check_positive("angle", self.angle, "degrees")
 
     def __call__(self, unit: float = 1.0) -> Dwell:
         """The phase in radians; ``unit`` is there because every phase is called alike."""
@@ -133,8 +133,8 @@ class _MovingTable:
     moves: ClassVar[type[Rise] | type[Return]]
 
     def __post_init__(self) -> None:
-        positive("angle", self.angle, "degrees")
-        positive("lift", self.lift, "mm (degrees for an arm)")
+        check_positive("angle", self.angle, "degrees")
+        check_positive("lift", self.lift, "mm (degrees for an arm)")
         if self.blends is not None and self.law != CONSTANT_VELOCITY:
             left_out = say("left out for the law '{law}'", law=getattr(self.law, "name", self.law))
             remedy = say("they are those of '{constant_velocity}'", constant_velocity=CONSTANT_VELOCITY)
@@ -219,7 +219,7 @@ class MotionTable:
 
 def _remedy(turn: float, phases: tuple[PhaseTable, ...]) -> Words:
     """What to do about the angles of phases [degrees] that sum to ``turn``, which is none."""
-    if abs(turn - FULL_TURN) < NEARLY * FULL_TURN:
+    if abs(turn - FULL_TURN) < NEAR_TURN_SHARE * FULL_TURN:
         return say("about 2 pi: give the angles in degrees, not in radians")
     off, dwells = f"{abs(360 - turn):.10g}", [isinstance(phase, DwellTable) for phase in phases]
     which = say("a dwell") if any(dwells) or not phases else say("a phase")

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from graphcam.errors import DesignError
-from graphcam.given.ranges import positive
-from graphcam.tasks.sheet_tables import one_of
+from graphcam.given.plausible_ranges import check_positive
+from graphcam.tasks.sheet_tables import check_choice
 from graphcam.words import say
 
 Keyway = Literal["din6885", "gost23360", "none"]
@@ -64,17 +64,17 @@ class PartTable:
 
     def __post_init__(self) -> None:
         for name in ("bore", "width", "hub_diameter", "hub_length", "profile_tolerance", "cutter_radius"):
-            positive(name, getattr(self, name), "mm")
+            check_positive(name, getattr(self, name), "mm")
         for name in ("profile_roughness", "bore_roughness", "roughness"):
-            positive(name, getattr(self, name), "micrometres")
-        positive("density", self.density, "kg/m^3")
-        positive("feed", self.feed, "mm/min")
+            check_positive(name, getattr(self, name), "micrometres")
+        check_positive("density", self.density, "kg/m^3")
+        check_positive("feed", self.feed, "mm/min")
         self._check_words()
         self._check_hub()
 
     def _check_words(self) -> None:
-        one_of("keyway", self.keyway or "none", get_args(Keyway))
-        one_of("bore_tolerance", self.bore_tolerance, get_args(BoreTolerance))
+        check_choice("keyway", self.keyway or "none", get_args(Keyway))
+        check_choice("bore_tolerance", self.bore_tolerance, get_args(BoreTolerance))
         if self.table_step not in get_args(TableStep):
             raise DesignError("table_step", self.table_step, say("1, 2, 5 or 10 degrees"))
         if self.spline_degree not in get_args(SplineDegree):

@@ -14,12 +14,12 @@ Frame = Literal["gost", "iso"]
 Orientation = Literal["landscape", "portrait"]
 
 
-UNNAMED = say("Cam mechanism")
+DEFAULT_NAME = say("Cam mechanism")
 """What a task is called whose file does not say."""
-NAMES = {
+BUILTIN_NAMES = {
     str(name): name
     for name in (
-        UNNAMED,
+        DEFAULT_NAME,
         say("Cam with an oscillating arm"),
         say("Cam with a flat-faced follower"),
         say("Cam by a measured motion"),
@@ -29,7 +29,7 @@ NAMES = {
 """What the built-in tasks are called, which every language knows."""
 
 
-def one_of(quantity: str, value: str, known: tuple[str, ...]) -> None:
+def check_choice(quantity: str, value: str, known: tuple[str, ...]) -> None:
     """Check a word."""
     if value not in known:
         raise DesignError(quantity, value, *among(value, known))
@@ -43,7 +43,7 @@ class TitleTable:
         that has a drawing scale; a sheet of diagrams, each with scales of its own, has none
     """
 
-    name: str = str(UNNAMED)
+    name: str = str(DEFAULT_NAME)
     organisation: str = ""
     author: str = ""
     checked: str = ""
@@ -57,9 +57,9 @@ class TitleTable:
             if not ((text := getattr(self, key.name)) or "").isprintable():
                 raise DesignError(key.name, text, say("printable text on one line"))
 
-    def told_name(self, tell: Tell) -> str:
+    def translated_name(self, tell: Tell) -> str:
         """The name as the file says it, that of a built-in task in the language of the sheet."""
-        return tell(NAMES.get(self.name, self.name))
+        return tell(BUILTIN_NAMES.get(self.name, self.name))
 
 
 @dataclass(frozen=True)
@@ -75,11 +75,11 @@ class SheetTable:
     language: str = ENGLISH.name
 
     def __post_init__(self) -> None:
-        one_of("format", self.format, get_args(Format))
-        one_of("frame", self.frame, get_args(Frame))
+        check_choice("format", self.format, get_args(Format))
+        check_choice("frame", self.frame, get_args(Frame))
         if self.orientation is not None:
-            one_of("orientation", self.orientation, get_args(Orientation))
-        one_of("language", self.language, languages())
+            check_choice("orientation", self.orientation, get_args(Orientation))
+        check_choice("language", self.language, languages())
 
     def on(self, format_: Format) -> Self:
         """The same on another format."""
@@ -96,10 +96,10 @@ class SheetTable:
         return language(self.language).remark
 
 
-def plain(value: Any) -> Any:
+def plain_data(value: Any) -> Any:
     """A table and all in it as dictionaries, lists, numbers and text; what is None is left out, a law is its name."""
     if isinstance(value, tuple):
-        return [plain(item) for item in value]  # pyright: ignore[reportUnknownVariableType]
+        return [plain_data(item) for item in value]  # pyright: ignore[reportUnknownVariableType]
     if isinstance(value, Law):
         return value.name
     if not dataclasses.is_dataclass(value):
@@ -107,4 +107,4 @@ def plain(value: Any) -> Any:
     keys = [item.name for item in dataclasses.fields(value) if item.init]
     # The kind comes first, as one reads it in a file.
     keys.sort(key=lambda key: key != "kind")
-    return {key: plain(part) for key in keys if (part := getattr(value, key)) is not None}
+    return {key: plain_data(part) for key in keys if (part := getattr(value, key)) is not None}

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from graphcam.errors import DesignError, check_number
-from graphcam.given.ranges import bounded, positive
+from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.words import say
 
 RangeTable = float | tuple[float, float]
@@ -45,7 +45,7 @@ class SizingTable:
                     _finite(name, end)
                     bounded(name, end, "mm")
                 else:
-                    positive(name, end, "mm")
+                    check_positive(name, end, "mm")
         if (self.prime_radius is None) == (self.base_radius is None):
             either = say("either prime_radius or base_radius")
             if self.prime_radius is None:
@@ -56,11 +56,11 @@ class SizingTable:
 
     def ranges(self) -> dict[str, tuple[float, float]]:
         """The ranges that are given, by their keys; one size is a range of two equal ends."""
-        said = {name: getattr(self, name) for name in RANGES if getattr(self, name) is not None}
+        said = {name: getattr(self, name) for name in RANGE_KEYS if getattr(self, name) is not None}
         return {name: value if isinstance(value, tuple) else (value, value) for name, value in said.items()}
 
 
-RANGES = "prime_radius", "base_radius", "offset", "roller_radius", "width"
+RANGE_KEYS = "prime_radius", "base_radius", "offset", "roller_radius", "width"
 """The keys that are ranges."""
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from graphcam.errors import DesignError, check_number
 from graphcam.given.load_curve import Load, LoadCurve
-from graphcam.given.ranges import bounded, positive
+from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.spring_load import ArmLoad, ArmSpring, SpringLoad
 from graphcam.words import say
 
@@ -29,7 +29,7 @@ def load_of(said: LoadTable) -> Load:
 
 
 def _check_common(stiffness: float, stiffness_unit: str, preload: float | None, preload_unit: str) -> None:
-    positive("stiffness", stiffness, stiffness_unit)
+    check_positive("stiffness", stiffness, stiffness_unit)
     if preload is not None:
         limit = say("a finite number of 0 {preload_unit} or more", preload_unit=preload_unit)
         check_number("preload", preload, limit, least=0)
@@ -38,15 +38,15 @@ def _check_common(stiffness: float, stiffness_unit: str, preload: float | None, 
 
 def _check_turning(acceleration: float, friction: float, load: LoadTable) -> None:
     bounded("acceleration", acceleration, "rad/s^2")
-    if not 0 <= friction <= MOST_FRICTION:
+    if not 0 <= friction <= MAX_FRICTION:
         remedy = say("it is the coefficient mu between cam and follower")
-        raise DesignError("friction", friction, say("from 0 to {most:g}", most=MOST_FRICTION), remedy)
+        raise DesignError("friction", friction, say("from 0 to {most:g}", most=MAX_FRICTION), remedy)
     for each in [load] if not isinstance(load, tuple) else [force for _, force in load]:
         bounded("load", each, "N")
     load_of(load)
 
 
-MOST_FRICTION = 2.0
+MAX_FRICTION = 2.0
 """A greater coefficient is a slip of the digits."""
 
 
@@ -71,7 +71,7 @@ class SpringTable:
     swings = False
 
     def __post_init__(self) -> None:
-        positive("mass", self.mass, "kg")
+        check_positive("mass", self.mass, "kg")
         _check_common(self.stiffness, "N/mm", self.preload, "N")
         _check_turning(self.acceleration, self.friction, self.load)
 
@@ -129,7 +129,7 @@ class ArmSpringTable:
     swings = True
 
     def __post_init__(self) -> None:
-        positive("inertia", self.inertia, "kg mm^2")
+        check_positive("inertia", self.inertia, "kg mm^2")
         units = ("N mm/rad", "N mm") if self.at is None else ("N/mm", "N")
         _check_common(self.stiffness, units[0], self.preload, units[1])
         _check_turning(self.acceleration, self.friction, self.load)

@@ -13,32 +13,32 @@ from textwrap import shorten
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from graphcam.errors import DesignError
-from graphcam.given.follower import PERMITTED, FlatFaced, Limits, Oscillating, Rotation, Translating, sense
-from graphcam.given.ranges import bounded, positive
+from graphcam.given.follower import LIMIT_NAMES, FlatFaced, Limits, Oscillating, Rotation, Translating, sense
+from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
-from graphcam.showing import WIDTH, in_lines
+from graphcam.showing import MAX_WIDTH, in_lines
 from graphcam.tasks.dataclass_reader import ByKeys, ByKind
 from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.motion_tables import MotionTable
 from graphcam.tasks.part_table import PartTable
-from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, one_of, plain
+from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, check_choice, plain_data
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.words import say
 
-MOST_DIVISIONS = 1000
+MAX_DIVISIONS = 1000
 """Parts of a phase; more cannot be drawn apart."""
-OR_LARGER = say("or a larger cam.prime_radius")
-OF_A_FACE = "only a flat face is limited by it; a roller has its roller_rule"
-OF_A_ROLLER = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
+LARGER_RADIUS_REMEDY = say("or a larger cam.prime_radius")
+FACE_ONLY_REMEDY = "only a flat face is limited by it; a roller has its roller_rule"
+NO_FACE_REMEDY = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
 
 
 class _FollowerTable:
     """What the task asks of ``[follower]``; a kind states what differs from a stem with a roller."""
 
     roller_radius: float | None
-    without: ClassVar[Mapping[str, str]] = {"min_curvature_radius": OF_A_FACE}
+    without: ClassVar[Mapping[str, str]] = {"min_curvature_radius": FACE_ONLY_REMEDY}
     """The limits that it does not have, and why."""
     swings: ClassVar[bool] = False
     """Whether a spring turns it about a pivot."""
@@ -66,7 +66,7 @@ class _FollowerTable:
         """That the sizes leave room on a given prime radius, whatever the motion."""
         if (self.roller_radius or 0.0) >= prime_radius:
             limit = say("less than the prime radius of {prime_radius:g} mm", prime_radius=prime_radius)
-            remedy = say("take a smaller roller {or_larger}", or_larger=OR_LARGER)
+            remedy = say("take a smaller roller {or_larger}", or_larger=LARGER_RADIUS_REMEDY)
             raise DesignError("follower.roller_radius", self.roller_radius, limit, remedy)
 
 
@@ -88,7 +88,7 @@ class TranslatingTable(_FollowerTable):
     def __post_init__(self) -> None:
         self()
         bounded("offset", self.offset, "mm")
-        positive(say("roller radius"), self.roller_radius or None, "mm")
+        check_positive(say("roller radius"), self.roller_radius or None, "mm")
         roller_rule(self.roller_rule)
 
     def __call__(self) -> Translating:
@@ -99,7 +99,7 @@ class TranslatingTable(_FollowerTable):
         """That the sizes leave room on a given prime radius, the offset first."""
         if abs(self.offset or 0.0) >= prime_radius:
             limit = say("less than the prime radius of {prime_radius:g} mm in magnitude", prime_radius=prime_radius)
-            remedy = say("take a smaller offset {or_larger}", or_larger=OR_LARGER)
+            remedy = say("take a smaller offset {or_larger}", or_larger=LARGER_RADIUS_REMEDY)
             raise DesignError("follower.offset", self.offset, limit, remedy)
         super().check(prime_radius)
 
@@ -125,11 +125,11 @@ class OscillatingTable(_FollowerTable):
 
     def __post_init__(self) -> None:
         self()
-        positive("arm", self.arm, "mm")
-        positive(say("centre distance"), self.distance, "mm")
-        positive(say("roller radius"), self.roller_radius or None, "mm")
+        check_positive("arm", self.arm, "mm")
+        check_positive(say("centre distance"), self.distance, "mm")
+        check_positive(say("roller radius"), self.roller_radius or None, "mm")
         roller_rule(self.roller_rule)
-        one_of("lift", self.lift, ("angle", "arc"))
+        check_choice("lift", self.lift, ("angle", "arc"))
 
     @property
     def lift_unit(self) -> float:
@@ -158,10 +158,10 @@ class FlatFacedTable(_FollowerTable):
     roller_radius = 0.0
     roller_rule = DEFAULT_RULE
     made_to = ()
-    without: ClassVar = {"pressure_angle_rise": OF_A_ROLLER, "pressure_angle_return": OF_A_ROLLER}
+    without: ClassVar = {"pressure_angle_rise": NO_FACE_REMEDY, "pressure_angle_return": NO_FACE_REMEDY}
 
     def __post_init__(self) -> None:
-        positive(say("face margin"), self.face_margin or None, "mm")
+        check_positive(say("face margin"), self.face_margin or None, "mm")
 
     def __call__(self) -> FlatFaced:
         """The follower."""
@@ -178,7 +178,7 @@ class CamTable:
     prime_radius: float | None = None
 
     def __post_init__(self) -> None:
-        positive(say("prime radius"), self.prime_radius, "mm")
+        check_positive(say("prime radius"), self.prime_radius, "mm")
 
 
 @dataclass(frozen=True)
@@ -197,10 +197,10 @@ class LimitsTable:
     rest: bool = True
 
     def __post_init__(self) -> None:
-        positive(say("minimum radius of curvature"), self.min_curvature_radius, "mm")
+        check_positive(say("minimum radius of curvature"), self.min_curvature_radius, "mm")
         self()
         for name, permitted in (("rise", self.pressure_angle_rise), ("return", self.pressure_angle_return)):
-            positive(PERMITTED[name], permitted, "degrees permitted")
+            check_positive(LIMIT_NAMES[name], permitted, "degrees permitted")
 
     def __call__(self) -> Limits:
         """The permitted pressure angles in radians."""
@@ -233,12 +233,12 @@ class DrawingTable(SheetTable):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not 1 <= self.divisions <= MOST_DIVISIONS:
-            raise DesignError("divisions", self.divisions, say("from 1 to {most} parts per phase", most=MOST_DIVISIONS))
-        positive("ordinate", self.ordinate, "mm on paper")
+        if not 1 <= self.divisions <= MAX_DIVISIONS:
+            raise DesignError("divisions", self.divisions, say("from 1 to {most} parts per phase", most=MAX_DIVISIONS))
+        check_positive("ordinate", self.ordinate, "mm on paper")
         for k, pole in enumerate(self.poles or ()):
-            positive(f"poles[{k}]", pole, "mm on paper")
-        positive("rounding", self.rounding, "mm")
+            check_positive(f"poles[{k}]", pole, "mm on paper")
+        check_positive("rounding", self.rounding, "mm")
 
     def on(self, format_: Format) -> Self:
         """The same on another format, with ordinate, poles and scale that suit it: the given ones suit this one.
@@ -291,13 +291,13 @@ class Task:
         other = other or ", ".join(f"{part.kind} of {len(part.points)} points" for part in self.motion.parts or ())
         phases = ", ".join(f"{phase.kind} {phase.angle:g}°" for phase in self.motion.phases or ())
         turns = f"turns {self.rotation}" + (f" at {self.speed_rpm:g} rpm" if self.speed_rpm else "")
-        rows = f"{turns}, {self.follower.kind} follower", shorten(other or phases, WIDTH, placeholder=" ...")
+        rows = f"{turns}, {self.follower.kind} follower", shorten(other or phases, MAX_WIDTH, placeholder=" ...")
         return in_lines(f"Task {self.title.name!r}", rows, "gc.solve(task) designs the cam; .to_dict() tells all")
 
     def __post_init__(self) -> None:
         sense(self.rotation)
-        positive("speed_rpm", self.speed_rpm, "rpm")
-        self._tell_the_tables()
+        check_positive("speed_rpm", self.speed_rpm, "rpm")
+        self._inform_tables()
         self._check_limits()
         if self.cam.prime_radius is not None:
             self.follower.check(self.cam.prime_radius)
@@ -353,7 +353,7 @@ class Task:
             if (value := getattr(self.limits, key)) is not None:
                 raise DesignError(f"limits.{key}", value, left_out, reason)
 
-    def _tell_the_tables(self) -> None:
+    def _inform_tables(self) -> None:
         """What a table means depends on the follower: an arm's lift is an angle, each kind has its usual limit."""
         motion, column = dataclasses.replace(self.motion), self.follower.column
         object.__setattr__(motion, "lift_unit", self.follower.lift_unit)
@@ -375,7 +375,7 @@ class Task:
         >>> gc.Task("cw", MotionTable(phases), FlatFacedTable()).to_dict()["motion"]["phases"][0]
         {'kind': 'rise', 'angle': 120, 'lift': 30, 'law': '2-3', 'ratio': 1.0}
         """
-        said = plain(self)
+        said = plain_data(self)
         if self.motion.table is not None:
             said["motion"]["table"] = self.motion.table.file
         return said

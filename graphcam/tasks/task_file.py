@@ -17,7 +17,7 @@ from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.dataclass_reader import (
     Fault,
     Misfit,
-    Missing,
+    MissingKey,
     Place,
     UnknownKey,
     UnknownKind,
@@ -32,12 +32,12 @@ from graphcam.tasks.task_remedies import key_remedy, missing_remedy, toml_fault,
 from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.words import Caption, Words, bare, chained, say
 
-BUILT_IN = ("coursework", "arm", "flat", "measured")
+BUILTIN_TASK_NAMES = ("coursework", "arm", "flat", "measured")
 """Names of the task files that come with graphcam; "arcs" is one more, of a cam of three circular arcs."""
-SIZING = "sizing"
+SIZING_TASK_NAME = "sizing"
 """The name of the task with a table ``[sizing]`` that comes with graphcam."""
 THE_FILE = say("the task file")
-EXAMPLE = say("'graphcam init FILE' writes a commented example")
+EXAMPLE_REMEDY = say("'graphcam init FILE' writes a commented example")
 Classes = dict[tuple[str, ...], type]
 _Checked = TypeVar("_Checked")
 _CLASSES: Classes = {
@@ -74,7 +74,7 @@ _CLASSES_OF_ARCS: Classes = {
     ("part",): PartTable,
 }
 """The same for a cam of three circular arcs."""
-_KEYS = {
+_KEYS_BY_QUANTITY = {
     "sum of the phase angles": "phases",
     "sum of rises less returns": "phases",
     "motion": "phases",
@@ -88,7 +88,7 @@ _KEYS = {
     "the table's lift": "table",
 }
 """What a quantity of a design error is called in the file, where that differs."""
-_LONGEST = 60
+_MAX_SHOWN_LENGTH = 60
 """Characters of a value that a message shows."""
 
 
@@ -129,7 +129,7 @@ def read_content(path: str | Path) -> bytes:
     try:
         return Path(path).read_bytes()
     except (OSError, ValueError) as error:
-        remedy = say("check the name; {example}", example=EXAMPLE)
+        remedy = say("check the name; {example}", example=EXAMPLE_REMEDY)
         raise unreadable(path, THE_FILE, say("a TOML file"), error, remedy) from None
 
 
@@ -143,7 +143,7 @@ def other_file(kind: Words, example: Words) -> Generator[None]:
     except TaskError as error:
         _, field, value, expected, remedy = error.args
         field = say("the {kind}", kind=kind) if field == THE_FILE else field
-        remedy = example if error.remedy.endswith(str(EXAMPLE)) else remedy
+        remedy = example if error.remedy.endswith(str(EXAMPLE_REMEDY)) else remedy
         raise TaskError(error.path, field, value, expected, remedy) from None
 
 
@@ -180,13 +180,14 @@ def task_from(data: dict[str, Any], name: str = "task") -> Task | ArcsTask:
 
 
 def builtin_task(name: str = "coursework") -> Task:
-    """A task that comes with graphcam, by its name in :data:`BUILT_IN`; "sizing" is one more, with ranges of sizes.
+    """A task that comes with graphcam, by its name in :data:`BUILTIN_TASK_NAMES`; "sizing" is one more, with ranges of
+    sizes.
 
     >>> import graphcam as gc
     >>> gc.builtin_task().follower().offset
     -10.0
     """
-    known = (*BUILT_IN, SIZING)
+    known = (*BUILTIN_TASK_NAMES, SIZING_TASK_NAME)
     if name not in known:
         raise DesignError(say("built-in task"), name, *among(name, known))
     task = _parse(f"{name}.toml", builtin_text(name).encode(), _built_in_folder())
@@ -212,7 +213,7 @@ def builtin_text(name: str) -> str:
     >>> 'rotation = "cw"' in builtin_text("coursework")
     True
     """
-    known = (*BUILT_IN, SIZING, "arcs")
+    known = (*BUILTIN_TASK_NAMES, SIZING_TASK_NAME, "arcs")
     if name not in known:
         raise DesignError(say("built-in task"), name, *among(name, known))
     return (_built_in_folder() / f"{name}.toml").read_text(encoding="utf-8")
@@ -243,9 +244,9 @@ def parse_toml(path: str, content: bytes) -> dict[str, Any]:
     try:
         data = tomllib.loads(text)
     except (ValueError, RecursionError) as error:
-        raise toml_fault(path, text, error, EXAMPLE) from None
+        raise toml_fault(path, text, error, EXAMPLE_REMEDY) from None
     if not data:
-        raise TaskError(path, THE_FILE, say("empty"), say("a TOML file"), EXAMPLE)
+        raise TaskError(path, THE_FILE, say("empty"), say("a TOML file"), EXAMPLE_REMEDY)
     return data
 
 
@@ -257,7 +258,7 @@ def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]
     name, tolerance = motion["table"], motion.get("tolerance")
     if not isinstance(name, str):
         expected = say("text in quotes")
-        raise TaskError(path, "motion.table", _shown(name), expected, say("name the CSV file of the table"))
+        raise TaskError(path, "motion.table", _shown_value(name), expected, say("name the CSV file of the table"))
     try:
         table = read_table(folder / name, name, tolerance if isinstance(tolerance, int | float) else None)
     except MissingFileError:
@@ -268,11 +269,13 @@ def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]
 def _task(path: str, data: dict[str, Any], whole: dict[str, Any]) -> Task | ArcsTask:
     """The task in ``whole``; its errors are told in the words of the file's ``data``."""
     if "arcs" in data:
-        return checked(ArcsTask, _CLASSES_OF_ARCS, path, data, whole)
-    return checked(Task, _CLASSES, path, data, whole)
+        return checked_table(ArcsTask, _CLASSES_OF_ARCS, path, data, whole)
+    return checked_table(Task, _CLASSES, path, data, whole)
 
 
-def checked(kind: type[_Checked], classes: Classes, path: str, data: dict[str, Any], whole: dict[str, Any]) -> _Checked:
+def checked_table(
+    kind: type[_Checked], classes: Classes, path: str, data: dict[str, Any], whole: dict[str, Any]
+) -> _Checked:
     """The dataclass that ``whole`` describes; its errors are told in the words of the file's ``data``.
 
     classes : the class of each table of the file, by its place without numbers
@@ -294,36 +297,38 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
     match fault:
         case Misfit(table, error):
             return _misfit(path, data, table, error)
-        case Missing((("spring" | "material"), *_)):
+        case MissingKey((("spring" | "material"), *_)):
             return _lacking(path, place, data)
-        case Missing():
-            return TaskError(path, place, say("missing"), say("given"), missing_remedy(place, data) or EXAMPLE)
+        case MissingKey():
+            return TaskError(path, place, say("missing"), say("given"), missing_remedy(place, data) or EXAMPLE_REMEDY)
         case UnknownKey(where):
             return _unknown_key(path, place, value, classes, _table(where[:-1]), data)
         case UnknownKind(table):
             tags = [each[-1] for each in classes if each[:-1] == _table(table)]
             found = value.get("kind", say("missing"))
-            remedy = value_remedy("kind", found, tags) or EXAMPLE
-            return TaskError(path, f"{place}.kind", _shown(found), say("one of {names}", names=", ".join(tags)), remedy)
+            remedy = value_remedy("kind", found, tags) or EXAMPLE_REMEDY
+            return TaskError(
+                path, f"{place}.kind", _shown_value(found), say("one of {names}", names=", ".join(tags)), remedy
+            )
         case WrongType((*_, key), expected, choices):
-            remedy = value_remedy(f"{key}", value, choices) or EXAMPLE
-            return TaskError(path, place, _shown(value), expected, remedy)
+            remedy = value_remedy(f"{key}", value, choices) or EXAMPLE_REMEDY
+            return TaskError(path, place, _shown_value(value), expected, remedy)
         case WrongType(_, expected):
-            return TaskError(path, place, _shown(value), expected, EXAMPLE)
+            return TaskError(path, place, _shown_value(value), expected, EXAMPLE_REMEDY)
 
 
 def _lacking(path: str, place: str, data: dict[str, Any]) -> TaskError:
     """That a key of a spring or a material must be given, with all others that are missing beside it."""
-    remedy = EXAMPLE
+    remedy = EXAMPLE_REMEDY
     if place == "spring.mass" and _swings(data):
         place = "spring.inertia"
         remedy = say("in kg mm^2, about the arm's pivot")
-    others = ", ".join(key for key in _missing(data) if key != place)
+    others = ", ".join(key for key in _missing_keys(data) if key != place)
     limit = say("given, and so must {others}", others=others) if others else say("given")
     return TaskError(path, place, say("missing"), limit, remedy)
 
 
-def _missing(data: dict[str, Any]) -> list[str]:
+def _missing_keys(data: dict[str, Any]) -> list[str]:
     """The keys that a material lacks, which takes a spring, and the spring, which takes a speed."""
     material, spring = data.get("material"), data.get("spring", {})
     found = ["material.width"] if isinstance(material, dict) and "width" not in material else []
@@ -349,7 +354,7 @@ def _unknown_key(
     kinds = [other[-1] for other in alike if key in _keys(classes[other])]
     if kinds:
         left_out = say("left out where the kind is {table}", table=table[-1])
-        return TaskError(path, place, _shown(value), left_out, say("it is for {names}", names=chained(kinds)))
+        return TaskError(path, place, _shown_value(value), left_out, say("it is for {names}", names=chained(kinds)))
     remedy = key_remedy(key, value, known, data)
     return TaskError(path, place, say("an unknown key"), say("one that is known"), remedy)
 
@@ -361,7 +366,7 @@ def _keys(table: type) -> list[str]:
 
 def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -> TaskError:
     """A value that fits its type but no design, named and shown as it stands in the file where it does."""
-    key = _KEYS.get(error.quantity, error.quantity)
+    key = _KEYS_BY_QUANTITY.get(error.quantity, error.quantity)
     field, value = _look_up(data, (*place, *key.split(".")))
     # What follows from a table is no value that its key has.
     if not isinstance(value, int | float | str) or error.quantity == "the table's lift":
@@ -372,10 +377,10 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
         field = say("{field} (sum of rises less returns)", field=field)
     elif error.quantity == "the table's lift":
         field = say("{field} (lift)", field=field)
-    limit, others = error.args[2], ", ".join(_missing(data))
+    limit, others = error.args[2], ", ".join(_missing_keys(data))
     if key == "spring" and data.get("spring") is None and others:
         limit = say("given where there is a material, and so must {others}", others=others)
-    return TaskError(path, field, _shown(value), limit, error.advice or EXAMPLE)
+    return TaskError(path, field, _shown_value(value), limit, error.advice or EXAMPLE_REMEDY)
 
 
 def _look_up(data: Any, place: Place) -> tuple[str, Any]:
@@ -397,7 +402,7 @@ def _table(place: Place) -> tuple[str, ...]:
     return tuple(step for step in place if isinstance(step, str))
 
 
-def _shown(value: Any) -> Any:
+def _shown_value(value: Any) -> Any:
     """A value as TOML writes it, as far as that differs from Python; tables and lists by name, long ones cut."""
     if isinstance(value, Caption):
         return value
@@ -408,4 +413,4 @@ def _shown(value: Any) -> Any:
     if isinstance(value, list):
         return say("a list of {count}", count=len(value))  # pyright: ignore[reportUnknownArgumentType]
     text = repr(value)
-    return bare(text[:_LONGEST] + "...") if len(text) > _LONGEST else value
+    return bare(text[:_MAX_SHOWN_LENGTH] + "...") if len(text) > _MAX_SHOWN_LENGTH else value

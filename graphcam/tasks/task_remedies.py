@@ -13,16 +13,16 @@ import unicodedata
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from graphcam.errors import TaskError, meant, nearest
-from graphcam.given.follower import SENSES
-from graphcam.given.laws import LAW_WORDS
+from graphcam.errors import TaskError, nearest, suggestion
+from graphcam.given.follower import SENSE_SYNONYMS
+from graphcam.given.laws import LAW_SYNONYMS
 from graphcam.words import Words, bare, say
 
-FOUND = ("offset", "prime_radius", "roller_radius", "distance")
+OPTIONAL_KEYS = ("offset", "prime_radius", "roller_radius", "distance")
 """Keys that may be left out, because graphcam finds what they say."""
-BASE_RADIUS = ("base_radius", "base_circle_radius", "base_circle")
+BASE_RADIUS_SYNONYMS = ("base_radius", "base_circle_radius", "base_circle")
 """What the radius is called where it is that of the working profile."""
-CALLED = {**SENSES, **LAW_WORDS, "gost": ("ГОСТ",), "iso": ("ИСО",)}
+SYNONYMS = {**SENSE_SYNONYMS, **LAW_SYNONYMS, "gost": ("ГОСТ",), "iso": ("ИСО",)}
 """What else words of a task file are called."""
 
 
@@ -35,11 +35,11 @@ def key_remedy(key: str, value: Any, known: Iterable[str], data: Mapping[str, An
     >>> print(key_remedy("base_radius", 80, ["prime_radius"], {"follower": follower}))
     graphcam takes the prime radius, of the pitch curve: prime_radius = base_radius + roller_radius = 95
     """
-    if key in BASE_RADIUS and "arcs" not in data:
+    if key in BASE_RADIUS_SYNONYMS and "arcs" not in data:
         return _radius_remedy(key, value, data.get("follower"))
     if key == "closure":
         return say("leave out limits.pressure_angle_return for force closure, give it for form closure")
-    return nearest(key, known, CALLED)
+    return nearest(key, known, SYNONYMS)
 
 
 def _radius_remedy(key: str, value: Any, follower: Any) -> Words:
@@ -65,7 +65,7 @@ def value_remedy(key: str, value: Any, choices: Iterable[str]) -> Words:
     """
     if not isinstance(value, str):
         return ""
-    return say("or leave it out to let it be found") if key in FOUND else meant(value, choices, CALLED)
+    return say("or leave it out to let it be found") if key in OPTIONAL_KEYS else suggestion(value, choices, SYNONYMS)
 
 
 def missing_remedy(key: str, data: Mapping[str, Any]) -> Words:
@@ -87,18 +87,18 @@ def missing_remedy(key: str, data: Mapping[str, Any]) -> Words:
     )
 
 
-_PLACE = re.compile(r" \(at (?:line (\d+), column \d+|end of document)\)$")
-_STRING_OR_COMMENT = re.compile(r"\"(?:[^\"\\]|\\.)*\"|'[^']*'|#.*")
-_VALUE = re.compile(r"=\s*([^=,\[\]{}\s](?:[^=,\[\]{}]*[^=,\[\]{}\s])?)")
+_PLACE_PATTERN = re.compile(r" \(at (?:line (\d+), column \d+|end of document)\)$")
+_STRING_OR_COMMENT_PATTERN = re.compile(r"\"(?:[^\"\\]|\\.)*\"|'[^']*'|#.*")
+_VALUE_PATTERN = re.compile(r"=\s*([^=,\[\]{}\s](?:[^=,\[\]{}]*[^=,\[\]{}\s])?)")
 """What stands behind an equals sign up to the next comma or bracket, without spaces around it."""
-_COMMA = re.compile(r"=\s*[-+]?(\d+),(\d+)")
-_WITH_UNIT = re.compile(r"([-+]?\d[\d_]*(?:\.\d+)?)\s*([^\W\d_]+(?:/[^\W\d_]+)?|°|%)")
-_SWITCHES = {"True": "true", "False": "false", "TRUE": "true", "FALSE": "false"}
+_DECIMAL_COMMA_PATTERN = re.compile(r"=\s*[-+]?(\d+),(\d+)")
+_VALUE_WITH_UNIT_PATTERN = re.compile(r"([-+]?\d[\d_]*(?:\.\d+)?)\s*([^\W\d_]+(?:/[^\W\d_]+)?|°|%)")
+_BOOLEAN_SPELLINGS = {"True": "true", "False": "false", "TRUE": "true", "FALSE": "false"}
 _QUOTES = "“”„‟«»‹›″‘’‚‛′`´"
 _DASHES = "−–—‐‑‒―"
-_PLAIN = {**dict.fromkeys(_QUOTES, '"'), **dict.fromkeys(_DASHES, "-"), "、": ",", "。": "."}
+_PLAIN_CHARACTERS = {**dict.fromkeys(_QUOTES, '"'), **dict.fromkeys(_DASHES, "-"), "、": ",", "。": "."}
 """Characters of typography by those of the keyboard; what Unicode itself holds to be the same is not listed."""
-_LONGEST = 60
+_MAX_SHOWN_LENGTH = 60
 """Characters of a line that a message shows."""
 
 
@@ -120,8 +120,8 @@ def toml_fault(path: str, text: str, error: Exception, example: Words) -> TaskEr
     >>> print(fault("law = cosine"))
     cam.toml: line 1: the text is cosine, but must be in quotes; write "cosine"
     """
-    place = _PLACE.search(str(error))
-    why = _PLACE.sub("", str(error))
+    place = _PLACE_PATTERN.search(str(error))
+    why = _PLACE_PATTERN.sub("", str(error))
     if place is None or (place[1] is None and not text.strip()):
         return TaskError(path, say("the text"), say("not TOML ({why})", why=why), say("a TOML file"), example)
     lines = text.splitlines() or [""]
@@ -132,7 +132,7 @@ def toml_fault(path: str, text: str, error: Exception, example: Words) -> TaskEr
     if told is not None:
         return TaskError(path, *told)
     shown = line.strip()
-    shown = shown if len(shown) <= _LONGEST else shown[:_LONGEST] + "..."
+    shown = shown if len(shown) <= _MAX_SHOWN_LENGTH else shown[:_MAX_SHOWN_LENGTH] + "..."
     expected = say("TOML ({why})", why=f"{why[:1].lower()}{why[1:]}")
     return TaskError(path, where, shown, expected, example)
 
@@ -143,9 +143,9 @@ Told = tuple[Words, Words, Words, Words]
 
 def _typography(line: str, place: Words) -> Told | None:
     """A character outside of texts and comments that is not the one of the keyboard."""
-    outside = _STRING_OR_COMMENT.sub(lambda found: " " * len(found[0]), line)
+    outside = _STRING_OR_COMMENT_PATTERN.sub(lambda found: " " * len(found[0]), line)
     for column, letter in enumerate(outside, 1):
-        plain = _plain(letter)
+        plain = _plain_character(letter)
         if plain is None:
             continue
         name = unicodedata.name(letter, f"U+{ord(letter):04X}").lower()
@@ -160,12 +160,12 @@ def _typography(line: str, place: Words) -> Told | None:
     return None
 
 
-def _plain(letter: str) -> str | None:
+def _plain_character(letter: str) -> str | None:
     """The plain character that is meant by one of typography; None for a plain one, and for letters."""
     if letter.isascii():
         return None
-    if letter in _PLAIN:
-        return _PLAIN[letter]
+    if letter in _PLAIN_CHARACTERS:
+        return _PLAIN_CHARACTERS[letter]
     if unicodedata.category(letter) in ("Cf", "Cc"):
         return ""
     same = unicodedata.normalize("NFKC", letter)
@@ -176,7 +176,7 @@ def _plain(letter: str) -> str | None:
 
 def _comma(line: str, place: Words) -> Told | None:
     """A number with a decimal comma."""
-    if comma := _COMMA.search(line):
+    if comma := _DECIMAL_COMMA_PATTERN.search(line):
         found, remedy = bare(f"{comma[1]},{comma[2]}"), say("write {word}", word=f"{comma[1]}.{comma[2]}")
         return say("{place}: the number", place=place), found, say("written with a decimal point"), remedy
     return None
@@ -184,14 +184,14 @@ def _comma(line: str, place: Words) -> Told | None:
 
 def _value(line: str, place: Words) -> Told | None:
     """A text without quotes, or a number with its unit."""
-    for found in _VALUE.finditer(_STRING_OR_COMMENT.sub("''", line)):
+    for found in _VALUE_PATTERN.finditer(_STRING_OR_COMMENT_PATTERN.sub("''", line)):
         word = found[1]
         if word.startswith("''") or _is_value(word):
             continue
-        if word in _SWITCHES:
-            remedy = say("write {word}", word=_SWITCHES[word])
+        if word in _BOOLEAN_SPELLINGS:
+            remedy = say("write {word}", word=_BOOLEAN_SPELLINGS[word])
             return say("{place}: the switch", place=place), bare(word), say("true or false"), remedy
-        if number := _WITH_UNIT.fullmatch(word):
+        if number := _VALUE_WITH_UNIT_PATTERN.fullmatch(word):
             limit, remedy = say("written without its unit"), say("write {word}", word=number[1])
             return say("{place}: the number", place=place), bare(word), limit, remedy
         if "'" not in word and '"' not in word:

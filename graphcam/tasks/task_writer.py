@@ -31,7 +31,7 @@ def task_files(task: Task | ArcsTask) -> dict[str, str]:
             if isinstance(own := getattr(phase, "law", ""), Law):
                 remedy = say("a law of one's own stands in Python only")
                 raise DesignError(f"motion.phases[{k}].law", own.name, say("a built-in law in a file"), remedy)
-    said = _filled(task.to_dict())
+    said = _without_defaults(task.to_dict())
     table = task.motion.table if isinstance(task, Task) else None
     tables: dict[str, str] = {}
     if table is not None:
@@ -41,7 +41,7 @@ def task_files(task: Task | ArcsTask) -> dict[str, str]:
     return {TASK_FILE: tomli_w.dumps(said), **tables}
 
 
-def _filled(table: Mapping[str, Any]) -> dict[str, Any]:
+def _without_defaults(table: Mapping[str, Any]) -> dict[str, Any]:
     """A table of a task without its empty texts and tables, which are defaults."""
-    filled = {key: _filled(value) if isinstance(value, Mapping) else value for key, value in table.items()}
+    filled = {key: _without_defaults(value) if isinstance(value, Mapping) else value for key, value in table.items()}
     return {key: value for key, value in filled.items() if value not in ("", {})}

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 from graphcam.errors import DesignError
-from graphcam.given.making_errors import SIZES, Distribution, MakingErrors, deviations_within
-from graphcam.given.ranges import positive
+from graphcam.given.making_errors import TOLERANCED_SIZES, Distribution, MakingErrors, deviations_within
+from graphcam.given.plausible_ranges import check_positive
 from graphcam.words import say
 
 
@@ -36,15 +36,15 @@ class TolerancesTable:
 
     def __post_init__(self) -> None:
         for k, amplitude in enumerate(self.waviness):
-            positive(f"waviness[{k}]", amplitude, "mm")
-        for name in SIZES:
-            positive(name, getattr(self, name), "mm")
+            check_positive(f"waviness[{k}]", amplitude, "mm")
+        for name in TOLERANCED_SIZES:
+            check_positive(name, getattr(self, name), "mm")
         self()
         deviations_within(self.coverage)
 
     def __call__(self) -> MakingErrors:
         """The errors."""
-        sizes = {name: getattr(self, name) or 0.0 for name in SIZES}
+        sizes = {name: getattr(self, name) or 0.0 for name in TOLERANCED_SIZES}
         return MakingErrors(self.waviness, self.harmonics, **sizes, distribution=self.distribution)
 
     def check(self, kind: str, own: tuple[str, ...]) -> None:
@@ -54,7 +54,7 @@ class TolerancesTable:
         ------
         DesignError : one is not
         """
-        for name in SIZES:
+        for name in TOLERANCED_SIZES:
             if (tolerance := getattr(self, name)) is not None and name not in own:
                 left_out = say("left out for a follower of kind {kind}", kind=kind)
                 remedy = say("of its sizes none is to be made: waviness is left")

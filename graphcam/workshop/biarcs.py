@@ -17,13 +17,13 @@ import numpy as np
 
 from graphcam.given.laws import Floats
 from graphcam.mechanism.kinematics import Complexes
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 
-FEWEST_BETWEEN = 8
+MIN_SAMPLES = 8
 """Samples that a biarc has at least: by fewer its distance from the curve is not known."""
-SAME_CENTRE = 5e-5
+SAME_CENTRE_DISTANCE = 5e-5
 """Arcs that touch and have one centre within so many mm are one."""
-FLAT = 2e-5
+STRAIGHT_RISE = 2e-5
 """An arc that rises by less over its chord [mm] is straight."""
 
 
@@ -71,8 +71,8 @@ def arcs_along(points: Complexes, tangents: Complexes, tolerance: float) -> tupl
     moves: list[Move] = []
     greatest, here, last, guess = 0.0, 0, points.size - 1, points.size
     while here < last:
-        guess = _farthest(points, tangents, here, guess, tolerance)
-        if guess < min(FEWEST_BETWEEN, last - here):
+        guess = _longest_biarc(points, tangents, here, guess, tolerance)
+        if guess < min(MIN_SAMPLES, last - here):
             return None
         there = here + guess
         biarc = _biarc(points[here : there + 1], tangents[here : there + 1])
@@ -83,7 +83,7 @@ def arcs_along(points: Complexes, tangents: Complexes, tolerance: float) -> tupl
     return merged(moves), greatest
 
 
-def _farthest(points: Complexes, tangents: Complexes, here: int, guess: int, tolerance: float) -> int:
+def _longest_biarc(points: Complexes, tangents: Complexes, here: int, guess: int, tolerance: float) -> int:
     """How many samples on the farthest place is whose biarc keeps the tolerance; at least one."""
     good, bad, trial = 0, points.size - here, guess
     while bad - good > 1:
@@ -109,11 +109,13 @@ def _biarc(points: Complexes, tangents: Complexes) -> Biarc:
     chord = (joint - p0) / t0
     middle = t0 * (chord / abs(chord)) ** 2
     first = dot(points - joint, middle) < 0
-    errors = np.where(first, _off(points, p0, t0, joint), _off(points, joint, middle, p1))
+    errors = np.where(
+        first, _deviations_from_circle(points, p0, t0, joint), _deviations_from_circle(points, joint, middle, p1)
+    )
     return Biarc(joint, middle, float(np.abs(errors).max()))
 
 
-def _off(points: Complexes, start: complex, tangent: complex, end: complex) -> Floats:
+def _deviations_from_circle(points: Complexes, start: complex, tangent: complex, end: complex) -> Floats:
     """How far points lie beside the circle through two places with a tangent at the first, however flat it is."""
     seen, chord = (points - start) / tangent, (end - start) / tangent
     bend = 2 * chord.imag / abs(chord) ** 2
@@ -124,7 +126,7 @@ def _off(points: Complexes, start: complex, tangent: complex, end: complex) -> F
 def _arc(start: complex, end: complex, tangent: complex) -> Move:
     chord = (end - start) / tangent
     bend = 2 * chord.imag / abs(chord) ** 2
-    if abs(bend) * abs(chord) ** 2 / 8 < FLAT:
+    if abs(bend) * abs(chord) ** 2 / 8 < STRAIGHT_RISE:
         return Move(start, end)
     return Move(start, end, start + 1j * tangent / bend, bend < 0)
 
@@ -144,4 +146,4 @@ def merged(moves: list[Move]) -> list[Move]:
 def _on_one_circle(one: Move, other: Move) -> bool:
     if one.centre is None or other.centre is None:
         return False
-    return one.clockwise == other.clockwise and abs(one.centre - other.centre) <= SAME_CENTRE
+    return one.clockwise == other.clockwise and abs(one.centre - other.centre) <= SAME_CENTRE_DISTANCE

@@ -9,29 +9,29 @@ from graphcam.errors import DesignError
 from graphcam.tasks.part_table import PartTable
 from graphcam.words import Words, say
 from graphcam.workshop.limits_and_fits import (
-    STANDARDS,
-    THICKEST_SHAFT,
-    THINNEST_SHAFT,
+    MAX_SHAFT,
+    MIN_SHAFT,
+    STANDARD_NAMES,
     KeySection,
     key_section,
     standard_diameters,
 )
 
-USUAL_WALL, LEAST_WALL = 0.3, 0.15
+DEFAULT_WALL, MIN_WALL = 0.3, 0.15
 """Between the keyway's bottom and the profile or the hub, as parts of the bore: where the bore is chosen; at least."""
-USUAL_TOLERANCE = 0.0005
+DEFAULT_TOLERANCE_SHARE = 0.0005
 """The tolerance of the profile, as a part of its greatest diameter."""
-ROUNDING_PART = 0.5
+ROUNDING_SHARE = 0.5
 """The last decimal of a radius is at most this part of the tolerance."""
 CHAMFERS = (30, 1.6), (10, 1.0), (5, 0.5)
 """Bores beyond such a diameter, and the size of their chamfers [mm]."""
-SMALL_CHAMFER, LARGEST_CHAMFER = 0.05, 0.2
+SMALL_CHAMFER_SHARE, MAX_CHAMFER_SHARE = 0.05, 0.2
 """The chamfer as a part of a smaller bore's diameter; its maximum, as a part of the bore's length."""
-USUAL_WIDTH = 0.8
+DEFAULT_WIDTH_SHARE = 0.8
 """The width of the cam, as a part of the bore."""
-STEEL = {"iso": "C45 EN ISO 683-1", "gost": say("Steel 45 GOST 1050-2013")}
+DEFAULT_MATERIALS = {"iso": "C45 EN ISO 683-1", "gost": say("Steel 45 GOST 1050-2013")}
 """The material where the task names none, by the frame of the sheet."""
-STANDARD_OF_FRAME = {"iso": "din6885", "gost": "gost23360"}
+KEYWAY_STANDARDS = {"iso": "din6885", "gost": "gost23360"}
 
 
 @dataclass(frozen=True)
@@ -71,8 +71,8 @@ class CamPart:
     @property
     def chamfer(self) -> float:
         """The chamfer of the bore's edges at 45 degrees."""
-        usual = next((size for least, size in CHAMFERS if self.bore > least), SMALL_CHAMFER * self.bore)
-        return min(usual, LARGEST_CHAMFER * self.length)
+        usual = next((size for least, size in CHAMFERS if self.bore > least), SMALL_CHAMFER_SHARE * self.bore)
+        return min(usual, MAX_CHAMFER_SHARE * self.length)
 
     def mass(self, profile_area: float) -> float:
         """The mass [kg] with a profile of that area [mm^2]; chamfers are left out.
@@ -106,8 +106,8 @@ def cam_part(table: PartTable, frame: str, least_radius: float) -> CamPart:
     hub = None
     if table.hub_diameter is not None and table.hub_length is not None:
         hub = Hub(table.hub_diameter, table.hub_length)
-    standard = STANDARDS[_standard(table, frame)] if keyway else ""
-    part = CamPart(bore, keyway, standard, width, hub, table.material or STEEL[frame], table)
+    standard = STANDARD_NAMES[_standard(table, frame)] if keyway else ""
+    part = CamPart(bore, keyway, standard, width, hub, table.material or DEFAULT_MATERIALS[frame], table)
     _check_walls(part, least_radius)
     return part
 
@@ -120,7 +120,7 @@ def profile_tolerance(table: PartTable, greatest_radius: float) -> float:
     """
     if table.profile_tolerance is not None:
         return table.profile_tolerance
-    usual = math.log10(USUAL_TOLERANCE * 2 * greatest_radius)
+    usual = math.log10(DEFAULT_TOLERANCE_SHARE * 2 * greatest_radius)
     decade = math.floor(usual)
     nearest = min((1, 2, 5, 10), key=lambda value: abs(math.log10(value) + decade - usual))
     return float(f"{nearest}e{decade}")
@@ -132,11 +132,11 @@ def radius_decimals(table: PartTable, greatest_radius: float) -> int:
     >>> radius_decimals(PartTable(), 56.5), radius_decimals(PartTable(), 3)
     (2, 3)
     """
-    return max(2, math.ceil(-math.log10(ROUNDING_PART * profile_tolerance(table, greatest_radius)) - 1e-9))
+    return max(2, math.ceil(-math.log10(ROUNDING_SHARE * profile_tolerance(table, greatest_radius)) - 1e-9))
 
 
 def _standard(table: PartTable, frame: str) -> str:
-    return table.keyway if table.keyway not in (None, "none") else STANDARD_OF_FRAME[frame]
+    return table.keyway if table.keyway not in (None, "none") else KEYWAY_STANDARDS[frame]
 
 
 def _keyway(table: PartTable, bore: float) -> KeySection | None:
@@ -147,7 +147,7 @@ def _keyway(table: PartTable, bore: float) -> KeySection | None:
         limit = say(
             "none for a bore of {bore:g} mm: the standard has keys from {thinnest_shaft:g} to {thickest_shaft:g} mm"
         )
-        limit = limit.where(bore=bore, thinnest_shaft=THINNEST_SHAFT, thickest_shaft=THICKEST_SHAFT)
+        limit = limit.where(bore=bore, thinnest_shaft=MIN_SHAFT, thickest_shaft=MAX_SHAFT)
         raise DesignError("part.keyway", table.keyway, limit, say("write 'none' or change part.bore"))
     return section
 
@@ -155,12 +155,12 @@ def _keyway(table: PartTable, bore: float) -> KeySection | None:
 def _usual_bore(table: PartTable, least_radius: float) -> float:
     """The largest standard diameter that leaves the usual wall, not larger than what the standards have keys for."""
     outer = least_radius if table.hub_diameter is None else min(least_radius, table.hub_diameter / 2)
-    standard = [d for d in standard_diameters() if d <= THICKEST_SHAFT]
-    fitting = [d for d in standard if _top(table, d) + USUAL_WALL * d <= outer]
+    standard = [d for d in standard_diameters() if d <= MAX_SHAFT]
+    fitting = [d for d in standard if _keyway_top(table, d) + DEFAULT_WALL * d <= outer]
     return max(fitting, default=standard[0])
 
 
-def _top(table: PartTable, bore: float) -> float:
+def _keyway_top(table: PartTable, bore: float) -> float:
     section = None if table.keyway == "none" else key_section(bore)
     return bore / 2 + (section.depth if section else 0.0)
 
@@ -168,11 +168,11 @@ def _top(table: PartTable, bore: float) -> float:
 def _usual_width(bore: float) -> float:
     """The usual width in round millimetres, of small cams in round parts of one."""
     step = min(1.0, 10.0 ** math.floor(math.log10(bore)) / 10)
-    return round(math.ceil(USUAL_WIDTH * bore / step - 1e-9) * step, 12)
+    return round(math.ceil(DEFAULT_WIDTH_SHARE * bore / step - 1e-9) * step, 12)
 
 
 def _check_walls(part: CamPart, least_radius: float) -> None:
-    needed = part.keyway_top + LEAST_WALL * part.bore
+    needed = part.keyway_top + MIN_WALL * part.bore
     hub = part.hub
     if hub and not hub.diameter / 2 < least_radius:
         limit = say(
@@ -190,8 +190,8 @@ def _check_walls(part: CamPart, least_radius: float) -> None:
             keyway = say(" with its keyway {depth:g} mm deep", depth=part.keyway.depth) if part.keyway else ""
             found = say("{bore:g} mm{keyway}", bore=part.bore, keyway=keyway)
             limit = say("small enough to leave a wall of {least:g} of the bore inside {inside} of {outer:.4g} mm")
-            limit = limit.where(least=LEAST_WALL, inside=inside, outer=outer)
-            fitting = [d for d in standard_diameters() if _top(part.table, d) + LEAST_WALL * d <= outer]
+            limit = limit.where(least=MIN_WALL, inside=inside, outer=outer)
+            fitting = [d for d in standard_diameters() if _keyway_top(part.table, d) + MIN_WALL * d <= outer]
             smaller = say("take a smaller bore")
             if fitting:
                 smaller = say("take a smaller bore, {fitting:g} mm or less,", fitting=max(fitting))

@@ -18,17 +18,17 @@ from graphcam.errors import DesignError
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.words import say
 from graphcam.workshop.biarcs import Move, arcs_along, merged
-from graphcam.workshop.outline import Outline
+from graphcam.workshop.part_outline import Outline
 
-SAMPLINGS = 2048, 8192, 32768, 131072, 524288
+SAMPLE_COUNTS = 2048, 8192, 32768, 131072, 524288
 """Samples of the way: of these numbers the first that suffices ..."""
-FEWEST = 17
+MIN_SPAN_SAMPLES = 17
 """The minimum number of samples of a span."""
-SAME = 1e-6
+SAME_TANGENT = 1e-6
 """Two tangents, or curvatures as parts of one another, that differ by no more are the same."""
-SHORTEST = 1e-9
+MIN_SPAN_LENGTH = 1e-9
 """A span that moves the cutter by no more [mm] is a corner that it passes."""
-LEAD = 0.1
+LEAD_RADIUS_SHARE = 0.1
 """Radius on which the cutter is led to the cam, as a part of the farthest place; not less than the cutter's."""
 
 Samples = tuple[Complexes, Complexes]
@@ -59,20 +59,20 @@ def cutter_path(outline: Outline, cutter_radius: float, tolerance: float) -> Cut
     DesignError : the cutter does not reach into a hollow of the profile
 
     >>> import graphcam as gc
-    >>> from graphcam.workshop.outline import outline_of
+    >>> from graphcam.workshop.part_outline import outline_of
     >>> path = cutter_path(outline_of(gc.solve(gc.builtin_task())), 8.0, 0.005)
     >>> path.contour[0].start == path.contour[-1].end, path.error < 0.005
     (True, True)
     """
     outline.check_cutter(cutter_radius)
-    for count in SAMPLINGS:
-        pieces = _from_the_farthest(_sampled(outline, cutter_radius, count))
+    for count in SAMPLE_COUNTS:
+        pieces = _rotated_to_farthest(_sampled(outline, cutter_radius, count))
         found = [arcs_along(points, tangents, tolerance) for points, tangents in pieces]
         fitted = [piece for piece in found if piece is not None]
         if len(fitted) == len(found):
             contour = merged([move for moves, _ in fitted for move in moves])
             start = contour[0].start
-            ways = _leads(start, max(cutter_radius, LEAD * abs(start)))
+            ways = _lead_moves(start, max(cutter_radius, LEAD_RADIUS_SHARE * abs(start)))
             return CutterPath(contour, *ways, cutter_radius, max(error for _, error in fitted))
     limit = say("greater for this profile")
     raise DesignError("tolerance", tolerance, limit, say("give a larger part.profile_tolerance"))
@@ -81,44 +81,44 @@ def cutter_path(outline: Outline, cutter_radius: float, tolerance: float) -> Cut
 def _sampled(outline: Outline, cutter_radius: float, count: int) -> list[Samples]:
     """The exact way of the cutter's centre, span by span and clockwise."""
     # Densely at the ends, where a cusp may be near.
-    each = max(FEWEST, count // len(outline.spans))
+    each = max(MIN_SPAN_SAMPLES, count // len(outline.spans))
     share = np.sin(np.linspace(0, np.pi / 2, each)) ** 2
     pieces: list[Samples] = []
     for span in outline.spans:
         at = span.begin + (span.end - span.begin) * share
         normals = span.normal(at)
         points, tangents = span.point(at) + cutter_radius * normals, -1j * normals
-        if np.abs(np.diff(points)).sum() > SHORTEST:
+        if np.abs(np.diff(points)).sum() > MIN_SPAN_LENGTH:
             pieces.append((points, tangents) if outline.sense < 0 else (points[::-1], tangents[::-1]))
-    return _joined(pieces if outline.sense < 0 else pieces[::-1])
+    return _joined_pieces(pieces if outline.sense < 0 else pieces[::-1])
 
 
-def _joined(pieces: list[Samples]) -> list[Samples]:
+def _joined_pieces(pieces: list[Samples]) -> list[Samples]:
     """The pieces, neighbours made one where the way has no corner; arcs stay by themselves, and so are met exactly."""
     joined: list[list[Samples]] = []
     after_arc = True
     for piece in pieces:
         arc = _is_arc(*piece)
-        if arc or after_arc or abs(piece[1][0] - joined[-1][-1][1][-1]) > SAME:
+        if arc or after_arc or abs(piece[1][0] - joined[-1][-1][1][-1]) > SAME_TANGENT:
             joined.append([])
         joined[-1].append(piece)
         after_arc = arc
-    return [_one(parts) for parts in joined]
+    return [_concatenated(parts) for parts in joined]
 
 
 def _is_arc(points: Complexes, tangents: Complexes) -> bool:
     """Whether the curvature is the same everywhere."""
-    curvature = np.angle(tangents[1:] / tangents[:-1]) / np.maximum(np.abs(np.diff(points)), SHORTEST)
-    return bool(np.ptp(curvature) <= SAME * np.abs(curvature).max())
+    curvature = np.angle(tangents[1:] / tangents[:-1]) / np.maximum(np.abs(np.diff(points)), MIN_SPAN_LENGTH)
+    return bool(np.ptp(curvature) <= SAME_TANGENT * np.abs(curvature).max())
 
 
-def _one(parts: list[Samples]) -> Samples:
+def _concatenated(parts: list[Samples]) -> Samples:
     """Samples that follow one another, what two have in common once."""
     points, tangents = (np.concatenate([*(part[k][:-1] for part in parts[:-1]), parts[-1][k]]) for k in (0, 1))
     return points, tangents
 
 
-def _from_the_farthest(pieces: list[Samples]) -> list[Samples]:
+def _rotated_to_farthest(pieces: list[Samples]) -> list[Samples]:
     """The pieces begun at the farthest of the samples."""
     k = int(np.argmax([np.abs(points).max() for points, _ in pieces]))
     points, tangents = pieces[k]
@@ -128,27 +128,32 @@ def _from_the_farthest(pieces: list[Samples]) -> list[Samples]:
     return [(points, tangents) for points, tangents in around if points.size > 1]
 
 
-def _leads(start: complex, radius: float) -> tuple[Move, Move]:
+def _lead_moves(start: complex, radius: float) -> tuple[Move, Move]:
     outward = start / abs(start)
     centre, along = start + radius * outward, -1j * outward * radius
     return Move(centre - along, start, centre), Move(start, centre + along, centre)
 
 
 DECIMALS = 4
-ROUNDING = 2e-4
+CIRCLE_ROUNDING = 2e-4
 """How far rounded ends and centres may move a circle [mm]."""
-SHORTEST_ARC = 0.001
+MIN_ARC_LENGTH = 0.001
 """A shorter one [mm] is straight: of so few digits it might turn the wrong way round."""
-LEAST_TOLERANCE = 0.001
+MIN_TOLERANCE = 0.001
 """The minimum tolerance of the program [mm]: less is spent by rounding."""
-TOLERANCE = 0.005
+DEFAULT_TOLERANCE = 0.005
 """The tolerance where none is stated [mm]."""
-FEED = 100.0
+DEFAULT_FEED = 100.0
 """The feed where none is stated [mm/min]."""
 
 
 def cutting_program(
-    outline: Outline, *, cutter_radius: float = 0.0, tolerance: float = TOLERANCE, feed: float = FEED, name: str = ""
+    outline: Outline,
+    *,
+    cutter_radius: float = 0.0,
+    tolerance: float = DEFAULT_TOLERANCE,
+    feed: float = DEFAULT_FEED,
+    name: str = "",
 ) -> str:
     """A program that leads a cutter of that radius around the cam, clockwise: a climb cut with a spindle that does too.
 
@@ -163,21 +168,21 @@ def cutting_program(
         reach into a hollow of the profile
 
     >>> import graphcam as gc
-    >>> from graphcam.workshop.outline import outline_of
+    >>> from graphcam.workshop.part_outline import outline_of
     >>> lines = cutting_program(outline_of(gc.solve(gc.builtin_task())), cutter_radius=8).splitlines()
     >>> lines[-1], [line for line in lines if line.startswith("G17")]
     ('M30', ['G17 G21 G40 G90 G94'])
     """
-    if not tolerance >= LEAST_TOLERANCE:
-        limit = say("{least:g} mm or more", least=LEAST_TOLERANCE)
+    if not tolerance >= MIN_TOLERANCE:
+        limit = say("{least:g} mm or more", least=MIN_TOLERANCE)
         raise DesignError("tolerance", tolerance, limit, say("less is lost by rounding"))
     if not feed > 0:
         raise DesignError("part.feed", feed, say("more than 0 mm/min"))
-    path = cutter_path(outline, cutter_radius, tolerance - ROUNDING)
+    path = cutter_path(outline, cutter_radius, tolerance - CIRCLE_ROUNDING)
     lines = [
         *_head(path, tolerance, feed, name),
         "G17 G21 G40 G90 G94",
-        f"G0 {_at('XY', path.lead_in.start)}",
+        f"G0 {_coordinates('XY', path.lead_in.start)}",
         *_moves([path.lead_in, *path.contour, path.lead_out], feed),
         "M30",
     ]
@@ -189,9 +194,9 @@ def _head(path: CutterPath, tolerance: float, feed: float, name: str) -> list[st
         way = f"WAY OF THE CENTRE OF A CUTTER OF RADIUS {path.cutter_radius:g} MM"
     else:
         way = "WAY ALONG THE PROFILE ITSELF, CUTTER RADIUS 0"
-    greatest = path.error + ROUNDING
+    greatest = path.error + CIRCLE_ROUNDING
     said = [
-        f"GRAPHCAM: CAM PROFILE{' ' if name else ''}{_plain(name)}",
+        f"GRAPHCAM: CAM PROFILE{' ' if name else ''}{_comment_text(name)}",
         "ZERO AT THE CAM CENTRE, X AND Y AS IN PROFILE.CSV, MM",
         way,
         f"TOLERANCE {tolerance:g} MM, GREATEST DISTANCE FROM THE EXACT WAY {greatest:.4f} MM",
@@ -201,24 +206,24 @@ def _head(path: CutterPath, tolerance: float, feed: float, name: str) -> list[st
     return [f"({line})" for line in said]
 
 
-def _plain(name: str) -> str:
+def _comment_text(name: str) -> str:
     """What of a name may stand in a comment: ASCII without brackets."""
     return "".join(c if c.isascii() and c.isprintable() and c not in "()%;" else "?" for c in name)
 
 
 def _moves(moves: list[Move], feed: float) -> list[str]:
     lines: list[str] = []
-    here = _rounded(moves[0].start)
+    here = _rounded_point(moves[0].start)
     for move in moves:
-        there = _rounded(move.end)
+        there = _rounded_point(move.end)
         # A circular move that ends where it begins would be a whole circle.
         if there == here:
             continue
-        at = _at("XY", there)
-        if move.centre is None or abs(there - here) < SHORTEST_ARC:
+        at = _coordinates("XY", there)
+        if move.centre is None or abs(there - here) < MIN_ARC_LENGTH:
             lines.append(f"G1 {at}")
         else:
-            lines.append(f"{'G2' if move.clockwise else 'G3'} {at} {_at('IJ', move.centre - here)}")
+            lines.append(f"{'G2' if move.clockwise else 'G3'} {at} {_coordinates('IJ', move.centre - here)}")
         here = there
     lines[0] += f" F{_feed(feed)}"
     return lines
@@ -229,11 +234,11 @@ def _feed(feed: float) -> str:
     return f"{feed:.{DECIMALS}f}".rstrip("0").rstrip(".")
 
 
-def _rounded(point: complex) -> complex:
+def _rounded_point(point: complex) -> complex:
     return complex(round(point.real, DECIMALS), round(point.imag, DECIMALS))
 
 
-def _at(letters: str, point: complex) -> str:
+def _coordinates(letters: str, point: complex) -> str:
     # Zero has no sign here.
     x, y = (round(value, DECIMALS) + 0.0 for value in (point.real, point.imag))
     return f"{letters[0]}{x:.{DECIMALS}f} {letters[1]}{y:.{DECIMALS}f}"

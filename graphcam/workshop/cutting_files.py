@@ -10,16 +10,16 @@ from graphcam import __version__
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.tasks.part_table import PartTable
 from graphcam.workshop.cam_part import CamPart, profile_tolerance
-from graphcam.workshop.cutter_path import LEAST_TOLERANCE, cutter_path, cutting_program
-from graphcam.workshop.outline import Outline
+from graphcam.workshop.cutter_path import MIN_TOLERANCE, cutter_path, cutting_program
 from graphcam.workshop.part_contents import PartContents
+from graphcam.workshop.part_outline import Outline
 from graphcam.workshop.plane_loops import Loop, spline_loop
 from graphcam.workshop.solid import solid_file
 
-NAMES = {"profile_step": "profile.step", "profile_gcode": "profile.ngc"}
-SHARE_OF_CUTTING = 0.1
+FILE_NAMES = {"profile_step": "profile.step", "profile_gcode": "profile.ngc"}
+PROGRAM_TOLERANCE_SHARE = 0.1
 """The part of the profile's tolerance that the program may use up."""
-RECOVERED = 1e-6
+ARC_TOLERANCE = 1e-6
 """How nearly the arcs of a cam of arcs are met [mm]."""
 
 
@@ -32,7 +32,7 @@ def write_cutting(contents: PartContents, folder: Path, kinds: Collection[str]) 
         reach into its hollows
     """
     texts = {"profile_step": solid_text, "profile_gcode": program_text}
-    written = {kind: (name, texts[kind](contents)) for kind, name in NAMES.items() if kind in kinds}
+    written = {kind: (name, texts[kind](contents)) for kind, name in FILE_NAMES.items() if kind in kinds}
     for name, text in written.values():
         (folder / name).write_text(text, encoding="ascii", newline="\n")
     return {kind: name for kind, (name, _) in written.items()}
@@ -45,7 +45,7 @@ def solid_text(contents: PartContents) -> str:
     >>> solid_text(PartContents(gc.solve(gc.builtin_arcs_task()))).count("CYLINDRICAL_SURFACE")
     12
     """
-    around, near = _around(contents)
+    around, near = _outline_loop(contents)
     return solid_around(around, near, contents.part, contents.outline.zero, contents.solution.task.title.name)
 
 
@@ -55,11 +55,11 @@ def solid_around(around: Loop, near: float, part: CamPart, zero: float, name: st
     return solid_file(around, part, zero, name, said, f"graphcam {__version__}")
 
 
-def _around(contents: PartContents) -> tuple[Loop, float]:
+def _outline_loop(contents: PartContents) -> tuple[Loop, float]:
     """The outline as edges, and how near they are [mm]: of a cam of arcs these themselves, else the spline."""
     solution = contents.solution
     if isinstance(solution, ArcsSolution):
-        path = cutter_path(contents.outline, 0.0, RECOVERED)
+        path = cutter_path(contents.outline, 0.0, ARC_TOLERANCE)
         return [move.reversed() for move in reversed(path.contour)], path.error
     return spline_loop(solution.profile_spline), solution.profile_spline.deviation
 
@@ -76,11 +76,11 @@ def program_text(contents: PartContents) -> str:
 
 def program_around(outline: Outline, table: PartTable, name: str) -> str:
     """The program of G-code around an outline, with the cutter and the feed of a table ``[part]``."""
-    allowed = SHARE_OF_CUTTING * profile_tolerance(table, outline.greatest_radius)
+    allowed = PROGRAM_TOLERANCE_SHARE * profile_tolerance(table, outline.greatest_radius)
     return cutting_program(
         outline,
         cutter_radius=table.cutter_radius or 0.0,
-        tolerance=max(allowed, LEAST_TOLERANCE),
+        tolerance=max(allowed, MIN_TOLERANCE),
         feed=table.feed,
         name=name,
     )

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from graphcam.words import say
 
 # Up to [mm]: IT6, IT7, IT8, IT9 [micrometres].
-_GRADES = (
+_TOLERANCES_BY_SIZE = (
     (3.0, (6, 10, 14, 25)),
     (6.0, (8, 12, 18, 30)),
     (10.0, (9, 15, 22, 36)),
@@ -28,8 +28,8 @@ _GRADES = (
     (400.0, (36, 57, 89, 140)),
     (500.0, (40, 63, 97, 155)),
 )
-_FINEST = 6
-_R20 = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40, 45, 50, 56, 63, 71, 80, 90)
+_FINEST_GRADE = 6
+_R20_VALUES = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40, 45, 50, 56, 63, 71, 80, 90)
 """Round values of the series R20, which goes on in every decade."""
 _DECADES = range(-12, 4)
 
@@ -40,8 +40,8 @@ def tolerance(size: float, grade: int) -> float | None:
     >>> tolerance(20.0, 7), tolerance(20.0, 9)
     (0.021, 0.052)
     """
-    row = bisect_left(_GRADES, (size,))
-    return _GRADES[row][1][grade - _FINEST] / 1000 if row < len(_GRADES) else None
+    row = bisect_left(_TOLERANCES_BY_SIZE, (size,))
+    return _TOLERANCES_BY_SIZE[row][1][grade - _FINEST_GRADE] / 1000 if row < len(_TOLERANCES_BY_SIZE) else None
 
 
 def standard_diameters() -> list[float]:
@@ -50,11 +50,13 @@ def standard_diameters() -> list[float]:
     >>> [d for d in standard_diameters() if 20 <= d <= 32]
     [20.0, 22.0, 25.0, 28.0, 32.0]
     """
-    return [value * 10.0**decade if decade >= 0 else value / 10.0**-decade for decade in _DECADES for value in _R20]
+    return [
+        value * 10.0**decade if decade >= 0 else value / 10.0**-decade for decade in _DECADES for value in _R20_VALUES
+    ]
 
 
 # d up to [mm], width b of the key, its height h, depth t2 in the hub; each row holds from the one before on.
-_SECTIONS = (
+_KEY_SECTIONS = (
     (8.0, 2.0, 2.0, 1.0),
     (10.0, 3.0, 3.0, 1.4),
     (12.0, 4.0, 4.0, 1.8),
@@ -82,9 +84,9 @@ _SECTIONS = (
     (440.0, 90.0, 45.0, 17.4),
     (500.0, 100.0, 50.0, 19.5),
 )
-THINNEST_SHAFT, THICKEST_SHAFT = 6.0, 500.0
+MIN_SHAFT, MAX_SHAFT = 6.0, 500.0
 """Diameters for which the standards have keys: over the first, up to the second, mm."""
-STANDARDS = {"din6885": "DIN 6885-1", "gost23360": say("GOST 23360-78")}
+STANDARD_NAMES = {"din6885": "DIN 6885-1", "gost23360": say("GOST 23360-78")}
 """What a standard of a task file is called on a drawing."""
 
 
@@ -122,7 +124,7 @@ def key_section(bore: float) -> KeySection | None:
     >>> key_section(22.0), key_section(5.0)
     (KeySection(width=6.0, height=6.0, depth=2.8), None)
     """
-    if not THINNEST_SHAFT < bore <= THICKEST_SHAFT:
+    if not MIN_SHAFT < bore <= MAX_SHAFT:
         return None
-    _, width, height, depth = _SECTIONS[bisect_left(_SECTIONS, (bore,))]
+    _, width, height, depth = _KEY_SECTIONS[bisect_left(_KEY_SECTIONS, (bore,))]
     return KeySection(width, height, depth)

@@ -9,17 +9,17 @@ from functools import cached_property
 
 import numpy as np
 
-from graphcam.constructions.axes import degrees, turning
+from graphcam.constructions.axes import degrees, sense_caption
 from graphcam.drafting.scale import ratio_text
 from graphcam.given.follower import Rotation
-from graphcam.sheets.frame import TitleBlock
+from graphcam.sheets.sheet_frame import TitleBlock
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.tasks.part_table import PartTable
-from graphcam.tasks.sheet_tables import UNNAMED
+from graphcam.tasks.sheet_tables import DEFAULT_NAME
 from graphcam.words import Caption, Tell, Words, say
 from graphcam.workshop.cam_part import CamPart, cam_part, radius_decimals
-from graphcam.workshop.outline import Outline, outline_of
+from graphcam.workshop.part_outline import Outline, outline_of
 from graphcam.workshop.part_views import size
 from graphcam.workshop.polar_table import PolarTable, polar_table
 
@@ -100,7 +100,7 @@ class PartContents:
         decimals = max(0, 2 - math.floor(math.log10(mass)))
         told = say("{mass:.{decimals}f}") if self.frame == "gost" else say("{mass:.{decimals}f} kg")
         return TitleBlock(
-            name=tell(say("Cam")) if given.name == str(UNNAMED) else given.told_name(tell),
+            name=tell(say("Cam")) if given.name == str(DEFAULT_NAME) else given.translated_name(tell),
             number=given.document,
             organisation=given.organisation,
             group=given.group,
@@ -113,14 +113,14 @@ class PartContents:
         )
 
 
-GENERAL = {
+GENERAL_TOLERANCES = {
     "iso": say("General tolerances ISO 2768-mK."),
     "gost": say("General tolerances GOST 30893.1: H14, h14, ±IT14/2."),
 }
 """What holds for sizes without a tolerance, by the frame."""
-MOST_PHASES = 8
+MAX_PHASES = 8
 """The maximum number of phases of a motion that the table of data names."""
-PHASES = {"rise": say("rise"), "dwell": say("dwell"), "return": say("return")}
+PHASE_NAMES = {"rise": say("rise"), "dwell": say("dwell"), "return": say("return")}
 """What kinds of phases are called."""
 
 
@@ -130,7 +130,7 @@ def requirements(
     """The notes over the title block."""
     return [
         *([say("Profile hardened to {hardness}.", hardness=part.table.hardness)] if part.table.hardness else []),
-        GENERAL[frame],
+        GENERAL_TOLERANCES[frame],
         say("Break sharp edges 0.3 × 45°, not the corners of the profile.")
         if outline.corners
         else say("Break sharp edges 0.3 × 45°."),
@@ -144,7 +144,7 @@ def requirements(
             bound=round(table.bound, 6),
         ),
         *_cutter(part),
-        _runs_on(solution),
+        _contact_caption(solution),
         *([say("The profile is the part that can be cut: an undercut leaves a corner.")] if outline.corners else []),
         say(
             "In the files of the profile the zero mark lies at {angle} from the x axis.",
@@ -182,7 +182,7 @@ def _cutter(part: CamPart) -> list[Caption]:
     return [told]
 
 
-def _runs_on(solution: AnySolution) -> Caption:
+def _contact_caption(solution: AnySolution) -> Caption:
     """What the profile is made for."""
     if not isinstance(solution, ArcsSolution) and not solution.cam.kinematics.takes_roller:
         return say("The profile works with a flat-faced follower.")
@@ -195,14 +195,14 @@ def _runs_on(solution: AnySolution) -> Caption:
 def cam_data(solution: AnySolution, outline: Outline) -> Table:
     """The data of the cam that belong to the profile."""
     rows: list[tuple[Words, Words]] = [*_sizes(solution)]
-    rows += [(say("lift"), _lift(solution)), (say("rotation"), turning(_rotation(solution)))]
+    rows += [(say("lift"), _lift(solution)), (say("rotation"), sense_caption(_rotation(solution)))]
     if solution.task.speed_rpm:
         rows.append((say("speed"), say("{rpm:g} rpm", rpm=solution.task.speed_rpm)))
     decimals = radius_decimals(solution.task.part or PartTable(), outline.greatest_radius)
     rows.append((say("minimum radius of the profile"), _mm(round(outline.least_radius, decimals))))
     rows.append((say("maximum radius of the profile"), _mm(round(outline.greatest_radius, decimals))))
     timing = solution.motion.timing if isinstance(solution, ArcsSolution) else solution.cam.motion.timing
-    rows += [(PHASES[kind], degrees(round(end - start, 9))) for kind, start, end in timing[:MOST_PHASES]]
+    rows += [(PHASE_NAMES[kind], degrees(round(end - start, 9))) for kind, start, end in timing[:MAX_PHASES]]
     return Table(say("Data of the cam"), ("", ""), tuple(rows))
 
 
@@ -247,7 +247,7 @@ def polar_rows(table: PolarTable, tell: Tell) -> list[tuple[str, ...]]:
     return [head, *zip(*told, strict=True)]
 
 
-def beside_each_other(rows: Sequence[tuple[str, ...]], columns: int, tell: Tell) -> Table:
+def side_by_side_table(rows: Sequence[tuple[str, ...]], columns: int, tell: Tell) -> Table:
     """A table of some of the rows, the head first, in so many columns."""
     head, *cells = rows
     high = math.ceil(len(cells) / columns)

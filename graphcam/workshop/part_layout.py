@@ -14,39 +14,39 @@ from itertools import takewhile
 
 from graphcam.errors import DesignError
 from graphcam.sheets.formats import Format
-from graphcam.sheets.frame import taken, title_box
 from graphcam.sheets.model import Box, Entity
-from graphcam.sheets.packing import MESH, Room, least, top_left
+from graphcam.sheets.packing import MESH, Room, least_weighted, prefer_top_left
 from graphcam.sheets.part_symbols import PartSymbol, other_faces
+from graphcam.sheets.sheet_frame import taken_boxes, title_box
 from graphcam.sheets.tables import Block, notes_block, table_block
 from graphcam.words import Tell, say
 from graphcam.workshop.part_contents import (
     PartContents,
-    beside_each_other,
     cam_data,
     polar_rows,
     requirements,
+    side_by_side_table,
     tolerance_data,
 )
 from graphcam.workshop.part_views import ShownPart, bore_box, front_box, section_box
 
-BORDER = 5.0
+FRAME_MARGIN = 5.0
 """Free along the frame and between what stands on the sheet, mm."""
-UNDER_NUMBER = 17.0
+NUMBER_ROOM = 17.0
 """The room from the border to below the drawing's number in the upper left corner by GOST 2.104, mm."""
-LEAST_PROFILE = 70.0
+MIN_PROFILE = 70.0
 """The profile is not drawn smaller than this, mm on paper ..."""
-SHEETS = (("A3", LEAST_PROFILE), ("A2", LEAST_PROFILE), ("A2", 20.0), ("A1", 5.0))
+SHEET_CHOICES = (("A3", MIN_PROFILE), ("A2", MIN_PROFILE), ("A2", 20.0), ("A1", 5.0))
 """The sheets for a part that is much wider than its profile is large. The first one that has room is taken."""
 BORE_ROOM = 70.0
 """The enlarged bore is at most so wide, mm on paper."""
-ROW = 1.75
+ROW_HEIGHT = 1.75
 """Height of a row of the polar table, in heights of its letters."""
-AT_RIGHT = least(-10, -1)
+RIGHT_PREFERENCE = least_weighted(-10, -1)
 """The preference: at the right, then high."""
-SERIES = (5.0, 2.0, 1.0)
+SCALE_SERIES = (5.0, 2.0, 1.0)
 """The series of drawing scales that both ISO 5455 and GOST 2.302 have, in every decade."""
-LARGEST_PROFILE = 300.0
+MAX_PROFILE = 300.0
 """The maximum size of the drawn profile, mm on paper."""
 
 Placed = list[tuple[Block, complex]]
@@ -92,19 +92,19 @@ class PartTables:
     def polar(self, first: int, last: int, columns: int) -> Block:
         """The polar table from row ``first`` to before ``last``, in so many columns side by side."""
         rows = [self.rows[0], *self.rows[first + 1 : last + 1]]
-        return table_block(beside_each_other(rows, columns, self.tell), self.height, row_height=ROW)
+        return table_block(side_by_side_table(rows, columns, self.tell), self.height, row_height=ROW_HEIGHT)
 
     def capacity(self, free: Box) -> tuple[int, int]:
         """How many columns of the polar table a box has room for, and how many lines in each."""
         column, head = self._sizes
-        return max(1, int(free.width / column)), int((free.height - head) / (ROW * self.height))
+        return max(1, int(free.width / column)), int((free.height - head) / (ROW_HEIGHT * self.height))
 
     @cached_property
     def _sizes(self) -> tuple[float, float]:
         """Width of a column and height of title and head, mm on paper."""
         # A column alone is as wide as the title of the table.
         one, two = (self.polar(0, self.count, columns).box for columns in (1, 2))
-        return two.width / 2, one.height - self.count * ROW * self.height
+        return two.width / 2, one.height - self.count * ROW_HEIGHT * self.height
 
 
 def part_tables(contents: PartContents, sheet: Format) -> PartTables:
@@ -124,21 +124,21 @@ def standard_ratios(most: float) -> Iterator[float]:
     """
     decade = math.floor(math.log10(most))
     while True:
-        yield from (ratio for step in SERIES if (ratio := round(step * 10.0**decade, 15)) <= most * (1 + 1e-9))
+        yield from (ratio for step in SCALE_SERIES if (ratio := round(step * 10.0**decade, 15)) <= most * (1 + 1e-9))
         decade -= 1
 
 
-def laid_out(contents: PartContents) -> tuple[PartLayout, Placed | None]:
+def part_layout(contents: PartContents) -> tuple[PartLayout, Placed | None]:
     """The places of the views on a sheet, and those of the tables; None where the polar table has no room on it."""
     first: PartLayout | None = None
-    for name, least_profile in SHEETS:
+    for name, least_profile in SHEET_CHOICES:
         sheet = Format(name, contents.frame)
         tables = part_tables(contents, sheet)
         for views in _scaled_views(contents, sheet, least_profile):
             first = first or views
-            if (placed := _placed(tables, views)) is not None:
+            if (placed := _placed_tables(tables, views)) is not None:
                 return views, placed
-        if first and least_profile < LEAST_PROFILE:
+        if first and least_profile < MIN_PROFILE:
             break
     if first is None:
         found = say("{length:g} mm wide", length=contents.part.length)
@@ -150,7 +150,7 @@ def laid_out(contents: PartContents) -> tuple[PartLayout, Placed | None]:
 def _scaled_views(contents: PartContents, sheet: Format, least_profile: float) -> Iterator[PartLayout]:
     """The views at the standard scales at which they fit and the profile is not too small, the largest first."""
     width = 2 * contents.outline.greatest_radius
-    for ratio in standard_ratios(LARGEST_PROFILE / width):
+    for ratio in standard_ratios(MAX_PROFILE / width):
         if width * ratio < least_profile:
             return
         yield from _views(contents, sheet, ratio)
@@ -159,35 +159,35 @@ def _scaled_views(contents: PartContents, sheet: Format, least_profile: float) -
 def _views(contents: PartContents, sheet: Format, ratio: float) -> Iterator[PartLayout]:
     """The views at a scale, where they have room, with the bore the larger the better, but no smaller than in them."""
     shown = ShownPart(contents.part, sheet.frame, contents.outline, ratio, ratio, sheet.lettering, contents.tell)
-    inside = sheet.content.grown(-BORDER)
+    inside = sheet.content.grown(-FRAME_MARGIN)
     front, section = front_box(shown), section_box(shown)
     high = max(front.top, section.top)
-    at = complex(inside.left - front.left, inside.top - high - (UNDER_NUMBER if sheet.frame == "gost" else 0))
+    at = complex(inside.left - front.left, inside.top - high - (NUMBER_ROOM if sheet.frame == "gost" else 0))
     beside = at + front.right - section.left
     if at.real + front.width > inside.right or (beside + section.right).real > inside.right:
         return
     if at.imag + min(front.bottom, section.bottom) < inside.bottom:
         return
-    room = Room(inside, taken(sheet, BORDER))
+    room = Room(inside, taken_boxes(sheet, FRAME_MARGIN))
     fixed, general = _fixed(contents, sheet, shown)
     for block, corner in fixed:
         room.take(block.box.moved(corner))
     room.take(general[0].box.moved(general[1]).grown(2))
     boxes = [front.moved(at), section.moved(beside)]
-    if any(not _free(room, box) for box in boxes):
+    if any(not _is_free(room, box) for box in boxes):
         return
     for box in boxes:
         room.take(box)
     for bore_scale in takewhile(lambda scale: scale >= ratio, standard_ratios(max(ratio, BORE_ROOM / shown.part.bore))):
         enlarged = replace(shown, bore_scale=bore_scale)
         bore = bore_box(enlarged)
-        if (by := room.find([bore], top_left)) is not None:
+        if (by := room.find([bore], prefer_top_left)) is not None:
             left = room.copy()
             left.take(bore.moved(by))
             yield PartLayout(enlarged, sheet, at, beside, by, fixed, general, left)
 
 
-def _free(room: Room, box: Box) -> bool:
+def _is_free(room: Room, box: Box) -> bool:
     """Whether nothing stands in a box."""
     left, bottom = (max(0, math.floor(x / MESH)) for x in (box.left - room.corner.real, box.bottom - room.corner.imag))
     right, top = (math.ceil(x / MESH) for x in (box.right - room.corner.real, box.top - room.corner.imag))
@@ -196,28 +196,28 @@ def _free(room: Room, box: Box) -> bool:
 
 def _fixed(contents: PartContents, sheet: Format, shown: ShownPart) -> tuple[Placed, tuple[PartSymbol, complex]]:
     """The notes over the title block, and the roughness of all other faces where the frame's standard has it."""
-    block, letters, inside = title_box(sheet), sheet.lettering, sheet.content.grown(-BORDER)
+    block, letters, inside = title_box(sheet), sheet.lettering, sheet.content.grown(-FRAME_MARGIN)
     said = requirements(contents.solution, contents.part, contents.outline, contents.table, contents.frame)
-    notes = notes_block([contents.tell(note) for note in said], letters.small, block.width - BORDER)
-    corner = complex(block.left, block.top + BORDER) - notes.box.corner
+    notes = notes_block([contents.tell(note) for note in said], letters.small, block.width - FRAME_MARGIN)
+    corner = complex(block.left, block.top + FRAME_MARGIN) - notes.box.corner
     symbol = other_faces(contents.tell(say("Ra {ra:g}", ra=contents.part.table.roughness)), letters.label)
     if sheet.frame == "gost":
         at = complex(inside.right - symbol.box.right, inside.top - symbol.box.top)
     else:
-        at = complex(block.left, block.top + BORDER + notes.box.height + 3)
+        at = complex(block.left, block.top + FRAME_MARGIN + notes.box.height + 3)
     return [(notes, corner)], (symbol, at)
 
 
 # --- tables ----------------------------------------------------------------------------------------------------------
 
 
-def _placed(tables: PartTables, views: PartLayout) -> Placed | None:
+def _placed_tables(tables: PartTables, views: PartLayout) -> Placed | None:
     """The polar table, in as many columns as it takes, and the data, in what the views leave free."""
     most, lines = tables.capacity(views.sheet.content)
     for columns in range(math.ceil(tables.count / lines), most + 1):
         room, placed = views.room.copy(), Placed()
-        given = [(block, top_left) for block in tables.data]
-        for block, where in [(tables.polar(0, tables.count, columns), AT_RIGHT), *given]:
+        given = [(block, prefer_top_left) for block in tables.data]
+        for block, where in [(tables.polar(0, tables.count, columns), RIGHT_PREFERENCE), *given]:
             box = block.box.grown(1.5)
             by = room.find([box], where)
             if by is None:
@@ -231,15 +231,15 @@ def _placed(tables: PartTables, views: PartLayout) -> Placed | None:
 
 def table_pages(contents: PartContents, sheet: Format) -> list[Placed]:
     """The data with the first part of the polar table, and the rest of it, over the title blocks of further pages."""
-    tables, inside = part_tables(contents, sheet), sheet.content.grown(-BORDER)
+    tables, inside = part_tables(contents, sheet), sheet.content.grown(-FRAME_MARGIN)
     data, rows = tables.data, tables.count
-    top = inside.top - (UNDER_NUMBER if sheet.frame == "gost" else 0.0)
-    free = Box(inside.left, title_box(sheet).top + BORDER, inside.right, top)
+    top = inside.top - (NUMBER_ROOM if sheet.frame == "gost" else 0.0)
+    free = Box(inside.left, title_box(sheet).top + FRAME_MARGIN, inside.right, top)
     first, pages = 0, list[Placed]()
     while first < rows:
         placed: Placed = [] if pages else piled(data, complex(inside.left, top))
         wide = max(block.box.width for block in data)
-        beside = free if pages else replace(free, left=free.left + wide + BORDER)
+        beside = free if pages else replace(free, left=free.left + wide + FRAME_MARGIN)
         columns, lines = tables.capacity(beside)
         last = min(rows, first + columns * lines)
         block = tables.polar(first, last, math.ceil((last - first) / lines))
@@ -253,7 +253,7 @@ def piled(blocks: Sequence[Block], corner: complex) -> Placed:
     placed = Placed()
     for block in blocks:
         placed.append((block, corner - 1j * block.box.height))
-        corner -= 1j * (block.box.height + BORDER)
+        corner -= 1j * (block.box.height + FRAME_MARGIN)
     return placed
 
 

@@ -15,33 +15,33 @@ import numpy as np
 
 from graphcam.drafting.marks import Arc, Circle, Dimension, Label, Line, Mark, Points, Region, Role, Segments
 from graphcam.given.laws import Floats
-from graphcam.sheets.expand import Drawn, Placement, expand, head
-from graphcam.sheets.fonts import width
 from graphcam.sheets.formats import Lettering
+from graphcam.sheets.label_candidates import LabelText, label_along
+from graphcam.sheets.mark_entities import Drawn, Placement, expand, head
 from graphcam.sheets.model import Box, Curve, Entity, Length, Stroke
 from graphcam.sheets.part_symbols import cutting_plane, datum_letter, datum_triangle, segments, sense_arrow
-from graphcam.sheets.sampling import around
-from graphcam.sheets.writing import Writing, along
+from graphcam.sheets.sampling import box_around
+from graphcam.sheets.text_measures import width
 from graphcam.words import Caption, Tell, Words, say, say_in
 from graphcam.workshop.cam_part import CamPart, radius_decimals
 from graphcam.workshop.limits_and_fits import tolerance
-from graphcam.workshop.outline import Outline
+from graphcam.workshop.part_outline import Outline
 
-BESIDE, BETWEEN = 9.0, 8.0
+FIRST_DIMENSION_OFFSET, DIMENSION_SPACING = 9.0, 8.0
 """Distance of the first dimension line from what it measures, and of the next ones from it, mm on paper."""
-OVERHANG, PAST = 5.0, 4.0
+CENTRE_LINE_OVERHANG, AXIS_OVERHANG = 5.0, 4.0
 """Overhang of centre lines over the outline, and of the axis over the section, mm on paper."""
-MARK = 6.0
+ZERO_MARK_LENGTH = 6.0
 """Length of the zero mark, mm on paper."""
-THINNING = 12
+DRAWN_POINT_STEP = 12
 """The step by which dense points of the outline are drawn as a smooth curve, which passes between them exactly."""
-SHELF = 5.0
+SHELF_OFFSET = 5.0
 """The distance from the left face of the section to the shelf of its chamfer, mm on paper."""
-ARROW_AIR = 5.0
+ARROW_GAP = 5.0
 """The gap between the profile and an arrow outside it, mm on paper."""
 SAME_RADIUS = 0.05
 """The outline keeps a radius where it leaves it by no more than this, mm on paper."""
-SECTION, DETAIL = say_in("of a view", "A"), say_in("of a detail", "C")
+SECTION_LETTER, DETAIL_LETTER = say_in("of a view", "A"), say_in("of a detail", "C")
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +72,7 @@ class ShownPart:
     @cached_property
     def extent(self) -> Box:
         """The extent of the profile on paper, about the axis."""
-        return around(self.profile)
+        return box_around(self.profile)
 
     def reach(self, start: float, sweep: float) -> float:
         """The greatest radius on paper between directions."""
@@ -120,7 +120,7 @@ def front_view(shown: ShownPart, origin: complex) -> Drawn:
     """Profile, bore, hub, centre lines, zero mark, the sense of angle and rotation, and the cutting plane."""
     marks = [*bore_marks(shown.part, shown.scale), *_front_marks(shown), *_sense_labels(shown)]
     entities, writings = shown.expanded(marks, origin)
-    radii = [_radius_dimension(shown, origin, place) for place in told_radii(shown)]
+    radii = [_radius_dimension(shown, origin, place) for place in dimensioned_radii(shown)]
     entities += [*_profile(shown, origin), *_cutting_planes(shown, origin), *_senses(shown, origin)]
     return [*entities, *(e for lines, _ in radii for e in lines)], [*writings, *(w for _, w in radii)]
 
@@ -130,19 +130,19 @@ def _profile(shown: ShownPart, origin: complex) -> list[Entity]:
     points = origin + shown.profile
     if shown.outline.corners:
         return [Stroke(points, Role.RESULT, closed=True)]
-    return [Curve(points[::THINNING], Role.RESULT)]
+    return [Curve(points[::DRAWN_POINT_STEP], Role.RESULT)]
 
 
 def _front_marks(shown: ShownPart) -> list[Mark]:
     box, up = shown.extent, shown.radius(1j)
-    ends = np.array([complex(box.left - OVERHANG), complex(0, box.bottom - OVERHANG)])
-    others = np.array([complex(box.right + OVERHANG), complex(0, box.top + OVERHANG)])
-    scribed = Line(np.array([1j * (up - 1.0), 1j * (up - 1.0 - MARK)]), Role.CURVE)
+    ends = np.array([complex(box.left - CENTRE_LINE_OVERHANG), complex(0, box.bottom - CENTRE_LINE_OVERHANG)])
+    others = np.array([complex(box.right + CENTRE_LINE_OVERHANG), complex(0, box.top + CENTRE_LINE_OVERHANG)])
+    scribed = Line(np.array([1j * (up - 1.0), 1j * (up - 1.0 - ZERO_MARK_LENGTH)]), Role.CURVE)
     hub = shown.part.hub
     return [
         Segments(ends, others, Role.AXIS),
         scribed,
-        Label(1j * (up - MARK), say("0°"), 1 - 0.3j),
+        Label(1j * (up - ZERO_MARK_LENGTH), say("0°"), 1 - 0.3j),
         *([Circle(0j, shown.scale * hub.diameter / 2, Role.RESULT)] if hub else []),
         *_detail_circle(shown),
     ]
@@ -152,7 +152,7 @@ def _detail_circle(shown: ShownPart) -> list[Mark]:
     """The circle about the bore that is shown enlarged, and its letter."""
     radius = shown.scale * shown.part.keyway_top + 3.0
     at = radius * np.exp(-0.25j * math.pi)
-    return [Circle(0j, radius, Role.DIMENSION), Label(complex(at), DETAIL, 1 - 1j)]
+    return [Circle(0j, radius, Role.DIMENSION), Label(complex(at), DETAIL_LETTER, 1 - 1j)]
 
 
 def bore_marks(part: CamPart, scale: float) -> list[Mark]:
@@ -167,7 +167,7 @@ def bore_marks(part: CamPart, scale: float) -> list[Mark]:
     return [Arc(0j, radius, math.pi - side, 2 * math.pi + side, Role.RESULT), Line(corners, Role.RESULT)]
 
 
-def told_radii(shown: ShownPart) -> list[tuple[complex, Caption]]:
+def dimensioned_radii(shown: ShownPart) -> list[tuple[complex, Caption]]:
     """The places on the profile at which its least and its greatest radius are dimensioned."""
     radii, decimals = np.abs(shown.outline.points), radius_decimals(shown.part.table, shown.outline.greatest_radius)
     told: list[tuple[complex, Caption]] = []
@@ -182,7 +182,7 @@ def told_radii(shown: ShownPart) -> list[tuple[complex, Caption]]:
 
 def _radius_dimension(
     shown: ShownPart, origin: complex, place: tuple[complex, Caption]
-) -> tuple[list[Entity], Writing]:
+) -> tuple[list[Entity], LabelText]:
     """A line from the axis to the profile with one head, and its text."""
     at, text = origin + place[0], place[1]
     way = place[0] / abs(place[0])
@@ -195,13 +195,13 @@ def _radius_dimension(
         segments((origin, end)),
         head(at - 0.35 * way, way, Role.DIMENSION),
     )
-    writing = along(begin, end, told, height)
+    writing = label_along(begin, end, told, height)
     measured = Length(origin, at, origin, lines)
     return list(lines), replace(writing, of=measured)
 
 
 def _cutting_planes(shown: ShownPart, origin: complex) -> list[Entity]:
-    letter, height = shown.tell(SECTION), shown.letters.title
+    letter, height = shown.tell(SECTION_LETTER), shown.letters.title
     above = cutting_plane(origin + 1j * (shown.radius(1j) + 11.0), 1j, 1.0, letter, height)
     below = cutting_plane(origin - 1j * (shown.radius(-1j) + 11.0), -1j, 1.0, letter, height)
     return above + below
@@ -223,7 +223,7 @@ def _sense_arrows(shown: ShownPart) -> list[SenseArrow]:
     # Beside the zero mark, and at the lower right.
     counted, turned = (math.pi / 2 + 0.12 * sense, 0.5 * sense), (-0.35 - 0.275 * (1 - sense), -0.55 * sense)
     named = (say("θ"), counted), (say("rotation"), turned)
-    return [SenseArrow(name, shown.reach(*arrow) + ARROW_AIR, *arrow) for name, arrow in named]
+    return [SenseArrow(name, shown.reach(*arrow) + ARROW_GAP, *arrow) for name, arrow in named]
 
 
 def _senses(shown: ShownPart, origin: complex) -> list[Entity]:
@@ -243,8 +243,8 @@ def _sense_labels(shown: ShownPart) -> list[Mark]:
 def section_box(shown: ShownPart) -> Box:
     """The room of the section about the axis on the left face."""
     box, part = shown.extent, shown.part
-    right = shown.scale * part.length + (BESIDE + BETWEEN if part.hub else 0.0)
-    below = BESIDE + (BETWEEN if part.hub else 0.0) + 4
+    right = shown.scale * part.length + (FIRST_DIMENSION_OFFSET + DIMENSION_SPACING if part.hub else 0.0)
+    below = FIRST_DIMENSION_OFFSET + (DIMENSION_SPACING if part.hub else 0.0) + 4
     return Box(-34, box.bottom - below, right + 20, box.top + 22)
 
 
@@ -253,7 +253,9 @@ def section_view(shown: ShownPart, origin: complex) -> Drawn:
     part, k = shown.part, shown.scale
     # The edges over the hatching that ends on them.
     marks: list[Mark] = [*_cut_faces(shown), *_cut_edges(shown), *_section_dimensions(shown)]
-    marks.append(Segments(np.array([-PAST + 0j]), np.array([complex(k * part.length + PAST)]), Role.AXIS))
+    marks.append(
+        Segments(np.array([-AXIS_OVERHANG + 0j]), np.array([complex(k * part.length + AXIS_OVERHANG)]), Role.AXIS)
+    )
     return shown.expanded(marks, origin)
 
 
@@ -319,14 +321,18 @@ def _section_dimensions(shown: ShownPart) -> list[Mark]:
     part, k = shown.part, shown.scale
     _, _, low, _ = heights(shown)
     w, end = k * part.width, k * part.length
-    marks: list[Mark] = [Dimension(complex(0, low), complex(w, low), size(part.width), -BESIDE)]
+    marks: list[Mark] = [Dimension(complex(0, low), complex(w, low), size(part.width), -FIRST_DIMENSION_OFFSET)]
     if part.hub:
         half = k * part.hub.diameter / 2
         # Both from one level, so that their lines are parallel.
-        marks.append(Dimension(complex(0, low), complex(end, low), size(part.hub.length), -BESIDE - BETWEEN))
+        marks.append(
+            Dimension(
+                complex(0, low), complex(end, low), size(part.hub.length), -FIRST_DIMENSION_OFFSET - DIMENSION_SPACING
+            )
+        )
         marks.append(Line(np.array([complex(end, -half - 1), complex(end, low - 2)]), Role.DIMENSION))
         diameter = say("⌀{length}", length=size(part.hub.diameter))
-        marks.append(Dimension(complex(end, -half), complex(end, half), diameter, -BESIDE))
+        marks.append(Dimension(complex(end, -half), complex(end, half), diameter, -FIRST_DIMENSION_OFFSET))
     return [*marks, *_chamfer_marks(shown)]
 
 
@@ -334,18 +340,18 @@ def _chamfer_marks(shown: ShownPart) -> list[Mark]:
     """The size of the chamfer on a shelf at the left of the section, on the line square to it."""
     text = say("{size} × 45°", size=size(shown.part.chamfer))
     c, r = shown.scale * shown.part.chamfer, shown.scale * shown.part.bore / 2
-    face, knee = complex(c / 2, -r - c / 2), complex(-SHELF, SHELF - r)
+    face, knee = complex(c / 2, -r - c / 2), complex(-SHELF_OFFSET, SHELF_OFFSET - r)
     end = knee - width(shown.tell(text), shown.letters.label) - 1.0
     return [Line(np.array([face, knee, end]), Role.DIMENSION), Label((knee + end) / 2, text, 1j)]
 
 
-DATUM = say_in("of a datum", "B")
+DATUM_LETTER = say_in("of a datum", "B")
 
 
 def bore_box(shown: ShownPart) -> Box:
     """The room of the enlarged bore about its axis."""
     r, top = (shown.bore_scale * x for x in (shown.part.bore / 2, shown.part.keyway_top))
-    return Box(-r - 30, -r - 20, r + 24, top + BESIDE + 20)
+    return Box(-r - 30, -r - 20, r + 24, top + FIRST_DIMENSION_OFFSET + 20)
 
 
 def bore_view(shown: ShownPart, origin: complex) -> Drawn:
@@ -353,27 +359,27 @@ def bore_view(shown: ShownPart, origin: complex) -> Drawn:
     part, k = shown.part, shown.bore_scale
     r, top = k * part.bore / 2, k * part.keyway_top
     marks: list[Mark] = list(bore_marks(part, k))
-    over = OVERHANG - 1.0
+    over = CENTRE_LINE_OVERHANG - 1.0
     starts, ends = (
         np.array([complex(-r - over), complex(0, -r - over)]),
         np.array([complex(r + over), complex(0, top + over)]),
     )
     marks.append(Segments(starts, ends, Role.AXIS))
-    marks.append(Dimension(complex(-r), complex(r), bore_text(part, shown.frame), -r - BESIDE))
+    marks.append(Dimension(complex(-r), complex(r), bore_text(part, shown.frame), -r - FIRST_DIMENSION_OFFSET))
     if part.keyway:
         half = k * part.keyway.width / 2
-        marks.append(Dimension(complex(-half, top), complex(half, top), keyway_text(part), BESIDE))
+        marks.append(Dimension(complex(-half, top), complex(half, top), keyway_text(part), FIRST_DIMENSION_OFFSET))
         over = upper_deviation(part.keyway.depth_over, shown.frame)
         depth = say("{size} {over}", size=size(part.bore + part.keyway.depth), over=over)
-        marks.append(Dimension(complex(half, -r), complex(half, top), depth, -(r - half) - BESIDE))
+        marks.append(Dimension(complex(half, -r), complex(half, top), depth, -(r - half) - FIRST_DIMENSION_OFFSET))
     entities, writings = shown.expanded(marks, origin)
-    return [*entities, *_datum(shown, origin + complex(r, -r - BESIDE))], writings
+    return [*entities, *_datum(shown, origin + complex(r, -r - FIRST_DIMENSION_OFFSET))], writings
 
 
 def _datum(shown: ShownPart, at: complex) -> list[Entity]:
     """The datum triangle on the extension line of the bore's diameter, in line with the dimension: its axis."""
     height = shown.letters.label
-    letter = datum_letter(shown.tell(DATUM), height)
+    letter = datum_letter(shown.tell(DATUM_LETTER), height)
     corner = at + complex(height + 5.0, -height)
     triangle = datum_triangle(at, 1 + 0j, height)
     return [triangle, segments((at + height, at + height + 5.0)), *letter.drawn(corner)]

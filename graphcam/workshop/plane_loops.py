@@ -12,12 +12,12 @@ import numpy as np
 
 from graphcam.given.laws import Floats
 from graphcam.mechanism.kinematics import Complexes
-from graphcam.mechanism.spline import ProfileSpline
-from graphcam.plane import cross
+from graphcam.mechanism.profile_spline import ProfileSpline
+from graphcam.plane_vectors import cross
 from graphcam.workshop.biarcs import Move
 from graphcam.workshop.cam_part import CamPart
 
-MOST_PARTS = 4
+MAX_EDGE_PARTS = 4
 """The maximum number of parts of an edge, between its knots."""
 
 
@@ -76,7 +76,7 @@ def _cuts(corners: list[int]) -> list[int]:
     """The knots, by their numbers, at which edges begin and end: the corners, and some between two of them."""
     cuts = corners[:1]
     for a, b in pairwise(corners):
-        count = max(math.ceil((b - a) / MOST_PARTS), 2 if len(corners) == 2 else 1)
+        count = max(math.ceil((b - a) / MAX_EDGE_PARTS), 2 if len(corners) == 2 else 1)
         cuts += np.round(np.linspace(a, b, count + 1)[1:]).astype(int).tolist()
     return cuts
 

@@ -17,23 +17,23 @@ from numpy.typing import NDArray
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
-from graphcam.given.roots import roots
+from graphcam.given.root_finding import roots
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.tasks.part_table import PartTable
 from graphcam.words import say
 from graphcam.workshop.cam_part import profile_tolerance, radius_decimals
-from graphcam.workshop.outline import Outline
+from graphcam.workshop.part_outline import Outline
 
-PART_OF_TOLERANCE = 0.25
+CHORD_TOLERANCE_SHARE = 0.25
 """How far a straight line between rows may leave the curve, as a part of the profile's tolerance."""
-PARTS = (1, 2, 5, 10, 20, 50, 100)
+STEP_DIVISIONS = (1, 2, 5, 10, 20, 50, 100)
 """The numbers of equal parts into which a step may be divided."""
-MOST_ROWS = 1500
+MAX_ROWS = 1500
 """The maximum number of rows of a table that somebody reads."""
 CORNER_DECIMALS = 3
 """Decimals of the angle of a corner [deg]."""
 FILES_REMEDY = say("give a larger one; the files of the profile have the curve itself")
-TURNS_BACK = 1e-12
+MIN_BACKWARD_ANGLE = 1e-12
 """The angle [rad] by which a curve turns back at least: less is rounding."""
 
 
@@ -51,7 +51,7 @@ class PolarCurve:
 
     def __post_init__(self) -> None:
         angles = self.angles
-        back = np.flatnonzero(np.diff(angles) < -TURNS_BACK)
+        back = np.flatnonzero(np.diff(angles) < -MIN_BACKWARD_ANGLE)
         if back.size:
             at = say("met more than once by the ray at {value:.1f} degrees", value=math.degrees(angles[back[0]]) % 360)
             limit = say("met once by every ray from the cam centre")
@@ -126,7 +126,7 @@ def polar_table(outline: Outline, table: PartTable) -> PolarTable:
         once, or the tolerance is too small for a table
 
     >>> import graphcam as gc
-    >>> from graphcam.workshop.outline import of_cam
+    >>> from graphcam.workshop.part_outline import of_cam
     >>> rows = polar_table(of_cam(gc.solve(gc.builtin_task()).cam), PartTable(table_step=10))
     >>> rows.angles[:4].tolist(), rows.radii[:4].round(2).tolist()
     ([0.0, 2.0, 4.0, 6.0], [27.0, 27.02, 27.08, 27.18])
@@ -136,11 +136,11 @@ def polar_table(outline: Outline, table: PartTable) -> PolarTable:
         outline.check_cutter(table.cutter_radius)
         curves.append(PolarCurve(outline, table.cutter_radius))
     allowed = profile_tolerance(table, outline.greatest_radius)
-    bound = PART_OF_TOLERANCE * allowed
+    bound = CHORD_TOLERANCE_SHARE * allowed
     corners = np.degrees(np.angle(outline.corners)) % 360
     angles = _rows(curves, table.table_step, bound, corners.round(CORNER_DECIMALS))
-    if angles.size > MOST_ROWS:
-        limit = say("large enough for a table of at most {most} rows, not {size}", most=MOST_ROWS, size=angles.size)
+    if angles.size > MAX_ROWS:
+        limit = say("large enough for a table of at most {most} rows, not {size}", most=MAX_ROWS, size=angles.size)
         raise DesignError("part.profile_tolerance", allowed, limit, FILES_REMEDY)
     radii = [curve.radius(np.radians(angles)) for curve in curves]
     decimals = radius_decimals(table, outline.greatest_radius)
@@ -152,12 +152,12 @@ def _rows(curves: list[PolarCurve], step: int, bound: float, corners: Floats) ->
     rows: list[Floats] = []
     for start in range(0, 360, step):
         inside = corners[(start < corners) & (corners < start + step)]
-        divided = (np.union1d(start + step * np.arange(parts + 1) / parts, inside) for parts in PARTS)
+        divided = (np.union1d(start + step * np.arange(parts + 1) / parts, inside) for parts in STEP_DIVISIONS)
         near = (row for row in divided if max(_departure(row, *curve.turn) for curve in curves) <= bound)
         row = next(near, None)
         if row is None:
-            limit = say("large enough for rows {value:g} degrees apart", value=step / PARTS[-1])
-            raise DesignError("part.profile_tolerance", bound / PART_OF_TOLERANCE, limit, FILES_REMEDY)
+            limit = say("large enough for rows {value:g} degrees apart", value=step / STEP_DIVISIONS[-1])
+            raise DesignError("part.profile_tolerance", bound / CHORD_TOLERANCE_SHARE, limit, FILES_REMEDY)
         rows.append(row[:-1])
     return np.concatenate(rows)
 

@@ -12,16 +12,16 @@ from pathlib import Path
 import numpy as np
 
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.spline import ProfileSpline
+from graphcam.mechanism.profile_spline import ProfileSpline
 from graphcam.mechanism.undercut import CutProfile, trimmed_profile
 
-POINTS = 720
+PROFILE_POINTS = 720
 """The number of points on the profile: one for every half degree of the cam angle."""
-NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profile_xyz": "profile.xyz"}
+FILE_NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profile_xyz": "profile.xyz"}
 
 
 def write_curves(
-    cam: Cam, spline: ProfileSpline | None, folder: Path, kinds: Collection[str] = tuple(NAMES)
+    cam: Cam, spline: ProfileSpline | None, folder: Path, kinds: Collection[str] = tuple(FILE_NAMES)
 ) -> dict[str, str]:
     """Write those of the three files into a folder that are wanted; returns their names by kind.
 
@@ -33,7 +33,7 @@ def write_curves(
     """
     from graphcam.sheets.dxf_renderer import write_spline
 
-    wanted = {kind: name for kind, name in NAMES.items() if kind in kinds}
+    wanted = {kind: name for kind, name in FILE_NAMES.items() if kind in kinds}
     if spline and "profile_dxf" in wanted:
         told = {"greatest distance from the exact profile, mm": f"{spline.deviation:.2g}"}
         write_spline(spline.control, spline.knots, folder / wanted["profile_dxf"], layer="profile", told=told)
@@ -41,7 +41,7 @@ def write_curves(
         kind: write for kind, write in (("profile_csv", _write_csv), ("profile_xyz", _write_xyz)) if kind in kinds
     }
     if tables:
-        cut = trimmed_profile(cam.envelope, POINTS)
+        cut = trimmed_profile(cam.envelope, PROFILE_POINTS)
         for kind, write in tables.items():
             write(cut, folder / wanted[kind])
     return wanted

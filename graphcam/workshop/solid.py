@@ -18,10 +18,10 @@ from graphcam.workshop.biarcs import Move
 from graphcam.workshop.cam_part import CamPart
 from graphcam.workshop.plane_loops import Loop, PlaneEdge, bore_loop, circle_loop
 
-UP, DOWN, RIGHT = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0)
+UP_AXIS, DOWN_AXIS, RIGHT_AXIS = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0)
 
 
-UNCERTAINTY = 1e-5
+LENGTH_UNCERTAINTY = 1e-5
 """What two points may be apart and still be one [mm]."""
 
 
@@ -90,7 +90,7 @@ class StepFile:
         angle = self.add_text("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))")
         solid_angle = self.add_text("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())")
         within = self.add_text(
-            f"UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE({real(UNCERTAINTY)}),{length},'distance_accuracy_value','')"
+            f"UNCERTAINTY_MEASURE_WITH_UNIT(LENGTH_MEASURE({real(LENGTH_UNCERTAINTY)}),{length},'distance_accuracy_value','')"
         )
         return self.add_text(
             "(GEOMETRIC_REPRESENTATION_CONTEXT(3)"
@@ -166,15 +166,19 @@ def solid_file(outline: Loop, part: CamPart, zero: float, name: str, description
     around = _wall(file, outline, 0.0, part.width)
     bore = _wall(file, bore_loop(part, zero), 0.0, part.length)
     faces = [*around.faces, *bore.faces]
-    faces.append(_plane(file, 0.0, DOWN, [_backwards(file, around.lower), _backwards(file, bore.lower)]))
+    faces.append(_plane(file, 0.0, DOWN_AXIS, [_reversed_edges(file, around.lower), _reversed_edges(file, bore.lower)]))
     if part.hub:
         hub = _wall(file, circle_loop(part.hub.diameter / 2), part.width, part.length)
         faces += hub.faces
-        faces.append(_plane(file, part.width, UP, [_forwards(file, around.upper), _backwards(file, hub.lower)]))
+        faces.append(
+            _plane(file, part.width, UP_AXIS, [_forward_edges(file, around.upper), _reversed_edges(file, hub.lower)])
+        )
         outermost = hub
     else:
         outermost = around
-    faces.append(_plane(file, part.length, UP, [_forwards(file, outermost.upper), _forwards(file, bore.upper)]))
+    faces.append(
+        _plane(file, part.length, UP_AXIS, [_forward_edges(file, outermost.upper), _forward_edges(file, bore.upper)])
+    )
     shell = file.add("CLOSED_SHELL", "''", faces)
     return file.finish(file.add("MANIFOLD_SOLID_BREP", "''", shell), name, description, program)
 
@@ -183,7 +187,7 @@ def _wall(file: StepFile, loop: Loop, low: float, high: float) -> Wall:
     corners = [edge.start for edge in loop]
     below, above = ([_vertex(file, corner, z) for corner in corners] for z in (low, high))
     rising = [
-        _edge(file, bottom, top, _line(file, corner, low, UP))
+        _edge(file, bottom, top, _line(file, corner, low, UP_AXIS))
         for bottom, top, corner in zip(below, above, corners, strict=True)
     ]
     wall = Wall([], [], [])
@@ -211,14 +215,16 @@ def _plane(file: StepFile, z: float, normal: tuple[float, float, float], bounds:
         file.add(kind, "''", file.add("EDGE_LOOP", "''", around), True)
         for kind, around in zip(kinds, bounds, strict=True)
     ]
-    return file.add("ADVANCED_FACE", "''", made, file.add("PLANE", "''", file.axes((0.0, 0.0, z), normal, RIGHT)), True)
+    return file.add(
+        "ADVANCED_FACE", "''", made, file.add("PLANE", "''", file.axes((0.0, 0.0, z), normal, RIGHT_AXIS)), True
+    )
 
 
-def _forwards(file: StepFile, edges: list[str]) -> list[str]:
+def _forward_edges(file: StepFile, edges: list[str]) -> list[str]:
     return [_oriented(file, edge, True) for edge in edges]
 
 
-def _backwards(file: StepFile, edges: list[str]) -> list[str]:
+def _reversed_edges(file: StepFile, edges: list[str]) -> list[str]:
     return [_oriented(file, edge, False) for edge in reversed(edges)]
 
 
@@ -255,19 +261,19 @@ def _curve(file: StepFile, edge: PlaneEdge, z: float) -> str:
 def _surface(file: StepFile, edge: PlaneEdge, curve: str, z: float) -> tuple[str, bool]:
     """The surface behind an edge, and whether its normal points out of the solid, which is to the right of the edge."""
     if not isinstance(edge, Move):
-        along = file.add("VECTOR", "''", file.direction(*UP), 1.0)
+        along = file.add("VECTOR", "''", file.direction(*UP_AXIS), 1.0)
         return file.add("SURFACE_OF_LINEAR_EXTRUSION", "''", curve, along), True
     if edge.centre is None:
         x, y, _ = way = _way(edge)
         return file.add("PLANE", "''", file.axes((edge.start.real, edge.start.imag, z), (y, -x, 0.0), way)), True
     # The normal of a cylinder points away from its axis.
-    axes = file.axes((edge.centre.real, edge.centre.imag, z), UP, RIGHT)
+    axes = file.axes((edge.centre.real, edge.centre.imag, z), UP_AXIS, RIGHT_AXIS)
     return file.add("CYLINDRICAL_SURFACE", "''", axes, abs(edge.start - edge.centre)), not edge.clockwise
 
 
 def _arc_axes(file: StepFile, arc: Move, z: float) -> str:
     assert arc.centre is not None
-    return file.axes((arc.centre.real, arc.centre.imag, z), DOWN if arc.clockwise else UP, RIGHT)
+    return file.axes((arc.centre.real, arc.centre.imag, z), DOWN_AXIS if arc.clockwise else UP_AXIS, RIGHT_AXIS)
 
 
 def _way(line: Move) -> tuple[float, float, float]:

@@ -14,48 +14,48 @@ import numpy as np
 
 from graphcam.drafting.marks import Points
 from graphcam.drafting.scale import ratio_text
-from graphcam.sheets.expand import Drawn
-from graphcam.sheets.frame import frame as empty_sheet
 from graphcam.sheets.labels import lettered, shading_parted
+from graphcam.sheets.mark_entities import Drawn
 from graphcam.sheets.model import Box, Drawing, Entity, Group, Page, Text
 from graphcam.sheets.packing import MESH, Grid, Preference, Room
 from graphcam.sheets.part_symbols import (
-    PERPENDICULAR,
-    PROFILE_OF_A_LINE,
+    LINE_PROFILE_TOLERANCE,
+    PERPENDICULARITY_TOLERANCE,
     PartSymbol,
     leader,
-    nearest,
+    nearest_place,
     roughness,
     shelf_leader,
     tolerance_frame,
 )
 from graphcam.sheets.sampling import linework, sampled
+from graphcam.sheets.sheet_frame import frame as empty_sheet
 from graphcam.words import say
 from graphcam.workshop.cam_part import profile_tolerance
 from graphcam.workshop.part_contents import PartContents
-from graphcam.workshop.part_layout import PartLayout, Placed, drawn_blocks, laid_out, table_pages
+from graphcam.workshop.part_layout import PartLayout, Placed, drawn_blocks, part_layout, table_pages
 from graphcam.workshop.part_views import (
-    DATUM,
-    DETAIL,
-    SECTION,
+    DATUM_LETTER,
+    DETAIL_LETTER,
+    SECTION_LETTER,
     ShownPart,
     bore_box,
     bore_view,
+    dimensioned_radii,
     front_box,
     front_view,
     heights,
     section_box,
     section_view,
-    told_radii,
 )
 
-SIDE = 30.0
+SYMBOL_OFFSET = 30.0
 """The distance from the left face of the section to the symbols of it, mm."""
-EDGE = 4.0
+EDGE_DISTANCE = 4.0
 """The distance from the edges of a face at which a line ends on it, mm, or a third of its height."""
 
 
-BESIDE_RADIUS = math.radians(10)
+RADIUS_LINE_ANGLE = math.radians(10)
 """The angle between the line of a radius and the end of another line on the profile, seen from the axis."""
 
 
@@ -81,7 +81,7 @@ def called_out(contents: PartContents, layout: PartLayout, lines: Iterable[Entit
     found: dict[str, list[Entity]] = {}
     for asked in _callouts(contents, layout):
         symbol, wanted = asked.symbol, asked.wanted
-        found_room = room.find([symbol.box.grown(1.0)], _near((wanted - room.corner) / MESH))
+        found_room = room.find([symbol.box.grown(1.0)], _nearness((wanted - room.corner) / MESH))
         by = wanted if found_room is None else found_room
         box = symbol.box.moved(by)
         room.take(box.grown(2))
@@ -91,7 +91,7 @@ def called_out(contents: PartContents, layout: PartLayout, lines: Iterable[Entit
     return found
 
 
-def _near(wanted: complex) -> Preference:
+def _nearness(wanted: complex) -> Preference:
     def distance(x: Grid, y: Grid) -> Grid:
         """In cells, squared."""
         return (x - wanted.real) ** 2 + (y - wanted.imag) ** 2
@@ -103,24 +103,29 @@ def _callouts(contents: PartContents, layout: PartLayout) -> list[Callout]:
     """The callouts of the profile, of the side and of the bore."""
     shown, table, tell = layout.shown, contents.part.table, contents.tell
     height = layout.sheet.lettering.label
-    value, datum = tell(say("{value:g}", value=profile_tolerance(table, contents.outline.greatest_radius))), tell(DATUM)
+    value, datum = (
+        tell(say("{value:g}", value=profile_tolerance(table, contents.outline.greatest_radius))),
+        tell(DATUM_LETTER),
+    )
 
     def ra(micrometres: float) -> PartSymbol:
         """The symbol of a roughness."""
         return roughness(tell(say("Ra {ra:g}", ra=micrometres)), height)
 
-    line, square = (tolerance_frame(kind, value, datum, height) for kind in (PROFILE_OF_A_LINE, PERPENDICULAR))
+    line, square = (
+        tolerance_frame(kind, value, datum, height) for kind in (LINE_PROFILE_TOLERANCE, PERPENDICULARITY_TOLERANCE)
+    )
     front, bore = front_box(shown), bore_box(shown)
     # On the side away from the arrow of the angle.
     across = front.right - line.box.width if shown.outline.sense > 0 else front.left
     upper, lower = _side(shown, 1), _side(shown, -1)
     on_bore = layout.bore + _bore_face(shown)
-    above = complex(-SIDE, float(upper.imag.mean()))
-    below = complex(-SIDE, float(lower.imag.mean()) - 2 * height)
+    above = complex(-SYMBOL_OFFSET, float(upper.imag.mean()))
+    below = complex(-SYMBOL_OFFSET, float(lower.imag.mean()) - 2 * height)
     of_profile, of_bore = ra(table.profile_roughness), ra(table.bore_roughness)
     corners = complex(across, front.top - 16), complex(front.left, front.bottom + 10)
     boxes = line.box.moved(corners[0]), of_profile.box.moved(corners[1])
-    on_profile = [layout.front + _profile_face(shown, nearest(box, 0j)) for box in boxes]
+    on_profile = [layout.front + _profile_face(shown, nearest_place(box, 0j)) for box in boxes]
     return [
         Callout("front", line, layout.front + corners[0], on_profile[0], leader),
         Callout("front", of_profile, layout.front + corners[1], on_profile[1], shelf_leader),
@@ -133,9 +138,9 @@ def _callouts(contents: PartContents, layout: PartLayout) -> list[Callout]:
 def _profile_face(shown: ShownPart, start: complex) -> Points:
     """Places on the profile that a line from a start reaches without crossing those of the radii or their heads."""
     free = np.full(shown.profile.shape, True)
-    for at, _ in told_radii(shown):
+    for at, _ in dimensioned_radii(shown):
         side = math.copysign(1.0, (start / at).imag)
-        free &= side * np.angle(shown.profile / at) > BESIDE_RADIUS
+        free &= side * np.angle(shown.profile / at) > RADIUS_LINE_ANGLE
     return shown.profile[free] if free.any() else shown.profile
 
 
@@ -143,7 +148,7 @@ def _side(shown: ShownPart, way: int) -> Points:
     """Places on the left face of the section above or below the bore, as far as the face is seen."""
     *_, low, high = heights(shown)
     inner, outer = shown.scale * shown.part.keyway_top, high if way > 0 else -low
-    edge = min(EDGE, (outer - inner) / 3)
+    edge = min(EDGE_DISTANCE, (outer - inner) / 3)
     return 1j * way * np.linspace(inner + edge, outer - edge, 50)
 
 
@@ -165,7 +170,7 @@ def working_drawing_of(contents: PartContents) -> Drawing:
     >>> len(drawing.pages), drawing.pages[0].width
     (1, 420.0)
     """
-    views, tables = laid_out(contents)
+    views, tables = part_layout(contents)
     sheet = views.sheet
     further = table_pages(contents, sheet) if tables is None else []
     count = 1 + len(further)
@@ -200,11 +205,11 @@ def _first_page(contents: PartContents, views: PartLayout, tables: Placed, empty
 def _view_titles(views: PartLayout) -> list[Entity]:
     """The titles over the section and over the enlarged bore."""
     shown, tell, height = views.shown, views.shown.tell, views.sheet.lettering.title
-    letter = tell(SECTION)
+    letter = tell(SECTION_LETTER)
     section = views.section + complex(shown.scale * shown.part.length / 2, section_box(shown).top - 8)
     bore = views.bore + 1j * (bore_box(shown).top - 6)
     scale = tell(ratio_text(1 / shown.bore_scale))
     return [
         Text(section, f"{letter}–{letter}", height, "center", view="section"),
-        Text(bore, f"{tell(DETAIL)} ({scale})", height, "center", view="bore"),
+        Text(bore, f"{tell(DETAIL_LETTER)} ({scale})", height, "center", view="bore"),
     ]

@@ -7,19 +7,19 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import DesignError, check_kind, meant, nearest
+from graphcam.errors import DesignError, check_kind, nearest, suggestion
 from graphcam.files import whole_folder
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.spline import ProfileSpline, profile_spline
+from graphcam.mechanism.profile_spline import ProfileSpline, profile_spline
 from graphcam.tasks.part_table import PartTable
 from graphcam.words import say
 from graphcam.workshop import cutting_files, profile_files
 from graphcam.workshop.cam_part import cam_part
-from graphcam.workshop.outline import of_cam
+from graphcam.workshop.part_outline import of_cam
 from graphcam.workshop.plane_loops import spline_loop
 
-KINDS = "csv", "dxf", "xyz", "step", "gcode"
-OF_SPLINE = "dxf", "step"
+FILE_KINDS = "csv", "dxf", "xyz", "step", "gcode"
+SPLINE_KINDS = "dxf", "step"
 """The kinds that show the profile as a spline."""
 
 
@@ -65,14 +65,16 @@ def write_profile(
     check_kind("cam", cam, Cam)
     wanted = [kinds] if isinstance(kinds, str) else list(kinds)
     for kind in wanted:
-        if kind not in KINDS:
-            raise DesignError("kinds", kind, say("of {names}", names=", ".join(KINDS)), meant(kind, KINDS))
+        if kind not in FILE_KINDS:
+            raise DesignError(
+                "kinds", kind, say("of {names}", names=", ".join(FILE_KINDS)), suggestion(kind, FILE_KINDS)
+            )
     table, names = _part_table(part), {f"profile_{kind}" for kind in wanted}
-    spline = _spline(cam, table) if any(kind in OF_SPLINE for kind in wanted) else None
+    spline = _spline(cam, table) if any(kind in SPLINE_KINDS for kind in wanted) else None
     with whole_folder(folder) as draft:
         written = profile_files.write_curves(cam, spline, draft, names)
         for kind, text in _texts(cam, spline, table, name, names).items():
-            written[kind] = cutting_files.NAMES[kind]
+            written[kind] = cutting_files.FILE_NAMES[kind]
             (draft / written[kind]).write_text(text, encoding="ascii", newline="\n")
     return {kind: Path(folder) / written[f"profile_{kind}"] for kind in wanted}
 
@@ -94,7 +96,7 @@ def _spline(cam: Cam, table: PartTable) -> ProfileSpline:
 def _texts(cam: Cam, spline: ProfileSpline | None, table: PartTable, name: str, wanted: set[str]) -> dict[str, str]:
     """The files by which a machine cuts the cam, as far as they are wanted."""
     texts: dict[str, str] = {}
-    if not wanted & cutting_files.NAMES.keys():
+    if not wanted & cutting_files.FILE_NAMES.keys():
         return texts
     outline = of_cam(cam)
     if spline is not None and "profile_step" in wanted:

@@ -26,7 +26,7 @@ from sphinx.cmd.build import build_main
 from studio_links import FOLDER, studio_page, try_it
 
 import graphcam as gc
-from graphcam.notebooks.running import execute
+from graphcam.notebooks.notebook_execution import execute
 
 HERE = Path(__file__).parent
 COURSE = HERE.parent

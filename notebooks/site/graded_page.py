@@ -5,8 +5,8 @@ from __future__ import annotations
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.mistakes import misconception
-from graphcam.exercises.key.keying import issue
-from graphcam.exercises.key.scatter import answers_of
+from graphcam.exercises.key.answer_scatter import answers_of
+from graphcam.exercises.key.key_making import issue
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.simulate import submission
 from graphcam.exercises.reports.student_page import student_page

@@ -13,17 +13,17 @@ from typer.testing import CliRunner
 
 import graphcam as gc
 from graphcam.bench import bench_report as reports, convergence as drawn, load_rows as loads, peers, reference, rivals
+from graphcam.bench.bench_followers import ARM, PERMITTED_ANGLE, free_scene, scene
 from graphcam.bench.exact_rows import designs
 from graphcam.bench.hand_errors import budgets, by_hand
 from graphcam.bench.rows import BenchRow, Effort
-from graphcam.bench.scenes import ARM, LIMIT, free_scene, scene
 from graphcam.bench.sweep_curve import swept_file
 from graphcam.bench.timing import Timer
-from graphcam.bench.tradeoff import INSIDE
+from graphcam.bench.tradeoff import INNER_POINT
 from graphcam.cli import app
-from graphcam.cli.shared import WRONG_INPUT, table_lines
+from graphcam.cli.shared import INPUT_ERROR_STATUS, table_lines
 from graphcam.sweeps.sweep import sweep
-from graphcam.sweeps.sweep_forces import FORCES
+from graphcam.sweeps.sweep_forces import FORCE_QUANTITIES
 from graphcam.sweeps.sweep_quantities import QUANTITIES
 
 SMOOTH = ("cycloidal", "3-4-5")
@@ -54,9 +54,9 @@ def test_sampled_forces_come_near_the_extremes_from_inside(follower):
 @pytest.mark.parametrize("follower", ["translating", "arm"])
 def test_swept_forces_are_those_of_one_cam_after_another(follower):
     some = designs(follower, "3-4-5", 6)
-    swept = sweep(some, FORCES, load=loads.load_of(follower), friction=loads.FRICTION)
+    swept = sweep(some, FORCE_QUANTITIES, load=loads.load_of(follower), friction=loads.FRICTION_COEFFICIENT)
     looped = np.array(loads.looped_forces(some, follower))
-    for k, name in enumerate(FORCES[:3]):
+    for k, name in enumerate(FORCE_QUANTITIES[:3]):
         assert np.abs(swept[name] / looped[:, k] - 1).max() < 1e-12
 
 
@@ -76,7 +76,7 @@ def test_a_motion_by_conditions_is_right_to_a_few_eps_and_its_rows_have_a_rival(
 
 @pytest.fixture(scope="module")
 def series():
-    return drawn.convergence(drawn.FITTED)
+    return drawn.convergence(drawn.FITTED_PARTS)
 
 
 def test_smooth_laws_are_drawn_with_the_second_order(series):
@@ -156,9 +156,9 @@ def test_a_sampled_least_radius_is_too_small_and_comes_near_with_the_second_orde
     free = free_scene(law)
     exact, motion = free.least().prime_radius, free.board.motion
     for solve in (
-        lambda n: rivals.by_half_planes(rivals.translating_lines(motion, LIMIT, n), INSIDE),
-        lambda n: rivals.by_optimiser(rivals.translating_lines(motion, LIMIT, n), INSIDE),
-        lambda n: rivals.by_pressure_angles(motion, LIMIT, n, (INSIDE[1], 0.0)),
+        lambda n: rivals.by_half_planes(rivals.translating_lines(motion, PERMITTED_ANGLE, n), INNER_POINT),
+        lambda n: rivals.by_optimiser(rivals.translating_lines(motion, PERMITTED_ANGLE, n), INNER_POINT),
+        lambda n: rivals.by_pressure_angles(motion, PERMITTED_ANGLE, n, (INNER_POINT[1], 0.0)),
     ):
         few, many = (solve(n) / exact - 1 for n in (60, 600))
         assert few < many < 0
@@ -216,12 +216,12 @@ def test_the_faults_of_another_package_are_found_again():
 
 @pytest.mark.slow
 def test_the_command_writes_the_whole_report(tmp_path, monkeypatch):
-    monkeypatch.setattr(reports, "QUICK", TINY)
+    monkeypatch.setattr(reports, "QUICK_EFFORT", TINY)
     monkeypatch.setenv("COLUMNS", "80")
     result = CliRunner().invoke(app, ["bench", "--quick", "--out", str(tmp_path / "report")])
     assert result.exit_code == 0, result.output
     assert "Error against the number of parts" in result.output
-    assert sorted(path.name for path in (tmp_path / "report").iterdir()) == sorted(reports.FILES)
+    assert sorted(path.name for path in (tmp_path / "report").iterdir()) == sorted(reports.FILE_NAMES)
 
     def no_constant(name: str) -> None:
         raise AssertionError(name)
@@ -236,7 +236,7 @@ def test_the_command_writes_the_whole_report(tmp_path, monkeypatch):
     markdown = (tmp_path / "report" / "bench.md").read_text()
     tables = [line for line in markdown.splitlines() if line.startswith("|")]
     assert len(tables) > 60
-    assert markdown.count("\n## ") == len(reports.SECTIONS) - 1
+    assert markdown.count("\n## ") == len(reports.REPORT_SECTIONS) - 1
     printed = result.output[result.output.index("\nError against the number") :].splitlines()[:-1]
     assert len(printed) > 120
     assert max(map(len, printed)) <= 80
@@ -311,5 +311,5 @@ def test_a_folder_that_cannot_be_written_is_told_before_anything_is_measured(tmp
     monkeypatch.setattr("graphcam.bench.bench_report.measure", measured)
     (tmp_path / "file").write_text("in the way")
     result = CliRunner().invoke(app, ["bench", "--quick", "--out", str(tmp_path / "file")])
-    assert result.exit_code == WRONG_INPUT
+    assert result.exit_code == INPUT_ERROR_STATUS
     assert "cannot be written" in result.output

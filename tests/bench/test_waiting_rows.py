@@ -8,13 +8,13 @@ from dataclasses import replace
 import pytest
 
 import graphcam as gc
-from graphcam.bench.bench_report import QUICK
+from graphcam.bench.bench_report import QUICK_EFFORT
 from graphcam.bench.waiting_rows import built_in, dragging, resized, solve_rows, studio_rows, view_svg
 from graphcam.plots.step_board import StepBoard
 from graphcam.sheets.player import group_svg
 from graphcam.studio.task_text import plain_task
 
-ONCE = replace(QUICK, budget=0.0, least_runs=1)
+ONCE = replace(QUICK_EFFORT, budget=0.0, least_runs=1)
 VIEWS = {
     "acceleration": ["acceleration", "integration"],
     "profile": ["inversion", "curvature", "working_profile"],

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from graphcam.comparison.quantities import Quantity
-from graphcam.given.laws import BETWEEN_DWELLS
+from graphcam.given.laws import DWELL_TO_DWELL_LAWS
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.task import (
     CamTable,
@@ -101,6 +101,6 @@ def _motion(random: np.random.Generator, law: str | None, lifts: tuple[float, fl
 
 
 def _moving(random: np.random.Generator, kind: str, angle: float, lift: float, law: str | None):
-    name = law or BETWEEN_DWELLS[random.integers(len(BETWEEN_DWELLS))]
+    name = law or DWELL_TO_DWELL_LAWS[random.integers(len(DWELL_TO_DWELL_LAWS))]
     table = {"rise": RiseTable, "return": ReturnTable}[kind](angle, lift, name)
     return replace(table, ratio=round(random.uniform(0.5, 2), 2)) if name == "rectangular" else table

@@ -13,7 +13,7 @@ from random_tasks import random_arm_task, random_flat_task, random_task
 
 import graphcam as gc
 from graphcam.comparison import double_integration
-from graphcam.comparison.double_integration import FIFTH, chords, known, proved_bounds
+from graphcam.comparison.double_integration import FIFTH_DERIVATIVES, chords, has_known_derivatives, proved_bounds
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import LAWS, Floats, law as law_of
 from graphcam.given.stations import divide
@@ -110,23 +110,23 @@ def test_what_is_read_lies_within_the_bounds_and_they_tend_to_the_error(name):
     assert np.median(tightness[-1] or 1.0) < (2.1 if name == "4-5-6-7" else 1.3)
 
 
-@pytest.mark.parametrize("name", [name for name in SMOOTH if max(FIFTH[name][0]) > 0])
+@pytest.mark.parametrize("name", [name for name in SMOOTH if max(FIFTH_DERIVATIVES[name][0]) > 0])
 def test_a_tenth_of_the_fifth_derivative_does_not_hold(name, monkeypatch):
     assert holds(name, np.linspace(0, 1, 6))
-    less = tuple(tuple(value / 10 for value in half) for half in FIFTH[name])
-    monkeypatch.setitem(double_integration.FIFTH, name, less)
+    less = tuple(tuple(value / 10 for value in half) for half in FIFTH_DERIVATIVES[name])
+    monkeypatch.setitem(double_integration.FIFTH_DERIVATIVES, name, less)
     assert not all(holds(name, np.linspace(0, 1, n + 1)) for n in (3, 4, 5, 7, 12))
 
 
 @pytest.mark.parametrize("name", LAWS)
 def test_the_fifth_derivatives_are_the_greatest(name):
     edges = [0.0, *(e for e in law_of(name).edges if e < 0.5), 0.5]
-    for (a, b), greatest in zip(pairwise(edges), FIFTH[name][0], strict=True):
+    for (a, b), greatest in zip(pairwise(edges), FIFTH_DERIVATIVES[name][0], strict=True):
         inside = [mpf(a) + mpf(b - a) * k / 40 for k in range(1, 40)]
         values = [abs(float(diff(lambda x: reference.lift(name, x), x, 5, h=mpf("1e-7")))) for x in inside]
         assert max(values) <= greatest * (1 + 1e-6) + 1e-6
         assert max(values) >= 0.8 * greatest
-    for edge, jump in zip(edges[1:-1], FIFTH[name][1], strict=True):
+    for edge, jump in zip(edges[1:-1], FIFTH_DERIVATIVES[name][1], strict=True):
         sides = [diff(lambda x: reference.lift(name, x), mpf(edge) + s, 4, h=mpf("1e-9")) for s in (-1e-6, 1e-6)]
         assert abs(float(sides[1] - sides[0])) == pytest.approx(jump, rel=1e-3, abs=1e-6)
 
@@ -150,8 +150,8 @@ def test_where_no_theorem_tells_it_nothing_is_said():
         builtin_task(),
         gc.Law("cosine", lambda u: (u * u * (3 - 2 * u), 6 * u * (1 - u), 6 - 12 * u, 0 * u - 12)),
     )
-    assert known(law_of("rectangular", 1.7))
-    assert not known(own)
+    assert has_known_derivatives(law_of("rectangular", 1.7))
+    assert not has_known_derivatives(own)
     shaky = solve(task, Pencil(line=0.2, dividers=0.2))
     assert shaky.comparison.proved == {}
     assert "proved" not in told_against_exact(shaky)

@@ -10,7 +10,7 @@ import numpy as np
 
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import AdoptedSizes
-from graphcam.constructions.drawn_arm import ARM_ON_PAPER, DrawnOscillating
+from graphcam.constructions.drawn_arm import MAX_ARM_ON_PAPER, DrawnOscillating
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.drafting.scale import GOST_2_302, Paper, Scale, standard_scale
@@ -81,7 +81,7 @@ def arm_motion(law: str, lift: float = 20.0, ratio: float = 1.0) -> Motion:
 def arm_board(motion: Motion, distance: float | None = 120.0, arm: float = ARM, **changes: Any) -> Board:
     """A board for an arm at the usual limit of 45 degrees, and other ``changes``."""
     board = board_of(motion, **({"rotation": "ccw", "limits": limits(45)} | changes))
-    mu_l = standard_scale(arm, ARM_ON_PAPER, board.paper.ratios)
+    mu_l = standard_scale(arm, MAX_ARM_ON_PAPER, board.paper.ratios)
     return replace(board, follower=DrawnOscillating(arm, distance, mu_l))
 
 

@@ -20,18 +20,18 @@ import numpy as np
 
 import graphcam as gc
 from graphcam.constructions.axes import station_names
-from graphcam.constructions.curvature import CAREFUL
+from graphcam.constructions.curvature import CAREFUL_ERROR
+from graphcam.drafting.act_order import ActPlaces, FollowedBoard, sources, visible_places
 from graphcam.drafting.acts import Act, Drawn, Kind, Setting
-from graphcam.drafting.hand import COMPASS
+from graphcam.drafting.hand import BISECTION_SHARE
 from graphcam.drafting.ink import Construction, Part, Reading, Step
 from graphcam.drafting.marks import Dots, Line, Mark, Segments
-from graphcam.drafting.moves import ActPlaces, FollowedBoard, sources, visible_in
 from graphcam.drafting.scale import Scale
-from graphcam.given.motion import Moving
-from graphcam.report.sheet_contents import all_drawn, chapter_numbers, steps_of
+from graphcam.given.motion import MovingPhase
+from graphcam.report.sheet_contents import all_constructions, chapter_numbers, steps_of
 from graphcam.words import Caption, Words
 
-CHOSEN = 0.0, 1.0, 2.0, 0.5, COMPASS, CAREFUL
+CHOSEN = 0.0, 1.0, 2.0, 0.5, BISECTION_SHARE, CAREFUL_ERROR
 """What a construction chooses once for all."""
 FULL = 90.0, 180.0, 360.0
 READ = 0.05
@@ -186,7 +186,7 @@ def given(solution: Any) -> Known:
         lifts = np.array([phase.lift for phase in motion.phases])
         known.add([lifts, np.cumsum(lifts)], "lengths")
         known.add(np.degrees([lifts, np.cumsum(lifts)]), "angles")
-        known.add([phase.normalised.peak_acceleration for phase in motion.phases if isinstance(phase, Moving)])
+        known.add([phase.normalised.peak_acceleration for phase in motion.phases if isinstance(phase, MovingPhase)])
     return known
 
 
@@ -332,7 +332,7 @@ def measured(board: Board, pieces: Iterable[ActPlaces], marks: Iterable[Mark], s
     flat = np.concatenate([f(each) for each in (points, pairs, np.array(beside)) for f in (np.real, np.imag, np.abs)])
     known.add(flat, "lengths")
     if any(piece.act.kind is Kind.BISECT for piece in pieces):
-        known.add(COMPASS * np.abs(pairs), "lengths")
+        known.add(BISECTION_SHARE * np.abs(pairs), "lengths")
     turns = np.degrees(np.angle(np.array([*ways, *points, *(pairs if points.size <= FEW else ())])))
     if turns.size <= FEW**2:
         turns = np.append(turns, turns[:, None] - turns[None, :])
@@ -464,10 +464,10 @@ def not_on_the_board(solution: Any, judged: Judged = unknown) -> Iterator[tuple[
 
     judged : says it of a text
     """
-    drawn = all_drawn(solution)
+    drawn = all_constructions(solution)
     steps = steps_of(drawn)
     numbers, data = chapter_numbers(steps), given(solution)
-    followed, board = FollowedBoard(visible_in([step for _, _, step in steps])), Board()
+    followed, board = FollowedBoard(visible_places([step for _, _, step in steps])), Board()
     for construction in drawn.values():
         for left in construction.acts.values():
             board.take(left)

@@ -18,7 +18,7 @@ from graphcam.drafting.ink import Caption
 from graphcam.drafting.marks import Arc, Dots
 from graphcam.drafting.scale import GOST_2_302, Paper, Scale
 from graphcam.given.three_arcs import ThreeArcs
-from graphcam.mechanism.arcs import three_arc_cam
+from graphcam.mechanism.three_arc_cam import three_arc_cam
 
 ROUNDING = 1e-11
 """Of lengths, as a part of the largest one."""

@@ -15,7 +15,7 @@ from test_convergence import distance_from_profile
 import graphcam as gc
 from graphcam.constructions.arm_minimum_radius import arm_least_radius
 from graphcam.constructions.chain import AdoptedSizes, Chain
-from graphcam.constructions.region import nearest_of_many
+from graphcam.constructions.region import nearest_for_many
 from graphcam.drafting.euclid import UP, unit
 from graphcam.drafting.marks import Arc, Arrow, Line, Role
 from graphcam.drafting.pencil import Pencil
@@ -23,7 +23,7 @@ from graphcam.drafting.scale import GOST_2_302, Paper, Scale
 from graphcam.errors import DesignError
 from graphcam.given.follower import sense
 from graphcam.given.laws import LAWS
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 
 PARTS = (12, 24, 48, 96)
 FINER = (12, 19, 26, 40, 54, 75, 96)
@@ -196,7 +196,7 @@ def plotted_alone(region) -> float:
         np.concatenate([region.points[f"{part} of {name}"][:: step[name]] for name in names])
         for part in ("touch", "inward")
     )
-    place, _ = nearest_of_many(touches, inwards, region.points["start"])
+    place, _ = nearest_for_many(touches, inwards, region.points["start"])
     return float(np.abs(place - region.points["start"])) * region.givens.mu_l.per_mm
 
 

@@ -15,7 +15,7 @@ from graphcam.constructions.differentiation import differentiation, measured_dif
 from graphcam.drafting.marks import Line, Segments
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.drafting.slips import SQUARE
+from graphcam.drafting.slips import SQUARE_LENGTH
 from graphcam.errors import DesignError
 from graphcam.given.boundary_motion import boundary_motion
 from graphcam.given.boundary_parts import MotionPoint, PolynomialPart, SplinePart
@@ -160,7 +160,7 @@ def test_the_scatter_of_a_chord_is_the_textbook_s():
     for n in PARTS:
         m = drawn(n).readings["v"].paper / POLES[0]
         ends = 2 * (1 + m**2) * (POLES[0] / (TURN / n)) ** 2
-        ray = (1 + m**2) * (1 + (1 + m**2) * (POLES[0] / SQUARE) ** 2)
+        ray = (1 + m**2) * (1 + (1 + m**2) * (POLES[0] / SQUARE_LENGTH) ** 2)
         expected = SIGMA * np.mean(np.sqrt(ends + m**2 + ray + 1))
         assert scatter(n, "v") == pytest.approx(expected, rel=0.03)
 

@@ -23,7 +23,7 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import sense
 from graphcam.given.laws import LAWS
 from graphcam.mechanism.flat_faced import face_width
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 
 PARTS = (12, 24, 48, 96)
 EXACT = 1e-12

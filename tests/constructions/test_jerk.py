@@ -23,7 +23,7 @@ from graphcam.drafting.scale import Scale
 from graphcam.given.boundary_motion import boundary_motion
 from graphcam.given.boundary_parts import MotionPoint, PolynomialPart
 from graphcam.given.impact import acceleration_jumps
-from graphcam.given.laws import BETWEEN_DWELLS, law
+from graphcam.given.laws import DWELL_TO_DWELL_LAWS, law
 from graphcam.given.motion import FULL_TURN
 
 PARTS = (12, 24, 48, 96)
@@ -68,7 +68,7 @@ def test_a_straight_acceleration_is_differentiated_exactly(name):
     )
 
 
-@pytest.mark.parametrize("name", BETWEEN_DWELLS)
+@pytest.mark.parametrize("name", DWELL_TO_DWELL_LAWS)
 def test_the_peak_of_a_law_s_jerk_is_that_of_dense_places(name):
     u = np.linspace(0, 1, 200_001)
     dense = max(np.abs(law(name)(u, side=side)[3]).max() for side in ("left", "right"))

@@ -17,7 +17,7 @@ import graphcam as gc
 from graphcam.constructions.arc_chain import ArcBoard, ArcChain
 from graphcam.drafting.ink import Step
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dimension, Dots, Label, Line, Role, Segments
-from graphcam.mechanism.arcs import three_arc_cam
+from graphcam.mechanism.three_arc_cam import three_arc_cam
 
 NEAR = 1e-9
 """mm of paper: rounding."""

@@ -14,8 +14,9 @@ from boards import arm_board, arm_motion, arm_motion_of, limits
 from numpy.testing import assert_allclose
 
 import graphcam as gc
-from graphcam.constructions.axes import turning
+from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.chain import Chain
+from graphcam.drafting.act_order import pieces_of
 from graphcam.drafting.acts import Act, Kind
 from graphcam.drafting.ink import Construction, Part, Step
 from graphcam.drafting.marks import (
@@ -32,7 +33,6 @@ from graphcam.drafting.marks import (
     Role,
     Segments,
 )
-from graphcam.drafting.moves import pieces_of
 from graphcam.drafting.pencil import Pencil
 
 SIGMA = 0.1
@@ -677,7 +677,7 @@ def test_the_velocity_plan_is_square_to_the_mechanisms_triangle(name, pencil):
     )
     said = [numbers(part.caption, text)[0] for part, text in zip(step.parts, texts, strict=True)]
     assert said == pytest.approx(lengths, abs=0.051)
-    turns = [turning(way) for way in ("ccw", "cw")][:: sense(measured)]
+    turns = [sense_caption(way) for way in ("ccw", "cw")][:: sense(measured)]
     assert [f"turned by 90° {way}" in str(part.caption) for way, part in zip(turns, step.parts, strict=False)] == [
         True,
         True,
@@ -779,7 +779,7 @@ def test_prime_circle_and_pivot_circle_have_the_sizes_that_are_told(name):
 
 def against(drawn: Construction) -> str:
     """How the frame goes round the cam that is held still."""
-    return str(turning("cw" if drawn.givens.rotation == "ccw" else "ccw"))
+    return str(sense_caption("cw" if drawn.givens.rotation == "ccw" else "ccw"))
 
 
 @EVERY
@@ -792,7 +792,7 @@ def test_the_pivot_is_stepped_off_against_the_rotation(name):
     for text, label in named.items():
         k = station(inverted, text)
         assert (label.at, label.towards) == pytest.approx((pivots[k], pivots[k]))
-    way, cam = against(inverted), turning(inverted.givens.rotation)
+    way, cam = against(inverted), sense_caption(inverted.givens.rotation)
     assert f"The cam turns {cam}; hold it still and step the pivot round A the other way, {way}." in str(step.caption)
     assert f"count {way} from the horizontal to the right of A, from station to station " in str(step.caption)
     k = station(inverted, re.search(r"so station (\S+) at", str(step.caption)).group(1))

@@ -12,21 +12,21 @@ from numpy.testing import assert_allclose
 
 import graphcam as gc
 from graphcam.constructions.axes import (
+    AXIS_OVERHANG,
     DEGREES_ROOM,
-    OVERHANG,
-    as_high,
     axes_over_phi,
     degree_ticks,
     degrees_below,
+    first_at_height,
     height_names,
-    numbered,
+    joined_parts,
+    numbered_stations,
     numbers,
     part_names,
     phase_symbol,
     phases_below,
     phi_axes,
     station_names,
-    together,
 )
 from graphcam.constructions.graduation import falling_together, graduated
 from graphcam.drafting.hand import Hand
@@ -49,9 +49,9 @@ def hand() -> Hand:
 def test_the_axes_reach_over_all_heights_and_the_axis_itself_and_are_named_at_their_heads(heights):
     across, up, ticks, phi, symbol, mu = axes_over_phi(90.0, TWO_DEGREES, np.array(heights), "v, mm/rad")
     assert isinstance(across, Arrow)
-    assert (across.start, across.end, across.role) == (0, 90 + OVERHANG, Role.SCALE)
+    assert (across.start, across.end, across.role) == (0, 90 + AXIS_OVERHANG, Role.SCALE)
     lowest, highest = min(0, np.nanmin(heights)), max(0, np.nanmax(heights))
-    assert (up.start, up.end, up.role) == (lowest * 1j, (highest + OVERHANG) * 1j, Role.SCALE)
+    assert (up.start, up.end, up.role) == (lowest * 1j, (highest + AXIS_OVERHANG) * 1j, Role.SCALE)
     assert (phi.at, str(phi.text), symbol.at, symbol.text) == (across.end, "φ, °", up.end, "v, mm/rad")
     assert (phi.towards, symbol.towards) == (-1j, -1 - 1j)
     assert (mu.at, str(mu.text), mu.small) == (90, "μᵩ = 2°/mm", True)
@@ -67,7 +67,7 @@ def test_a_thin_line_stands_where_each_phase_ends_from_the_lowest_to_the_highest
     assert_allclose(limits.starts, ends - 10j)
     assert_allclose(limits.ends, ends + 25j)
     assert limits.role is Role.CONSTRUCTION
-    assert marks[0].end == pytest.approx(ends[-1] + OVERHANG)
+    assert marks[0].end == pytest.approx(ends[-1] + AXIS_OVERHANG)
 
 
 ROOM = pytest.mark.parametrize(
@@ -177,9 +177,9 @@ def test_heights_that_fall_on_one_another_are_found_together_from_the_lowest():
 
 def test_of_equal_heights_the_first_stands_for_all_in_every_sample():
     heights = np.array([[3.0, 1.0, 3.0 + 1e-12, -2.0, 1.0], [5.0, 4.0, 3.0, 2.0, 5.0]])
-    assert as_high(heights).tolist() == [[0, 1, 0, 3, 1], [0, 1, 2, 3, 0]]
-    assert as_high(heights[0]).tolist() == [0, 1, 0, 3, 1]
-    assert as_high(np.array([1.0, 1.0 + 1e-8])).tolist() == [0, 1]
+    assert first_at_height(heights).tolist() == [[0, 1, 0, 3, 1], [0, 1, 2, 3, 0]]
+    assert first_at_height(heights[0]).tolist() == [0, 1, 0, 3, 1]
+    assert first_at_height(np.array([1.0, 1.0 + 1e-8])).tolist() == [0, 1]
 
 
 def test_of_heights_the_farthest_are_named_and_none_near_the_other_axis():
@@ -194,8 +194,8 @@ def test_of_heights_the_farthest_are_named_and_none_near_the_other_axis():
 def test_neighbours_are_named_together_within_a_phase_only():
     stations = divide(MOTION, 6)
     assert part_names(stations) == [*"123456", *(f"{k}′" for k in range(1, 7))]
-    assert together([3, 4, 5, 6, 7], stations) == "4-6, 1′, 2′"
-    assert together([0, 2, 3, 11], stations) == "1, 3, 4, 6′"
+    assert joined_parts([3, 4, 5, 6, 7], stations) == "4-6, 1′, 2′"
+    assert joined_parts([0, 2, 3, 11], stations) == "1, 3, 4, 6′"
 
 
 @pytest.mark.parametrize("parts", [9, 10, 100])
@@ -205,7 +205,7 @@ def test_the_stations_named_are_as_many_as_find_room_and_their_numbers_are_round
     turn = gc.Motion([gc.Rise(30, math.pi), gc.Return(30, math.pi)])
     room = 4.5 if parts < 10 else 6.0
     apart = room / every * (1 + 1e-9)
-    named = [k for k in numbered(apart * np.arange(2 * parts + 2) + 0j, divide(turn, parts)) if k <= parts]
+    named = [k for k in numbered_stations(apart * np.arange(2 * parts + 2) + 0j, divide(turn, parts)) if k <= parts]
     expected = [k for k in range(0, parts, every) if k == 0 or parts - k >= every] if every <= parts else [0]
     assert named == [*expected, parts]
 

@@ -12,7 +12,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 import graphcam as gc
-from graphcam.constructions.differentiation import TANGENT, differentiation
+from graphcam.constructions.differentiation import TANGENT_HALF_LENGTH, differentiation
 from graphcam.constructions.graduation import NUMBERS_ROOM, RAYS_ROOM
 from graphcam.drafting.acts import Act, Kind
 from graphcam.drafting.ink import Construction, Step
@@ -186,7 +186,7 @@ def test_a_tangent_touches_its_point_and_crosses_neither_chord_there(kind, penci
         lines = one(tangents, Segments)
         beside = MANY * pencil.line if pencil else EXACT
         assert_allclose(np.abs((lines.starts + lines.ends) / 2 - plotted), 0, atol=beside)
-        assert_allclose(np.abs(lines.ends - lines.starts), 2 * TANGENT, atol=EXACT)
+        assert_allclose(np.abs(lines.ends - lines.starts), 2 * TANGENT_HALF_LENGTH, atol=EXACT)
         assert np.all(lines.ends.real > lines.starts.real)
         assert number(tangents.caption, r"others, (\d+) in all") == plotted.size
         chords = np.angle(np.diff(neighbours(kind, plotted)))

@@ -14,7 +14,7 @@ from numpy.testing import assert_allclose
 import graphcam as gc
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.chain import Chain
-from graphcam.constructions.flat_inversion import FACE_BEYOND
+from graphcam.constructions.flat_inversion import FACE_OVERHANG
 from graphcam.drafting.acts import Act
 from graphcam.drafting.ink import Step
 from graphcam.drafting.marks import AngleMark, Arrow, Circle, Dimension, Dots, Label, Line, Role, Segments
@@ -401,8 +401,8 @@ def test_every_face_stands_square_on_the_end_of_its_ray_and_reaches_beyond_its_t
     left, touched, right = (
         ((places - ends.points) * to_the_right.conjugate()).real for places in (faces.starts, touch, faces.ends)
     )
-    assert_allclose(left, np.minimum(touched, 0) - FACE_BEYOND, atol=EXACT)
-    assert_allclose(right, np.maximum(touched, 0) + FACE_BEYOND, atol=EXACT)
+    assert_allclose(left, np.minimum(touched, 0) - FACE_OVERHANG, atol=EXACT)
+    assert_allclose(right, np.maximum(touched, 0) + FACE_OVERHANG, atol=EXACT)
 
 
 @EVERY

@@ -15,7 +15,7 @@ from numpy.testing import assert_allclose
 import graphcam as gc
 from graphcam.constructions.axes import station_names
 from graphcam.constructions.chain import Chain
-from graphcam.constructions.force_plan import BASE, BEYOND, LOAD_LENGTH, force_plan
+from graphcam.constructions.force_plan import BASE, LINE_OVERHANG, LOAD_LENGTH, force_plan
 from graphcam.drafting.acts import Act
 from graphcam.drafting.marks import AngleMark, Arrow, Dots, Label, Line, Role
 from graphcam.drafting.pencil import Pencil
@@ -100,7 +100,7 @@ def test_the_line_of_the_contact_force_leans_by_the_pressure_angle_and_bears_its
     # Counter-clockwise from the motion for a cam that turns so: against its sense the cam pushes the stem along.
     lean = cmath.phase((line.points[1] - line.points[0]) / 1j)
     assert lean == pytest.approx(alpha if rotation == "ccw" else -alpha, abs=EXACT)
-    assert abs(line.points[1] - foot) == pytest.approx(abs(corner - foot) + BEYOND)
+    assert abs(line.points[1] - foot) == pytest.approx(abs(corner - foot) + LINE_OVERHANG)
     assert motion.role is Role.AXIS
     assert motion.points[0] == pytest.approx(foot, abs=EXACT)
     up = motion.points[1] - motion.points[0]

@@ -15,7 +15,7 @@ from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction, Step
 from graphcam.drafting.marks import Arrow, Dimension, Dots, Label, Line, Role, Segments
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.slips import SQUARE
+from graphcam.drafting.slips import SQUARE_LENGTH
 
 SEVERAL = motion_of(
     (10, 40, "3-4-5"), (0, 20), (20, 80, "cosine"), (-25, 60, "2-3"), (15, 60, "cycloidal"), (-20, 100, "triangular")
@@ -318,7 +318,7 @@ def test_chords_are_parallel_to_their_rays_and_set_end_to_end(name, hand, index)
         rays = run.middles.imag[k : k + slopes.size] / run.pole
         # Of a hand: the height, the pole, the chord's own place and turn.
         widths = np.diff(polygon.real)
-        errors = MANY * SIGMA * (1 / run.pole + np.abs(rays) / run.pole + 1 / widths + (1 + rays**2) / SQUARE)
+        errors = MANY * SIGMA * (1 / run.pole + np.abs(rays) / run.pole + 1 / widths + (1 + rays**2) / SQUARE_LENGTH)
         assert np.all(np.abs(slopes - rays) <= (1e-9 if hand == "perfect" else errors))
         k += slopes.size
     assert k == run.middles.size

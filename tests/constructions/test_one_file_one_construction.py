@@ -12,17 +12,17 @@ import pytest
 from replay import followed
 
 import graphcam as gc
+from graphcam.bench.bench_followers import scene
 from graphcam.bench.convergence import series_of
-from graphcam.bench.scenes import scene
 from graphcam.drafting.euclid import RIGHT
-from graphcam.drafting.hand import Hand, between
+from graphcam.drafting.hand import Hand, distance_between
 from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Role
 from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.errors import DesignError
-from graphcam.exercises.definition.drawn_answers import ask, per_mm, with_own
-from graphcam.exercises.definition.exercise import Asked
+from graphcam.exercises.definition.drawn_answers import drawn_answer, per_mm, with_own_answers
+from graphcam.exercises.definition.exercise import AskedAnswer
 from graphcam.notebooks.notebook_folder import notebook_of
 from graphcam.report.documents import contents_of, drawing_of, note_of, sheet_of
 from graphcam.report.note import comparison_file
@@ -61,7 +61,7 @@ def toy(source: Construction, pencil: Pencil) -> Construction[ToyGivens]:
     hand, origin = Hand(pencil, MEANING, source.readings["max_v"].unit.partition("/")[0]), 0j
     start = hand.given("start", origin)
     end = hand.lay_off("end", start, RIGHT, hand.carry(source.readings["max_v"]))
-    hand.read("length", between(start, end), source.readings["max_v"].scale)
+    hand.read("length", distance_between(start, end), source.readings["max_v"].scale)
     return hand.finished(ToyGivens(source), draw, {"end": end})
 
 
@@ -147,11 +147,11 @@ def test_a_hand_errs_in_it_and_the_bound_grows_with_the_hand(solution):
 def test_an_exercise_may_ask_for_it():
     chain = gc.solve(gc.builtin_task()).chain
     chain = chain.adding(MEANING, lambda chain: toy(chain.integration, chain.pencil))
-    asked = Asked("t", "How long is the toy?", "toy", reading="length", unit="mm/rad")
-    assert ask(chain, asked) == chain.integration.readings["max_v"].value
+    asked = AskedAnswer("t", "How long is the toy?", "toy", reading="length", unit="mm/rad")
+    assert drawn_answer(chain, asked) == chain.integration.readings["max_v"].value
     assert per_mm(chain, asked) == chain.integration.readings["max_v"].per_mm
-    gone_on = with_own(chain, asked, ask(chain, asked) + 1)
-    assert ask(gone_on, asked) == pytest.approx(ask(chain, asked) + 1, abs=1e-12)
+    gone_on = with_own_answers(chain, asked, drawn_answer(chain, asked) + 1)
+    assert drawn_answer(gone_on, asked) == pytest.approx(drawn_answer(chain, asked) + 1, abs=1e-12)
 
 
 def test_the_bench_follows_its_error_over_the_number_of_parts():

@@ -18,7 +18,7 @@ import graphcam as gc
 from graphcam.drafting.acts import Act, Kind
 from graphcam.drafting.ink import Construction, Part, Step
 from graphcam.errors import DesignError
-from graphcam.report.sheet_contents import all_drawn
+from graphcam.report.sheet_contents import all_constructions
 
 BUILT_IN = {name: gc.builtin_task(name) for name in ("coursework", "arm", "flat", "measured", "sizing")}
 FILES = Path(__file__).parents[1] / "data" / "told_once"
@@ -33,7 +33,7 @@ def steps(name: str) -> list[tuple[str, Construction, Step]]:
     """Every step of every construction of a task, with where it is found; none where no cam solves it."""
     try:
         solution = gc.solve(TASKS[name])
-        drawn = all_drawn(solution)
+        drawn = all_constructions(solution)
     except DesignError:
         return []
     return [(f"{key}: {step.title}", each, step) for key, each in drawn.items() for step in each.steps()]

@@ -11,10 +11,10 @@ from boards import arm_board, arm_motion, coursework, limits
 from test_marks_of_integration import BOARDS, EVERY, MANY, PASSES, SIGMA, Pass, drawn, names_of, of, starts, steps
 
 from graphcam.constructions.chain import Chain
+from graphcam.drafting.act_order import FollowedBoard, pieces_of, visible_places
 from graphcam.drafting.acts import Act, Kind
 from graphcam.drafting.ink import Part, Step
 from graphcam.drafting.marks import Dots, Label, Line, Role, Segments
-from graphcam.drafting.moves import FollowedBoard, pieces_of, visible_in
 
 NUMBER = r"(-?[\d.]+)"
 CENTI, DECI = 0.0051, 0.051
@@ -263,7 +263,7 @@ def test_chord_k_bears_the_number_of_the_ray_that_it_is_parallel_to_and_climbs_a
 @EVERY
 def test_beside_chord_k_ray_k_is_lit_and_no_other(name, hand, index):
     every = diagrams(name, hand)
-    board = FollowedBoard(visible_in(every))
+    board = FollowedBoard(visible_places(every))
     run = Pass(name, hand, index)
     rays = next(mark.of for mark in of(run.rays, Segments) if mark.of.name.startswith("rays"))
     kept = of(run.rays, Segments)[1].index

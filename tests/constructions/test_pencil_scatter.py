@@ -13,7 +13,7 @@ import graphcam as gc
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.acts import Kind
 from graphcam.drafting.euclid import centre_of_circle
-from graphcam.drafting.hand import COMPASS, Hand
+from graphcam.drafting.hand import BISECTION_SHARE, Hand
 from graphcam.drafting.ink import say
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
@@ -201,7 +201,7 @@ def test_bisectors_alone_scatter_the_radius_of_three_exact_points():
     centre = complex(chain["curvature"].points["centre"])
     rho, chords = float(abs(centre - b)), np.array([abs(b - before), abs(after - b)])
     crossing = abs(np.angle((centre - (before + b) / 2) / (centre - (b + after) / 2)))
-    apart = 2 * math.sqrt(COMPASS**2 - 0.25) * chords
+    apart = 2 * math.sqrt(BISECTION_SHARE**2 - 0.25) * chords
     across = SIGMA * np.hypot(0.5, rho * np.cos(crossing / 2) / apart)
     hand = Hand(pencil, Meaning("three points", say("Three points"), say("Given.")))
     places = [hand.given(name, at) for name, at in zip(("before", "B", "after"), (before, b, after), strict=True)]

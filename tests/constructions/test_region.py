@@ -12,8 +12,8 @@ from graphcam.constructions.region import (
     binding,
     boundary,
     highest_on,
-    nearest,
-    nearest_of_many,
+    nearest_for_many,
+    nearest_permitted,
     permitted_part,
 )
 from graphcam.drafting.acts import Drawn
@@ -21,7 +21,7 @@ from graphcam.drafting.euclid import UP
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.plane import dot
+from graphcam.plane_vectors import dot
 from graphcam.words import say
 
 same_every_time = settings(derandomize=True, deadline=None, max_examples=60)
@@ -39,7 +39,7 @@ def leaning(hand: Hand, name: str, angle: float, side: int, depth: float | np.nd
 
 def nearest_place(hand: Hand, lines: list[Drawn]) -> np.ndarray:
     """The one that is nearest to the origin."""
-    return nearest(hand, "centre", lines, hand.given("start")).points
+    return nearest_permitted(hand, "centre", lines, hand.given("start")).points
 
 
 @same_every_time
@@ -145,7 +145,7 @@ def test_the_nearest_place_among_many_lines_is_the_one_that_a_search_finds():
     empty = 0
     for seed in SEEDS:
         touches, inwards, start = random_lines(seed)
-        place, lines = nearest_of_many(touches, inwards, np.asarray(start))
+        place, lines = nearest_for_many(touches, inwards, np.asarray(start))
         found = nearest_by_search(touches, inwards, start)
         empty += bool(np.isnan(found))
         np.testing.assert_allclose(place, found, rtol=1e-9, atol=1e-9, err_msg=str(seed))
@@ -158,7 +158,7 @@ def test_the_nearest_place_among_many_lines_is_the_one_that_a_search_finds():
 def test_the_nearest_place_among_many_lines_is_the_least_of_quadratic_programming():
     for seed in range(2, 42, 4):  # families: one side, so that there always is a place
         touches, inwards, start = random_lines(seed)
-        place, _ = nearest_of_many(touches, inwards, np.asarray(start))
+        place, _ = nearest_for_many(touches, inwards, np.asarray(start))
         depth = dot(inwards, touches - start)
         found = minimize(
             lambda xy: xy @ xy, [100.0, 0.0], jac=lambda xy: 2 * xy, method="SLSQP", options={"ftol": 1e-14},
@@ -171,7 +171,7 @@ def test_the_nearest_place_among_many_lines_is_the_least_of_quadratic_programmin
 
 
 def test_a_start_that_no_line_cuts_off_is_the_nearest_place():
-    place, _ = nearest_of_many(np.array([0j, -3j]), np.array([1 + 0j, 1j]), np.asarray(2 + 1j))
+    place, _ = nearest_for_many(np.array([0j, -3j]), np.array([1 + 0j, 1j]), np.asarray(2 + 1j))
     assert complex(place) == 2 + 1j
 
 
@@ -181,9 +181,9 @@ def test_every_sample_of_many_lines_has_its_own_place():
     inwards = np.exp(1j * random.uniform(-np.pi, np.pi, (100, 6)))
     touches = random.uniform(-50, 50, (100, 6, 2)) @ np.array([1, 1j])
     start = random.uniform(-10, 10, (100, 2)) @ np.array([1, 1j])
-    together, lines = nearest_of_many(touches, inwards, start)
+    together, lines = nearest_for_many(touches, inwards, start)
     assert lines.shape == (100, 2)
     assert 5 < np.isnan(together).sum() < 95
     for k in range(100):
-        alone, _ = nearest_of_many(touches[k], inwards[k], start[k])
+        alone, _ = nearest_for_many(touches[k], inwards[k], start[k])
         np.testing.assert_array_equal(together[k], alone)

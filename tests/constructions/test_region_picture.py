@@ -11,7 +11,7 @@ import pytest
 from random_tasks import random_arm_task, random_task
 
 import graphcam as gc
-from graphcam.constructions.region import MARGIN
+from graphcam.constructions.region import PICTURE_MARGIN
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.marks import Dots, Line, Region, Role
 from graphcam.errors import DesignError
@@ -97,7 +97,7 @@ def test_the_cam_centre_found_lies_on_the_edge_of_the_hatching_and_the_adopted_o
     polygon = hatched(region)
     found, adopted = complex(np.ravel(region.first("centre"))[0]), adopted_centre(solution)
     assert abs(inside(polygon, found)) < ON_AN_EDGE
-    assert polygon.imag.min() <= min(found.imag, adopted.imag) - MARGIN + ON_AN_EDGE
+    assert polygon.imag.min() <= min(found.imag, adopted.imag) - PICTURE_MARGIN + ON_AN_EDGE
     assert not keeps_the_limits(solution) or inside(polygon, adopted) > -ON_AN_EDGE
 
 
@@ -149,7 +149,7 @@ def test_the_edges_of_the_hatching_lie_on_the_drawn_lines_or_cut_it_off_below(na
         if not any(on):
             # Only where what bounds it leans at more than 45 degrees, or nothing does, the picture's side cuts it off.
             assert start.real == end.real
-            assert abs(start.real) >= max(abs(place.real) for place in marked) + MARGIN
+            assert abs(start.real) >= max(abs(place.real) for place in marked) + PICTURE_MARGIN
 
 
 def test_most_of_the_tasks_are_solved_within_the_limits():

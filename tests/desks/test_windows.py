@@ -19,15 +19,15 @@ from pathlib import Path
 import pytest
 
 import graphcam
-from graphcam import locks
+from graphcam import file_locks
 from graphcam.cli import shared
 from graphcam.exercises.grading import grade_one
 from graphcam.exercises.grading.grade_one import LateError
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.reading import regular_file
 from graphcam.exercises.reading.submission_files import read_files
-from graphcam.exercises.running import probe
-from graphcam.exercises.running.levels import Level
+from graphcam.exercises.running import isolation_probe
+from graphcam.exercises.running.isolation_levels import Level
 from graphcam.workers import processes
 
 HIDDEN = Path(__file__).parent / "hidden"
@@ -143,14 +143,14 @@ def test_a_table_is_printed_in_every_encoding(tmp_path, encoding):
 
 
 def test_levels_that_run_code_say_in_one_line_that_they_need_linux(monkeypatch):
-    probe.missing.cache_clear()
-    monkeypatch.setattr(probe, "sys", types.SimpleNamespace(platform="win32"))
-    assert probe.missing(Level.L0) == ""
+    isolation_probe.reason_unavailable.cache_clear()
+    monkeypatch.setattr(isolation_probe, "sys", types.SimpleNamespace(platform="win32"))
+    assert isolation_probe.reason_unavailable(Level.L0) == ""
     for level in (Level.L1, Level.L2):
-        with pytest.raises(probe.LevelError, match=r"Linux.*bubblewrap.*L0") as refused:
-            probe.require(level)
+        with pytest.raises(isolation_probe.LevelError, match=r"Linux.*bubblewrap.*L0") as refused:
+            isolation_probe.require(level)
         assert "\n" not in str(refused.value)
-    probe.missing.cache_clear()
+    isolation_probe.reason_unavailable.cache_clear()
 
 
 def test_no_more_workers_than_windows_waits_for(monkeypatch):
@@ -166,7 +166,7 @@ def test_a_hand_in_that_takes_too_long_is_ended_without_the_clock_of_unix(monkey
             pass
 
     monkeypatch.delattr("signal.setitimer")
-    monkeypatch.setattr(grade_one, "WATCHED", 0.01)
+    monkeypatch.setattr(grade_one, "CHECK_INTERVAL", 0.01)
     with pytest.raises(LateError, match=r"0\.05 s"), grade_one._seconds(0.05):
         busy(5.0)
     with grade_one._seconds(5.0):
@@ -174,7 +174,7 @@ def test_a_hand_in_that_takes_too_long_is_ended_without_the_clock_of_unix(monkey
 
 
 def test_files_are_read_by_their_path_where_no_folder_can_be_opened(monkeypatch, tmp_path):
-    monkeypatch.setattr(regular_file, "BY_DESCRIPTOR", False)
+    monkeypatch.setattr(regular_file, "OPENS_BY_DESCRIPTOR", False)
     monkeypatch.delattr("os.O_NOFOLLOW")
     (tmp_path / "answers.csv").write_text("v_4,1\n", encoding="utf-8")
     (tmp_path / "key").write_text("v_4 = 1\n", encoding="utf-8")
@@ -209,9 +209,9 @@ def test_a_folder_is_locked_by_a_file_beside_it_on_windows(monkeypatch, tmp_path
     monkeypatch.delattr("os.O_DIRECTORY")
     folder = tmp_path / "store"
     folder.mkdir()
-    with locks.locked_folder(folder):
+    with file_locks.locked_folder(folder):
         assert [path.name for path in tmp_path.iterdir() if path != folder] == ["store.lock"]
-        with pytest.raises(BlockingIOError), locks.locked_folder(folder):
+        with pytest.raises(BlockingIOError), file_locks.locked_folder(folder):
             pass
         folder.rmdir()
     assert list(tmp_path.iterdir()) == []

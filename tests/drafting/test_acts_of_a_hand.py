@@ -10,11 +10,11 @@ from numpy.testing import assert_allclose
 
 from graphcam.drafting.acts import Drawn, Kind
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, between, reckoned
+from graphcam.drafting.hand import Hand, calculated, distance_between
 from graphcam.drafting.ink import say
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.slips import SQUARE
+from graphcam.drafting.slips import SQUARE_LENGTH
 
 MEANING = Meaning("example", say("Example"), say("To try."), {"length": ReadingMeaning(say("length"), "l", "lift")})
 SAMPLES, LINE, DIVIDERS, ANGLE = 5_000, 0.2, 0.3, 0.01
@@ -70,17 +70,17 @@ def test_a_length_is_laid_off_along_a_line_of_any_length():
 def test_a_setting_is_the_distance_of_two_places_or_the_signed_way_along_a_direction():
     hand = exact()
     a, b = hand.given("a", 4 + 5j), hand.given("b", np.array([1 + 1j, 7 + 9j]))
-    assert_allclose(between(a, b).amount, [5, 5])
-    assert_allclose(between(a, b, UP).amount, [-4, 4])
-    assert_allclose(between(b, a, RIGHT).amount, [3, -3])
-    assert_allclose(reckoned(np.maximum, between(a, b, UP), between(b, a, UP)).amount, [4, 4])
+    assert_allclose(distance_between(a, b).amount, [5, 5])
+    assert_allclose(distance_between(a, b, UP).amount, [-4, 4])
+    assert_allclose(distance_between(b, a, RIGHT).amount, [3, -3])
+    assert_allclose(calculated(np.maximum, distance_between(a, b, UP), distance_between(b, a, UP)).amount, [4, 4])
 
 
 def test_a_reading_is_carried_over_times_its_sample_s_factor():
     hand = trembling(dividers=DIVIDERS)
     start = hand.given("start", np.zeros(2))
     ends = hand.lay_off("ends", start, UP, np.array([10.0, 20.0]))
-    read = hand.read("length", between(start, ends, UP), 0.5)
+    read = hand.read("length", distance_between(start, ends, UP), 0.5)
     factor = np.linspace(1, 2, SAMPLES)
     assert_allclose(hand.carry(read, factor).amount, read.paper * factor[:, None])
     assert_allclose(hand.carry(read, 3.0).amount, 3 * read.paper)
@@ -105,7 +105,7 @@ def test_what_set_squares_carry_is_off_by_a_line_and_turned_by_a_line_over_the_s
     right = (3 + 4j) * (1 if act == "parallel" else 1j)
     assert_allclose(scatter(across(line, 5 + 5j, right)), LINE, rtol=WITHIN)
     turns = np.angle(line.directions / right)
-    assert_allclose(scatter(turns), LINE / SQUARE, rtol=WITHIN)
+    assert_allclose(scatter(turns), LINE / SQUARE_LENGTH, rtol=WITHIN)
     assert abs(np.corrcoef(turns, across(line, 5 + 5j, right))[0, 1]) < WITHIN
     perfect = getattr(exact(), act)("line", to, exact().given("through", 5 + 5j))
     assert_allclose(np.angle(perfect.directions / right), 0, atol=1e-15)
@@ -124,7 +124,7 @@ def test_a_given_height_is_projected_to_where_it_stands_on_the_line():
     hand = exact()
     start = hand.given("start", np.zeros(2))
     ends = hand.lay_off("ends", start, UP, np.array([3.0, -2.0]))
-    heights = between(start, ends, UP)
+    heights = distance_between(start, ends, UP)
     assert_allclose(hand.project("feet", heights, hand.given("axis", 1 + 0j, along=2j)).points, [1 + 3j, 1 - 2j])
 
 
@@ -136,7 +136,7 @@ def test_chords_set_end_to_end_start_from_the_end_of_the_one_before_and_gather_t
     assert_allclose(ends.points.mean(axis=0).imag, [0, 10, 15, 5, 0, 2], atol=0.02)
     assert_allclose(ends.points.real, np.broadcast_to(cuts.points.real, ends.points.shape), atol=1e-12)
     # A chord of slope m that is turned rises by 1 + m^2 times as much as one that lies level.
-    each = [LINE * math.hypot(1, 10 * (1 + m**2) / SQUARE) for m in (1, 0.5, -1, 0.2)]
+    each = [LINE * math.hypot(1, 10 * (1 + m**2) / SQUARE_LENGTH) for m in (1, 0.5, -1, 0.2)]
     expected = [0, each[0], math.hypot(*each[:2]), math.hypot(*each[:3]), 0, each[3]]
     assert_allclose(scatter(ends.points.imag), expected, rtol=WITHIN, atol=1e-12)
 
@@ -269,7 +269,7 @@ def test_what_is_shown_in_another_view_is_enlarged_turned_and_moved():
     hand = exact()
     places = hand.enlarged("view", hand.given("p", np.array([2 + 0j, 3 + 1j])), hand.given("o", 1 + 0j), 2j, to=10)
     assert_allclose(places.points, [10 + 2j, 8 + 4j])
-    raised = hand.raised("raised", places, between(hand.given("a", 0j), hand.given("b", 5j)))
+    raised = hand.raised("raised", places, distance_between(hand.given("a", 0j), hand.given("b", 5j)))
     assert_allclose(raised.points, [10 + 7j, 8 + 9j])
 
 
@@ -287,7 +287,7 @@ def test_a_mirror_image_lies_as_far_beyond_the_line_and_has_its_lines_and_radii(
 def test_a_length_is_read_along_a_line_in_its_direction():
     hand = exact()
     a, b = hand.given("a", 0j), hand.given("b", np.array([5 + 5j, -1 + 0j]))
-    assert_allclose(between(a, b, hand.given("line", 9j, 3 + 4j)).amount, [7.0, -0.6])
+    assert_allclose(distance_between(a, b, hand.given("line", 9j, 3 + 4j)).amount, [7.0, -0.6])
 
 
 # --- readings --------------------------------------------------------------------------------------------------------
@@ -295,7 +295,7 @@ def test_a_length_is_read_along_a_line_in_its_direction():
 
 def test_a_length_is_rounded_to_the_division_once_when_it_is_read():
     hand = Hand(Pencil(division=0.5), MEANING, "rad")
-    setting = between(hand.given("a", 0j), hand.given("b", 7.3j))
+    setting = distance_between(hand.given("a", 0j), hand.given("b", 7.3j))
     assert hand.read("length", setting, 2.0).paper == 7.5
     assert hand.readings["length"].unit == "rad"
     assert hand.read("length", setting, 2.0, rounded=False).paper == 7.3
@@ -306,7 +306,7 @@ def test_a_rounded_reading_is_the_nearest_division():
     hand = Hand(Pencil(division=0.5), MEANING)
     lengths = np.linspace(0, 50, 1001)
     ends = hand.lay_off("ends", hand.given("start", np.zeros(lengths.size)), UP, lengths)
-    read = hand.read("length", between(hand.given("foot", 0j), ends, UP), 1.0).paper
+    read = hand.read("length", distance_between(hand.given("foot", 0j), ends, UP), 1.0).paper
     assert np.abs(read - lengths).max() <= 0.25 + 1e-12
     assert_allclose(read * 2, np.round(read * 2))
 
@@ -340,7 +340,7 @@ def test_an_act_says_with_what_from_where_and_at_which_stations():
     assert end.act.takes["start"].at == 1
     assert end.act.takes["length"] == 5.0
     assert list(hand.acts) == ["start", "end"]
-    assert hand.read("length", between(start[1], end), 1.0).act.kind is Kind.READ
+    assert hand.read("length", distance_between(start[1], end), 1.0).act.kind is Kind.READ
 
 
 def test_the_errors_depend_on_the_seed_and_the_construction_alone():

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import graphcam as gc
-from graphcam.drafting.moves import FollowedBoard, Moves, visible_in
+from graphcam.drafting.act_order import FollowedBoard, Moves, visible_places
 
 
 @pytest.fixture(scope="module")
@@ -14,7 +14,7 @@ def lit() -> dict[tuple[str, str], list[Moves]]:
     solution = gc.solve(gc.builtin_task("coursework"))
     names = ("acceleration", "integration", "minimum_radius", "pressure_angle")
     steps = [(name, step) for name in names for step in solution.drawn[name].steps()]
-    board = FollowedBoard(visible_in(step for _, step in steps))
+    board = FollowedBoard(visible_places(step for _, step in steps))
     return {(name, str(step.title)): board.followed(step) for name, step in steps}
 
 

@@ -20,10 +20,10 @@ from graphcam.drafting.euclid import (
     meet,
     perpendicular_bisector,
     tangent_of_circle,
-    turned,
+    turned_direction,
     unit,
 )
-from graphcam.plane import cross, dot
+from graphcam.plane_vectors import cross, dot
 
 BOARD = 100.0
 """Points lie within this distance of the origin, in x and in y [mm]."""
@@ -47,7 +47,7 @@ def test_scalar_and_vector_product_make_up_the_lengths(a, b):
 @same_every_time
 @given(directions, angles)
 def test_a_turn_keeps_the_length_and_adds_to_the_angle(direction, angle):
-    after = turned(direction, angle)
+    after = turned_direction(direction, angle)
     assert_allclose(np.abs(after), np.abs(direction), rtol=1e-14)
     assert_allclose(np.angle(after / direction * np.exp(-1j * angle)), 0, atol=1e-14)
 
@@ -86,7 +86,7 @@ def test_the_meeting_point_lies_on_both_lines(p, d, q, e):
 
 def test_lines_that_cross_below_one_degree_have_no_readable_point_and_spoil_no_other():
     crossing = np.radians([-90.0, -1.01, -0.99, 0.0, 0.99, 1.01, 45.0, 179.01, 178.99])
-    at = meet(np.asarray(0j), np.asarray(2 + 0j), np.asarray(3 + 0j), turned(0.5 + 0j, crossing))
+    at = meet(np.asarray(0j), np.asarray(2 + 0j), np.asarray(3 + 0j), turned_direction(0.5 + 0j, crossing))
     unreadable = [False, False, True, True, True, False, False, True, False]
     assert np.isnan(at).tolist() == unreadable
     assert_allclose(at[~np.array(unreadable)], 3)

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.testing import assert_allclose
 
-from graphcam.drafting.curve import faired, farthest, farthest_of
-from graphcam.drafting.euclid import UP, turned
-from graphcam.plane import dot
+from graphcam.drafting.curve import faired, farthest_in, farthest_point
+from graphcam.drafting.euclid import UP, turned_direction
+from graphcam.plane_vectors import dot
 
 same_every_time = settings(derandomize=True, deadline=None, max_examples=150)
 
@@ -20,12 +20,12 @@ same_every_time = settings(derandomize=True, deadline=None, max_examples=150)
 @given(st.floats(0.05, 5), st.floats(-2, 2), st.floats(-0.5, 0.5), st.floats(-math.pi, math.pi))
 def test_the_farthest_point_of_a_parabola_is_found_exactly(bend, slope, shift, turn):
     x = np.arange(-6.0, 7.0) + shift
-    curve = turned(x + UP * (slope * x - bend * x**2), turn)
+    curve = turned_direction(x + UP * (slope * x - bend * x**2), turn)
     top = slope / (2 * bend)
     if abs(top) > 5:  # the top lies beyond the plotted points
         return
-    expected = turned(top + UP * slope * top / 2, turn)
-    assert_allclose(farthest(curve, complex(turned(UP, turn))), expected, atol=1e-12 * (1 + bend) * 100)
+    expected = turned_direction(top + UP * slope * top / 2, turn)
+    assert_allclose(farthest_point(curve, complex(turned_direction(UP, turn))), expected, atol=1e-12 * (1 + bend) * 100)
 
 
 @same_every_time
@@ -35,31 +35,33 @@ def test_a_tangent_at_any_angle_touches_a_parabola_exactly(bend, lean):
     touch = math.tan(lean) / (2 * bend)
     x = np.linspace(-1, 1, 9) * max(1.0, 2 * abs(touch))
     curve = x - UP * bend * x**2
-    assert_allclose(farthest(curve, complex(math.sin(lean), math.cos(lean))), touch - UP * bend * touch**2, atol=1e-11)
+    assert_allclose(
+        farthest_point(curve, complex(math.sin(lean), math.cos(lean))), touch - UP * bend * touch**2, atol=1e-11
+    )
 
 
 def test_nothing_is_read_beyond_an_end():
     x = np.arange(4.0)
     for curve in (x + UP * np.sqrt(x + 1), x + UP * x**2, x + UP * x):
-        assert farthest(curve, UP) == curve[-1]
-        assert farthest(curve[::-1], UP) == curve[-1]
+        assert farthest_point(curve, UP) == curve[-1]
+        assert farthest_point(curve[::-1], UP) == curve[-1]
 
 
 def test_nothing_is_read_across_a_corner():
     x = np.arange(9.0)
     roof = x + UP * np.where(x <= 4, 0.2 * x**2, 3.2 - 0.3 * (x - 4))
     pieces = [slice(0, 5), slice(4, 9)]
-    assert farthest_of(roof, pieces, UP) == roof[4]
-    assert abs(farthest(roof, UP) - roof[4]) > 0.01  # a curve faired over the corner would reach elsewhere
+    assert farthest_in(roof, pieces, UP) == roof[4]
+    assert abs(farthest_point(roof, UP) - roof[4]) > 0.01  # a curve faired over the corner would reach elsewhere
 
 
 def test_the_farthest_of_pieces_is_farther_than_each():
     x = np.linspace(0, 3, 10)
     curve = x + UP * np.sin(2 * x)
     pieces = [slice(0, 4), slice(3, 10)]
-    direction = turned(UP, 0.3)
-    best = farthest_of(curve, pieces, direction)
-    reach = [float(dot(direction, farthest(curve[piece], direction))) for piece in pieces]
+    direction = turned_direction(UP, 0.3)
+    best = farthest_in(curve, pieces, direction)
+    reach = [float(dot(direction, farthest_point(curve[piece], direction))) for piece in pieces]
     assert float(dot(direction, best)) == max(reach)
 
 
@@ -69,7 +71,7 @@ def test_a_smooth_curve_is_read_to_second_order_and_its_height_to_third():
     for k, n in enumerate(parts):
         for shift in np.linspace(0, 1, 21):  # wherever the top falls between the points
             x = (np.arange(-n, n + 1) + shift) / n
-            top = complex(farthest(x + UP * np.exp(x) * np.cos(2 * x), UP))
+            top = complex(farthest_point(x + UP * np.exp(x) * np.cos(2 * x), UP))
             place = math.atan(0.5) / 2
             height = math.exp(place) * math.cos(2 * place)
             errors[:, k] = np.maximum(errors[:, k], [abs(top.real - place), abs(top.imag - height)])
@@ -82,23 +84,23 @@ def test_a_plotted_point_is_never_farther_than_the_faired_curve():
     """So what is read from plotted points alone is never more than what the curve reads."""
     x = np.linspace(0, 2, 12) + np.linspace(0, 0.1, 20)[:, None]
     curves = x + UP * np.sin(x) * np.exp(-x)
-    assert np.all(farthest(curves, UP).imag >= curves.imag.max(axis=-1))
+    assert np.all(farthest_point(curves, UP).imag >= curves.imag.max(axis=-1))
 
 
 def test_a_point_that_is_missing_spoils_its_own_sample_only():
     x = np.arange(-3.0, 4.0)
     curves = np.stack([x + UP * (9 - x**2)] * 2)
     curves[1, 0] = np.nan
-    assert farthest(curves, UP).tolist() == [9j, 9j]
+    assert farthest_point(curves, UP).tolist() == [9j, 9j]
     curves[1, :] = np.nan
-    tops = farthest(curves, UP)
+    tops = farthest_point(curves, UP)
     assert tops[0] == 9j
     assert np.isnan(tops[1])
 
 
 def test_two_points_are_their_own_curve():
     pair = np.array([0j, 1 + 2j])
-    assert farthest(pair, UP) == 1 + 2j
+    assert farthest_point(pair, UP) == 1 + 2j
     assert faired(pair).tolist() == pair.tolist()
 
 

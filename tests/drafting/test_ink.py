@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_array_equal
 
-from graphcam.drafting.hand import Hand, between
+from graphcam.drafting.hand import Hand, distance_between
 from graphcam.drafting.ink import Caption, Construction, Part, Reading, Step, View, reading, say
 from graphcam.drafting.marks import Line, Role
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
@@ -28,7 +28,7 @@ def one_line(construction: Construction) -> list[Step]:
 def drawn(pencil: Pencil) -> Construction:
     hand = Hand(pencil, LINE)
     start = hand.given("start")
-    hand.read("length", between(start, hand.lay_off("end", start, 1, 20.0)), 0.5)
+    hand.read("length", distance_between(start, hand.lay_off("end", start, 1, 20.0)), 0.5)
     return hand.finished(None, one_line, {})
 
 

@@ -11,11 +11,11 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from graphcam.drafting.acts import Drawn, Kind
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import COMPASS, Hand, between
+from graphcam.drafting.hand import BISECTION_SHARE, Hand, distance_between
 from graphcam.drafting.ink import say
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.slips import PROTRACTOR, SLIPS
+from graphcam.drafting.slips import PROTRACTOR_RADIUS, SLIPS
 
 MEANING = Meaning("example", say("Example"), say("To try."), {"length": ReadingMeaning(say("length"), "l", "lift")})
 ERRORS = {"line": 0.2, "dividers": 0.3, "division": 0.5, "protractor": 0.01}
@@ -74,7 +74,7 @@ def tangent(hand: Hand) -> Off:
 def bisected(hand: Hand) -> Off:
     """Where the bisector passes the heights of both crossings of the arcs."""
     line = hand.bisect("line", hand.given("a", -5 + 0j), hand.given("b", 5 + 0j))
-    height = 10 * math.sqrt(COMPASS**2 - 0.25)
+    height = 10 * math.sqrt(BISECTION_SHARE**2 - 0.25)
     slope = line.directions.real / line.directions.imag
     one, other = (line.points.real + slope * (side * height - line.points.imag) for side in (-1, 1))
     return {"one": one, "other": other}
@@ -96,7 +96,7 @@ def read(hand: Hand) -> Off:
     """Lengths that end anywhere between two divisions, and an angle."""
     assert hand.pencil.samples
     ends = hand.given("ends", 1j * np.linspace(7.0, 57.0, SAMPLES, endpoint=False) + 0j)
-    length = between(hand.given("foot", 0j), ends, UP)
+    length = distance_between(hand.given("foot", 0j), ends, UP)
     off = hand.read("length", length, 1.0).paper[0] - length.amount[0]
     line = hand.given("line", 0j, along=WAY)
     return {"length": off, "turn": hand.angle("angle", WAY, line).paper}
@@ -179,7 +179,7 @@ def test_what_passes_errors_on_adds_none():
 
 def test_a_hand_of_one_number_errs_by_it_at_the_edge_of_the_protractor():
     hand = Pencil.of(0.2, samples=7, seed=3)
-    assert hand == Pencil(line=0.2, dividers=0.2, protractor=0.2 / PROTRACTOR, samples=7, seed=3)
+    assert hand == Pencil(line=0.2, dividers=0.2, protractor=0.2 / PROTRACTOR_RADIUS, samples=7, seed=3)
     assert 0.2 < math.degrees(hand.protractor) < 0.25
     assert Pencil.of(0.0).perfect
 

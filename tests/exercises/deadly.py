@@ -9,7 +9,7 @@ from graphcam.exercises.grading import grade_one as work
 from graphcam.exercises.grading.grade_one import Submission
 
 
-def grade(assignment: work.Assignment, submission: Submission) -> work.Graded:
+def grade(assignment: work.Assignment, submission: Submission) -> work.GradedSubmission:
     """Grade, but for a hand-in that takes its worker with it."""
     if submission.student.startswith("deadly"):
         os.kill(os.getpid(), signal.SIGKILL)

@@ -10,11 +10,11 @@ from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.keying import issue
-from graphcam.exercises.key.scatter import answers_of
-from graphcam.exercises.marking.copies import alike_pairs
+from graphcam.exercises.key.answer_scatter import answers_of
+from graphcam.exercises.key.key_making import issue
+from graphcam.exercises.marking.copy_detection import alike_pairs
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.marking.simulate import submission, unlisted
+from graphcam.exercises.marking.simulate import submission, unlisted_answers
 
 HANDS = 5
 """Students of each kind who draw each variant; a course takes one of them."""
@@ -64,7 +64,7 @@ def honest_students(exercise: Exercise, secret: bytes, students: int) -> HonestS
         # Never the seed of the hands that the answer key was made from.
         chain = board_chain(variant.task, exercise.hand.pencil(HANDS, 1 + k))
         listed = [answers_of(exercise, misconception(name).change(chain)) for name in exercise.misconceptions]
-        kinds = ([answers_of(exercise, chain)], listed, [answers for _, answers in unlisted(exercise, chain)])
+        kinds = ([answers_of(exercise, chain)], listed, [answers for _, answers in unlisted_answers(exercise, chain)])
         for records, drawings in zip((found.careful, found.catalogued, found.unlisted), kinds, strict=True):
             given = [submission(exercise, drawn, row) for drawn in drawings for row in range(HANDS)]
             records.append([mark(exercise, answer_keys[student], answers).to_dict() for answers in given])

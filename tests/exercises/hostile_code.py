@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from graphcam.exercises.running.launcher import MIME
+from graphcam.exercises.running.launcher import ANSWER_MIME_TYPE
 
 CODE: dict[str, str] = {
     "an endless loop": "while True: pass",
@@ -45,7 +45,7 @@ import os
     "answers without end": "import os\nwhile True: os.write({pipe}, b'[' * 65536)",
     "answers twice in one": 'import os\nos.write({pipe}, b\'{{"{0}": 1, "{0}": 2}}\\n\')',
     "deep answers": "import os\nos.write({pipe}, b'[' * 100000 + b'\\n')",
-    "a display of nonsense": "display({{'" + MIME + "': {{'{0}': 'all right', 'total': 100}}}}, raw=True)",
+    "a display of nonsense": "display({{'" + ANSWER_MIME_TYPE + "': {{'{0}': 'all right', 'total': 100}}}}, raw=True)",
 }
 """What is run; the names in braces are filled in."""
 

@@ -24,9 +24,9 @@ import hostile_code
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.grading.grade_one import Assignment, grade, read_submission
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.keying import issue
+from graphcam.exercises.key.key_making import issue
 from graphcam.exercises.marking.record import Record
-from graphcam.exercises.running.levels import Level, ResourceLimits
+from graphcam.exercises.running.isolation_levels import Level, ResourceLimits
 
 STUDENT = "Anna"
 SECRET = b"a secret that none may read"

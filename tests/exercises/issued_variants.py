@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
-from graphcam.exercises.course.course_folder import STUDENTS, TEACHER, AnswerKeys
+from graphcam.exercises.course.course_folder import STUDENTS_FOLDER, TEACHER_FOLDER, AnswerKeys
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.keying import issue
+from graphcam.exercises.key.key_making import issue
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Record
 
@@ -50,13 +50,13 @@ def course_of(place: Path, name: str, handed_in: Mapping[str, str | None]) -> Pa
 
     handed_in : by student an ``answers.toml``; None where there is a key alone
     """
-    kept = AnswerKeys(place / TEACHER)
+    kept = AnswerKeys(place / TEACHER_FOLDER)
     kept.keep_course(exercise_path(name), SECRET, language="en")
     (place / "secret").write_bytes(SECRET)
     for student, text in handed_in.items():
         kept.keep(student, issued(name, student)[1].to_json())
         if text is not None:
-            folder = place / STUDENTS / folder_name(student)
+            folder = place / STUDENTS_FOLDER / folder_name(student)
             folder.mkdir(parents=True)
             (folder / "answers.toml").write_text(text)
     return place

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from issued_variants import issued
 
-from graphcam.exercises.definition.exercise import Asked
-from graphcam.exercises.reading.answer_tables import DECIMAL_COMMA, toml_values
+from graphcam.exercises.definition.exercise import AskedAnswer
+from graphcam.exercises.reading.answer_tables import COMMA_PATTERN, toml_values
 from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.submission_files import from_files, read_files
 
@@ -32,7 +32,7 @@ def test_a_file_says_what_the_standard_library_reads(lines: list[str], end: str)
 
 def agree(text: str) -> None:
     try:
-        meant = repr(tomllib.loads(DECIMAL_COMMA.sub(r"\1.\2", text)))
+        meant = repr(tomllib.loads(COMMA_PATTERN.sub(r"\1.\2", text)))
     except ValueError:
         try:
             found = toml_values("answers.toml", text.encode())
@@ -129,9 +129,9 @@ def answered(text: str, file: str = "answers.toml"):
 
 
 ASKED = (
-    Asked("s0", "", "pressure_angle", "s0", unit="mm"),
-    Asked("v_4", "", "integration", "v", unit="mm/rad"),
-    Asked("mu", "", "pressure_angle", "angle", unit="deg"),
+    AskedAnswer("s0", "", "pressure_angle", "s0", unit="mm"),
+    AskedAnswer("v_4", "", "integration", "v", unit="mm/rad"),
+    AskedAnswer("mu", "", "pressure_angle", "angle", unit="deg"),
 )
 
 

@@ -23,7 +23,7 @@ from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.exports.canvas import quiz_xml, write_quizzes
 from graphcam.exercises.exports.export import export
-from graphcam.exercises.exports.question_parts import Issued
+from graphcam.exercises.exports.question_parts import IssuedVariant
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.marking import mark
 
@@ -114,10 +114,10 @@ def questions(xml: bytes) -> list[Question]:
     return [Question(item) for item in items]
 
 
-def of(exercise: Exercise, answer_key: AnswerKey) -> Issued:
+def of(exercise: Exercise, answer_key: AnswerKey) -> IssuedVariant:
     """A variant as it is exported."""
     variant = Variant(exercise, answer_key.student, answer_key.draw, answer_key.parameters)
-    return Issued(Student(answer_key.student), variant, answer_key)
+    return IssuedVariant(Student(answer_key.student), variant, answer_key)
 
 
 def quiz_of(name: str, student: str = "Anna") -> tuple[Exercise, AnswerKey, list[Question]]:

@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 from issued_variants import SECRET, issued
 
-from graphcam.exercises.definition.exercise import Asked
+from graphcam.exercises.definition.exercise import AskedAnswer
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.expectation import Expected
-from graphcam.exercises.key.keying import HALF, by_one_number, issue, key_or_reason
+from graphcam.exercises.key.expected_answers import Expected
+from graphcam.exercises.key.key_making import MAX_COINCIDENCE_SHARE, by_one_number, issue, key_or_reason
 
 
-def with_numbers(values: dict[float, float], *others: Asked) -> float:
+def with_numbers(values: dict[float, float], *others: AskedAnswer) -> float:
     """What one number earns of answers with these values, of so many marks each, at a tolerance of 1."""
     numbers = [
-        Asked(f"a{k}", "A length.", "integration", reading="v", unit="mm", marks=marks)
+        AskedAnswer(f"a{k}", "A length.", "integration", reading="v", unit="mm", marks=marks)
         for k, marks in enumerate(values.values())
     ]
     exercise = replace(find_exercise("inversion-translating"), answers=(*numbers, *others))
@@ -47,7 +47,7 @@ def test_one_number_earns_what_lies_within_the_tolerance_of_one_place(values: di
 
 
 def test_what_is_drawn_counts_among_the_marks_and_is_not_earned_by_a_number():
-    curve = Asked("pitch", "A curve.", "inversion", points="pitch", kind="curve", layer="PITCH", marks=2)
+    curve = AskedAnswer("pitch", "A curve.", "inversion", points="pitch", kind="curve", layer="PITCH", marks=2)
     assert with_numbers({10.0: 1, 10.5: 1}, curve) == pytest.approx(0.5)
 
 
@@ -56,7 +56,10 @@ def test_no_number_earns_more_than_half_of_an_issued_variant(name: str):
     for student in ("Anna", "Boris", "Clara"):
         exercise, answer_key = issued(name, student)
         keys = [answer_key.keys[asked.name] for asked in exercise.answers]
-        assert by_one_number(exercise, [key.expected for key in keys], [key.tolerance for key in keys]) <= HALF
+        assert (
+            by_one_number(exercise, [key.expected for key in keys], [key.tolerance for key in keys])
+            <= MAX_COINCIDENCE_SHARE
+        )
 
 
 @pytest.mark.parametrize(("marks", "is_issued"), [(0.1, True), (5.0, False)])

@@ -10,7 +10,7 @@ import pytest
 from issued_variants import issued, key
 
 from graphcam.exercises.definition.exercise import Answers
-from graphcam.exercises.key.expectation import Expected
+from graphcam.exercises.key.expected_answers import Expected
 from graphcam.exercises.marking.diagnosis import compare
 
 

@@ -8,7 +8,7 @@ from issued_variants import SECRET, issued
 
 from graphcam.exercises.definition.exercise import Parameter
 from graphcam.exercises.definition.exercise_file import find_exercise
-from graphcam.exercises.key.keying import issue
+from graphcam.exercises.key.key_making import issue
 from graphcam.exercises.marking import course_variants as module
 from graphcam.exercises.marking.course_variants import course_variants, right_answers, too_near
 from graphcam.exercises.marking.marking import mark
@@ -31,7 +31,7 @@ def test_two_that_are_too_near_are_not_issued_one_after_the_other(monkeypatch):
     exercise, secret = find_exercise("integration"), SECRET
     alone = [issue(exercise, name, secret) for name in NAMES[:2]]
     monkeypatch.setattr(module, "too_near", lambda _, one, other: one is alone[1][1] or other is alone[1][1])
-    monkeypatch.setattr(module, "_first", lambda _, __, student: alone[NAMES.index(student)])
+    monkeypatch.setattr(module, "_first_variant", lambda _, __, student: alone[NAMES.index(student)])
     course = list(course_variants(exercise, NAMES[:2], secret))
     assert course[0] == alone[0]
     assert course[1][0].draw > alone[1][0].draw
@@ -52,7 +52,7 @@ def test_who_is_added_at_the_end_changes_nobodys_variant():
 
 def test_an_exercise_with_too_few_variants_for_a_course_is_issued_all_the_same(monkeypatch):
     """One parameter with two values: the third student has a variant that somebody has."""
-    monkeypatch.setattr(module, "MOST_TIMES", 2)
+    monkeypatch.setattr(module, "MAX_REDRAWS", 2)
     whole = find_exercise("acceleration-and-scales")
     given = dict(issue(whole, "Anna", SECRET)[0].parameters)
     fixed = {name: Parameter(choices=(value,)) for name, value in given.items()}

@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 from issued_variants import issued
 
-from graphcam.exercises.definition.exercise import Asked
+from graphcam.exercises.definition.exercise import AskedAnswer
 from graphcam.exercises.key.answer_key import AnswerKey, Hypothesis
-from graphcam.exercises.key.expectation import Expected
+from graphcam.exercises.key.expected_answers import Expected
 from graphcam.exercises.marking import diagnosis as module
 from graphcam.exercises.marking.diagnosis import ComparedAnswer, diagnose
 
 BOUND = 2.0
-NUMBER = Asked("number", "A length.", "integration", reading="s", unit="mm")
-POINTS = Asked("points", "The stations.", "inversion", points="pitch", kind="points", layer="PITCH")
+NUMBER = AskedAnswer("number", "A length.", "integration", reading="s", unit="mm")
+POINTS = AskedAnswer("points", "The stations.", "inversion", points="pitch", kind="points", layer="PITCH")
 
 
 def at(place: float, scatter: float = 1.0) -> Expected:
@@ -232,7 +232,7 @@ def test_right_answers_are_no_sign_of_a_mistake():
 
 
 def test_mistakes_that_bring_the_same_are_alike_however_strictly_they_are_told(monkeypatch):
-    monkeypatch.setattr(module, "ALIKE", 1.0)
+    monkeypatch.setattr(module, "ALIKE_PROBABILITY", 1.0)
     told, _ = diagnose(key_with(one=[at(10.0)], same=[at(10.0)]), [answer(0, 10.0, at(30.0))])
     assert (told.misconception, told.alike) == ("one", ("same",))
 

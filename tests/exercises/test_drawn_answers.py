@@ -17,7 +17,7 @@ from ezdxf.document import Drawing
 from issued_variants import SECRET, issued, key
 
 from graphcam.exercises.grading.grade_one import Assignment, Submission, grade, read_submission
-from graphcam.exercises.marking.record import Marked, Record
+from graphcam.exercises.marking.record import MarkedAnswer, Record
 
 NAME, LAYER = "inversion-translating", "PITCH"
 AWAY = 210 + 148j
@@ -221,7 +221,7 @@ def numbers(values: dict[str, Any]) -> bytes:
     return "".join(f"{name} = {value!r}\n" for name, value in values.items() if isinstance(value, float)).encode()
 
 
-def pitch_of(record: Record) -> Marked:
+def pitch_of(record: Record) -> MarkedAnswer:
     return next(answer for answer in record.answers if answer.name == "pitch")
 
 

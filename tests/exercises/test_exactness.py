@@ -14,12 +14,12 @@ from issued_variants import SECRET, issued, marked
 
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Answers
-from graphcam.exercises.definition.hands import HandTable
+from graphcam.exercises.definition.student_hands import HandTable
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.exports import gradescope
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.scatter import answers_of
-from graphcam.exercises.marking.exactness import FALSE_ALARMS, at_least, chance
+from graphcam.exercises.key.answer_scatter import answers_of
+from graphcam.exercises.marking.exactness import REMARK_RATE, chance, probability_of_at_least
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.reports.group_page import group_page
 from graphcam.exercises.reports.student_page import student_page
@@ -53,7 +53,7 @@ def test_the_probability_of_so_many_is_that_of_all_ways_to_have_them(chances, co
         for way in ways
         if sum(way) >= count
     ]
-    assert at_least(chances, count) == pytest.approx(sum(likely), abs=1e-12)
+    assert probability_of_at_least(chances, count) == pytest.approx(sum(likely), abs=1e-12)
 
 
 @pytest.mark.parametrize(("value", "pencil"), [(20.0, 0.3), (20.04, 0.05), (-3.33, 0.1)])
@@ -72,7 +72,7 @@ def test_careful_hands_are_remarked_on_more_seldom_than_is_said():
         for name in NAMES
         for values in submissions(name, issued(name)[0].hand, hands)
     ]
-    assert sum(found) <= FALSE_ALARMS * len(found)
+    assert sum(found) <= REMARK_RATE * len(found)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -119,7 +119,7 @@ def test_the_teacher_reads_the_remark_with_its_rate_and_the_student_nothing_of_i
     record = marked("pressure-angle", **program("pressure-angle")).to_dict()
     unremarked = record | {"too_exact": False}
     shown = [group_page(exercise, [one], {"Anna": answer_key}) for one in (record, unremarked)]
-    rate = f"Fewer than {100 * FALSE_ALARMS:g} % of careful drawings are flagged."
+    rate = f"Fewer than {100 * REMARK_RATE:g} % of careful drawings are flagged."
     remark = f"Anna: the readings are as exact as those of a program: drawn in CAD or computed? {rate}"
     assert [remark in page for page in shown] == [True, False]
     assert student_page(exercise, record, answer_key) == student_page(exercise, unremarked, answer_key)

@@ -24,7 +24,7 @@ from issued_variants import SECRET, issued, key, marked
 from russian import english_words
 
 from graphcam.errors import TaskError
-from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
+from graphcam.exercises.course.course_folder import TEACHER_FOLDER, AnswerKeys
 from graphcam.exercises.course.roster import Student, folder_name, read_roster
 from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
@@ -98,7 +98,7 @@ def test_an_export_is_in_the_language_of_the_course(target: LearningSystem, tmp_
     assert len(texts) > len(names)
     for text in texts:
         assert english_words(text, [*names, "course", "None", "DXF", "PITCH"]) == set()
-    assert AnswerKeys(tmp_path / "out" / TEACHER).course_exercise().language == "ru"
+    assert AnswerKeys(tmp_path / "out" / TEACHER_FOLDER).course_exercise().language == "ru"
 
 
 def test_gradescope_tells_the_result_in_the_language_of_the_course():
@@ -157,7 +157,7 @@ def test_an_autograder_writes_gradescopes_results_and_takes_the_exercise_with_it
     source = tmp_path / "autograder" / "source"
     export(str(mine), LearningSystem.GRADESCOPE, [Student("anna@example.org")], source)
     mine.unlink()
-    answer_key = AnswerKey.from_json(AnswerKeys(source / TEACHER).find("anna@example.org"))
+    answer_key = AnswerKey.from_json(AnswerKeys(source / TEACHER_FOLDER).find("anna@example.org"))
     root = source.parent
     (root / "submission").mkdir()
     (root / "submission_metadata.json").write_text(json.dumps({"users": [{"email": "anna@example.org"}]}))
@@ -205,7 +205,7 @@ def hand_in_as(root: Path, email: str) -> None:
 
 def test_gradescope_grades_by_the_rosters_addresses_and_gives_a_stranger_no_variant(tmp_path: Path):
     root = gradescope_of(tmp_path)
-    kept = root / "source" / TEACHER / "certificates"
+    kept = root / "source" / TEACHER_FOLDER / "certificates"
     certificates = {path.name for path in kept.iterdir()}
     assert certificates == {"7.json", "8.json"}
     for address, share in (("anna@example.org", 1.0), ("BEN@example.org", None), ("stranger@example.org", 0.0)):

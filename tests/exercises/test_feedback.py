@@ -12,7 +12,7 @@ from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.marking.feedback import feedback
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.marking.record import Diagnosis, Marked
+from graphcam.exercises.marking.record import Diagnosis, MarkedAnswer
 
 NO_MISTAKE = "No usual mistake explains these answers; go through the wrong steps again."
 NOT_TOLD = "These answers do not distinguish this mistake from another one, which is also possible:"
@@ -76,7 +76,9 @@ def test_every_answer_has_its_sentence_first():
 
 
 def test_a_record_is_strict_json_all_the_way_down():
-    answers = (Marked("v", "wrong", 0.0, 1.0, given=[[1.0, math.nan]], deviation=math.inf, station=3, off_paper=0.5),)
+    answers = (
+        MarkedAnswer("v", "wrong", 0.0, 1.0, given=[[1.0, math.nan]], deviation=math.inf, station=3, off_paper=0.5),
+    )
     record = mark(*issued("integration"), Answers({}))
     said = type(record)(**{**vars(record), "answers": answers, "diagnosis": Diagnosis("pole", 0.75, ("other",))})
     found = json.loads(json.dumps(said.to_dict(), allow_nan=False))

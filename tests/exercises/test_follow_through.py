@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 from issued_variants import issued, outcomes
 
-from graphcam.exercises.definition.exercise import Answers, Asked, Exercise
+from graphcam.exercises.definition.exercise import Answers, AskedAnswer, Exercise
 from graphcam.exercises.key.answer_key import AnswerKey, Hypothesis, Key
-from graphcam.exercises.key.expectation import Expected
+from graphcam.exercises.key.expected_answers import Expected
 from graphcam.exercises.marking.marking import mark
 
-FIRST = Asked("first", "A length.", "integration", reading="v", unit="mm", marks=1.0)
-SECOND = Asked("second", "A length that follows.", "integration", reading="s", unit="mm", marks=2.0)
-THIRD = Asked("third", "Another one.", "integration", reading="s", unit="mm", marks=4.0)
+FIRST = AskedAnswer("first", "A length.", "integration", reading="v", unit="mm", marks=1.0)
+SECOND = AskedAnswer("second", "A length that follows.", "integration", reading="s", unit="mm", marks=2.0)
+THIRD = AskedAnswer("third", "Another one.", "integration", reading="s", unit="mm", marks=4.0)
 
 
 @dataclass

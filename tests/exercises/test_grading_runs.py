@@ -22,13 +22,13 @@ import pytest
 from issued_variants import SECRET, answer_lines, course_of, issued, key
 
 from graphcam.errors import GraphcamError
-from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
-from graphcam.exercises.course.hand_ins import hand_ins_in
+from graphcam.exercises.course.course_folder import TEACHER_FOLDER, AnswerKeys
+from graphcam.exercises.course.submissions import hand_ins_in
 from graphcam.exercises.grading import course_grading as run
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.grading.grade_one import Assignment, read_submission
-from graphcam.exercises.running.levels import Level
-from graphcam.exercises.running.probe import missing
+from graphcam.exercises.running.isolation_levels import Level
+from graphcam.exercises.running.isolation_probe import reason_unavailable
 from graphcam.files import OutputError
 from graphcam.workers import WorkerPool, processes, results
 
@@ -263,7 +263,7 @@ def test_wrong_input_is_told_before_anything_is_graded(
     (tmp_path / "secret").write_bytes(SECRET)
     places = {name: tmp_path / text if name in ("folder", "secret_file", "feedback") else text
               for name, text in wrong.items()}  # fmt: skip
-    kept = {path: path.read_bytes() for path in sorted((ours / TEACHER).rglob("*")) if path.is_file()}
+    kept = {path: path.read_bytes() for path in sorted((ours / TEACHER_FOLDER).rglob("*")) if path.is_file()}
     order = Course(ours, tmp_path / "secret", tmp_path / "out" / "grades.csv")
     with pytest.raises(GraphcamError, match=message):
         grade_course(replace(order, **places))  # type: ignore[arg-type]
@@ -283,7 +283,7 @@ def test_an_exercise_that_draws_other_variants_than_were_handed_out_is_refused(
     tmp_path: Path, was: str, now: str, field: str
 ):
     place = course_at(tmp_path / "course", ("anna", "boris"))
-    file = place / TEACHER / f"{NAME}.toml"
+    file = place / TEACHER_FOLDER / f"{NAME}.toml"
     text = file.read_text(encoding="utf-8")
     assert was in text
     # The marks of an answer may change.
@@ -389,8 +389,8 @@ def test_pages_that_a_killed_run_left_are_cleared_by_the_next(later: str, ours: 
 
 @pytest.mark.slow
 def test_a_run_that_is_killed_ends_the_code_that_it_runs(tmp_path: Path):
-    if os.getuid() == 0 and missing(Level.L1):
-        pytest.skip(str(missing(Level.L1)))
+    if os.getuid() == 0 and reason_unavailable(Level.L1):
+        pytest.skip(str(reason_unavailable(Level.L1)))
     scratch, source = tmp_path / "scratch", "import time\nopen('begun', 'w').close()\ntime.sleep(100)"
     cell = {"cell_type": "code", "metadata": {}, "source": source, "outputs": []}
     for student in ("Anna", "Boris", "Clara"):

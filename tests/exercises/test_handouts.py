@@ -21,7 +21,8 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.drafting.marks import Segments
 from graphcam.errors import TaskError
-from graphcam.exercises.course import make as make_module
+from graphcam.exercises.course import course_making as make_module
+from graphcam.exercises.course.course_making import make, other_scale
 from graphcam.exercises.course.handouts import (
     answer_file,
     answer_file_head,
@@ -30,7 +31,6 @@ from graphcam.exercises.course.handouts import (
     notebook,
     worksheet,
 )
-from graphcam.exercises.course.make import make, other_scale
 from graphcam.exercises.course.roster import Student, folder_name, read_roster
 from graphcam.exercises.definition.blank_axes import empty_axes
 from graphcam.exercises.definition.drawn_answers import board_chain
@@ -38,7 +38,7 @@ from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.reading.notebook import TAG
+from graphcam.exercises.reading.notebook import ANSWER_TAG
 from graphcam.exercises.reading.submission_files import read_files
 from graphcam.files import OutputError
 from graphcam.sheets.model import Text
@@ -50,7 +50,7 @@ def test_the_papers_of_text_hold_the_variant_and_no_answer(name, tmp_path):
     variant = drawn(find_exercise(name), "Anna", SECRET, 0)
     read = notebook(variant)
     nbformat.validate(read)
-    cell = next(cell for cell in read.cells if TAG in cell.metadata.get("tags", ()))
+    cell = next(cell for cell in read.cells if ANSWER_TAG in cell.metadata.get("tags", ()))
     assert cell.source.splitlines() == [f"{asked.name} = None" for asked in variant.exercise.answers]
     assert tomllib.loads(answer_file(variant.exercise)) == {}
     filled = answer_file(variant.exercise).replace("\n# ", "\n").splitlines()

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from issued_variants import SECRET, answer_lines, course_of, issued
 
-from graphcam.exercises.course.course_folder import ROSTER, TEACHER
+from graphcam.exercises.course.course_folder import ROSTER_FILE, TEACHER_FOLDER
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.grading.course_grading import Course, grade_course
-from graphcam.exercises.grading.overrides import OVERRIDES
+from graphcam.exercises.grading.overrides import OVERRIDES_FILE
 from graphcam.exercises.reports import shown_names
 from graphcam.exercises.reports.shown_names import hidden_names
 from graphcam.files import OutputError
@@ -41,8 +41,8 @@ def course(tmp_path: Path) -> Path:
         handed_in[student] = answer_lines({name: np.asarray(one).tolist() for name, one in values.items()})
     place = course_of(tmp_path, NAME, handed_in)
     lines = "".join(f"{student},{name}\n" for student, name in NAMES.items())
-    (place / TEACHER / ROSTER).write_text(f"id,name\n{lines}", encoding="utf-8")
-    (place / TEACHER / OVERRIDES).write_text("student,answer,marks,comment\nanna.berg,s_8,0.5,look\n")
+    (place / TEACHER_FOLDER / ROSTER_FILE).write_text(f"id,name\n{lines}", encoding="utf-8")
+    (place / TEACHER_FOLDER / OVERRIDES_FILE).write_text("student,answer,marks,comment\nanna.berg,s_8,0.5,look\n")
     (place / "students" / "Max Mustermann_12_assignsubmission_file_").mkdir()
     return place
 
@@ -116,7 +116,7 @@ def test_the_name_depends_on_the_secret_the_exercise_and_the_student():
 
 
 def test_names_that_would_be_the_same_become_longer(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(shown_names, "SHORTEST", 1)
+    monkeypatch.setattr(shown_names, "NAME_LENGTH", 1)
     students = [f"s{k}" for k in range(200)]
     names = hidden_names(SECRET, NAME, students)
     assert len(set(names.values())) == 200

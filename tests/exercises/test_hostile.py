@@ -29,12 +29,12 @@ from graphcam.exercises.grading import grade_one as work
 from graphcam.exercises.grading.grade_one import Assignment, grade, read_submission
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.record import Record
-from graphcam.exercises.reading.values import GREATEST
+from graphcam.exercises.reading.answer_values import MAX_NUMBER
 from graphcam.exercises.reports.group_page import group_page
-from graphcam.exercises.running.levels import MEBIBYTE, Level, ResourceLimits
-from graphcam.exercises.running.probe import missing
+from graphcam.exercises.running.isolation_levels import MEBIBYTE, Level, ResourceLimits
+from graphcam.exercises.running.isolation_probe import reason_unavailable
 from graphcam.exercises.running.sandbox import run_cells
-from graphcam.exercises.running.scratch import scratch_folder
+from graphcam.exercises.running.scratch_folders import scratch_folder
 
 SECONDS = 2.0
 A_MOMENT = 1.0
@@ -49,7 +49,7 @@ def assignment(exercise: Exercise) -> Assignment:
 
 @pytest.fixture(scope="module")
 def answer_key(assignment: Assignment) -> str:
-    from graphcam.exercises.key.keying import issue
+    from graphcam.exercises.key.key_making import issue
 
     return issue(assignment.exercise, STUDENT, SECRET)[1].to_json()
 
@@ -83,7 +83,7 @@ def test_a_number_at_a_limit_earns_nothing(case: str, tmp_path: Path, assignment
     (tmp_path / "answers.toml").write_text(f"{name} = {hostile.NUMBERS[case]}")
     record = graded(assignment, answer_key, tmp_path)
     # What no drawing can say is not read, and the others are wrong.
-    expected = "unreadable" if abs(tomllib.loads(f"x = {hostile.NUMBERS[case]}")["x"]) > GREATEST else "wrong"
+    expected = "unreadable" if abs(tomllib.loads(f"x = {hostile.NUMBERS[case]}")["x"]) > MAX_NUMBER else "wrong"
     assert (record.total, record.answers[0].outcome) == (0.0, expected)
     json.dumps(record.to_dict(), allow_nan=False)
 
@@ -147,7 +147,7 @@ def test_what_never_ends_is_ended_even_where_a_library_catches_all(
             with suppress(Exception):
                 sum(range(10_000))
 
-    monkeypatch.setattr(work, "READING", 0.2)
+    monkeypatch.setattr(work, "READING_SECONDS", 0.2)
     monkeypatch.setattr(work, "from_files", read)
     record = graded(assignment, answer_key, tmp_path)
     assert record.total == 0
@@ -169,9 +169,9 @@ def test_a_faulty_file_says_nothing_on_the_terminal(tmp_path: Path):
 def level(request: pytest.FixtureRequest) -> Level:
     if request.param is Level.L2:
         program("bwrap")
-    elif os.getuid() == 0 and missing(request.param):
-        pytest.skip(str(missing(request.param)))
-    assert missing(request.param) == ""
+    elif os.getuid() == 0 and reason_unavailable(request.param):
+        pytest.skip(str(reason_unavailable(request.param)))
+    assert reason_unavailable(request.param) == ""
     return request.param
 
 
@@ -244,8 +244,8 @@ time.sleep(0.5)
 def test_nothing_is_left_behind_at_l1(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """Neither a process that goes its own way, nor a tree of folders that is too deep for Python to remove."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    if os.getuid() == 0 and missing(Level.L1):
-        pytest.skip(str(missing(Level.L1)))
+    if os.getuid() == 0 and reason_unavailable(Level.L1):
+        pytest.skip(str(reason_unavailable(Level.L1)))
     ended = run_cells(Level.L1, [LEAVING.format(left="left")], ["left"])
     assert ended.handed_out == b'{"left": false}\n'
     assert list(tmp_path.iterdir()) == []

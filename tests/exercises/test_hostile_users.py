@@ -19,8 +19,8 @@ from hostile_grading import CONTROL
 from programs import program
 
 from graphcam.exercises.definition.exercise_file import exercise_path
-from graphcam.exercises.running.levels import Level
-from graphcam.exercises.running.sandbox import visible
+from graphcam.exercises.running.isolation_levels import Level
+from graphcam.exercises.running.sandbox import visible_folders
 
 ORDINARY = 61_234
 """A number that no account has."""
@@ -103,7 +103,7 @@ def ordinary(home: Path) -> tuple[str, ...]:
     """
     if os.getuid() != 0:
         return ()
-    needs = {path for path in visible() if path.is_dir()} | {Path(hostile_grading.__file__).parent}
+    needs = {path for path in visible_folders() if path.is_dir()} | {Path(hostile_grading.__file__).parent}
     # In a checkout the exercises lie beside the package.
     needs.add(exercise_path("acceleration-and-scales").parent)
     # A virtual environment's python is a link, which must be found by its own name too.
@@ -126,7 +126,7 @@ def ordinary(home: Path) -> tuple[str, ...]:
 
 def _repository() -> list[str]:
     """graphcam's folder, which has no other way onto the path than to be named."""
-    return [str(path.parent) for path in visible() if path.name == "graphcam"]
+    return [str(path.parent) for path in visible_folders() if path.name == "graphcam"]
 
 
 def _closed(folder: Path) -> Path | None:

@@ -6,7 +6,7 @@ from issued_variants import SECRET
 
 from graphcam.exercises.course.course_folder import AnswerKeys, KeysAsNeeded
 from graphcam.exercises.definition.exercise_file import find_exercise
-from graphcam.exercises.key.keying import issue
+from graphcam.exercises.key.key_making import issue
 
 
 def test_who_has_no_key_that_can_be_read_is_left_out(tmp_path: Path):

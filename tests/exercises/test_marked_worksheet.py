@@ -13,21 +13,21 @@ from typer.testing import CliRunner
 
 from graphcam.cli import app
 from graphcam.errors import DesignError, TaskError
+from graphcam.exercises.course.course_making import make
 from graphcam.exercises.course.handouts import key_sheet
-from graphcam.exercises.course.make import make
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise_file import find_exercise, load_exercise
-from graphcam.exercises.definition.marked_scale import BEYOND
+from graphcam.exercises.definition.marked_scale import PROFILE_MARGIN
 from graphcam.exercises.definition.variant import Variant, drawn
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.keying import issue
-from graphcam.photo.printed import PrintedPage
+from graphcam.exercises.key.key_making import issue
+from graphcam.photo.printed_page import PrintedPage
 from graphcam.sheets.marked_paper import MARKED_PAPERS
 from graphcam.sheets.matplotlib_renderer import write_pdf, write_png
-from graphcam.sheets.model import Box, Drawing, Polygons, Text, around_all
+from graphcam.sheets.model import Box, Drawing, Polygons, Text, bounding_box
 from graphcam.sheets.sampling import box_of
-from graphcam.sheets.styles import CODE, LIGHT
+from graphcam.sheets.styles import CODE_ROLE, LIGHT_ROLES
 
 pytest.importorskip("segno")
 
@@ -53,7 +53,7 @@ def made(name: str, paper: str, student: str = "Anna", draw: int = 0) -> tuple[D
 def test_the_tags_stand_apart_in_white(paper: str):
     marked = MARKED_PAPERS[paper]
     assert len(marked.tags) == {"A1": 12, "A3": 8, "A3-tiles": 14, "A4": 8}[paper]
-    quiet = [Box(0, 0, marked.side, marked.side).moved(at).grown(marked.quiet) for at in marked.tags.values()]
+    quiet = [Box(0, 0, marked.side, marked.side).moved(at).grown(marked.quiet_zone) for at in marked.tags.values()]
     # A printer leaves 4.3 mm of the edge white, and that white counts.
     assert all(marked.box.grown(-4.3).holds(box) for box in quiet)
     assert not any(a.meets(b) for k, a in enumerate(quiet) for b in quiet[:k])
@@ -68,7 +68,7 @@ def test_the_tags_stand_apart_in_white(paper: str):
 def test_all_stands_apart_and_nothing_black_in_a_room(name: str, paper: str):
     marked = MARKED_PAPERS[paper]
     drawing, pages = made(name, paper)
-    quiet = [Box(0, 0, marked.side, marked.side).moved(at).grown(marked.quiet) for at in marked.tags.values()]
+    quiet = [Box(0, 0, marked.side, marked.side).moved(at).grown(marked.quiet_zone) for at in marked.tags.values()]
     for page, printed in zip(drawing.pages, pages, strict=True):
         black = [Box(*edges) for edges in printed.black]
         rooms = [Box(*view.room) for view in printed.views.values()]
@@ -84,7 +84,7 @@ def test_all_stands_apart_and_nothing_black_in_a_room(name: str, paper: str):
                 if group.key.startswith("given"):
                     # The tip of an arrow and the half of a line lie on the edge.
                     assert any(room.grown(0.01).holds(box) for room in rooms)
-                    assert entity.role == LIGHT["colour"]
+                    assert entity.role == LIGHT_ROLES["colour"]
         assert set(printed.views) == set(page.origins)
 
 
@@ -97,7 +97,7 @@ def test_texts_do_not_run_into_one_another(paper: str):
             black = [e for group in page.groups if not group.key.startswith("given") for e in group.entities]
             texts = [box for e in black if isinstance(e, Text) and (box := box_of([e]))]
             assert not any(a.meets(b) for k, a in enumerate(texts) for b in texts[:k])
-            solid = [box for e in black if isinstance(e, Polygons) and e.role == CODE and (box := box_of([e]))]
+            solid = [box for e in black if isinstance(e, Polygons) and e.role == CODE_ROLE and (box := box_of([e]))]
             assert not any(text.meets(other) for text in texts for other in solid)
 
 
@@ -113,7 +113,7 @@ def test_the_room_is_the_same_for_all_and_holds_every_cam(name: str, paper: str)
         scales.add(scale)
         pitch, roller = np.abs(chain.inversion.points["pitch"]), one.parameters["roller"]
         assert isinstance(roller, float | int)
-        assert pitch.max() + roller / scale <= half - BEYOND + 1e-9
+        assert pitch.max() + roller / scale <= half - PROFILE_MARGIN + 1e-9
         if draw % 10 == 0:
             _, pages = made(name, paper, "Ben", draw)
             rooms.add(json.dumps([{key: view.room for key, view in page.views.items()} for page in pages]))
@@ -219,7 +219,7 @@ def test_the_drawing_for_cad_has_tags_and_the_origin(tmp_path: Path):
     area = sum(abs((s.dxf.vtx3.x - s.dxf.vtx0.x) * (s.dxf.vtx3.y - s.dxf.vtx0.y)) for s in codes)
     tags = [box for group in made(NAMES[0], "A3")[0].pages[0].groups if group.key == "marks" for box in group.entities]
     assert area > 2 * 14 * 0.5 * 12**2
-    assert around_all([box for e in tags if (box := box_of([e]))]).right == pytest.approx(412)
+    assert bounding_box([box for e in tags if (box := box_of([e]))]).right == pytest.approx(412)
 
 
 def test_a_course_on_paper_is_graded_by_the_keys_of_its_paper(tmp_path: Path):
@@ -302,6 +302,6 @@ def test_place_and_mark_are_kept(tmp_path: Path):
         text.replace('layer = "ROLLERS"', 'layer = "ROLLERS"\nplace = "profile"\nmark = "circle"'), encoding="utf-8"
     )
     rollers = load_exercise(path).answers[-1]
-    assert (rollers.place, rollers.mark, rollers.drawn_as) == ("profile", "circle", "circle")
-    assert find_exercise("inversion-arm").answers[-1].drawn_as == "cross"
-    assert find_exercise("inversion-arm").answers[0].drawn_as == ""
+    assert (rollers.place, rollers.mark, rollers.mark_form) == ("profile", "circle", "circle")
+    assert find_exercise("inversion-arm").answers[-1].mark_form == "cross"
+    assert find_exercise("inversion-arm").answers[0].mark_form == ""

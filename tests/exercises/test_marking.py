@@ -17,13 +17,13 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.definition.exercise_file import find_exercise
-from graphcam.exercises.definition.hands import HandTable
 from graphcam.exercises.definition.mistakes import misconception
+from graphcam.exercises.definition.student_hands import HandTable
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.expectation import distance_from_drawn
-from graphcam.exercises.key.keying import issue
-from graphcam.exercises.key.scatter import answers_of
+from graphcam.exercises.key.answer_scatter import answers_of
+from graphcam.exercises.key.expected_answers import distance_from_drawn
+from graphcam.exercises.key.key_making import issue
 from graphcam.exercises.marking.marking import mark
 
 NAMES = ("acceleration-and-scales", "pressure-angle", "least-radius", "inversion-translating")
@@ -160,7 +160,7 @@ def test_every_mistake_is_named_and_costs_something(name):
         record = mark(exercise, answer_key, Answers(answers))
         assert record.diagnosis is not None
         together = {record.diagnosis.misconception, *record.diagnosis.alike}
-        assert together == {mistake} | answer_key.not_told_from(mistake)
+        assert together == {mistake} | answer_key.inseparable_from(mistake)
         assert record.diagnosis.confidence * len(together) > 0.95
         assert record.total < record.of
         assert str(misconception(mistake).said) in record.feedback

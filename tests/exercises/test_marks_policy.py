@@ -14,12 +14,12 @@ from typer.testing import CliRunner
 
 from graphcam.cli import app
 from graphcam.errors import DesignError, TaskError
-from graphcam.exercises.definition.exercise import Answers, Asked
+from graphcam.exercises.definition.exercise import Answers, AskedAnswer
 from graphcam.exercises.definition.exercise_file import exercise_path, load_exercise
 from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.exercises.grading.course_grading import Store
 from graphcam.exercises.grading.grade_one import Assignment
-from graphcam.exercises.marking.marking import Judged, earned, mark
+from graphcam.exercises.marking.marking import JudgedAnswer, earned, mark
 from graphcam.exercises.marking.record import Record
 from graphcam.exercises.reports.group_page import group_page
 
@@ -92,13 +92,15 @@ def test_a_scribble_through_all_stations_is_not_near():
 
 
 @st.composite
-def judged_answers(draw: st.DrawFn) -> list[Judged]:
-    found: list[Judged] = []
+def judged_answers(draw: st.DrawFn) -> list[JudgedAnswer]:
+    found: list[JudgedAnswer] = []
     for k in range(draw(st.integers(1, 5))):
-        asked = Asked(f"a{k}", "A length.", "integration", reading="v", marks=draw(st.sampled_from([0.5, 1.0, 2.0])))
+        asked = AskedAnswer(
+            f"a{k}", "A length.", "integration", reading="v", marks=draw(st.sampled_from([0.5, 1.0, 2.0]))
+        )
         outcome = draw(st.sampled_from(["right", "follow-through", "wrong", "missing"]))
         off = {"right": st.floats(0, 1), "missing": st.just(float("inf"))}.get(outcome, st.floats(1.001, 8))
-        found.append(Judged(asked, outcome, draw(off), draw(st.sampled_from([0.0, 0.7]))))
+        found.append(JudgedAnswer(asked, outcome, draw(off), draw(st.sampled_from([0.0, 0.7]))))
     return found
 
 
@@ -115,11 +117,11 @@ def test_less_for_what_follows_and_caps_never_pay_more(judged, follow_through, c
 
 @given(st.floats(1, 10), st.floats(0, 12), st.floats(0, 12), st.sampled_from([0.5, 1.0, 4.0]))
 def test_the_farther_off_the_less_is_earned_and_never_all_beyond_the_tolerance(near, one, other, marks):
-    asked = Asked("a", "A length.", "integration", reading="v", marks=marks)
+    asked = AskedAnswer("a", "A length.", "integration", reading="v", marks=marks)
 
     def pay(tolerances: float) -> float:
         outcome = "right" if tolerances <= 1 else "wrong"
-        return earned(MarksPolicy(near=near), [Judged(asked, outcome, tolerances)], [])[0]
+        return earned(MarksPolicy(near=near), [JudgedAnswer(asked, outcome, tolerances)], [])[0]
 
     nearer, farther = sorted((one, other))
     assert 0 <= pay(farther) <= pay(nearer) <= marks

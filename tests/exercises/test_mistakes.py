@@ -13,8 +13,8 @@ from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import Variant
-from graphcam.exercises.key.keying import issue
-from graphcam.exercises.marking.simulate import simulate, without
+from graphcam.exercises.key.key_making import issue
+from graphcam.exercises.marking.simulate import key_without, simulate
 
 RISE, BACK, LIFT = 100.0, 80.0, 36.0
 PARAMETERS = {
@@ -122,16 +122,16 @@ def test_pairs_that_the_exercise_lets_be_alike_are_issued_and_named_together():
     exercise = find_exercise("curvature-and-roller")
     _, answer_key = issue(exercise, "Anna", b"alike")
     assert answer_key.alike == (("numbering-sense", "rotation-sense"),)
-    assert answer_key.not_told_from("rotation-sense") == {"numbering-sense"}
-    assert answer_key.not_told_from("offset-sign") == frozenset()
-    assert {"numbering-sense", "rotation-sense"}.isdisjoint(without(answer_key, "rotation-sense").hypotheses)
+    assert answer_key.inseparable_from("rotation-sense") == {"numbering-sense"}
+    assert answer_key.inseparable_from("offset-sign") == frozenset()
+    assert {"numbering-sense", "rotation-sense"}.isdisjoint(key_without(answer_key, "rotation-sense").hypotheses)
     found = simulate(exercise, b"alike", 2, 10)
     for name in ("numbering-sense", "rotation-sense"):
         assert found.rows[name].named == {name: 20}
 
 
 def test_what_the_exercise_does_not_let_be_alike_is_not_issued(monkeypatch):
-    monkeypatch.setattr("graphcam.exercises.key.keying.MOST_DRAWS", 2)
+    monkeypatch.setattr("graphcam.exercises.key.key_making.MAX_DRAWS", 2)
     exercise = replace(find_exercise("curvature-and-roller"), alike=())
     with pytest.raises(DesignError, match="diagnosable in 2 draws"):
         issue(exercise, "Anna", b"alike")

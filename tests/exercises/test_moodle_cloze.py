@@ -27,7 +27,7 @@ from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.exports.export import export
 from graphcam.exercises.exports.moodle import cloze_xml, question_text
-from graphcam.exercises.exports.question_parts import Issued
+from graphcam.exercises.exports.question_parts import IssuedVariant
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.marking import mark
 from graphcam.sheets.matplotlib_renderer import write_pdf
@@ -107,10 +107,10 @@ def alternative(text: str) -> Alternative:
     return Alternative(fraction, float(answer[1]), float(answer[2]), shown.text)
 
 
-def of(exercise: Exercise, answer_key: AnswerKey) -> Issued:
+def of(exercise: Exercise, answer_key: AnswerKey) -> IssuedVariant:
     """A variant as it is exported."""
     variant = Variant(exercise, answer_key.student, answer_key.draw, answer_key.parameters)
-    return Issued(Student(answer_key.student), variant, answer_key)
+    return IssuedVariant(Student(answer_key.student), variant, answer_key)
 
 
 def blanks_of(exercise: Exercise, answer_key: AnswerKey) -> list[Blank]:

@@ -14,9 +14,9 @@ from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.mistakes import CATALOGUE, misconception
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.scatter import Drawn, answers_of
+from graphcam.exercises.key.answer_scatter import Drawn, answers_of
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.marking.simulate import simulate, submission, unlisted, unlisted_names, without
+from graphcam.exercises.marking.simulate import key_without, simulate, submission, unlisted_answers, unlisted_names
 
 HANDS = 12
 
@@ -25,7 +25,7 @@ def drawings(name: str) -> tuple[Exercise, AnswerKey, dict[str, Drawn]]:
     """What hands with every mistake that is not listed draw of an issued variant."""
     exercise, answer_key = issued(name)
     task = Variant(exercise, answer_key.student, answer_key.draw, answer_key.parameters).task
-    return exercise, answer_key, dict(unlisted(exercise, board_chain(task, exercise.hand.pencil(HANDS, 5))))
+    return exercise, answer_key, dict(unlisted_answers(exercise, board_chain(task, exercise.hand.pencil(HANDS, 5))))
 
 
 def apart(exercise: Exercise, answer_key: AnswerKey, answers: Drawn) -> float:
@@ -62,15 +62,15 @@ def test_another_law_that_is_the_law_of_a_listed_mistake_is_that_mistake():
     chain = board_chain(task, exercise.hand.pencil(HANDS, 5))
     listing = replace(exercise, misconceptions=("wrong-law: cosine",))
     # Both phases by the law of the rise, and by that of the return.
-    assert "wrong-law: cosine" not in dict(unlisted(listing, chain))
-    assert "wrong-law: cycloidal" in dict(unlisted(listing, chain))
+    assert "wrong-law: cosine" not in dict(unlisted_answers(listing, chain))
+    assert "wrong-law: cycloidal" in dict(unlisted_answers(listing, chain))
     same = replace(exercise, misconceptions=("laws-swapped",))
     by_one_law = board_chain(
         Variant(exercise, "Anna", 0, {**answer_key.parameters, "law_up": "cosine", "law_down": "cosine"}).task,
         exercise.hand.pencil(HANDS, 5),
     )
     # Laws that are the same are exchanged without anything changing, as by the law that both have.
-    assert "wrong-law: cosine" not in dict(unlisted(same, by_one_law))
+    assert "wrong-law: cosine" not in dict(unlisted_answers(same, by_one_law))
 
 
 def test_arguments_are_those_that_have_to_do_with_the_answers():
@@ -91,8 +91,8 @@ def test_arguments_are_those_that_have_to_do_with_the_answers():
 def test_what_is_left_out_of_the_key_is_never_named(name):
     exercise, answer_key = issued(name)
     for each, values in answer_key.hypotheses.items():
-        key = without(answer_key, each)
-        unknown = {each} | answer_key.not_told_from(each)
+        key = key_without(answer_key, each)
+        unknown = {each} | answer_key.inseparable_from(each)
         assert set(key.hypotheses) == set(answer_key.hypotheses) - unknown
         given = {asked.name: value.value for asked, value in zip(exercise.answers, values, strict=True)}
         diagnosis = mark(exercise, key, Answers(given)).diagnosis

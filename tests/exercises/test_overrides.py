@@ -10,9 +10,9 @@ import pytest
 from issued_variants import answer_lines, course_of, issued, key
 
 from graphcam.errors import TaskError
-from graphcam.exercises.course.course_folder import TEACHER
+from graphcam.exercises.course.course_folder import TEACHER_FOLDER
 from graphcam.exercises.grading.course_grading import Course, grade_course
-from graphcam.exercises.grading.overrides import OVERRIDES
+from graphcam.exercises.grading.overrides import OVERRIDES_FILE
 
 NAME = "acceleration-and-scales"
 EXERCISE = issued(NAME)[0]
@@ -40,7 +40,9 @@ def table(course: Path, name: str) -> list[dict[str, str]]:
 
 def test_marks_given_by_hand_last_and_are_shown(course: Path):
     before = grade(course)
-    (course / TEACHER / OVERRIDES).write_text(f"{HEAD}Anna,{FIRST},0.5,see <b>it</b>\n'=Ben,total,3,on paper\n")
+    (course / TEACHER_FOLDER / OVERRIDES_FILE).write_text(
+        f"{HEAD}Anna,{FIRST},0.5,see <b>it</b>\n'=Ben,total,3,on paper\n"
+    )
     records = grade(course)
     assert records["Anna"]["answers"][0]["marks"] == 0.5  # type: ignore[index]
     assert records["Anna"]["total"] == before["Anna"]["total"] + 0.5  # type: ignore[operator]
@@ -55,13 +57,13 @@ def test_marks_given_by_hand_last_and_are_shown(course: Path):
     assert "marks in total: on paper" in (course / "pages" / "=Ben.html").read_text(encoding="utf-8")
     assert "see &lt;b&gt;it&lt;/b&gt;" in (course / "out" / "grades.html").read_text(encoding="utf-8")
     # A line that is taken back leaves the marks that were found.
-    (course / TEACHER / OVERRIDES).unlink()
+    (course / TEACHER_FOLDER / OVERRIDES_FILE).unlink()
     assert grade(course) == before
     assert table(course, "grades-by-hand.csv") == []
 
 
 def test_a_table_that_is_named_counts_instead_and_may_be_that_of_a_spreadsheet(course: Path):
-    (course / TEACHER / OVERRIDES).write_text(f"{HEAD}Anna,total,1,\n")
+    (course / TEACHER_FOLDER / OVERRIDES_FILE).write_text(f"{HEAD}Anna,total,1,\n")
     (course / "mine.csv").write_bytes(f"\ufeffStudent;Marks;Answer;Comment\r\nAnna;0,25;{FIRST};\r\n;;;\r\n".encode())
     record = grade(course, overrides=course / "mine.csv")["Anna"]
     assert record["answers"][0]["marks"] == 0.25  # type: ignore[index]

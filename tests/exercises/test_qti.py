@@ -27,7 +27,7 @@ from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.exports import LearningSystem
 from graphcam.exercises.exports.export import export
 from graphcam.exercises.exports.qti import assessment_xml, item_xml, write_package
-from graphcam.exercises.exports.question_parts import Issued
+from graphcam.exercises.exports.question_parts import IssuedVariant
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.marking import mark
 
@@ -145,10 +145,10 @@ class Marked:
         return x - bounds[0] <= y <= x + bounds[-1]
 
 
-def of(exercise: Exercise, answer_key: AnswerKey) -> Issued:
+def of(exercise: Exercise, answer_key: AnswerKey) -> IssuedVariant:
     """A variant as it is exported."""
     variant = Variant(exercise, answer_key.student, answer_key.draw, answer_key.parameters)
-    return Issued(Student(answer_key.student), variant, answer_key)
+    return IssuedVariant(Student(answer_key.student), variant, answer_key)
 
 
 def item_of(name: str) -> tuple[Exercise, AnswerKey, Element]:
@@ -180,7 +180,7 @@ def test_the_key_has_all_marks_of_an_item_and_every_mistake_is_named_and_loses_s
         lost = sum(asked.marks for blank, (_, asked) in zip(named, numbers, strict=True) if blank in off)
         assert found.outcomes["SCORE"] == marks - lost, mistake
         # Of mistakes that the answers do not tell from one another any may be named.
-        told = [str(misconception(one).said) for one in (mistake, *answer_key.not_told_from(mistake))]
+        told = [str(misconception(one).said) for one in (mistake, *answer_key.inseparable_from(mistake))]
         assert any(one in said for one in told for said in found.feedback) or not off
 
 

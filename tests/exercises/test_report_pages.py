@@ -14,7 +14,7 @@ from browsers import opened
 from issued_variants import SECRET, course_of, issued, key
 from russian import english_words
 
-from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
+from graphcam.exercises.course.course_folder import TEACHER_FOLDER, AnswerKeys
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.drawn_answers import board_chain, construction_of, per_mm
 from graphcam.exercises.definition.exercise import Answers
@@ -22,13 +22,19 @@ from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.definition.variant import drawn, fill_in
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.expectation import Expected
-from graphcam.exercises.marking.copies import AlikePair
+from graphcam.exercises.key.expected_answers import Expected
+from graphcam.exercises.marking.copy_detection import AlikePair
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.reports.first_step_off import PASSED_ON, first_step_off, shown_by
+from graphcam.exercises.reports.first_wrong_step import PASSING_KINDS, first_step_off, first_step_showing
 from graphcam.exercises.reports.group_page import Mistake, group_page, mistakes
 from graphcam.exercises.reports.student_page import student_page
-from graphcam.exercises.reports.unrolled_drawings import HEIGHT, PLACES, bundle, deviations_along, key_line
+from graphcam.exercises.reports.unrolled_drawings import (
+    CURVE_PLACES,
+    PICTURE_HEIGHT,
+    bundle,
+    deviations_along,
+    key_line,
+)
 from graphcam.plots.step_board import StepBoard
 
 NAME = "inversion-translating"
@@ -208,7 +214,7 @@ def test_mistakes_that_are_named_together_are_counted_together():
 
 
 def test_the_pages_of_a_russian_course_are_russian(pages: Path):
-    kept = AnswerKeys(pages / TEACHER)
+    kept = AnswerKeys(pages / TEACHER_FOLDER)
     exercise = find_exercise(NAME, "ru")
     records = json.loads((pages / "grades.json").read_text())
     answer_keys = {student: AnswerKey.from_json(kept.find(student)) for student in IDS}
@@ -295,8 +301,10 @@ def test_a_drawing_that_lies_outside_its_arcs_deviates_outwards_by_as_much(turn:
     assert np.abs(key_line(circle)) == pytest.approx(np.full(key_line(circle).size, 40.0))
     outside = 43 * np.exp(1j * np.linspace(0, 2 * np.pi, 400))
     # Between the places of the key its arc is a chord, of little rise.
-    assert deviations_along(circle, outside, "curve") == pytest.approx(np.full(PLACES, 3.0), abs=0.05), name
-    assert deviations_along(circle, outside / 43 * 38, "curve") == pytest.approx(np.full(PLACES, -2.0), abs=0.05), name
+    assert deviations_along(circle, outside, "curve") == pytest.approx(np.full(CURVE_PLACES, 3.0), abs=0.05), name
+    assert deviations_along(circle, outside / 43 * 38, "curve") == pytest.approx(
+        np.full(CURVE_PLACES, -2.0), abs=0.05
+    ), name
 
 
 def test_a_table_of_points_goes_back_to_its_first_but_a_drawing_that_is_open_stays_so():
@@ -307,13 +315,16 @@ def test_a_table_of_points_goes_back_to_its_first_but_a_drawing_that_is_open_sta
 
 
 def test_the_picture_of_a_bundle_has_the_median_and_the_quartiles_of_all_and_a_bounded_number_of_lines():
-    drawings = [np.full(PLACES, 0.01 * k) for k in range(401)]
+    drawings = [np.full(CURVE_PLACES, 0.01 * k) for k in range(401)]
     shown = bundle(drawings, 1.0)
     assert (shown.count, len(shown.lines)) == (401, 300)
     most = shown.ticks[-1][1]
 
     def deviations_of(line: str) -> set[float]:
-        return {round((HEIGHT / 2 - float(point.split(",")[1])) * 2 * most / HEIGHT, 1) for point in line.split()}
+        return {
+            round((PICTURE_HEIGHT / 2 - float(point.split(",")[1])) * 2 * most / PICTURE_HEIGHT, 1)
+            for point in line.split()
+        }
 
     assert deviations_of(shown.median) == {2.0}
     assert deviations_of(shown.quartiles) == {1.0, 3.0}
@@ -338,7 +349,9 @@ def test_the_picture_of_a_bundle_has_the_median_and_the_quartiles_of_all_and_a_b
 def test_the_step_that_shows_an_answer_is_known(name: str, shown: dict[str, int]):
     exercise = find_exercise(name)
     chain = board_chain(drawn(exercise, "Anna", SECRET, 0).task)
-    found = {asked.name: shown_by(construction_of(chain, asked.construction), asked) for asked in exercise.answers}
+    found = {
+        asked.name: first_step_showing(construction_of(chain, asked.construction), asked) for asked in exercise.answers
+    }
     assert found == shown
 
 
@@ -348,7 +361,7 @@ def test_a_line_is_named_by_its_own_step_though_its_ends_are_hidden_too():
     construction = construction_of(chain, "pressure_angle")
     alpha = next(asked for asked in exercise.answers if asked.name == "alpha_4")
     assert (
-        str(construction.steps()[shown_by(construction, alpha, PASSED_ON)].title)
+        str(construction.steps()[first_step_showing(construction, alpha, PASSING_KINDS)].title)
         == "The pressure angle at every station"
     )
 

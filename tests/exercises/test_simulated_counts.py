@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from graphcam.cli import app
 from graphcam.exercises.definition.exercise import Answers
-from graphcam.exercises.definition.hands import HANDS
+from graphcam.exercises.definition.student_hands import HANDS
 from graphcam.exercises.marking import simulate as module
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.simulate import CopyGain, HandCount, SimulatedRow, Simulation, copy_gain, simulate
@@ -55,9 +55,9 @@ def figures(monkeypatch) -> tuple[Simulation, list[tuple[int, int]], list[dict[s
     original = module._Tally.mark
     monkeypatch.setattr(module._Tally, "mark", counted)
     monkeypatch.setattr(module, "answers_of", answers_of)
-    monkeypatch.setattr(module, "unlisted", lambda *_: ())
+    monkeypatch.setattr(module, "unlisted_answers", lambda *_: ())
     monkeypatch.setattr(module, "copy_gain", lambda _, done: CopyGain(len(done)))
-    monkeypatch.setattr(module, "without", lambda *_: None)
+    monkeypatch.setattr(module, "key_without", lambda *_: None)
     monkeypatch.setattr(module, "mark", mark)
     variants = [(SimpleNamespace(draw=draw, task=None), None) for draw in DRAWS]
     monkeypatch.setattr(module, "course_variants", lambda *_: iter(variants))

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 from graphcam.cli import app
 from graphcam.exercises.definition.exercise_file import find_exercise, library
-from graphcam.exercises.definition.hands import HANDS as HANDS_OF
+from graphcam.exercises.definition.student_hands import HANDS as HANDS_OF
 from graphcam.exercises.grading import course_speed
 from graphcam.exercises.grading.course_grading import grade_course
 from graphcam.exercises.grading.course_speed import HANDS, SECRET as SPEED_SECRET, simulated
@@ -153,7 +153,7 @@ def test_the_speed_of_marking_is_printed():
 
 def test_the_course_that_is_timed_is_graded_as_any_other(tmp_path, monkeypatch):
     """Every folder has its record, with the marks of careful students."""
-    monkeypatch.setattr(course_speed, "GRADED", 70)
+    monkeypatch.setattr(course_speed, "GRADED_STUDENTS", 70)
     exercise = find_exercise("integration")
     course = course_speed.course_at(tmp_path, "integration", exercise)
     kept = sorted(path.read_bytes() for path in (tmp_path / "teacher" / "certificates").iterdir())

@@ -9,14 +9,14 @@ from hypothesis import given, strategies as st
 from issued_variants import SECRET
 
 from graphcam.errors import DesignError
-from graphcam.exercises.course.roster import LONGEST, folder_name, student_of
+from graphcam.exercises.course.roster import MAX_FOLDER_BYTES, folder_name, student_of
 from graphcam.exercises.definition.drawn_answers import board_chain
-from graphcam.exercises.definition.exercise import Asked, Parameter
+from graphcam.exercises.definition.exercise import AskedAnswer, Parameter
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.definition.variant import drawn
-from graphcam.exercises.key.keying import issue
-from graphcam.exercises.key.scatter import answers_of, torn
-from graphcam.exercises.key.separation import forbidden, perfect_hands, plainly_alike
+from graphcam.exercises.key.answer_scatter import answers_of, torn
+from graphcam.exercises.key.key_making import issue
+from graphcam.exercises.key.mistake_separation import forbidden, perfect_hands, plainly_alike
 from graphcam.tasks.task import CamTable
 from graphcam.tasks.task_file import builtin_task
 
@@ -220,7 +220,7 @@ def test_what_cannot_be_told_apart_is_not_promising():
 def test_an_exercise_without_a_diagnosable_variant_says_so(monkeypatch):
     from dataclasses import replace
 
-    monkeypatch.setattr("graphcam.exercises.key.keying.MOST_DRAWS", 2)
+    monkeypatch.setattr("graphcam.exercises.key.key_making.MAX_DRAWS", 2)
     exercise = find_exercise("acceleration-and-scales")
     same = {**exercise.parameters, "law_up": Parameter(choices=("cosine",)), "law_down": Parameter(choices=("cosine",))}
     with pytest.raises(DesignError, match=r"in \d of them '.*' cannot be told from"):
@@ -234,7 +234,7 @@ def test_a_folder_is_one_name_and_leads_back_to_the_student(student):
     assert not set(name) & set('/\\\0\n<>:"|?*')
     assert not name.startswith((".", " "))
     assert not name.endswith((".", " "))
-    assert len(name.encode()) <= LONGEST
+    assert len(name.encode()) <= MAX_FOLDER_BYTES
     if "%~" not in name:
         assert student_of(name) == student
 
@@ -254,7 +254,7 @@ def test_two_students_never_share_a_folder(a, b):
 def test_a_greatest_angle_that_careful_hands_find_on_either_side_is_not_asked_for():
     """At such an offset the angle at the low rest is as great as the one on the rise."""
     exercise = find_exercise("pressure-angle")
-    greatest = Asked("most", "The greatest pressure angle.", "angle_diagram", "max_rise", unit="deg")
+    greatest = AskedAnswer("most", "The greatest pressure angle.", "angle_diagram", "max_rise", unit="deg")
     only = replace(exercise, answers=(greatest,))
     for offset, either in ((-18.4, True), (-10.0, False), (-30.0, False)):
         task = builtin_task()

@@ -13,7 +13,7 @@ from scipy.interpolate import BSpline, make_interp_spline
 from scipy.spatial import cKDTree
 
 import graphcam as gc
-from graphcam.given.exact_polynomials import sign_changes, solved
+from graphcam.given.exact_polynomials import sign_changes, solve_exactly
 from graphcam.given.impact import acceleration_jumps, velocity_jumps
 from graphcam.given.stations import divide
 
@@ -359,8 +359,8 @@ def test_every_change_of_sign_is_found():
 
 def test_equations_that_contradict_have_no_solution():
     one = Fraction(1)
-    assert solved([[one, one], [one, one]], [one, 2 * one]) is None
-    assert solved([[Fraction(0), one], [one, one]], [one, 3 * one]) == [2, 1]
+    assert solve_exactly([[one, one], [one, one]], [one, 2 * one]) is None
+    assert solve_exactly([[Fraction(0), one], [one, one]], [one, 3 * one]) == [2, 1]
 
 
 # --- messages --------------------------------------------------------------------------------------------------------

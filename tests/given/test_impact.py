@@ -7,7 +7,7 @@ from math import pi
 import pytest
 
 from graphcam.given.impact import acceleration_jumps, velocity_jumps
-from graphcam.given.laws import BETWEEN_DWELLS, RISE_FALL, law
+from graphcam.given.laws import DWELL_TO_DWELL_LAWS, RISE_FALL_LAWS, law
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 
 SOFT = {"rectangular", "cosine", "2-3"}
@@ -20,7 +20,7 @@ def motion_of(name: str) -> Motion:
     return Motion([Rise(30, 1.4, name), Dwell(0.8), Return(30, 1.1, name), Dwell(FULL_TURN - 3.3)])
 
 
-@pytest.mark.parametrize("name", BETWEEN_DWELLS)
+@pytest.mark.parametrize("name", DWELL_TO_DWELL_LAWS)
 def test_kind_of_impact_between_dwells(name):
     motion = motion_of(name)
     assert velocity_jumps(motion) == []
@@ -59,7 +59,7 @@ def test_unequal_harmonic_phases_meet_in_a_jump():
     ]
 
 
-@pytest.mark.parametrize("name", RISE_FALL)
+@pytest.mark.parametrize("name", RISE_FALL_LAWS)
 def test_a_rise_and_a_fall_without_a_dwell_between_are_free_of_impact(name):
     """Equal angles: what the rise's acceleration ends with, the fall's begins with."""
     motion = Motion([Rise(30, 1.4, name), Return(30, 1.4, name), Dwell(FULL_TURN - 2.8)])

@@ -9,11 +9,18 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from graphcam.bench.measured_rows import NOISES, PEAKS, Sampled, best_scatter, random_motion, sampled_motions
+from graphcam.bench.measured_rows import (
+    NOISE_DEVIATIONS,
+    PEAK_GOALS,
+    Sampled,
+    best_scatter,
+    random_motion,
+    sampled_motions,
+)
 from graphcam.errors import DesignError
-from graphcam.given.legs import _slow, find_legs
+from graphcam.given.leg_detection import _slow_rows, find_legs
 from graphcam.given.measured import measured_motion
-from graphcam.given.monotone_spline import Forms
+from graphcam.given.monotone_spline import LinearForms
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.given.motion_law import Law
 
@@ -33,13 +40,13 @@ pytestmark = pytest.mark.filterwarnings("error")
 
 def check(sampled: list[Sampled]) -> None:
     """The goals, by noise."""
-    for noise in NOISES:
+    for noise in NOISE_DEVIATIONS:
         some = [one for one in sampled if one.noise == noise]
         assert all(one.phases_right for one in some)
         ends = [one.end_error for one in some]
         assert max(ends) <= FURTHER
-        assert np.mean(np.array(ends) > 1) <= HIDDEN_BY_CHANCE * 2 * len(NOISES)
-        for jumps, goal in enumerate(PEAKS[noise]):
+        assert np.mean(np.array(ends) > 1) <= HIDDEN_BY_CHANCE * 2 * len(NOISE_DEVIATIONS)
+        for jumps, goal in enumerate(PEAK_GOALS[noise]):
             off = np.array([abs(one.peak_error) for one in some if one.jumps == bool(jumps) and one.motion.lift >= 10])
             if noise:
                 assert np.all(off <= goal)
@@ -69,7 +76,7 @@ def test_a_table_of_any_noise_and_tolerance_gives_a_motion_or_a_message(seed):
 
 
 def test_rows_that_do_not_climb_between_two_flats_are_no_way_on_which_to_rest():
-    assert _slow(np.arange(12.0), np.linspace(1.0, 0.0, 12), 0.01, 0.02) == []
+    assert _slow_rows(np.arange(12.0), np.linspace(1.0, 0.0, 12), 0.01, 0.02) == []
 
 
 NOISY = np.random.default_rng(11).standard_normal(72)
@@ -105,7 +112,7 @@ def test_five_hundred_random_motions_are_told_from_their_tables():
 @pytest.mark.slow
 def test_the_peaks_scatter_little_more_than_in_the_best_linear_estimate():
     """Which knows the place of the peak, and no bounds; what is reached knows neither, and has a bias besides."""
-    for noise in NOISES[1:]:
+    for noise in NOISE_DEVIATIONS[1:]:
         some = [one for one in sampled_motions(200, seed=1) if one.noise == noise]
         reached, best = (np.array([(one.peak_error, one.least_scatter) for one in some]) ** 2).mean(axis=0) ** 0.5
         assert best < reached < 3.2 * best
@@ -214,11 +221,11 @@ def _filtered(x: np.ndarray, noise: float, q: float, to: float | None = None) ->
 
 def test_the_band_is_that_of_the_squares():
     random = np.random.default_rng(4)
-    forms = Forms(random.integers(0, 7, (12, 3)), random.standard_normal((12, 3)))
+    forms = LinearForms(random.integers(0, 7, (12, 3)), random.standard_normal((12, 3)))
     dense = np.zeros((12, 7))
     np.add.at(dense, (np.arange(12)[:, None], forms.unknowns), forms.factors)
     weights = random.uniform(1, 2, 12)
     matrix = dense.T @ (weights[:, None] * dense)
-    band = forms.squared(weights, 7, 7)
+    band = forms.normal_matrix(weights, 7, 7)
     assert_allclose(band, [[matrix[i + k, i] if i + k < 7 else 0.0 for i in range(7)] for k in range(7)], atol=1e-12)
     assert_allclose(forms.transposed(weights, 7), dense.T @ weights)

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 
 import graphcam as gc
 from graphcam.mechanism.jamming import transmission
-from graphcam.mechanism.stationary import places_in, smooth_pieces
+from graphcam.mechanism.turn_extremes import places_in, smooth_pieces
 
 DEG = math.pi / 180
 MU = 0.12

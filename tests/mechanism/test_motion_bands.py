@@ -101,7 +101,7 @@ def test_one_error_more_does_not_change_the_others():
 
 def test_chunks_do_not_change_a_bit(monkeypatch):
     whole = gc.motion_bands(CAMS["translating"], errors("translating"), samples=50)
-    monkeypatch.setattr(bands_module, "TOGETHER", 500)
+    monkeypatch.setattr(bands_module, "BATCH_SIZE", 500)
     parted = gc.motion_bands(CAMS["translating"], errors("translating"), samples=50)
     assert whole.sample.low.tolist() == parted.sample.low.tolist()
 

@@ -11,10 +11,10 @@ from intervals import Sum, backwards, greatest, law_of, law_of_polynomials, quan
 from mpmath import atan, mpf
 
 import graphcam as gc
-from graphcam.given.laws import LAWS, RISE_FALL, law
+from graphcam.given.laws import LAWS, RISE_FALL_LAWS, law
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
-from graphcam.given.spline_law import MEASURED
-from graphcam.mechanism.taylor import Taylor
+from graphcam.given.spline_law import MEASURED_LAW
+from graphcam.mechanism.taylor_intervals import Taylor
 
 CLOSE = 1e-13
 """Of what the exact side tells; its own rounding is some 1e-15."""
@@ -27,9 +27,9 @@ def laws_of(motion: Motion, own: dict[str, list[Sum]] | None = None) -> list[lis
         here = phase.normalised
         if own and here.name in own:
             return own[here.name]
-        if here.name in RISE_FALL and phase.direction < 0:
+        if here.name in RISE_FALL_LAWS and phase.direction < 0:
             return backwards(law_of(here.name))
-        return law_of_polynomials(here) if here.name == MEASURED else law_of(here.name, here.middle)
+        return law_of_polynomials(here) if here.name == MEASURED_LAW else law_of(here.name, here.middle)
 
     return [pieces(phase) for phase in motion.phases]
 

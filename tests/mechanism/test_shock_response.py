@@ -10,8 +10,8 @@ from mpmath import expj, linspace, mp, mpf
 from reference import EPS, lift
 
 import graphcam as gc
-from graphcam.given.laws import RISE_FALL
-from graphcam.mechanism.shock_response import MOST, event_of
+from graphcam.given.laws import RISE_FALL_LAWS
+from graphcam.mechanism.shock_response import MAX_RATIO, event_of
 
 DEG = math.pi / 180
 SYMMETRIC = ("rectangular", "triangular", "cycloidal", "trapezoidal", "modified-trapezoidal")
@@ -124,8 +124,8 @@ def test_a_dwell_behind_a_law_for_none_leaves_the_vibration_of_its_last_accelera
 
 def test_a_stiff_follower_is_strained_as_the_rigid_one_by_smooth_laws_only():
     for name, jumps in JUMPING.items():
-        (factor,) = gc.shock_spectrum(name, MOST).factor
-        if jumps > 2 or name in RISE_FALL:  # a force that is only taken off at once, at the end, strains no more
+        (factor,) = gc.shock_spectrum(name, MAX_RATIO).factor
+        if jumps > 2 or name in RISE_FALL_LAWS:  # a force that is only taken off at once, at the end, strains no more
             assert factor == pytest.approx(1, abs=0.02), name
         else:
             assert factor > 1.9, name  # a force that is put on at once strains a spring twice

@@ -13,7 +13,7 @@ import pytest
 import graphcam as gc
 from graphcam.mechanism.sizing import feasible_region, pareto_front
 from graphcam.mechanism.sizing_limits import LIMITS
-from graphcam.mechanism.sizing_search import SPARE
+from graphcam.mechanism.sizing_search import WIDTH_SLACK
 
 DEG = math.pi / 180
 
@@ -120,7 +120,7 @@ def test_where_pressure_angles_alone_bind_the_closed_form_is_met():
     fixed = gc.minimum_radius(CASES["2015, angle"][0], gc.Translating(), "ccw", rise=25 * DEG, offset=tran.offset)
     # Here the stress binds too, and the corner is found by iteration: as exactly as the search spares, never too small.
     assert tran.cam.prime_radius >= fixed.prime_radius * (1 - 1e-11)
-    assert tran.cam.prime_radius == pytest.approx(fixed.prime_radius, rel=2 * SPARE)
+    assert tran.cam.prime_radius == pytest.approx(fixed.prime_radius, rel=2 * WIDTH_SLACK)
     assert tran.binding[0] == "pressure angle on the rise"
 
 
@@ -177,12 +177,12 @@ def test_the_sheet_of_the_region_is_drawn(tmp_path):
 def test_the_sheet_of_the_region_speaks_russian():
     from russian import english_words
 
-    from graphcam.report.sizing_tables import BINDING
+    from graphcam.report.sizing_tables import BINDING_CAPTIONS
     from graphcam.sheets.model import Text
 
     for name in ("angle and stress", "spring"):
         # What binds is told by its name.
-        assert set(sized(name).binding) <= BINDING.keys()
+        assert set(sized(name).binding) <= BINDING_CAPTIONS.keys()
         drawing = gc.sizing_sheet(sized(name), frame="gost", language="ru")
         texts = [e.text for page in drawing.pages for g in page.groups for e in g.entities if isinstance(e, Text)]
         assert "угол давления на удалении" in texts

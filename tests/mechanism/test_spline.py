@@ -14,7 +14,7 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Oscillating, Translating
 from graphcam.given.motion import Dwell, Motion, Return, Rise
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.spline import ProfileSpline, profile_spline
+from graphcam.mechanism.profile_spline import ProfileSpline, profile_spline
 
 DEG = math.pi / 180
 

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.interpolate import BSpline, make_lsq_spline
 
-from graphcam.mechanism.spline_fit import Conditions, at_ends, basis, fitted, solve_banded
+from graphcam.mechanism.spline_fit import Conditions, at_ends, basis, fitted_control_points, solve_banded
 
 DEGREES = (1, 2, 3, 4, 5)
 
@@ -48,7 +48,7 @@ def test_without_need_of_its_conditions_the_fit_is_that_of_scipy(degree):
     points = np.exp(1j * at) + 0.1 * np.sin(5 * at)
     free = make_lsq_spline(at, points, knots, degree)
     rows = np.stack(at_ends(knots, degree, 1))
-    found = fitted(basis(knots, degree, at), points, Conditions(rows, rows @ free.c))
+    found = fitted_control_points(basis(knots, degree, at), points, Conditions(rows, rows @ free.c))
     assert_allclose(found, free.c, atol=1e-11)
 
 
@@ -60,7 +60,7 @@ def test_conditions_hold_exactly_and_the_rest_is_as_near_as_can_be(degree):
     splines = basis(knots, degree, at)
     rows = np.stack([row for derivative in (0, 1) for row in at_ends(knots, degree, derivative)])
     values = np.array([1 + 1j, 2 - 1j, 0.5j, -3.0])
-    control = fitted(splines, points, Conditions(rows, values))
+    control = fitted_control_points(splines, points, Conditions(rows, values))
     assert_allclose(rows @ control, values, atol=1e-11)
     kept = np.linalg.svd(rows)[2][len(rows) :]  # the null space
     off = points - splines.at(control)
@@ -75,7 +75,9 @@ def test_a_spline_is_its_own_fit(degree):
     control = random.normal(size=(knots.size - degree - 1, 2)) @ [1, 1j]
     points = BSpline(knots, control, degree)(at)
     rows = np.stack(at_ends(knots, degree, 0))
-    assert_allclose(fitted(basis(knots, degree, at), points, Conditions(rows, rows @ control)), control, atol=1e-10)
+    assert_allclose(
+        fitted_control_points(basis(knots, degree, at), points, Conditions(rows, rows @ control)), control, atol=1e-10
+    )
 
 
 @pytest.mark.parametrize("degree", DEGREES)

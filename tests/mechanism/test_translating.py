@@ -14,9 +14,9 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Oscillating, Translating
 from graphcam.given.laws import LAWS
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
-from graphcam.given.pieces import CHUNK
+from graphcam.given.piecewise import CHUNK_SIZE
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.stationary import max_acceleration, max_velocity
+from graphcam.mechanism.turn_extremes import max_acceleration, max_velocity
 
 DEG = math.pi / 180
 
@@ -268,12 +268,12 @@ def test_curves_together_are_the_curves_one_by_one_in_any_order_and_chunks(follo
     cam = Cam(
         Motion([Rise(swing, 2.0), Dwell(1.0), Return(swing, 2.0, "modified-sine"), Dwell(FULL_TURN - 5)]), follower, 50
     )
-    phi = np.linspace(0, FULL_TURN, 3 * CHUNK + 5, endpoint=False)
+    phi = np.linspace(0, FULL_TURN, 3 * CHUNK_SIZE + 5, endpoint=False)
     together = cam.curves(phi)
     for rows, one in zip(together, (cam.pitch_curve, cam.profile, cam.pitch_curvature), strict=True):
         assert_array_equal(one(phi), rows)
         assert_array_equal(one(phi[::-1]), rows[::-1])
-        for part in (slice(3, 4), slice(7, 900), slice(CHUNK - 1, CHUNK + 2)):
+        for part in (slice(3, 4), slice(7, 900), slice(CHUNK_SIZE - 1, CHUNK_SIZE + 2)):
             assert_array_equal(one(phi[part]), rows[part])
     assert [rows.shape for rows in cam.curves(1.0)] == [(2,), (2,), ()]
     assert [rows.shape for rows in cam.curves(np.ones((2, 3)))] == [(2, 3, 2), (2, 3, 2), (2, 3)]

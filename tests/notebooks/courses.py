@@ -8,8 +8,8 @@ from pathlib import Path
 import jupytext
 from nbformat import NotebookNode
 
+from graphcam.notebooks.notebook_execution import execute
 from graphcam.notebooks.notebook_folder import to_html
-from graphcam.notebooks.running import execute
 
 FOLDER = Path(__file__).parents[2] / "notebooks"
 COURSE = sorted(path.stem for path in FOLDER.glob("[0-9][0-9]_*.py"))

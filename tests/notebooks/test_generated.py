@@ -16,34 +16,34 @@ from typer.testing import CliRunner
 
 import graphcam as gc
 from graphcam.cli import app
-from graphcam.cli.shared import WRONG_INPUT
-from graphcam.notebooks import changed, running
+from graphcam.cli.shared import INPUT_ERROR_STATUS
+from graphcam.notebooks import changed_task, notebook_execution
+from graphcam.notebooks.notebook_execution import execute
 from graphcam.notebooks.notebook_folder import to_html, write_notebook
-from graphcam.notebooks.running import execute
 from graphcam.tasks.task import SpringTable
 from graphcam.tasks.task_writer import task_files
 
 COURSEWORK, ARM, FLAT = (gc.builtin_task(name) for name in ("coursework", "arm", "flat"))
 SMOOTH = tuple(
-    changed(phase, {"law": "cycloidal"}) if phase.kind != "dwell" else phase for phase in COURSEWORK.motion.phases
+    changed_task(phase, {"law": "cycloidal"}) if phase.kind != "dwell" else phase for phase in COURSEWORK.motion.phases
 )
 SPRING = {"speed_rpm": 300.0, "spring": SpringTable(mass=0.5, stiffness=3.0)}
 TASKS = {
     "coursework": COURSEWORK,
-    "offset left open": changed(COURSEWORK, {"follower.offset": None, "limits.pressure_angle_return": 50.0}),
-    "knife edge": changed(COURSEWORK, {"follower.roller_radius": 0.0}),
-    "undercut": changed(
+    "offset left open": changed_task(COURSEWORK, {"follower.offset": None, "limits.pressure_angle_return": 50.0}),
+    "knife edge": changed_task(COURSEWORK, {"follower.roller_radius": 0.0}),
+    "undercut": changed_task(
         COURSEWORK, {"motion.phases": SMOOTH, "cam.prime_radius": 30.0, "follower.roller_radius": 20.0}
     ),
-    "A4, few parts": changed(
+    "A4, few parts": changed_task(
         COURSEWORK,
         {"drawing.format": "A4", "drawing.ordinate": 20.0, "drawing.poles": (12.0, 12.0), "drawing.divisions": 5},
     ),
-    "spring": changed(COURSEWORK, SPRING),
+    "spring": changed_task(COURSEWORK, SPRING),
     "arm": ARM,
-    "arm, distance left open": changed(ARM, {"follower.distance": None, "cam.prime_radius": None}),
+    "arm, distance left open": changed_task(ARM, {"follower.distance": None, "cam.prime_radius": None}),
     "flat": FLAT,
-    "flat with a spring": changed(FLAT, SPRING),
+    "flat with a spring": changed_task(FLAT, SPRING),
     "measured": gc.builtin_task("measured"),
     "arcs": gc.builtin_arcs_task(),
 }
@@ -74,7 +74,7 @@ def test_every_construction_has_its_chapter(name):
 def in_russian(name):
     task = TASKS[name]
     titled = replace(task, title=replace(task.title, name="Кулачок"))  # the name is the user's
-    return changed(titled, {"drawing.language": "ru"})
+    return changed_task(titled, {"drawing.language": "ru"})
 
 
 NAMES = ("graphcam", "None", "drawing.divisions", r"cam.prime\_radius")
@@ -162,7 +162,7 @@ def test_without_options_nothing_is_executed(tmp_path):
 def test_wrong_input_ends_with_one_message(words, message, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     done = CliRunner().invoke(app, ["notebook", *words])
-    assert done.exit_code == WRONG_INPUT
+    assert done.exit_code == INPUT_ERROR_STATUS
     said = [line for line in done.stderr.splitlines() if not line.endswith("...")]
     assert said[0].startswith(f"graphcam: {message}")
     assert list(tmp_path.iterdir()) == []
@@ -172,9 +172,9 @@ def test_a_missing_extra_is_named_and_nothing_is_left(tmp_path, monkeypatch):
     def missing(name):
         raise ImportError(name)
 
-    monkeypatch.setattr(running, "import_module", missing)
+    monkeypatch.setattr(notebook_execution, "import_module", missing)
     done = CliRunner().invoke(app, ["notebook", "--out", str(tmp_path / "out"), "--execute"])
-    assert done.exit_code == WRONG_INPUT
+    assert done.exit_code == INPUT_ERROR_STATUS
     assert 'pip install ".[notebooks]"' in done.stderr
     assert not (tmp_path / "out").exists()
 
@@ -182,6 +182,6 @@ def test_a_missing_extra_is_named_and_nothing_is_left(tmp_path, monkeypatch):
 def test_without_chromium_there_is_one_message_before_anything_is_executed(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
     done = CliRunner().invoke(app, ["notebook", "--out", str(tmp_path / "out"), "--pdf"])
-    assert done.exit_code == WRONG_INPUT
+    assert done.exit_code == INPUT_ERROR_STATUS
     assert "there is no Chromium to print it" in done.stderr
     assert not (tmp_path / "out").exists()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from nbformat.v4 import new_code_cell, new_notebook
 
-from graphcam.notebooks.running import NotebookError, execute
+from graphcam.notebooks.notebook_execution import NotebookError, execute
 
 pytestmark = pytest.mark.slow
 

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d
 
-from graphcam.photo.printed import PrintedPage, PrintedView
-from graphcam.photo.rectify import Flat
+from graphcam.photo.printed_page import PrintedPage, PrintedView
+from graphcam.photo.rectify import EvenPicture
 
 Points = NDArray[np.complex128]
 PER_MM = 8.0
@@ -151,7 +151,7 @@ class Sheet:
             views={"view": self.view},
         )
 
-    def flat(self, camera: Camera | None = None) -> Flat:
+    def flat(self, camera: Camera | None = None) -> EvenPicture:
         """The sheet as a camera shows it in uneven light, even again."""
         camera = camera or Camera()
         light = np.linspace(0.5, 0.85, self.pixels, dtype=np.float32)
@@ -161,7 +161,7 @@ class Sheet:
         colours = cv2.GaussianBlur(shown - grey, (0, 0), camera.colour_blur * PER_MM)
         shown = np.repeat(grey, 3, 2) if camera.grey else (grey + colours) * np.array(camera.cast, np.float32)
         left, bottom = CORNER.real, CORNER.imag
-        return Flat(np.clip(shown, 0, 1), (left, bottom, left + self.side, bottom + self.side), PER_MM)
+        return EvenPicture(np.clip(shown, 0, 1), (left, bottom, left + self.side, bottom + self.side), PER_MM)
 
     def _covered(self, points: Points, width: float) -> NDArray[np.float32]:
         """How much of each pixel lies under a line, or within an outline where it has no width."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-from graphcam.photo.printed import PrintedPage, PrintedView
+from graphcam.photo.printed_page import PrintedPage, PrintedView
 from graphcam.photo.tag_family import dark_cells
 from graphcam.photo.tags import Tags
 
@@ -91,7 +91,7 @@ class Camera:
         for _ in range(40):
             seen = self.pixels(np.array([0, width, width + 1j * height, 1j * height])) - self.centre
             over = max(np.abs(seen.real).max() / self.size[0], np.abs(seen.imag).max() / self.size[1]) * 2
-            self.distance *= 1 + 0.7 * (over / self.filled - 1)
+            self.distance *= 1 + 0.7 * (over / self.fill - 1)
 
     @property
     def centre(self):

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from photo.drawn_flats import Camera, Sheet, cam, circle, diagram_sheet, profile_sheet
 from scipy.spatial import cKDTree
 
-from graphcam.photo.curve_grid import BEND, CORNER, FARTHEST_BEND, best_way
+from graphcam.photo.curve_grid import BEND_PRICE, CORNER_PRICE, MAX_BEND, best_way
 from graphcam.photo.drawn_curves import CurveReading, read_curve
 from graphcam.photo.flag_runs import bridged
 from graphcam.photo.pencil_ink import ink_of
@@ -262,7 +262,7 @@ def _value(rewards: NDArray[np.float32], start: int, slopes: tuple[int, ...]) ->
         value += float(rewards[k, state, slope + 1])
         if k:
             turn = abs(slope - slopes[k - 1])
-            value -= min(BEND * turn, CORNER) if turn <= FARTHEST_BEND else CORNER
+            value -= min(BEND_PRICE * turn, CORNER_PRICE) if turn <= MAX_BEND else CORNER_PRICE
         state += slope
     return value if 0 <= state < 5 else -np.inf
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from photographed import FINE, Camera, drawn, folded, page_of, photograph, rolled
 
-from graphcam.photo.rectify import Flat, looked_up, rectify, sampled
+from graphcam.photo.rectify import EvenPicture, lookup_maps, rectify, sampled
 from graphcam.photo.registration import register
 from graphcam.photo.tags import find_tags
 
@@ -30,7 +30,7 @@ def with_dots(page):
 
 
 def test_places_and_pixels_are_each_others_inverse():
-    flat = Flat(np.zeros((40, 80, 3), np.float32), (10.0, 20.0, 20.0, 25.0), 8.0)
+    flat = EvenPicture(np.zeros((40, 80, 3), np.float32), (10.0, 20.0, 20.0, 25.0), 8.0)
     assert flat.pixels(10 + 25j) == -0.5 - 0.5j
     assert flat.pixels(20 + 20j) == 79.5 + 39.5j
     assert flat.points(0j) == pytest.approx(10.0625 + 24.9375j)
@@ -81,8 +81,8 @@ def test_the_enlarged_map_is_the_map(bend, most):
     camera = Camera(PAGE, (14.0, -12.0, 4.0)) if bend is None else Camera(PAGE, (14.0, -12.0, 4.0), bend=bend)
     registration = register(camera.tags(), PAGE, camera.size)
     box = (100.0, 50.0, 320.0, 250.0)
-    column, row = looked_up(registration, box, 4.0)
-    flat = Flat(np.zeros((*column.shape, 3), np.float32), box, 4.0)
+    column, row = lookup_maps(registration, box, 4.0)
+    flat = EvenPicture(np.zeros((*column.shape, 3), np.float32), box, 4.0)
     rows, columns = np.mgrid[: column.shape[0] : 7, : column.shape[1] : 7]
     places = registration.pixels(flat.points(columns + 1j * rows))
     off = np.abs(column[::7, ::7] + 1j * row[::7, ::7] - places)

@@ -15,11 +15,11 @@ from printed_courses import Course
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.curve import faired
 from graphcam.errors import GraphcamError
-from graphcam.exercises.definition.drawn_answers import ask, board_chain
-from graphcam.exercises.definition.exercise import Asked
-from graphcam.exercises.definition.hands import HandTable
+from graphcam.exercises.definition.drawn_answers import board_chain, drawn_answer
+from graphcam.exercises.definition.exercise import AskedAnswer
 from graphcam.exercises.definition.mistakes import misconception
-from graphcam.exercises.key.scatter import Drawn, answers_of, curve_of
+from graphcam.exercises.definition.student_hands import HandTable
+from graphcam.exercises.key.answer_scatter import Drawn, answers_of, curve_of
 from graphcam.exercises.marking.simulate import submission
 
 Lines = list[tuple[Points, bool]]
@@ -52,7 +52,7 @@ def work(course: Course, student: str, hand: str, seed: int, mistake: str = "") 
     chain = misconception(mistake).change(chain) if mistake else chain
     drawn: Drawn = answers_of(course.exercise, chain)
     given = submission(course.exercise, drawn, 0)
-    return Work(dict(given.values), ask(chain, course.drawn)[0], closed_line(chain, course.drawn))
+    return Work(dict(given.values), drawn_answer(chain, course.drawn)[0], closed_line(chain, course.drawn))
 
 
 def mistakes_of(course: Course, student: str) -> list[str]:
@@ -67,10 +67,10 @@ def mistakes_of(course: Course, student: str) -> list[str]:
     return found
 
 
-def closed_line(chain: Chain, asked: Asked) -> Points:
+def closed_line(chain: Chain, asked: AskedAnswer) -> Points:
     """The curve of the first hand (n,): faired through the stations, by the compasses along the dwells."""
     stations, given = chain.board.stations, curve_of(chain, asked)[0]
-    plotted = ask(chain, asked)[0]
+    plotted = drawn_answer(chain, asked)[0]
     found: list[Points] = []
     at = 0
     for k, span in enumerate(stations.phases):

@@ -24,16 +24,16 @@ from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Record
 from graphcam.exercises.photographs.corrections import StudentCorrections
+from graphcam.exercises.photographs.counted_answers import settled_student
 from graphcam.exercises.photographs.photo_reader import read_photograph
-from graphcam.exercises.photographs.settling import settled
 from graphcam.photo.drawn_curves import read_curve
-from graphcam.photo.intake import Photograph, Unopened, pictures_in
-from graphcam.photo.lines import Segment, crossing, read_lines
+from graphcam.photo.file_intake import Photograph, UnopenedFile, pictures_in
 from graphcam.photo.pencil_ink import Ink, ink_of
 from graphcam.photo.pictures import PhotographError
-from graphcam.photo.points import read_points
+from graphcam.photo.plotted_points import read_points
 from graphcam.photo.rectify import rectify
 from graphcam.photo.registration import Registration, register
+from graphcam.photo.straight_lines import Segment, crossing, read_lines
 from graphcam.photo.tags import find_tags
 
 QUANTILES = np.linspace(0.025, 0.975, 20)
@@ -82,7 +82,7 @@ def picture_of(jpeg: bytes, path: Path) -> Photograph:
     path.write_bytes(jpeg)
     (picture,) = pictures_in([path])
     path.unlink()
-    assert not isinstance(picture, Unopened), picture
+    assert not isinstance(picture, UnopenedFile), picture
     return picture
 
 
@@ -110,7 +110,7 @@ def _marked(scene: Scene, folder: Path) -> dict[str, Any]:
     key, asked = scene.course.key(scene.student), scene.course.drawn
     bars = tuple(
         round(abs(end - start) * part / RULE) * RULE
-        for (start, end), part in zip(scene.page.bars, scene.shot.placing.stretched, strict=True)
+        for (start, end), part in zip(scene.page.bars, scene.shot.placing.stretch_factors, strict=True)
     )
     corrections = StudentCorrections(bars={scene.page_number: (bars[0], bars[1])})
     with watched() as peak:
@@ -122,7 +122,7 @@ def _marked(scene: Scene, folder: Path) -> dict[str, Any]:
         return found | {"refused": "photo", "why": _bare(photo.why)}
     found |= {"paper": photo.kind, "residual": round(photo.residual, 3), "tags": [photo.tags, photo.expected]}
     found |= _registered(scene, picture, (bars[0], bars[1]))
-    result = settled(scene.course.exercise, scene.student, [photo], key, corrections)
+    result = settled_student(scene.course.exercise, scene.student, [photo], key, corrections)
     answer = next(one for one in result.answers if one.asked.name == asked.name)
     read = photo.answers.get(asked.name)
     if read is not None:

@@ -12,15 +12,15 @@ import numpy as np
 from nuisances import PRINTERS
 from printer import RENDERERS, Print, printed
 
-from graphcam.exercises.course.course_folder import PRINTED, STUDENTS, TEACHER, AnswerKeys
-from graphcam.exercises.course.make import make
+from graphcam.exercises.course.course_folder import PRINTED_FOLDER, STUDENTS_FOLDER, TEACHER_FOLDER, AnswerKeys
+from graphcam.exercises.course.course_making import make
 from graphcam.exercises.course.roster import folder_name
-from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.photographs.whose import PrintedSheets
-from graphcam.photo.printed import Ink, PrintedPage
+from graphcam.exercises.photographs.page_owner import PrintedSheets
+from graphcam.photo.printed_page import Ink, PrintedPage
 
 SECRET = b"the secret of the photographs"
 
@@ -68,19 +68,19 @@ class Course:
         return find_exercise(self.kind.exercise, paper=self.kind.paper)
 
     @cached_property
-    def drawn(self) -> Asked:
+    def drawn(self) -> AskedAnswer:
         """The answer that is drawn: the pitch curve, or its plotted points."""
-        return next(asked for asked in self.exercise.answers if asked.drawn_as)
+        return next(asked for asked in self.exercise.answers if asked.mark_form)
 
     @cached_property
     def sheets(self) -> PrintedSheets:
         """What a reader of photographs is told."""
-        teacher, exercise = self.folder / TEACHER, self.exercise
+        teacher, exercise = self.folder / TEACHER_FOLDER, self.exercise
         return PrintedSheets(teacher, exercise.name, exercise.version, self.kind.students, SECRET)
 
     def key(self, student: str) -> AnswerKey:
         """The answer key of a student."""
-        return AnswerKey.from_json(AnswerKeys(self.folder / TEACHER).find(student))
+        return AnswerKey.from_json(AnswerKeys(self.folder / TEACHER_FOLDER).find(student))
 
     def variant(self, student: str) -> Variant:
         """What a student was given."""
@@ -89,7 +89,7 @@ class Course:
 
     def page(self, student: str, view: str) -> tuple[int, PrintedPage]:
         """The number, from 1, of the page on which a view is, and what is known of it."""
-        found = sorted((self.folder / TEACHER / PRINTED).glob(f"{folder_name(student)}-*.json"))
+        found = sorted((self.folder / TEACHER_FOLDER / PRINTED_FOLDER).glob(f"{folder_name(student)}-*.json"))
         for number, path in enumerate(found, 1):
             page = PrintedPage.from_json(path.read_text(encoding="utf-8"))
             if view in page.views:
@@ -105,7 +105,7 @@ class Course:
         name = f"{self.kind.name} {student} {number}"
         rng = np.random.default_rng(zlib.crc32(name.encode()))
         printer, renderer = PRINTERS[rng.integers(len(PRINTERS))], sorted(RENDERERS)[int(rng.random() < 0.65)]
-        pdf = self.folder / STUDENTS / folder_name(student) / "worksheet.pdf"
+        pdf = self.folder / STUDENTS_FOLDER / folder_name(student) / "worksheet.pdf"
         return printed(pdf, number, printer, renderer, scratch / "prints"), f"{renderer} {printer.name}"
 
 

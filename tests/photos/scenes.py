@@ -18,7 +18,7 @@ from printed_courses import KINDS, Course, CourseKind, course_of
 from printer import PER_MM, Placing
 
 from graphcam.constructions.views import DISPLACEMENT, PROFILE
-from graphcam.photo.printed import PrintedPage, PrintedView
+from graphcam.photo.printed_page import PrintedPage, PrintedView
 
 Rng = np.random.Generator
 KIND_SHARES: Mapping[str, float] = {

@@ -10,7 +10,7 @@ from camera import Size
 from numpy.typing import NDArray
 from printer import PRINTED_DPI
 
-from graphcam.photo.printed import Ink, PrintedPage, PrintedView
+from graphcam.photo.printed_page import Ink, PrintedPage, PrintedView
 
 WIDTH, HEIGHT = 420.0, 297.0
 TAG, EDGE = 12.0, 10.0

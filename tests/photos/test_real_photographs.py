@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from graphcam.photo.drawn_curves import read_curve
-from graphcam.photo.intake import Unopened, pictures_in
+from graphcam.photo.file_intake import UnopenedFile, pictures_in
 from graphcam.photo.pencil_ink import ink_of
 from graphcam.photo.pictures import PhotographError
-from graphcam.photo.printed import Points, PrintedPage
+from graphcam.photo.printed_page import Points, PrintedPage
 from graphcam.photo.rectify import rectify
 from graphcam.photo.registration import register
 from graphcam.photo.tags import find_tags
@@ -47,7 +47,7 @@ def test_real_photographs_show_what_their_senders_measured() -> None:
 def curve_in(path: Path, page: PrintedPage, name: str) -> Points | None:
     """The curve in a photograph (n,), in mm of the page from the view's origin; None where it is refused."""
     (picture,) = pictures_in([path])
-    assert not isinstance(picture, Unopened)
+    assert not isinstance(picture, UnopenedFile)
     tags = find_tags(np.asarray(cv2.cvtColor(picture.pixels, cv2.COLOR_BGR2GRAY), np.uint8))
     try:
         registration = register(tags, page, picture.pixels.shape[1::-1], picture.focal)

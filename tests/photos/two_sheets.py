@@ -18,9 +18,9 @@ from printer import PER_MM
 
 from graphcam.constructions.views import PROFILE
 from graphcam.photo.pictures import PhotographError
-from graphcam.photo.printed import SIDES, Side
+from graphcam.photo.printed_page import SIDE_NAMES, Side
 from graphcam.photo.tags import find_tags
-from graphcam.photo.tiles import Tile, joined, registered_tiles
+from graphcam.photo.taped_tiles import Tile, joined_tiles, registered_tiles
 
 KIND = CourseKind("inversion-translating", "A3-tiles", "colour", ("17", "18"))
 SLIP, TURN = 0.5, 0.15
@@ -48,17 +48,19 @@ def tiles_measured(number: int, seed: int, scratch: Path) -> dict[str, Any]:
     shots = [_shot(paper, shown, megapixels, rng) for shown in ((0.0, seam + BEYOND), (seam - BEYOND, page.width))]
     tiles: dict[Side, Tile] = {}
     try:
-        for side, shot in zip(SIDES, shots, strict=True):
+        for side, shot in zip(SIDE_NAMES, shots, strict=True):
             picture = picture_of(photographed(light, paper, PER_MM, shot, rng), scratch / f"{number}-{side}.jpg")
             tags = find_tags(np.asarray(cv2.cvtColor(picture.pixels, cv2.COLOR_BGR2GRAY), np.uint8))
             tiles[side] = registered_tiles(picture.pixels, tags, page, picture.focal)[side]
-        tiles = dict(joined(tiles, page))
+        tiles = dict(joined_tiles(tiles, page))
     except (PhotographError, KeyError) as error:
         return found | {"refused": "photo", "why": repr(error)[:120]}
     found["slip"] = round(abs(shift), 2)
     heights = np.arange(30.0, page.height - 30, 5.0)
     near = seam + ON_THE_SEAM + 1j * heights
-    seen = [tiles[side].registration.millimetres(shot.pixels(near)) for side, shot in zip(SIDES, shots, strict=True)]
+    seen = [
+        tiles[side].registration.millimetres(shot.pixels(near)) for side, shot in zip(SIDE_NAMES, shots, strict=True)
+    ]
     far = seam + np.linspace(10, 190, 10)[:, None] + 1j * heights
     off = np.abs(tiles["right"].registration.millimetres(shots[1].pixels(far)) - far)
     for name, errors in (("seam", np.abs(seen[0] - seen[1])), ("beyond", off)):

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import graphcam as gc
-from graphcam.showing import LINES, Shown, from_above, in_lines
+from graphcam.showing import MAX_LINES, Plottable, from_above, in_lines
 from graphcam.solving.spring_design import SpringDesign
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -35,7 +35,7 @@ def values(solution):
 def test_few_lines_say_what_it_is(solution):
     for value in values(solution):
         lines = repr(value).splitlines()
-        assert 1 <= len(lines) <= LINES, repr(value)
+        assert 1 <= len(lines) <= MAX_LINES, repr(value)
         assert max(map(len, lines)) <= 130, repr(value)
         assert lines[0].startswith((type(value).__name__, "Cam")), lines[0]
 
@@ -51,7 +51,7 @@ def test_few_lines_of_what_holds_others(solution):
     for value in parts:
         lines = repr(value).splitlines()
         assert lines[0].startswith(type(value).__name__)
-        assert 2 <= len(lines) <= LINES
+        assert 2 <= len(lines) <= MAX_LINES
         assert max(map(len, lines)) <= 130, repr(value)
 
 
@@ -70,7 +70,7 @@ def test_few_lines_of_a_hand_that_draws_many_times(samples):
     pencil = gc.Pencil(line=0.2, dividers=0.2, samples=samples)
     drawn = gc.solve(gc.builtin_task(), pencil).drawn
     for construction in drawn.values():
-        assert len(repr(construction).splitlines()) <= LINES
+        assert len(repr(construction).splitlines()) <= MAX_LINES
         assert f"samples: {samples}" in repr(construction)
 
 
@@ -98,7 +98,7 @@ def test_a_solution_is_told_without_drawing_it():
 
 def test_many_rows_are_cut_short():
     lines = in_lines("many", map(str, range(20)), "go on").splitlines()
-    assert len(lines) == LINES
+    assert len(lines) == MAX_LINES
     assert lines[-2:] == ["  and 15 more", "go on"]
 
 
@@ -144,7 +144,7 @@ def test_functions_of_rooms_above_are_there():
                 named |= {node.args[0].value} if isinstance(node.args[0], ast.Constant) else set()
     assert {"report.output_folder.write", "plots.figures.svg_of"} <= named
     kinds = [getattr(gc, name) for name in dir(gc)]
-    drawn = {kind._drawn_in for kind in kinds if isinstance(kind, type) and issubclass(kind, Shown)}
+    drawn = {kind._drawn_in for kind in kinds if isinstance(kind, type) and issubclass(kind, Plottable)}
     assert drawn == {
         "cam_outline.plot", "cam_outline.plot_arcs", "construction_drawing.plot", "construction_drawing.plot_sheet",
         "motion_curves.plot", "motion_curves.plot_bands", "response_curves.plot", "response_curves.plot_spectrum",

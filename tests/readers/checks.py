@@ -18,9 +18,9 @@ from pdf_paths import PdfPage, pages
 from programs import count, program
 from scipy.spatial import cKDTree
 
-from graphcam.sheets.fonts import letters_of, width
-from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Heads, Page, Stroke, Strokes, Text
-from graphcam.sheets.styles import STYLES
+from graphcam.sheets.model import ArcEntity, ArrowHeads, Circles, Curve, Drawing, Entity, Page, Stroke, Strokes, Text
+from graphcam.sheets.styles import STYLES_BY_ROLE
+from graphcam.sheets.text_measures import letters_of, width
 
 RULER = 0.005
 """Our own PDF is true within this, mm."""
@@ -63,7 +63,7 @@ def check_frame(page: PdfPage, drawn: Page, within: float) -> None:
 def check_widths(page: PdfPage) -> None:
     """Lines are drawn in the widths of the styles, and in no others."""
     widths = {round(path.width, 2) for path in page.paths if path.width}
-    assert {0.18, 0.7} <= widths <= {style.width for style in STYLES.values()}
+    assert {0.18, 0.7} <= widths <= {style.width for style in STYLES_BY_ROLE.values()}
 
 
 def check_words(pdf: Path, drawing: Drawing) -> None:
@@ -116,7 +116,7 @@ def _near(entity: Entity) -> float:
         # Somewhere about the middle of a text there is a letter.
         return 1.5 * entity.height
     # Of a line type only whole repetitions are printed.
-    return max(FULL_LINE, sum(STYLES[entity.role].pattern))
+    return max(FULL_LINE, sum(STYLES_BY_ROLE[entity.role].pattern))
 
 
 def _dense(starts: np.ndarray, ends: np.ndarray, step: float = 0.1) -> np.ndarray:
@@ -143,7 +143,7 @@ def _places(entity: Entity) -> np.ndarray:
             return np.concatenate([centres + radius * turn for turn in (1, 1j, -1, -1j)])
         case ArcEntity(centre=centre, radius=radius, start=start, end=end):
             return centre + radius * np.exp(1j * np.linspace(start, end, 9))
-        case Heads(corners=corners):
+        case ArrowHeads(corners=corners):
             return corners[:, 0]
         case Text():
             shift = {"left": 0.5, "center": 0.0, "right": -0.5}[entity.align] * width(entity.text, entity.height)

@@ -8,7 +8,7 @@ import pytest
 
 import graphcam as gc
 from graphcam.report.documents import contents_of, drawing_of
-from graphcam.report.fewer_sheets import FEWER, TOGETHER, fewer_sheets
+from graphcam.report.fewer_sheets import FEWER_SHEETS_NOTE, ONE_SHEET_NOTE, fewer_sheets
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.spring_tables import SpringTable
 from graphcam.tasks.task import DrawingTable, FlatFacedTable, LimitsTable, Task, TranslatingTable
@@ -58,7 +58,7 @@ def test_smaller_diagrams_that_save_a_sheet_are_told():
     assert len(pages) == 2
     hint = fewer_sheets(contents, 2)
     assert hint is not None
-    assert (hint.template, hint.values["after"]) == (FEWER.template, 1)
+    assert (hint.template, hint.values["after"]) == (FEWER_SHEETS_NOTE.template, 1)
     suggested = taken(ROLLER, hint)
     contents, pages = laid_out(suggested)
     assert len(pages) == 1
@@ -72,7 +72,7 @@ def test_diagrams_that_belong_together_are_brought_onto_one_sheet():
     assert sum(bool(page & carried) for page in pages) == 2
     hint = fewer_sheets(contents, len(pages))
     assert hint is not None
-    assert hint.template == TOGETHER.template
+    assert hint.template == ONE_SHEET_NOTE.template
     _, smaller = laid_out(taken(FLAT, hint))
     assert len(smaller) == len(pages)
     assert any(carried <= page for page in smaller)

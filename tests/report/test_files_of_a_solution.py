@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from graphcam.cli import app
-from graphcam.cli.shared import WRONG_INPUT
+from graphcam.cli.shared import INPUT_ERROR_STATUS
 from graphcam.drafting.pencil import Pencil
 from graphcam.files import digest
 from graphcam.report.output_folder import write
@@ -140,6 +140,6 @@ def test_a_dxf_for_cad_programs_has_dimensions(tmp_path):
 
 def test_an_unknown_kind_of_dxf_leaves_nothing(tmp_path):
     result = CliRunner().invoke(app, ["solve", "--dxf", "dwg", "--out", str(tmp_path / "new")])
-    assert result.exit_code == WRONG_INPUT
+    assert result.exit_code == INPUT_ERROR_STATUS
     assert "dxf is 'dwg', but must be one of plain, cad" in result.output
     assert not (tmp_path / "new").exists()

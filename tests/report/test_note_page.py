@@ -14,12 +14,12 @@ import graphcam as gc
 from graphcam.drafting.scale import UNITS
 from graphcam.language import ENGLISH, language, languages
 from graphcam.report.documents import contents_of, drawing_of, mathml, note_of, note_page
-from graphcam.report.markdown import FORMULA
+from graphcam.report.markdown import FORMULA_PATTERN
 from graphcam.report.step_player import player_of
-from graphcam.tasks.task_file import BUILT_IN, SIZING
+from graphcam.tasks.task_file import BUILTIN_TASK_NAMES, SIZING_TASK_NAME
 from graphcam.words import say
 
-NAMES = (*BUILT_IN, SIZING, "arcs")
+NAMES = (*BUILTIN_TASK_NAMES, SIZING_TASK_NAME, "arcs")
 OTHERS = [name for name in languages() if name != ENGLISH.name]
 A4 = 210 / 25.4 * 96
 """The width of a page in pixels of CSS."""
@@ -40,7 +40,7 @@ def spoken(solution, name: str):
 def test_every_formula_is_drawn_in_every_language(solutions, name):
     for each in languages():
         note = note_of(spoken(solutions[name], each))
-        formulas = FORMULA.findall(note)
+        formulas = FORMULA_PATTERN.findall(note)
         assert formulas
         for formula in formulas:
             drawn = mathml(formula.strip("$"))

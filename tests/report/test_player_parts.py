@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from playwright.sync_api import Page
 
+from graphcam.drafting.act_data import WrittenActs
 from graphcam.drafting.acts import Act, Kind
-from graphcam.drafting.written_acts import WrittenActs
 from graphcam.sheets.model import Box, Drawing, Group, Page as Sheet, Source, Strokes, Text
-from graphcam.sheets.player import WORDS, Acts, PartText, ReadingText, RowText, RunText, Slide, player
+from graphcam.sheets.player import PAGE_CAPTIONS, Acts, PartText, ReadingText, RowText, RunText, Slide, player
 
 RAYS, CHORDS, CURVE = (Act(Kind.JOIN, "integration", name, {}, 3) for name in ("rays", "chords", "curve"))
 PLACES = np.arange(3)
@@ -67,7 +67,7 @@ def written(folder: Path, *, far: bool = False, pages: bool = False, slides: lis
     drawn, wide = groups(far), 800.0 if far else 200.0
     sheets = (drawn[:1], drawn[1:]) if pages else (drawn,)
     drawing = Drawing("Made up", tuple(Sheet(wide, 150.0, Box(0, 0, wide, 150), sheet) for sheet in sheets))
-    words = {name: str(word) for name, word in WORDS.items()}
+    words = {name: str(word) for name, word in PAGE_CAPTIONS.items()}
     file = folder / "parts.html"
     file.write_text(player(drawing, slides, None, words, "en", acts), encoding="utf-8")
     return file

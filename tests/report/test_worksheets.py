@@ -14,8 +14,8 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.report.documents import sheet_of
 from graphcam.sheets.model import Drawing, Entity, Group, Text
-from graphcam.sheets.panels import BLANK
 from graphcam.sheets.sampling import pieces
+from graphcam.sheets.view_panels import BLANK_FIELD
 from graphcam.solving.solution import Solution
 from graphcam.tasks.task import SpringTable
 from graphcam.tasks.task_file import builtin_task
@@ -50,7 +50,7 @@ def test_a_worksheet_can_be_laid_over_the_finished_sheet() -> None:
     whole = groups(finished())
     for key, group in groups(sheet_of(solution(), 0)).items():
         # A blank stands in the place of a number.
-        blank = [e for e in group.entities if isinstance(e, Text) and BLANK in e.text]
+        blank = [e for e in group.entities if isinstance(e, Text) and BLANK_FIELD in e.text]
         assert {place(e) for e in group.entities if e not in blank} <= {place(e) for e in whole[key].entities}
         assert {e.at for e in blank} <= {e.at for e in whole[key].entities if isinstance(e, Text)}
 
@@ -62,7 +62,7 @@ def test_scales_are_left_blank_until_they_are_found() -> None:
     for upto, known in ((0, False), ("acceleration", False), ("integration", True), ("minimum_radius", True)):
         said = texts(sheet_of(solution(), upto))
         assert [text for text in said if text in scales] == scales * known
-        assert f"μₛ = {BLANK} mm/mm" in said or known
+        assert f"μₛ = {BLANK_FIELD} mm/mm" in said or known
     assert any(text.startswith("μ = 2") for text in texts(sheet_of(solution(), 0))), (
         "the axis is laid off at a given scale"
     )
@@ -71,7 +71,7 @@ def test_scales_are_left_blank_until_they_are_found() -> None:
 def test_the_diagrams_of_a_measured_motion_do_not_tell_the_scales_either() -> None:
     """They are drawn at the scales that the integrations find."""
     said = [text for text in texts(sheet_of(gc.solve(builtin_task("measured")), 0)) if text.startswith("μ")]
-    assert [BLANK in text for text in said if "°" not in text] == [True] * 7
+    assert [BLANK_FIELD in text for text in said if "°" not in text] == [True] * 7
 
 
 def test_a_worksheet_shows_the_givens_and_no_answers() -> None:

@@ -12,7 +12,7 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.files import OutputError, digest
 from graphcam.report import output_folder
-from graphcam.solving.shown_solution import FILES
+from graphcam.solving.shown_solution import FILE_KINDS
 from graphcam.tasks.task import CamTable
 from graphcam.tasks.task_writer import task_files
 
@@ -33,7 +33,7 @@ def listed(folder):
 @pytest.mark.parametrize("kinds", [("pdf",), ("svg", "csv"), ["player"], {"note", "md"}, ()])
 def test_what_is_asked_for_is_written(solution, tmp_path, kinds):
     files = solution.write(tmp_path / "out", kinds)
-    assert list(files) == list(FILES)
+    assert list(files) == list(FILE_KINDS)
     assert {kind for kind, name in files.items() if name} == set(kinds)
     assert there(tmp_path / "out") == {name for name in files.values() if name} | {"solution.json"}
     assert json.loads((tmp_path / "out" / "solution.json").read_text(encoding="utf-8"))["files"] == files
@@ -84,7 +84,7 @@ def test_an_error_leaves_nothing(solution, tmp_path, monkeypatch):
 @pytest.mark.parametrize("upto", [0, "displacement"])
 def test_beside_an_unfinished_sheet_stand_no_answers(solution, tmp_path, upto):
     upto = 0 if upto == 0 else list(solution.drawn)[1]
-    files = solution.write(tmp_path, ["svg", *FILES[4:]], upto=upto)
+    files = solution.write(tmp_path, ["svg", *FILE_KINDS[4:]], upto=upto)
     assert {kind for kind, name in files.items() if name} == {"svg"}
     assert there(tmp_path) == {"worksheet.svg", "solution.json"}
     document = json.loads((tmp_path / "solution.json").read_text(encoding="utf-8"))

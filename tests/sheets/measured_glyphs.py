@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from graphcam.sheets.typefaces import FILE, design, font, lettering_file, shipped
+from graphcam.sheets.typefaces import GLYPHS_FILE, design, font, lettering_file, shipped
 
 
 def measured_glyphs() -> dict[str, Any]:
@@ -21,4 +21,4 @@ def measured_glyphs() -> dict[str, Any]:
 
 if __name__ == "__main__":
     text = json.dumps(measured_glyphs(), ensure_ascii=False, separators=(",", ":"))
-    lettering_file().with_name(FILE).write_text(text + "\n", encoding="utf-8")
+    lettering_file().with_name(GLYPHS_FILE).write_text(text + "\n", encoding="utf-8")

@@ -12,11 +12,11 @@ from itertools import combinations
 import numpy as np
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.labels import chosen_places, set_at
+from graphcam.sheets.label_candidates import LabelText
+from graphcam.sheets.labels import chosen_places, placed_label
 from graphcam.sheets.model import Box, Drawing, Entity, Group, Page, Text
-from graphcam.sheets.sampling import around, corners, pieces, within
-from graphcam.sheets.styles import BOLD, STYLES
-from graphcam.sheets.writing import Writing
+from graphcam.sheets.sampling import box_around, corners, pieces, spans_in_box
+from graphcam.sheets.styles import BOLD, STYLES_BY_ROLE
 
 
 @dataclass(frozen=True)
@@ -29,10 +29,10 @@ class Overlap:
     other: str
 
 
-def place(writings: Sequence[Writing], drawn: Iterable[Entity], inside: Box) -> list[list[Entity]]:
+def place(writings: Sequence[LabelText], drawn: Iterable[Entity], inside: Box) -> list[list[Entity]]:
     """The texts, and their leaders, in the places that they choose."""
     chosen = chosen_places(writings, drawn, inside)
-    return [set_at(writing, k) for writing, k in zip(writings, chosen, strict=True)]
+    return [placed_label(writing, k) for writing, k in zip(writings, chosen, strict=True)]
 
 
 def overlaps(drawing: Drawing, width: float = BOLD) -> list[Overlap]:
@@ -54,7 +54,7 @@ def overlaps(drawing: Drawing, width: float = BOLD) -> list[Overlap]:
 def _inside(page: Page, group: Group, box: Points) -> bool:
     # The frame itself writes in its margins; the drawing may not.
     limit = Box(0.0, 0.0, page.width, page.height) if group.key == "frame" else page.frame
-    return limit.holds(around(box))
+    return limit.holds(box_around(box))
 
 
 def _pairs(boxes: list[Points]) -> list[tuple[int, int]]:
@@ -80,12 +80,12 @@ def _crossed(page: Page, boxes: list[Points], width: float) -> list[tuple[int, s
     found: list[tuple[int, str]] = []
     for group in page.groups:
         for entity in group.entities:
-            if isinstance(entity, Text) or STYLES[entity.role].width < width:
+            if isinstance(entity, Text) or STYLES_BY_ROLE[entity.role].width < width:
                 continue
             starts, ends = pieces(entity)
-            half = STYLES[entity.role].width / 2
+            half = STYLES_BY_ROLE[entity.role].width / 2
             for k, box in enumerate(boxes):
-                low, high = within(starts, ends, box, half)
+                low, high = spans_in_box(starts, ends, box, half)
                 if np.any(low < high):
                     found.append((k, entity.role))
     return found

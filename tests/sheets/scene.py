@@ -6,10 +6,10 @@ import numpy as np
 
 from graphcam.drafting.ink import Part, Step, View, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dimension, Dots, Label, Line, Region, Role, Segments
-from graphcam.sheets.formats import MARGINS, ORIENTATIONS, SIZES, UPRIGHT_ONLY
-from graphcam.sheets.frame import TitleBlock
+from graphcam.sheets.formats import FRAME_MARGINS, ORIENTATIONS, SHEET_SIZES, UPRIGHT_FORMAT
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Drawing
+from graphcam.sheets.sheet_frame import TitleBlock
 from graphcam.sheets.tables import Table
 
 ACCELERATION = View("acceleration", say("Acceleration a, μₐ = 1.2 (mm/rad²)/mm"), across="phi", up="a")
@@ -19,9 +19,9 @@ PROFILE = View("profile", say("Cam profile, 1:1"), across="x", up="y")
 SHEETS = [
     (paper, frame, lie)
     for lie in ORIENTATIONS
-    for paper in SIZES
-    for frame in MARGINS
-    if (paper, frame, lie) != (*UPRIGHT_ONLY, "landscape")
+    for paper in SHEET_SIZES
+    for frame in FRAME_MARGINS
+    if (paper, frame, lie) != (*UPRIGHT_FORMAT, "landscape")
 ]
 """Every format, frame and orientation in which it is used."""
 TITLE = TitleBlock(name="Cam mechanism", number="ТММ.01.02", organisation="Кафедра ТММ", author="Ivanova", scale="1:1")

@@ -6,8 +6,19 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies as st
 
-from graphcam.sheets.model import Box, around_all
-from graphcam.sheets.packing import Room, bottom_left, bottom_right, high, least, left, middle, top, top_left, top_right
+from graphcam.sheets.model import Box, bounding_box
+from graphcam.sheets.packing import (
+    Room,
+    at_left,
+    least_weighted,
+    middle,
+    prefer_bottom_left,
+    prefer_bottom_right,
+    prefer_high,
+    prefer_top_left,
+    prefer_top_right,
+    top,
+)
 
 WHOLE = st.integers(0, 6)
 BOXES = st.builds(lambda x, y, wide, up: Box(x, y, x + 1 + wide, y + 1 + up), WHOLE, WHOLE, WHOLE, WHOLE)
@@ -22,7 +33,7 @@ def cells(box: Box) -> set[tuple[int, int]]:
 def test_boxes_meet_where_they_share_a_square_and_hold_what_has_no_other(one, other):
     assert one.meets(other) == bool(cells(one) & cells(other))
     assert one.holds(other) == (cells(other) <= cells(one))
-    both = around_all([one, other])
+    both = bounding_box([one, other])
     assert both.holds(one)
     assert both.holds(other)
     assert (both.left, both.top) == (min(one.left, other.left), max(one.top, other.top))
@@ -160,15 +171,15 @@ GRID_X, GRID_Y = (grid.ravel().astype(float) for grid in np.meshgrid(np.arange(7
 @pytest.mark.parametrize(
     ("preference", "first", "second"),
     [
-        (top_left, (0, 4), (0, 3)),
-        (top_right, (6, 4), (5, 4)),
-        (bottom_left, (0, 0), (1, 0)),
-        (bottom_right, (6, 0), (6, 1)),
-        (high, (0, 4), (1, 4)),
-        (left, (0, 2), (0, 1)),
+        (prefer_top_left, (0, 4), (0, 3)),
+        (prefer_top_right, (6, 4), (5, 4)),
+        (prefer_bottom_left, (0, 0), (1, 0)),
+        (prefer_bottom_right, (6, 0), (6, 1)),
+        (prefer_high, (0, 4), (1, 4)),
+        (at_left, (0, 2), (0, 1)),
         (top, (3, 4), (2, 4)),
         (middle, (3, 2), (3, 1)),
-        (least(-1, -2), (6, 4), (5, 4)),
+        (least_weighted(-1, -2), (6, 4), (5, 4)),
     ],
 )
 def test_preferences_take_first_and_next_what_they_say(preference, first, second):
@@ -179,8 +190,13 @@ def test_preferences_take_first_and_next_what_they_say(preference, first, second
 @pytest.mark.parametrize(
     ("preference", "edge"),
     [
-        *[(top_left, GRID_X == 0), (left, GRID_X == 0), (high, GRID_Y == 4), (top_right, GRID_Y == 4)],
-        *[(bottom_left, GRID_Y == 0), (top, GRID_Y == 4)],
+        *[
+            (prefer_top_left, GRID_X == 0),
+            (at_left, GRID_X == 0),
+            (prefer_high, GRID_Y == 4),
+            (prefer_top_right, GRID_Y == 4),
+        ],
+        *[(prefer_bottom_left, GRID_Y == 0), (top, GRID_Y == 4)],
     ],
 )
 def test_an_edge_is_taken_from_end_to_end_before_the_next_cells(preference, edge):
@@ -189,5 +205,5 @@ def test_an_edge_is_taken_from_end_to_end_before_the_next_cells(preference, edge
 
 
 def test_at_the_lower_right_a_cell_to_the_right_is_worth_three_upwards():
-    costs = bottom_right(np.array([6.0, 5.0, 6.0]), np.array([2.0, 0.0, 4.0]))
+    costs = prefer_bottom_right(np.array([6.0, 5.0, 6.0]), np.array([2.0, 0.0, 4.0]))
     assert costs[0] < costs[1] < costs[2]

@@ -13,10 +13,10 @@ from hypothesis.extra.numpy import arrays
 from graphcam.sheets.dxf_renderer import write_dxf
 from graphcam.sheets.marked_paper import bar, cells, in_tiles, square
 from graphcam.sheets.matplotlib_renderer import svg, write_png
-from graphcam.sheets.model import Box, Drawing, Group, Page, Polygons, Strokes, moved
+from graphcam.sheets.model import Box, Drawing, Group, Page, Polygons, Strokes, moved_entity
 from graphcam.sheets.player_svg import group_svg
 from graphcam.sheets.sampling import box_of
-from graphcam.sheets.styles import LIGHT
+from graphcam.sheets.styles import LIGHT_ROLES
 
 DARK = np.array([[1, 1, 0], [0, 1, 0], [1, 0, 1]], dtype=bool)
 CODE = cells(DARK, 5 + 5j, 2.0)
@@ -54,7 +54,7 @@ def test_a_picture_shows_them(tmp_path: Path):
 
 
 def test_the_solids_of_a_drawing_are_no_bow_ties(tmp_path: Path):
-    write_dxf(Drawing("code", (page(CODE, square(12 + 2j, 3.0, LIGHT["grey"])),)), tmp_path / "code.dxf")
+    write_dxf(Drawing("code", (page(CODE, square(12 + 2j, 3.0, LIGHT_ROLES["grey"])),)), tmp_path / "code.dxf")
     solids = ezdxf.readfile(tmp_path / "code.dxf").modelspace().query("SOLID")
     assert {solid.dxf.layer for solid in solids} == {"code-printed-code", "code-light-grey"}
     # In a SOLID the last two corners change places.
@@ -67,7 +67,7 @@ def test_a_page_and_the_player_have_them_as_paths():
         group_svg(Group("code", (square(0j, 2.0, "frame"),)), 10.0)
         == '<path class="filled frame" d="M0 10L2 10L2 8L0 8Z"/>'
     )
-    text = svg(page(square(12 + 2j, 3.0, LIGHT["colour"])))
+    text = svg(page(square(12 + 2j, 3.0, LIGHT_ROLES["colour"])))
     assert "fill: #a6e3fa" in text
 
 
@@ -81,7 +81,7 @@ def test_a_bar_is_ruled():
 
 
 def test_tiles_show_what_lies_on_them():
-    whole = page(CODE, moved(CODE, 20.0), square(18 + 1j, 4.0, "frame"), size=(40.0, 15.0))
+    whole = page(CODE, moved_entity(CODE, 20.0), square(18 + 1j, 4.0, "frame"), size=(40.0, 15.0))
     left, right = in_tiles(Drawing("code", (whole,)), 20.0).pages
     assert (left.width, right.width) == (20.0, 20.0)
     assert [len(side.groups[0].entities) for side in (left, right)] == [2, 2]

@@ -12,11 +12,11 @@ from ezdxf.document import Drawing as Document
 from programs import count
 from scene import drawing, oval
 
-from graphcam.sheets.dxf_renderer import BETWEEN_PAGES, write_dxf
-from graphcam.sheets.fonts import letters_of
+from graphcam.sheets.dxf_renderer import PAGE_GAP, write_dxf
 from graphcam.sheets.model import Curve, Drawing, Page, Text
-from graphcam.sheets.smooth import bezier
-from graphcam.sheets.styles import STYLES
+from graphcam.sheets.smooth_curves import bezier
+from graphcam.sheets.styles import STYLES_BY_ROLE
+from graphcam.sheets.text_measures import letters_of
 
 
 def written(drawn: Drawing, path: Path) -> Document:
@@ -44,8 +44,8 @@ def test_audit_is_clean_and_layers_are_complete(tmp_path: Path, paper: str) -> N
 def test_layers_carry_width_and_line_type(tmp_path: Path) -> None:
     document = written(drawing(), tmp_path / "sheet.dxf")
     for layer in document.layers:
-        if (role := layer.dxf.name.rsplit("-", 1)[-1]) in STYLES:
-            assert layer.dxf.lineweight == round(100 * STYLES[role].width)
+        if (role := layer.dxf.name.rsplit("-", 1)[-1]) in STYLES_BY_ROLE:
+            assert layer.dxf.lineweight == round(100 * STYLES_BY_ROLE[role].width)
     types = {layer.dxf.linetype for layer in document.layers}
     assert types == {"Continuous", "CONTINUOUS", "CENTER", "DASHED"} & types >= {"CENTER", "DASHED"}
 
@@ -112,6 +112,6 @@ def test_the_header_says_where_the_drawing_lies(tmp_path: Path) -> None:
     """A program that zooms to the extents of the file shows the sheet."""
     drawn = drawing("A3")
     header = written(drawn, tmp_path / "sheet.dxf").header
-    wide = sum(page.width for page in drawn.pages) + BETWEEN_PAGES * (len(drawn.pages) - 1)
+    wide = sum(page.width for page in drawn.pages) + PAGE_GAP * (len(drawn.pages) - 1)
     assert tuple(header["$EXTMIN"]) == (0, 0, 0)
     assert tuple(header["$EXTMAX"]) == (wide, drawn.pages[0].height, 0)

@@ -14,23 +14,23 @@ from scene import SHEETS, TITLE
 
 from graphcam.errors import DesignError
 from graphcam.language import language, languages
-from graphcam.sheets.fonts import width, wrap
-from graphcam.sheets.formats import MARGINS, Format
-from graphcam.sheets.frame import (
-    TitleBlock,
-    entry,
-    fitted,
-    frame,
-    gauge,
-    gauge_box,
-    stacked,
-    taken,
-    title_block,
-    title_box,
-)
+from graphcam.sheets.formats import FRAME_MARGINS, Format
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Box, Entity, Stroke, Strokes, Text
 from graphcam.sheets.sampling import box_of, corners, pieces
+from graphcam.sheets.sheet_frame import (
+    TitleBlock,
+    entry,
+    fitted_text,
+    frame,
+    gauge,
+    gauge_box,
+    stacked_lines,
+    taken_boxes,
+    title_block,
+    title_box,
+)
+from graphcam.sheets.text_measures import width, wrap
 
 Field = tuple[float, float, float, float]
 EVERY = [Format(*each) for each in SHEETS]
@@ -223,7 +223,7 @@ def loose(entities: list[Entity]) -> float:
     return cuts.length + dangles.length
 
 
-@pytest.mark.parametrize("kind", [*MARGINS])
+@pytest.mark.parametrize("kind", [*FRAME_MARGINS])
 def test_no_ruling_of_a_title_block_stands_over(kind):
     assert loose(title_block(kind, 0j, NAMED, 1, 1)) == 0
     over = Strokes(np.array([0j]), np.array([-1 + 0j]), "frame")
@@ -280,7 +280,7 @@ def test_the_number_stands_once_more_in_the_corner_that_is_filed_on_top(paper):
     edges = [Stroke(np.array(inside_frame.corners), "frame", closed=True)]
     whole = [*(strokes(edge) for edge in edges), *(e for e in entities if isinstance(e, Strokes))]
     assert field in enclosed(whole, "frame")
-    assert Box(*field).grown(4.0) in taken(paper, 4.0)
+    assert Box(*field).grown(4.0) in taken_boxes(paper, 4.0)
     # Two lines part it from the sheet, and end where it ends.
     assert Box(*field) in [box_of([e]) for e in entities if isinstance(e, Strokes) and len(e.starts) == 2]
 
@@ -344,7 +344,7 @@ def test_centring_marks_run_ten_mm_from_the_border_into_the_sheet(paper):
         (inner.right + 5, high / 2, inner.right - 5, high / 2),
     }
     assert {(a.real, a.imag, b.real, b.imag) for a, b in zip(marks.starts, marks.ends, strict=True)} == expected
-    kept = taken(paper, 4.0)[2:]
+    kept = taken_boxes(paper, 4.0)[2:]
     for x1, y1, x2, y2 in expected:
         assert any(
             (min(x1, x2) - 1, min(y1, y2) - 1, max(x1, x2) + 1, max(y1, y2) + 1)
@@ -356,7 +356,7 @@ def test_centring_marks_run_ten_mm_from_the_border_into_the_sheet(paper):
 @pytest.mark.parametrize("paper", EVERY, ids=repr)
 def test_nothing_else_stands_on_the_room_of_title_block_and_gauge(paper):
     entities = [*frame(paper, NAMED, 1, 1).entities]
-    block, rule = taken(paper, 4.0)[:2]
+    block, rule = taken_boxes(paper, 4.0)[:2]
     assert block == title_box(paper).grown(4.0)
     assert (title_box(paper).right, title_box(paper).bottom) == (paper.content.right, paper.content.bottom)
     (line,) = (e for e in entities if isinstance(e, Strokes) and e.role == "gauge")
@@ -390,7 +390,7 @@ def test_a_text_is_broken_into_lines_before_it_is_set_smaller(align):
     wide = width(text, 5.0)
     # Width and height of a field, and what fits: the words side by side, one over the other, both in smaller letters.
     for room, tall, lines, height in ((wide, 40, 1, 5.0), (0.9 * wide, 40, 2, 5.0), (0.9 * wide, 9, 1, 3.5)):
-        found = fitted(text, (10.0, 20.0, 12.0 + room + 1e-9, 20.0 + tall), 5.0, align)
+        found = fitted_text(text, (10.0, 20.0, 12.0 + room + 1e-9, 20.0 + tall), 5.0, align)
         assert (len(found), {line.height for line in found}) == (lines, {height})
         assert all(inside(line, (11.0 - 1e-9, 20.0, 11.0 + room + 1e-6, 20.0 + tall)) for line in found)
         left, middle = 11.0, (22.0 + room) / 2
@@ -401,7 +401,7 @@ def test_a_text_is_broken_into_lines_before_it_is_set_smaller(align):
 def test_a_broken_text_stands_in_the_middle_of_its_field_in_the_largest_standard_letters_that_fit():
     words = ["cam", "mechanism", "of", "an", "engine"]
     field = (0.0, 0.0, 30.0, 14.0)
-    found = fitted(" ".join(words), field, 7.0)
+    found = fitted_text(" ".join(words), field, 7.0)
     height = found[0].height
     assert height == 2.5
     assert " ".join(line.text for line in found) == " ".join(words)
@@ -414,14 +414,17 @@ def test_a_broken_text_stands_in_the_middle_of_its_field_in_the_largest_standard
 
 def test_a_word_is_broken_only_where_it_fits_no_other_way():
     field = (0.0, 0.0, 22.0, 14.0)
-    (whole,) = fitted("mechanism", field, 3.5)
+    (whole,) = fitted_text("mechanism", field, 3.5)
     assert (whole.text, whole.height) == ("mechanism", 2.5)
-    first, *rest = fitted("counterbalanced" * 2, field, 3.5)
+    first, *rest = fitted_text("counterbalanced" * 2, field, 3.5)
     assert first.text.endswith("-")
     assert "".join(line.text.removesuffix("-") for line in (first, *rest)) == "counterbalanced" * 2
     # Behind a sign of its own, no other is set; between ideographs none.
-    assert "".join(line.text for line in fitted("ТММ.01.02.000-КП-ХХ-00001", field, 3.5)) == "ТММ.01.02.000-КП-ХХ-00001"
-    assert "".join(line.text for line in fitted("凸轮机构" * 6, field, 3.5)) == "凸轮机构" * 6
+    assert (
+        "".join(line.text for line in fitted_text("ТММ.01.02.000-КП-ХХ-00001", field, 3.5))
+        == "ТММ.01.02.000-КП-ХХ-00001"
+    )
+    assert "".join(line.text for line in fitted_text("凸轮机构" * 6, field, 3.5)) == "凸轮机构" * 6
 
 
 @pytest.mark.parametrize("frame_name", ["gost", "iso"])
@@ -444,7 +447,7 @@ def test_an_empty_sheet_is_lettered_in_standard_heights(paper, tell):
 
 
 def test_nothing_is_written_of_what_is_empty():
-    assert fitted("", (0, 0, 10, 10), 3.5) == []
-    assert [t.at for t in stacked(["a", "", "b"], 10 + 10j, 1.5, 2.0, "left")] == [10 + 10j, 10 + 4j]
+    assert fitted_text("", (0, 0, 10, 10), 3.5) == []
+    assert [t.at for t in stacked_lines(["a", "", "b"], 10 + 10j, 1.5, 2.0, "left")] == [10 + 10j, 10 + 4j]
     (text,) = entry(replace(TITLE, mass="3 kg"), "mass", (0, 0, 20, 10), 3.5)
     assert (text.text, text.field) == ("3 kg", "mass")

@@ -10,7 +10,7 @@ from overlaps import overlaps
 
 import graphcam as gc
 from graphcam.report.documents import sheet_of
-from graphcam.sheets.formats import MARGINS, ORIENTATIONS
+from graphcam.sheets.formats import FRAME_MARGINS, ORIENTATIONS
 from graphcam.sheets.model import Page, Text
 from graphcam.sheets.sampling import pieces, sampled
 from graphcam.solving.arcs_solution import AnySolution
@@ -54,7 +54,7 @@ def expected(name: str, frame: str) -> tuple[float, float]:
 EVERY = [
     pytest.param(name, frame, orientation, marks=[] if name == "coursework" else pytest.mark.slow)
     for name in TASKS
-    for frame in MARGINS
+    for frame in FRAME_MARGINS
     for orientation in ORIENTATIONS
 ]
 

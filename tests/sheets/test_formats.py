@@ -10,13 +10,13 @@ from overlaps import overlaps
 from scene import TITLE
 
 from graphcam.errors import DesignError
-from graphcam.sheets.fonts import width
-from graphcam.sheets.formats import MARGINS, SIZES, Format
-from graphcam.sheets.frame import SIZES as BLOCKS, frame, title_block, title_box
+from graphcam.sheets.formats import FRAME_MARGINS, SHEET_SIZES, Format
 from graphcam.sheets.layout import compose
 from graphcam.sheets.model import Stroke, Strokes, Text
+from graphcam.sheets.sheet_frame import BLOCK_SIZES as BLOCKS, frame, title_block, title_box
+from graphcam.sheets.text_measures import width
 
-EVERY = [(paper, kind) for paper in SIZES for kind in MARGINS]
+EVERY = [(paper, kind) for paper in SHEET_SIZES for kind in FRAME_MARGINS]
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from overlaps import overlaps
 
 from graphcam.drafting.acts import Act, Kind
 from graphcam.drafting.marks import Role
-from graphcam.sheets.labels import GAP, parted
+from graphcam.sheets.labels import TEXT_GAP, parted_steps
 from graphcam.sheets.model import (
     ArcEntity,
     Box,
@@ -41,7 +41,7 @@ def places(entity: Entity) -> list[int]:
 
 def through(*entities: Entity, text: Text = TEXT) -> list[Entity]:
     """What becomes of lines beside a text of a later step."""
-    first, second = parted([entities, [text]])
+    first, second = parted_steps([entities, [text]])
     assert second == [text]
     drawing = Drawing("", (Page(300, 300, Box(0, 0, 300, 300), (Group("a", tuple(first)), Group("b", (text,)))),))
     assert overlaps(drawing, width=0.0) == []
@@ -62,7 +62,7 @@ def test_a_straight_line_ends_beside_the_text_and_goes_on_behind_it(turn: comple
         # Both ends of the gap lie on the line, at least as far from the text as is usual.
         for end in (stops[0], starts[1]):
             assert ((end - middle) / turn).imag == pytest.approx(0, abs=1e-9)
-        assert abs(starts[1] - stops[0]) > 2 * GAP
+        assert abs(starts[1] - stops[0]) > 2 * TEXT_GAP
 
 
 def test_a_circle_becomes_an_arc_and_the_others_stay_whole() -> None:
@@ -76,7 +76,7 @@ def test_a_circle_becomes_an_arc_and_the_others_stay_whole() -> None:
     assert [places(arc) for arc in arcs] == [[4]] * len(arcs)
     # The rest of the circle is there: about so much is missing as the text with its margins is high.
     missing = 20 * (2 * math.pi - sum(arc.end - arc.start for arc in arcs))
-    assert missing == pytest.approx(np.ptp(corners(TEXT).imag) + 2 * GAP, abs=0.3)
+    assert missing == pytest.approx(np.ptp(corners(TEXT).imag) + 2 * TEXT_GAP, abs=0.3)
 
 
 def test_every_part_keeps_its_place_of_the_act() -> None:
@@ -98,7 +98,7 @@ def test_what_is_not_crossed_is_the_same() -> None:
 @pytest.mark.parametrize("role", [Role.CURVE, Role.RESULT, Role.LIMIT, Role.SCALE, "frame"])
 def test_what_is_not_thin_is_not_parted(role: str) -> None:
     line = Stroke(MIDDLE + np.array([-30, 30]), role)
-    ((left,), _) = parted([[line], [TEXT]])
+    ((left,), _) = parted_steps([[line], [TEXT]])
     assert left is line
 
 
@@ -106,7 +106,7 @@ def test_a_leader_is_parted_and_a_dimension_is_not() -> None:
     """Else its lines would not be known for those of the dimension, which a CAD program measures."""
     line, leader = (Strokes(MIDDLE - np.array([30]), MIDDLE + np.array([30]), Role.DIMENSION) for _ in range(2))
     measuring = Text(10 + 10j, "60", 3.5, of=Length(MIDDLE - 30, MIDDLE + 30, MIDDLE - 30, (line,)))
-    ((first, second), _) = parted([[line, leader], [TEXT, measuring]])
+    ((first, second), _) = parted_steps([[line, leader], [TEXT, measuring]])
     assert first is line
     assert isinstance(second, Strokes)
     assert len(second.starts) == 2

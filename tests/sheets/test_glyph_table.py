@@ -14,14 +14,14 @@ from measured_glyphs import measured_glyphs
 import graphcam as gc
 from graphcam.report.documents import sheet_of
 from graphcam.sheets.model import Text
-from graphcam.sheets.typefaces import ALPHABET, FILE, glyph_table, lettering_file, shipped
-from graphcam.tasks.task_file import BUILT_IN
+from graphcam.sheets.typefaces import ALPHABET, GLYPHS_FILE, glyph_table, lettering_file, shipped
+from graphcam.tasks.task_file import BUILTIN_TASK_NAMES
 
-TASKS = {name: gc.builtin_task(name) for name in BUILT_IN} | {"arcs": gc.builtin_arcs_task()}
+TASKS = {name: gc.builtin_task(name) for name in BUILTIN_TASK_NAMES} | {"arcs": gc.builtin_arcs_task()}
 
 
 def test_the_table_is_what_the_fonts_say():
-    said = json.loads(lettering_file().with_name(FILE).read_text(encoding="utf-8"))
+    said = json.loads(lettering_file().with_name(GLYPHS_FILE).read_text(encoding="utf-8"))
     assert said == json.loads(json.dumps(measured_glyphs()))
 
 

@@ -7,8 +7,8 @@ import pytest
 import shapely
 from hypothesis import given, strategies as st
 
-from graphcam.sheets.expand import MOST_LINES, SPACING, hatch
 from graphcam.sheets.labels import interrupted
+from graphcam.sheets.mark_entities import HATCHING_SPACING, MAX_HATCHING_LINES, hatch
 from graphcam.sheets.model import Strokes, Text
 from graphcam.sheets.sampling import corners
 
@@ -36,11 +36,11 @@ def test_hatching_covers_its_region() -> None:
     """Lines a spacing apart have the length of the area over the spacing."""
     square = np.array([0, 300, 300 + 200j, 100 + 50j, 200j])
     polygon = shapely.Polygon(np.column_stack([square.real, square.imag]))
-    assert lines(hatch(square)).length * SPACING == pytest.approx(polygon.area, rel=0.01)
+    assert lines(hatch(square)).length * HATCHING_SPACING == pytest.approx(polygon.area, rel=0.01)
 
 
 def test_a_region_larger_than_any_sheet_has_no_more_lines_than_a_sheet_could_hold() -> None:
-    assert len(hatch(np.array([0, 1e9, 1e9 + 1e9j, 1e9j])).starts) <= MOST_LINES + 1
+    assert len(hatch(np.array([0, 1e9, 1e9 + 1e9j, 1e9j])).starts) <= MAX_HATCHING_LINES + 1
 
 
 def test_hatching_runs_at_45_degrees() -> None:
@@ -60,7 +60,7 @@ def test_interrupted_hatching_spares_the_text() -> None:
     assert lines(broken).length == pytest.approx(lines(drawn).difference(margin).length, rel=1e-9)
 
 
-@pytest.mark.parametrize("spacing", [SPACING, 1.3])
+@pytest.mark.parametrize("spacing", [HATCHING_SPACING, 1.3])
 @pytest.mark.parametrize(
     "outline",
     [
@@ -79,9 +79,9 @@ def test_the_lines_of_hatching_are_a_spacing_apart_from_the_origin_on(outline: l
     np.testing.assert_allclose(levels, np.round(levels), atol=1e-9)
     # Every multiple that crosses the convex region is there once.
     assert np.round(levels).tolist() == list(range(int(np.ceil(reach.min())), int(np.floor(reach.max())) + 1))
-    assert lines(drawn).within(polygon.buffer(ROUNDING))
+    assert lines(drawn).band_half_width(polygon.buffer(ROUNDING))
     assert drawn.role == "hatch"
-    assert SPACING == 3.0
+    assert HATCHING_SPACING == 3.0
 
 
 def test_lines_are_broken_off_beside_a_text_and_others_are_left() -> None:

@@ -8,9 +8,9 @@ import shapely
 from overlaps import overlaps, place
 
 from graphcam.drafting.marks import Role
+from graphcam.sheets.label_candidates import label_along, label_around, label_over
 from graphcam.sheets.model import ArcEntity, Box, Circles, Drawing, Entity, Group, Page, Stroke, Strokes, Text
-from graphcam.sheets.sampling import corners, within
-from graphcam.sheets.writing import along, around, over
+from graphcam.sheets.sampling import corners, spans_in_box
 
 FRAME = Box(0.0, 0.0, 200.0, 150.0)
 
@@ -34,14 +34,14 @@ def test_many_labels_find_free_places(seed: int) -> None:
         Circles(np.array([100 + 75j]), 40.0, Role.CURVE),
         Strokes(points[:-1], points[1:], Role.CONSTRUCTION),
     ]
-    writings = [around(complex(at), f"{k}′", 2.5, 1j) for k, at in enumerate(points)]
+    writings = [label_around(complex(at), f"{k}′", 2.5, 1j) for k, at in enumerate(points)]
     placed = [entity for group in place(writings, drawn, FRAME) for entity in group]
     assert overlaps(page(*drawn, *placed)) == []
 
 
 def test_label_takes_the_preferred_side_of_an_empty_paper() -> None:
     for towards in (1, 1j, -1, -1j, 1 - 1j):
-        ((text,),) = place([around(100 + 75j, "A", 3.5, towards)], [], FRAME)
+        ((text,),) = place([label_around(100 + 75j, "A", 3.5, towards)], [], FRAME)
         assert isinstance(text, Text)
         middle = complex(corners(text).mean()) - (100 + 75j)
         assert abs(np.angle(middle / towards)) < np.radians(15)
@@ -52,7 +52,7 @@ def test_label_in_a_crowd_goes_far_and_gets_a_leader() -> None:
     # Bold lines 2 mm apart all around leave no room for a letter.
     y = np.arange(50, 101, 2.0)
     walls = Strokes(60 + 1j * y, 140 + 1j * y, Role.RESULT)
-    ((text, leader),) = place([around(100 + 90j, "A", 3.5, 1j)], [walls], FRAME)
+    ((text, leader),) = place([label_around(100 + 90j, "A", 3.5, 1j)], [walls], FRAME)
     assert isinstance(leader, Strokes)
     assert kinds(walls, text) == []
     assert leader.starts[0] == 100 + 90j
@@ -61,7 +61,7 @@ def test_label_in_a_crowd_goes_far_and_gets_a_leader() -> None:
 def test_text_of_a_dimension_lies_along_its_line() -> None:
     for start, end in ((20 + 20j, 80 + 60j), (80 + 60j, 20 + 20j), (50 + 20j, 50 + 90j)):
         line = Strokes(np.array([start]), np.array([end]), Role.DIMENSION)
-        ((text,),) = place([along(start, end, "63.2", 3.5)], [line], FRAME)
+        ((text,),) = place([label_along(start, end, "63.2", 3.5)], [line], FRAME)
         assert isinstance(text, Text)
         # Readable from below or from the right.
         assert -np.pi / 2 < text.angle <= np.pi / 2 + 1e-9
@@ -72,14 +72,18 @@ def test_text_of_a_dimension_lies_along_its_line() -> None:
 def test_text_wider_than_its_dimension_keeps_to_its_span(turn: complex) -> None:
     """It stands over or under the middle, or on a leader from there; its neighbours in the chain do not move it."""
     start, end = 100 + 75j - 5 * turn, 100 + 75j + 5 * turn
-    writing = over(start, end, "φ₂ = 10°", 3.5)
+    writing = label_over(start, end, "φ₂ = 10°", 3.5)
     assert writing.size.real > 10
     led = np.isfinite(writing.anchors)
     assert np.allclose(writing.anchors[led], 100 + 75j)
     assert np.allclose(((writing.centres[~led] - 100 - 75j) / turn).real, 0.0)
     # Nothing stands beside the span, on the line of the neighbours.
     assert np.abs(((writing.centres - 100 - 75j) / turn).imag).min() >= 3.5 / 2
-    chain = [along(start - 40 * turn, start, "φ₁ = 40°", 3.5), writing, along(end, end + 40 * turn, "φ₃ = 40°", 3.5)]
+    chain = [
+        label_along(start - 40 * turn, start, "φ₁ = 40°", 3.5),
+        writing,
+        label_along(end, end + 40 * turn, "φ₃ = 40°", 3.5),
+    ]
     line = Strokes(np.array([start - 40 * turn]), np.array([end + 40 * turn]), Role.DIMENSION)
     placed = [entity for group in place(chain, [line], FRAME) for entity in group]
     assert overlaps(page(line, *placed)) == []
@@ -116,7 +120,7 @@ def test_lines_clipped_to_a_box_agree_with_shapely() -> None:
     starts, ends = random.uniform(-20, 20, (2, 200)) + 1j * random.uniform(-20, 20, (2, 200))
     box = corners(Text(-5 - 2j, "graphcam", 5.0, angle=0.6))
     polygon = shapely.Polygon([(p.real, p.imag) for p in box])
-    low, high = within(starts, ends, box, 0.0)
+    low, high = spans_in_box(starts, ends, box, 0.0)
     clipped = np.maximum(0.0, high - low) * np.abs(ends - starts)
     expected = [
         shapely.LineString([(a.real, a.imag), (b.real, b.imag)]).intersection(polygon).length

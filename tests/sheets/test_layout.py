@@ -15,7 +15,7 @@ from graphcam.drafting.ink import Part, Step, View, say
 from graphcam.drafting.marks import Line, Role
 from graphcam.drafting.scale import ratio_text
 from graphcam.report.documents import contents_of, sheet_of
-from graphcam.sheets.formats import MARGINS, SIZES, Format
+from graphcam.sheets.formats import FRAME_MARGINS, SHEET_SIZES, Format
 from graphcam.sheets.layout import compose, profile_room
 from graphcam.sheets.model import Drawing, Stroke, Strokes, Text
 from graphcam.sheets.sampling import box_of
@@ -23,7 +23,7 @@ from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, R
 from graphcam.tasks.task import TranslatingTable
 from graphcam.tasks.task_file import builtin_task
 
-EVERY = [(paper, frame) for paper in SIZES for frame in MARGINS]
+EVERY = [(paper, frame) for paper in SHEET_SIZES for frame in FRAME_MARGINS]
 
 
 def corners_of(drawn: Drawing, name: str) -> list[tuple[int, complex]]:
@@ -75,7 +75,7 @@ def test_a1_takes_the_scene_on_one_page() -> None:
 
 
 @pytest.mark.parametrize("ordinate", [800.0, 50000.0])
-@pytest.mark.parametrize("paper", SIZES)
+@pytest.mark.parametrize("paper", SHEET_SIZES)
 def test_what_fits_no_page_is_refused_with_its_size(paper: str, ordinate: float) -> None:
     with pytest.raises(gc.DesignError) as raised:
         compose(steps(ordinate, DRAWN_AT[paper]), [TABLE], TITLE, paper)
@@ -106,7 +106,7 @@ def test_notes_are_numbered_and_broken_into_lines() -> None:
     assert len(texts) > 3
 
 
-@pytest.mark.parametrize("frame", MARGINS)
+@pytest.mark.parametrize("frame", FRAME_MARGINS)
 def test_built_in_task_on_a1(frame: str) -> None:
     """One page, no text in the way, and the profile the largest thing drawn."""
     task = builtin_task()
@@ -139,7 +139,7 @@ def test_a1_parts_the_combined_diagram_from_the_others() -> None:
     assert len(axes) == 1
 
 
-@pytest.mark.parametrize(("seed", "paper"), [(k, list(SIZES)[k % 4]) for k in range(12)])
+@pytest.mark.parametrize(("seed", "paper"), [(k, list(SHEET_SIZES)[k % 4]) for k in range(12)])
 def test_random_tasks_have_no_text_in_the_way(seed: int, paper: str) -> None:
     random = np.random.default_rng(seed)
     angles = np.round(20 + 280 * random.dirichlet([3, 2, 3, 3]))

@@ -28,14 +28,14 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.errors import LetteringWarning
 from graphcam.report.documents import sheet_of
-from graphcam.report.markdown import FORMULA
+from graphcam.report.markdown import FORMULA_PATTERN
 from graphcam.sheets import typefaces
 from graphcam.sheets.dxf_renderer import write_dxf
-from graphcam.sheets.fonts import extent, index_height, letters_of, points_size, width, wrap
-from graphcam.sheets.frame import TitleBlock, title_block
 from graphcam.sheets.matplotlib_renderer import svg, write_pdf, write_png
 from graphcam.sheets.model import Box, Drawing, Group, Page, Text
 from graphcam.sheets.sampling import corners
+from graphcam.sheets.sheet_frame import TitleBlock, title_block
+from graphcam.sheets.text_measures import extent, index_height, letters_of, points_size, width, wrap
 
 RUSSIAN, GREEK = "АБВГДЕЁЖЗИЙКЛМНОПРСТУФХЦЧШЩЪЫЬЭЮЯабвгдеёжзийклмнопрстуфхцчшщъыьэюя", "αβγδεμνπρστφψωΔΣ"
 LETTERS = f"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789{RUSSIAN}{GREEK}°×–±²³≤≥⌀№′″−+=.,:;()/*«»"
@@ -283,7 +283,7 @@ def test_numbers_that_programs_read_keep_their_hyphen(tmp_path):
     gc.solve(gc.builtin_task("arm")).write(tmp_path / "out", files=["note"])
     note = (tmp_path / "out" / "note.md").read_text(encoding="utf-8")
     assert "−80.0" in note
-    formulas = FORMULA.split(note)[1::2]
+    formulas = FORMULA_PATTERN.split(note)[1::2]
     assert any("= -45.00" in formula for formula in formulas)
     assert not any("−" in formula for formula in formulas)
 

@@ -7,10 +7,10 @@ import pytest
 from overlaps import place
 
 from graphcam.drafting.marks import Role
+from graphcam.sheets.label_candidates import LabelText, label_around
 from graphcam.sheets.labels import Occupancy, lettered, shading_parted
-from graphcam.sheets.model import Box, Circles, Heads, Stroke, Strokes, Text
+from graphcam.sheets.model import ArrowHeads, Box, Circles, Stroke, Strokes, Text
 from graphcam.sheets.sampling import corners
-from graphcam.sheets.writing import Writing, around
 
 FRAME = Box(10.0, 20.0, 60.0, 50.0)
 FORBIDDEN = 200.0
@@ -77,16 +77,16 @@ def test_round_and_filled_entities_take_their_lines():
     ring = 35 + 35j + 8 * np.exp(1j * np.linspace(0, 6, 300))
     assert np.mean(np.array(cost(paper, *ring)) == FORBIDDEN) > 0.9
     assert cost(paper, 35 + 35j) == [0.0]
-    paper.take_entities([Heads(np.array([[15 + 25j, 20 + 25j, 20 + 27j]]), Role.RESULT)])
+    paper.take_entities([ArrowHeads(np.array([[15 + 25j, 20 + 25j, 20 + 27j]]), Role.RESULT)])
     assert cost(paper, 17.2 + 25.1j) == [FORBIDDEN]
 
 
-def writing(*places: complex, price: list[float], anchor: complex | None = None) -> Writing:
+def writing(*places: complex, price: list[float], anchor: complex | None = None) -> LabelText:
     anchors = np.full(len(places), complex("nan") if anchor is None else anchor)
-    return Writing("HHH", 3.5, np.array(places), np.zeros(len(places)), np.array(price), anchors)
+    return LabelText("HHH", 3.5, np.array(places), np.zeros(len(places)), np.array(price), anchors)
 
 
-def chosen(candidate: Writing, *drawn: Strokes) -> complex:
+def chosen(candidate: LabelText, *drawn: Strokes) -> complex:
     """The centre of the place that the text takes."""
     ((text, *_),) = place([candidate], drawn, FRAME)
     return complex(corners(text).mean())
@@ -152,7 +152,7 @@ def test_a_leader_crosses_lines_at_a_small_cost_but_no_text():
 
 def test_texts_of_dimensions_choose_first():
     free, bound = (writing(30 + 35j, 30 + 25j, price=[0.0, 5.0]) for _ in range(2))
-    bound = Writing(**{**vars(bound), "bound": True})
+    bound = LabelText(**{**vars(bound), "bound": True})
     (first,), (second,) = place([free, bound], [], FRAME)
     assert corners(second).mean() == pytest.approx(30 + 35j)
     assert corners(first).mean() == pytest.approx(30 + 25j)
@@ -160,7 +160,7 @@ def test_texts_of_dimensions_choose_first():
 
 def test_the_texts_of_steps_keep_off_all_steps_and_come_back_to_their_own():
     wall = Stroke(np.array([12 + 36j, 58 + 36j]), Role.RESULT)
-    steps = [([], [around(30 + 35j, "first", 3.5, 1j)]), ([wall], [around(45 + 35j, "second", 3.5, 1j)])]
+    steps = [([], [label_around(30 + 35j, "first", 3.5, 1j)]), ([wall], [label_around(45 + 35j, "second", 3.5, 1j)])]
     table = Strokes(np.array([12 + 33j]), np.array([40 + 33j]), Role.RESULT)
     first, second = lettered(steps, [table], FRAME)
     assert [e.text for e in first if isinstance(e, Text)] == ["first"]

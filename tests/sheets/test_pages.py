@@ -14,11 +14,11 @@ from test_random_sheets import solved
 import graphcam as gc
 from graphcam.drafting.marks import Points
 from graphcam.report.documents import contents_of, drawing_of
-from graphcam.sheets.filling import ONE_PAGE
 from graphcam.sheets.formats import Format
-from graphcam.sheets.frame import taken
 from graphcam.sheets.model import Box, Page, Strokes, Text
-from graphcam.sheets.sampling import around, box_of, pieces
+from graphcam.sheets.page_filling import ONE_PAGE
+from graphcam.sheets.sampling import box_around, box_of, pieces
+from graphcam.sheets.sheet_frame import taken_boxes
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.tasks.task_file import builtin_arcs_task, builtin_task
 
@@ -52,7 +52,7 @@ def area(box: Box) -> shapely.Geometry:
 
 def used(sheet: Format, page: Page, views: dict[str, Points]) -> float:
     """The part of the frame's inside that the boxes of views and tables and what every sheet carries cover."""
-    boxes = [around(points).grown(AIR) for points in views.values()] + taken(sheet, 0.0)
+    boxes = [box_around(points).grown(AIR) for points in views.values()] + taken_boxes(sheet, 0.0)
     for group in page.groups:
         if group.key == "tables":
             outlines = (e for e in group.entities if isinstance(e, Strokes) and e.role == "table")
@@ -71,7 +71,7 @@ def check(solution: AnySolution) -> list[float]:
         for one, other in combinations(standing.values(), 2):
             common = shapely.intersection(hull(one), hull(other))
             assert shapely.is_empty(shapely.buffer(common, -LEADER)), "a straight line can be drawn between two views"
-            assert sheet.name in ONE_PAGE or not around(one).grown(-LEADER).meets(around(other).grown(-LEADER))
+            assert sheet.name in ONE_PAGE or not box_around(one).grown(-LEADER).meets(box_around(other).grown(-LEADER))
     assert contents.steps[0][2].view.name in views[0]
     return [used(sheet, page, points_of_views(solution, page, labels=True)) for page in pages]
 

@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 from fontTools.ttLib import TTFont
 
-from graphcam.sheets.fonts import extent
 from graphcam.sheets.model import Box, Drawing, Entity, Group, Page, Strokes, Text
-from graphcam.sheets.player import WORDS, ReadingText, RowText, Slide, player
+from graphcam.sheets.player import PAGE_CAPTIONS, ReadingText, RowText, Slide, player
+from graphcam.sheets.text_measures import extent
 from graphcam.sheets.typefaces import lettering_file
 
-SAID = {name: str(word) for name, word in WORDS.items()}
+SAID = {name: str(word) for name, word in PAGE_CAPTIONS.items()}
 
 
 def box(left: float, bottom: float, right: float, top: float) -> Entity:

@@ -10,10 +10,10 @@ import pytest
 from programs import count
 from scene import drawing
 
-from graphcam.sheets.model import ArcEntity, Circles, Curve, Group, Heads, Stroke, Strokes, Text
+from graphcam.sheets.model import ArcEntity, ArrowHeads, Circles, Curve, Group, Stroke, Strokes, Text
 from graphcam.sheets.player import Slide, player
 from graphcam.sheets.player_svg import group_svg
-from graphcam.sheets.styles import STYLES
+from graphcam.sheets.styles import STYLES_BY_ROLE
 
 NUMBER = r"-?[\d.]+"
 HEIGHT = 297.0
@@ -39,7 +39,7 @@ def test_every_group_has_as_many_entities_as_the_drawing(paper):
         for element in elements(group_svg(group, height)):
             assert set(element.attrib["class"].split()) & {"line", "filled", "opaque", "text"}
             if element.tag == "path":
-                assert element.attrib["class"].split()[1] in STYLES
+                assert element.attrib["class"].split()[1] in STYLES_BY_ROLE
 
 
 def test_a_lost_entity_is_counted():
@@ -54,7 +54,7 @@ def test_lines_and_texts_lie_where_they_are_drawn():
         "a",
         (
             Stroke(np.array([10 + 20j, 30.128 + 40j]), "curve", closed=True),
-            Heads(np.array([[0, 3 + 1j, 3 - 1j]]), "curve"),
+            ArrowHeads(np.array([[0, 3 + 1j, 3 - 1j]]), "curve"),
             Text(5 + 7j, "α < 30°", 3.5, "center", np.pi / 2),
         ),
     )
@@ -102,6 +102,6 @@ def test_nothing_that_is_written_becomes_markup():
 
 
 def _words() -> dict[str, str]:
-    from graphcam.sheets.player import WORDS
+    from graphcam.sheets.player import PAGE_CAPTIONS
 
-    return {name: str(word) for name, word in WORDS.items()}
+    return {name: str(word) for name, word in PAGE_CAPTIONS.items()}

@@ -24,18 +24,17 @@ from graphcam.drafting.marks import Role
 from graphcam.sheets import sampling
 from graphcam.sheets.cad_renderer import write_cad
 from graphcam.sheets.dxf_renderer import write_dxf, write_spline
-from graphcam.sheets.fonts import letters_of, points_size, width
 from graphcam.sheets.matplotlib_renderer import _figure, draw_on, svg, write_png
 from graphcam.sheets.model import (
     Angle,
     ArcEntity,
+    ArrowHeads,
     Box,
     Circles,
     Curve,
     Drawing,
     Entity,
     Group,
-    Heads,
     Length,
     Page,
     Stroke,
@@ -43,8 +42,9 @@ from graphcam.sheets.model import (
     Text,
 )
 from graphcam.sheets.player import group_svg, roles_css
-from graphcam.sheets.smooth import bezier
-from graphcam.sheets.styles import ACCENT, BLACK, CENTER, DASHED, GREY, STYLES
+from graphcam.sheets.smooth_curves import bezier
+from graphcam.sheets.styles import ACCENT, BLACK, CENTER, DASHED, GREY, STYLES_BY_ROLE
+from graphcam.sheets.text_measures import letters_of, points_size, width
 from graphcam.sheets.typefaces import lettering_file
 
 POINT = 72 / 25.4
@@ -57,7 +57,7 @@ ENTITIES: dict[str, Entity] = {
     "circles": Circles(np.array([100 + 50j, 150 + 60j]), 12.0, Role.CURVE),
     "dots": Circles(np.array([100 + 50j, 150 + 60j]), 0.75, Role.CURVE, opaque=True),
     "arc": ArcEntity(80 + 90j, 30.0, 0.4, 2.9, Role.LIMIT),
-    "heads": Heads(np.array([[10, 14 + 1j, 14 - 1j], [30 + 9j, 34 + 10j, 34 + 8j]]) + 20j, Role.DIMENSION),
+    "heads": ArrowHeads(np.array([[10, 14 + 1j, 14 - 1j], [30 + 9j, 34 + 10j, 34 + 8j]]) + 20j, Role.DIMENSION),
 }
 TEXTS = [
     Text(100 + 50j, "left", 3.5),
@@ -151,7 +151,7 @@ def recorded(page: Page, **how: Any) -> Recorder:
 
 @pytest.mark.parametrize("name", ENTITIES)
 def test_matplotlib_draws_an_entity_where_it_is_as_its_role_looks(name):
-    entity, style = ENTITIES[name], STYLES[ENTITIES[name].role]
+    entity, style = ENTITIES[name], STYLES_BY_ROLE[ENTITIES[name].role]
     found = recorded(Page(210.0, 148.0, PAGE.frame, (Group("step-07 a", (entity,)),)))
     ((drawn),) = found.paths
     assert found.groups == ["step-07"]
@@ -301,7 +301,7 @@ def outline_ends(text: Text) -> tuple[complex, complex]:
 
 def test_dxf_layers_show_colour_width_and_line_type_of_their_role(plain):
     for entity in ENTITIES.values():
-        layer, style = plain.layers.get(f"p1-step-01-a-{entity.role}"), STYLES[entity.role]
+        layer, style = plain.layers.get(f"p1-step-01-a-{entity.role}"), STYLES_BY_ROLE[entity.role]
         assert layer.dxf.lineweight == 100 * style.width
         assert layer.dxf.color == {BLACK: 7, GREY: 8, ACCENT: 1}[style.colour]
         assert layer.dxf.linetype == {CENTER: "CENTER", DASHED: "DASHED", (): "CONTINUOUS"}[style.pattern]
@@ -475,7 +475,7 @@ def test_the_player_sets_texts_at_their_size():
 
 def test_the_player_has_a_look_for_every_role():
     rules = dict(re.findall(r"^\.page \.([\w-]+)\{(.*)\}$", roles_css(), re.MULTILINE))
-    assert set(rules) == {role for role in STYLES if " " not in role}
+    assert set(rules) == {role for role in STYLES_BY_ROLE if " " not in role}
     assert rules[Role.AXIS] == f"--width:0.18px;--print:{GREY};stroke-dasharray:9 1.4 1 1.4;"
     assert rules[Role.RESULT] == f"--width:0.7px;--print:{BLACK};"
 

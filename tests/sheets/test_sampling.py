@@ -7,10 +7,21 @@ import pytest
 import shapely
 from programs import count
 
-from graphcam.sheets.fonts import extent
-from graphcam.sheets.model import ArcEntity, Circles, Curve, Entity, Group, Heads, Stroke, Strokes, Text, moved
+from graphcam.sheets.model import (
+    ArcEntity,
+    ArrowHeads,
+    Circles,
+    Curve,
+    Entity,
+    Group,
+    Stroke,
+    Strokes,
+    Text,
+    moved_entity,
+)
 from graphcam.sheets.sampling import FLATNESS, box_of, corners, pieces, sampled
-from graphcam.sheets.smooth import bezier, clamped_spline, smooth
+from graphcam.sheets.smooth_curves import bezier, clamped_spline, smooth
+from graphcam.sheets.text_measures import extent
 
 SQUARE = np.array([0, 10, 10 + 10j, 10j])
 ENTITIES: list[Entity] = [
@@ -20,7 +31,7 @@ ENTITIES: list[Entity] = [
     Curve(SQUARE, "result"),
     Circles(np.array([5j, 20]), 3.0, "curve"),
     ArcEntity(5 + 5j, 8.0, 0.5, 2.5, "curve"),
-    Heads(np.array([[0, 3 + 1j, 3 - 1j], [5j, 6 + 1j, 7]]), "curve"),
+    ArrowHeads(np.array([[0, 3 + 1j, 3 - 1j], [5j, 6 + 1j, 7]]), "curve"),
     Text(2 + 3j, "graphcam", 3.5, "center", 0.4),
 ]
 
@@ -96,7 +107,7 @@ def test_the_box_of_a_text_stands_on_its_base_line(align, angle):
 
 @pytest.mark.parametrize("entity", ENTITIES, ids=lambda entity: type(entity).__name__)
 def test_what_is_moved_is_all_moved(entity):
-    there = moved(entity, 3 - 2j)
+    there = moved_entity(entity, 3 - 2j)
     for before, after in zip(pieces(entity), pieces(there), strict=True):
         np.testing.assert_allclose(after, before + 3 - 2j)
     assert type(there) is type(entity)

@@ -7,10 +7,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from graphcam.sheets.fonts import width, wrap
 from graphcam.sheets.model import Strokes, Text
 from graphcam.sheets.sampling import box_of
 from graphcam.sheets.tables import Block, Table, notes_block, table_block
+from graphcam.sheets.text_measures import width, wrap
 
 HEIGHT = 3.5
 PLAIN = Table("Data", ("quantity", "value", "drawn"), (("lift", "30 mm", "1"), ("prime radius r0", "44 mm", "2")))

@@ -15,9 +15,9 @@ from matplotlib.textpath import TextPath
 from scene import drawing
 
 from graphcam.sheets.dxf_renderer import write_dxf
-from graphcam.sheets.fonts import points_size
 from graphcam.sheets.matplotlib_renderer import write_pdf, write_png, write_svg
 from graphcam.sheets.model import Drawing
+from graphcam.sheets.text_measures import points_size
 from graphcam.sheets.typefaces import lettering_file
 
 MM = 72 / 25.4

@@ -160,7 +160,7 @@ def test_the_construction_of_the_page_has_the_order_of_error_that_it_says(tmp_pa
     script = """
 from steepest_chord import MEANING, steepest_chord
 from graphcam.bench.convergence import series_of
-from graphcam.bench.scenes import scene
+from graphcam.bench.bench_followers import scene
 where = scene("translating", "cycloidal")
 draw = lambda chain: steepest_chord(chain.integration, 40.0, chain.pencil)
 chains = {n: where.chain(n).adding(MEANING, draw) for n in (12, 24, 48, 96)}

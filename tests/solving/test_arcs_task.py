@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 
 import graphcam as gc
 from graphcam.cli import app
-from graphcam.cli.shared import WRONG_INPUT
+from graphcam.cli.shared import INPUT_ERROR_STATUS
 from graphcam.errors import DesignError, TaskError
 from graphcam.report.arcs_report import arcs_note
 from graphcam.report.output_folder import write
@@ -113,7 +113,7 @@ def test_a_fault_is_named_with_its_remedy(fault, tmp_path):
     assert message.startswith(f"{path}: {field} is "), message
     assert [word for word in words.split() if word not in message] == [], message
     result = CliRunner().invoke(app, ["solve", str(path), "--out", str(tmp_path / "out")])
-    assert result.exit_code == WRONG_INPUT
+    assert result.exit_code == INPUT_ERROR_STATUS
     assert result.stderr == f"graphcam: {message}\n"
     assert [entry.name for entry in tmp_path.iterdir()] == ["cam.toml"]
 

@@ -6,7 +6,7 @@ import re
 from studio_tasks import plain_task
 
 from graphcam.studio.engine import answer
-from graphcam.studio.task_paths import changed, value_at
+from graphcam.studio.task_paths import changed_task, value_at
 
 PX_PER_MM = 1.9
 """How large the large view is shown."""
@@ -28,20 +28,20 @@ def moved(name, what, way):
     """A built-in task with one of its sizes a ``way`` farther on."""
     task = copy.deepcopy(plain_task(name))
     if what == "offset":
-        return changed(task, {"follower.offset": value_at(task, "follower.offset") + way})
+        return changed_task(task, {"follower.offset": value_at(task, "follower.offset") + way})
     if what == "prime radius":
-        return changed(task, {"cam.prime_radius": START[name] + way})
+        return changed_task(task, {"cam.prime_radius": START[name] + way})
     if what == "phase border":
         angles = [phase["angle"] for phase in task["motion"]["phases"]]
         border = {"motion.phases[0].angle": angles[0] + way, "motion.phases[-1].angle": angles[-1] - way}
-        return changed(task, {path.replace("-1", str(len(angles) - 1)): angle for path, angle in border.items()})
+        return changed_task(task, {path.replace("-1", str(len(angles) - 1)): angle for path, angle in border.items()})
     assert what == "lift"
     lifts = {
         f"motion.phases[{k}].lift": phase["lift"] + way
         for k, phase in enumerate(task["motion"]["phases"])
         if "lift" in phase
     }
-    return changed(task, lifts)
+    return changed_task(task, lifts)
 
 
 START = {"coursework": 44.0, "arm": 61.0, "flat": 20.0, "measured": 27.0}

@@ -15,7 +15,7 @@ from playwright.sync_api import Locator, Page
 from studio_tasks import BUILT_IN, plain_task
 
 from graphcam.studio.engine import answer
-from graphcam.studio.page import page
+from graphcam.studio.studio_page import page
 
 Plain = dict[str, Any]
 

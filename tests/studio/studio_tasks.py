@@ -6,7 +6,7 @@ from functools import cache
 import graphcam as gc
 from graphcam.tasks import task_file
 
-BUILT_IN = (*task_file.BUILT_IN, "arcs")
+BUILT_IN = (*task_file.BUILTIN_TASK_NAMES, "arcs")
 
 
 def builtin(name):

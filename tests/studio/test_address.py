@@ -13,7 +13,7 @@ from golden_random import random_arcs_task
 from random_tasks import random_arm_task, random_flat_task, random_task
 
 import graphcam as gc
-from graphcam.studio.address import LONGEST, StudioPlace, address_of, place_of
+from graphcam.studio.address import MAX_LENGTH, StudioPlace, address_of, place_of
 
 KINDS = (random_task, random_arm_task, random_flat_task)
 
@@ -46,7 +46,7 @@ def test_500_random_tasks_come_back_as_they_were_in_a_short_address(block):
     for seed in range(50 * block, 50 * (block + 1)):
         place = random_place(seed)
         address = address_of(place, BUILT_IN)
-        assert len(address) <= LONGEST
+        assert len(address) <= MAX_LENGTH
         assert place_of(address, BUILT_IN) == place
 
 
@@ -98,7 +98,7 @@ def test_the_built_in_task_stays_as_it_is():
 @pytest.mark.parametrize(
     "address",
     ["", "#", "#2.abc", "#1.", "#1.$$$$", "#1.AAAA", "#t=abc", of([]), of({"b": "other"}), of({"b": 3}), of({"d": []}),
-     "#1." + "A" * LONGEST, "#1.é"],
+     "#1." + "A" * MAX_LENGTH, "#1.é"],
 )  # fmt: skip
 def test_what_is_no_address_is_told(address):
     with pytest.raises(gc.DesignError, match="must be an address of the studio; open the address as it was given"):

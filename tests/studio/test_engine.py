@@ -10,7 +10,7 @@ from studio_tasks import BUILT_IN, builtin, plain_task
 import graphcam as gc
 from graphcam.report.documents import contents_of
 from graphcam.studio.engine import answer
-from graphcam.studio.task_paths import changed
+from graphcam.studio.task_paths import changed_task
 
 LEAST_PX = 10.0
 """No letter on the screen is smaller."""
@@ -125,7 +125,7 @@ def test_values_are_those_of_the_solution(name):
 
 
 def test_undercut_is_shown_where_the_cam_has_its_corner():
-    sharp = changed(plain_task("coursework"), {"follower.roller_radius": 40.0})
+    sharp = changed_task(plain_task("coursework"), {"follower.roller_radius": 40.0})
     (warning,) = ask(sharp, "profile", warnings=True)["warnings"]
     assert (warning["view"], warning["limit"]) == ("profile", True)
     solution = gc.solve(gc.Task(**{**vars(builtin("coursework")), "follower": _with_roller(40.0)}))
@@ -141,7 +141,7 @@ def _with_roller(radius):
 def test_a_pencil_draws_otherwise_and_the_exact_side_stays():
     task = plain_task("coursework")
     drawn, by_hand = (
-        {value["id"]: value for value in ask(changed(task, {"pencil": sigma}), values=True)["values"]}
+        {value["id"]: value for value in ask(changed_task(task, {"pencil": sigma}), values=True)["values"]}
         for sigma in (0.0, 0.2)
     )
     assert by_hand["max_v"]["drawn"] != drawn["max_v"]["drawn"]

@@ -14,7 +14,7 @@ import pytest
 from studio_tasks import BUILT_IN, plain_task
 
 from graphcam.studio.engine import answer
-from graphcam.studio.pyodide_parts import ABOVE, LIBRARIES, engine_archive
+from graphcam.studio.pyodide_parts import ENGINE_LIBRARIES, ROOMS_ABOVE, engine_archive
 
 ALONE = """
 import json
@@ -57,13 +57,13 @@ def test_the_engine_alone_answers_as_among_all_libraries(language, tmp_path):
     answers = json.loads(told)
     assert [timeless(each) for each in answers] == [timeless(answer(request)) for request in requests]
     assert all(each["ok"] for each in answers)
-    foreign = set(loaded.split()) - sys.stdlib_module_names - {"graphcam", "numpy", *LIBRARIES}
+    foreign = set(loaded.split()) - sys.stdlib_module_names - {"graphcam", "numpy", *ENGINE_LIBRARIES}
     # What NumPy's own compiled modules enter, and what -c is.
     assert {name for name in foreign if "cython" not in name} <= {"__main__"}
 
 
 def test_a_letter_beyond_the_table_is_a_box_where_no_font_can_be_opened(tmp_path):
-    code = "from graphcam.sheets.fonts import width; print(width('漢字', 3.5) == 2 * width('□', 3.5))"
+    code = "from graphcam.sheets.text_measures import width; print(width('漢字', 3.5) == 2 * width('□', 3.5))"
     assert run_alone(tmp_path, code) == ["True"]
 
 
@@ -72,7 +72,7 @@ def test_the_archive_has_no_more_than_the_engine_can_use():
     assert {name.split("/")[0] for name in names if ".dist-info" not in name} == {
         "graphcam", "lazy_loader", "tomli_w", "typing_extensions.py",
     }  # fmt: skip
-    assert not {name.split("/")[1] for name in names if name.startswith("graphcam/")} & ABOVE
-    assert sum("LICEN" in name for name in names) == len(LIBRARIES)
+    assert not {name.split("/")[1] for name in names if name.startswith("graphcam/")} & ROOMS_ABOVE
+    assert sum("LICEN" in name for name in names) == len(ENGINE_LIBRARIES)
     assert not [name for name in names if name.endswith((".ttf", ".html", ".js", ".css", ".pyc"))]
     assert engine_archive() == engine_archive()

@@ -7,7 +7,7 @@ import pytest
 from asking import ask, moved, view_names
 from studio_tasks import plain_task
 
-from graphcam.sheets.labels import FARTHEST_HOP
+from graphcam.sheets.labels import MAX_HOP
 from graphcam.studio.engine import answer
 
 STEP = {"offset": 0.25, "prime radius": 0.25, "phase border": 0.5, "lift": 0.1}
@@ -36,7 +36,7 @@ def test_frame_and_labels_stay_while_a_size_is_moved(name, what):
         for before, after in itertools.pairwise(places):
             assert before.keys() == after.keys()
             for label, (x, y, _) in before.items():
-                assert math.dist((x, y), after[label][:2]) <= FARTHEST_HOP + 0.01, (view, label)
+                assert math.dist((x, y), after[label][:2]) <= MAX_HOP + 0.01, (view, label)
 
 
 @pytest.mark.parametrize(("name", "what"), DRAGS)

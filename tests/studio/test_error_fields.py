@@ -10,9 +10,9 @@ import pytest
 from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
-from graphcam.studio.engine import FIELDS, field_of
+from graphcam.studio.engine import FIELDS_BY_QUANTITY, field_of
 from graphcam.studio.sizes_form import form_of
-from graphcam.studio.task_paths import changed
+from graphcam.studio.task_paths import changed_task
 from graphcam.tasks import task_file
 from graphcam.tasks.material_table import MaterialTable
 
@@ -185,8 +185,8 @@ def test_quantities_are_collected():
 
 
 def test_fields_agree_with_those_of_task_files():
-    for quantity, key in task_file._KEYS.items():
-        assert FIELDS[quantity].endswith(key.split(" (")[0])
+    for quantity, key in task_file._KEYS_BY_QUANTITY.items():
+        assert FIELDS_BY_QUANTITY[quantity].endswith(key.split(" (")[0])
 
 
 def test_fields_are_in_the_form():
@@ -196,10 +196,12 @@ def test_fields_are_in_the_form():
     materials = {f"material.{key.name}" for key in fields(MaterialTable)}
     spring = {"mass", "stiffness", "preload", "acceleration", "friction", "load"}
     springs = {f"spring.{name}" for name in (*spring, "inertia", "at.arm", "at.anchor[0]")}
-    assert set(FIELDS.values()) - shown == of_no_field | springs | {"material.width"}
-    sprung = changed(plain_task("coursework"), {"spring": {"mass": 0.5, "stiffness": 2.0}, "material": {"width": 15.0}})
+    assert set(FIELDS_BY_QUANTITY.values()) - shown == of_no_field | springs | {"material.width"}
+    sprung = changed_task(
+        plain_task("coursework"), {"spring": {"mass": 0.5, "stiffness": 2.0}, "material": {"width": 15.0}}
+    )
     at = {"arm": 60.0, "anchor": [120.0, -60.0]}
-    arm = changed(
+    arm = changed_task(
         plain_task("arm"),
         {"speed_rpm": 200.0, "spring": {"inertia": 900.0, "stiffness": 2.0, "friction": 0.1, "at": at}},
     )
@@ -212,7 +214,7 @@ def test_fields_are_in_the_form():
 )
 def test_the_units_of_an_arm_s_spring_are_those_of_its_kind(at, units):
     spring = {"inertia": 900.0, "stiffness": 2.0, **({"at": at} if at else {})}
-    task = changed(plain_task("arm"), {"speed_rpm": 200.0, "spring": spring})
+    task = changed_task(plain_task("arm"), {"speed_rpm": 200.0, "spring": spring})
     shown = {field["path"]: field for field in form_of(gc.solve(rebuilt(task)), str)}
     assert [shown[f"spring.{name}"]["unit"] for name in ("stiffness", "preload")] == units
 
@@ -274,7 +276,7 @@ WRONG = [
 
 @pytest.mark.parametrize(("name", "changes", "field"), WRONG)
 def test_a_wrong_size_is_told_beside_its_field(name, changes, field):
-    task = changed(plain_task(name), changes)
+    task = changed_task(plain_task(name), changes)
     with pytest.raises(gc.GraphcamError) as caught:
         gc.solve(rebuilt(task))
     assert field_of(caught.value, task) == field, str(caught.value)

@@ -17,10 +17,16 @@ from graphcam.errors import TaskError
 from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.definition.variant import Variant, drawn
-from graphcam.exercises.exports.studio_link import check_url, exercise_of, given_of, studio_address, write_links
+from graphcam.exercises.exports.studio_link import (
+    check_url,
+    exercise_of,
+    given_construction,
+    studio_address,
+    write_links,
+)
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.course_variants import course_variants
-from graphcam.studio.address import LONGEST, place_of
+from graphcam.studio.address import MAX_LENGTH, place_of
 from graphcam.studio.engine import answer
 from graphcam.studio.exercise_checks import ITERATIONS, cell, check_of, hashed, is_right, salt_of
 from graphcam.studio.task_text import built_in_tasks
@@ -116,14 +122,14 @@ def test_what_is_given_comes_before_all_that_is_asked(name):
 
     names = board_chain(variant.task).names
     asked = {each.construction for each in variant.exercise.answers} & set(names)
-    assert all(names.index(given_of(variant)) < names.index(each) for each in asked)
+    assert all(names.index(given_construction(variant)) < names.index(each) for each in asked)
 
 
 def test_a_link_shows_the_variant_and_what_is_asked(issued):
     variant, key = issued
     address = studio_address(variant, key, SALT)
     place = place_of(address, built_in_tasks())
-    assert len(address) <= LONGEST
+    assert len(address) <= MAX_LENGTH
     assert place.task == variant.task.to_dict()
     assert place.mode == "exercise"
     assert place.exercise is not None

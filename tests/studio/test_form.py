@@ -7,8 +7,8 @@ import pytest
 from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
-from graphcam.studio.sizes_form import form_of, with_dwell, with_step, without
-from graphcam.studio.task_paths import changed, steps_of, value_at
+from graphcam.studio.sizes_form import form_of, phases_without, with_dwell, with_step
+from graphcam.studio.task_paths import changed_task, steps_of, value_at
 
 DRAWN_ELSEWHERE = "title", "part"
 """Tables that change nothing in the construction."""
@@ -61,7 +61,7 @@ def test_the_ends_of_every_range_can_be_typed(name):
         if field["kind"] not in ("number", "open-number") or field["path"] == "pencil" or field["path"][:4] == "arcs":
             continue
         for end in (field["min"], field["max"]):
-            typed = changed(changed(task, field.get("first", {})), {field["path"]: end})
+            typed = changed_task(changed_task(task, field.get("first", {})), {field["path"]: end})
             assert value_at(rebuilt(typed).to_dict(), field["path"]) == end
 
 
@@ -71,7 +71,7 @@ def test_every_kind_of_follower_that_is_offered_can_be_drawn(name):
     kinds = next(field for field in form_of(solved(name), str) if field["path"] == "follower.kind")
     assert len(kinds["choices"]) == 3
     for choice in kinds["choices"]:
-        other = gc.solve(rebuilt(changed(task, choice["changes"])))
+        other = gc.solve(rebuilt(changed_task(task, choice["changes"])))
         assert other.task.follower.kind == choice["value"]
         assert other.chain.prime_radius > 0
 
@@ -92,11 +92,11 @@ AT_A_POINT = {"inertia": 1500.0, "stiffness": 4.0, "preload": 30.0, "at": {"arm"
 )
 def test_another_follower_keeps_its_spring_and_material(name, spring, kind, kept):
     """The mass at the end of an arm has the moment of inertia m l^2, and a spring there turns with c l^2."""
-    task = changed(plain_task(name), {"speed_rpm": 120.0, "spring": spring, "material": {"width": 15.0}})
+    task = changed_task(plain_task(name), {"speed_rpm": 120.0, "spring": spring, "material": {"width": 15.0}})
     solution = gc.solve(rebuilt(task))
     kinds = next(field for field in form_of(solution, str) if field["path"] == "follower.kind")
     choice = next(each for each in kinds["choices"] if each["value"] == kind)
-    other = gc.solve(rebuilt(changed(task, choice["changes"])))
+    other = gc.solve(rebuilt(changed_task(task, choice["changes"])))
     assert kept.items() <= other.task.to_dict()["spring"].items()
     assert other.task.material == solution.task.material
     arm = other.task.follower.arm if kind == "oscillating" else getattr(solution.task.follower, "arm", 1.0)
@@ -127,12 +127,12 @@ def test_phases_that_are_edited_still_close(name):
     edits = next(field for field in form_of(solved(name), str) if field["kind"] == "phases")["phases"]
     offered = 0
     for k, row in enumerate(edits):
-        made = {"remove": without(phases, k), "dwell": with_dwell(phases, k), "step": with_step(phases, k)}
+        made = {"remove": phases_without(phases, k), "dwell": with_dwell(phases, k), "step": with_step(phases, k)}
         assert row["edits"] == made
         for new in filter(None, made.values()):
             offered += 1
             assert math.fsum(phase["angle"] for phase in new) == 360
-            lift = rebuilt(changed(task, {"motion.phases": new})).motion().lift
+            lift = rebuilt(changed_task(task, {"motion.phases": new})).motion().lift
             # Half a lift may stand on top of the whole one.
             assert lift / solved(name).cam.motion.lift == pytest.approx(1.5 if within(phases, k, new, made) else 1.0)
     assert offered >= 6
@@ -140,8 +140,8 @@ def test_phases_that_are_edited_still_close(name):
 
 def test_a_lone_rise_cannot_be_taken_away():
     phases = plain_task("coursework")["motion"]["phases"]
-    assert without(phases, 0) is None
-    assert without(with_step(phases, 0), 0) is not None
+    assert phases_without(phases, 0) is None
+    assert phases_without(with_step(phases, 0), 0) is not None
 
 
 def test_paths():
@@ -149,7 +149,7 @@ def test_paths():
     assert steps_of("motion.phases[1].angle") == ("motion", "phases", 1, "angle")
     assert value_at(task, "motion.phases[1].angle") == 45
     assert value_at(task, "motion.phases[7].angle") is None
-    new = changed(task, {"motion.phases[0].angle": 90, "limits.rest": False})
+    new = changed_task(task, {"motion.phases[0].angle": 90, "limits.rest": False})
     assert (new["motion"]["phases"][0]["angle"], new["limits"]) == (90, {"rest": False})
     assert task["motion"]["phases"][0]["angle"] == 80
 
@@ -157,4 +157,4 @@ def test_paths():
 @pytest.mark.parametrize("path", ["", "a..b", "a[x]", "[0]", "a[0", "motion.phases[9].angle", "motion.phases.angle"])
 def test_a_path_that_leads_nowhere_is_refused(path):
     with pytest.raises(gc.DesignError, match="path"):
-        changed({"motion": {"phases": [{"angle": 80}]}}, {path: 1})
+        changed_task({"motion": {"phases": [{"angle": 80}]}}, {path: 1})

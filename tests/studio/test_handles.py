@@ -12,10 +12,10 @@ from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 import graphcam as gc
 from graphcam.studio.engine import answer
 from graphcam.studio.handles import dragged, handles_of
-from graphcam.studio.held_board import hold_of
-from graphcam.studio.request import views_request
-from graphcam.studio.task_paths import changed, value_at
+from graphcam.studio.held_solutions import hold_of
+from graphcam.studio.task_paths import changed_task, value_at
 from graphcam.studio.views_answer import moved_task
+from graphcam.studio.views_request import views_request
 
 VIEWS = ("acceleration", "velocity", "displacement", "combined", "region", "angle", "profile", "arcs", "roller")
 PHI = 39.0
@@ -102,8 +102,8 @@ def a_step(name, handle, drawn, other):
             return axis["fine"]
         half = axis["value"] + grabbed["fine"] / 2
         sizes = {path: value for path, value in drawn.changes.items() if path not in STATE}
-        task = changed(plain_task(name), sizes)
-        task = changed(task, {axis["path"]: half} | rest_of(axis, half))
+        task = changed_task(plain_task(name), sizes)
+        task = changed_task(task, {axis["path"]: half} | rest_of(axis, half))
         request = views_request({"task": task, "views": [], "phi": PHI})
         nudged = there(moved_task(request, hold_of(at_rest(name)["hold"])), handle)
         total += apart(handle, nudged, other["at"])
@@ -152,7 +152,7 @@ def test_borders_keep_the_turn(name):
         if "border" not in handle["id"]:
             continue
         for to in [*pointers(handle, 40), (-1e5, 0.0), (1e5, 0.0)]:
-            new = changed(task, dragged(solved(name), {"handle": handle["id"], "to": to}, PHI))
+            new = changed_task(task, dragged(solved(name), {"handle": handle["id"], "to": to}, PHI))
             angles = [phase["angle"] for phase in new["motion"]["phases"]]
             assert math.fsum(angles) == pytest.approx(360, abs=1e-9)
             assert min(angles) >= 1
@@ -252,9 +252,9 @@ def test_every_axis_names_a_path_of_the_task(name):
             assert axis["min"] <= axis["value"] <= axis["max"]
             if axis["path"] in STATE:
                 continue
-            start = changed(task, axis.get("first", {}))
+            start = changed_task(task, axis.get("first", {}))
             value = min(axis["value"] + axis["step"], axis["max"])
-            new = rebuilt(changed(start, {axis["path"]: value} | rest_of(axis, value)))
+            new = rebuilt(changed_task(start, {axis["path"]: value} | rest_of(axis, value)))
             assert value_at(new.to_dict(), axis["path"]) == pytest.approx(value)
 
 
@@ -293,7 +293,13 @@ def draws(name, count, seed):
             assert found["ok"], (handle["id"], to, found.get("error"))
             sizes = {path: value for path, value in found["changes"].items() if path not in STATE}
             released = answer(
-                {"task": changed(plain_task(name), sizes), "values": True, "warnings": True, "form": True, "views": []}
+                {
+                    "task": changed_task(plain_task(name), sizes),
+                    "values": True,
+                    "warnings": True,
+                    "form": True,
+                    "views": [],
+                }
             )
             assert released["ok"], (handle["id"], to, sizes, released.get("error"))
 

@@ -22,8 +22,8 @@ pytestmark = pytest.mark.slow
 @pytest.fixture
 def local(tmp_path, monkeypatch) -> Iterator[tuple[StudioServer, threading.Thread]]:
     """A server that ends soon after its last tab, and what it runs in."""
-    monkeypatch.setitem(of.ALIVE, "/alive", 6.0)
-    monkeypatch.setitem(of.ALIVE, "/alive?end", 1.0)
+    monkeypatch.setitem(of.LIFE_SECONDS, "/alive", 6.0)
+    monkeypatch.setitem(of.LIFE_SECONDS, "/alive?end", 1.0)
     with local_studio(tmp_path / "out") as server:
         thread = threading.Thread(target=server.run)
         thread.start()

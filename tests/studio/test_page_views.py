@@ -8,7 +8,7 @@ import pytest
 from studio_pages import settled, task_of
 from studio_tasks import BUILT_IN
 
-from graphcam.studio.page import SCRIPTS, page as page_of
+from graphcam.studio.studio_page import SCRIPT_FILES, page as page_of
 
 pytestmark = pytest.mark.slow
 
@@ -210,7 +210,7 @@ def test_the_page_asks_nobody_but_who_serves_it():
     assert "connect-src 'self'" in text
     assert "default-src 'none'" in text
     assert text.replace("http://www.w3.org/2000/svg", "").count("://") == 0
-    assert [name for name in SCRIPTS if name == "studio.js"] == [SCRIPTS[-1]]
+    assert [name for name in SCRIPT_FILES if name == "studio.js"] == [SCRIPT_FILES[-1]]
 
 
 def test_what_if_shows_curves_on_which_the_present_cam_lies(opened, served):

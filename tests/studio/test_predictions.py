@@ -11,8 +11,8 @@ from hypothesis import given, settings, strategies as st
 
 import graphcam as gc
 from graphcam.studio.engine import answer
-from graphcam.studio.foretold import nearest_on, step_ids
-from graphcam.studio.predictions import BASES, seeded_task
+from graphcam.studio.guesses import nearest_on_polyline, step_ids
+from graphcam.studio.predictions import BASE_TASKS, seeded_task
 from graphcam.tasks.task_file import task_of
 
 KINDS = {
@@ -151,14 +151,14 @@ def test_no_place_of_the_curve_is_sharper_than_the_sharpest(name):
     st.floats(-300, 300), st.floats(-300, 300), st.lists(st.complex_numbers(max_magnitude=200), min_size=2, max_size=8)
 )
 def test_the_foot_of_a_guess_is_nearer_than_every_corner(x, y, way):
-    foot = nearest_on(np.array(way), complex(x, y))
+    foot = nearest_on_polyline(np.array(way), complex(x, y))
     assert abs(foot - complex(x, y)) <= min(abs(corner - complex(x, y)) for corner in way) + 1e-6
 
 
 @settings(max_examples=12, deadline=None)
-@given(st.sampled_from(sorted(BASES)), st.integers(0, 10**9))
+@given(st.sampled_from(sorted(BASE_TASKS)), st.integers(0, 10**9))
 def test_every_seed_gives_a_task_that_can_be_foretold(follower, seed):
-    task = gc.builtin_task(BASES[follower]).to_dict()
+    task = gc.builtin_task(BASE_TASKS[follower]).to_dict()
     found = answer({"ask": "predict", "task": task, "seed": seed})
     assert found["ok"], found
     assert found["task"] == seeded_task(follower, seed)

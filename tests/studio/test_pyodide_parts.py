@@ -42,15 +42,15 @@ NUMPIES = {
     WHEEL: stored_zip(PYTHON_FILES),
 }
 LISTED = {"file_name": WHEEL, "sha256": sum_of(NUMPIES[WHEEL])}
-CORE = {name: name.encode() for name in parts.CORE} | {
-    parts.LOCK: json.dumps({"info": {"python": "3.12.7"}, "packages": {"numpy": LISTED}}).encode()
+CORE = {name: name.encode() for name in parts.CORE_FILES} | {
+    parts.LOCK_FILE: json.dumps({"info": {"python": "3.12.7"}, "packages": {"numpy": LISTED}}).encode()
 }
 
 
 @pytest.fixture
 def folder(tmp_path, monkeypatch):
     """Loose files of known sums, and no NumPy yet."""
-    monkeypatch.setattr(parts, "KNOWN", {name: sum_of(content) for name, content in {**CORE, **NUMPIES}.items()})
+    monkeypatch.setattr(parts, "KNOWN_SUMS", {name: sum_of(content) for name, content in {**CORE, **NUMPIES}.items()})
     for name, content in CORE.items():
         (tmp_path / name).write_bytes(content)
     return tmp_path
@@ -60,8 +60,8 @@ def folder(tmp_path, monkeypatch):
 def test_of_numpy_only_what_runs_is_taken_and_its_licence(name, folder):
     (folder / name).write_bytes(NUMPIES[name])
     found = parts.pyodide_parts(folder)
-    assert {key: found[key] for key in parts.CORE} == CORE
-    assert zipfile.ZipFile(io.BytesIO(found[parts.NUMPY])).namelist() == [
+    assert {key: found[key] for key in parts.CORE_FILES} == CORE
+    assert zipfile.ZipFile(io.BytesIO(found[parts.NUMPY_FILE])).namelist() == [
         "numpy-2.dist-info/LICENSE.txt", "numpy/__init__.py",
     ]  # fmt: skip
 
@@ -78,24 +78,27 @@ def test_packages_of_npm_are_looked_into(folder):
 
 def test_a_numpy_is_known_by_the_list_of_pyodide(folder, monkeypatch):
     (folder / WHEEL).write_bytes(NUMPIES[WHEEL])
-    monkeypatch.setattr(parts, "KNOWN", {name: known for name, known in parts.KNOWN.items() if name != WHEEL})
-    assert parts.NUMPY in parts.pyodide_parts(folder)
+    monkeypatch.setattr(parts, "KNOWN_SUMS", {name: known for name, known in parts.KNOWN_SUMS.items() if name != WHEEL})
+    assert parts.NUMPY_FILE in parts.pyodide_parts(folder)
     (folder / WHEEL).write_bytes(stored_zip({"numpy/__init__.py": b"other"}))
-    with pytest.raises(TaskError, match=f"the SHA-256 of {WHEEL} is '.*{LISTED['sha256']}.*{parts.SUMS}"):
+    with pytest.raises(TaskError, match=f"the SHA-256 of {WHEEL} is '.*{LISTED['sha256']}.*{parts.SUMS_FILE}"):
         parts.pyodide_parts(folder)
 
 
 def test_what_is_not_known_needs_a_sum_of_the_users_own(folder):
     (folder / CONDA).write_bytes(NUMPIES[CONDA])
-    (folder / parts.BINARY).write_bytes(b"newer")
+    (folder / parts.BINARY_FILE).write_bytes(b"newer")
     with pytest.raises(
-        TaskError, match=rf"SHA-256 of {parts.BINARY} is '{sum_of(b'newer')}'.*{parts.KNOWN[parts.BINARY]}"
+        TaskError,
+        match=rf"SHA-256 of {parts.BINARY_FILE} is '{sum_of(b'newer')}'.*{parts.KNOWN_SUMS[parts.BINARY_FILE]}",
     ):
         parts.pyodide_parts(folder)
-    (folder / parts.SUMS).write_text(f"{sum_of(b'newer').upper()} *{parts.BINARY}\n\nnonsense\n", encoding="utf-8")
-    assert parts.pyodide_parts(folder)[parts.BINARY] == b"newer"
-    (folder / parts.BINARY).write_bytes(b"newest")
-    with pytest.raises(TaskError, match=parts.BINARY):
+    (folder / parts.SUMS_FILE).write_text(
+        f"{sum_of(b'newer').upper()} *{parts.BINARY_FILE}\n\nnonsense\n", encoding="utf-8"
+    )
+    assert parts.pyodide_parts(folder)[parts.BINARY_FILE] == b"newer"
+    (folder / parts.BINARY_FILE).write_bytes(b"newest")
+    with pytest.raises(TaskError, match=parts.BINARY_FILE):
         parts.pyodide_parts(folder)
 
 
@@ -111,8 +114,8 @@ def test_what_is_missing_is_named_with_the_command_that_brings_it(folder):
         (folder / name).write_bytes(NUMPIES[name])
     with pytest.raises(TaskError, match=r"NumPy is .*remove the others"):
         parts.pyodide_parts(folder)
-    (folder / parts.GLUE).unlink()
-    with pytest.raises(TaskError, match=rf"there is no file {parts.GLUE} in "):
+    (folder / parts.GLUE_FILE).unlink()
+    with pytest.raises(TaskError, match=rf"there is no file {parts.GLUE_FILE} in "):
         parts.pyodide_parts(folder)
     with pytest.raises(TaskError, match=r"there is no file pyodide\.js in .*elsewhere; run there: npm"):
         parts.pyodide_parts(folder / "elsewhere")
@@ -127,4 +130,4 @@ def test_a_package_that_is_cut_off_is_told(folder):
 def test_the_sums_that_are_known_stand_in_the_how_to():
     page = Path(__file__).parents[2] / "notebooks/site/pages/how-to/put-the-studio-on-a-course-page.md"
     told = dict(re.findall(r"^\| `(\S+)` \| `(\w{64})` \|$", page.read_text(encoding="utf-8"), re.MULTILINE))
-    assert told == dict(parts.KNOWN)
+    assert told == dict(parts.KNOWN_SUMS)

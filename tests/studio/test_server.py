@@ -15,7 +15,7 @@ from io import StringIO
 import pytest
 
 from graphcam.studio import server as of
-from graphcam.studio.server import LARGEST, StudioServer
+from graphcam.studio.server import MAX_BODY_BYTES, StudioServer
 
 PAGE = '<script type="application/json">{}</script><script>let a = 1;</script>'
 JSON = {"Content-Type": "application/json"}
@@ -244,11 +244,11 @@ def test_a_body_that_is_no_table_is_refused(server, body):
 
 
 def test_a_body_may_have_a_mebibyte_and_no_more(server):
-    whole = '{"a":"' + "x" * (LARGEST - 8) + '"}'
-    assert len(whole) == LARGEST == 1024 * 1024
+    whole = '{"a":"' + "x" * (MAX_BODY_BYTES - 8) + '"}'
+    assert len(whole) == MAX_BODY_BYTES == 1024 * 1024
     assert ask(server, body=whole)[0] == 200
     # It is refused by what it says, before it has come.
-    assert raw(server, head(server, f"Content-Length: {LARGEST + 1}")).startswith(b"HTTP/1.1 413 ")
+    assert raw(server, head(server, f"Content-Length: {MAX_BODY_BYTES + 1}")).startswith(b"HTTP/1.1 413 ")
 
 
 @pytest.mark.parametrize(
@@ -286,7 +286,7 @@ def test_one_connection_carries_many_requests(server):
 
 
 def test_a_slow_request_is_given_up(server, monkeypatch):
-    monkeypatch.setattr(of, "READING", 0.6)
+    monkeypatch.setattr(of, "REQUEST_SECONDS", 0.6)
     began = time.monotonic()
     # A byte now and then does not keep it open.
     got = raw(server, head(server, "Content-Length: 100"), *"{" * 4, pause=0.25)
@@ -366,7 +366,7 @@ def test_the_engine_is_asked_by_one_at_a_time():
 
 
 def test_an_answer_that_takes_too_long_is_an_error(monkeypatch):
-    monkeypatch.setattr(of, "WORKING", 0.2)
+    monkeypatch.setattr(of, "ANSWER_SECONDS", 0.2)
     with running() as server:
         status, _, body = ask(server, body='{"ask": "wait", "seconds": 0.5, "seq": 9}')
         answer = json.loads(body)
@@ -393,10 +393,10 @@ def ends(server: StudioServer, *signs: str) -> float:
 
 
 def test_it_ends_when_the_last_tab_has_gone(monkeypatch):
-    assert of.QUIET == 10
-    monkeypatch.setitem(of.ALIVE, "/alive", 0.6)
-    monkeypatch.setitem(of.ALIVE, "/alive?end", 0.3)
-    monkeypatch.setitem(of.ALIVE, "/alive?hidden", 1.5)
+    assert of.QUIET_SECONDS == 10
+    monkeypatch.setitem(of.LIFE_SECONDS, "/alive", 0.6)
+    monkeypatch.setitem(of.LIFE_SECONDS, "/alive?end", 0.3)
+    monkeypatch.setitem(of.LIFE_SECONDS, "/alive?hidden", 1.5)
     with StudioServer(PAGE, engine, engine) as server:
         assert ends(server, "/alive") >= 0.5
     # One that goes does not take the others' time.
@@ -408,7 +408,7 @@ def test_it_ends_when_the_last_tab_has_gone(monkeypatch):
 
 
 def test_it_waits_for_the_first_tab(monkeypatch):
-    monkeypatch.setitem(of.ALIVE, "/alive", 0.0)
+    monkeypatch.setitem(of.LIFE_SECONDS, "/alive", 0.0)
     with StudioServer(PAGE, engine, engine) as server:
         thread = threading.Thread(target=server.run)
         thread.start()
@@ -419,7 +419,7 @@ def test_it_waits_for_the_first_tab(monkeypatch):
 
 
 def test_a_wrong_sign_of_life_gives_no_time(monkeypatch):
-    monkeypatch.setitem(of.ALIVE, "/alive", 0.0)
+    monkeypatch.setitem(of.LIFE_SECONDS, "/alive", 0.0)
     with running() as server:
         ask(server, path="/alive", headers={})
         assert server._ends is None

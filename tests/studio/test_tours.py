@@ -10,9 +10,9 @@ from tour_facts import facts, right_choice, trend
 
 import graphcam as gc
 from graphcam.errors import DesignError
-from graphcam.studio.foretold import step_ids
-from graphcam.studio.task_paths import changed
-from graphcam.studio.tours import OPERATORS, card_task, extract, goal_of, texts_of, told_tours, tours
+from graphcam.studio.guesses import step_ids
+from graphcam.studio.task_paths import changed_task
+from graphcam.studio.tours import OPERATORS, card_task, extract, goal_of, texts_of, tours, tours_answer
 from graphcam.tasks.task_file import task_of
 
 CARDS = [(tour["task"], card) for tour in tours() for card in tour["cards"]]
@@ -28,7 +28,7 @@ def done(task: dict, goal) -> dict:
         last = len(task["motion"]["phases"]) - 1
         sum_of_others = sum(phase["angle"] for phase in task["motion"]["phases"][:last])
         changes[f"motion.phases[{last}].angle"] = 360 - sum_of_others - value + task["motion"]["phases"][0]["angle"]
-    return changed(task, changes)
+    return changed_task(task, changes)
 
 
 def test_there_are_four_tours_and_more_of_four_to_seven_cards():
@@ -101,7 +101,7 @@ def test_the_scales_follow_from_one_another_as_the_cards_say():
 
 
 def test_the_page_gets_every_text_and_no_rest():
-    told = told_tours({"language": "en"})["tours"]
+    told = tours_answer({"language": "en"})["tours"]
     assert [tour["title"] for tour in told] == [tour["title"] for tour in tours()]
     assert not any("rests" in card for tour in told for card in tour["cards"])
     json.dumps(told, allow_nan=False)

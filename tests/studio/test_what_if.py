@@ -9,8 +9,15 @@ from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
 from graphcam.studio.engine import answer
-from graphcam.studio.task_paths import changed
-from graphcam.studio.what_if import DESIGNS, MOST_MEASURED, exact_design, sweep_answer, swept_sizes, with_size
+from graphcam.studio.task_paths import changed_task
+from graphcam.studio.what_if import (
+    DEFAULT_DESIGNS,
+    MAX_MEASURED_DESIGNS,
+    exact_design,
+    sweep_answer,
+    swept_sizes,
+    with_size,
+)
 
 
 def swept(name, path, **asked):
@@ -72,7 +79,7 @@ def test_curves_agree_with_a_sweep_of_designs():
 def test_the_present_design_has_the_values_of_its_solution(name):
     exact = solved(name).comparison.exact
     adopted = solved(name).chain
-    task = changed(plain_task(name), {"cam.prime_radius": adopted.prime_radius})
+    task = changed_task(plain_task(name), {"cam.prime_radius": adopted.prime_radius})
     found = exact_design(rebuilt(task))
     assert found["least_prime_radius"] == pytest.approx(exact["minimum_prime_radius"])
     assert found["curvature_radius"] == pytest.approx(exact["min_pitch_curvature_radius"])
@@ -91,13 +98,13 @@ def test_phases_stay_closed():
     solution = solved("coursework")
     for path in swept_sizes(solution):
         if path.startswith("motion"):
-            task = rebuilt(changed(plain_task("coursework"), with_size(solution, path, 40.0)))
+            task = rebuilt(changed_task(plain_task("coursework"), with_size(solution, path, 40.0)))
             assert math.fsum(phase.angle for phase in task.motion.phases) == pytest.approx(360)
 
 
 def test_counts():
-    assert len(swept("coursework", "follower.offset")["at"]) == DESIGNS
-    assert len(swept("measured", "follower.offset", quantities=["least_prime_radius"])["at"]) == MOST_MEASURED
+    assert len(swept("coursework", "follower.offset")["at"]) == DEFAULT_DESIGNS
+    assert len(swept("measured", "follower.offset", quantities=["least_prime_radius"])["at"]) == MAX_MEASURED_DESIGNS
 
 
 def test_only_what_is_asked_for_is_told():

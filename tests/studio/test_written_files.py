@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import graphcam as gc
-from graphcam.studio.local_studio import KINDS, WrittenFiles
+from graphcam.studio.local_studio import FILES_BY_CHOICE, WrittenFiles
 from graphcam.studio.task_text import built_in_tasks, plain_task
 
 TASK = plain_task(gc.builtin_task())
@@ -58,7 +58,7 @@ def test_the_notebook_has_a_folder_of_its_own_as_from_the_command(tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", FILES_BY_CHOICE)
 @pytest.mark.parametrize("name", ["coursework", "arcs"])
 def test_every_kind_of_file_is_written(tmp_path, kind, name):
     written = WrittenFiles(tmp_path).write({"kind": kind, "task": built_in_tasks()[name]})

@@ -9,7 +9,7 @@ from json import dumps, loads
 import numpy as np
 
 import graphcam as gc
-from graphcam.studio.task_paths import changed
+from graphcam.studio.task_paths import changed_task
 from graphcam.tasks.task_file import task_of
 
 FALLEN, SAME = -1, 0
@@ -37,14 +37,14 @@ def facts(task: dict) -> dict[str, float]:
 
 def trend(task: dict, rests: dict) -> int:
     """Whether a quantity grows (1), stays (0) or falls (-1) with the changes of a card."""
-    before, after = (facts(each)[rests["quantity"]] for each in (task, changed(task, rests["with"])))
+    before, after = (facts(each)[rests["quantity"]] for each in (task, changed_task(task, rests["with"])))
     return 0 if math.isclose(before, after, rel_tol=ALIKE) else int(np.sign(after - before))
 
 
 def right_choice(task: dict, card: dict) -> int:
     """Which choice of a card is right."""
     rests = card["rests"]
-    after = facts(changed(task, rests.get("with", {})))
+    after = facts(changed_task(task, rests.get("with", {})))
     if "each" in rests:
         moved = [not math.isclose(facts(task)[name], after[name], rel_tol=ALIKE) for name in rests["each"]]
         return moved.index(rests["which"] == "changes") if moved.count(rests["which"] == "changes") == 1 else -1

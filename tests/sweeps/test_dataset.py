@@ -21,12 +21,12 @@ from pyarrow import dataset as arrow_dataset
 from typer.testing import CliRunner
 
 from graphcam.cli import app
-from graphcam.cli.shared import WRONG_INPUT
+from graphcam.cli.shared import INPUT_ERROR_STATUS
 from graphcam.files import OutputError
 from graphcam.sweeps import dataset
-from graphcam.sweeps.dataset import MANIFEST, parts_of, sweep_to_file, sweep_to_folder, write_part
+from graphcam.sweeps.dataset import MANIFEST_FILE, parts_of, sweep_to_file, sweep_to_folder, write_part
+from graphcam.sweeps.design_space import load_space
 from graphcam.sweeps.shared_folder import SharedFolder
-from graphcam.sweeps.space import load_space
 from graphcam.workers import WorkerPool, worker_pool
 
 SPACE = """
@@ -63,8 +63,8 @@ def space(tmp_path: Path) -> Path:
 @pytest.fixture
 def small_parts(monkeypatch: pytest.MonkeyPatch) -> None:
     """32 designs in seven parts, of one block each."""
-    monkeypatch.setattr(dataset, "PART", 5)
-    monkeypatch.setattr(dataset, "BLOCK", 5)
+    monkeypatch.setattr(dataset, "MAX_PART_DESIGNS", 5)
+    monkeypatch.setattr(dataset, "BLOCK_DESIGNS", 5)
 
 
 def threads(n: int) -> WorkerPool:
@@ -76,7 +76,7 @@ def run(*arguments: object):
 
 
 def manifest(folder: Path) -> dict:
-    return json.loads((folder / MANIFEST).read_text())
+    return json.loads((folder / MANIFEST_FILE).read_text())
 
 
 def sums(folder: Path) -> dict[str, str]:
@@ -181,10 +181,10 @@ def test_storage_without_folders_and_renames_holds_the_same(space, tmp_path):
     memory = fsspec.filesystem("memory")
     held = {path.rpartition("/")[2]: memory.cat_file(path) for path in memory.ls("/bucket/results", detail=False)}
     memory.rm("/bucket", recursive=True)
-    assert {name: hashlib.sha256(content).hexdigest() for name, content in held.items() if name != MANIFEST} == sums(
-        tmp_path / "out"
-    )
-    assert json.loads(held[MANIFEST])["whole"]
+    assert {
+        name: hashlib.sha256(content).hexdigest() for name, content in held.items() if name != MANIFEST_FILE
+    } == sums(tmp_path / "out")
+    assert json.loads(held[MANIFEST_FILE])["whole"]
 
 
 def test_a_small_space_has_parts_for_many_workers():
@@ -215,20 +215,20 @@ def test_a_million_million_designs_have_a_small_manifest_and_no_gap():
 def test_a_folder_of_another_space_is_refused_by_name(space, tmp_path, old, new, named):
     out = tmp_path / "out"
     sweep_to_folder(load_space(space), str(out), threads(1))
-    before = (out / MANIFEST).read_bytes()
+    before = (out / MANIFEST_FILE).read_bytes()
     space.write_text(SPACE.replace(old, new))
     result = run(space, "--out", out)
-    assert (result.exit_code, len(result.stderr.splitlines())) == (WRONG_INPUT, 1)
+    assert (result.exit_code, len(result.stderr.splitlines())) == (INPUT_ERROR_STATUS, 1)
     assert f"of another sweep: {named} differs" in result.stderr
-    assert (out / MANIFEST).read_bytes() == before
+    assert (out / MANIFEST_FILE).read_bytes() == before
 
 
 def test_a_folder_of_another_version_is_refused(space, tmp_path):
     out = tmp_path / "out"
     sweep_to_folder(load_space(space), str(out), threads(1))
-    (out / MANIFEST).write_text(json.dumps(manifest(out) | {"graphcam": "0.0.1"}))
+    (out / MANIFEST_FILE).write_text(json.dumps(manifest(out) | {"graphcam": "0.0.1"}))
     result = run(space, "--out", out)
-    assert (result.exit_code, len(result.stderr.splitlines())) == (WRONG_INPUT, 1)
+    assert (result.exit_code, len(result.stderr.splitlines())) == (INPUT_ERROR_STATUS, 1)
     assert "graphcam differs" in result.stderr
 
 
@@ -236,15 +236,15 @@ def test_a_folder_of_another_version_is_refused(space, tmp_path):
     ("name", "content", "message"),
     [
         ("notes.txt", "mine", "it holds other files, such as notes.txt"),
-        (MANIFEST, "{", "is no JSON"),
-        (MANIFEST, "[]", "form"),
+        (MANIFEST_FILE, "{", "is no JSON"),
+        (MANIFEST_FILE, "[]", "form"),
     ],
 )
 def test_a_folder_that_holds_something_else_is_left_alone(space, tmp_path, name, content, message):
     (tmp_path / "out").mkdir()
     (tmp_path / "out" / name).write_text(content)
     result = run(space, "--out", tmp_path / "out")
-    assert (result.exit_code, len(result.stderr.splitlines())) == (WRONG_INPUT, 1)
+    assert (result.exit_code, len(result.stderr.splitlines())) == (INPUT_ERROR_STATUS, 1)
     assert message in result.stderr
     assert [(path.name, path.read_text()) for path in (tmp_path / "out").iterdir()] == [(name, content)]
 
@@ -259,7 +259,7 @@ def test_a_folder_that_holds_something_else_is_left_alone(space, tmp_path, name,
 def test_what_is_not_installed_is_named_with_its_extra(space, tmp_path, monkeypatch, missing, option, message):
     monkeypatch.setitem(sys.modules, missing, None)
     result = run(space, "--out", tmp_path / "out", *option)
-    assert (result.exit_code, len(result.stderr.splitlines())) == (WRONG_INPUT, 1)
+    assert (result.exit_code, len(result.stderr.splitlines())) == (INPUT_ERROR_STATUS, 1)
     assert message in result.stderr
     assert [path.name for path in tmp_path.iterdir()] == ["space.toml"]
 
@@ -273,16 +273,16 @@ def test_a_worker_without_pyarrow_is_told(space, tmp_path, monkeypatch):
 @pytest.mark.filterwarnings("ignore")  # of the client that gives up
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nowhere://there"])
 def test_a_scheduler_that_does_not_answer_is_told_within_seconds(space, tmp_path, monkeypatch, address):
-    monkeypatch.setattr("graphcam.workers.ANSWERED_WITHIN", 0.5)
+    monkeypatch.setattr("graphcam.workers.SCHEDULER_SECONDS", 0.5)
     result = run(space, "--out", tmp_path / "out", "--cluster", address)
-    assert result.exit_code == WRONG_INPUT
+    assert result.exit_code == INPUT_ERROR_STATUS
     assert f"no dask scheduler answers at '{address}'" in result.stderr
     assert not (tmp_path / "out").exists()
 
 
 def test_a_cluster_writes_no_single_file(space, tmp_path):
     result = run(space, "--out", tmp_path / "out.csv", "--cluster", "tcp://127.0.0.1:9")
-    assert (result.exit_code, len(result.stderr.splitlines())) == (WRONG_INPUT, 1)
+    assert (result.exit_code, len(result.stderr.splitlines())) == (INPUT_ERROR_STATUS, 1)
     assert "leave out the ending" in result.stderr
 
 
@@ -372,7 +372,7 @@ main()
 """
     command = [sys.executable, "-c", script, "sweep", str(space), "--out", str(out), "--workers", "2"]
     first = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    until(lambda: (out / MANIFEST).exists() and recorded(out))
+    until(lambda: (out / MANIFEST_FILE).exists() and recorded(out))
     first.kill()
     first.wait()
     before = recorded(out)

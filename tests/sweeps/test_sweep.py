@@ -16,7 +16,7 @@ from reference import EPS, ReferenceArm, ReferenceCam, maximum
 
 import graphcam as gc
 from graphcam.errors import DesignError
-from graphcam.mechanism.stationary import max_acceleration, max_velocity
+from graphcam.mechanism.turn_extremes import max_acceleration, max_velocity
 from graphcam.sweeps import sweep_quantities as asked
 from graphcam.sweeps.sweep import CHUNKS_PER_JOB, JOBS_AHEAD
 from graphcam.sweeps.sweep_quantities import QUANTITIES
@@ -312,15 +312,15 @@ def test_only_what_is_asked_is_computed(monkeypatch):
     def forbidden(*_):
         raise AssertionError("a search where none is needed")
 
-    monkeypatch.setattr(asked, "greatest", forbidden)
+    monkeypatch.setattr(asked, "leg_maxima", forbidden)
     assert gc.sweep(some_designs(5), ["max_v", "max_a"]).keys() == {"max_v", "max_a"}
     with pytest.raises(AssertionError):
         gc.sweep(some_designs(5), ["max_pressure_angle_rise"])
 
 
 def test_the_least_radius_is_searched_once_for_two_quantities(monkeypatch):
-    calls, search = [], asked.greatest
-    monkeypatch.setattr(asked, "greatest", lambda *given: calls.append(1) or search(*given))
+    calls, search = [], asked.leg_maxima
+    monkeypatch.setattr(asked, "leg_maxima", lambda *given: calls.append(1) or search(*given))
     designs = gc.Designs(lift=30, rise_angle=2.0, return_angle=1.6, prime_radius=50)
     gc.sweep(designs, QUANTITIES)
     assert len(calls) == 4  # a rise and a return, of pressure angle and curvature

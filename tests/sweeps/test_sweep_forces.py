@@ -10,7 +10,7 @@ import pytest
 from sweeps.test_sweep import same_bits, some_arms, some_designs
 
 import graphcam as gc
-from graphcam.sweeps.sweep_forces import FORCES
+from graphcam.sweeps.sweep_forces import FORCE_QUANTITIES
 
 SLIDING = gc.SpringLoad(mass=0.3, speed_rpm=250, stiffness=3, preload=120, acceleration=20, load=15)
 TORSION = gc.ArmLoad(inertia=900, speed_rpm=250, stiffness=4000, preload=9000, acceleration=-20, load=5)
@@ -38,7 +38,7 @@ EVERY = pytest.mark.parametrize("case", CASES)
 def one_by_one(designs: gc.Designs, load, friction: float) -> dict[str, np.ndarray]:
     rows = []
     for k in range(len(designs)):
-        row = dict.fromkeys(FORCES, math.nan)
+        row = dict.fromkeys(FORCE_QUANTITIES, math.nan)
         try:
             cam = designs.cam(k)
             row["jamming_margin"] = gc.jamming_margin(cam, friction).value
@@ -48,16 +48,19 @@ def one_by_one(designs: gc.Designs, load, friction: float) -> dict[str, np.ndarr
             row["max_torque"] = forces.greatest_torque().value
         except gc.DesignError as error:
             if error.quantity == "at.anchor":
-                row = dict.fromkeys(FORCES, math.nan)
+                row = dict.fromkeys(FORCE_QUANTITIES, math.nan)
         rows.append(row)
-    return {name: np.array([row[name] for row in rows]) for name in FORCES}
+    return {name: np.array([row[name] for row in rows]) for name in FORCE_QUANTITIES}
 
 
 @pytest.mark.parametrize(("case", "friction"), [*((case, 0.15) for case in CASES), ("sliding", 0.0)])
 def test_every_force_is_that_of_its_cam(case, friction):
     designs, load = CASES[case]
-    found, there = gc.sweep(designs, FORCES, load=load, friction=friction), one_by_one(designs, load, friction)
-    for name in FORCES:
+    found, there = (
+        gc.sweep(designs, FORCE_QUANTITIES, load=load, friction=friction),
+        one_by_one(designs, load, friction),
+    )
+    for name in FORCE_QUANTITIES:
         same = np.isnan(there[name]) == np.isnan(found[name])
         assert same.all(), (name, np.flatnonzero(~same))
         known = ~np.isnan(there[name])
@@ -69,8 +72,8 @@ def test_every_force_is_that_of_its_cam(case, friction):
 @EVERY
 def test_the_bits_depend_on_no_chunk(case):
     designs, load = CASES[case]
-    whole = gc.sweep(designs, FORCES, load=load, friction=0.1)
-    assert same_bits(whole, gc.sweep(designs, FORCES, load=load, friction=0.1, chunk=7))
+    whole = gc.sweep(designs, FORCE_QUANTITIES, load=load, friction=0.1)
+    assert same_bits(whole, gc.sweep(designs, FORCE_QUANTITIES, load=load, friction=0.1, chunk=7))
 
 
 @pytest.mark.parametrize(

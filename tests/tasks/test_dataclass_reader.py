@@ -12,7 +12,7 @@ from graphcam.errors import DesignError
 from graphcam.tasks.dataclass_reader import (
     ByKind,
     Misfit,
-    Missing,
+    MissingKey,
     UnknownKey,
     UnknownKind,
     WrongType,
@@ -93,18 +93,18 @@ REFUSED = {
     "a number for a switch": ("switch", 1, [WrongType(("switch",), "true or false")]),
     "none of a few": ("step", 3, [WrongType(("step",), "1, 2 or 5")]),
     "true for one of a few": ("step", True, [WrongType(("step",), "1, 2 or 5")]),
-    "half a pair": ("pair", ["a"], [WrongType(("pair", 0), NUMBER), Missing(("pair", 1))]),
+    "half a pair": ("pair", ["a"], [WrongType(("pair", 0), NUMBER), MissingKey(("pair", 1))]),
     "more than a pair": ("pair", [1, "a", 3], [WrongType(("pair",), "a list of 2")]),
     "a table for a list": ("row", {}, [WrongType(("row",), "a list")]),
     "a broken number in a list": ("row", [1, 2.5], [WrongType(("row", 1), WHOLE)]),
     "neither of two": ("either", [1], [WrongType(("either",), f"{NUMBER} or text in quotes")]),
-    "nearly one of two": ("spread", [1], [Missing(("spread", 1))]),
+    "nearly one of two": ("spread", [1], [MissingKey(("spread", 1))]),
     "a list for a table": ("counts", [], [WrongType(("counts",), "a table")]),
     "text in a table of numbers": ("counts", {"v": "a"}, [WrongType(("counts", "v"), WHOLE)]),
     "a number for a table by its kind": ("follower", 3, [WrongType(("follower",), "a table")]),
     "no kind": ("follower", {}, [UnknownKind(("follower",))]),
     "a list for a kind": ("follower", {"kind": []}, [UnknownKind(("follower",))]),
-    "a kind without its key": ("follower", {"kind": "arm"}, [Missing(("follower", "arm", "length"))]),
+    "a kind without its key": ("follower", {"kind": "arm"}, [MissingKey(("follower", "arm", "length"))]),
     "a key of another kind": (
         "follower", {"kind": "stem", "length": 3}, [UnknownKey(("follower", "stem", "length"))],
     ),
@@ -129,7 +129,7 @@ def test_every_table_is_read_even_if_another_is_wrong():
     assert whole == WrongType(("whole",), WHOLE)
     assert isinstance(first, Misfit)
     assert (first.place, first.error.value) == (("arms", 0), -3)
-    assert (third, fourth) == (Missing(("arms", 2, "length")), WrongType(("arms", 3), "a table"))
+    assert (third, fourth) == (MissingKey(("arms", 2, "length")), WrongType(("arms", 3), "a table"))
     assert unknown == UnknownKey(("foo",))
 
 

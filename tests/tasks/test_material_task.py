@@ -16,7 +16,7 @@ import graphcam as gc
 from graphcam.report.documents import note_of, sheet_of
 from graphcam.sheets.model import Stroke, Text
 from graphcam.tasks.material_table import MaterialTable
-from graphcam.tasks.sheet_tables import plain
+from graphcam.tasks.sheet_tables import plain_data
 from graphcam.tasks.task_file import builtin_text, task_from
 
 TRANSLATING = """
@@ -206,7 +206,7 @@ def test_in_russian_no_english_word_is_left(tmp_path):
 def test_the_table_is_written_as_it_was_read(tmp_path):
     task = loaded(tmp_path, TRANSLATING + MATERIAL + "permitted_stress = 1000\n")
     assert task_from(task.to_dict()) == task
-    assert plain(task.material)["young_follower"] == 206000.0
+    assert plain_data(task.material)["young_follower"] == 206000.0
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from typer.testing import CliRunner
 
 import graphcam
 from graphcam.cli import app
-from graphcam.cli.shared import WRONG_INPUT
+from graphcam.cli.shared import INPUT_ERROR_STATUS
 from graphcam.errors import DesignError, TaskError
 from graphcam.given.measured import IntegratedMotion, MeasuredMotion
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
@@ -140,7 +140,7 @@ def test_a_table_that_is_missing_is_named_beside_its_task(tmp_path, monkeypatch)
     place(tmp_path, None, TASK.replace("measured.csv", "motion.csv"))
     monkeypatch.chdir(tmp_path)
     result = CliRunner().invoke(app, ["solve", "cam.toml"])
-    assert (result.exit_code, result.stdout) == (WRONG_INPUT, "")
+    assert (result.exit_code, result.stdout) == (INPUT_ERROR_STATUS, "")
     assert result.stderr == "graphcam: there is no file motion.csv beside cam.toml; check motion.table\n"
     assert [entry.name for entry in tmp_path.iterdir()] == ["cam.toml"]
 
@@ -190,7 +190,7 @@ def test_a_fault_of_a_table_gets_one_message_and_leaves_nothing(fault, tmp_path)
     path = place(tmp_path, text)
     before = sorted(entry.name for entry in tmp_path.iterdir())
     result = CliRunner().invoke(app, ["solve", str(path), "--out", str(tmp_path / "out")])
-    assert result.exit_code == WRONG_INPUT
+    assert result.exit_code == INPUT_ERROR_STATUS
     assert result.stdout == ""
     message = result.stderr.removesuffix("\n")
     assert "\n" not in message

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 import graphcam as gc
 from graphcam.cli import app
 from graphcam.errors import GraphcamError
-from graphcam.sweeps.space import load_space
+from graphcam.sweeps.design_space import load_space
 from graphcam.tasks.task_file import builtin_text
 
 HUGE = "9" * 400

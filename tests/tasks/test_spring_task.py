@@ -13,7 +13,7 @@ import pytest
 import graphcam as gc
 from graphcam.constructions.pressure_angle import shown_station
 from graphcam.drafting.marks import Dots, Line, Role
-from graphcam.mechanism.stationary import TurnCurve, ValueAt
+from graphcam.mechanism.turn_extremes import TurnCurve, ValueAt
 from graphcam.report.documents import sheet_of
 from graphcam.sheets.model import Stroke, Text
 from graphcam.solving.turn_diagrams import TurnDiagram, diagram_step

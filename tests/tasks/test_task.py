@@ -25,7 +25,7 @@ from graphcam.tasks.task import (
     TitleTable,
     TranslatingTable,
 )
-from graphcam.tasks.task_file import BUILT_IN, builtin_task, builtin_text, load_task
+from graphcam.tasks.task_file import BUILTIN_TASK_NAMES, builtin_task, builtin_text, load_task
 
 UP_AND_DOWN = MotionTable((RiseTable(120, 30, "3-4-5"), ReturnTable(240, 30, "cosine")))
 
@@ -53,7 +53,7 @@ def test_the_coursework_mirrors_its_file():
     assert task.drawing == DrawingTable("A1", "gost", "en", 12, 50, (40, 40), None)
 
 
-@pytest.mark.parametrize("name", BUILT_IN)
+@pytest.mark.parametrize("name", BUILTIN_TASK_NAMES)
 def test_a_task_says_what_its_file_says(name):
     said = builtin_task(name).to_dict()
 

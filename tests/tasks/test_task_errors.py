@@ -12,7 +12,7 @@ from russian import english_words
 from typer.testing import CliRunner
 
 from graphcam.cli import app
-from graphcam.cli.shared import WRONG_INPUT
+from graphcam.cli.shared import INPUT_ERROR_STATUS
 from graphcam.errors import TaskError
 from graphcam.language import language, languages
 from graphcam.tasks.task_file import _CLASSES as CLASSES, _keys as keys_of, builtin_text, load_task
@@ -190,7 +190,7 @@ def test_a_fault_is_named_with_its_remedy(fault, tmp_path):
 def test_the_command_line_says_it_once_and_leaves_nothing(fault, tmp_path):
     path = file_with(fault, tmp_path)
     result = CliRunner().invoke(app, ["solve", str(path), "--out", str(tmp_path / "out")])
-    assert result.exit_code == WRONG_INPUT
+    assert result.exit_code == INPUT_ERROR_STATUS
     assert result.stdout == ""
     assert result.stderr == f"graphcam: {error_of(path)}\n"
     assert [entry.name for entry in tmp_path.iterdir()] == ["cam.toml"]
@@ -252,7 +252,7 @@ def test_a_path_that_is_no_file(name, words, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "cam.toml").write_text(WHOLE)
     result = CliRunner().invoke(app, ["solve", name])
-    assert result.exit_code == WRONG_INPUT
+    assert result.exit_code == INPUT_ERROR_STATUS
     check(result.stderr.strip(), "the task file", words)
     assert [entry.name for entry in tmp_path.iterdir()] == ["cam.toml"]
 
@@ -260,7 +260,7 @@ def test_a_path_that_is_no_file(name, words, tmp_path, monkeypatch):
 def test_a_task_file_that_is_missing_is_named_with_what_makes_one(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     result = CliRunner().invoke(app, ["solve", "nowhere.toml"])
-    assert (result.exit_code, result.stdout) == (WRONG_INPUT, "")
+    assert (result.exit_code, result.stdout) == (INPUT_ERROR_STATUS, "")
     example = "'graphcam init FILE' writes a commented example"
     assert result.stderr == f"graphcam: there is no file nowhere.toml; check the name; {example}\n"
     assert list(tmp_path.iterdir()) == []
@@ -270,7 +270,7 @@ def test_a_limit_that_was_meant_in_radians_is_asked_about(tmp_path):
     path = tmp_path / "cam.toml"
     path.write_text(builtin_text("coursework").replace("angle_rise = 30", "angle_rise = 0.52"), encoding="utf-8")
     result = CliRunner().invoke(app, ["solve", str(path), "--out", str(tmp_path / "out")])
-    assert result.exit_code == WRONG_INPUT
+    assert result.exit_code == INPUT_ERROR_STATUS
     assert "permitted pressure angle on the rise is 0.52 degrees" in result.stderr
     assert result.stderr.endswith("; 30 degrees? 0.52 was given; or give cam.prime_radius\n")
 
@@ -300,7 +300,7 @@ def test_the_program_ends_with_one_line_and_status_2(fault, tmp_path):
     done = subprocess.run(
         [sys.executable, "-m", "graphcam", "solve", path], cwd=tmp_path, capture_output=True, text=True, check=False
     )
-    assert done.returncode == WRONG_INPUT
+    assert done.returncode == INPUT_ERROR_STATUS
     assert done.stdout == ""
     assert done.stderr == f"graphcam: {error_of(path)}\n"
     assert [entry.name for entry in tmp_path.iterdir()] == ["cam.toml"]

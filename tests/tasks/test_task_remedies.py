@@ -11,8 +11,8 @@ from typer.testing import CliRunner
 import graphcam as gc
 from graphcam.cli import app
 from graphcam.errors import TaskError
-from graphcam.given.follower import SENSES
-from graphcam.given.laws import LAW_WORDS
+from graphcam.given.follower import SENSE_SYNONYMS
+from graphcam.given.laws import LAW_SYNONYMS
 from graphcam.language import language, languages
 from graphcam.tasks.task_file import builtin_text, load_task
 
@@ -60,17 +60,17 @@ def test_a_law_by_another_name_is_suggested_and_not_taken(called, name, tmp_path
 
 @pytest.mark.parametrize("spoken", [name for name in languages() if name != "en"])
 def test_the_caption_of_every_law_suggests_the_law(spoken):
-    captions = {name: language(spoken).catalog.say(name, "") for name in LAW_WORDS}
-    assert {name: said for name, said in captions.items() if said not in {name, *LAW_WORDS[name]}} == {}
+    captions = {name: language(spoken).catalog.say(name, "") for name in LAW_SYNONYMS}
+    assert {name: said for name, said in captions.items() if said not in {name, *LAW_SYNONYMS[name]}} == {}
 
 
 def test_the_words_for_laws_are_those_of_laws_and_no_two_laws_share_one():
-    assert {*LAW_WORDS} == {*gc.LAWS, "constant-velocity"}
-    words = [word.casefold() for called in LAW_WORDS.values() for word in called]
+    assert {*LAW_SYNONYMS} == {*gc.LAWS, "constant-velocity"}
+    words = [word.casefold() for called in LAW_SYNONYMS.values() for word in called]
     assert len(words) == len(set(words))
 
 
-@pytest.mark.parametrize(("called", "name"), [(word, name) for name, words in SENSES.items() for word in words])
+@pytest.mark.parametrize(("called", "name"), [(word, name) for name, words in SENSE_SYNONYMS.items() for word in words])
 def test_a_sense_in_words_is_told_as_its_value(called, name, tmp_path):
     assert refusal(tmp_path, '"cw"', f'"{called}"').remedy == f"did you mean '{name}'?"
 

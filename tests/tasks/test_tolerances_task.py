@@ -15,7 +15,7 @@ from russian import english_words
 import graphcam as gc
 from graphcam.report.documents import note_of, sheet_of
 from graphcam.sheets.model import Stroke, Text
-from graphcam.tasks.sheet_tables import plain
+from graphcam.tasks.sheet_tables import plain_data
 from graphcam.tasks.task_file import builtin_text, task_from
 from graphcam.tasks.task_writer import task_files
 from graphcam.workshop.part_contents import PartContents
@@ -115,7 +115,7 @@ def test_a_task_goes_through_its_file(tmp_path):
     assert task_from(task.to_dict()) == task
     (tmp_path / "again.toml").write_text(task_files(task)["task.toml"], encoding="utf-8")
     assert gc.load_task(tmp_path / "again.toml") == task
-    assert plain(task.tolerances)["harmonics"] == [3, 24]
+    assert plain_data(task.tolerances)["harmonics"] == [3, 24]
 
 
 @pytest.mark.parametrize(

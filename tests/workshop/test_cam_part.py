@@ -14,7 +14,7 @@ from graphcam.errors import DesignError, TaskError
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task_file import builtin_text
 from graphcam.tasks.task_writer import task_files
-from graphcam.workshop.cam_part import LEAST_WALL, cam_part
+from graphcam.workshop.cam_part import MIN_WALL, cam_part
 from graphcam.workshop.limits_and_fits import standard_diameters
 from graphcam.workshop.part_contents import PartContents
 
@@ -113,7 +113,7 @@ def test_mass_by_a_sum_over_a_fine_grid() -> None:
 
 def test_the_least_wall_is_just_allowed() -> None:
     part = cam_part(PartTable(bore=20), "iso", 27)
-    least = part.keyway_top + LEAST_WALL * 20
+    least = part.keyway_top + MIN_WALL * 20
     assert cam_part(PartTable(bore=20), "iso", least).bore == 20
     with pytest.raises(DesignError, match="bore is"):
         cam_part(PartTable(bore=20), "iso", least - 0.001)

@@ -19,7 +19,7 @@ import graphcam as gc
 from graphcam.errors import DesignError
 from graphcam.given.follower import FlatFaced, Oscillating, Translating
 from graphcam.workshop.cutter_path import cutting_program
-from graphcam.workshop.outline import of_cam, outline_of
+from graphcam.workshop.part_outline import of_cam, outline_of
 
 WORD = re.compile(r"([A-Z])(-?\d+(?:\.\d+)?)")
 RADII_AGREE = 0.0005

@@ -8,7 +8,7 @@ import pytest
 import graphcam as gc
 from graphcam.errors import DesignError
 from graphcam.tasks.part_table import PartTable
-from graphcam.workshop.outline import of_cam, outline_of
+from graphcam.workshop.part_outline import of_cam, outline_of
 from graphcam.workshop.polar_table import PolarCurve, PolarTable, polar_table
 
 FINE = np.linspace(0, 2 * np.pi, 200_001)

@@ -13,8 +13,8 @@ from numpy.testing import assert_allclose
 from graphcam.given.follower import Translating
 from graphcam.given.motion import Dwell, Motion, Return, Rise
 from graphcam.mechanism.cam import Cam
-from graphcam.mechanism.spline import profile_spline
-from graphcam.workshop.profile_files import POINTS, write_curves
+from graphcam.mechanism.profile_spline import profile_spline
+from graphcam.workshop.profile_files import PROFILE_POINTS, write_curves
 
 DEG = math.pi / 180
 MOTION = Motion([Rise(30, 60 * DEG), Dwell(30 * DEG), Return(30, 60 * DEG), Dwell(210 * DEG)])
@@ -31,11 +31,11 @@ def test_the_table_holds_the_profile_and_its_polar_coordinates(cam, tmp_path):
     write_curves(cam, profile_spline(cam, trimmed=True), tmp_path)
     with (tmp_path / "profile.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))
-    assert len(rows) == POINTS
+    assert len(rows) == PROFILE_POINTS
     phi, x, y, radius, angle = (
         np.array([float(row[name]) for row in rows]) for name in ("phi_deg", "x", "y", "radius", "angle_deg")
     )
-    assert_allclose(np.stack([x, y], axis=1), cam.trimmed_profile(POINTS), rtol=0, atol=LAST_DIGIT)
+    assert_allclose(np.stack([x, y], axis=1), cam.trimmed_profile(PROFILE_POINTS), rtol=0, atol=LAST_DIGIT)
     assert_allclose(radius * np.exp(1j * angle * DEG), x + 1j * y, rtol=0, atol=1e-8)
     assert_allclose(np.stack([x, y], axis=1), cam.profile(phi * DEG), rtol=0, atol=1e-8)  # a corner is on its branch
 
@@ -44,10 +44,10 @@ def test_the_curve_file_is_closed_and_flat(cam, tmp_path):
     write_curves(cam, profile_spline(cam, trimmed=True), tmp_path)
     lines = (tmp_path / "profile.xyz").read_text(encoding="ascii").splitlines()
     points = np.array([[float(number) for number in line.split("\t")] for line in lines])
-    assert points.shape == (POINTS + 1, 3)
+    assert points.shape == (PROFILE_POINTS + 1, 3)
     assert np.all(points[:, 2] == 0)
     assert lines[0] == lines[-1]
-    assert_allclose(points[:-1, :2], cam.trimmed_profile(POINTS), rtol=0, atol=LAST_DIGIT)
+    assert_allclose(points[:-1, :2], cam.trimmed_profile(PROFILE_POINTS), rtol=0, atol=LAST_DIGIT)
 
 
 def test_the_dxf_holds_one_clamped_spline_in_mm(cam, tmp_path):

@@ -15,12 +15,12 @@ from test_spline import along, greatest_distance, sized
 
 import graphcam as gc
 from graphcam.given.follower import Translating
-from graphcam.mechanism.spline import profile_spline
+from graphcam.mechanism.profile_spline import profile_spline
 from graphcam.tasks.part_table import PartTable
 from graphcam.workshop.cam_part import CamPart, cam_part
 from graphcam.workshop.cutting_files import solid_text
-from graphcam.workshop.outline import of_cam
 from graphcam.workshop.part_contents import PartContents
+from graphcam.workshop.part_outline import of_cam
 from graphcam.workshop.plane_loops import spline_loop
 from graphcam.workshop.solid import solid_file
 

@@ -22,14 +22,14 @@ from graphcam.errors import DesignError
 from graphcam.language import language
 from graphcam.report.output_folder import write
 from graphcam.sheets.cad_renderer import write_cad
-from graphcam.sheets.model import Curve, Drawing, Heads, Length, Stroke, Strokes, Text
+from graphcam.sheets.model import ArrowHeads, Curve, Drawing, Length, Stroke, Strokes, Text
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import TranslatingTable
-from graphcam.workshop.outline import outline_of
 from graphcam.workshop.part_contents import PartContents
 from graphcam.workshop.part_layout import standard_ratios
+from graphcam.workshop.part_outline import outline_of
 from graphcam.workshop.working_drawing import working_drawing_of
 
 NAMES = ("coursework", "arm", "flat", "measured", "arcs")
@@ -223,7 +223,7 @@ def test_lines_to_the_side_of_an_undercut_cam_end_on_what_is_seen_of_it() -> Non
     drawing = working_drawing_of(PartContents(gc.solve(undercut_task())))
     origin = drawing.pages[0].origins["section"]
     (section,) = [g for g in drawing.pages[0].groups if g.name == "section"]
-    heads = np.concatenate([e.corners for e in section.entities if isinstance(e, Heads)]) - origin
+    heads = np.concatenate([e.corners for e in section.entities if isinstance(e, ArrowHeads)]) - origin
     # From the left; those of the width come from the right.
     on_side = heads[(np.abs(heads[:, 0].real) < 1e-6) & (heads[:, 1].real < 0), 0]
     edges = strokes(drawing, "section", Role.RESULT) - origin
@@ -303,5 +303,5 @@ def test_a_zero_mark_in_an_undercut_is_not_said_to_be_met() -> None:
 def test_a_built_in_task_is_called_in_the_language_of_the_sheet(name: str) -> None:
     """What a Russian sheet says in its title block has no Latin letter."""
     title = solved(name, language="ru").task.title
-    assert re.fullmatch(r"[А-Яа-яё ]+", title.told_name(language("ru").text))
-    assert title.told_name(str) == title.name
+    assert re.fullmatch(r"[А-Яа-яё ]+", title.translated_name(language("ru").text))
+    assert title.translated_name(str) == title.name

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.errors import MissingFileError, TaskError, unreadable
-from graphcam.exercises.course.roster import Student, folder_name, is_cut, read_roster, student_of
+from graphcam.exercises.course.roster import Student, folder_name, is_shortened, read_roster, student_of
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.key.answer_key import AnswerKey
@@ -20,23 +20,23 @@ from graphcam.files import OutputError
 from graphcam.language import ENGLISH
 from graphcam.words import Caption, say, sequence
 
-STUDENTS, TEACHER = "students", "teacher"
+STUDENTS_FOLDER, TEACHER_FOLDER = "students", "teacher"
 """The two folders that 'exercise make' writes; the first may be handed out as it is."""
-SUBMITTED = "submitted"
+SUBMITTED_FOLDER = "submitted"
 """The folder where nbgrader collects: one for every student, and in it one for every assignment."""
-PRINTED = "printed"
+PRINTED_FOLDER = "printed"
 """The teacher's folder of what a reader of photographs must know of the printed pages of every worksheet."""
-COURSE = "course.json"
+COURSE_FILE = "course.json"
 """The teacher's file of what the course is about."""
-KEPT = "certificates"
+ANSWER_KEYS_FOLDER = "certificates"
 """The folder of answer keys in the teacher's folder, or the hidden one."""
-ROSTER = "roster.csv"
+ROSTER_FILE = "roster.csv"
 """The teacher's copy of the roster that the course was made for."""
-SECRET = "secret"
+SECRET_FILE = "secret"
 """The teacher's file of the course's secret, if graphcam made it."""
-KEYS = "keys.csv"
+KEYS_FILE = "keys.csv"
 """The teacher's table of all answer keys."""
-HIDDEN = ".graphcam"
+HIDDEN_FOLDER = ".graphcam"
 """The folder of answer keys in a course made otherwise; no student's folder has a name that begins with a point."""
 
 
@@ -56,8 +56,8 @@ class CourseThereError(OutputError):
     """
 
     def __init__(self, path: str | Path) -> None:
-        teacher, remedy = Path(path, TEACHER), say("choose another folder")
-        secret = teacher / SECRET
+        teacher, remedy = Path(path, TEACHER_FOLDER), say("choose another folder")
+        secret = teacher / SECRET_FILE
         if secret.is_file():
             remedy = KEEP.where(secret=str(secret), teacher=str(teacher))
         super().__init__(path, say("it already holds a course"), remedy)
@@ -77,17 +77,19 @@ class AnswerKeys:
     @staticmethod
     def of(course: Path) -> tuple[Path, AnswerKeys]:
         """The place of a course's submissions, and of its answer keys: beside them if graphcam made the course."""
-        for submissions in (STUDENTS, SUBMITTED):
+        for submissions in (STUDENTS_FOLDER, SUBMITTED_FOLDER):
             # Students may have any name, and hand in what they like.
-            if (course / submissions).is_dir() and (course / TEACHER / COURSE).is_file():
-                return course / submissions, AnswerKeys(course / TEACHER)
-        if _alone(course, STUDENTS):
-            return course / STUDENTS, AnswerKeys(course / HIDDEN)
-        beside = course.resolve().parent / TEACHER
+            if (course / submissions).is_dir() and (course / TEACHER_FOLDER / COURSE_FILE).is_file():
+                return course / submissions, AnswerKeys(course / TEACHER_FOLDER)
+        if _alone(course, STUDENTS_FOLDER):
+            return course / STUDENTS_FOLDER, AnswerKeys(course / HIDDEN_FOLDER)
+        beside = course.resolve().parent / TEACHER_FOLDER
         # What a learning system packed may have any name.
-        if (beside / COURSE).is_file() or (course.resolve().name in (STUDENTS, SUBMITTED) and beside.is_dir()):
+        if (beside / COURSE_FILE).is_file() or (
+            course.resolve().name in (STUDENTS_FOLDER, SUBMITTED_FOLDER) and beside.is_dir()
+        ):
             return course, AnswerKeys(beside)
-        return course, AnswerKeys(course / HIDDEN)
+        return course, AnswerKeys(course / HIDDEN_FOLDER)
 
     def find(self, student: str) -> str:
         """A student's answer key as JSON; empty where there is none."""
@@ -98,10 +100,10 @@ class AnswerKeys:
 
     def student(self, place: str) -> str:
         """The student whose folder has this name; who had to be cut for it is named by the answer key."""
-        if not is_cut(place):
+        if not is_shortened(place):
             return student_of(place)
         try:
-            student = str(json.loads((self.folder / KEPT / f"{place}.json").read_bytes())["student"])
+            student = str(json.loads((self.folder / ANSWER_KEYS_FOLDER / f"{place}.json").read_bytes())["student"])
         except (OSError, ValueError, TypeError, KeyError):
             return student_of(place)
         return student if folder_name(student) == place else student_of(place)
@@ -113,11 +115,11 @@ class AnswerKeys:
         ------
         TaskError : the roster that was kept cannot be used any more
         """
-        if (self.folder / ROSTER).is_file():
-            return read_roster(self.folder / ROSTER)
+        if (self.folder / ROSTER_FILE).is_file():
+            return read_roster(self.folder / ROSTER_FILE)
         emails = self.course().get("emails", {})
         addresses = {student: email for email, student in emails.items()} if isinstance(emails, dict) else {}
-        found = sorted(self.student(path.stem) for path in (self.folder / KEPT).glob("*.json"))
+        found = sorted(self.student(path.stem) for path in (self.folder / ANSWER_KEYS_FOLDER).glob("*.json"))
         return [Student(student, email=str(addresses.get(student, ""))) for student in found]
 
     def keep(self, student: str, answer_key: str) -> None:
@@ -138,8 +140,8 @@ class AnswerKeys:
         """
         self.folder.mkdir(parents=True, exist_ok=True)
         (self.folder / exercise.name).write_bytes(exercise.read_bytes())
-        said = {"exercise": exercise.stem, "secret": _digest(secret), **said}
-        (self.folder / COURSE).write_text(json.dumps(said) + "\n", encoding="utf-8", newline="\n")
+        said = {"exercise": exercise.stem, "secret": _secret_digest(secret), **said}
+        (self.folder / COURSE_FILE).write_text(json.dumps(said) + "\n", encoding="utf-8", newline="\n")
 
     def exercise(self) -> str:
         """What the course is about, as ``find_exercise`` takes it; or empty.
@@ -162,7 +164,7 @@ class AnswerKeys:
         ------
         TaskError : the course was made with another one
         """
-        if self.course().get("secret", _digest(secret)) != _digest(secret):
+        if self.course().get("secret", _secret_digest(secret)) != _secret_digest(secret):
             remedy = say("name the file that 'graphcam exercise make' or 'export' was given")
             expected = say("the one that the course was made with")
             raise TaskError(str(path), say("the secret"), say("another one"), expected, remedy)
@@ -174,15 +176,15 @@ class AnswerKeys:
         ------
         TaskError : none is given, and this folder holds none
         """
-        path = self.folder / SECRET if given is None else given
+        path = self.folder / SECRET_FILE if given is None else given
         if given is None and not path.is_file():
-            if self.folder.name == HIDDEN:
+            if self.folder.name == HIDDEN_FOLDER:
                 remedy = say("name the file that the course was made with, by --secret-file")
                 what = say("the course's secret")
                 raise TaskError(str(self.folder.parent), what, say("missing"), say("given"), remedy)
             remedy = say("name the file that the course was made with, by --secret-file, or put a copy of it there")
-            if (self.folder / KEYS).is_file():
-                keys = say("{file} still has the keys for marking by hand", file=KEYS)
+            if (self.folder / KEYS_FILE).is_file():
+                keys = say("{file} still has the keys for marking by hand", file=KEYS_FILE)
                 remedy = sequence([remedy, keys], "; ")
             what = say("the course's secret")
             raise TaskError(str(path), what, say("missing"), say("in the teacher's folder"), remedy)
@@ -215,13 +217,13 @@ class AnswerKeys:
     def course(self) -> dict[str, Any]:
         """What is noted of the course; empty where nothing is."""
         try:
-            said = json.loads((self.folder / COURSE).read_bytes())
+            said = json.loads((self.folder / COURSE_FILE).read_bytes())
         except (OSError, ValueError):
             return {}
         return said if isinstance(said, dict) else {}
 
     def _path(self, student: str) -> Path:
-        return Path(f"{self.folder}/{KEPT}/{folder_name(student)}.json")
+        return Path(f"{self.folder}/{ANSWER_KEYS_FOLDER}/{folder_name(student)}.json")
 
 
 @dataclass(frozen=True)
@@ -258,7 +260,7 @@ def _alone(course: Path, name: str) -> bool:
     return folders == [name]
 
 
-def _digest(secret: bytes) -> str:
+def _secret_digest(secret: bytes) -> str:
     return hashlib.sha256(b"graphcam course" + secret).hexdigest()[:16]
 
 

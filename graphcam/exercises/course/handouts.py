@@ -15,13 +15,13 @@ from graphcam.drafting.ink import Step
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.blank_axes import empty_axes
 from graphcam.exercises.definition.drawn_answers import board_chain, construction_of, views_of
-from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
 from graphcam.exercises.definition.variant import Variant, sentence
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.reading.drawn_layers import ORIGIN
-from graphcam.exercises.reading.notebook import TAG
+from graphcam.exercises.reading.drawn_layers import ORIGIN_LAYER
+from graphcam.exercises.reading.notebook import ANSWER_TAG
 from graphcam.exercises.reading.submission_files import DXF, NOTEBOOK, TOML
-from graphcam.notebooks.running import PYTHON
+from graphcam.notebooks.notebook_execution import PYTHON_METADATA
 from graphcam.report.markdown import number
 from graphcam.report.sheet_contents import title_block
 from graphcam.sheets.layout import compose
@@ -30,7 +30,7 @@ from graphcam.sheets.tables import Table
 from graphcam.tasks.task_writer import task_files
 from graphcam.words import Caption, Words, say, say_in, say_many
 
-LINE = 96
+LINE_LENGTH = 96
 """Letters in a line of the task in ``answers.toml``."""
 KEY_COLUMNS = (say("name"), say("unit"), say("value"), say_in("of an answer", "tolerance"), say("marks"))
 """The columns of the key's table, as :func:`key_rows` fills them."""
@@ -52,7 +52,7 @@ def answer_file(exercise: Exercise, head: Sequence[str] = ()) -> str:
     lines = [*head, f"# {exercise.title}. {exercise.tell(how)}", ""]
     for asked in exercise.answers:
         blank = "" if asked.kind == "number" else "[[x, y], [x, y]]"
-        lines += [f"# {asked.text} {exercise.tell(_how(asked))}", f"# {asked.name} = {blank}", ""]
+        lines += [f"# {asked.text} {exercise.tell(_answer_form(asked))}", f"# {asked.name} = {blank}", ""]
     return "\n".join(lines)
 
 
@@ -69,21 +69,21 @@ def answer_file_head(variant: Variant, student: Student) -> list[str]:
     """
     # A name is a stranger's, and TOML allows no control characters in comments.
     whose = "".join(sign if sign.isprintable() else " " for sign in f"{student.id} {student.name}".strip())
-    return [f"# {whose}", *(f"## {line}" for line in wrap(instructions(variant), LINE)), ""]
+    return [f"# {whose}", *(f"## {line}" for line in wrap(instructions(variant), LINE_LENGTH)), ""]
 
 
 def notebook(variant: Variant) -> NotebookNode:
     """A notebook with the task, and a tagged cell of literals for the answers."""
     exercise = variant.exercise
-    asked = "\n".join(f"- `{a.name}`: {a.text} {exercise.tell(_how(a))}" for a in exercise.answers)
+    asked = "\n".join(f"- `{a.name}`: {a.text} {exercise.tell(_answer_form(a))}" for a in exercise.answers)
     how = say("Write your answers in the next cell: plain numbers with a decimal point, nothing else.")
     blanks = "\n".join(f"{a.name} = None" for a in exercise.answers)
     cells = [
         nb.new_markdown_cell(f"# {exercise.title}\n\n{instructions(variant)}", id="task"),
         nb.new_markdown_cell(f"{exercise.tell(how)}\n\n{asked}", id="asked"),
-        nb.new_code_cell(blanks, id="answers", metadata={"tags": [TAG]}),
+        nb.new_code_cell(blanks, id="answers", metadata={"tags": [ANSWER_TAG]}),
     ]
-    return nb.new_notebook(cells=cells, metadata=PYTHON)
+    return nb.new_notebook(cells=cells, metadata=PYTHON_METADATA)
 
 
 def worksheet(variant: Variant, student: Student) -> Drawing:
@@ -137,15 +137,15 @@ def origins(variant: Variant) -> dict[str, str]:
     >>> from graphcam.exercises.definition.exercise_file import find_exercise
     >>> from graphcam.exercises.definition.variant import drawn
     >>> origins(drawn(find_exercise("inversion-translating"), "Anna", b"secret", 0))
-    {'ORIGIN': 'profile'}
+    {'ORIGIN_LAYER': 'profile'}
     """
     chain = board_chain(variant.task)
     drawn = [asked for asked in variant.exercise.answers if asked.kind != "number"]
     views = {asked.layer: views_of(chain, asked) for asked in drawn}
     if len(set().union(*views.values())) == 1:
-        return {ORIGIN.upper(): next(iter(views.values())).pop()}
+        return {ORIGIN_LAYER.upper(): next(iter(views.values())).pop()}
     # Points of a construction that is drawn in several views may belong to either, so none is marked for them.
-    return {f"{layer}-{ORIGIN}".upper(): found.pop() for layer, found in views.items() if len(found) == 1}
+    return {f"{layer}-{ORIGIN_LAYER}".upper(): found.pop() for layer, found in views.items() if len(found) == 1}
 
 
 def _composed(
@@ -163,7 +163,7 @@ def _composed(
     return compose(steps, tables, block, paper, task.drawing.frame, notes, tell=tell)
 
 
-def _how(asked: Asked) -> Caption:
+def _answer_form(asked: AskedAnswer) -> Caption:
     if asked.kind != "number":
         what = say("Points in mm on paper") if asked.kind == "points" else say("A curve in mm on paper")
         return say(

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import OVERHANG, ordinate
+from graphcam.constructions.axes import AXIS_OVERHANG, ordinate
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.views import PROFILE, at_scale
 from graphcam.drafting.marks import Mark, Points
@@ -27,26 +27,38 @@ from graphcam.exercises.course.page_parts import (
     code_side,
     mark_group,
     paragraphs,
-    standing,
+    upright_text,
 )
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.course.sheet_code import SheetCode
-from graphcam.exercises.definition.blank_axes import ROOM, marked_axes, room_of
+from graphcam.exercises.definition.blank_axes import AXES_ROOM, marked_axes, room_of
 from graphcam.exercises.definition.drawn_answers import board_chain, construction_of
 from graphcam.exercises.definition.exercise import Diagram, Exercise
 from graphcam.exercises.definition.variant import Variant
-from graphcam.photo.printed import Edges, Ink, PrintedPage, PrintedView
-from graphcam.sheets.expand import Placement, expand
+from graphcam.photo.printed_page import Edges, Ink, PrintedPage, PrintedView
 from graphcam.sheets.formats import Format, Lettering
 from graphcam.sheets.labels import lettered
-from graphcam.sheets.marked_paper import BAR_ROOM, MARKED_PAPERS, PATCH, TITLE, MarkedPaper, in_tiles
-from graphcam.sheets.model import ArcEntity, Box, Circles, Curve, Drawing, Entity, Group, Page, Stroke, Text, around_all
+from graphcam.sheets.mark_entities import Placement, expand
+from graphcam.sheets.marked_paper import BAR_ROOM, MARKED_PAPERS, PATCH_SIDE, TITLE_ROOM, MarkedPaper, in_tiles
+from graphcam.sheets.model import (
+    ArcEntity,
+    Box,
+    Circles,
+    Curve,
+    Drawing,
+    Entity,
+    Group,
+    Page,
+    Stroke,
+    Text,
+    bounding_box,
+)
 from graphcam.sheets.sampling import box_of, pieces
-from graphcam.sheets.styles import LIGHT
+from graphcam.sheets.styles import LIGHT_ROLES
 from graphcam.sheets.tables import Block, table_blocks
 from graphcam.words import Caption, Tell, say
 
-RIGHT_OF_TURN = 1.0
+AXIS_TIP_MARGIN = 1.0
 """The room beyond the tip of the axis of the cam angle, mm."""
 
 
@@ -109,13 +121,13 @@ def _diagram(exercise: Exercise, chain: Chain, name: Diagram, tell: Tell) -> Mar
     (low, high), (view, marks, before) = room_of(exercise, name), marked_axes(exercise, chain, name)
     mu_phi = chain.board.mu_phi
     turn = 2 * np.pi / mu_phi.per_mm
-    room = Box(-before, low, turn + OVERHANG + RIGHT_OF_TURN, high)
-    unit = ordinate(ROOM[name][0], chain.board.follower.unit)
+    room = Box(-before, low, turn + AXIS_OVERHANG + AXIS_TIP_MARGIN, high)
+    unit = ordinate(AXES_ROOM[name][0], chain.board.follower.unit)
     title = tell(say("{title}: {unit}", title=view.title, unit=unit))
-    return MarkedView(view.name, room, marks, title, _scale_said(mu_phi, tell), turn)
+    return MarkedView(view.name, room, marks, title, _scale_text(mu_phi, tell), turn)
 
 
-def _scale_said(mu_phi: Scale, tell: Tell) -> str:
+def _scale_text(mu_phi: Scale, tell: Tell) -> str:
     return tell(say("φ, °; μᵩ = {mu:.4g}°/mm", mu=np.degrees(mu_phi.per_mm)))
 
 
@@ -124,7 +136,7 @@ Polyline = NDArray[np.complex128]
 
 def black_boxes(groups: Iterable[Group]) -> list[Edges]:
     """Boxes about all that is printed in black."""
-    light = set(LIGHT.values())
+    light = set(LIGHT_ROLES.values())
     boxes = [box_of([e]) for group in groups for e in group.entities if e.role not in light]
     return [(box.left, box.bottom, box.right, box.top) for box in boxes if box is not None]
 
@@ -160,21 +172,21 @@ def _closed(points: Points) -> Points:
     return np.append(points, points[:1])
 
 
-BETWEEN = 3.0
+BLOCK_GAP = 3.0
 """The gap between views, and between blocks of text, mm."""
-FROM_TAGS = 1.5
+TAG_GAP = 1.5
 """The gap between the white about a tag and a line beside it, mm."""
-BESIDE = 5.0
+TEXT_GAP = 5.0
 """The gap between a view and the text beside it, mm."""
-ROW = 2.8
+ROW_HEIGHT = 2.8
 """Height of the rows of the answers, in heights of the letters: wide enough for handwriting."""
-HOW = say(
+DRAWING_ADVICE = say(
     "Draw in pencil. Write down the length of each scale bar on your print, to half a millimetre. Draw nothing "
     "on the black squares or the code. Photograph each page from above, with all its edges."
 )
 
-CROSSES = say("Mark each point with a cross of 3 mm; crosses must not touch.")
-TAPE = say("First lay the two halves edge to edge and tape them together on the back.")
+CROSSES_ADVICE = say("Mark each point with a cross of 3 mm; crosses must not touch.")
+TAPE_ADVICE = say("First lay the two halves edge to edge and tape them together on the back.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -194,8 +206,8 @@ class PlacedView:
         """The room of the view with that for its titles."""
         room = self.room
         if self.view.turn:
-            return Box(room.left - TITLE, room.bottom, room.right + TITLE, room.top)
-        return Box(room.left, room.bottom, room.right, room.top + TITLE)
+            return Box(room.left - TITLE_ROOM, room.bottom, room.right + TITLE_ROOM, room.top)
+        return Box(room.left, room.bottom, room.right, room.top + TITLE_ROOM)
 
 
 def marked_sheets(
@@ -212,15 +224,15 @@ def _one_sheet_each(
 ) -> tuple[Drawing, list[PrintedPage]]:
     marked, exercise = MARKED_PAPERS[paper], variant.exercise
     views = marked_views(exercise, board_chain(variant.task), marked.square, exercise.tell)
-    pages = _placed(views, marked)
+    pages = _placed_views(views, marked)
     maker = _PageMaker(variant, student, secret, marked, ink)
     # The text comes before the table, and where one finds no room the next must wait too.
     blocks, drawn = maker.blocks(pages), list[tuple[list[PlacedView], list[Entity]]]()
     for k, placed in enumerate(pages):
-        entities, blocks = maker.column(placed, k + 1).filled(blocks, BETWEEN)
+        entities, blocks = maker.column(placed, k + 1).fill(blocks, BLOCK_GAP)
         drawn.append((placed, entities))
     while blocks:
-        entities, left = maker.column([], len(drawn) + 1).filled(blocks, BETWEEN)
+        entities, left = maker.column([], len(drawn) + 1).fill(blocks, BLOCK_GAP)
         if len(left) == len(blocks):
             limit = say("short enough for a page of {paper}", paper=paper)
             remedy = say("shorten them, or take a larger paper")
@@ -231,7 +243,7 @@ def _one_sheet_each(
     return Drawing(exercise.title, tuple(page for page, _ in made)), [printed for _, printed in made]
 
 
-def _placed(views: Sequence[MarkedView], paper: MarkedPaper) -> list[list[PlacedView]]:
+def _placed_views(views: Sequence[MarkedView], paper: MarkedPaper) -> list[list[PlacedView]]:
     """The views on their pages, diagrams one under the other as long as there is room."""
     stacks = list[list[MarkedView]]()
     for view in views:
@@ -239,22 +251,22 @@ def _placed(views: Sequence[MarkedView], paper: MarkedPaper) -> list[list[Placed
             stacks[-1].append(view)
         else:
             stacks.append([view])
-    return [_stacked(stack, paper) for stack in stacks]
+    return [_stacked_views(stack, paper) for stack in stacks]
 
 
 def _height(stack: Sequence[MarkedView]) -> float:
     """The height of views one under the other, without a title above."""
-    return sum(view.room.height for view in stack) + BETWEEN * (len(stack) - 1)
+    return sum(view.room.height for view in stack) + BLOCK_GAP * (len(stack) - 1)
 
 
-def _stacked(stack: Sequence[MarkedView], paper: MarkedPaper) -> list[PlacedView]:
+def _stacked_views(stack: Sequence[MarkedView], paper: MarkedPaper) -> list[PlacedView]:
     """Views one under the other: a page that stands has its text above them, one that lies on their right."""
-    free, left = paper.free, paper.free.left + (TITLE if stack[0].turn else 0.0)
-    level = free.bottom + _height(stack) if paper.upright else free.top - (0.0 if stack[0].turn else TITLE)
+    free, left = paper.free, paper.free.left + (TITLE_ROOM if stack[0].turn else 0.0)
+    level = free.bottom + _height(stack) if paper.upright else free.top - (0.0 if stack[0].turn else TITLE_ROOM)
     placed: list[PlacedView] = []
     for view in stack:
         placed.append(PlacedView(view, complex(left - view.room.left, level - view.room.top)))
-        level -= view.room.height + BETWEEN
+        level -= view.room.height + BLOCK_GAP
     return placed
 
 
@@ -275,13 +287,13 @@ class _PageMaker:
     def column(self, placed: Sequence[PlacedView], page: int) -> TextColumn:
         """What the views leave of a page for text and code."""
         free, side = self.paper.free, code_side(self.code(page), self.paper)
-        free = Box(free.left, free.bottom, free.right - FROM_TAGS, free.top)
+        free = Box(free.left, free.bottom, free.right - TAG_GAP, free.top)
         if not placed:
             return TextColumn(free, side, upright=False)
-        views = around_all([each.box for each in placed])
+        views = bounding_box([each.box for each in placed])
         if self.paper.upright:
-            return TextColumn(Box(free.left, views.top + BETWEEN, free.right, free.top), side, upright=False)
-        return TextColumn(Box(views.right + BESIDE, free.bottom, free.right, free.top), side, upright=True)
+            return TextColumn(Box(free.left, views.top + BLOCK_GAP, free.right, free.top), side, upright=False)
+        return TextColumn(Box(views.right + TEXT_GAP, free.bottom, free.right, free.top), side, upright=True)
 
     @property
     def lettering(self) -> Lettering:
@@ -299,13 +311,13 @@ class _PageMaker:
         tell = self.variant.exercise.tell
         rooms = [self.column(placed, k).room for k, placed in enumerate(pages, 1)]
         narrow = min(room.width for room in rooms)
-        taped = [tell(TAPE)] if self.paper.seam is not None else []
-        crosses = any(asked.drawn_as == "cross" for asked in self.variant.exercise.answers)
-        how = [*taped, " ".join([tell(HOW), *([tell(CROSSES)] if crosses else [])])]
+        taped = [tell(TAPE_ADVICE)] if self.paper.seam is not None else []
+        crosses = any(asked.mark_form == "cross" for asked in self.variant.exercise.answers)
+        how = [*taped, " ".join([tell(DRAWING_ADVICE), *([tell(CROSSES_ADVICE)] if crosses else [])])]
         text = paragraphs([instructions(self.variant), *how], self.letters, rooms[0].width)
         table = answer_table(self.variant.exercise).told(tell)
         tall = max(room.height for room in rooms)
-        return [text, *table_blocks(table, self.letters, narrow, tall, row_height=ROW)]
+        return [text, *table_blocks(table, self.letters, narrow, tall, row_height=ROW_HEIGHT)]
 
     def page(
         self, placed: Sequence[PlacedView], entities: list[Entity], page: int, pages: int
@@ -321,7 +333,7 @@ class _PageMaker:
             # Either tile is photographed alone.
             corners.append(complex(paper.strip + BAR_ROOM, paper.height - paper.strip - code_side(code, paper)))
         groups = [
-            mark_group(paper, LIGHT[self.ink]),
+            mark_group(paper, LIGHT_ROLES[self.ink]),
             Group("captions", tuple(texts)),
             code_group(code, corners, paper),
             *([Group("text", tuple(entities))] if entities else []),
@@ -336,7 +348,7 @@ class _PageMaker:
         frame = paper.box.grown(-paper.edge)
         drawn = Page(paper.width, paper.height, frame, (*groups, *named), origins)
         return drawn, PrintedPage(
-            *(code, paper.width, paper.height, paper.tags, paper.side, paper.bars, paper.patches, PATCH, self.ink),
+            *(code, paper.width, paper.height, paper.tags, paper.side, paper.bars, paper.patches, PATCH_SIDE, self.ink),
             givens=tuple(line for entities in givens for line in polylines(entities)),
             black=tuple(black),
             views={each.view.name: each.view.printed(each.origin) for each in placed},
@@ -357,15 +369,15 @@ class _PageMaker:
         """What a view is called, outside its room."""
         room, view = placed.room, placed.view
         if not view.turn:
-            at = complex(room.left, room.top + TITLE / 4)
+            at = complex(room.left, room.top + TITLE_ROOM / 4)
             return [Text(at, view.title, self.letters)]
-        left = Box(room.left - TITLE, room.bottom, room.left, room.top)
-        right = Box(room.right, room.bottom, room.right + TITLE, room.top)
-        return [*standing(view.title, left, self.letters), *standing(view.end_title, right, self.letters)]
+        left = Box(room.left - TITLE_ROOM, room.bottom, room.left, room.top)
+        right = Box(room.right, room.bottom, room.right + TITLE_ROOM, room.top)
+        return [*upright_text(view.title, left, self.letters), *upright_text(view.end_title, right, self.letters)]
 
     def givens(self, placed: PlacedView) -> list[Entity]:
         """The light lines of a view, with their texts in its room."""
         tell = self.variant.exercise.tell
         drawn = expand(placed.view.marks, Placement(placed.origin), self.lettering, tell)
         entities = lettered([drawn], [], placed.room)[0]
-        return [replace(entity, role=LIGHT[self.ink]) for entity in entities]
+        return [replace(entity, role=LIGHT_ROLES[self.ink]) for entity in entities]

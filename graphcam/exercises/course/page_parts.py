@@ -9,21 +9,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from graphcam.photo.tag_family import dark_cells
-from graphcam.sheets.fonts import width, wrap
-from graphcam.sheets.frame import fitted
-from graphcam.sheets.marked_paper import PATCH, MarkedPaper, bar, cells, square
+from graphcam.sheets.marked_paper import PATCH_SIDE, MarkedPaper, bar, cells, square
 from graphcam.sheets.model import Box, Entity, Group, Stroke, Text
-from graphcam.sheets.qr import FINEST, FINEST_OF_A_TILE, QUIET, module_size, modules
+from graphcam.sheets.qr import MIN_MODULE, MIN_TILE_MODULE, QUIET_MODULES, module_size, modules
+from graphcam.sheets.sheet_frame import fitted_text
 from graphcam.sheets.tables import Block
+from graphcam.sheets.text_measures import width, wrap
 from graphcam.words import Tell, say
 
-SMALL = 2.5
+STRIP_LETTER_HEIGHT = 2.5
 """Height of the letters in the strips, mm."""
-LEADING = 1.7
+LINE_SPACING = 1.7
 """The distance from line to line of a text, in heights of its letters."""
-FIELD = 22.0, 8.0
+LENGTH_FIELD_SIZE = 22.0, 8.0
 """Width and height of the box in which a measured length is written, mm."""
-AIR = 1.0
+STRIP_GAP = 1.0
 """The gap between what is in the strip and the tags, mm."""
 
 
@@ -33,7 +33,7 @@ def mark_group(paper: MarkedPaper, ink: str) -> Group:
     across, up = paper.bars
     # Strokes to the left of the way: from its upper end on those of the bar up point into the page.
     bars = [*bar(*across), *bar(*reversed(up))]
-    patches = [square(corner, PATCH, ink) for corner in paper.patches]
+    patches = [square(corner, PATCH_SIDE, ink) for corner in paper.patches]
     return Group("marks", (*tags, *bars, *patches))
 
 
@@ -49,12 +49,17 @@ def bar_captions(paper: MarkedPaper, tell: Tell) -> list[Entity]:
 def _bar_caption(box: Box, length: int, tell: Tell) -> list[Entity]:
     """Two lines of text and an empty box, in the middle of a place."""
     lines = [tell(say("bar of {length} mm,", length=length)), tell(say("measured length, mm:"))]
-    wide = max(width(line, SMALL) for line in lines)
-    left = (box.left + box.right - wide - 2 * AIR - FIELD[0]) / 2
+    wide = max(width(line, STRIP_LETTER_HEIGHT) for line in lines)
+    left = (box.left + box.right - wide - 2 * STRIP_GAP - LENGTH_FIELD_SIZE[0]) / 2
     middle = (box.bottom + box.top) / 2
-    base = middle + LEADING * SMALL / 2 - SMALL / 2
-    texts = [Text(complex(left, base - k * LEADING * SMALL), line, SMALL) for k, line in enumerate(lines)]
-    field = Box(0.0, 0.0, *FIELD).moved(complex(left + wide + 2 * AIR, middle - FIELD[1] / 2))
+    base = middle + LINE_SPACING * STRIP_LETTER_HEIGHT / 2 - STRIP_LETTER_HEIGHT / 2
+    texts = [
+        Text(complex(left, base - k * LINE_SPACING * STRIP_LETTER_HEIGHT), line, STRIP_LETTER_HEIGHT)
+        for k, line in enumerate(lines)
+    ]
+    field = Box(0.0, 0.0, *LENGTH_FIELD_SIZE).moved(
+        complex(left + wide + 2 * STRIP_GAP, middle - LENGTH_FIELD_SIZE[1] / 2)
+    )
     return [*texts, Stroke(np.array(field.corners), "ruling", closed=True)]
 
 
@@ -69,9 +74,9 @@ def _turned(entity: Entity, corner: complex) -> Entity:
             raise TypeError(entity)
 
 
-def standing(text: str, box: Box, height: float) -> list[Text]:
+def upright_text(text: str, box: Box, height: float) -> list[Text]:
     """A text in the middle of a narrow upright box, read from the right."""
-    texts = fitted(text, (0.0, 0.0, box.height, box.width), height)
+    texts = fitted_text(text, (0.0, 0.0, box.height, box.width), height)
     corner = complex(box.right, box.bottom)
     return [replace(each, at=corner + 1j * each.at, angle=math.pi / 2) for each in texts]
 
@@ -88,26 +93,26 @@ def captions(paper: MarkedPaper, title: str, whose: Sequence[str]) -> list[Text]
             for k, text in zip(pair, (title, who), strict=True)
         ]
         boxes = [(gaps[k].left, gaps[k].bottom, gaps[k].right, gaps[k].top) for k, _ in fields]
-        return [each for (_, text), box in zip(fields, boxes, strict=True) for each in fitted(text, box, height)]
+        return [each for (_, text), box in zip(fields, boxes, strict=True) for each in fitted_text(text, box, height)]
 
-    return written(min(text.height for text in written(1.4 * SMALL)))
+    return written(min(text.height for text in written(1.4 * STRIP_LETTER_HEIGHT)))
 
 
 def code_side(text: str, paper: MarkedPaper) -> float:
     """The side of a code with the white about it, mm."""
     count = len(modules(text))
-    return module_size(count, _finest(paper)) * (count + 2 * QUIET)
+    return module_size(count, _finest(paper)) * (count + 2 * QUIET_MODULES)
 
 
 def code_group(text: str, corners: Iterable[complex], paper: MarkedPaper) -> Group:
     """A code in each of these places, by the lower left corner of its white."""
     dark = modules(text)
     size = module_size(len(dark), _finest(paper))
-    return Group("code", tuple(cells(dark, corner + size * QUIET * (1 + 1j), size) for corner in corners))
+    return Group("code", tuple(cells(dark, corner + size * QUIET_MODULES * (1 + 1j), size) for corner in corners))
 
 
 def _finest(paper: MarkedPaper) -> float:
-    return FINEST if paper.seam is None else FINEST_OF_A_TILE
+    return MIN_MODULE if paper.seam is None else MIN_TILE_MODULE
 
 
 def paragraphs(texts: Sequence[str], height: float, room: float) -> Block:
@@ -117,7 +122,7 @@ def paragraphs(texts: Sequence[str], height: float, room: float) -> Block:
     for text in texts:
         for line in wrap(text, height, room):
             lines.append((down, line))
-            down += LEADING * height
+            down += LINE_SPACING * height
         down += 0.7 * height
     high = down - 0.7 * height
     drawn = tuple(Text(complex(0.0, high - y - 1.2 * height), line, height) for y, line in lines)
@@ -141,7 +146,7 @@ class TextColumn:
         box = self.box
         if self.upright:
             return Box(box.left, box.bottom + self.code, box.right, box.top)
-        return Box(box.left, box.bottom, box.right - self.code - AIR, box.top)
+        return Box(box.left, box.bottom, box.right - self.code - STRIP_GAP, box.top)
 
     @property
     def code_corner(self) -> complex:
@@ -149,7 +154,7 @@ class TextColumn:
         box = self.box
         return complex(box.left, box.bottom) if self.upright else complex(box.right - self.code, box.top - self.code)
 
-    def filled(self, blocks: Sequence[Block], between: float) -> tuple[list[Entity], list[Block]]:
+    def fill(self, blocks: Sequence[Block], between: float) -> tuple[list[Entity], list[Block]]:
         """The blocks that find room, in their order one under the other, and those that do not."""
         level = self.room.top
         drawn: list[Entity] = []

@@ -12,17 +12,17 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from graphcam.exercises.course.hand_ins import HandIn
+from graphcam.exercises.course.submissions import HandIn
 from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
 from graphcam.words import sequence
 
-HIDDEN = ".photographs"
+READINGS_FOLDER = ".photographs"
 """The hidden folder of what was read; a folder without it was not made by 'exercise read'."""
-REPORT = "report.json"
+REPORT_FILE = "report.json"
 """The file in a student's folder that says what became of the photographs."""
-LARGEST_REPORT, LARGEST_PICTURE = 1_000_000, 2_000_000
+MAX_REPORT_BYTES, MAX_PICTURE_BYTES = 1_000_000, 2_000_000
 """Bytes that are read."""
-MOST_PAGES = 20
+MAX_PAGES = 20
 """The maximum number of pages of a worksheet."""
 
 
@@ -38,7 +38,7 @@ def with_photo_notes(hand_ins: Sequence[HandIn], submissions: Path) -> list[Hand
 
 def read_off_photographs(submissions: Path) -> bool:
     """Whether a folder is one of readings that a teacher's run made."""
-    return (submissions / HIDDEN).is_dir()
+    return (submissions / READINGS_FOLDER).is_dir()
 
 
 def await_review(hand_ins: Sequence[HandIn], submissions: Path) -> list[str]:
@@ -60,15 +60,15 @@ def photo_pictures(folder: Path, *, right: bool) -> list[str]:
     folder : of the student, in a folder of readings
     right : whether what is right is drawn too
     """
-    if not (folder.parent / HIDDEN).is_dir():
+    if not (folder.parent / READINGS_FOLDER).is_dir():
         return []
     listed = _report(folder).get("overlays", [])
     found: list[str] = []
-    for overlays in listed[:MOST_PAGES] if isinstance(listed, list) else []:
+    for overlays in listed[:MAX_PAGES] if isinstance(listed, list) else []:
         name = overlays.get("right" if right else "own") if isinstance(overlays, dict) else None
         if isinstance(name, str) and Path(name).name == name:
             try:
-                data = read_regular(folder / name, LARGEST_PICTURE)
+                data = read_regular(folder / name, MAX_PICTURE_BYTES)
             except UnreadableError:
                 continue
             found.append("data:image/jpeg;base64," + base64.b64encode(data).decode("ascii"))
@@ -77,7 +77,7 @@ def photo_pictures(folder: Path, *, right: bool) -> list[str]:
 
 def _report(folder: Path) -> dict[str, Any]:
     try:
-        said = json.loads(read_regular(folder / REPORT, LARGEST_REPORT))
+        said = json.loads(read_regular(folder / REPORT_FILE, MAX_REPORT_BYTES))
     except (UnreadableError, ValueError):
         return {}
     return said if isinstance(said, dict) else {}

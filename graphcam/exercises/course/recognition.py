@@ -7,10 +7,10 @@ from itertools import permutations
 
 from graphcam.exercises.course.roster import Student
 
-MOST_PARTS = 4
+MAX_NAME_PARTS = 4
 """Parts of a name that may stand in any order; of a longer one the order counts."""
 
-LIKE = 0.75
+MIN_LIKENESS = 0.75
 """How much of two texts must agree for the one to be a slip of the other."""
 
 
@@ -27,7 +27,7 @@ class Recognition:
         self._by_text: dict[str, set[str]] = {}
         self._by_name: dict[str, set[str]] = {}
         for student in self.ids.values():
-            for text in filter(None, map(_plain, (student.id, student.email))):
+            for text in filter(None, map(_normalised, (student.id, student.email))):
                 self._by_text.setdefault(text, set()).add(student.id)
             for name in _spellings(student.name):
                 self._by_name.setdefault(name, set()).add(student.id)
@@ -36,7 +36,7 @@ class Recognition:
         """The ids of all students whom one of the texts may mean."""
         found: set[str] = set()
         for text in texts:
-            found |= self._by_text.get(_plain(text), set()) | self._by_name.get(_letters(text), set())
+            found |= self._by_text.get(_normalised(text), set()) | self._by_name.get(_letters(text), set())
         return sorted(found)
 
     def nearest(self, text: str, among: Collection[str]) -> Student | None:
@@ -45,13 +45,13 @@ class Recognition:
         >>> Recognition([Student("s1", "Eva Müller"), Student("s2", "Ben Berg")]).nearest("Mueller_E", ["s1", "s2"]).id
         's1'
         """
-        spelled = {_plain(student): student for student in among}
+        spelled = {_normalised(student): student for student in among}
         spelled |= {name: one for one in sorted(among) for name in _spellings(self.ids[one].name)}
-        close = get_close_matches(_letters(text), spelled, n=1, cutoff=LIKE)
+        close = get_close_matches(_letters(text), spelled, n=1, cutoff=MIN_LIKENESS)
         return self.ids[spelled[close[0]]] if close else None
 
 
-def _plain(text: str) -> str:
+def _normalised(text: str) -> str:
     """The text without what differs between systems: capitals, spaces, how an accent is coded."""
     return "".join(unicodedata.normalize("NFKC", text).casefold().split())
 
@@ -68,5 +68,5 @@ def _letters(text: str) -> str:
 def _spellings(name: str) -> set[str]:
     """A name with its parts in every order, since some systems put the last name first."""
     parts = [part for part in map(_letters, name.split()) if part]
-    orders = permutations(parts) if len(parts) <= MOST_PARTS else [parts]
+    orders = permutations(parts) if len(parts) <= MAX_NAME_PARTS else [parts]
     return {"".join(order) for order in orders} - {""}

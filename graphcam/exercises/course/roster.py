@@ -11,7 +11,7 @@ from graphcam.errors import TaskError
 from graphcam.exercises.course.spreadsheet import read_table
 from graphcam.words import Caption, say
 
-ID = (
+ID_HEADINGS = (
     *("id", "ID number", "Student ID", "Student number", "Student no", "Student code", "Matriculation number"),
     *("Matrikelnummer", "Matrikelnr", "Matrikel", "Mat-Nr", "Matrikel-Nr.", "ID-Nummer"),
     "SIS User ID",
@@ -20,14 +20,22 @@ ID = (
     *("Mã SV", "Mã sinh viên", "Номер", "№"),
 )
 """Headings of ids, the surest first: the last may only count the lines."""
-EMAIL = ("email", "Email address", "E-mail-Adresse", "Mail", "Адрес электронной почты", "Электронная почта", "Почта")
+EMAIL_HEADINGS = (
+    "email",
+    "Email address",
+    "E-mail-Adresse",
+    "Mail",
+    "Адрес электронной почты",
+    "Электронная почта",
+    "Почта",
+)
 """Headings of addresses; a roster without ids has them for ids."""
-NAME = (
+NAME_HEADINGS = (
     *("name", "Full name", "Student name", "Student", "Vor- und Nachname", "ФИО", "Фамилия и имя", "Имя и фамилия"),
     *("姓名", "Họ và tên", "Họ tên"),
 )
 """Headings of whole names."""
-PARTS = (
+NAME_PART_HEADINGS = (
     *(("First name", "Last name"), ("First name", "Surname"), ("Given name", "Family name"), ("Vorname", "Nachname")),
     *(("Имя", "Фамилия"), ("姓", "名"), ("Họ", "Tên"), ("Họ đệm", "Tên"), ("Họ và tên đệm", "Tên")),
 )
@@ -49,13 +57,13 @@ class RosterColumns:
 
     def name(self, row: Sequence[str]) -> str:
         """The name in a row; empty where it has none."""
-        return " ".join(part for part in (at(row, place) for place in self.names) if part.strip())
+        return " ".join(part for part in (cell_at(row, place) for place in self.names) if part.strip())
 
 
-def at(row: Sequence[str], place: int | None) -> str:
+def cell_at(row: Sequence[str], place: int | None) -> str:
     """A cell; empty where the row is shorter.
 
-    >>> at(["7", "Anna"], 1), at(["7"], 1), at(["7"], None)
+    >>> cell_at(["7", "Anna"], 1), cell_at(["7"], 1), cell_at(["7"], None)
     ('Anna', '', '')
     """
     return row[place] if place is not None and place < len(row) else ""
@@ -76,16 +84,22 @@ def roster_columns(rows: Sequence[Sequence[str]]) -> RosterColumns:
     """
     first, others = (rows[0], rows[1:]) if rows else ([], [])
     places = {_plain(heading): place for place, heading in reversed(list(enumerate(first)))}
-    email = next(_known(places, EMAIL), None)
-    known = [*_known(places, ID), *([] if email is None else [email])]
+    email = next(_known(places, EMAIL_HEADINGS), None)
+    known = [*_known(places, ID_HEADINGS), *([] if email is None else [email])]
     # A platform exports the column whether or not anybody has an id.
-    ids = [place for place in known if any(at(row, place).strip() for row in others)] or known
-    if not ids and len(first) > 1 and others and not _digit(first[0]) and all(_digit(at(row, 0)) for row in others):
+    ids = [place for place in known if any(cell_at(row, place).strip() for row in others)] or known
+    if (
+        not ids
+        and len(first) > 1
+        and others
+        and not _digit(first[0])
+        and all(_digit(cell_at(row, 0)) for row in others)
+    ):
         ids = [0]
     if not ids:
         return RosterColumns(0, (1,), None)
-    whole = list(_known(places, NAME))[:1]
-    parts = next((pair for said in PARTS if len(pair := list(_known(places, said))) == 2), [])
+    whole = list(_known(places, NAME_HEADINGS))[:1]
+    parts = next((pair for said in NAME_PART_HEADINGS if len(pair := list(_known(places, said))) == 2), [])
     return RosterColumns(ids[0], tuple(whole or parts), email, first[ids[0]].strip())
 
 
@@ -96,9 +110,9 @@ def names_alone(first: Sequence[str]) -> bool:
     (True, False)
     """
     plain = {_plain(heading) for heading in first}
-    return not plain.isdisjoint(map(_plain, (*NAME, *(part for pair in PARTS for part in pair)))) and plain.isdisjoint(
-        map(_plain, (*ID, *EMAIL))
-    )
+    return not plain.isdisjoint(
+        map(_plain, (*NAME_HEADINGS, *(part for pair in NAME_PART_HEADINGS for part in pair)))
+    ) and plain.isdisjoint(map(_plain, (*ID_HEADINGS, *EMAIL_HEADINGS)))
 
 
 def _known(places: dict[str, int], headings: Iterable[str]) -> Iterator[int]:
@@ -118,11 +132,11 @@ def _plain(heading: str) -> str:
     return "".join(letter for letter in unicodedata.normalize("NFKC", heading).casefold() if letter.isalnum())
 
 
-LONGEST = 180
+MAX_FOLDER_BYTES = 180
 """Bytes of a folder's name; file systems take 255, and a suffix may follow."""
-_UNSAFE = re.compile(r'[\x00-\x1f\x7f-\x9f%/\\<>:"|?*\ud800-\udfff\u200e\u200f\u202a-\u202e\u2066-\u2069]')
-_CUT = re.compile(r"%~[0-9a-f]{24}$")
-_DEVICES = re.compile(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\..*)?$")
+_UNSAFE_PATTERN = re.compile(r'[\x00-\x1f\x7f-\x9f%/\\<>:"|?*\ud800-\udfff\u200e\u200f\u202a-\u202e\u2066-\u2069]')
+_CUT_PATTERN = re.compile(r"%~[0-9a-f]{24}$")
+_DEVICE_PATTERN = re.compile(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\..*)?$")
 
 
 def folder_name(student: str) -> str:
@@ -134,14 +148,14 @@ def folder_name(student: str) -> str:
     >>> folder_name("Anna Müller"), folder_name("../etc/passwd"), folder_name("")
     ('Anna Müller', '%2E.%2Fetc%2Fpasswd', '%')
     """
-    name = _UNSAFE.sub(_escaped, student)
+    name = _UNSAFE_PATTERN.sub(_escaped, student)
     # A leading point hides a folder or leaves it, a trailing point or space is lost on some systems.
     name = re.sub(r"^[. ]|[. ]$", _escaped, name)
-    if _DEVICES.match(name):
+    if _DEVICE_PATTERN.match(name):
         name = f"%{ord(name[0]):02X}{name[1:]}"
-    if len(name.encode()) > LONGEST:
+    if len(name.encode()) > MAX_FOLDER_BYTES:
         digest = hashlib.sha256(student.encode("utf-8", "surrogatepass")).hexdigest()[:24]
-        return name.encode()[: LONGEST - 30].decode(errors="ignore").rstrip("%. ") + f"%~{digest}"
+        return name.encode()[: MAX_FOLDER_BYTES - 30].decode(errors="ignore").rstrip("%. ") + f"%~{digest}"
     return name or "%"
 
 
@@ -162,13 +176,13 @@ def student_of(folder: str) -> str:
         return folder
 
 
-def is_cut(folder: str) -> bool:
+def is_shortened(folder: str) -> bool:
     """Whether the folder's name is that of a student whose name was too long for one.
 
-    >>> is_cut(folder_name("n" * 300)), is_cut(folder_name("n"))
+    >>> is_shortened(folder_name("n" * 300)), is_shortened(folder_name("n"))
     (True, False)
     """
-    return _CUT.search(folder) is not None
+    return _CUT_PATTERN.search(folder) is not None
 
 
 def _escaped(character: re.Match[str]) -> str:
@@ -238,4 +252,6 @@ def _students(rows: list[tuple[int, list[str]]]) -> list[tuple[int, Student]]:
     """The students, each with the number of its line."""
     columns = roster_columns([row for _, row in rows])
     listed = [(line, row) for line, row in rows[bool(columns.heading) :] if len(row) > columns.id]
-    return [(line, Student(row[columns.id], columns.name(row), at(row, columns.email).strip())) for line, row in listed]
+    return [
+        (line, Student(row[columns.id], columns.name(row), cell_at(row, columns.email).strip())) for line, row in listed
+    ]

@@ -10,11 +10,11 @@ from pathlib import Path
 from graphcam.errors import TaskError, unreadable
 from graphcam.words import Words, say
 
-FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
+FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
 """What makes a spreadsheet calculate a text instead of showing it; the wide forms count as the plain ones do."""
-WORKBOOKS = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
+WORKBOOK_SIGNATURES = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
 """The bytes with which workbooks begin, .xlsx and .xls: no text does."""
-_AFTER_SEPARATOR = re.compile(r"([;\t\r\n][\s\"']*)(?=[=+\-@＝＋－＠])")
+_FORMULA_AFTER_SEPARATOR = re.compile(r"([;\t\r\n][\s\"']*)(?=[=+\-@＝＋－＠])")
 """A formula behind what separates cells or rows where the comma is decimal: there the file opens with other cells."""
 
 
@@ -45,10 +45,10 @@ def _guarded(text: str) -> str:
     """A text such that no spreadsheet takes it for a formula."""
     # Surrogates that a folder's name may hold cannot be written.
     text = text.encode("utf-8", "backslashreplace").decode()
-    text = _AFTER_SEPARATOR.sub(r"\1'", text)
+    text = _FORMULA_AFTER_SEPARATOR.sub(r"\1'", text)
     # What is not seen may stand before it: spaces of all kinds, marks of the direction of writing.
     seen = next((letter for letter in text if letter.isprintable() and not letter.isspace()), "")
-    return f"'{text}" if seen in FORMULA or text.startswith(FORMULA) else text
+    return f"'{text}" if seen in FORMULA_STARTS or text.startswith(FORMULA_STARTS) else text
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
@@ -78,7 +78,7 @@ def read_table(path: str | Path, what: Words) -> list[tuple[int, list[str]]]:
     """
     try:
         data = Path(path).read_bytes()
-        if data.startswith(WORKBOOKS):
+        if data.startswith(WORKBOOK_SIGNATURES):
             found = say("an Excel workbook")
             raise TaskError(str(path), what, found, say("a CSV file in UTF-8"), say("save it as CSV UTF-8"))
         text = data.decode("utf-8-sig")

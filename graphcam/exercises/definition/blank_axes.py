@@ -4,9 +4,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from graphcam.constructions.axes import OVERHANG, axes_over_phi, ordinate, phase_ends, phi_axes
+from graphcam.constructions.axes import AXIS_OVERHANG, axes_over_phi, ordinate, phase_ends, phi_axes
 from graphcam.constructions.chain import Chain
-from graphcam.constructions.differentiation import VIEWS
+from graphcam.constructions.differentiation import DIAGRAM_VIEWS
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Step, View
@@ -14,50 +14,50 @@ from graphcam.drafting.marks import Label, Line, Mark, Role, Segments
 from graphcam.exercises.definition.exercise import Diagram, Exercise
 from graphcam.exercises.definition.marked_formats import format_of
 
-ROOM: Mapping[Diagram, tuple[str, View, float, float]] = {
+AXES_ROOM: Mapping[Diagram, tuple[str, View, float, float]] = {
     "acceleration": ("a", ACCELERATION, -80.0, 80.0),
     "velocity": ("v", VELOCITY, -80.0, 80.0),
     "displacement": ("s", DISPLACEMENT, 0.0, 140.0),
 }
 """Symbol, view, and how far the empty axes reach [mm]: the same for everybody, so that they betray no ordinate."""
-BEFORE = 60.0
+POLE_ROOM = 60.0
 """How far the axes begin before the zero where a pole is set, mm: no pole is farther."""
 MARKED_REACH: Mapping[str, tuple[Mapping[Diagram, tuple[float, float]], float]] = {
-    "A1": ({"acceleration": (-84.0, 84.0), "velocity": (-84.0, 84.0), "displacement": (0.0, 144.0)}, BEFORE),
+    "A1": ({"acceleration": (-84.0, 84.0), "velocity": (-84.0, 84.0), "displacement": (0.0, 144.0)}, POLE_ROOM),
     "A3": ({"acceleration": (-43.0, 43.0), "velocity": (-44.0, 44.0), "displacement": (0.0, 64.0)}, 45.0),
     "A4": ({"acceleration": (-38.0, 38.0), "velocity": (-42.0, 42.0), "displacement": (0.0, 42.0)}, 30.0),
 }
 """By format how far the axes reach and how far they begin before the zero, on worksheets that are made to be
 photographed: so that the three diagrams stand on one page, one under the other, as parallels are carried over [mm]."""
-CLEAR = 2.0
+CURVE_CLEARANCE = 2.0
 """The gap between a curve that is read off a photograph and the end of its room, mm."""
-ON_AXIS = 3.0
+DWELL_ROOM = 3.0
 """What the room has below an axis at its lower end, on which dwells are drawn, mm."""
-READ: Mapping[Diagram, str] = {"acceleration": "max_a", "velocity": "max_v", "displacement": "s"}
+GREATEST_READINGS: Mapping[Diagram, str] = {"acceleration": "max_a", "velocity": "max_v", "displacement": "s"}
 """The reading that is the greatest ordinate of a diagram, or has it among its values."""
-GIVEN: Mapping[str, Diagram] = {"acceleration": "acceleration", "differentiation": "displacement"}
+GIVEN_DIAGRAMS: Mapping[str, Diagram] = {"acceleration": "acceleration", "differentiation": "displacement"}
 """The diagram that the first steps of a construction show, where these are given."""
 
 
 def reach_of(exercise: Exercise, name: Diagram) -> tuple[float, float]:
     """How far below and above the zero the empty axes of a diagram reach [mm]."""
-    return MARKED_REACH[format_of(exercise.paper)][0][name] if exercise.paper else ROOM[name][2:]
+    return MARKED_REACH[format_of(exercise.paper)][0][name] if exercise.paper else AXES_ROOM[name][2:]
 
 
 def room_of(exercise: Exercise, name: Diagram) -> tuple[float, float]:
     """How far the room of a diagram that is photographed reaches below and above the zero [mm]."""
     low, high = reach_of(exercise, name)
-    return min(low, -ON_AXIS), high
+    return min(low, -DWELL_ROOM), high
 
 
 def empty_axes(exercise: Exercise, chain: Chain, name: Diagram) -> Step:
     """The axes to draw a diagram on, and left of them room for the pole."""
-    (symbol, view, *_), (low, high) = ROOM[name], reach_of(exercise, name)
+    (symbol, view, *_), (low, high) = AXES_ROOM[name], reach_of(exercise, name)
     # Under the measured diagram, which has a cam angle of its own.
-    view = VIEWS[symbol] if "differentiation" in exercise.sheet else view
+    view = DIAGRAM_VIEWS[symbol] if "differentiation" in exercise.sheet else view
     named = ordinate(symbol, chain.board.follower.unit)
     axes = phi_axes(chain.board.motion, chain.board.mu_phi, np.array([low, high]), named)
-    pole = () if name == "displacement" else (Line(np.array([-BEFORE, 0]) + 0j, Role.CONSTRUCTION),)
+    pole = () if name == "displacement" else (Line(np.array([-POLE_ROOM, 0]) + 0j, Role.CONSTRUCTION),)
     return Step(view.title, (), view, (*axes, *pole))
 
 
@@ -66,7 +66,7 @@ def marked_axes(exercise: Exercise, chain: Chain, name: Diagram) -> tuple[View, 
     (low, high), before = reach_of(exercise, name), MARKED_REACH[format_of(exercise.paper)][1]
     board, step = chain.board, empty_axes(exercise, chain, name)
     ends = phase_ends(board.motion, board.mu_phi)
-    axes = axes_over_phi(ends[-1], board.mu_phi, np.array([low, high - OVERHANG]), "")
+    axes = axes_over_phi(ends[-1], board.mu_phi, np.array([low, high - AXIS_OVERHANG]), "")
     lines = Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION)
     pole = () if name == "displacement" else (Line(np.array([-before, 0]) + 0j, Role.CONSTRUCTION),)
     return step.view, (*(mark for mark in axes if not isinstance(mark, Label)), lines, *pole), before
@@ -87,11 +87,14 @@ def finds_room(exercise: Exercise, chain: Chain) -> bool:
     [True, False]
     """
     derived = any(asked.construction == "differentiation" for asked in exercise.answers)
-    shown: list[Diagram] = [*exercise.axes, *(GIVEN[name] for name in exercise.sheet if name in GIVEN)]
+    shown: list[Diagram] = [
+        *exercise.axes,
+        *(GIVEN_DIAGRAMS[name] for name in exercise.sheet if name in GIVEN_DIAGRAMS),
+    ]
     for name in shown:
-        (low, high), clear = reach_of(exercise, name), CLEAR if exercise.paper else 0.0
+        (low, high), clear = reach_of(exercise, name), CURVE_CLEARANCE if exercise.paper else 0.0
         drawn = chain.differentiation if derived and name != "displacement" else chain.integration
-        ordinates = drawn.readings[READ[name]].paper
+        ordinates = drawn.readings[GREATEST_READINGS[name]].paper
         if np.min(ordinates) < min(low + clear, 0.0) or np.max(ordinates) > high - clear:
             return False
     return True

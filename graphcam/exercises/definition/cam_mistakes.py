@@ -10,12 +10,12 @@ from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.constructions.working_profile import working_profile
 from graphcam.drafting.ink import say
 from graphcam.errors import DesignError
-from graphcam.exercises.definition.catalogue import usual
-from graphcam.exercises.definition.drawn_answers import read_as, redrawn, rescaled
+from graphcam.exercises.definition.catalogue import catalogued
+from graphcam.exercises.definition.drawn_answers import redrawn, rescaled, with_reading
 from graphcam.given.follower import Limits, Rotation, sense
 
 
-@usual(say("You seem to have laid off the offset on the other side of the cam centre."))
+@catalogued(say("You seem to have laid off the offset on the other side of the cam centre."))
 def offset_sign(chain: Chain) -> Chain:
     """The follower's line on the other side of the cam centre."""
     follower = chain.board.follower
@@ -24,21 +24,23 @@ def offset_sign(chain: Chain) -> Chain:
     return redrawn(chain, replace(chain.board, follower=DrawnTranslating(-follower.place)))
 
 
-@usual(
+@catalogued(
     say("You seem to have turned the cam in the other sense: v is turned by 90° in the sense of the cam's rotation.")
 )
 def rotation_sense(chain: Chain) -> Chain:
     """The cam turned in the other sense."""
-    return redrawn(chain, replace(chain.board, rotation=_other(chain.board.rotation)))
+    return redrawn(chain, replace(chain.board, rotation=_opposite_sense(chain.board.rotation)))
 
 
-@usual(say("You seem to have numbered the positions with the rotation: in the inversion the frame turns against it."))
+@catalogued(
+    say("You seem to have numbered the positions with the rotation: in the inversion the frame turns against it.")
+)
 def numbering_sense(chain: Chain) -> Chain:
     """The positions of the follower numbered with the rotation."""
-    return _inverted(chain, chain.prime_radius, _other(chain.board.rotation))
+    return _inverted(chain, chain.prime_radius, _opposite_sense(chain.board.rotation))
 
 
-@usual(
+@catalogued(
     say(
         "You seem to have used the base circle as the prime circle: the prime circle passes through the "
         "roller's centre."
@@ -49,7 +51,7 @@ def base_circle(chain: Chain) -> Chain:
     return _about_circle(chain, chain.prime_radius - chain.roller_radius)
 
 
-@usual(
+@catalogued(
     say(
         "You seem to have added the roller radius to the prime radius: the prime circle already passes through "
         "the roller's centre."
@@ -60,7 +62,7 @@ def roller_added(chain: Chain) -> Chain:
     return _about_circle(chain, chain.prime_radius + chain.roller_radius)
 
 
-@usual(say("You seem to have taken the prime radius for a diameter."))
+@catalogued(say("You seem to have taken the prime radius for a diameter."))
 def prime_diameter(chain: Chain) -> Chain:
     """A prime circle of half the size."""
     return _about_circle(chain, chain.prime_radius / 2)
@@ -71,17 +73,17 @@ def _about_circle(chain: Chain, radius: float) -> Chain:
     # The scale of the profile stays what it is, so the task's own prime radius does not change.
     board = chain.board
     measured = board.follower.pressure_angle(chain.integration, board.rotation, radius, chain.place, chain.pencil)
-    return _inverted(chain.going_on_from(measured), radius, board.rotation)
+    return _inverted(chain.continued_from(measured), radius, board.rotation)
 
 
-@usual(say("You seem to have laid off the displacements from the offset circle: they start at the prime circle."))
+@catalogued(say("You seem to have laid off the displacements from the offset circle: they start at the prime circle."))
 def offset_circle(chain: Chain) -> Chain:
     """The displacements laid off from the points where the tangents touch the circle e."""
     # A hair more than the circle e itself, which a tangent meets in one point or, by rounding, in none.
     return _inverted(chain, abs(chain.place) * (1 + 1e-9), chain.board.rotation)
 
 
-@usual(
+@catalogued(
     say(
         "You seem to have used cam angles as polar angles of the points: a point does not lie on the ray of "
         "its cam angle."
@@ -99,10 +101,10 @@ def polar_angle(chain: Chain) -> Chain:
         "y": replace(inverted.readings["y"], paper=placed.imag),
         "polar_angle": replace(inverted.readings["polar_angle"], paper=np.angle(placed)),
     }
-    return chain.going_on_from(replace(inverted, readings=readings, points={**inverted.points, "pitch": placed}))
+    return chain.continued_from(replace(inverted, readings=readings, points={**inverted.points, "pitch": placed}))
 
 
-@usual(
+@catalogued(
     say(
         "You seem to have laid off the angle of the tangent where v and s have different scales: redraw v in the "
         "scale of s, or correct the angle."
@@ -114,10 +116,10 @@ def unequal_scales(chain: Chain) -> Chain:
     laid_off = rescaled(integrated, "v", np.asarray(integrated.readings["s"].scale))
     place = board.follower.place
     region = board.follower.least_radius(laid_off, board.rotation, board.limits, place, chain.pencil)
-    return chain.going_on_from(region)
+    return chain.continued_from(region)
 
 
-@usual(say("You seem to have exchanged the permitted angles of rise and return."))
+@catalogued(say("You seem to have exchanged the permitted angles of rise and return."))
 def limits_swapped(chain: Chain) -> Chain:
     """The rise at the return's permitted angle, the return at the rise's."""
     limits = chain.board.limits
@@ -126,7 +128,7 @@ def limits_swapped(chain: Chain) -> Chain:
     return redrawn(chain, replace(chain.board, limits=Limits(limits.return_, limits.rise, limits.rest)))
 
 
-@usual(
+@catalogued(
     say("You seem to have laid off the permitted angle from the wrong axis: it is measured from the line of motion.")
 )
 def limit_from_the_horizontal(chain: Chain) -> Chain:
@@ -136,13 +138,13 @@ def limit_from_the_horizontal(chain: Chain) -> Chain:
     return redrawn(chain, replace(chain.board, limits=Limits(math.pi / 2 - limits.rise, back, limits.rest)))
 
 
-@usual(say("You seem to have given the diameter instead of the radius of curvature."))
+@catalogued(say("You seem to have given the diameter instead of the radius of curvature."))
 def diameter_for_radius(chain: Chain) -> Chain:
     """The radius of curvature doubled."""
-    return chain.going_on_from(read_as(chain.curvature, "rho", 2 * chain.curvature.readings["rho"].paper))
+    return chain.continued_from(with_reading(chain.curvature, "rho", 2 * chain.curvature.readings["rho"].paper))
 
 
-@usual(
+@catalogued(
     say(
         "You seem to have drawn the profile on the far side of the roller: it lies between the roller's "
         "centre and the cam centre."
@@ -152,23 +154,23 @@ def roller_outside(chain: Chain) -> Chain:
     """The outer envelope of the roller's circles."""
     profile, pitch = chain.working_profile, chain.inversion.points["pitch"]
     outer = np.abs(2 * pitch - profile.points["touch"])
-    return chain.going_on_from(read_as(profile, "radius", outer))
+    return chain.continued_from(with_reading(profile, "radius", outer))
 
 
-@usual(say("You seem to have drawn the roller with its diameter as the radius."))
+@catalogued(say("You seem to have drawn the roller with its diameter as the radius."))
 def roller_diameter(chain: Chain) -> Chain:
     """Circles of the roller's diameter about its centre, where its radius is given."""
-    return chain.going_on_from(working_profile(chain.inversion, 2 * chain.roller_radius, chain.pencil))
+    return chain.continued_from(working_profile(chain.inversion, 2 * chain.roller_radius, chain.pencil))
 
 
-@usual(say("You seem to have taken the larger value of the rule: the smaller one is the limit."))
+@catalogued(say("You seem to have taken the larger value of the rule: the smaller one is the limit."))
 def rule_greater(chain: Chain) -> Chain:
     """The greatest of what the rule for the roller proposes."""
     greatest = chain.roller.readings["candidates"].paper.max(axis=-1)
-    return chain.going_on_from(read_as(chain.roller, "roller_radius", greatest))
+    return chain.continued_from(with_reading(chain.roller, "roller_radius", greatest))
 
 
-def _other(rotation: Rotation) -> Rotation:
+def _opposite_sense(rotation: Rotation) -> Rotation:
     return "cw" if rotation == "ccw" else "ccw"
 
 
@@ -178,4 +180,4 @@ def _inverted(chain: Chain, prime_radius: float, rotation: Rotation) -> Chain:
     inverted = follower.inversion(
         chain.integration, rotation, prime_radius, chain.place, chain.profile_scale, chain.pencil
     )
-    return chain.going_on_from(inverted)
+    return chain.continued_from(inverted)

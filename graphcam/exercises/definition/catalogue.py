@@ -7,9 +7,9 @@ from typing import Any, TypeVar
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Caption
 
-A_LAW = "the name of a law"
-A_DIAGRAM = "integration or differentiation"
-A_READING = "a construction and its reading, such as integration.v"
+LAW_ARGUMENT = "the name of a law"
+DIAGRAM_ARGUMENT = "integration or differentiation"
+READING_ARGUMENT = "a construction and its reading, such as integration.v"
 """What mistakes take, as a message says it."""
 Change = Callable[[Chain], Chain]
 M = TypeVar("M", bound=Callable[..., Any])
@@ -33,7 +33,7 @@ CATALOGUE: dict[str, CatalogueEntry] = {}
 """Every misconception that an exercise may name, by that name: the function's, with hyphens."""
 
 
-def usual(said: Caption, takes: str = "") -> Callable[[M], M]:
+def catalogued(said: Caption, takes: str = "") -> Callable[[M], M]:
     """Enter a function into the catalogue."""
 
     def entered(mistake: M) -> M:

@@ -10,46 +10,46 @@ from numpy.typing import NDArray
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction, say
 from graphcam.errors import DesignError, nearest
-from graphcam.exercises.definition.catalogue import A_DIAGRAM, A_LAW, A_READING, Change, usual
-from graphcam.exercises.definition.drawn_answers import construction_of, read_as, redrawn, rescaled, with_ordinates
-from graphcam.given.laws import LAW_WORDS, LAWS
+from graphcam.exercises.definition.catalogue import DIAGRAM_ARGUMENT, LAW_ARGUMENT, READING_ARGUMENT, Change, catalogued
+from graphcam.exercises.definition.drawn_answers import construction_of, redrawn, rescaled, with_ordinates, with_reading
+from graphcam.given.laws import LAW_SYNONYMS, LAWS
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
 
 Moving = Rise | Return
 
 
-@usual(
+@catalogued(
     say(
         "You seem to have drawn the diagram by another law of motion ({argument}): check in the task which law "
         "is required."
     ),
-    takes=A_LAW,
+    takes=LAW_ARGUMENT,
 )
 def wrong_law(law: str) -> Change:
     """All moving phases by another law."""
     if law not in LAWS:
-        raise DesignError("law", law, say("one of the known laws"), nearest(law, LAWS, LAW_WORDS))
+        raise DesignError("law", law, say("one of the known laws"), nearest(law, LAWS, LAW_SYNONYMS))
 
     def by_law(phase: Phase) -> Phase:
         """The phase by that law; a dwell has none."""
         return phase if isinstance(phase, Dwell) else type(phase)(phase.lift, phase.angle, law)
 
-    return lambda chain: _moved_by(chain, [by_law(phase) for phase in chain.board.motion.phases])
+    return lambda chain: _with_phases(chain, [by_law(phase) for phase in chain.board.motion.phases])
 
 
-@usual(say("You seem to have exchanged the laws of rise and return: each phase has its own."))
+@catalogued(say("You seem to have exchanged the laws of rise and return: each phase has its own."))
 def laws_swapped(chain: Chain) -> Chain:
     """The law of the first moving phase in the second, and that of the second in the first."""
     return _two_phases(chain, lambda own, other: replace(own, law=other.law, ratio=other.ratio))
 
 
-@usual(say("You seem to have exchanged the cam angles of rise and return: each phase has its own."))
+@catalogued(say("You seem to have exchanged the cam angles of rise and return: each phase has its own."))
 def angles_swapped(chain: Chain) -> Chain:
     """The first moving phase over the angle of the second, and the second over that of the first."""
     return _two_phases(chain, lambda own, other: replace(own, angle=other.angle))
 
 
-@usual(say("You seem to have drawn half the lift: the follower rises by the whole lift."))
+@catalogued(say("You seem to have drawn half the lift: the follower rises by the whole lift."))
 def lift_halved(chain: Chain) -> Chain:
     """All moving phases with half of their lift."""
     return _two_phases(chain, lambda own, _: replace(own, lift=own.lift / 2))
@@ -63,14 +63,14 @@ def _two_phases(chain: Chain, change: Callable[[Moving, Moving], Moving]) -> Cha
     assert not isinstance(a, Dwell)
     assert not isinstance(b, Dwell)
     phases[first], phases[second] = change(a, b), change(b, a)
-    return _moved_by(chain, phases)
+    return _with_phases(chain, phases)
 
 
-def _moved_by(chain: Chain, phases: list[Phase]) -> Chain:
+def _with_phases(chain: Chain, phases: list[Phase]) -> Chain:
     return redrawn(chain, replace(chain.board, motion=Motion(phases)))
 
 
-@usual(
+@catalogued(
     say(
         "You seem to have chosen both ordinates freely: only one is chosen, the other follows because the areas "
         "must be equal."
@@ -81,7 +81,7 @@ def ordinates_equal(chain: Chain) -> Chain:
     return _other_ordinates(chain, lambda ratio: 1 / ratio)
 
 
-@usual(say("You seem to have inverted the ratio of the ordinates: the shorter phase has the longer ordinate."))
+@catalogued(say("You seem to have inverted the ratio of the ordinates: the shorter phase has the longer ordinate."))
 def ordinates_swapped(chain: Chain) -> Chain:
     """The ratio of the other phases' ordinates to the chosen one turned round."""
     return _other_ordinates(chain, lambda ratio: 1 / ratio**2)
@@ -90,10 +90,10 @@ def ordinates_swapped(chain: Chain) -> Chain:
 def _other_ordinates(chain: Chain, change: Callable[[NDArray[np.float64]], NDArray[np.float64]]) -> Chain:
     # The greatest ordinate of every phase over the chosen one, and what the mistake makes of it.
     ratio = chain.acceleration.readings["greatest"].paper / chain.board.ordinate
-    return chain.going_on_from(with_ordinates(chain.acceleration, change(ratio)))
+    return chain.continued_from(with_ordinates(chain.acceleration, change(ratio)))
 
 
-@usual(
+@catalogued(
     say(
         "You seem to have used the ordinate at the end of each part instead of the one at its middle, where the "
         "chord has its slope."
@@ -103,27 +103,27 @@ def end_ordinate(chain: Chain) -> Chain:
     """The ordinate at the end of each part in place of the one at its middle."""
     before = chain.acceleration.readings["before"].paper
     ends = before[..., chain.board.stations.left + 1]
-    return chain.going_on_from(read_as(chain.acceleration, "middles", ends))
+    return chain.continued_from(with_reading(chain.acceleration, "middles", ends))
 
 
-@usual(
+@catalogued(
     say(
         "You seem to have used the scale of the cam angle in degrees: derivatives are per radian, so it must be "
         "in rad/mm."
     ),
-    takes=A_DIAGRAM,
+    takes=DIAGRAM_ARGUMENT,
 )
 def degree_for_radian(name: str) -> Change:
     """The scale of the cam angle in degrees a millimetre in the scales of v and a of the construction of that name."""
     return lambda chain: _wrong_scales(chain, name, (math.degrees(1), math.degrees(1)))
 
 
-@usual(
+@catalogued(
     say(
         "You seem to have left the pole distance out of a scale: a longer pole distance makes a flatter curve, "
         "and the scale compensates for it."
     ),
-    takes=A_DIAGRAM,
+    takes=DIAGRAM_ARGUMENT,
 )
 def pole_forgotten(name: str) -> Change:
     """The scales of v and a without the pole distances in the construction of that name."""
@@ -139,7 +139,7 @@ def pole_forgotten(name: str) -> Change:
 def _wrong_scales(chain: Chain, name: str, divisors: tuple[float, float]) -> Chain:
     """The scale of v divided by the first number, that of a by both."""
     v = rescaled_by(construction_of(chain, name), "v", 1 / divisors[0])
-    return chain.going_on_from(rescaled_by(v, "a", 1 / divisors[1]))
+    return chain.continued_from(rescaled_by(v, "a", 1 / divisors[1]))
 
 
 def rescaled_by(construction: Construction, name: str, factor: float) -> Construction:
@@ -147,9 +147,9 @@ def rescaled_by(construction: Construction, name: str, factor: float) -> Constru
     return rescaled(construction, name, np.asarray(construction.readings[name].scale) * factor)
 
 
-@usual(
+@catalogued(
     say("You seem to have given a length as measured on paper: multiply it by its scale."),
-    takes=A_READING,
+    takes=READING_ARGUMENT,
 )
 def scale_forgotten(place: str) -> Change:
     """A length on paper taken for the value; ``place`` is a construction and its reading, joined by a point."""
@@ -158,34 +158,34 @@ def scale_forgotten(place: str) -> Change:
     def forgotten(chain: Chain) -> Chain:
         """The chain that goes on from the millimetres themselves."""
         construction = construction_of(chain, name)
-        return chain.going_on_from(rescaled(construction, reading, np.ones_like(construction.readings[reading].scale)))
+        return chain.continued_from(rescaled(construction, reading, np.ones_like(construction.readings[reading].scale)))
 
     return forgotten
 
 
-@usual(say("You seem to have inverted the slope: it is the rise over the run."))
+@catalogued(say("You seem to have inverted the slope: it is the rise over the run."))
 def slope_inverted(chain: Chain) -> Chain:
     """Run over rise for rise over run: every ordinate H/(rise/run)."""
     derived = chain.differentiation
     v = derived.readings["v"].paper
     with np.errstate(divide="ignore"):
-        return chain.going_on_from(read_as(derived, "v", derived.givens.poles[0] ** 2 / v))
+        return chain.continued_from(with_reading(derived, "v", derived.givens.poles[0] ** 2 / v))
 
 
-@usual(say("You seem to have plotted the slope of a chord at its end: it belongs to the middle of the part."))
+@catalogued(say("You seem to have plotted the slope of a chord at its end: it belongs to the middle of the part."))
 def chord_at_its_end(chain: Chain) -> Chain:
     """The value of a chord set down at its end: in the middle of the next part stands the mean of two chords."""
     derived = chain.differentiation
     v = derived.readings["v"].paper
-    return chain.going_on_from(read_as(derived, "v", (v + np.roll(v, 1, axis=-1)) / 2))
+    return chain.continued_from(with_reading(derived, "v", (v + np.roll(v, 1, axis=-1)) / 2))
 
 
-@usual(
+@catalogued(
     say(
         "You seem to have exchanged the two pole distances on the drawing, while the scales are computed with "
         "the right ones."
     ),
-    takes=A_DIAGRAM,
+    takes=DIAGRAM_ARGUMENT,
 )
 def poles_swapped(name: str) -> Change:
     """The diagrams of the construction of that name drawn with each other's pole, and read with the scales given."""
@@ -196,14 +196,14 @@ def poles_swapped(name: str) -> Change:
         for reading in ("v", "a"):
             given = np.asarray(construction_of(chain, name).readings[reading].scale)
             drawn = rescaled(drawn, reading, given)
-        return chain.going_on_from(drawn)
+        return chain.continued_from(drawn)
 
     return swapped
 
 
-@usual(
+@catalogued(
     say("You seem to have read the diagrams one station too late: count the stations, or the parts, as the task does."),
-    takes=A_DIAGRAM,
+    takes=DIAGRAM_ARGUMENT,
 )
 def station_too_late(name: str) -> Change:
     """The ordinate of the next station at every station, in the diagrams of the construction of that name."""
@@ -213,7 +213,7 @@ def station_too_late(name: str) -> Change:
         drawn = construction_of(chain, name)
         read = ("s", "v") if name == "integration" else ("rise", "v")
         for reading in read:
-            drawn = read_as(drawn, reading, np.roll(drawn.readings[reading].paper, -1, axis=-1))
-        return chain.going_on_from(drawn)
+            drawn = with_reading(drawn, reading, np.roll(drawn.readings[reading].paper, -1, axis=-1))
+        return chain.continued_from(drawn)
 
     return late

@@ -14,18 +14,18 @@ from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction, Reading
 from graphcam.drafting.pencil import Pencil
 from graphcam.errors import DesignError
-from graphcam.exercises.definition.exercise import Asked
+from graphcam.exercises.definition.exercise import AskedAnswer
 from graphcam.exercises.definition.marked_scale import MarkedDrawing, on_marked_paper
 from graphcam.given.stations import Stations
 from graphcam.tasks.task import Task
 from graphcam.words import say
 
 T = TypeVar("T")
-PRIMES = "'’′"
+PRIME_SIGNS = "'’′"
 """How a second or third moving phase is marked on a keyboard and in print."""
-PER_PART = ("middles",)
-PER_PHASE = ("greatest", "closing_v")
-PER_INTERVAL = ("differentiation",)
+PART_READINGS = ("middles",)
+PHASE_READINGS = ("greatest", "closing_v")
+INTERVAL_READINGS = ("differentiation",)
 """Readings and constructions whose places are numbered from 1: parts, moving phases, intervals."""
 
 
@@ -49,17 +49,17 @@ def construction_of(chain: Chain, name: str) -> Construction:
     """
     if name == "differentiation":
         return chain.differentiation
-    return _named(chain, name, "construction", "differentiation")
+    return _item_by_name(chain, name, "construction", "differentiation")
 
 
-def views_of(chain: Chain, asked: Asked) -> set[str]:
+def views_of(chain: Chain, asked: AskedAnswer) -> set[str]:
     """The views in which an answer may be drawn: the one that it names, or those of its construction."""
     if asked.place:
         return {asked.place}
     return {step.view.name for step in construction_of(chain, asked.construction).steps()}
 
 
-def ask(chain: Chain, asked: Asked) -> NDArray[Any]:
+def drawn_answer(chain: Chain, asked: AskedAnswer) -> NDArray[Any]:
     """What a hand that drew this answers: ([samples,]) numbers in the student's unit, or complex points ([samples,] m).
 
     Raises
@@ -68,12 +68,12 @@ def ask(chain: Chain, asked: Asked) -> NDArray[Any]:
     """
     construction = construction_of(chain, asked.construction)
     if asked.points:
-        points = _named(construction.points, asked.points, "points")
+        points = _item_by_name(construction.points, asked.points, "points")
         if asked.kind != "number":
             return points
         place = points[..., place_of(chain, asked)] if asked.station else points
         return place.real if asked.component == "x" else place.imag
-    reading = _named(construction.readings, asked.reading, "reading")
+    reading = _item_by_name(construction.readings, asked.reading, "reading")
     unit = math.degrees(1) if asked.unit.startswith("deg") else 1.0
     if asked.of == "scale":
         return unit * np.asarray(reading.scale, dtype=np.float64)
@@ -81,7 +81,7 @@ def ask(chain: Chain, asked: Asked) -> NDArray[Any]:
     return unit * (values[..., place_of(chain, asked)] if asked.station else values)
 
 
-def per_mm(chain: Chain, asked: Asked) -> float:
+def per_mm(chain: Chain, asked: AskedAnswer) -> float:
     """Units of the answer in one millimetre of paper; NaN for an angle or a scale, which has no length."""
     if not is_length(chain, asked):
         return math.nan
@@ -90,26 +90,26 @@ def per_mm(chain: Chain, asked: Asked) -> float:
     return construction_of(chain, asked.construction).readings[asked.reading].per_mm
 
 
-def is_length(chain: Chain, asked: Asked) -> bool:
+def is_length(chain: Chain, asked: AskedAnswer) -> bool:
     """Whether the answer is measured as a length, on paper or times a scale: an angle or a scale is not."""
     if asked.points or asked.of != "value":
         return asked.of != "scale"
     return construction_of(chain, asked.construction).readings[asked.reading].unit != "rad"
 
 
-def place_of(chain: Chain, asked: Asked) -> int:
+def place_of(chain: Chain, asked: AskedAnswer) -> int:
     """The place of the answer in its array.
 
     Raises
     ------
     DesignError : the station's name is not one of the drawing's
     """
-    name = re.fullmatch(rf"(\d+)([{PRIMES}]*)", asked.station)
+    name = re.fullmatch(rf"(\d+)([{PRIME_SIGNS}]*)", asked.station)
     stations = chain.board.stations
     if name is None:
         raise DesignError("station", asked.station, say("a number, with a prime for each phase after the first"))
     number, phase = int(name[1]), len(name[2])
-    if asked.construction in PER_INTERVAL or asked.reading in PER_PHASE:
+    if asked.construction in INTERVAL_READINGS or asked.reading in PHASE_READINGS:
         return number - 1
     if phase >= len(stations.phases):
         limit = say("in one of {phases} moving phases", phases=len(stations.phases))
@@ -117,8 +117,8 @@ def place_of(chain: Chain, asked: Asked) -> int:
     return _in_phase(stations, number, phase, asked)
 
 
-def _in_phase(stations: Stations, number: int, phase: int, asked: Asked) -> int:
-    span, first = (stations.parts, 1) if asked.reading in PER_PART else (stations.phases, 0)
+def _in_phase(stations: Stations, number: int, phase: int, asked: AskedAnswer) -> int:
+    span, first = (stations.parts, 1) if asked.reading in PART_READINGS else (stations.phases, 0)
     place = span[phase].start + number - first
     if not span[phase].start <= place < span[phase].stop:
         limit = say("up to {value}", value=span[phase].stop - span[phase].start - 1 + first)
@@ -126,28 +126,30 @@ def _in_phase(stations: Stations, number: int, phase: int, asked: Asked) -> int:
     return place
 
 
-def with_own(chain: Chain, asked: Asked, values: NDArray[np.float64]) -> Chain:
+def with_own_answers(chain: Chain, asked: AskedAnswer, values: NDArray[np.float64]) -> Chain:
     """The drawing gone on with from a student's own answers ([samples,]), numbers: what comes later follows them."""
     if asked.points:
         return chain  # a point's own coordinates go no further than its construction
-    return chain.going_on_from(_replaced(chain, construction_of(chain, asked.construction), asked, values))
+    return chain.continued_from(_replaced(chain, construction_of(chain, asked.construction), asked, values))
 
 
-def _replaced(chain: Chain, construction: Construction, asked: Asked, values: NDArray[np.float64]) -> Construction:
+def _replaced(
+    chain: Chain, construction: Construction, asked: AskedAnswer, values: NDArray[np.float64]
+) -> Construction:
     reading = construction.readings[asked.reading]
     values = values / (math.degrees(1) if asked.unit.startswith("deg") else 1.0)
     if asked.of == "scale":
         return rescaled(construction, asked.reading, values)
     paper = values if asked.of == "paper" else values / np.asarray(reading.scale)
     if not asked.station:
-        return read_as(construction, asked.reading, paper)
+        return with_reading(construction, asked.reading, paper)
     if asked.reading == "greatest":
         factor = np.ones((*values.shape, len(chain.board.stations.phases)))
         factor[..., place_of(chain, asked)] = paper / reading.paper[..., place_of(chain, asked)]
         return with_ordinates(construction, factor)
     changed = np.array(np.broadcast_to(reading.paper, (*values.shape, *reading.paper.shape[values.ndim :])))
     changed[..., place_of(chain, asked)] = paper
-    drawn = read_as(construction, asked.reading, changed)
+    drawn = with_reading(construction, asked.reading, changed)
     if construction.name == "integration" and asked.reading == "s" and asked.of == "paper":
         # The greatest displacement on paper is what the known lift is divided by.
         top = int(np.argmax(chain.perfect.integration.readings["s"].paper))
@@ -156,7 +158,7 @@ def _replaced(chain: Chain, construction: Construction, asked: Asked, values: ND
     return drawn
 
 
-FOLLOWING = {
+NEXT_SCALES = {
     "s": ("s", "v", "a", "a_before", "max_v", "max_a"),
     "v": ("v", "a", "a_before", "max_v", "max_a"),
     "a": ("a", "a_before", "max_a"),
@@ -167,7 +169,7 @@ FOLLOWING = {
 def rescaled(construction: Construction, name: str, scale: NDArray[np.float64]) -> Construction:
     """The construction read with another scale, and with it the scales that follow from that one."""
     factor = scale / np.asarray(construction.readings[name].scale)
-    following = FOLLOWING.get(name, (name,)) if construction.name in ("integration", "differentiation") else (name,)
+    following = NEXT_SCALES.get(name, (name,)) if construction.name in ("integration", "differentiation") else (name,)
     readings = dict(construction.readings)
     for each in following:
         if each in readings:
@@ -183,7 +185,7 @@ def redrawn(chain: Chain, board: Board) -> Chain:
     return replace(chain, board=board, done=done)
 
 
-def read_as(construction: Construction, name: str, paper: NDArray[np.float64]) -> Construction:
+def with_reading(construction: Construction, name: str, paper: NDArray[np.float64]) -> Construction:
     """The construction with another length or angle read off the paper."""
     reading = construction.readings[name]
     return replace(construction, readings={**construction.readings, name: Reading(paper, reading.scale, reading.unit)})
@@ -201,7 +203,7 @@ def with_ordinates(diagram: Construction, factor: NDArray[np.float64]) -> Constr
     return replace(diagram, readings={**diagram.readings, **readings})
 
 
-def _named(things: Mapping[str, T], name: str, what: str, *others: str) -> T:
+def _item_by_name(things: Mapping[str, T], name: str, what: str, *others: str) -> T:
     if name not in things:
         raise DesignError(what, name, say("one of {names}", names=", ".join((*things, *others))))
     return things[name]

@@ -9,12 +9,12 @@ from typing import Any, Literal
 from graphcam.drafting.marks import Points
 from graphcam.drafting.scale import UNITS
 from graphcam.errors import DesignError, nearest
-from graphcam.exercises.definition.hands import HandTable
-from graphcam.exercises.definition.marked_formats import PAPERS
+from graphcam.exercises.definition.marked_formats import PAPER_NAMES
 from graphcam.exercises.definition.marks_policy import MarksPolicy
-from graphcam.given.ranges import positive
+from graphcam.exercises.definition.student_hands import HandTable
+from graphcam.given.plausible_ranges import check_positive
 from graphcam.language import ENGLISH, language, languages
-from graphcam.tasks.sheet_tables import one_of
+from graphcam.tasks.sheet_tables import check_choice
 from graphcam.words import Tell, Words, say
 
 Kind = Literal["number", "points", "curve"]
@@ -48,7 +48,7 @@ class Parameter:
         if self.choices is not None and not self.choices:
             raise DesignError("choices", say("empty"), say("a list of one or more"))
         if self.choices is None:
-            positive("step", self.step, "")
+            check_positive("step", self.step, "")
             if self.stop is not None and self.start is not None and self.stop < self.start:
                 raise DesignError("stop", self.stop, say("at least start, {start:g}", start=self.start))
 
@@ -71,7 +71,7 @@ def _number(value: float) -> float:
 
 
 @dataclass(frozen=True)
-class Asked:
+class AskedAnswer:
     """One answer: where in the drawing it is read, and how it is given.
 
     name : key of the answer in the student's file
@@ -110,7 +110,7 @@ class Asked:
     mark: Drawn = ""
 
     def __post_init__(self) -> None:
-        positive("marks", self.marks, "")
+        check_positive("marks", self.marks, "")
         if bool(self.reading) == bool(self.points):
             limit = say("given where there are no points")
             raise DesignError("reading", self.reading, limit, say("name a reading or points"))
@@ -129,9 +129,9 @@ class Asked:
             raise DesignError("place", self.place, limit, say("name the view it is drawn in"))
 
     @property
-    def drawn_as(self) -> Drawn:
+    def mark_form(self) -> Drawn:
         """The form of a mark on the worksheet; empty for what is written down."""
-        return self.mark or USUAL_MARKS[self.kind]
+        return self.mark or DEFAULT_MARKS[self.kind]
 
     @property
     def unit_said(self) -> Words:
@@ -146,7 +146,7 @@ MARKS: Mapping[str, tuple[str, ...]] = {
     "curve": ("", "curve"),
 }
 """How an answer may be drawn, by its kind; the "place" is a coordinate of a point."""
-USUAL_MARKS: Mapping[Kind, Drawn] = {"number": "", "points": "cross", "curve": "curve"}
+DEFAULT_MARKS: Mapping[Kind, Drawn] = {"number": "", "points": "cross", "curve": "curve"}
 """How one is drawn where the file does not say."""
 
 
@@ -178,7 +178,7 @@ class Exercise:
     text: str
     parameters: Mapping[str, Parameter]
     task: Mapping[str, Any]
-    answers: tuple[Asked, ...]
+    answers: tuple[AskedAnswer, ...]
     misconceptions: tuple[str, ...] = ()
     alike: tuple[tuple[str, str], ...] = ()
     axes: tuple[Diagram, ...] = ()
@@ -194,17 +194,17 @@ class Exercise:
     language: str = ENGLISH.name
 
     def __post_init__(self) -> None:
-        one_of("language", self.language, languages())
+        check_choice("language", self.language, languages())
         if not self.answers:
             raise DesignError("answers", say("empty"), say("a list of one or more"))
         for paper in self.papers:
-            one_of("papers", paper, PAPERS)
+            check_choice("papers", paper, PAPER_NAMES)
         names = [asked.name for asked in self.answers]
         doubled = sorted({name for name in names if names.count(name) > 1})
         if doubled:
             raise DesignError("answers", doubled[0], say("named once each"))
         for asked in self.answers:
-            one_of("kind", asked.kind, ("number", "points", "curve"))
+            check_choice("kind", asked.kind, ("number", "points", "curve"))
         named = [("marks.caps", name) for name in self.policy.caps]
         named += [("alike", name) for pair in self.alike for name in pair]
         for where, name in named:

@@ -9,22 +9,22 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.constructions.chain import Chain
-from graphcam.errors import DesignError, TaskError, meant, nearest
+from graphcam.errors import DesignError, TaskError, nearest, suggestion
 from graphcam.exercises.definition.blank_axes import empty_axes
-from graphcam.exercises.definition.drawn_answers import ask, board_chain, construction_of
-from graphcam.exercises.definition.exercise import Asked, Exercise, Parameter
-from graphcam.exercises.definition.hands import HandTable
-from graphcam.exercises.definition.marked_formats import PAPERS, TILES, format_of, orientation_of
+from graphcam.exercises.definition.drawn_answers import board_chain, construction_of, drawn_answer
+from graphcam.exercises.definition.exercise import AskedAnswer, Exercise, Parameter
+from graphcam.exercises.definition.marked_formats import PAPER_NAMES, TILED_A3, format_of, orientation_of
 from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.exercises.definition.mistakes import misconception
+from graphcam.exercises.definition.student_hands import HandTable
 from graphcam.exercises.definition.variant import fill_in
 from graphcam.language import ENGLISH, languages
 from graphcam.tasks.sheet_tables import SheetTable
-from graphcam.tasks.task_file import Classes, checked, other_file, parse_toml, read_content
+from graphcam.tasks.task_file import Classes, checked_table, other_file, parse_toml, read_content
 from graphcam.words import say
 
-HOW_TO = say("see exercises/README.md")
-NO_KEYS = {"name", "language", "paper"}
+REMEDY = say("see exercises/README.md")
+UNREAD_FIELDS = {"name", "language", "paper"}
 """What an exercise has and its file does not say."""
 
 
@@ -54,7 +54,7 @@ def find_exercise(name: str, language: str = ENGLISH.name, hand: str = "", paper
     return on_paper(exercise, paper) if paper else exercise
 
 
-CHOSEN_FOR_A_FORMAT = ("ordinate", "poles")
+FORMAT_KEYS = ("ordinate", "poles")
 """Keys of a task's ``[drawing]`` that belong to one size of sheet."""
 
 
@@ -71,14 +71,14 @@ def on_paper(exercise: Exercise, paper: str) -> Exercise:
     DesignError : it is not made for the paper
     """
     format_ = format_of(paper)
-    if format_ not in exercise.papers or paper not in (*PAPERS, TILES):
-        made_for = [*exercise.papers, *([TILES] if "A3" in exercise.papers else [])]
+    if format_ not in exercise.papers or paper not in (*PAPER_NAMES, TILED_A3):
+        made_for = [*exercise.papers, *([TILED_A3] if "A3" in exercise.papers else [])]
         none = say("left out: no paper of this exercise is made to be photographed")
         raise DesignError("paper", paper, say("one of {names}", names=", ".join(made_for)) if made_for else none)
     drawing = dict(exercise.task.get("drawing", {}))
     sheet = {"format": format_, "orientation": orientation_of(paper)}
     if format_ != drawing.get("format", SheetTable.format) or "orientation" in drawing:
-        drawing = {key: value for key, value in drawing.items() if key not in CHOSEN_FOR_A_FORMAT}
+        drawing = {key: value for key, value in drawing.items() if key not in FORMAT_KEYS}
     return dataclasses.replace(exercise, paper=paper, task={**exercise.task, "drawing": {**drawing, **sheet}})
 
 
@@ -108,16 +108,16 @@ def load_exercise(path: str | Path, language: str = ENGLISH.name) -> Exercise:
     TaskError : there is no such file, it is not TOML, or a field is missing, unknown or wrong
     """
     path = Path(path)
-    with other_file(say("exercise file"), HOW_TO):
+    with other_file(say("exercise file"), REMEDY):
         data = parse_toml(str(path), read_content(path))
         if "motion" in data and "task" not in data:
             remedy = say("begin with a copy: 'graphcam exercise copy integration mine.toml'")
             expected = say("an exercise, which has the task in its table [task]")
             raise TaskError(str(path), say("the file"), say("a task"), expected, remedy)
-        for key in NO_KEYS & data.keys():
-            raise TaskError(str(path), key, say("an unknown key"), say("one that is known"), HOW_TO)
+        for key in UNREAD_FIELDS & data.keys():
+            raise TaskError(str(path), key, say("an unknown key"), say("one that is known"), REMEDY)
         told = in_language(str(path), data, language)
-        exercise = checked(Exercise, _classes(data), str(path), told, told)
+        exercise = checked_table(Exercise, _classes(data), str(path), told, told)
     exercise = dataclasses.replace(exercise, name=path.stem, language=language)
     _check(str(path), exercise)
     return exercise
@@ -134,7 +134,7 @@ def _classes(data: dict[str, Any]) -> Classes:
     parameters = data.get("parameters")
     named = parameters if isinstance(parameters, dict) else {}
     tables: Classes = {("parameters", str(name)): Parameter for name in named}
-    return {(): Exercise, ("answers",): Asked, ("hand",): HandTable, ("marks",): MarksPolicy, **tables}
+    return {(): Exercise, ("answers",): AskedAnswer, ("hand",): HandTable, ("marks",): MarksPolicy, **tables}
 
 
 def _check(path: str, exercise: Exercise) -> None:
@@ -160,14 +160,14 @@ def _check(path: str, exercise: Exercise) -> None:
             limit = say("a name of Latin letters, digits and _, as students write it before their answer")
             raise TaskError(path, f"answers[{k}].name", asked.name, limit, say('write "v_max"'))
         try:
-            ask(chain, asked)
+            drawn_answer(chain, asked)
             if asked.place and asked.place not in shown:
                 limit = say("a view of the worksheet: {value}", value=", ".join(shown) or say("none is shown"))
-                raise DesignError("place", asked.place, limit, meant(asked.place, shown))
+                raise DesignError("place", asked.place, limit, suggestion(asked.place, shown))
         except DesignError as error:
             place = f"answers[{k}].{error.quantity}"
             _, value, limit, remedy = error.args
-            raise TaskError(path, place, value, limit, remedy or HOW_TO) from None
+            raise TaskError(path, place, value, limit, remedy or REMEDY) from None
 
 
 def _check_text(path: str, exercise: Exercise) -> None:
@@ -175,7 +175,7 @@ def _check_text(path: str, exercise: Exercise) -> None:
     for said in re.findall(r"\{[^{}]*\}", exercise.text):
         if (name := said[1:-1]) not in exercise.parameters:
             expected = say("the name of a parameter in braces")
-            raise TaskError(path, "text", said, expected, meant(name, exercise.parameters))
+            raise TaskError(path, "text", said, expected, suggestion(name, exercise.parameters))
     for name in exercise.parameters:
         if f"{{{name}}}" not in exercise.text:
             found, limit = say("without {{{name}}}", name=name), say("one that tells students every parameter")
@@ -190,7 +190,7 @@ def worksheet_views(exercise: Exercise, chain: Chain) -> list[str]:
     return list(dict.fromkeys(shown))
 
 
-TEXTS = ("title", "text")
+TEXT_KEYS = ("title", "text")
 """The keys of an exercise and of its answers that a student reads."""
 
 
@@ -206,25 +206,25 @@ def in_language(path: str, tables: Mapping[str, Any], language: str) -> dict[str
     ------
     TaskError : a text is in a language that there is not
     """
-    chosen = _chosen(path, "", tables, language)
+    chosen = _chosen_text(path, "", tables, language)
     if isinstance(answers := tables.get("answers"), list):
         chosen["answers"] = [
-            _chosen(path, f"answers[{k}].", each, language) if isinstance(each, dict) else each
+            _chosen_text(path, f"answers[{k}].", each, language) if isinstance(each, dict) else each
             for k, each in enumerate(answers)
         ]
     return chosen
 
 
-def _chosen(path: str, place: str, table: Mapping[str, Any], language: str) -> dict[str, Any]:
+def _chosen_text(path: str, place: str, table: Mapping[str, Any], language: str) -> dict[str, Any]:
     found = dict(table)
-    for key in TEXTS:
+    for key in TEXT_KEYS:
         texts = table.get(key)
         if not isinstance(texts, dict) or not texts:
             continue
         for name in texts:
             if name not in languages():
                 expected = say("a language, one of {names}", names=", ".join(languages()))
-                raise TaskError(path, f"{place}{key}", name, expected, meant(name, languages()))
+                raise TaskError(path, f"{place}{key}", name, expected, suggestion(name, languages()))
         first = next(iter(texts.values()))
         found[key] = texts.get(language, texts.get(ENGLISH.name, first))
     return found

@@ -1,8 +1,8 @@
 """The papers for worksheets that are made to be photographed."""
 
-PAPERS = ("A1", "A3", "A4")
+PAPER_NAMES = ("A1", "A3", "A4")
 """What an exercise may say that it is made for."""
-TILES = "A3-tiles"
+TILED_A3 = "A3-tiles"
 """A3 on two sheets of A4, for who has no larger printer."""
 
 

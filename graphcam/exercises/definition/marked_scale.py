@@ -9,7 +9,7 @@ from graphcam.drafting.scale import standard_scale
 from graphcam.sheets.marked_paper import MARKED_PAPERS
 from graphcam.tasks.task import DrawingTable
 
-BEYOND = 10.0
+PROFILE_MARGIN = 10.0
 """What the room of a profile has beyond the cam with its roller, mm."""
 
 
@@ -33,5 +33,5 @@ def on_marked_paper(board: Board, drawing: MarkedDrawing) -> Board:
     """
     chain = Chain(board)
     reach = board.follower.reach(chain.prime_radius, chain.place, board.motion, max(chain.roller_radius, 0.0))
-    scale = standard_scale(2 * reach, MARKED_PAPERS[drawing.format].square - 2 * BEYOND, board.paper.ratios)
+    scale = standard_scale(2 * reach, MARKED_PAPERS[drawing.format].square - 2 * PROFILE_MARGIN, board.paper.ratios)
     return replace(board, paper=replace(board.paper, held={**board.paper.held, PROFILE.name: scale.per_mm}))

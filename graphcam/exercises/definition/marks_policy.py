@@ -10,7 +10,7 @@ from functools import cached_property
 from graphcam.errors import DesignError
 from graphcam.words import say
 
-WHAT_A_CAP_IS = say("a mistake and the part of all marks that is left, such as offset-sign=0.5")
+CAP_FORM = say("a mistake and the part of all marks that is left, such as offset-sign=0.5")
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ def caps_of(texts: Sequence[str]) -> dict[str, float]:
         try:
             found[name.strip()] = float(part)
         except ValueError:
-            raise DesignError("caps", text, WHAT_A_CAP_IS) from None
+            raise DesignError("caps", text, CAP_FORM) from None
         if not name.strip():
-            raise DesignError("caps", text, WHAT_A_CAP_IS)
+            raise DesignError("caps", text, CAP_FORM)
     return found

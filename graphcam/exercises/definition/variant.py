@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from graphcam.constructions.axes import turning
+from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.law_names import LAW_TITLES
 from graphcam.errors import TaskError, nearest
 from graphcam.exercises.definition.exercise import Exercise, Value
@@ -19,9 +19,9 @@ from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import task_of
 from graphcam.words import Tell, Words, say
 
-PLACE = re.compile(r"^\{(-?)([a-z_0-9]+)\}$")
+PLACEHOLDER_PATTERN = re.compile(r"^\{(-?)([a-z_0-9]+)\}$")
 """A whole value of the template: a parameter's name in braces, perhaps with a minus."""
-REST = "rest"
+REMAINING_ANGLE = "rest"
 """The angle that is missing of 360 degrees."""
 
 
@@ -33,10 +33,10 @@ def fill_in(exercise: Exercise, parameters: Mapping[str, Value], path: str = "")
     TaskError : the template names a parameter that there is not, or no such task can be
     """
     path = path or f"exercise {exercise.name}"
-    table = _filled(exercise.task, {**parameters, REST: f"{{{REST}}}"}, path)
+    table = _filled_template(exercise.task, {**parameters, REMAINING_ANGLE: f"{{{REMAINING_ANGLE}}}"}, path)
     phases = table.get("motion", {}).get("phases", [])
     taken = sum(phase["angle"] for phase in phases if isinstance(phase.get("angle"), int | float))
-    task = task_of(path, _filled(table, {REST: 360 - taken}, path))
+    task = task_of(path, _filled_template(table, {REMAINING_ANGLE: 360 - taken}, path))
     drawing = replace(task.drawing, language=exercise.language)
     return replace(task, drawing=MarkedDrawing.of(drawing) if exercise.paper else drawing)
 
@@ -47,19 +47,21 @@ def sentence(text: str, parameters: Mapping[str, Value], tell: Tell = str) -> st
     >>> sentence("A lift of {lift} mm; it turns {sense}.", {"lift": 0.5, "sense": "cw"})
     'A lift of 0.5 mm; it turns clockwise.'
     """
-    return re.sub(r"\{([a-z_0-9]+)\}", lambda place: tell(_said(parameters.get(place[1], place[0]))), text)
+    return re.sub(r"\{([a-z_0-9]+)\}", lambda place: tell(_value_text(parameters.get(place[1], place[0]))), text)
 
 
-def _said(value: Value) -> Words:
-    return {"cw": turning("cw"), "ccw": turning("ccw"), **LAW_TITLES}.get(str(value), say("{value}", value=value))
+def _value_text(value: Value) -> Words:
+    return {"cw": sense_caption("cw"), "ccw": sense_caption("ccw"), **LAW_TITLES}.get(
+        str(value), say("{value}", value=value)
+    )
 
 
-def _filled(node: Any, parameters: Mapping[str, Value], path: str) -> Any:
+def _filled_template(node: Any, parameters: Mapping[str, Value], path: str) -> Any:
     if isinstance(node, Mapping):
-        return {key: _filled(value, parameters, path) for key, value in node.items()}
+        return {key: _filled_template(value, parameters, path) for key, value in node.items()}
     if isinstance(node, list | tuple):
-        return [_filled(value, parameters, path) for value in node]
-    place = PLACE.match(node) if isinstance(node, str) else None
+        return [_filled_template(value, parameters, path) for value in node]
+    place = PLACEHOLDER_PATTERN.match(node) if isinstance(node, str) else None
     if place is None:
         return node
     sign, name = place.groups()

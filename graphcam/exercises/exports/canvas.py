@@ -11,29 +11,29 @@ from xml.etree.ElementTree import Element, SubElement
 
 from graphcam.exercises.course.handouts import instructions
 from graphcam.exercises.course.roster import folder_name
-from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.exports.content_package import MANIFEST, Resource, manifest_of, root, write_zip, xml_bytes
+from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
+from graphcam.exercises.exports.content_package import MANIFEST_FILE, Resource, manifest_of, root, write_zip, xml_bytes
 from graphcam.exercises.exports.question_parts import (
-    APART,
-    PRINT_IT,
-    Issued,
-    asked_text,
+    PRINT_ADVICE,
+    SEPARATE_HAND_IN,
+    IssuedVariant,
     check_numbers,
+    question_body,
     short_identifier,
     variant_identifier,
     worksheet_pdf,
 )
 
-QTI = ("http://www.imsglobal.org/xsd/ims_qtiasiv1p2", "http://www.imsglobal.org/xsd/ims_qtiasiv1p2p1.xsd")
-CONTENT = ("http://www.imsglobal.org/xsd/imsccv1p1/imscp_v1p1", "http://www.imsglobal.org/xsd/imscp_v1p1.xsd")
-CANVAS = ("http://canvas.instructure.com/xsd/cccv1p0", "https://canvas.instructure.com/xsd/cccv1p0.xsd")
+QTI_NAMESPACE = ("http://www.imsglobal.org/xsd/ims_qtiasiv1p2", "http://www.imsglobal.org/xsd/ims_qtiasiv1p2p1.xsd")
+CONTENT_NAMESPACE = ("http://www.imsglobal.org/xsd/imsccv1p1/imscp_v1p1", "http://www.imsglobal.org/xsd/imscp_v1p1.xsd")
+CANVAS_NAMESPACE = ("http://canvas.instructure.com/xsd/cccv1p0", "https://canvas.instructure.com/xsd/cccv1p0.xsd")
 """Namespaces, and where their schemas are."""
-FILES = "%24IMS-CC-FILEBASE%24"
+FILES_FOLDER = "%24IMS-CC-FILEBASE%24"
 """The placeholder of the folder into which Canvas puts the files of a package."""
-RESPONSE = "response1"
+RESPONSE_ID = "response1"
 
 
-def write_quizzes(path: Path, exercise: Exercise, issued: Sequence[Issued]) -> None:
+def write_quizzes(path: Path, exercise: Exercise, issued: Sequence[IssuedVariant]) -> None:
     """Write the package, a zip, of several variants.
 
     Raises
@@ -54,33 +54,33 @@ def write_quizzes(path: Path, exercise: Exercise, issued: Sequence[Issued]) -> N
         ]
         files |= {quiz: quiz_xml(exercise, each), settings: settings_xml(exercise, each), sheet: worksheet_pdf(each)}
     identifier = short_identifier("m", exercise.name, exercise.version, *(each.identifier for each in resources))
-    manifest = root("manifest", *CONTENT, {"identifier": identifier})
-    write_zip(path, {MANIFEST: manifest_of(manifest, "IMS Content", "1.1.3", resources)} | files)
+    manifest = root("manifest", *CONTENT_NAMESPACE, {"identifier": identifier})
+    write_zip(path, {MANIFEST_FILE: manifest_of(manifest, "IMS Content", "1.1.3", resources)} | files)
 
 
-def quiz_xml(exercise: Exercise, issued: Issued) -> bytes:
+def quiz_xml(exercise: Exercise, issued: IssuedVariant) -> bytes:
     """The quiz of one variant: a text with the task and the worksheet, then a question for every number."""
     name, tell = variant_identifier(issued), exercise.tell
-    document = root("questestinterop", *QTI, {})
+    document = root("questestinterop", *QTI_NAMESPACE, {})
     assessment = SubElement(document, "assessment", ident=name, title=_title(exercise, issued))
     section = SubElement(assessment, "section", ident="root_section")
-    link = f'<a href="{FILES}/worksheets/{name}.pdf">{escape(tell(PRINT_IT))}</a>'
+    link = f'<a href="{FILES_FOLDER}/worksheets/{name}.pdf">{escape(tell(PRINT_ADVICE))}</a>'
     lines = [escape(instructions(issued.variant)), link]
     lines += [
-        escape(f"{asked_text(exercise, issued.answer_key, asked)} {tell(APART)}")
+        escape(f"{question_body(exercise, issued.answer_key, asked)} {tell(SEPARATE_HAND_IN)}")
         for asked in exercise.answers
         if asked.kind != "number"
     ]
     _item(section, short_identifier("q", name), exercise.title, "text_only_question", 0.0, lines)
     for asked in exercise.answers:
         if asked.kind == "number":
-            _ask(section, exercise, issued, asked)
+            _add_question(section, exercise, issued, asked)
     return xml_bytes(document)
 
 
-def settings_xml(exercise: Exercise, issued: Issued) -> bytes:
+def settings_xml(exercise: Exercise, issued: IssuedVariant) -> bytes:
     """What Canvas is to do with the quiz: it counts, and nobody sees the key."""
-    settings = root("quiz", *CANVAS, {"identifier": variant_identifier(issued)})
+    settings = root("quiz", *CANVAS_NAMESPACE, {"identifier": variant_identifier(issued)})
     points = sum(asked.marks for asked in exercise.answers if asked.kind == "number")
     said = {
         "title": _title(exercise, issued),
@@ -94,12 +94,12 @@ def settings_xml(exercise: Exercise, issued: Issued) -> bytes:
     return xml_bytes(settings)
 
 
-def _ask(section: Element, exercise: Exercise, issued: Issued, asked: Asked) -> None:
+def _add_question(section: Element, exercise: Exercise, issued: IssuedVariant, asked: AskedAnswer) -> None:
     """A numerical question: the key, or any number within its tolerance, has all marks."""
     identifier = short_identifier("q", variant_identifier(issued), asked.name)
-    text = escape(asked_text(exercise, issued.answer_key, asked))
+    text = escape(question_body(exercise, issued.answer_key, asked))
     item, presentation = _item(section, identifier, asked.name, "numerical_question", asked.marks, [text])
-    response = SubElement(presentation, "response_str", ident=RESPONSE, rcardinality="Single")
+    response = SubElement(presentation, "response_str", ident=RESPONSE_ID, rcardinality="Single")
     SubElement(SubElement(response, "render_fib", fibtype="Decimal"), "response_label", ident="answer1")
     processing = SubElement(item, "resprocessing")
     most = {"maxvalue": "100", "minvalue": "0", "varname": "SCORE", "vartype": "Decimal"}
@@ -108,10 +108,10 @@ def _ask(section: Element, exercise: Exercise, issued: Issued, asked: Asked) -> 
     either = SubElement(SubElement(condition, "conditionvar"), "or")
     key = issued.answer_key.keys[asked.name]
     value = float(str(key.expected.value))
-    SubElement(either, "varequal", respident=RESPONSE).text = repr(value)
+    SubElement(either, "varequal", respident=RESPONSE_ID).text = repr(value)
     within = SubElement(either, "and")
-    SubElement(within, "vargte", respident=RESPONSE).text = repr(value - key.tolerance)
-    SubElement(within, "varlte", respident=RESPONSE).text = repr(value + key.tolerance)
+    SubElement(within, "vargte", respident=RESPONSE_ID).text = repr(value - key.tolerance)
+    SubElement(within, "varlte", respident=RESPONSE_ID).text = repr(value + key.tolerance)
     SubElement(condition, "setvar", action="Set", varname="SCORE").text = "100"
 
 
@@ -131,5 +131,5 @@ def _item(
     return item, presentation
 
 
-def _title(exercise: Exercise, issued: Issued) -> str:
+def _title(exercise: Exercise, issued: IssuedVariant) -> str:
     return f"{exercise.title}: {folder_name(issued.student.id)}"

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-EARLIEST = (1980, 1, 1, 0, 0, 0)
+ENTRY_DATE = (1980, 1, 1, 0, 0, 0)
 """Date of all files, the first that a zip can tell: the same files make the same zip."""
 
 
@@ -17,12 +17,12 @@ def write_zip(path: Path, files: Mapping[str, bytes]) -> None:
     """Write files, by their names in it, into a zip."""
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, data in files.items():
-            file = zipfile.ZipInfo(name, EARLIEST)
+            file = zipfile.ZipInfo(name, ENTRY_DATE)
             file.external_attr = 0o644 << 16
             archive.writestr(file, data, zipfile.ZIP_DEFLATED)
 
 
-MANIFEST = "imsmanifest.xml"
+MANIFEST_FILE = "imsmanifest.xml"
 
 
 class Resource(NamedTuple):

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from graphcam.errors import DesignError
-from graphcam.exercises.course.course_folder import SECRET, TEACHER, AnswerKeys, make_secret, write_secret
+from graphcam.exercises.course.course_folder import SECRET_FILE, TEACHER_FOLDER, AnswerKeys, make_secret, write_secret
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import exercise_path, find_exercise
@@ -15,14 +15,14 @@ from graphcam.exercises.exports.moodle import cloze_xml, moodle_xml
 from graphcam.exercises.exports.nbgrader import write_course
 from graphcam.exercises.exports.prairielearn import write_question
 from graphcam.exercises.exports.qti import write_package
-from graphcam.exercises.exports.question_parts import Issued
+from graphcam.exercises.exports.question_parts import IssuedVariant
 from graphcam.exercises.marking.course_variants import course_variants
 from graphcam.files import OutputError, whole_folder
 from graphcam.language import ENGLISH, languages
-from graphcam.tasks.sheet_tables import one_of
+from graphcam.tasks.sheet_tables import check_choice
 from graphcam.words import say
 
-MOST = 1000
+MAX_VARIANTS = 1000
 """Variants of one export."""
 
 
@@ -48,21 +48,21 @@ def export(
     OutputError : the folder is there already, or cannot be written
     TaskError : two students have one e-mail address, or the system cannot ask for what the exercise asks
     """
-    if not 0 < len(students) <= MOST:
-        raise DesignError(say("number of variants"), len(students), say("from 1 to {most}", most=MOST))
+    if not 0 < len(students) <= MAX_VARIANTS:
+        raise DesignError(say("number of variants"), len(students), say("from 1 to {most}", most=MAX_VARIANTS))
     if folder.exists():
         raise OutputError(folder, say("it already exists"), say("choose another folder, or remove that one first"))
-    one_of("language", language, languages())
+    check_choice("language", language, languages())
     exercise = find_exercise(name, language, hand)
     emails = student_by_email(students)
     key = secret or make_secret()
-    issued: list[Issued] = []
+    issued: list[IssuedVariant] = []
     variants = course_variants(exercise, (student.id for student in students), key)
     for student, (variant, answer_key) in zip(students, variants, strict=True):
-        issued.append(Issued(student, variant, answer_key))
+        issued.append(IssuedVariant(student, variant, answer_key))
         step(len(issued), len(students))
     with whole_folder(folder) as draft:
-        kept = AnswerKeys(draft / TEACHER)
+        kept = AnswerKeys(draft / TEACHER_FOLDER)
         noted = {"version": exercise.version, "language": language, "hand": hand, "emails": emails}
         kept.keep_course(exercise_path(name), key, **noted)
         for each in issued:
@@ -70,10 +70,10 @@ def export(
         _write(target, draft, exercise, issued)
         # The autograder marks far from the teacher's own file.
         if secret is None or target is LearningSystem.GRADESCOPE:
-            write_secret(draft / TEACHER / SECRET, key)
+            write_secret(draft / TEACHER_FOLDER / SECRET_FILE, key)
 
 
-def _write(target: LearningSystem, folder: Path, exercise: Exercise, issued: Sequence[Issued]) -> None:
+def _write(target: LearningSystem, folder: Path, exercise: Exercise, issued: Sequence[IssuedVariant]) -> None:
     """Write what the system reads into a folder that has the teacher's files already."""
     match target:
         case LearningSystem.MOODLE:

@@ -16,34 +16,34 @@ from xml.etree.ElementTree import Element, SubElement
 
 from graphcam.exercises.course.handouts import instructions
 from graphcam.exercises.course.roster import folder_name
-from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
 from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.exports.content_package import xml_bytes
 from graphcam.exercises.exports.question_parts import (
-    APART,
-    FAR_OFF,
-    PRINT_IT,
-    RIGHT,
-    Issued,
-    asked_text,
+    PRINT_ADVICE,
+    RIGHT_FEEDBACK,
+    SEPARATE_HAND_IN,
+    WRONG_FEEDBACK,
+    IssuedVariant,
     check_numbers,
     mistaken,
+    question_body,
     whole_marks,
     worksheet_pdf,
 )
 from graphcam.exercises.key.answer_key import AnswerKey
 
-WORKSHEET = "worksheet.pdf"
-ANYTHING = "0:1e12"
+WORKSHEET_FILE = "worksheet.pdf"
+ANY_NUMBER = "0:1e12"
 """All numbers that a student may give; a cloze question's "*" has no tolerance, which Moodle complains about."""
-ENTITIES = {ord(sign): f"&#{ord(sign)};" for sign in '{}#~/\\"'}
+CLOZE_ENTITIES = {ord(sign): f"&#{ord(sign)};" for sign in '{}#~/\\"'}
 """Signs that mean something in a blank.
 
 Moodle decodes entities in feedback; behind a backslash it finds only ``}`` and ``#`` again.
 """
 
 
-def cloze_xml(exercise: Exercise, issued: Sequence[Issued]) -> str:
+def cloze_xml(exercise: Exercise, issued: Sequence[IssuedVariant]) -> str:
     """The questions of several variants, all in one category, so that a quiz can draw one of them at random.
 
     Raises
@@ -61,40 +61,40 @@ def cloze_xml(exercise: Exercise, issued: Sequence[Issued]) -> str:
         question = SubElement(quiz, "question", type="cloze")
         add_text(question, "name", f"{exercise.title}: {folder_name(each.student.id)}")
         text = add_text(question, "questiontext", question_text(exercise, each), format="html")
-        file = SubElement(text, "file", name=WORKSHEET, path="/", encoding="base64")
+        file = SubElement(text, "file", name=WORKSHEET_FILE, path="/", encoding="base64")
         file.text = b64encode(worksheet_pdf(each)).decode("ascii")
         add_text(question, "generalfeedback", "", format="html")
         SubElement(question, "penalty").text = "0"
     return xml_bytes(quiz).decode()
 
 
-def question_text(exercise: Exercise, issued: Issued) -> str:
+def question_text(exercise: Exercise, issued: IssuedVariant) -> str:
     """What the question says, in HTML: the task, the worksheet, and every answer with its blank."""
     tell, answer_key = exercise.tell, issued.answer_key
     lines = [
         f"<h4>{_shown(exercise.title)}</h4>",
         f"<p>{_shown(instructions(issued.variant))}</p>",
-        f'<p><a href="@@PLUGINFILE@@/{WORKSHEET}">{_shown(tell(PRINT_IT))}</a></p>',
+        f'<p><a href="@@PLUGINFILE@@/{WORKSHEET_FILE}">{_shown(tell(PRINT_ADVICE))}</a></p>',
     ]
     weights = whole_marks(exercise)
     for asked in exercise.answers:
-        said = asked_text(exercise, answer_key, asked)
+        said = question_body(exercise, answer_key, asked)
         if asked.kind == "number":
             lines.append(f"<p>{_shown(said)} {_blank(exercise, answer_key, asked, weights[asked.name])}</p>")
         else:
-            lines.append(f"<p>{_shown(f'{said} {tell(APART)}')}</p>")
+            lines.append(f"<p>{_shown(f'{said} {tell(SEPARATE_HAND_IN)}')}</p>")
     return "\n".join(lines)
 
 
-def _blank(exercise: Exercise, answer_key: AnswerKey, asked: Asked, weight: int) -> str:
+def _blank(exercise: Exercise, answer_key: AnswerKey, asked: AskedAnswer, weight: int) -> str:
     key = answer_key.keys[asked.name]
     tell = exercise.tell
-    answers = [f"={key.expected.value!r}:{key.tolerance!r}#{_feedback(tell(RIGHT))}"]
+    answers = [f"={key.expected.value!r}:{key.tolerance!r}#{_feedback(tell(RIGHT_FEEDBACK))}"]
     answers += [
         f"%0%{wrong.value!r}:{wrong.tolerance!r}#{_feedback(tell(wrong.said))}"
         for wrong in mistaken(exercise, answer_key, asked)
     ]
-    answers.append(f"%0%{ANYTHING}#{_feedback(tell(FAR_OFF))}")
+    answers.append(f"%0%{ANY_NUMBER}#{_feedback(tell(WRONG_FEEDBACK))}")
     return f"{{{weight}:NUMERICAL:{'~'.join(answers)}}}"
 
 
@@ -104,15 +104,15 @@ def _feedback(text: str) -> str:
     >>> _feedback("a < b} ~ c")
     'a &amp;lt; b&#125; &#126; c'
     """
-    return escape(escape(text, quote=False), quote=False).translate(ENTITIES)
+    return escape(escape(text, quote=False), quote=False).translate(CLOZE_ENTITIES)
 
 
 def _shown(text: str) -> str:
     """Text as HTML that holds no blank."""
-    return escape(text, quote=False).translate(ENTITIES)
+    return escape(text, quote=False).translate(CLOZE_ENTITIES)
 
 
-ONE_DXF = {
+DXF_ESSAY_OPTIONS = {
     "responseformat": "noinline",
     "responserequired": "0",
     "attachments": "1",
@@ -135,23 +135,23 @@ def moodle_xml(exercise: Exercise, answer_keys: Sequence[AnswerKey]) -> str:
         told = sentence(exercise.text, answer_key.parameters, exercise.tell)
         _question(quiz, "description", exercise.title, told, defaultgrade="0")
         for asked in exercise.answers:
-            _ask(quiz, exercise, answer_key, asked)
+            _add_question(quiz, exercise, answer_key, asked)
     return xml_bytes(quiz).decode()
 
 
-def _ask(quiz: Element, exercise: Exercise, answer_key: AnswerKey, asked: Asked) -> None:
+def _add_question(quiz: Element, exercise: Exercise, answer_key: AnswerKey, asked: AskedAnswer) -> None:
     title, tell = f"{exercise.title}: {asked.name}", exercise.tell
-    text = asked_text(exercise, answer_key, asked)
+    text = question_body(exercise, answer_key, asked)
     if asked.kind != "number":
         # Points and curves are handed in as a drawing, which Moodle keeps and graphcam grades.
-        _question(quiz, "essay", title, text, defaultgrade=repr(asked.marks), penalty="0", **ONE_DXF)
+        _question(quiz, "essay", title, text, defaultgrade=repr(asked.marks), penalty="0", **DXF_ESSAY_OPTIONS)
         return
     question = _question(quiz, "numerical", title, text, defaultgrade=repr(asked.marks), penalty="0", hidden="0")
     key = answer_key.keys[asked.name]
-    _answer(question, 100, repr(key.expected.value), repr(key.tolerance), tell(RIGHT))
+    _answer(question, 100, repr(key.expected.value), repr(key.tolerance), tell(RIGHT_FEEDBACK))
     for wrong in mistaken(exercise, answer_key, asked):
         _answer(question, 0, repr(wrong.value), repr(wrong.tolerance), tell(wrong.said))
-    _answer(question, 0, "*", "0", tell(FAR_OFF))
+    _answer(question, 0, "*", "0", tell(WRONG_FEEDBACK))
     _settings(question, unitgradingtype="0", showunits="3")
 
 

@@ -12,12 +12,12 @@ import nbformat.v4 as nb
 from nbformat import NotebookNode
 
 from graphcam.exercises.course.roster import folder_name
-from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
 from graphcam.exercises.definition.variant import sentence
-from graphcam.exercises.grading.gradebook import NOTEBOOK
+from graphcam.exercises.grading.gradebook import NOTEBOOK_NAME
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.reading.notebook import TAG
-from graphcam.notebooks.running import PYTHON
+from graphcam.exercises.reading.notebook import ANSWER_TAG
+from graphcam.notebooks.notebook_execution import PYTHON_METADATA
 from graphcam.words import Tell, say
 
 CELL = {"schema_version": 3, "grade": False, "solution": False, "locked": False, "task": False}
@@ -29,7 +29,7 @@ c.CourseDirectory.course_id = {course!r}
 # Stands in the student's notebook in place of a solution.
 c.ClearSolutions.code_stub = {{"python": {stub!r}}}
 '''
-SOLUTION = "### BEGIN SOLUTION\n### END SOLUTION"
+SOLUTION_MARKS = "### BEGIN SOLUTION\n### END SOLUTION"
 """Marks of a solution: without them nbgrader takes the whole cell, and with it the answer's name."""
 
 
@@ -46,7 +46,7 @@ def write_course(folder: Path, exercise: Exercise, answer_keys: Sequence[AnswerK
     cells = [_markdown("task", f"# {exercise.title}\n\n{tell(how)}")]
     for asked in exercise.answers:
         cells += [_markdown(f"{asked.name}-asked", _question(asked, tell)), _answer(asked)]
-    nbformat.write(nb.new_notebook(cells=cells, metadata=PYTHON), source / f"{NOTEBOOK}.ipynb")
+    nbformat.write(nb.new_notebook(cells=cells, metadata=PYTHON_METADATA), source / f"{NOTEBOOK_NAME}.ipynb")
     sheets = folder / "sheets"
     sheets.mkdir()
     for answer_key in answer_keys:
@@ -55,7 +55,7 @@ def write_course(folder: Path, exercise: Exercise, answer_keys: Sequence[AnswerK
         (sheets / f"{folder_name(answer_key.student)}.md").write_text(text, encoding="utf-8", newline="\n")
 
 
-def _question(asked: Asked, tell: Tell) -> str:
+def _question(asked: AskedAnswer, tell: Tell) -> str:
     unit = f" [{tell(asked.unit_said)}]" if asked.unit else ""
     points = tell(say("A list of points `[x, y]` in mm of paper."))
     text = asked.text if asked.kind == "number" else f"{asked.text} {points}"
@@ -66,8 +66,8 @@ def _markdown(name: str, text: str) -> NotebookNode:
     return nb.new_markdown_cell(text, id=name, metadata={"nbgrader": CELL | {"grade_id": name, "locked": True}})
 
 
-def _answer(asked: Asked) -> NotebookNode:
+def _answer(asked: AskedAnswer) -> NotebookNode:
     """A cell that is graded by hand as nbgrader sees it: graphcam is the hand."""
     graded = CELL | {"grade_id": asked.name, "grade": True, "solution": True, "points": asked.marks}
-    source = f"{asked.name} = None\n{SOLUTION}"
-    return nb.new_code_cell(source, id=asked.name, metadata={"tags": [TAG], "nbgrader": graded})
+    source = f"{asked.name} = None\n{SOLUTION_MARKS}"
+    return nb.new_code_cell(source, id=asked.name, metadata={"tags": [ANSWER_TAG], "nbgrader": graded})

@@ -14,24 +14,24 @@ from graphcam.exercises.course.handouts import instructions
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.exports import prairielearn_server
 from graphcam.exercises.exports.question_parts import (
-    APART,
-    FAR_OFF,
-    PRINT_IT,
-    Issued,
-    asked_text,
+    PRINT_ADVICE,
+    SEPARATE_HAND_IN,
+    WRONG_FEEDBACK,
+    IssuedVariant,
     check_numbers,
     identifier_of,
     mistaken,
+    question_body,
     variant_identifier,
     whole_marks,
     worksheet_pdf,
 )
 from graphcam.words import say
 
-TOPIC = say("Cam mechanism")
+TOPIC_NAME = say("Cam mechanism")
 
 
-def write_question(folder: Path, exercise: Exercise, issued: Sequence[Issued]) -> None:
+def write_question(folder: Path, exercise: Exercise, issued: Sequence[IssuedVariant]) -> None:
     """Write the folder of a question that has these variants.
 
     Raises
@@ -45,7 +45,7 @@ def write_question(folder: Path, exercise: Exercise, issued: Sequence[Issued]) -
     for name, each in variants.items():
         (worksheets / f"{name}.pdf").write_bytes(worksheet_pdf(each))
     table = {
-        "far": exercise.tell(FAR_OFF),
+        "far": exercise.tell(WRONG_FEEDBACK),
         "variants": {name: _variant(exercise, each, f"{name}.pdf") for name, each in variants.items()},
     }
     files = {
@@ -66,7 +66,7 @@ def _info(exercise: Exercise) -> dict[str, Any]:
     return {
         "uuid": str(identifier_of("prairielearn", exercise.name, exercise.version, exercise.language)),
         "title": exercise.title,
-        "topic": exercise.tell(TOPIC),
+        "topic": exercise.tell(TOPIC_NAME),
         "type": "v3",
         "singleVariant": True,
         "showCorrectAnswer": False,
@@ -76,12 +76,16 @@ def _info(exercise: Exercise) -> dict[str, Any]:
 def question_html(exercise: Exercise) -> str:
     """The page, a template of Mustache: what differs between variants is a parameter, which Mustache escapes."""
     weights = whole_marks(exercise)
-    link = '<a href="{{options.client_files_question_url}}/{{params.worksheet}}">' + _shown(exercise.tell(PRINT_IT))
+    link = '<a href="{{options.client_files_question_url}}/{{params.worksheet}}">' + _plain_html(
+        exercise.tell(PRINT_ADVICE)
+    )
     lines = ["<pl-question-panel>", "<p>{{params.task}}</p>", f"<p>{link}</a></p>", "</pl-question-panel>"]
     for asked in exercise.answers:
         text = "{{params.asked." + asked.name + "}}"
         if asked.kind != "number":
-            lines.append(f"<pl-question-panel><p>{text} {_shown(exercise.tell(APART))}</p></pl-question-panel>")
+            lines.append(
+                f"<pl-question-panel><p>{text} {_plain_html(exercise.tell(SEPARATE_HAND_IN))}</p></pl-question-panel>"
+            )
             continue
         settings = {
             "answers-name": asked.name,
@@ -104,7 +108,7 @@ def question_html(exercise: Exercise) -> str:
     return "\n".join([*lines, ""])
 
 
-def _variant(exercise: Exercise, issued: Issued, file: str) -> dict[str, Any]:
+def _variant(exercise: Exercise, issued: IssuedVariant, file: str) -> dict[str, Any]:
     """What the page shows of a variant, and what the server alone knows."""
     answer_key = issued.answer_key
     numbers = [asked for asked in exercise.answers if asked.kind == "number"]
@@ -119,7 +123,7 @@ def _variant(exercise: Exercise, issued: Issued, file: str) -> dict[str, Any]:
         "params": {
             "task": instructions(issued.variant),
             "worksheet": file,
-            "asked": {asked.name: asked_text(exercise, answer_key, asked) for asked in exercise.answers},
+            "asked": {asked.name: question_body(exercise, answer_key, asked) for asked in exercise.answers},
             "tolerance": {name: key.tolerance for name, key in keys.items()},
         },
         "keys": {name: key.expected.value for name, key in keys.items()},
@@ -127,10 +131,10 @@ def _variant(exercise: Exercise, issued: Issued, file: str) -> dict[str, Any]:
     }
 
 
-def _shown(text: str) -> str:
+def _plain_html(text: str) -> str:
     """Text as HTML in which Mustache finds nothing to fill in.
 
-    >>> _shown("a < {{b}}")
+    >>> _plain_html("a < {{b}}")
     'a &lt; &#123;&#123;b&#125;&#125;'
     """
     return escape(text).replace("{", "&#123;").replace("}", "&#125;")

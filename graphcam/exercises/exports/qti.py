@@ -11,33 +11,33 @@ from xml.etree.ElementTree import Element, SubElement
 
 from graphcam.exercises.course.handouts import instructions
 from graphcam.exercises.course.roster import folder_name
-from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.exports.content_package import MANIFEST, Resource, manifest_of, root, write_zip, xml_bytes
+from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
+from graphcam.exercises.exports.content_package import MANIFEST_FILE, Resource, manifest_of, root, write_zip, xml_bytes
 from graphcam.exercises.exports.question_parts import (
-    APART,
-    FAR_OFF,
-    PRINT_IT,
-    RIGHT,
-    Issued,
-    asked_text,
+    PRINT_ADVICE,
+    RIGHT_FEEDBACK,
+    SEPARATE_HAND_IN,
+    WRONG_FEEDBACK,
+    IssuedVariant,
     check_numbers,
     mistaken,
+    question_body,
     short_identifier,
     variant_identifier,
     worksheet_pdf,
 )
 
-QTI = "http://www.imsglobal.org/xsd/imsqti_v2p1"
-CONTENT = "http://www.imsglobal.org/xsd/imscp_v1p1"
-SCHEMAS = {
-    QTI: "http://www.imsglobal.org/xsd/qti/qtiv2p1/imsqti_v2p1.xsd",
-    CONTENT: "http://www.imsglobal.org/xsd/qti/qtiv2p1/qtiv2p1_imscpv1p2_v1p0.xsd",
+QTI_NAMESPACE = "http://www.imsglobal.org/xsd/imsqti_v2p1"
+CONTENT_NAMESPACE = "http://www.imsglobal.org/xsd/imscp_v1p1"
+SCHEMA_LOCATIONS = {
+    QTI_NAMESPACE: "http://www.imsglobal.org/xsd/qti/qtiv2p1/imsqti_v2p1.xsd",
+    CONTENT_NAMESPACE: "http://www.imsglobal.org/xsd/qti/qtiv2p1/qtiv2p1_imscpv1p2_v1p0.xsd",
 }
 """The address of the schema of each namespace."""
-TEST = "test.xml"
+TEST_FILE = "test.xml"
 
 
-def write_package(path: Path, exercise: Exercise, issued: Sequence[Issued]) -> None:
+def write_package(path: Path, exercise: Exercise, issued: Sequence[IssuedVariant]) -> None:
     """Write the package, a zip, of several variants.
 
     Raises
@@ -46,17 +46,17 @@ def write_package(path: Path, exercise: Exercise, issued: Sequence[Issued]) -> N
     """
     check_numbers(exercise)
     names = [variant_identifier(each) for each in issued]
-    files = {MANIFEST: manifest_xml(exercise, names), TEST: assessment_xml(exercise, names)}
+    files = {MANIFEST_FILE: manifest_xml(exercise, names), TEST_FILE: assessment_xml(exercise, names)}
     for name, each in zip(names, issued, strict=True):
         files |= {f"{name}.xml": item_xml(exercise, each), f"{name}.pdf": worksheet_pdf(each)}
     write_zip(path, files)
 
 
-def item_xml(exercise: Exercise, issued: Issued) -> bytes:
+def item_xml(exercise: Exercise, issued: IssuedVariant) -> bytes:
     """One variant: what is asked, keys, and how it is marked."""
     name, tell = variant_identifier(issued), exercise.tell
     title = f"{exercise.title}: {folder_name(issued.student.id)}"
-    item = _root("assessmentItem", QTI, identifier=name, title=title, adaptive="false", timeDependent="false")
+    item = _root("assessmentItem", QTI_NAMESPACE, identifier=name, title=title, adaptive="false", timeDependent="false")
     item.set("xml:lang", exercise.language)
     numbers = [asked for asked in exercise.answers if asked.kind == "number"]
     for asked in numbers:
@@ -70,21 +70,21 @@ def item_xml(exercise: Exercise, issued: Issued) -> bytes:
     body = SubElement(item, "itemBody")
     SubElement(body, "p").text = instructions(issued.variant)
     link = SubElement(SubElement(body, "p"), "a", href=f"{name}.pdf", type="application/pdf")
-    link.text = tell(PRINT_IT)
+    link.text = tell(PRINT_ADVICE)
     for asked in exercise.answers:
         paragraph = SubElement(body, "p")
-        paragraph.text = asked_text(exercise, issued.answer_key, asked) + " "
+        paragraph.text = question_body(exercise, issued.answer_key, asked) + " "
         if asked.kind == "number":
             SubElement(paragraph, "textEntryInteraction", responseIdentifier=_response(asked), expectedLength="12")
         else:
-            paragraph.text += tell(APART)
+            paragraph.text += tell(SEPARATE_HAND_IN)
     processing = SubElement(item, "responseProcessing")
     for asked in numbers:
         _mark(item, processing, exercise, issued, asked)
     return xml_bytes(item)
 
 
-def _mark(item: Element, processing: Element, exercise: Exercise, issued: Issued, asked: Asked) -> None:
+def _mark(item: Element, processing: Element, exercise: Exercise, issued: IssuedVariant, asked: AskedAnswer) -> None:
     """The condition that marks one number, and the feedback that belongs to its branches."""
     key, name, tell = issued.answer_key.keys[asked.name], _response(asked), exercise.tell
     condition = SubElement(processing, "responseCondition")
@@ -95,20 +95,20 @@ def _mark(item: Element, processing: Element, exercise: Exercise, issued: Issued
     total = SubElement(SubElement(branch, "setOutcomeValue", identifier="SCORE"), "sum")
     SubElement(total, "variable", identifier="SCORE")
     SubElement(total, "baseValue", baseType="float").text = repr(asked.marks)
-    _tell(item, branch, f"{asked.name}: {tell(RIGHT)}")
+    _add_feedback(item, branch, f"{asked.name}: {tell(RIGHT_FEEDBACK)}")
     for wrong in mistaken(exercise, issued.answer_key, asked):
         branch = SubElement(condition, "responseElseIf")
         equal = SubElement(branch, "equal", toleranceMode="absolute", tolerance=repr(wrong.tolerance))
         SubElement(equal, "variable", identifier=name)
         SubElement(equal, "baseValue", baseType="float").text = repr(wrong.value)
-        _tell(item, branch, f"{asked.name}: {tell(wrong.said)}")
+        _add_feedback(item, branch, f"{asked.name}: {tell(wrong.said)}")
     # An empty blank is equal to nothing; it is not far off either.
     branch = SubElement(condition, "responseElseIf")
     SubElement(SubElement(SubElement(branch, "not"), "isNull"), "variable", identifier=name)
-    _tell(item, branch, f"{asked.name}: {tell(FAR_OFF)}")
+    _add_feedback(item, branch, f"{asked.name}: {tell(WRONG_FEEDBACK)}")
 
 
-def _tell(item: Element, branch: Element, text: str) -> None:
+def _add_feedback(item: Element, branch: Element, text: str) -> None:
     """Show a feedback where the branch is taken."""
     identifier = f"F{len(item.findall('modalFeedback')) + 1}"
     shown = SubElement(SubElement(branch, "setOutcomeValue", identifier="FEEDBACK"), "multiple")
@@ -120,7 +120,7 @@ def _tell(item: Element, branch: Element, text: str) -> None:
 
 def assessment_xml(exercise: Exercise, names: Sequence[str]) -> bytes:
     """The test: of all variants one is drawn; its score is that of the test."""
-    test = _root("assessmentTest", QTI, identifier=_test_name(exercise, names), title=exercise.title)
+    test = _root("assessmentTest", QTI_NAMESPACE, identifier=_test_name(exercise, names), title=exercise.title)
     SubElement(test, "outcomeDeclaration", _variable("SCORE", "single", "float"))
     part = SubElement(test, "testPart", identifier="part", navigationMode="nonlinear", submissionMode="individual")
     section = SubElement(part, "assessmentSection", identifier="variants", title=exercise.title, visible="false")
@@ -136,12 +136,12 @@ def assessment_xml(exercise: Exercise, names: Sequence[str]) -> bytes:
 def manifest_xml(exercise: Exercise, names: Sequence[str]) -> bytes:
     """What the package holds, and what depends on what."""
     test = _test_name(exercise, names)
-    resources = [Resource(test, "imsqti_test_xmlv2p1", TEST, names)]
+    resources = [Resource(test, "imsqti_test_xmlv2p1", TEST_FILE, names)]
     for name in names:
         sheet = f"w{name[1:]}"
         resources.append(Resource(name, "imsqti_item_xmlv2p1", f"{name}.xml", [sheet]))
         resources.append(Resource(sheet, "webcontent", f"{name}.pdf"))
-    manifest = _root("manifest", CONTENT, identifier=f"m{test[1:]}")
+    manifest = _root("manifest", CONTENT_NAMESPACE, identifier=f"m{test[1:]}")
     return manifest_of(manifest, "QTIv2.1 Package", "1.0.0", resources)
 
 
@@ -149,7 +149,7 @@ def _test_name(exercise: Exercise, names: Sequence[str]) -> str:
     return short_identifier("t", exercise.name, exercise.version, *names)
 
 
-def _response(asked: Asked) -> str:
+def _response(asked: AskedAnswer) -> str:
     """A name that none of QTI's own variables has."""
     return f"R-{asked.name}"
 
@@ -159,4 +159,4 @@ def _variable(identifier: str, cardinality: str, kind: str) -> dict[str, str]:
 
 
 def _root(name: str, namespace: str, **attributes: str) -> Element:
-    return root(name, namespace, SCHEMAS[namespace], attributes)
+    return root(name, namespace, SCHEMA_LOCATIONS[namespace], attributes)

@@ -11,21 +11,21 @@ from typing import NamedTuple
 from graphcam.errors import TaskError
 from graphcam.exercises.course.handouts import worksheet
 from graphcam.exercises.course.roster import Student
-from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import Variant, sentence
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.words import Caption, say
 
-RIGHT = say("Right.")
-FAR_OFF = say("The deviation is larger than careful drawing and calculation allow.")
+RIGHT_FEEDBACK = say("Right.")
+WRONG_FEEDBACK = say("The deviation is larger than careful drawing and calculation allow.")
 """The feedback on an answer that is neither right nor a catalogued mistake's."""
-PRINT_IT = say("The worksheet: print it true to scale and draw on it.")
-APART = say("Hand it in separately: its marks are not part of this question.")
+PRINT_ADVICE = say("The worksheet: print it true to scale and draw on it.")
+SEPARATE_HAND_IN = say("Hand it in separately: its marks are not part of this question.")
 NAMESPACE = uuid.uuid5(uuid.NAMESPACE_DNS, "graphcam.exercise")
 
 
-class Issued(NamedTuple):
+class IssuedVariant(NamedTuple):
     """A student's variant with its key."""
 
     student: Student
@@ -33,7 +33,7 @@ class Issued(NamedTuple):
     answer_key: AnswerKey
 
 
-class Mistaken(NamedTuple):
+class MistakenAnswers(NamedTuple):
     """What a student with a catalogued mistake answers, how far about it, and what the student is told."""
 
     value: float
@@ -55,7 +55,7 @@ def check_numbers(exercise: Exercise) -> None:
         )
 
 
-def asked_text(exercise: Exercise, answer_key: AnswerKey, asked: Asked) -> str:
+def question_body(exercise: Exercise, answer_key: AnswerKey, asked: AskedAnswer) -> str:
     """What an answer's question says: of a number with its unit, of a drawing with how it is handed in."""
     tell = exercise.tell
     text = sentence(asked.text, answer_key.parameters, tell)
@@ -65,7 +65,7 @@ def asked_text(exercise: Exercise, answer_key: AnswerKey, asked: Asked) -> str:
     return f"{text} {tell(how)}"
 
 
-def mistaken(exercise: Exercise, answer_key: AnswerKey, asked: Asked) -> Iterator[Mistaken]:
+def mistaken(exercise: Exercise, answer_key: AnswerKey, asked: AskedAnswer) -> Iterator[MistakenAnswers]:
     """What the catalogued mistakes answer where a number is asked, none of it within the key's tolerance."""
     key, place = answer_key.keys[asked.name], exercise.answers.index(asked)
     for name, values in answer_key.hypotheses.items():
@@ -75,7 +75,7 @@ def mistaken(exercise: Exercise, answer_key: AnswerKey, asked: Asked) -> Iterato
         # A mistake made elsewhere leaves this answer right.
         room = abs(value - float(str(key.expected.value))) - key.tolerance
         if room > 0:
-            yield Mistaken(value, min(answer_key.bound * scatter, room), misconception(name).said)
+            yield MistakenAnswers(value, min(answer_key.bound * scatter, room), misconception(name).said)
 
 
 def whole_marks(exercise: Exercise) -> dict[str, int]:
@@ -94,7 +94,7 @@ def whole_marks(exercise: Exercise) -> dict[str, int]:
     return {name: int(each * times) for name, each in marks.items()}
 
 
-def worksheet_pdf(issued: Issued) -> bytes:
+def worksheet_pdf(issued: IssuedVariant) -> bytes:
     """The variant's worksheet, true to scale."""
     from graphcam.sheets.matplotlib_renderer import write_pdf
 
@@ -121,7 +121,7 @@ def short_identifier(letter: str, *said: object) -> str:
     return letter + identifier_of(*said).hex[:31]
 
 
-def variant_identifier(issued: Issued) -> str:
+def variant_identifier(issued: IssuedVariant) -> str:
     """A name of the variant: of the exercise, the student and the parameters, with nothing of the key."""
     answer_key = issued.answer_key
     said = (answer_key.exercise, answer_key.version, answer_key.student, dict(answer_key.parameters))

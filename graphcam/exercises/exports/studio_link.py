@@ -19,7 +19,7 @@ from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.course.handouts import instructions
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.drawn_answers import board_chain
-from graphcam.exercises.definition.exercise import Asked
+from graphcam.exercises.definition.exercise import AskedAnswer
 from graphcam.exercises.definition.variant import Variant, sentence
 from graphcam.exercises.exports.question_parts import mistaken
 from graphcam.exercises.key.answer_key import AnswerKey
@@ -28,11 +28,11 @@ from graphcam.studio.exercise_checks import ITERATIONS, check_of, salt_of
 from graphcam.studio.task_text import built_in_tasks, nearest_built_in, plain_task
 from graphcam.words import say
 
-FILE = "studio.txt"
+LINK_FILE = "studio.txt"
 """The file of the link in a student's folder."""
-NOTHING_DRAWN = "scheme"
+FIRST_CONSTRUCTION = "scheme"
 """What is given of a task whose answers begin with the first diagram, or stand beside the others."""
-PRACTICE = say("Your exercise in the studio, for practice only: marks are given for what you hand in.")
+PRACTICE_NOTE = say("Your exercise in the studio, for practice only: marks are given for what you hand in.")
 
 
 def exercise_of(variant: Variant, answer_key: AnswerKey | None = None, salt: bytes = b"") -> dict[str, Any]:
@@ -45,30 +45,30 @@ def exercise_of(variant: Variant, answer_key: AnswerKey | None = None, salt: byt
     said: dict[str, Any] = {
         "title": exercise.title,
         "text": instructions(variant),
-        "upto": given_of(variant),
-        "answers": [_asked(variant, asked, answer_key, salt, sentences) for asked in exercise.answers],
+        "upto": given_construction(variant),
+        "answers": [_answer_check(variant, asked, answer_key, salt, sentences) for asked in exercise.answers],
     }
     if answer_key is not None:
         said |= {"salt": base64.urlsafe_b64encode(salt).decode(), "iterations": ITERATIONS, "hints": sentences}
     return said
 
 
-def given_of(variant: Variant) -> str:
+def given_construction(variant: Variant) -> str:
     """The last construction before the first that is asked.
 
     >>> from graphcam.exercises.definition.exercise_file import find_exercise
     >>> from graphcam.exercises.definition.variant import drawn
-    >>> given_of(drawn(find_exercise("inversion-translating"), "Anna", b"secret", 0))
+    >>> given_construction(drawn(find_exercise("inversion-translating"), "Anna", b"secret", 0))
     'acceleration'
     """
     names, asked = board_chain(variant.task).names, {each.construction for each in variant.exercise.answers}
     if not asked <= set(names):
-        return NOTHING_DRAWN
+        return FIRST_CONSTRUCTION
     return names[max(min(names.index(name) for name in asked) - 1, 0)]
 
 
-def _asked(
-    variant: Variant, asked: Asked, answer_key: AnswerKey | None, salt: bytes, sentences: list[str]
+def _answer_check(
+    variant: Variant, asked: AskedAnswer, answer_key: AnswerKey | None, salt: bytes, sentences: list[str]
 ) -> dict[str, Any]:
     """One answer; the sentences of its hints are added to those there."""
     exercise, tell = variant.exercise, variant.exercise.tell
@@ -101,13 +101,13 @@ def studio_address(variant: Variant, answer_key: AnswerKey | None = None, salt: 
     place = StudioPlace(plain_task(task), nearest_built_in(task), mode="exercise")
     for exercise in shorter:
         try:
-            return address_of(_with(place, exercise), tasks)
+            return address_of(_with_exercise(place, exercise), tasks)
         except DesignError:
             continue
-    return address_of(_with(place, shortest), tasks)
+    return address_of(_with_exercise(place, shortest), tasks)
 
 
-def _with(place: StudioPlace, exercise: Mapping[str, Any]) -> StudioPlace:
+def _with_exercise(place: StudioPlace, exercise: Mapping[str, Any]) -> StudioPlace:
     return replace(place, exercise=exercise)
 
 
@@ -169,7 +169,7 @@ def write_links(folder: Path, secret_file: Path | None, url: str, *, checks: boo
         variant = Variant(exercise, student.id, key.draw, key.parameters)
         salt = salt_of(secret, exercise.name, student.id)
         address = studio_address(variant, key if checks else None, salt)
-        text = f"{exercise.tell(PRACTICE)}\n\n{url}{address}\n"
-        (students / folder_name(student.id) / FILE).write_text(text, encoding="utf-8", newline="\n")
+        text = f"{exercise.tell(PRACTICE_NOTE)}\n\n{url}{address}\n"
+        (students / folder_name(student.id) / LINK_FILE).write_text(text, encoding="utf-8", newline="\n")
         written += 1
     return written

@@ -12,7 +12,7 @@ from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.words import say
 
-LOOKED_AT = 5
+COMPARED_KEYS = 5
 """Answer keys that are compared; one that somebody has changed alone is made again."""
 REMEDY = say("put the file back as it was; marks, caps and texts may change")
 
@@ -26,7 +26,7 @@ def check_unchanged(exercise: Exercise, kept: AnswerKeys, students: Iterable[str
     """
     place = str(Path(kept.exercise() or exercise.name))
     others: list[str] = []
-    for known in _known(kept, students, exercise.name):
+    for known in _comparable_keys(kept, students, exercise.name):
         now = drawn(exercise, known.student, secret, known.draw).parameters
         if known.version != exercise.version:
             others.append("version")
@@ -39,7 +39,7 @@ def check_unchanged(exercise: Exercise, kept: AnswerKeys, students: Iterable[str
         raise TaskError(place, others[0], say("changed"), say("as it was when the handouts were made"), REMEDY)
 
 
-def _known(kept: AnswerKeys, students: Iterable[str], name: str) -> list[AnswerKey]:
+def _comparable_keys(kept: AnswerKeys, students: Iterable[str], name: str) -> list[AnswerKey]:
     """The first answer keys that are kept, are of the exercise, and can be read."""
     found: list[AnswerKey] = []
     keys = KeysAsNeeded(kept, ())
@@ -47,6 +47,6 @@ def _known(kept: AnswerKeys, students: Iterable[str], name: str) -> list[AnswerK
         known = keys.get(student)
         if known is not None and (known.exercise, known.student) == (name, student):
             found.append(known)
-        if len(found) == LOOKED_AT:
+        if len(found) == COMPARED_KEYS:
             break
     return found

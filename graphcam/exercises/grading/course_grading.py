@@ -18,39 +18,45 @@ from typing import Any
 import graphcam
 from graphcam.drafting.ink import say
 from graphcam.errors import DesignError, MissingFileError, TaskError, installed
+from graphcam.exercises.course.answer_search import AnswerSearch
 from graphcam.exercises.course.course_folder import AnswerKeys, KeysAsNeeded
-from graphcam.exercises.course.found_answers import Look
-from graphcam.exercises.course.hand_ins import HandIn, Refused, course_students, hand_ins_in
-from graphcam.exercises.course.packed import unpacked
 from graphcam.exercises.course.photo_reports import await_review, read_off_photographs, with_photo_notes
 from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.roster import Student, folder_name
+from graphcam.exercises.course.submissions import HandIn, Refused, course_students, hand_ins_in
+from graphcam.exercises.course.zipped_submissions import unpacked
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.marks_policy import caps_of
 from graphcam.exercises.grading.changed_exercise import check_unchanged
+from graphcam.exercises.grading.empty_submissions import (
+    not_handed_in,
+    to_check,
+    unreadable_hand_ins,
+    with_absence,
+    with_paper,
+)
 from graphcam.exercises.grading.grade_one import Assignment, Submission, grade, read_hand_in, unmarked
-from graphcam.exercises.grading.gradebook import ENTERED, check_gradebook, enter_scores
-from graphcam.exercises.grading.handed_in import not_handed_in, to_check, unread, with_absence, with_paper
-from graphcam.exercises.grading.overrides import OVERRIDES, Override, overridden, read_overrides
-from graphcam.exercises.marking.copies import alike_pairs
+from graphcam.exercises.grading.gradebook import ENTERED_FILE, check_gradebook, enter_scores
+from graphcam.exercises.grading.overrides import OVERRIDES_FILE, Override, overridden, read_overrides
+from graphcam.exercises.marking.copy_detection import alike_pairs
 from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.report_files import GroupNotes, write_feedback, write_reports
 from graphcam.exercises.reports.shown_names import ShownNames, hidden_names
-from graphcam.exercises.running.levels import Level, ResourceLimits
-from graphcam.exercises.running.probe import LevelError, require
+from graphcam.exercises.running.isolation_levels import Level, ResourceLimits
+from graphcam.exercises.running.isolation_probe import LevelError, require
+from graphcam.file_locks import locked_folder
 from graphcam.files import OutputError, clear_drafts
-from graphcam.locks import locked_folder
 from graphcam.words import Caption, Words
-from graphcam.workers import BATCH, WorkerPool, results, worker_pool
+from graphcam.workers import BATCH_SIZE, WorkerPool, results, worker_pool
 
 Records = list[dict[str, Any]]
 """Records as JSON takes them, in the order of the students' names."""
 Finished = dict[str, tuple[str, dict[str, Any]]]
 """By the name of a folder the digest of the hand-in and its record."""
-CRASHED = say("grading this submission failed; mark it by hand")
+CRASHED_REMARK = say("grading this submission failed; mark it by hand")
 
 
-PAGES = "pages"
+PAGES_FILE = "pages"
 """The file in a store with the folder for the students' pages."""
 
 
@@ -116,13 +122,13 @@ class Store:
 
     def note_pages(self, folder: Path) -> None:
         """Keep in mind where students' pages are about to be written, in case the run is killed meanwhile."""
-        (self.folder / PAGES).write_text(
+        (self.folder / PAGES_FILE).write_text(
             str(folder.absolute()), encoding="utf-8", newline="\n", errors="surrogateescape"
         )
 
     def clear_pages(self, out: Path) -> None:
         """Remove the half-written pages of killed runs that wrote to ``out``, wherever they put their pages."""
-        for noted in out.parent.glob(f".{glob.escape(out.name)}-*/{PAGES}"):
+        for noted in out.parent.glob(f".{glob.escape(out.name)}-*/{PAGES_FILE}"):
             with suppress(OSError):
                 clear_drafts(Path(noted.read_text(encoding="utf-8", errors="surrogateescape")))
 
@@ -141,7 +147,7 @@ def _remove_empty(folders: Iterable[Path]) -> None:
             folder.rmdir()
 
 
-UNTRUSTED = say(
+L1_WARNING = say(
     "code there can read and change what you can: the secret, the answers of others, the "
     "grades; choose level L2, or add --i-trust-these-students"
 )
@@ -216,7 +222,7 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
         raise TaskError(str(course.folder), say("the zip"), say("elsewhere"), say("beside the answer keys"), remedy)
     exercise = _exercise(course, kept)
     if course.level is Level.L1 and not course.trusted:
-        raise LevelError(course.level, UNTRUSTED)
+        raise LevelError(course.level, L1_WARNING)
     require(course.level, (course.folder, kept.secret_file(course.secret_file), course.out))
     secret = kept.secret(course.secret_file)
     assignment = Assignment(exercise, secret, course.level, ResourceLimits(seconds=course.seconds))
@@ -230,7 +236,9 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
             hand_ins = with_photo_notes(hand_ins, submissions)
         else:
             table = str(exercise.task.get("motion", {}).get("table", ""))
-            look = Look(exercise.name, [asked.name for asked in exercise.answers], Path(scratch), Path(table).name)
+            look = AnswerSearch(
+                exercise.name, [asked.name for asked in exercise.answers], Path(scratch), Path(table).name
+            )
             hand_ins = [look.found(one) for one in hand_ins]
         awaiting = await_review(hand_ins, submissions)
         return _graded(course, assignment, kept, hand_ins, [*unsafe, *refused], awaiting, step)
@@ -263,7 +271,7 @@ def _graded(
         # The store stays free of it, so that a line that is taken back leaves the marks that were found.
         records = overridden(exercise, with_absence(exercise, hand_ins, records), by_hand)
         answer_keys = KeysAsNeeded(kept, [record["student"] for record in records])
-        silent = unread(hand_ins, records)
+        silent = unreadable_hand_ins(hand_ins, records)
         refused = [*refused, *(Refused(one.place, one.notes[-1]) for one in silent)]
         called = {student.id: student.name for student in students.ids.values()}
         notes = GroupNotes(refused, course.feedback, names, called)
@@ -276,7 +284,7 @@ def _graded(
             write_feedback(course.feedback, exercise, records, answer_keys, names, folders, right=course.show_right)
         told = [say("not graded: {place}: {why}", place=one.place, why=one.why) for one in refused]
         if course.gradebook:
-            told += enter_scores(course.gradebook, exercise, graded, kept.folder / ENTERED)
+            told += enter_scores(course.gradebook, exercise, graded, kept.folder / ENTERED_FILE)
         unreadable = {one.student for one in silent}
         told += not_handed_in(called, graded, unreadable)
         told += to_check(records, unreadable, pairs, awaiting, f"{course.out.stem}.html")
@@ -304,7 +312,7 @@ def _by_hand(
         if path.exists():
             remedy = say("{keep}, and delete the file", keep=OF_THE_PLATFORM)
             raise TaskError(str(path), say("the table"), say("given"), say("left out"), remedy)
-    path = course.overrides or kept.folder / OVERRIDES
+    path = course.overrides or kept.folder / OVERRIDES_FILE
     return read_overrides(path, exercise, students, handed_in) if course.overrides or path.exists() else []
 
 
@@ -383,11 +391,11 @@ def grade_folder(
                 yield submission
 
     # Code takes so long that it travels alone, else one worker is left with the rest.
-    batch = BATCH if assignment.level is Level.L0 else 1
+    batch = BATCH_SIZE if assignment.level is Level.L0 else 1
     for submission, graded in results(pool, partial(grade, assignment), unfinished(), batch):
         if graded is not None and graded.answer_key:
             kept.keep(submission.student, graded.answer_key)
-        record = graded.record if graded is not None else unmarked(assignment, submission.student, CRASHED)
+        record = graded.record if graded is not None else unmarked(assignment, submission.student, CRASHED_REMARK)
         found[submission.place] = record.to_dict()
         store.keep(submission, found[submission.place])
         step(len(found), len(hand_ins))

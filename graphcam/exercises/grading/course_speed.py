@@ -13,8 +13,8 @@ import numpy as np
 
 from graphcam.bench.timing import Timer
 from graphcam.constructions.chain import Chain
-from graphcam.exercises.course.course_folder import STUDENTS, TEACHER, AnswerKeys
-from graphcam.exercises.course.make import papers
+from graphcam.exercises.course.course_folder import STUDENTS_FOLDER, TEACHER_FOLDER, AnswerKeys
+from graphcam.exercises.course.course_making import papers
 from graphcam.exercises.course.roster import Student
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Exercise, Given
@@ -24,15 +24,15 @@ from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.grading.grade_one import Assignment, Submission, grade
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.keying import issue
-from graphcam.exercises.key.scatter import answers_of
+from graphcam.exercises.key.answer_scatter import answers_of
+from graphcam.exercises.key.key_making import issue
 from graphcam.exercises.marking.course_variants import course_variants
 from graphcam.exercises.reading.submission_files import TOML
 
-STUDENT, SECRET = "speed", b"speed"
+STUDENT_NAME, SECRET = "speed", b"speed"
 HANDS = 60
 """Students of each kind."""
-DRAWN = 2
+POINT_DECIMALS = 2
 """Decimals of drawn points, mm of paper: nobody measures finer."""
 
 
@@ -69,7 +69,7 @@ def marking_speed(exercise: Exercise, timer: Timer | None = None) -> MarkingSpee
 
 def simulated(exercise: Exercise) -> tuple[list[Submission], list[Submission]]:
     """Submissions of one variant: of careful students, and of others with every mistake."""
-    variant, answer_key = issue(exercise, STUDENT, SECRET)
+    variant, answer_key = issue(exercise, STUDENT_NAME, SECRET)
     chain = board_chain(variant.task, exercise.hand.pencil(HANDS, seed=1))
     wrong = (_submissions(exercise, answer_key, misconception(name).change(chain)) for name in exercise.misconceptions)
     return _submissions(exercise, answer_key, chain), [one for some in wrong for one in some]
@@ -82,19 +82,19 @@ def _submissions(exercise: Exercise, answer_key: AnswerKey, chain: Chain) -> lis
         given = {asked.name: _given(answers[hand]) for asked, answers in zip(exercise.answers, drawn, strict=True)}
         # As a student fills it in, every answer on a line.
         lines = "".join(f"{name} = {json.dumps(answer)}\n" for name, answer in given.items())
-        found.append(Submission(STUDENT, STUDENT, {TOML: lines.encode()}, (), text))
+        found.append(Submission(STUDENT_NAME, STUDENT_NAME, {TOML: lines.encode()}, (), text))
     return found
 
 
 def _given(answer: Given) -> float | list[list[float]]:
     if not isinstance(answer, np.ndarray):
         return float(answer)
-    return np.round(np.column_stack([answer.real, answer.imag]), DRAWN).tolist()
+    return np.round(np.column_stack([answer.real, answer.imag]), POINT_DECIMALS).tolist()
 
 
-MADE = 4
+MADE_STUDENTS = 4
 """Students whose papers are made; those of the first, for which the libraries are loaded, do not count."""
-GRADED = 500
+GRADED_STUDENTS = 500
 """Students of the course that is graded."""
 
 
@@ -124,7 +124,7 @@ def course_speed(name: str) -> CourseSpeed:
         grade_course(course)
         # The worker has ended, so its time counts.
         spent = sum(os.times()[:4]) - sum(before[:4])
-    return CourseSpeed(_papers_seconds(exercise), GRADED / spent)
+    return CourseSpeed(_papers_seconds(exercise), GRADED_STUDENTS / spent)
 
 
 def course_at(place: Path, name: str, exercise: Exercise) -> Course:
@@ -133,15 +133,15 @@ def course_at(place: Path, name: str, exercise: Exercise) -> Course:
     The answers and keys are those of one variant, written for every student: to issue as many takes minutes.
     """
     careful, _ = simulated(exercise)
-    kept = AnswerKeys(place / TEACHER)
+    kept = AnswerKeys(place / TEACHER_FOLDER)
     kept.keep_course(exercise_path(name), SECRET, version=exercise.version)
     (place / "secret").write_bytes(SECRET)
     issued = AnswerKey.from_json(careful[0].answer_key)
-    for k, submission in enumerate(islice(cycle(careful), GRADED)):
+    for k, submission in enumerate(islice(cycle(careful), GRADED_STUDENTS)):
         student = f"student-{k}"
         own = drawn(exercise, student, SECRET, issued.draw).parameters
         kept.keep(student, replace(issued, student=student, parameters=own).to_json())
-        folder = place / STUDENTS / student
+        folder = place / STUDENTS_FOLDER / student
         folder.mkdir(parents=True)
         for file, data in submission.files.items():
             (folder / file).write_bytes(data)
@@ -149,10 +149,10 @@ def course_at(place: Path, name: str, exercise: Exercise) -> Course:
 
 
 def _papers_seconds(exercise: Exercise) -> float:
-    students = [Student(f"student-{k}") for k in range(MADE)]
+    students = [Student(f"student-{k}") for k in range(MADE_STUDENTS)]
     jobs = zip(students, course_variants(exercise, (each.id for each in students), SECRET), strict=True)
     papers(next(jobs))
     start = time.process_time()
     for job in jobs:
         papers(job)
-    return (time.process_time() - start) / (MADE - 1)
+    return (time.process_time() - start) / (MADE_STUDENTS - 1)

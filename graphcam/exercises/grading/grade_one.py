@@ -13,22 +13,22 @@ from pathlib import Path
 from types import FrameType
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.exercises.course.hand_ins import HandIn, answers_folder
+from graphcam.exercises.course.submissions import HandIn, answers_folder
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.variant import drawn
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.marking.record import Marked, Record
+from graphcam.exercises.marking.record import MarkedAnswer, Record
 from graphcam.exercises.reading.paper_area import PaperArea
 from graphcam.exercises.reading.submission_files import DXF, from_files, read_files
-from graphcam.exercises.running.levels import MEBIBYTE, Level, ResourceLimits
+from graphcam.exercises.running.isolation_levels import MEBIBYTE, Level, ResourceLimits
 
-READING = 10.0
+READING_SECONDS = 10.0
 """Seconds of the processor's time in which a submission is read and marked; its code has a time of its own.
 
 Of the processor's, so that a busy machine gives the same marks as an idle one.
 """
-WATCHED = 0.1
+CHECK_INTERVAL = 0.1
 """Seconds between two looks at that time, where the system does not watch it."""
 
 
@@ -105,31 +105,31 @@ class Assignment:
 
 
 @dataclass(frozen=True)
-class Graded:
+class GradedSubmission:
     """The record of one submission, and the answer key where it had to be made."""
 
     record: Record
     answer_key: str
 
 
-def grade(assignment: Assignment, submission: Submission) -> Graded:
+def grade(assignment: Assignment, submission: Submission) -> GradedSubmission:
     """The record of one submission; it never raises, since one that none foresaw has its record too."""
     text = ""
     try:
         answer_key, text = _answer_key(assignment, submission)
-        with _seconds(READING):
+        with _seconds(READING_SECONDS):
             answers = _answers(assignment, submission, answer_key)
             record = mark(assignment.exercise, answer_key, answers, level=assignment.level)
-            return Graded(replace(record, memory=assignment.memory), text)
+            return GradedSubmission(replace(record, memory=assignment.memory), text)
     except (Exception, LateError) as error:  # noqa: BLE001
         why = say("this submission could not be graded ({error})", error=f"{type(error).__name__}: {error}"[:200])
-        return Graded(unmarked(assignment, submission.student, why), text)
+        return GradedSubmission(unmarked(assignment, submission.student, why), text)
 
 
 def unmarked(assignment: Assignment, student: str, why: Caption) -> Record:
     """The record of a submission that cannot be marked."""
     exercise, level = assignment.exercise, assignment.level
-    answers = tuple(Marked(asked.name, "unreadable", 0.0, asked.marks) for asked in exercise.answers)
+    answers = tuple(MarkedAnswer(asked.name, "unreadable", 0.0, asked.marks) for asked in exercise.answers)
     said = (exercise.tell(why),)
     record = Record(
         student, exercise.name, exercise.version, 0, {}, answers, 0.0, exercise.marks, None, False, said, said, level
@@ -150,7 +150,7 @@ def _answer_key(assignment: Assignment, submission: Submission) -> tuple[AnswerK
         if same and dict(known.parameters) == dict(variant.parameters):
             return known, ""
     # Whoever has an answer key needs nothing that draws.
-    from graphcam.exercises.key.keying import issue
+    from graphcam.exercises.key.key_making import issue
 
     _, made = issue(exercise, submission.student, assignment.secret)
     return made, made.to_json()
@@ -191,7 +191,7 @@ def _seconds(seconds: float) -> Generator[None]:
         raise LateError(seconds)
 
     if not hasattr(signal, "setitimer"):
-        with _watched(seconds, late):
+        with _time_limit_by_thread(seconds, late):
             yield
         return
     former = signal.signal(signal.SIGPROF, late)
@@ -204,13 +204,13 @@ def _seconds(seconds: float) -> Generator[None]:
 
 
 @contextmanager
-def _watched(seconds: float, late: Callable[[int, FrameType | None], None]) -> Generator[None]:
+def _time_limit_by_thread(seconds: float, late: Callable[[int, FrameType | None], None]) -> Generator[None]:
     """A limit of the processor's time where the system has no such clock, as Windows: a thread looks at it."""
     until, over = time.process_time() + seconds, threading.Event()
 
     def watch() -> None:
         """Interrupt the main thread when the time is up."""
-        while not over.wait(WATCHED):
+        while not over.wait(CHECK_INTERVAL):
             if time.process_time() > until:
                 _thread.interrupt_main(signal.SIGTERM)
                 return

@@ -9,15 +9,15 @@ from typing import Any
 
 from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise import Exercise
-from graphcam.exercises.grading.overrides import TOTAL
+from graphcam.exercises.grading.overrides import TOTAL_ANSWER
 from graphcam.words import Caption, say
 
 BY_HAND = say("{student}: the total given by hand is not in the grade book, which adds up the answers")
-ENTERED = "gradebook.json"
+ENTERED_FILE = "gradebook.json"
 """The teacher's file of what was entered into grade books."""
 Entered = dict[str, dict[str, list[Any]]]
 """By student and answer the score and the comment that were entered last."""
-NOTEBOOK = "answers"
+NOTEBOOK_NAME = "answers"
 """Name of the notebook without its ending: as graphcam reads it."""
 
 
@@ -66,11 +66,11 @@ def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, 
     told: list[Caption] = []
     with Gradebook(database, exercise.name) as book:
         book.update_or_create_assignment(exercise.name)
-        book.update_or_create_notebook(NOTEBOOK, exercise.name)
+        book.update_or_create_notebook(NOTEBOOK_NAME, exercise.name)
         for asked in exercise.answers:
             cell: Any = {"max_score": asked.marks, "cell_type": "code"}
-            book.update_or_create_grade_cell(asked.name, NOTEBOOK, exercise.name, **cell)
-            book.update_or_create_solution_cell(asked.name, NOTEBOOK, exercise.name)
+            book.update_or_create_grade_cell(asked.name, NOTEBOOK_NAME, exercise.name, **cell)
+            book.update_or_create_solution_cell(asked.name, NOTEBOOK_NAME, exercise.name)
         for record in records:
             student = record["student"]
             book.update_or_create_student(student)
@@ -78,7 +78,7 @@ def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, 
             former = scores.setdefault(student, {})
             for answer in record["answers"]:
                 told += _enter(book, exercise.name, record, answer, former)
-            if any(one["answer"] == TOTAL for one in record.get("overrides", [])):
+            if any(one["answer"] == TOTAL_ANSWER for one in record.get("overrides", [])):
                 told.append(BY_HAND.where(student=student))
         book.db.commit()
     entered.parent.mkdir(parents=True, exist_ok=True)
@@ -101,7 +101,7 @@ def _enter(
     book: Any, assignment: str, record: dict[str, Any], answer: dict[str, Any], former: dict[str, list[Any]]
 ) -> list[Caption]:
     """Enter one answer's score and comment, each unless it is somebody's; a sentence where it is."""
-    where = answer["name"], NOTEBOOK, assignment, record["student"]
+    where = answer["name"], NOTEBOOK_NAME, assignment, record["student"]
     grade, comment = book.find_grade(*where), book.find_comment(*where)
     said = "\n".join(each for each in record["feedback"] if each.startswith(f"{answer['name']}:"))
     marks, words = former.get(answer["name"], [None, None])

@@ -14,12 +14,12 @@ from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.marking.record import is_handed_in
 from graphcam.words import Words
 
-OVERRIDES = "overrides.csv"
+OVERRIDES_FILE = "overrides.csv"
 """The teacher's table of marks given by hand."""
-TOTAL = "total"
+TOTAL_ANSWER = "total"
 """The word in place of an answer's name: the marks are for the whole hand-in."""
-COLUMNS = ("student", "answer", "marks", "comment")
-ABSENT = say("give the marks as the total")
+OVERRIDE_COLUMNS = ("student", "answer", "marks", "comment")
+ABSENT_REMEDY = say("give the marks as the total")
 """What to do about an answer of a student who did not hand in."""
 
 
@@ -42,7 +42,7 @@ def read_overrides(path: Path, exercise: Exercise, known: Recognition, handed_in
     ------
     TaskError : the file cannot be read, or a line of it names a student, an answer or marks that there are not
     """
-    possible = {asked.name: asked.marks for asked in exercise.answers} | {TOTAL: exercise.marks}
+    possible = {asked.name: asked.marks for asked in exercise.answers} | {TOTAL_ANSWER: exercise.marks}
     found: dict[tuple[str, str], Override] = {}
     for line in _lines(path, known):
         one = _override(line, possible, absent=line.student not in handed_in)
@@ -80,9 +80,9 @@ def _lines(path: Path, known: Recognition) -> Iterator[_Line]:
     """
     rows = read_table(path, say("the table of overrides"))
     head = [name.strip().lower() for name in rows[0][1]] if rows else []
-    if not set(COLUMNS) <= set(head):
+    if not set(OVERRIDE_COLUMNS) <= set(head):
         remedy = say("name the columns in the first line")
-        expected = say("with {names}", names=",".join(COLUMNS))
+        expected = say("with {names}", names=",".join(OVERRIDE_COLUMNS))
         raise TaskError(str(path), say("the first line"), ",".join(head), expected, remedy)
     for number, row in rows[1:]:
         cells = dict(zip(head, row, strict=False))
@@ -102,9 +102,9 @@ def _override(line: _Line, possible: Mapping[str, float], *, absent: bool) -> Ov
 
     possible : marks by the answer's name;  absent : the student has not handed in
     """
-    if absent and line["answer"] != TOTAL:
-        limit = say("{total}: {student} has not handed in", total=TOTAL, student=line.student)
-        raise line.wrong("answer", limit, ABSENT)
+    if absent and line["answer"] != TOTAL_ANSWER:
+        limit = say("{total}: {student} has not handed in", total=TOTAL_ANSWER, student=line.student)
+        raise line.wrong("answer", limit, ABSENT_REMEDY)
     if line["answer"] not in possible:
         raise line.wrong("answer", say("one of {names}", names=", ".join(possible)), say("check the name"))
     most = possible[line["answer"]]
@@ -124,10 +124,10 @@ def overridden(
     by_student: dict[str, list[Override]] = {}
     for one in overrides:
         by_student.setdefault(one.student, []).append(one)
-    return [_applied(exercise, record, by_student.get(record["student"], [])) for record in records]
+    return [_overridden_record(exercise, record, by_student.get(record["student"], [])) for record in records]
 
 
-def _applied(exercise: Exercise, record: dict[str, Any], overrides: list[Override]) -> dict[str, Any]:
+def _overridden_record(exercise: Exercise, record: dict[str, Any], overrides: list[Override]) -> dict[str, Any]:
     if not overrides:
         return record
     marks = {one.answer: one.marks for one in overrides}
@@ -135,23 +135,23 @@ def _applied(exercise: Exercise, record: dict[str, Any], overrides: list[Overrid
         {**answer, "marks": marks[answer["name"]], "by_hand": True} if answer["name"] in marks else answer
         for answer in record["answers"]
     ]
-    former = {answer["name"]: answer["marks"] for answer in record["answers"]} | {TOTAL: record["total"]}
-    most = {answer["name"]: answer["of"] for answer in record["answers"]} | {TOTAL: record["of"]}
-    total = marks.get(TOTAL, math.fsum(float(answer["marks"]) for answer in answers))
-    told = [exercise.tell(_told(one, most[one.answer])) for one in overrides]
+    former = {answer["name"]: answer["marks"] for answer in record["answers"]} | {TOTAL_ANSWER: record["total"]}
+    most = {answer["name"]: answer["of"] for answer in record["answers"]} | {TOTAL_ANSWER: record["of"]}
+    total = marks.get(TOTAL_ANSWER, math.fsum(float(answer["marks"]) for answer in answers))
+    told = [exercise.tell(_override_remark(one, most[one.answer])) for one in overrides]
     kept = [{**vars(one), "found": former[one.answer]} for one in overrides]
     return {
         **{name: value for name, value in record.items() if name != "handed_in"},
         "answers": answers,
         "total": total,
-        "feedback": [*_left(record, answers, total), *told],
+        "feedback": [*_remaining_remarks(record, answers, total), *told],
         # Of work on paper nothing is to be said about files.
         "notes": record["notes"] if is_handed_in(record) else [],
         "overrides": kept,
     }
 
 
-def _left(record: dict[str, Any], answers: Sequence[dict[str, Any]], total: float) -> list[str]:
+def _remaining_remarks(record: dict[str, Any], answers: Sequence[dict[str, Any]], total: float) -> list[str]:
     """The sentences that still hold: none on an answer that has its marks by hand, no mistake where nothing is lost."""
     if not is_handed_in(record):
         return []
@@ -164,9 +164,9 @@ def _left(record: dict[str, Any], answers: Sequence[dict[str, Any]], total: floa
     return [each for each in said if right and each.startswith(right)]
 
 
-def _told(one: Override, most: float) -> Caption:
+def _override_remark(one: Override, most: float) -> Caption:
     said: dict[str, Any] = {"marks": one.marks, "of": most, "comment": one.comment}
-    if one.answer == TOTAL:
+    if one.answer == TOTAL_ANSWER:
         if one.comment:
             return say("Your teacher gives {marks:g} of {of:g} marks in total: {comment}", **said)
         return say("Your teacher gives {marks:g} of {of:g} marks in total.", **said)

@@ -1,7 +1,7 @@
 """All that marking needs of one variant: key, tolerances, what every mistake would answer.
 
-It is made once, by :mod:`graphcam.exercises.key.keying`, and stored as JSON beside the variant, for the teacher only:
-marks must be the same whenever and wherever they are given.
+It is made once, by :mod:`graphcam.exercises.key.key_making`, and stored as JSON beside the variant, for the teacher
+only: marks must be the same whenever and wherever they are given.
 """
 
 from __future__ import annotations
@@ -15,12 +15,12 @@ from typing import Any, TypeVar
 
 from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise import Value
-from graphcam.exercises.key.expectation import Expected, from_stored, stored
+from graphcam.exercises.key.expected_answers import Expected, from_stored, stored
 from graphcam.exercises.key.follow_through import Dependence
 from graphcam.words import say
 
-FORMAT = 2
-STORED_AS_THEY_ARE = (
+FORMAT_VERSION = 2
+PLAIN_FIELDS = (
     *("exercise", "version", "student", "draw", "parameters"),
     *("bound", "careful", "alike"),
 )
@@ -28,12 +28,12 @@ STORED_AS_THEY_ARE = (
 V = TypeVar("V")
 
 
-class Deferred(Mapping[str, V]):
+class DeferredValues(Mapping[str, V]):
     """Values by name that stand there as one JSON text: most submissions are right and need none of them.
 
     read : makes a value of what the JSON says
 
-    >>> dict(Deferred('{"a": [1, 2]}', sum))
+    >>> dict(DeferredValues('{"a": [1, 2]}', sum))
     {'a': 3}
     """
 
@@ -43,19 +43,19 @@ class Deferred(Mapping[str, V]):
         self._made: dict[str, V] = {}
 
     @cached_property
-    def _said(self) -> dict[str, Any]:
+    def _values(self) -> dict[str, Any]:
         return json.loads(self._text)
 
     def __getitem__(self, name: str) -> V:
         if name not in self._made:
-            self._made[name] = self._read(self._said[name])
+            self._made[name] = self._read(self._values[name])
         return self._made[name]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._said)
+        return iter(self._values)
 
     def __len__(self) -> int:
-        return len(self._said)
+        return len(self._values)
 
 
 class Hypothesis:
@@ -128,15 +128,15 @@ class AnswerKey:
     alike: tuple[tuple[str, str], ...]
     dependences: Mapping[str, Dependence]
 
-    def not_told_from(self, name: str) -> frozenset[str]:
+    def inseparable_from(self, name: str) -> frozenset[str]:
         """The other misconceptions that these answers cannot tell from that one."""
         return frozenset(other for pair in self.alike if name in pair for other in pair if other != name)
 
     def to_json(self) -> str:
         """The answer key as JSON text; numbers as short as they are exact."""
-        said = {"format": FORMAT} | {name: getattr(self, name) for name in STORED_AS_THEY_ARE}
+        said = {"format": FORMAT_VERSION} | {name: getattr(self, name) for name in PLAIN_FIELDS}
         said["keys"] = {
-            name: [stored(key.expected), key.tolerance, _finite(key.tolerance_paper), key.drawn]
+            name: [stored(key.expected), key.tolerance, _finite_or_none(key.tolerance_paper), key.drawn]
             for name, key in self.keys.items()
         }
         # As texts within the text: they are read only where an answer is wrong.
@@ -153,27 +153,27 @@ class AnswerKey:
         TaskError : it is none, or of another format
         """
         try:
-            return _read(json.loads(text))
+            return _answer_key(json.loads(text))
         except (ValueError, KeyError, TypeError, AttributeError) as error:
             found = say("not readable ({error})", error=str(error))
-            wanted = say("an answer key of format {format}", format=FORMAT)
+            wanted = say("an answer key of format {format}", format=FORMAT_VERSION)
             remedy = say("make it again with 'graphcam exercise make'")
             raise TaskError(path, say("the answer key"), found, wanted, remedy) from None
 
 
-def _read(said: dict[str, Any]) -> AnswerKey:
-    if said["format"] != FORMAT:
+def _answer_key(said: dict[str, Any]) -> AnswerKey:
+    if said["format"] != FORMAT_VERSION:
         raise ValueError(f"format {said['format']}")
     keys = {
         name: Key(from_stored(expected), tolerance, math.nan if paper is None else paper, drawn)
         for name, (expected, tolerance, paper, drawn) in said["keys"].items()
     }
-    hypotheses = Deferred(str(said["hypotheses"]), Hypothesis)
-    dependences = Deferred(str(said["dependences"]), Dependence.from_json)
-    as_they_are = {name: said[name] for name in STORED_AS_THEY_ARE}
+    hypotheses = DeferredValues(str(said["hypotheses"]), Hypothesis)
+    dependences = DeferredValues(str(said["dependences"]), Dependence.from_json)
+    as_they_are = {name: said[name] for name in PLAIN_FIELDS}
     as_they_are["alike"] = tuple((a, b) for a, b in said["alike"])
     return AnswerKey(keys=keys, hypotheses=hypotheses, dependences=dependences, **as_they_are)
 
 
-def _finite(number: float) -> float | None:
+def _finite_or_none(number: float) -> float | None:
     return number if math.isfinite(number) else None

@@ -14,9 +14,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-NODES = 33
+NODE_COUNT = 33
 """Own values from which each later answer is drawn again."""
-REACH = 16.0
+OWN_VALUE_RANGE = 16.0
 """The own values reach over so many times the right one, to both sides, and down to that part of it: from an absurd
 value, and from nought above all, anything follows."""
 Together = Literal["product", "sum"]
@@ -36,12 +36,12 @@ class Effect:
     def at(self, own: float) -> float:
         """The answer that follows; NaN where none was drawn, and from a value too small to have been drawn."""
         # What is nought but for the scatter may be small: there the width is more than a part of the centre.
-        if abs(own) * REACH < abs(self.centre) and self.width < abs(self.centre):
+        if abs(own) * OWN_VALUE_RANGE < abs(self.centre) and self.width < abs(self.centre):
             return math.nan
-        t = (math.asinh((own - self.centre) / self.width) / span(self.centre, self.width) + 1) * (NODES - 1) / 2
-        if not 0 <= t <= NODES - 1:
+        t = (math.asinh((own - self.centre) / self.width) / span(self.centre, self.width) + 1) * (NODE_COUNT - 1) / 2
+        if not 0 <= t <= NODE_COUNT - 1:
             return math.nan
-        k = min(max(round(t), 1), NODES - 2)
+        k = min(max(round(t), 1), NODE_COUNT - 2)
         left, middle, right = self.values[k - 1 : k + 2]
         if left is None or middle is None or right is None:
             return math.nan
@@ -81,4 +81,4 @@ class Dependence:
 
 def span(centre: float, width: float) -> float:
     """The greatest t of the own values about a centre."""
-    return math.asinh(REACH * max(abs(centre), width) / width)
+    return math.asinh(OWN_VALUE_RANGE * max(abs(centre), width) / width)

@@ -7,16 +7,16 @@ import numpy as np
 
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.pencil import Pencil
-from graphcam.exercises.definition.drawn_answers import ask, with_own
-from graphcam.exercises.definition.exercise import Asked, Exercise
-from graphcam.exercises.key.expectation import Expected, Floats
-from graphcam.exercises.key.follow_through import NODES, Dependence, Effect, Together, span
+from graphcam.exercises.definition.drawn_answers import drawn_answer, with_own_answers
+from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
+from graphcam.exercises.key.expected_answers import Expected, Floats
+from graphcam.exercises.key.follow_through import NODE_COUNT, Dependence, Effect, Together, span
 
-NOTHING = 0.05
+NEGLIGIBLE_EFFECT = 0.05
 """Effects of less than this part of the tolerance are none."""
-TRIALS = 24
+TRIAL_COUNT = 24
 """Drawings from several own values at once, to see how effects go together."""
-SPREAD = 0.4
+TRIAL_SPREAD = 0.4
 """The maximum part of themselves by which own values are off in the trials."""
 
 
@@ -33,16 +33,16 @@ def dependences(exercise: Exercise, chain: Chain, keys: list[Expected], bound: f
     scatters = np.array([float(key.scatter) for _, key in numbers])
     widths = np.maximum(np.abs(centres) / 4, 4 * scatters)
     # One drawing for all: in its samples one own value each is off, then several at once.
-    alone, trials = _one_off(centres, widths), _several_off(centres)
+    alone, trials = _single_own_values(centres, widths), _several_own_values(centres)
     own = np.concatenate([alone.reshape(-1, centres.size), trials.reshape(-1, centres.size)])
-    one, several = np.split(_drawn_again(chain, asked, own), [alone.size // centres.size])
+    one, several = np.split(_redrawn_answers(chain, asked, own), [alone.size // centres.size])
     one, several = one.reshape(alone.shape), several.reshape(trials.shape)
     found: dict[str, Dependence] = {}
     for k in range(1, centres.size):
         effects = {
             asked[i].name: Effect(float(centres[i]), float(widths[i]), _figures(one[i, :, k]))
             for i in range(k)
-            if np.nanmax(np.abs(one[i, :, k] - centres[k]), initial=0.0) > NOTHING * bound * scatters[k]
+            if np.nanmax(np.abs(one[i, :, k] - centres[k]), initial=0.0) > NEGLIGIBLE_EFFECT * bound * scatters[k]
         }
         if effects:
             rows = [dict(zip([each.name for each in asked[:k]], row, strict=False)) for row in trials[k - 1].tolist()]
@@ -50,31 +50,32 @@ def dependences(exercise: Exercise, chain: Chain, keys: list[Expected], bound: f
     return found
 
 
-def _one_off(centres: Floats, widths: Floats) -> Floats:
-    """Own values (n - 1, NODES, n): in each row one of the first n - 1 is off, from little to far."""
-    own = np.tile(centres, (centres.size - 1, NODES, 1))
+def _single_own_values(centres: Floats, widths: Floats) -> Floats:
+    """Own values (n - 1, NODE_COUNT, n): in each row one of the first n - 1 is off, from little to far."""
+    own = np.tile(centres, (centres.size - 1, NODE_COUNT, 1))
     for i in range(centres.size - 1):
-        t = np.linspace(-1, 1, NODES) * span(centres[i], widths[i])
+        t = np.linspace(-1, 1, NODE_COUNT) * span(centres[i], widths[i])
         own[i, :, i] = centres[i] + widths[i] * np.sinh(t)
     return own
 
 
-def _several_off(centres: Floats) -> Floats:
-    """Own values (n - 1, TRIALS, n): those before the second answer are off at random, those before the third, ..."""
-    own = np.tile(centres, (centres.size - 1, TRIALS, 1))
+def _several_own_values(centres: Floats) -> Floats:
+    """Own values (n - 1, TRIAL_COUNT, n): those before the second answer are off at random, those before the third,
+    ..."""
+    own = np.tile(centres, (centres.size - 1, TRIAL_COUNT, 1))
     for k in range(1, centres.size):
-        own[k - 1, :, :k] *= 1 + SPREAD * np.random.RandomState(0).uniform(-1, 1, (TRIALS, k))
+        own[k - 1, :, :k] *= 1 + TRIAL_SPREAD * np.random.RandomState(0).uniform(-1, 1, (TRIAL_COUNT, k))
     return own
 
 
-def _drawn_again(chain: Chain, asked: Sequence[Asked], own: Floats) -> Floats:
+def _redrawn_answers(chain: Chain, asked: Sequence[AskedAnswer], own: Floats) -> Floats:
     """The answers (rows, n) of a perfect hand, each drawn from the own values (rows, n) of those before it."""
     drawn = np.empty(own.shape)
     chain = chain.by(Pencil(samples=len(own)))
     with np.errstate(all="ignore"):
         for k, each in enumerate(asked):
-            drawn[:, k] = ask(chain, each)
-            chain = with_own(chain, each, own[:, k])
+            drawn[:, k] = drawn_answer(chain, each)
+            chain = with_own_answers(chain, each, own[:, k])
     return drawn
 
 

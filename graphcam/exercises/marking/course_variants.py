@@ -9,15 +9,15 @@ from functools import partial
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.keying import HALF, issue
+from graphcam.exercises.key.key_making import MAX_COINCIDENCE_SHARE, issue
 from graphcam.exercises.marking.marking import mark
 from graphcam.workers import in_order
 
-GROUP = 40
+GROUP_SIZE = 40
 """Students who sit together.  In a simulation of so many every one is marked by every other's key."""
-LUCK = 1.25
+LUCKY_TOLERANCES = 1.25
 """A copy may be right by luck: an answer counts that is off by so many tolerances."""
-MOST_TIMES = 20
+MAX_REDRAWS = 20
 """How often at most a variant is drawn again: an exercise with few parameters has not enough of them for a group."""
 
 
@@ -35,11 +35,11 @@ def course_variants(
     ------
     DesignError : there is a student for whom no draw of the parameters can be diagnosed
     """
-    before: deque[AnswerKey] = deque(maxlen=GROUP)
+    before: deque[AnswerKey] = deque(maxlen=GROUP_SIZE)
     names = list(students)
-    first = in_order(executor, partial(_first, exercise, secret), names)
+    first = in_order(executor, partial(_first_variant, exercise, secret), names)
     for student, (variant, answer_key) in zip(names, first, strict=True):
-        for _ in range(MOST_TIMES):
+        for _ in range(MAX_REDRAWS):
             if not any(too_near(exercise, answer_key, other) for other in before):
                 break
             variant, answer_key = issue(exercise, student, secret, variant.draw + 1)
@@ -47,14 +47,15 @@ def course_variants(
         yield variant, answer_key
 
 
-def _first(exercise: Exercise, secret: bytes, student: str) -> tuple[Variant, AnswerKey]:
+def _first_variant(exercise: Exercise, secret: bytes, student: str) -> tuple[Variant, AnswerKey]:
     return issue(exercise, student, secret)
 
 
 def too_near(exercise: Exercise, one: AnswerKey, other: AnswerKey) -> bool:
     """Whether the right answers of one of two variants earn more than half of the marks in the other."""
     return any(
-        (record := mark(exercise, replace(to, bound=LUCK * to.bound), right_answers(copied))).total > HALF * record.of
+        (record := mark(exercise, replace(to, bound=LUCKY_TOLERANCES * to.bound), right_answers(copied))).total
+        > MAX_COINCIDENCE_SHARE * record.of
         for to, copied in ((one, other), (other, one))
     )
 

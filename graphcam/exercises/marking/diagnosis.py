@@ -6,31 +6,31 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphcam.exercises.definition.exercise import Answers, Asked, Exercise, Given
+from graphcam.exercises.definition.exercise import Answers, AskedAnswer, Exercise, Given
 from graphcam.exercises.key.answer_key import AnswerKey, Hypothesis
-from graphcam.exercises.key.expectation import Expected, Off
+from graphcam.exercises.key.expected_answers import AnswerDeviation, Expected
 from graphcam.exercises.marking.record import Diagnosis
 
-MOST_POINTS = 20_000
+MAX_POINTS = 20_000
 """No curve by hand has more, and no submission shall keep the marking busy."""
-LARGEST = 1e15
+MAX_READING = 1e15
 """No reading is larger, and no number up to here makes the arithmetic overflow."""
-FAR = 5.0
+MAX_DEVIATIONS = 5.0
 """The standard deviations beyond which an answer speaks against a mistake no more: it may be a slip of its own."""
-ANYWHERE = 16.0
+UNEXPLAINED_COST = 16.0
 """What a wrong number that is anywhere costs, in twice the logarithm of the probability: a mistake that brings numbers
 more than four standard deviations off explains them no better."""
-MOST = 0.85
+MIN_EXPLAINED_SHARE = 0.85
 """A mistake that does not look like so much of the answers that are wrong or would be by it, is not named; by marks."""
-LARGER = 100.0
+MAX_ERROR_GROWTH = 100.0
 """A hand's error grows with the length that is drawn, up to this factor."""
-ALIKE = 0.1
+ALIKE_PROBABILITY = 0.1
 """A mistake that is at least this part as probable as the best one is not told from it."""
-NOT_TOLD = 1e-3
+UNSEPARATED_PROBABILITY = 1e-3
 """One that the answers of the variant do not tell from the best one, if it is at least this part as probable."""
-SURE = 0.5
+MIN_DIAGNOSIS_PROBABILITY = 0.5
 """A diagnosis less probable than this, together with those alike, is not made."""
-HOPELESS = 30.0
+MAX_COST_EXCESS = 30.0
 """A mistake worse by so much, in twice the logarithm of the probability, is not looked for in what is drawn."""
 
 
@@ -42,10 +42,10 @@ class ComparedAnswer(NamedTuple):
     """
 
     place: int
-    asked: Asked
+    asked: AskedAnswer
     given: Given
     key: Expected
-    off: Off
+    off: AnswerDeviation
     wrong: bool
 
 
@@ -53,7 +53,7 @@ def compare(exercise: Exercise, answer_key: AnswerKey, answers: Answers) -> list
     """The answers that can be read, in the order of the exercise."""
     found: list[ComparedAnswer] = []
     for place, asked in enumerate(exercise.answers):
-        if (given := _readable(asked, answers)) is not None:
+        if (given := _readable_answer(asked, answers)) is not None:
             key = answer_key.keys[asked.name].expected
             # As far as anything is paid it must be told exactly.
             off = key.off(given, asked.kind, answer_key.bound * exercise.policy.near)
@@ -63,17 +63,17 @@ def compare(exercise: Exercise, answer_key: AnswerKey, answers: Answers) -> list
     return found
 
 
-def _readable(asked: Asked, answers: Answers) -> Given | None:
+def _readable_answer(asked: AskedAnswer, answers: Answers) -> Given | None:
     """The answer as a finite number or as points, None where it is neither."""
     given = answers.values.get(asked.name)
     if asked.kind == "number":
         if isinstance(given, bool) or not isinstance(given, int | float):
             return None
-        return float(given) if abs(given) <= LARGEST else None
-    if not isinstance(given, np.ndarray) or given.ndim != 1 or not 0 < given.size <= MOST_POINTS:
+        return float(given) if abs(given) <= MAX_READING else None
+    if not isinstance(given, np.ndarray) or given.ndim != 1 or not 0 < given.size <= MAX_POINTS:
         return None
     # Compared this way round, for a NaN is not less than anything.
-    fits = np.issubdtype(given.dtype, np.number) and bool((np.abs(given) <= LARGEST).all())
+    fits = np.issubdtype(given.dtype, np.number) and bool((np.abs(given) <= MAX_READING).all())
     return given.astype(np.complex128) if fits else None
 
 
@@ -108,11 +108,13 @@ def diagnose(answer_key: AnswerKey, compared: Sequence[ComparedAnswer]) -> tuple
     least = min(other, *(fit.badness for fit in fits.values()))
     weights = {name: math.exp((least - fit.badness) / 2) for name, fit in fits.items()}
     best = max(weights, key=lambda name: weights[name])
-    not_told = answer_key.not_told_from(best)
-    least_part = {name: NOT_TOLD if name in not_told else ALIKE for name in weights if name != best}
+    not_told = answer_key.inseparable_from(best)
+    least_part = {
+        name: UNSEPARATED_PROBABILITY if name in not_told else ALIKE_PROBABILITY for name in weights if name != best
+    }
     alike = tuple(name for name, part in least_part.items() if weights[name] >= part * weights[best])
     total = sum(weights.values()) + math.exp((least - other) / 2)
-    if sum(weights[name] for name in (best, *alike)) < SURE * total:
+    if sum(weights[name] for name in (best, *alike)) < MIN_DIAGNOSIS_PROBABILITY * total:
         return None
     return Diagnosis(best, weights[best] / total, alike), fits[best].explained
 
@@ -120,7 +122,7 @@ def diagnose(answer_key: AnswerKey, compared: Sequence[ComparedAnswer]) -> tuple
 def _explains_most(fit: _Explanation, compared: Sequence[ComparedAnswer]) -> bool:
     """Whether a mistake looks like most of what is wrong, or would be by it, each answer counted by its marks."""
     touched = sum(each.asked.marks for each in compared if each.wrong or each.place in fit.against)
-    return sum(each.asked.marks for each in compared if each.place in fit.like) >= MOST * touched
+    return sum(each.asked.marks for each in compared if each.place in fit.like) >= MIN_EXPLAINED_SHARE * touched
 
 
 def _explanations(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], other: float) -> dict[str, _Explanation]:
@@ -133,9 +135,9 @@ def _explanations(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], oth
     if not drawn:
         return fits
     # A drawing takes longer to compare than all numbers: only with what these leave possible.
-    least = min([other, *(fit.badness + FAR**2 * len(drawn) for fit in fits.values() if fit.near)])
-    possible = {name: fit for name, fit in fits.items() if fit.badness <= least + HOPELESS}
-    return {name: _with_drawn(fit, hypotheses[name], drawn, bound) for name, fit in possible.items()}
+    least = min([other, *(fit.badness + MAX_DEVIATIONS**2 * len(drawn) for fit in fits.values() if fit.near)])
+    possible = {name: fit for name, fit in fits.items() if fit.badness <= least + MAX_COST_EXCESS}
+    return {name: _with_drawings(fit, hypotheses[name], drawn, bound) for name, fit in possible.items()}
 
 
 def _numbers_fit(
@@ -151,8 +153,8 @@ def _numbers_fit(
     for place, given, key in numbers:
         value, scatter = values.said[place]
         off = (given - value) / scatter
-        near = -FAR <= off <= FAR
-        badness += (off * off if near else FAR * FAR) + 2 * math.log(scatter)
+        near = -MAX_DEVIATIONS <= off <= MAX_DEVIATIONS
+        badness += (off * off if near else MAX_DEVIATIONS * MAX_DEVIATIONS) + 2 * math.log(scatter)
         if place not in wrong:
             if not near and abs(key.deviation(value, "number")) > bound:
                 against.append(place)
@@ -166,12 +168,14 @@ def _numbers_fit(
     return _Explanation(badness, *map(frozenset, (like, similar, explained, against)))
 
 
-def _with_drawn(fit: _Explanation, values: Hypothesis, drawn: Sequence[ComparedAnswer], bound: float) -> _Explanation:
-    off = {each.place: values[each.place].deviation(each.given, each.asked.kind, FAR) for each in drawn}
-    near = {each.place for each in drawn if each.wrong and off[each.place] <= FAR}
+def _with_drawings(
+    fit: _Explanation, values: Hypothesis, drawn: Sequence[ComparedAnswer], bound: float
+) -> _Explanation:
+    off = {each.place: values[each.place].deviation(each.given, each.asked.kind, MAX_DEVIATIONS) for each in drawn}
+    near = {each.place for each in drawn if each.wrong and off[each.place] <= MAX_DEVIATIONS}
     explained = {place for place in near if off[place] <= bound}
-    badness = fit.badness + sum(min(each, FAR) ** 2 for each in off.values())
-    against = {each.place for each in drawn if not each.wrong and off[each.place] > FAR}
+    badness = fit.badness + sum(min(each, MAX_DEVIATIONS) ** 2 for each in off.values())
+    against = {each.place for each in drawn if not each.wrong and off[each.place] > MAX_DEVIATIONS}
     return _Explanation(badness, fit.like | near, fit.near | near, fit.explained | explained, fit.against | against)
 
 
@@ -179,12 +183,12 @@ def _as_something_else(answer: ComparedAnswer) -> float:
     """What an answer costs if something else was done: a right one as by a careful hand, a wrong one anywhere."""
     width = _width(answer.key)
     if not answer.wrong:
-        return min(answer.off.deviation**2, FAR**2) + width
+        return min(answer.off.deviation**2, MAX_DEVIATIONS**2) + width
     if not isinstance(answer.given, float) or not isinstance(answer.key.value, float):
-        return FAR**2 + width
+        return MAX_DEVIATIONS**2 + width
     # A mistake that makes a number larger makes its scatter larger: that is no reason against it.
     size = max(abs(answer.key.value), answer.key.scatter)
-    return ANYWHERE + width + 2 * math.log(min(LARGER, max(1.0, abs(answer.given) / size)))
+    return UNEXPLAINED_COST + width + 2 * math.log(min(MAX_ERROR_GROWTH, max(1.0, abs(answer.given) / size)))
 
 
 def _width(value: Expected) -> float:

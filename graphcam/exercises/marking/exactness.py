@@ -6,17 +6,17 @@ A remark for the teacher, never a mark and never for the student: a CAD drawing 
 import math
 from collections.abc import Iterable, Sequence
 
-from graphcam.drafting.slips import EVENLY
-from graphcam.exercises.definition.exercise import Asked
+from graphcam.drafting.slips import UNIFORM_DEVIATION
+from graphcam.exercises.definition.exercise import AskedAnswer
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.scatter import CALCULATED
+from graphcam.exercises.key.answer_scatter import CALCULATION_DEVIATION
 from graphcam.exercises.marking.diagnosis import ComparedAnswer
 
-FALSE_ALARMS = 1e-3
+REMARK_RATE = 1e-3
 """The maximum part of careful hands that are remarked on."""
-TOGETHER = 0.2
+DEPENDENCE_MARGIN = 0.2
 """The limit is set for this part of them: readings of one drawing are not independent, as is assumed here."""
-ROUNDING = 1e-6
+DECIMAL_ROUNDING = 1e-6
 """The part of the last decimal by which a program's reading may miss by the arithmetic alone."""
 
 
@@ -31,33 +31,33 @@ def too_exact(answer_key: AnswerKey, compared: Sequence[ComparedAnswer]) -> bool
         key = answer_key.keys[each.asked.name]
         if key.drawn and isinstance(each.given, float) and isinstance(each.key.value, float):
             chances.append(chance(each.asked, each.key.value, float(each.key.scatter)))
-            agreeing += abs(each.given - each.key.value) <= (0.5 + ROUNDING) * 10.0**-each.asked.decimals
-    return at_least(chances, agreeing) < TOGETHER * FALSE_ALARMS
+            agreeing += abs(each.given - each.key.value) <= (0.5 + DECIMAL_ROUNDING) * 10.0**-each.asked.decimals
+    return probability_of_at_least(chances, agreeing) < DEPENDENCE_MARGIN * REMARK_RATE
 
 
-def chance(asked: Asked, value: float, scatter: float) -> float:
+def chance(asked: AskedAnswer, value: float, scatter: float) -> float:
     """The probability that a careful hand reads just the rounded value of a program.
 
     scatter : of the hand with its rounding, which is taken out; where calculating alone may have set it, the hand's
         own errors are smaller by nobody knows how much, and it agrees always
 
-    >>> asked = Asked("v", "A length.", "integration", reading="v", decimals=1)
+    >>> asked = AskedAnswer("v", "A length.", "integration", reading="v", decimals=1)
     >>> round(chance(asked, 20.0, 0.3), 3), chance(asked, 20.0, 0.02)
     (0.133, 1.0)
     """
     step = 10.0**-asked.decimals
-    drawn = math.sqrt(max(0.0, scatter**2 - (EVENLY * step) ** 2))
-    if not drawn or scatter <= (1 + ROUNDING) * CALCULATED * abs(value):
+    drawn = math.sqrt(max(0.0, scatter**2 - (UNIFORM_DEVIATION * step) ** 2))
+    if not drawn or scatter <= (1 + DECIMAL_ROUNDING) * CALCULATION_DEVIATION * abs(value):
         return 1.0
     middle = round(value, asked.decimals)
     below, above = ((middle + side * step / 2 - value) / (math.sqrt(2) * drawn) for side in (-1, 1))
     return (math.erf(above) - math.erf(below)) / 2
 
 
-def at_least(chances: Iterable[float], count: int) -> float:
+def probability_of_at_least(chances: Iterable[float], count: int) -> float:
     """The probability that so many or more of independent events happen (the Poisson binomial distribution).
 
-    >>> at_least([0.5, 0.5, 0.5], 2), at_least([], 0)
+    >>> probability_of_at_least([0.5, 0.5, 0.5], 2), probability_of_at_least([], 0)
     (0.5, 1.0)
     """
     happened = [1.0]

@@ -5,15 +5,17 @@ from collections.abc import Sequence
 from graphcam.drafting.ink import Caption, say
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.mistakes import misconception
-from graphcam.exercises.marking.record import Diagnosis, Marked
+from graphcam.exercises.marking.record import Diagnosis, MarkedAnswer
 
-REDUCED = say("To keep within that, the marks of all answers, also of right ones, are reduced in the same proportion.")
+REDUCED_MARKS_NOTE = say(
+    "To keep within that, the marks of all answers, also of right ones, are reduced in the same proportion."
+)
 """A sentence on why a right answer may earn only a part of its marks."""
 
 
 def feedback(
     exercise: Exercise,
-    marked: Sequence[Marked],
+    marked: Sequence[MarkedAnswer],
     answers: Answers,
     diagnosis: Diagnosis | None,
     most: float | None = None,
@@ -24,22 +26,22 @@ def feedback(
     """
     curves = {asked.name for asked in exercise.answers if asked.kind == "curve"}
     captions = [
-        _near(each) if each.outcome == "partial" and each.name not in curves else _about(each, answers)
+        _near_remark(each) if each.outcome == "partial" and each.name not in curves else _answer_remark(each, answers)
         for each in marked
     ]
     if diagnosis:
-        captions += _mistake(diagnosis)
+        captions += _mistake_remarks(diagnosis)
         if most is not None:
             said = say(
                 "With this mistake a submission earns at most {most:g} of {of:g} marks.", most=most, of=exercise.marks
             )
-            captions += [said, REDUCED]
+            captions += [said, REDUCED_MARKS_NOTE]
     elif any(each.outcome in ("wrong", "partial") for each in marked):
         captions.append(say("No usual mistake explains these answers; go through the wrong steps again."))
     return tuple(map(exercise.tell, captions))
 
 
-def _about(answer: Marked, answers: Answers) -> Caption:
+def _answer_remark(answer: MarkedAnswer, answers: Answers) -> Caption:
     name = answer.name
     match answer.outcome:
         case "right":
@@ -60,12 +62,12 @@ def _about(answer: Marked, answers: Answers) -> Caption:
         case "follow-through":
             return say("{name}: it follows correctly from your earlier answers, so you get the marks.", name=name)
         case "partial":
-            return _partial(answer)
+            return _partial_remark(answer)
         case "wrong":
-            return _wrong(answer)
+            return _wrong_remark(answer)
 
 
-def _partial(answer: Marked) -> Caption:
+def _partial_remark(answer: MarkedAnswer) -> Caption:
     assert answer.station is not None
     return say(
         "{name}: part of the curve is right and earns its share of the marks. The rest is wrong or missing, most "
@@ -76,7 +78,7 @@ def _partial(answer: Marked) -> Caption:
     )
 
 
-def _near(answer: Marked) -> Caption:
+def _near_remark(answer: MarkedAnswer) -> Caption:
     return say(
         "{name}: your answer is slightly farther off than careful drawing and calculation allow; it earns "
         "{marks:g} of {of:g} marks.",
@@ -86,7 +88,7 @@ def _near(answer: Marked) -> Caption:
     )
 
 
-def _wrong(answer: Marked) -> Caption:
+def _wrong_remark(answer: MarkedAnswer) -> Caption:
     name, number = answer.name, answer.station
     if number is not None:
         return say(
@@ -105,7 +107,7 @@ def _wrong(answer: Marked) -> Caption:
     return say("{name}: your answer is farther off than careful drawing and calculation allow.", name=name)
 
 
-def _mistake(diagnosis: Diagnosis) -> list[Caption]:
+def _mistake_remarks(diagnosis: Diagnosis) -> list[Caption]:
     said = [misconception(diagnosis.misconception).said]
     if diagnosis.alike:
         said.append(say("These answers do not distinguish this mistake from another one, which is also possible:"))

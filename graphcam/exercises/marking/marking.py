@@ -9,19 +9,19 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from graphcam.exercises.definition.exercise import Answers, Asked, Exercise
+from graphcam.exercises.definition.exercise import Answers, AskedAnswer, Exercise
 from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.diagnosis import ComparedAnswer, compare, diagnose
 from graphcam.exercises.marking.exactness import too_exact
 from graphcam.exercises.marking.feedback import feedback
-from graphcam.exercises.marking.record import Marked, Outcome, Record
+from graphcam.exercises.marking.record import MarkedAnswer, Outcome, Record
 
 ROUNDING = 1e-9
 """What the arithmetic may take from a whole number."""
 
 
-class Judged(NamedTuple):
+class JudgedAnswer(NamedTuple):
     """One answer, judged and not yet paid.
 
     outcome : never "partial", which is a matter of pay
@@ -29,19 +29,19 @@ class Judged(NamedTuple):
     share : part of a curve that is right, 0 where that is too little to be paid
     """
 
-    asked: Asked
+    asked: AskedAnswer
     outcome: Outcome
     tolerances: float = math.inf
     share: float = 0.0
 
 
-def earned(policy: MarksPolicy, judged: Sequence[Judged], mistakes: Sequence[str]) -> list[float]:
+def earned(policy: MarksPolicy, judged: Sequence[JudgedAnswer], mistakes: Sequence[str]) -> list[float]:
     """The marks of every answer.
 
     mistakes : the diagnosed one and those alike; where all are capped every answer is paid less, in one proportion
 
-    >>> first, second = (Asked(name, "A length.", "integration", reading="v", marks=2) for name in "ab")
-    >>> judged = [Judged(first, "right"), Judged(second, "follow-through")]
+    >>> first, second = (AskedAnswer(name, "A length.", "integration", reading="v", marks=2) for name in "ab")
+    >>> judged = [JudgedAnswer(first, "right"), JudgedAnswer(second, "follow-through")]
     >>> earned(MarksPolicy(follow_through=0.5, caps={"offset-sign": 0.5}), judged, ["offset-sign"])
     [1.33, 0.66]
     """
@@ -52,7 +52,7 @@ def earned(policy: MarksPolicy, judged: Sequence[Judged], mistakes: Sequence[str
     return [math.floor(100 * each * most / total + ROUNDING) / 100 for each in marks]
 
 
-def _alone(policy: MarksPolicy, judged: Judged) -> float:
+def _alone(policy: MarksPolicy, judged: JudgedAnswer) -> float:
     """What an answer earns without regard to the others: the best of what it may be paid for."""
     marks = judged.asked.marks
     if judged.outcome == "right":
@@ -70,9 +70,9 @@ def _part(marks: float, share: float) -> float:
     return max(0.0, min(math.floor(10 * marks * share), math.ceil(10 * marks) - 1) / 10)
 
 
-LEAST_SHARE = 0.5
+MIN_CURVE_SHARE = 0.5
 """A curve of which less is right earns nothing: with most mistakes a dwell or two lie on the right circle."""
-SMALL = 8.0
+SMALL_KEY_TOLERANCES = 8.0
 """A key of fewer tolerances is no length that grows with a scale: its tolerance would grow without bounds."""
 
 
@@ -89,7 +89,7 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
     level : how the answers were come by, for the record
 
     >>> from graphcam.exercises.definition.exercise_file import find_exercise
-    >>> from graphcam.exercises.key.keying import issue
+    >>> from graphcam.exercises.key.key_making import issue
     >>> exercise = find_exercise("acceleration-and-scales")
     >>> variant, answer_key = issue(exercise, "Anna", b"secret")
     >>> mark(exercise, answer_key, Answers({"mu_s": float("nan")})).total
@@ -140,14 +140,14 @@ def _following(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], explai
     # Once the mistake has shown in the student's own answers, what it brings with it is a consequence.
     caused = sorted(explained)[1:]
     for each in compared:
-        if each.place in caused or (each.wrong and each.place > first and _follows(answer_key, each, own)):
+        if each.place in caused or (each.wrong and each.place > first and _is_follow_through(answer_key, each, own)):
             found.add(each.asked.name)
         if isinstance(each.given, float):
             own[each.asked.name] = each.given
     return found
 
 
-def _follows(answer_key: AnswerKey, answer: ComparedAnswer, own: Mapping[str, float]) -> bool:
+def _is_follow_through(answer_key: AnswerKey, answer: ComparedAnswer, own: Mapping[str, float]) -> bool:
     given, key = answer.given, answer.key
     dependence = answer_key.dependences.get(answer.asked.name)
     if dependence is None or not isinstance(given, float) or not isinstance(key.value, float):
@@ -159,29 +159,31 @@ def _follows(answer_key: AnswerKey, answer: ComparedAnswer, own: Mapping[str, fl
         return False
     if dependence.together == "product" and not answer.asked.unit.startswith("deg"):
         # A hand's error grows with the lengths that a wrong scale makes, and does not shrink with them.
-        tolerance *= max(1.0, abs(expected) / max(abs(key.value), SMALL * tolerance))
+        tolerance *= max(1.0, abs(expected) / max(abs(key.value), SMALL_KEY_TOLERANCES * tolerance))
     return abs(given - expected) <= tolerance
 
 
-def _judged(asked: Asked, answer: ComparedAnswer | None, answers: Answers, following: set[str], bound: float) -> Judged:
+def _judged(
+    asked: AskedAnswer, answer: ComparedAnswer | None, answers: Answers, following: set[str], bound: float
+) -> JudgedAnswer:
     if answer is None:
         there = asked.name in answers.values or asked.name in answers.problems
-        return Judged(asked, "unreadable" if there else "missing")
+        return JudgedAnswer(asked, "unreadable" if there else "missing")
     if not answer.wrong:
-        return Judged(asked, "right")
+        return JudgedAnswer(asked, "right")
     share = 0.0
     if isinstance(answer.given, np.ndarray) and asked.kind == "curve":
-        share = answer.key.share(answer.given, bound, LEAST_SHARE)
+        share = answer.key.share(answer.given, bound, MIN_CURVE_SHARE)
     outcome = "follow-through" if asked.name in following else "wrong"
-    return Judged(asked, outcome, abs(answer.off.deviation) / bound, share)
+    return JudgedAnswer(asked, outcome, abs(answer.off.deviation) / bound, share)
 
 
-def _marked(judged: Judged, answer: ComparedAnswer | None, marks: float) -> Marked:
+def _marked(judged: JudgedAnswer, answer: ComparedAnswer | None, marks: float) -> MarkedAnswer:
     name, of = judged.asked.name, judged.asked.marks
     if answer is None:
-        return Marked(name, judged.outcome, marks, of)
+        return MarkedAnswer(name, judged.outcome, marks, of)
     outcome = "partial" if judged.outcome == "wrong" and marks > 0 else judged.outcome
     given: Any = answer.given
     if isinstance(given, np.ndarray):
         given = np.column_stack((given.real, given.imag)).tolist()
-    return Marked(name, outcome, marks, of, given, *answer.off)
+    return MarkedAnswer(name, outcome, marks, of, given, *answer.off)

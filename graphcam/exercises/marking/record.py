@@ -7,13 +7,13 @@ from typing import Any, Literal
 
 from graphcam.exercises.definition.exercise import Value
 
-PLAIN = (str, int, bool, type(None))
+PLAIN_TYPES = (str, int, bool, type(None))
 """Types of values that are strict JSON as they are."""
 Outcome = Literal["right", "follow-through", "partial", "wrong", "missing", "unreadable"]
 
 
 @dataclass(frozen=True)
-class Marked:
+class MarkedAnswer:
     """One answer.
 
     given : the number as given, or a list of points [x, y] in mm of paper; None where there is none
@@ -65,7 +65,7 @@ class Record:
     version: int
     draw: int
     parameters: Mapping[str, Value]
-    answers: tuple[Marked, ...]
+    answers: tuple[MarkedAnswer, ...]
     total: float
     of: float
     diagnosis: Diagnosis | None
@@ -80,12 +80,12 @@ class Record:
     def to_dict(self) -> dict[str, Any]:
         """The record as strict JSON takes it.
 
-        >>> _strict([[1.0, 2.0], [math.inf, -math.inf]])
+        >>> _strict_json([[1.0, 2.0], [math.inf, -math.inf]])
         [[1.0, 2.0], [None, None]]
-        >>> marked = Marked("v", "right", 1.0, 1.0, given=2.0, deviation=math.inf)
+        >>> marked = MarkedAnswer("v", "right", 1.0, 1.0, given=2.0, deviation=math.inf)
         >>> Record("s", "e", 1, 0, {}, (marked,), 1.0, 1.0, None, False, ()).to_dict()["answers"][0]["deviation"]
         """
-        return _strict(self)
+        return _strict_json(self)
 
 
 def is_handed_in(record: Mapping[str, Any]) -> bool:
@@ -97,18 +97,18 @@ def is_handed_in(record: Mapping[str, Any]) -> bool:
     return bool(record.get("handed_in", True))
 
 
-def _strict(value: Any) -> Any:
+def _strict_json(value: Any) -> Any:
     if isinstance(value, float):
         return value if math.isfinite(value) else None
-    if isinstance(value, (Record, Marked, Diagnosis)):
+    if isinstance(value, (Record, MarkedAnswer, Diagnosis)):
         value = vars(value)
     if isinstance(value, dict):
         # Most fields are plain: a call each would take longest of making a record.
-        return {key: each if type(each) in PLAIN else _strict(each) for key, each in value.items()}
+        return {key: each if type(each) in PLAIN_TYPES else _strict_json(each) for key, each in value.items()}
     if isinstance(value, list):
         # A drawn curve has a hundred numbers: one that is not finite makes their sum so.
         points: list[list[float]] = value
-        return points if math.isfinite(sum(map(sum, points))) else [list(map(_strict, point)) for point in points]
+        return points if math.isfinite(sum(map(sum, points))) else [list(map(_strict_json, point)) for point in points]
     if isinstance(value, tuple):
-        return [_strict(each) for each in value]
+        return [_strict_json(each) for each in value]
     return value

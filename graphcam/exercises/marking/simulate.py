@@ -13,19 +13,19 @@ import numpy as np
 
 from graphcam.constructions.chain import Chain
 from graphcam.errors import GraphcamError
-from graphcam.exercises.definition.catalogue import A_LAW, A_READING
+from graphcam.exercises.definition.catalogue import LAW_ARGUMENT, READING_ARGUMENT
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Answers, Exercise
-from graphcam.exercises.definition.hands import HANDS, HandTable
 from graphcam.exercises.definition.mistakes import CATALOGUE, misconception
+from graphcam.exercises.definition.student_hands import HANDS, HandTable
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.keying import HALF
-from graphcam.exercises.key.scatter import Drawn, answers_of
-from graphcam.exercises.marking.course_variants import GROUP, course_variants
+from graphcam.exercises.key.answer_scatter import Drawn, answers_of
+from graphcam.exercises.key.key_making import MAX_COINCIDENCE_SHARE
+from graphcam.exercises.marking.course_variants import GROUP_SIZE, course_variants
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Diagnosis
-from graphcam.given.laws import BETWEEN_DWELLS
+from graphcam.given.laws import DWELL_TO_DWELL_LAWS
 from graphcam.workers import executor_of, in_order
 
 
@@ -39,16 +39,16 @@ def unlisted_names(exercise: Exercise) -> list[str]:
     lengths = dict.fromkeys(f"{each.construction}.{each.reading}" for each in asked if each.reading)
     names: list[str] = []
     for name, entry in CATALOGUE.items():
-        if entry.takes == A_LAW:
-            names += [f"{name}: {law}" for law in BETWEEN_DWELLS]
-        elif entry.takes == A_READING:
+        if entry.takes == LAW_ARGUMENT:
+            names += [f"{name}: {law}" for law in DWELL_TO_DWELL_LAWS]
+        elif entry.takes == READING_ARGUMENT:
             names += [f"{name}: {length}" for length in lengths]
         else:
             names += [f"{name}: {diagram}" for diagram in diagrams] if entry.takes else [name]
     return [name for name in names if name not in exercise.misconceptions]
 
 
-def unlisted(exercise: Exercise, chain: Chain) -> Iterator[tuple[str, Drawn]]:
+def unlisted_answers(exercise: Exercise, chain: Chain) -> Iterator[tuple[str, Drawn]]:
     """The names and the answers of the hands of a drawing with every mistake that its exercise does not list.
 
     Left out are what cannot be drawn here, and what is stroke by stroke the drawing with a mistake that is listed, such
@@ -65,16 +65,16 @@ def unlisted(exercise: Exercise, chain: Chain) -> Iterator[tuple[str, Drawn]]:
             yield name, answers
 
 
-def without(answer_key: AnswerKey, name: str) -> AnswerKey:
+def key_without(answer_key: AnswerKey, name: str) -> AnswerKey:
     """The answer key that knows neither one mistake nor those that it does not tell from it."""
-    unknown = {name, *answer_key.not_told_from(name)}
+    unknown = {name, *answer_key.inseparable_from(name)}
     others = {other: each for other, each in answer_key.hypotheses.items() if other not in unknown}
     return replace(answer_key, hypotheses=others)
 
 
-SPARSELY = 5
+UNLISTED_STEP = 5
 """The step between variants that are done with the mistakes not listed too: there are several times as many."""
-NOTHING = "none"
+NO_MISTAKE = "none"
 """The column of the matrix for no catalogued mistake."""
 
 
@@ -136,7 +136,7 @@ def copy_gain(exercise: Exercise, done: Sequence[tuple[AnswerKey, Answers]]) -> 
         (record := mark(exercise, answer_key, answers)).total / record.of
         for (answer_key, _), (_, answers) in permutations(done, 2)
     ]
-    return CopyGain(len(parts), max(parts, default=0.0), sum(part > HALF for part in parts))
+    return CopyGain(len(parts), max(parts, default=0.0), sum(part > MAX_COINCIDENCE_SHARE for part in parts))
 
 
 @dataclass
@@ -179,8 +179,8 @@ class _Tally:
 def _name_of(diagnosis: Diagnosis | None, answer_key: AnswerKey, made: str) -> str:
     """What was named: the mistake made, too, where it is named with one that the answers cannot tell from it."""
     if diagnosis is None:
-        return NOTHING
-    together = made in diagnosis.alike and diagnosis.misconception in answer_key.not_told_from(made)
+        return NO_MISTAKE
+    together = made in diagnosis.alike and diagnosis.misconception in answer_key.inseparable_from(made)
     return made if together else diagnosis.misconception
 
 
@@ -302,7 +302,7 @@ def simulate(
     done: list[tuple[AnswerKey, Answers]] = []
     with executor_of(workers, cluster) as executor:
         course = course_variants(exercise, (f"student {k}" for k in range(variants)), secret, executor)
-        counted = in_order(executor, partial(_counted, exercise, hands), enumerate(course))
+        counted = in_order(executor, partial(_counted_attempt, exercise, hands), enumerate(course))
         for k, (draw, of_variant, careful_work) in enumerate(counted, 1):
             issued[draw] += 1
             whole.add(of_variant)
@@ -328,10 +328,10 @@ def simulate(
 
 def _outside_count(tally: _Tally) -> OutsideCount:
     """Counts of those with a wrong answer: what does not show in the answers asked can be given no name."""
-    return OutsideCount(tally.wrong, tally.hands - tally.named[NOTHING])
+    return OutsideCount(tally.wrong, tally.hands - tally.named[NO_MISTAKE])
 
 
-def _counted(
+def _counted_attempt(
     exercise: Exercise, hands: int, job: tuple[int, tuple[Variant, AnswerKey]]
 ) -> tuple[int, _VariantTally, list[tuple[AnswerKey, Answers]]]:
     """The counts of a variant with its number: its draw, the students who did it, the work of a careful one.
@@ -351,11 +351,11 @@ def _counted(
     for name, tally in found.wrong.items():
         wrongly = misconception(name).change(drawn)
         tally.mark(exercise, answer_key, wrongly)
-        found.left_out.mark(exercise, without(answer_key, name), wrongly)
-    if k % SPARSELY == 0:
-        for _, answers in unlisted(exercise, drawn):
+        found.left_out.mark(exercise, key_without(answer_key, name), wrongly)
+    if k % UNLISTED_STEP == 0:
+        for _, answers in unlisted_answers(exercise, drawn):
             found.outside.mark_answers(exercise, answer_key, answers, hands)
-    careful_work = [(answer_key, submission(exercise, answers_of(exercise, drawn), 0))] if k < GROUP else []
+    careful_work = [(answer_key, submission(exercise, answers_of(exercise, drawn), 0))] if k < GROUP_SIZE else []
     return variant.draw, found, careful_work
 
 

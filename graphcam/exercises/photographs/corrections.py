@@ -14,22 +14,22 @@ import numpy as np
 from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise import Exercise, Given
 from graphcam.exercises.photographs.read_photo import pairs
+from graphcam.exercises.reading.answer_values import Points, number, points
 from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
-from graphcam.exercises.reading.values import Points, number, points
 from graphcam.files import whole_file
 from graphcam.words import Words, bare, say
 
-FORMAT = 1
-KEPT = "photo-corrections.json"
+FORMAT_VERSION = 1
+CORRECTIONS_FILE = "photo-corrections.json"
 """The teacher's file of all corrections of the course."""
-LARGEST = 100_000_000
+MAX_FILE_BYTES = 100_000_000
 """Bytes of a file of corrections: a thousand students with a curve each fill a third of it."""
-STRETCH = (0.97, 1.03)
+STRETCH_RANGE = (0.97, 1.03)
 """A printer scales by less; a bar that differs more was measured from the wrong end."""
-FARTHEST = 2000.0
+MAX_DISTANCE = 2000.0
 """mm from the view's origin: no paper is larger."""
 Verdict = Literal["corrected", "confirmed", "left out"]
-BY_REVIEW = say("export the corrections from the review page again")
+EXPORT_REMEDY = say("export the corrections from the review page again")
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +62,7 @@ class StudentCorrections:
     reviewed: bool = False
 
 
-NONE = StudentCorrections()
+NO_CORRECTIONS = StudentCorrections()
 """The teacher has said nothing yet."""
 Corrections = Mapping[str, StudentCorrections]
 """The corrections by the student's id."""
@@ -75,7 +75,7 @@ def kept_corrections(teacher: Path, exercise: Exercise, students: Collection[str
     ------
     TaskError : they cannot be used any more
     """
-    path = teacher / KEPT
+    path = teacher / CORRECTIONS_FILE
     return read_corrections(path, exercise, students) if path.exists() else {}
 
 
@@ -86,28 +86,28 @@ def keep_corrections(teacher: Path, exercise: Exercise, corrections: Corrections
     ------
     OutputError : they cannot be written
     """
-    with whole_file(teacher / KEPT) as draft:
+    with whole_file(teacher / CORRECTIONS_FILE) as draft:
         draft.write_text(to_json(exercise, corrections) + "\n", encoding="utf-8", newline="\n")
 
 
 def to_json(exercise: Exercise, corrections: Corrections) -> str:
     """The corrections as JSON text."""
-    students = {student: student_said(one) for student, one in corrections.items()}
-    said = {"format": FORMAT, "exercise": exercise.name, "students": students}
+    students = {student: student_data(one) for student, one in corrections.items()}
+    said = {"format": FORMAT_VERSION, "exercise": exercise.name, "students": students}
     return json.dumps(said, allow_nan=False)
 
 
-def student_said(one: StudentCorrections) -> dict[str, Any]:
+def student_data(one: StudentCorrections) -> dict[str, Any]:
     """One student's corrections as JSON takes them."""
     answers = {
-        name: {"verdict": each.verdict, "value": _value_said(each.value), "photo": each.photo}
+        name: {"verdict": each.verdict, "value": _value_data(each.value), "photo": each.photo}
         for name, each in one.answers.items()
     }
     bars = {str(page): list(lengths) for page, lengths in one.bars.items()}
     return {"answers": answers, "bars": bars, "reviewed": one.reviewed}
 
 
-def _value_said(value: Given | None) -> float | list[list[float]] | None:
+def _value_data(value: Given | None) -> float | list[list[float]] | None:
     return pairs(value) if isinstance(value, np.ndarray) else value
 
 
@@ -121,16 +121,18 @@ def read_corrections(path: Path, exercise: Exercise, students: Collection[str]) 
     TaskError : the file cannot be read, or says what cannot be; field, value, what is allowed and what to do
     """
     try:
-        text = read_regular(path, LARGEST).decode("utf-8")
+        text = read_regular(path, MAX_FILE_BYTES).decode("utf-8")
         said = json.loads(text)
     except UnreadableError as error:
         what, found = say("the file"), say("not readable ({error})", error=error.why)
         raise TaskError(str(path), what, found, say("a file of corrections"), say("check the name")) from None
     except (ValueError, RecursionError):
-        raise TaskError(str(path), say("the file"), say("not JSON"), say("a file of corrections"), BY_REVIEW) from None
+        raise TaskError(
+            str(path), say("the file"), say("not JSON"), say("a file of corrections"), EXPORT_REMEDY
+        ) from None
     reader = _Reader(str(path), exercise)
     table = reader.table(say("the file"), said, {"format", "exercise", "students"})
-    reader.one_of("format", table["format"], (FORMAT,))
+    reader.one_of("format", table["format"], (FORMAT_VERSION,))
     reader.one_of("exercise", table["exercise"], (exercise.name,))
     listed = reader.table("students", table["students"])
     for student in listed:
@@ -150,9 +152,9 @@ class _Reader:
     def wrong(self, where: Words, value: object, allowed: Words) -> TaskError:
         """The error about a value."""
         if isinstance(value, str):
-            return TaskError(self.path, where, value[:60], allowed, BY_REVIEW)
+            return TaskError(self.path, where, value[:60], allowed, EXPORT_REMEDY)
         shown = f"{value}"[:60] if isinstance(value, int | float | None) else f"a {type(value).__name__}"
-        return TaskError(self.path, where, bare(shown), allowed, BY_REVIEW)
+        return TaskError(self.path, where, bare(shown), allowed, EXPORT_REMEDY)
 
     def table(self, where: Words, said: Any, names: set[str] | None = None) -> dict[str, Any]:
         """A table, with exactly these names if they are given."""
@@ -188,7 +190,7 @@ class _Reader:
             raise self.wrong(where, name, say("one of the answers {names}", names=names))
         table = self.table(where, said, {"verdict", "value", "photo"})
         # Nothing but a drawing is read, so nothing else can be right as it was read.
-        verdicts = ("corrected", "confirmed", "left out") if asked.drawn_as else ("corrected",)
+        verdicts = ("corrected", "confirmed", "left out") if asked.mark_form else ("corrected",)
         verdict = self.one_of(f"{where}.verdict", table["verdict"], verdicts)
         photo = table["photo"]
         if not isinstance(photo, str) or len(photo) > 200:
@@ -197,11 +199,11 @@ class _Reader:
             self.one_of(f"{where}.value", table["value"], (None,))
             return Correction(verdict, None, photo)
         try:
-            given: Given = points(name, table["value"]) if asked.drawn_as else number(name, table["value"])
+            given: Given = points(name, table["value"]) if asked.mark_form else number(name, table["value"])
         except UnreadableError as error:
             raise self.wrong(f"{where}.value", str(error), say("as the answer is asked")) from None
-        if isinstance(given, np.ndarray) and np.abs(given).max() > FARTHEST:
-            found, limit = f"{np.abs(given).max():g} mm away", say("within {farthest:g} mm", farthest=FARTHEST)
+        if isinstance(given, np.ndarray) and np.abs(given).max() > MAX_DISTANCE:
+            found, limit = f"{np.abs(given).max():g} mm away", say("within {farthest:g} mm", farthest=MAX_DISTANCE)
             raise self.wrong(f"{where}.value", found, limit)
         return Correction(verdict, given, photo)
 
@@ -218,8 +220,8 @@ class _Reader:
         """A length in mm, if it was measured."""
         if said is None:
             return None
-        if isinstance(said, bool) or not isinstance(said, int | float) or not 0 < said <= FARTHEST:
-            raise self.wrong(where, said, say("a length in mm, at most {farthest:g}", farthest=FARTHEST))
+        if isinstance(said, bool) or not isinstance(said, int | float) or not 0 < said <= MAX_DISTANCE:
+            raise self.wrong(where, said, say("a length in mm, at most {farthest:g}", farthest=MAX_DISTANCE))
         return float(said)
 
 
@@ -240,18 +242,20 @@ def stretch_of(
     found: list[float] = []
     for length, said, way in zip(printed, measured, ("across", "up"), strict=True):
         part = said / length if said is not None and length > 0 else 1.0
-        if not (math.isfinite(part) and STRETCH[0] <= part <= STRETCH[1]):
-            allowed = say("from {value:.1f} to {value2:.1f} mm", value=STRETCH[0] * length, value2=STRETCH[1] * length)
+        if not (math.isfinite(part) and STRETCH_RANGE[0] <= part <= STRETCH_RANGE[1]):
+            allowed = say(
+                "from {value:.1f} to {value2:.1f} mm", value=STRETCH_RANGE[0] * length, value2=STRETCH_RANGE[1] * length
+            )
             what = say("the scale bar {way}", way=way)
             raise TaskError(where, what, say("{length:g} mm", length=said), allowed, say("measure it again"))
         found.append(part)
     return found[0], found[1]
 
 
-def stretched(points: Points, stretch: tuple[float, float]) -> Points:
+def stretched_points(points: Points, stretch: tuple[float, float]) -> Points:
     """Points on paper that is so much longer across and up.
 
-    >>> stretched(np.array([10 + 10j]), (1.01, 0.99)).tolist()
+    >>> stretched_points(np.array([10 + 10j]), (1.01, 0.99)).tolist()
     [(10.1+9.9j)]
     """
     return points.real * stretch[0] + 1j * points.imag * stretch[1]

@@ -12,37 +12,43 @@ from pathlib import Path
 
 import graphcam
 from graphcam.errors import MissingFileError, TaskError, installed
-from graphcam.exercises.course.course_folder import COURSE, PRINTED, TEACHER, AnswerKeys, KeysAsNeeded
+from graphcam.exercises.course.course_folder import (
+    COURSE_FILE,
+    PRINTED_FOLDER,
+    TEACHER_FOLDER,
+    AnswerKeys,
+    KeysAsNeeded,
+)
 from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.photographs.corrections import (
-    NONE,
+    NO_CORRECTIONS,
     Corrections,
     keep_corrections,
     kept_corrections,
     read_corrections,
     with_changes,
 )
-from graphcam.exercises.photographs.kept_photographs import KeptPhotographs
-from graphcam.exercises.photographs.read_photo import FORMAT, ReadPhoto
-from graphcam.exercises.photographs.reading_limits import GIGABYTES, OPENED_WITHIN
+from graphcam.exercises.photographs.counted_answers import SettledStudent, settled_student
+from graphcam.exercises.photographs.page_owner import PrintedSheets
+from graphcam.exercises.photographs.photograph_store import KeptPhotographs
+from graphcam.exercises.photographs.read_photo import FORMAT_VERSION, ReadPhoto
+from graphcam.exercises.photographs.reading_limits import MEMORY_GIGABYTES, OPENED_WITHIN
 from graphcam.exercises.photographs.review_page import review_page
-from graphcam.exercises.photographs.settling import SettledStudent, settled
 from graphcam.exercises.photographs.student_files import write_student
-from graphcam.exercises.photographs.whose import PrintedSheets
 from graphcam.files import OutputError, whole_file
 from graphcam.words import Caption, say, say_many
 from graphcam.workers import processes, results
 
-READINGS = "photos"
+READINGS_FOLDER = "photos"
 """The folder of what was read: 'exercise grade' takes it as it takes what was handed in."""
-TABLE = "report.csv"
+TABLE_FILE = "report.csv"
 """The table of the readings, a line for each photograph."""
-COLUMNS = (
+REPORT_COLUMNS = (
     *("photograph", "student", "page", "status", "marks_found", "marks_printed", "residual_px", "paper"),
     *("answers_read", "least_share_seen", "why", "remedy"),
 )
-LIBRARIES = ("cv2", "zxingcpp", "pypdfium2", "pillow_heif", "PIL")
+PHOTO_LIBRARIES = ("cv2", "zxingcpp", "pypdfium2", "pillow_heif", "PIL")
 """The libraries that the extra ``photo`` brings, and reading needs."""
 Step = Callable[[int, int], None]
 
@@ -90,31 +96,31 @@ def read_course(order: ReadingOrder, step: Step = lambda done, total: None) -> R
     ------
     GraphcamError : wrong input, or the folder cannot be written
     """
-    with installed("exercise read", ", ".join(LIBRARIES), "photo"):
-        for library in LIBRARIES:
+    with installed("exercise read", ", ".join(PHOTO_LIBRARIES), "photo"):
+        for library in PHOTO_LIBRARIES:
             import_module(library)
-    kept = AnswerKeys(order.course / TEACHER)
+    kept = AnswerKeys(order.course / TEACHER_FOLDER)
     exercise, sheets = _course(order, kept)
-    out = order.out or order.course / READINGS
+    out = order.out or order.course / READINGS_FOLDER
     _check_places(order, out)
     corrections = kept_corrections(kept.folder, exercise, sheets.students)
     if order.corrections is not None:
         corrections = with_changes(corrections, read_corrections(order.corrections, exercise, sheets.students))
     readings = KeptPhotographs(out, _basis(exercise, kept))
     with readings.held():
-        refused = _read(order, exercise, sheets, readings, step)
+        refused = _read_photographs(order, exercise, sheets, readings, step)
         photos = [*readings.all(), *refused]
         answer_keys = KeysAsNeeded(kept, sheets.students)
-        students = _settled(exercise, photos, answer_keys, corrections)
+        students = _settled_students(exercise, photos, answer_keys, corrections)
         # Before anything is written, so that a bar that is measured wrongly changes nothing.
         if order.corrections is not None:
             keep_corrections(kept.folder, exercise, corrections)
         for one in students:
             write_student(out, exercise, one, answer_keys.get(one.student), readings)
-        _write(out / TABLE, photo_table(photos, students, exercise))
+        _write_text(out / TABLE_FILE, photo_table(photos, students, exercise))
         if order.review is not None:
             keys = ((one, answer_keys.get(one.student)) for one in students)
-            _write(order.review, review_page(exercise, keys, readings, photos))
+            _write_text(order.review, review_page(exercise, keys, readings, photos))
     return ReadCourse(out, photos, students)
 
 
@@ -127,10 +133,10 @@ def _course(order: ReadingOrder, kept: AnswerKeys) -> tuple[Exercise, PrintedShe
     """
     noted = kept.course()
     if not noted:
-        missing = say("without {teacher}/{course}", teacher=TEACHER, course=COURSE)
+        missing = say("without {teacher}/{course}", teacher=TEACHER_FOLDER, course=COURSE_FILE)
         remedy = say("name the folder that 'exercise make' wrote")
         raise TaskError(str(order.course), say("the course"), missing, say("a folder of a course"), remedy)
-    if not (kept.folder / PRINTED).is_dir():
+    if not (kept.folder / PRINTED_FOLDER).is_dir():
         wanted, remedy = say("made to be photographed"), say("make the course with --paper A3")
         raise TaskError(str(order.course), say("the worksheet"), say("without marks"), wanted, remedy)
     secret = kept.secret(order.secret_file)
@@ -143,7 +149,7 @@ def _check_places(order: ReadingOrder, out: Path) -> None:
     """What must not first come out when all is read."""
     if out.exists() and not out.is_dir():
         raise OutputError(out, say("it is a file"), say("name a folder for the readings"))
-    if out.resolve() in ((order.course / TEACHER).resolve(), order.course.resolve()):
+    if out.resolve() in ((order.course / TEACHER_FOLDER).resolve(), order.course.resolve()):
         raise OutputError(out, say("it holds the course itself"), say("name a folder of its own"))
     if order.review is not None and order.review.is_dir():
         raise OutputError(order.review, say("it is a folder"), say("name a file, review.html"))
@@ -155,11 +161,11 @@ def _check_places(order: ReadingOrder, out: Path) -> None:
 def _basis(exercise: Exercise, kept: AnswerKeys) -> str:
     """Tells what photographs are read with: the program, what is asked for, and the course."""
     drawn = [(asked.name, asked.kind, asked.place, asked.mark) for asked in exercise.answers]
-    said = repr((FORMAT, graphcam.__version__, exercise.name, exercise.version, drawn, kept.course()))
+    said = repr((FORMAT_VERSION, graphcam.__version__, exercise.name, exercise.version, drawn, kept.course()))
     return hashlib.sha256(said.encode("utf-8", "backslashreplace")).hexdigest()[:16]
 
 
-def _read(
+def _read_photographs(
     order: ReadingOrder, exercise: Exercise, sheets: PrintedSheets, readings: KeptPhotographs, step: Step
 ) -> list[ReadPhoto]:
     """Read what is not read yet; what cannot be opened at all is given back."""
@@ -173,26 +179,26 @@ def _read(
     with closing(processes(order.workers, read_file.__module__, fresh=True)) as pool:
         # A photograph a time, since each takes seconds; one that kills its worker costs only itself.
         for done, (file, found) in enumerate(results(pool, partial(read_file, job), files, batch=1), 1):
-            refused += found if found is not None else [_crashed(file.name, exercise)]
+            refused += found if found is not None else [_crashed_photograph(file.name, exercise)]
             step(done, len(files))
         # Of pages on two sheets both must be known first.
         halves = halves_in(readings.all(), files, readings)
         for both, found in results(pool, partial(read_halves_of, job), halves, batch=1):
-            refused += found if found is not None else [_crashed(both.name, exercise)]
+            refused += found if found is not None else [_crashed_photograph(both.name, exercise)]
     return sorted(refused, key=lambda photo: photo.name)
 
 
-def _crashed(name: str, exercise: Exercise) -> ReadPhoto:
+def _crashed_photograph(name: str, exercise: Exercise) -> ReadPhoto:
     why = say(
         "reading it failed, or took more than {seconds} s or {gigabytes} GB of memory",
         seconds=round(OPENED_WITHIN),
-        gigabytes=GIGABYTES,
+        gigabytes=MEMORY_GIGABYTES,
     )
     remedy = say("save it as JPEG again, or photograph the sheet again")
     return ReadPhoto(name, "", why=exercise.tell(why), remedy=exercise.tell(remedy))
 
 
-def _settled(
+def _settled_students(
     exercise: Exercise, photos: Iterable[ReadPhoto], answer_keys: KeysAsNeeded, corrections: Corrections
 ) -> list[SettledStudent]:
     """What counts, of each student who has photographs or corrections."""
@@ -201,7 +207,7 @@ def _settled(
         if photo.student in of:
             of[photo.student].append(photo)
     return [
-        settled(exercise, student, own, answer_keys.get(student), corrections.get(student, NONE))
+        settled_student(exercise, student, own, answer_keys.get(student), corrections.get(student, NO_CORRECTIONS))
         for student, own in of.items()
         if own or student in corrections
     ]
@@ -210,10 +216,10 @@ def _settled(
 def photo_table(photos: Iterable[ReadPhoto], students: Sequence[SettledStudent], exercise: Exercise) -> str:
     """A line for each photograph: whose it is, how well it is seen, what was read, and what to do."""
     by_student = {one.student: one for one in students}
-    return table(COLUMNS, (_line(photo, by_student.get(photo.student), exercise) for photo in photos))
+    return table(REPORT_COLUMNS, (_report_line(photo, by_student.get(photo.student), exercise) for photo in photos))
 
 
-def _line(photo: ReadPhoto, student: SettledStudent | None, exercise: Exercise) -> list[object]:
+def _report_line(photo: ReadPhoto, student: SettledStudent | None, exercise: Exercise) -> list[object]:
     counts = student is not None and photo is student.pages.get(photo.page)
     shares = [one.share for one in photo.answers.values()]
     answers = [one for one in student.answers if one.page == photo.page] if student is not None and counts else []
@@ -229,7 +235,7 @@ def _line(photo: ReadPhoto, student: SettledStudent | None, exercise: Exercise) 
     ]
 
 
-def _write(path: Path, text: str) -> None:
+def _write_text(path: Path, text: str) -> None:
     with whole_file(path) as draft:
         draft.write_text(text, encoding="utf-8", newline="\n", errors="backslashreplace")
 

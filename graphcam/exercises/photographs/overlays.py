@@ -11,21 +11,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.exercises.definition.exercise import Kind
-from graphcam.exercises.key.expectation import Expected, paired
-from graphcam.exercises.photographs.seen_page import jpeg
+from graphcam.exercises.key.expected_answers import Expected, paired
+from graphcam.exercises.photographs.photographed_page import jpeg
 from graphcam.exercises.reports.curves import nearest_places
 from graphcam.exercises.reports.unrolled_drawings import key_line
-from graphcam.photo.printed import Edges, Points
+from graphcam.photo.printed_page import Edges, Points
 
-MAGNIFIED = 10.0
+DEVIATION_MAGNIFICATION = 10.0
 """Deviations are drawn so many times as long, so that tenths of a mm are seen."""
-FARTHEST = 12.0
+MAX_DEVIATION = 12.0
 """mm off up to which a deviation is drawn: a foreign drawing would be covered by them."""
-EVERY = 4.0
+DEVIATION_SPACING = 4.0
 """mm along the right curve between two deviations that are drawn."""
-RIGHT, OWN, OFF = (143, 79, 27), (43, 57, 192), (0, 140, 240)
+RIGHT_COLOUR, OWN_COLOUR, DEVIATION_COLOUR = (143, 79, 27), (43, 57, 192), (0, 140, 240)
 """Blue, red and orange, as OpenCV has colours: what is right, what was read, and how far that is off."""
-FRACTION = 4
+FRACTION_BITS = 4
 """Bits behind the point of a place in pixels."""
 RING, DOT = 1.6, 0.5
 """Radii of what shows a point [mm]."""
@@ -58,9 +58,9 @@ def overlay(picture: bytes, box: Edges, layers: Iterable[OverlaidDrawing]) -> by
         if layer.right is not None:
             _draw_right(board, layer, layer.right)
         if layer.kind == "curve":
-            board.line(_round(layer), OWN)
+            board.line(_round(layer), OWN_COLOUR)
         else:
-            board.rings(layer.own, RING, OWN)
+            board.rings(layer.own, RING, OWN_COLOUR)
     return jpeg(board.canvas)
 
 
@@ -72,18 +72,18 @@ def _draw_right(board: _Board, layer: OverlaidDrawing, right: Expected) -> None:
     places = np.atleast_1d(np.asarray(right.value, dtype=np.complex128))
     if layer.kind == "curve":
         line = key_line(right)
-        board.line(line, RIGHT)
+        board.line(line, RIGHT_COLOUR)
         run = np.append(0.0, np.cumsum(np.abs(np.diff(line))))
-        places = np.interp(np.arange(0.0, run[-1], EVERY), run, line).astype(np.complex128)
+        places = np.interp(np.arange(0.0, run[-1], DEVIATION_SPACING), run, line).astype(np.complex128)
         nearest = nearest_places(places, _round(layer))
     else:
-        board.rings(places, DOT, RIGHT)
+        board.rings(places, DOT, RIGHT_COLOUR)
         if layer.own.size != places.size:
             return
         nearest = paired(layer.own, places)
     off = nearest - places
-    for ends in np.stack([places, places + MAGNIFIED * off], -1)[np.abs(off) <= FARTHEST]:
-        board.line(ends, OFF)
+    for ends in np.stack([places, places + DEVIATION_MAGNIFICATION * off], -1)[np.abs(off) <= MAX_DEVIATION]:
+        board.line(ends, DEVIATION_COLOUR)
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,14 +103,14 @@ class _Board:
         x = (points.real - self.box[0]) * self.per_mm - 0.5
         y = (self.box[3] - points.imag) * self.per_mm - 0.5
         places = np.clip(np.stack([x, y], -1), -2 * max(self.canvas.shape), 3 * max(self.canvas.shape))
-        return np.round(places * 2**FRACTION).astype(np.int32)
+        return np.round(places * 2**FRACTION_BITS).astype(np.int32)
 
     def line(self, points: NDArray[np.complexfloating[Any, Any]], colour: tuple[int, int, int]) -> None:
         """A line through points."""
-        cv2.polylines(self.canvas, [self.pixels(points)], False, colour, 1, cv2.LINE_AA, FRACTION)
+        cv2.polylines(self.canvas, [self.pixels(points)], False, colour, 1, cv2.LINE_AA, FRACTION_BITS)
 
     def rings(self, points: Points, radius: float, colour: tuple[int, int, int]) -> None:
         """A ring about each point."""
-        size = round(radius * self.per_mm * 2**FRACTION)
+        size = round(radius * self.per_mm * 2**FRACTION_BITS)
         for x, y in self.pixels(points).tolist():
-            cv2.circle(self.canvas, (x, y), size, colour, 1, cv2.LINE_AA, FRACTION)
+            cv2.circle(self.canvas, (x, y), size, colour, 1, cv2.LINE_AA, FRACTION_BITS)

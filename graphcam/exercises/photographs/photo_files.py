@@ -15,20 +15,20 @@ from pathlib import Path
 
 import cv2
 
-from graphcam.descriptors import READ
 from graphcam.exercises.definition.exercise import Exercise
-from graphcam.exercises.photographs.kept_photographs import DIGITS, KeptPhotographs
+from graphcam.exercises.photographs.page_owner import PrintedSheets
 from graphcam.exercises.photographs.photo_reader import read_halves, read_photograph
+from graphcam.exercises.photographs.photograph_store import DIGEST_DIGITS, KeptPhotographs
 from graphcam.exercises.photographs.read_photo import ReadPhoto
 from graphcam.exercises.photographs.reading_limits import OPENED_WITHIN, READ_WITHIN, Allow, limited
-from graphcam.exercises.photographs.whose import PrintedSheets
+from graphcam.file_descriptors import READ_FLAGS
 from graphcam.files import OutputError
-from graphcam.photo.intake import ENDINGS, FOLDERS_DEEP, MOST_BYTES, Unopened, pictures_in
+from graphcam.photo.file_intake import MAX_BYTES, MAX_FOLDER_DEPTH, PICTURE_ENDINGS, UnopenedFile, pictures_in
 from graphcam.photo.pictures import Photograph, PhotographError
-from graphcam.photo.printed import SIDES, Side
+from graphcam.photo.printed_page import SIDE_NAMES, Side
 from graphcam.words import say
 
-CHUNK = 1 << 20
+CHUNK_BYTES = 1 << 20
 """Bytes of a file that are looked at together."""
 
 
@@ -55,7 +55,7 @@ class PhotoFile:
     @property
     def told(self) -> bool:
         """Whether somebody wants to hear that it holds no photograph."""
-        return self.named or self.path.suffix.lower() in ENDINGS
+        return self.named or self.path.suffix.lower() in PICTURE_ENDINGS
 
 
 def read_file(job: ReadingJob, file: PhotoFile) -> list[ReadPhoto]:
@@ -64,7 +64,7 @@ def read_file(job: ReadingJob, file: PhotoFile) -> list[ReadPhoto]:
     It does not raise: one photograph that none foresaw is told like any other that cannot be read.  Past its limits of
     time and memory it ends the process, a worker's.
     """
-    return _guarded(job, file.name, lambda allow: _read(job, file, allow))
+    return _guarded(job, file.name, lambda allow: _read_file(job, file, allow))
 
 
 def _guarded(job: ReadingJob, name: str, read: Callable[[Allow], list[ReadPhoto]]) -> list[ReadPhoto]:
@@ -82,7 +82,7 @@ def _guarded(job: ReadingJob, name: str, read: Callable[[Allow], list[ReadPhoto]
     return [ReadPhoto(name, "", why=job.exercise.tell(why), remedy=job.exercise.tell(remedy))]
 
 
-def _read(job: ReadingJob, file: PhotoFile, allow: Allow) -> list[ReadPhoto]:
+def _read_file(job: ReadingJob, file: PhotoFile, allow: Allow) -> list[ReadPhoto]:
     digest = digest_of(file.path)
     if digest and job.kept.find(digest) is not None:
         return []
@@ -92,7 +92,7 @@ def _read(job: ReadingJob, file: PhotoFile, allow: Allow) -> list[ReadPhoto]:
     tell = job.exercise.tell
     for number, found in enumerate(_in_time(pictures_in([file.path]), allow)):
         name = file.name + found.name.removeprefix(file.path.name)
-        if isinstance(found, Unopened):
+        if isinstance(found, UnopenedFile):
             unread.append(ReadPhoto(name, "", why=tell(found.why), remedy=tell(found.remedy)))
         else:
             picture = replace(found, name=name)
@@ -105,7 +105,7 @@ def _read(job: ReadingJob, file: PhotoFile, allow: Allow) -> list[ReadPhoto]:
     return unread if file.told else []
 
 
-def _in_time(found: Iterator[Photograph | Unopened], allow: Allow) -> Iterator[Photograph | Unopened]:
+def _in_time(found: Iterator[Photograph | UnopenedFile], allow: Allow) -> Iterator[Photograph | UnopenedFile]:
     """The pictures of a file, each unpacked, and then read, within its time."""
     allow(OPENED_WITHIN)
     for one in found:
@@ -135,7 +135,7 @@ def read_halves_of(job: ReadingJob, halves: Halves) -> list[ReadPhoto]:
 
 def _read_halves(job: ReadingJob, halves: Halves, allow: Allow) -> list[ReadPhoto]:
     of = {"left": halves.left, "right": halves.right}
-    photographs: dict[Side, Photograph] = {side: _picture(*of[side], allow) for side in SIDES}
+    photographs: dict[Side, Photograph] = {side: _picture(*of[side], allow) for side in SIDE_NAMES}
     photo, shown = read_halves(job.sheets, job.exercise, photographs, f"{halves.digest}-0", "0-")
     job.kept.keep(halves.digest, [replace(photo, name=halves.name)], shown)
     return []
@@ -143,7 +143,7 @@ def _read_halves(job: ReadingJob, halves: Halves, allow: Allow) -> list[ReadPhot
 
 def _picture(path: Path, number: int, allow: Allow) -> Photograph:
     found = next(islice(_in_time(pictures_in([path]), allow), number, None))
-    if isinstance(found, Unopened):
+    if isinstance(found, UnopenedFile):
         raise PhotographError(found.why, found.remedy)
     return found
 
@@ -157,10 +157,10 @@ def halves_in(photos: Iterable[ReadPhoto], files: Iterable[PhotoFile], kept: Kep
     for photo in sorted(photos, key=lambda one: -one.residual):
         if photo.half and not photo.why:
             best.setdefault((photo.student, photo.page), {})[photo.half] = photo
-    pairs = [(sides["left"], sides["right"]) for sides in best.values() if len(sides) == len(SIDES)]
+    pairs = [(sides["left"], sides["right"]) for sides in best.values() if len(sides) == len(SIDE_NAMES)]
     paths = {digest_of(file.path): file.path for file in files} if pairs else {}
     for pair in pairs:
-        digest = hashlib.sha256(" ".join(photo.digest for photo in pair).encode()).hexdigest()[:DIGITS]
+        digest = hashlib.sha256(" ".join(photo.digest for photo in pair).encode()).hexdigest()[:DIGEST_DIGITS]
         places = [photo.digest.split("-") for photo in pair]
         if kept.find(digest) is None and all(of in paths for of, _ in places):
             left, right = ((paths[of], int(number)) for of, number in places)
@@ -170,17 +170,17 @@ def halves_in(photos: Iterable[ReadPhoto], files: Iterable[PhotoFile], kept: Kep
 def digest_of(path: Path) -> str:
     """Tells a file from all others, whatever it is called; empty of what is no file, or too large to be read."""
     try:
-        descriptor = os.open(path, READ)
+        descriptor = os.open(path, READ_FLAGS)
     except OSError:
         return ""
     try:
         status = os.fstat(descriptor)
-        if not stat.S_ISREG(status.st_mode) or status.st_size > MOST_BYTES:
+        if not stat.S_ISREG(status.st_mode) or status.st_size > MAX_BYTES:
             return ""
         digest = hashlib.sha256()
-        while part := os.read(descriptor, CHUNK):
+        while part := os.read(descriptor, CHUNK_BYTES):
             digest.update(part)
-        return digest.hexdigest()[:DIGITS]
+        return digest.hexdigest()[:DIGEST_DIGITS]
     except OSError:
         return ""
     finally:
@@ -191,7 +191,7 @@ def files_in(paths: Iterable[Path]) -> Iterator[PhotoFile]:
     """The files that are named, and those in the folders that are: sorted, and one folder deeper too."""
     for path in paths:
         if path.is_dir():
-            yield from _files(path, path.name or str(path), FOLDERS_DEEP)
+            yield from _files(path, path.name or str(path), MAX_FOLDER_DEPTH)
         else:
             yield PhotoFile(path, path.name, named=True)
 

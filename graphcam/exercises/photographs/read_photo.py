@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import TaskError
-from graphcam.photo.printed import Edges, Points
+from graphcam.photo.printed_page import Edges, Points
 from graphcam.words import say
 
 TABLE = "table of answers"
@@ -20,8 +20,8 @@ BARS = ("length of the bar across", "length of the bar up")
 """The picture names of the boxes in which the measured lengths of the scale bars are written."""
 
 
-FORMAT = 2
-DECIMALS = 3
+FORMAT_VERSION = 2
+PLACE_DECIMALS = 3
 """Decimals of a place in mm: a thousandth is far below what a photograph shows."""
 REMEDY = say("delete the folder that holds it, and read the photographs again")
 
@@ -106,9 +106,9 @@ def to_json(photos: list[ReadPhoto], basis: str) -> str:
     """
     said = [{**vars(photo)} for photo in photos]
     for each, photo in zip(said, photos, strict=True):
-        each["answers"] = {name: _answer_said(one) for name, one in photo.answers.items()}
+        each["answers"] = {name: _answer_data(one) for name, one in photo.answers.items()}
         each["pictures"] = {name: [one.file, one.box] for name, one in photo.pictures.items()}
-    return json.dumps({"format": FORMAT, "basis": basis, "photos": said}, allow_nan=False)
+    return json.dumps({"format": FORMAT_VERSION, "basis": basis, "photos": said}, allow_nan=False)
 
 
 def from_json(text: str, path: str = "readings") -> tuple[list[ReadPhoto], str]:
@@ -124,16 +124,18 @@ def from_json(text: str, path: str = "readings") -> tuple[list[ReadPhoto], str]:
     """
     try:
         said = json.loads(text)
-        if said["format"] != FORMAT:
+        if said["format"] != FORMAT_VERSION:
             raise ValueError(f"format {said['format']}")
-        return [_photo(each) for each in said["photos"]], str(said["basis"])
+        return [_photo_from_data(each) for each in said["photos"]], str(said["basis"])
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         found = say("not readable ({error})", error=str(error))
-        raise TaskError(path, say("the reading"), found, say("one of format {format}", format=FORMAT), REMEDY) from None
+        raise TaskError(
+            path, say("the reading"), found, say("one of format {format}", format=FORMAT_VERSION), REMEDY
+        ) from None
 
 
-def _photo(said: dict[str, Any]) -> ReadPhoto:
-    answers = {name: _answer(each) for name, each in said["answers"].items()}
+def _photo_from_data(said: dict[str, Any]) -> ReadPhoto:
+    answers = {name: _answer_from_data(each) for name, each in said["answers"].items()}
     pictures: dict[str, KeptPicture] = {}
     for name, (file, (left, bottom, right, top)) in said["pictures"].items():
         pictures[name] = KeptPicture(file, (left, bottom, right, top))
@@ -142,17 +144,17 @@ def _photo(said: dict[str, Any]) -> ReadPhoto:
     return replace(ReadPhoto(**plain), answers=answers, pictures=pictures, bars=(across, up))
 
 
-def _answer_said(answer: ReadAnswer) -> dict[str, Any]:
+def _answer_data(answer: ReadAnswer) -> dict[str, Any]:
     points = None if answer.points is None else pairs(answer.points)
     return {**vars(answer), "points": points, "faint": pairs(answer.faint)}
 
 
-def _answer(said: dict[str, Any]) -> ReadAnswer:
-    points = None if said["points"] is None else _points(said["points"])
-    return replace(ReadAnswer(**said), points=points, faint=_points(said["faint"]))
+def _answer_from_data(said: dict[str, Any]) -> ReadAnswer:
+    points = None if said["points"] is None else _points_from_data(said["points"])
+    return replace(ReadAnswer(**said), points=points, faint=_points_from_data(said["faint"]))
 
 
-def _points(said: list[list[float]]) -> Points:
+def _points_from_data(said: list[list[float]]) -> Points:
     return np.array(said, dtype=np.float64).reshape(-1, 2).view(np.complex128)[:, 0]
 
 
@@ -162,4 +164,4 @@ def pairs(points: NDArray[np.complexfloating[Any, Any]]) -> list[list[float]]:
     >>> pairs(np.array([1 + 2j]))
     [[1.0, 2.0]]
     """
-    return np.round(np.column_stack([points.real, points.imag]), DECIMALS).tolist()
+    return np.round(np.column_stack([points.real, points.imag]), PLACE_DECIMALS).tolist()

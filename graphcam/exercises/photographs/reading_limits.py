@@ -16,9 +16,9 @@ OPENED_WITHIN = 20.0
 """Seconds in which one picture is unpacked; it takes one or two."""
 READ_WITHIN = 120.0
 """Seconds in which one picture is read; it takes a few, and several are read at once on a slow machine."""
-GIGABYTES = 2
+MEMORY_GIGABYTES = 2
 """That a reading may take beside what its process has already; the largest picture takes less than half of it."""
-TAKEN = Path("/proc/self/statm")
+MEMORY_FILE = Path("/proc/self/statm")
 """Where Linux tells first how many pages of addresses a process has."""
 
 Allow = Callable[[float], None]
@@ -26,7 +26,7 @@ Allow = Callable[[float], None]
 
 
 @contextmanager
-def limited(gigabytes: float = GIGABYTES) -> Generator[Allow]:
+def limited(gigabytes: float = MEMORY_GIGABYTES) -> Generator[Allow]:
     """Within it this process ends where it is past its time, wherever it is, and gets no more memory than its limit.
 
     Where there are no limits of memory, as on Windows, that of time holds alone.
@@ -44,7 +44,7 @@ def _limited_memory(gigabytes: float) -> Generator[None]:
     try:
         import resource
 
-        taken = int(TAKEN.read_text(encoding="ascii").split()[0]) * resource.getpagesize()
+        taken = int(MEMORY_FILE.read_text(encoding="ascii").split()[0]) * resource.getpagesize()
     except (ImportError, OSError):
         yield
         return

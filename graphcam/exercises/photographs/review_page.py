@@ -14,20 +14,20 @@ from numpy.typing import NDArray
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.photographs.corrections import FORMAT, STRETCH, student_said
-from graphcam.exercises.photographs.kept_photographs import KeptPhotographs
+from graphcam.exercises.photographs.corrections import FORMAT_VERSION, STRETCH_RANGE, student_data
+from graphcam.exercises.photographs.counted_answers import COUNTED_STATES, UNIT_STRETCH, SettledAnswer, SettledStudent
+from graphcam.exercises.photographs.photograph_store import KeptPhotographs
 from graphcam.exercises.photographs.read_photo import BARS, TABLE, ReadPhoto, pairs
-from graphcam.exercises.photographs.settling import COUNTING, UNSCALED, SettledAnswer, SettledStudent
 from graphcam.exercises.photographs.student_files import right_in_photo
 from graphcam.exercises.reports.unrolled_drawings import key_line
 from graphcam.exercises.reports.web_pages import page
 from graphcam.language import language
-from graphcam.photo.printed import Edges
+from graphcam.photo.printed_page import Edges
 from graphcam.words import say
 
-MOST = 600
+MAX_CURVE_POINTS = 600
 """Points of a right curve that the page shows."""
-TEXTS = {
+PAGE_CAPTIONS = {
     "point": say("{answer}: point {number} of {count} at x {x}, y {y} mm"),
     "number": say("{count} of {wanted} points: until the number is right, the answer earns nothing"),
     "progress": say("{done} of {count} done"),
@@ -49,11 +49,11 @@ def review_page(
     listed = [_student(exercise, student, answer_key, kept) for student, answer_key in students]
     spoken = language(exercise.language)
     data = {
-        "format": FORMAT,
+        "format": FORMAT_VERSION,
         "exercise": exercise.name,
-        "stretch": STRETCH,
+        "stretch": STRETCH_RANGE,
         "decimal": spoken.decimal,
-        "texts": {name: spoken.catalog.say(words.template) for name, words in TEXTS.items()},
+        "texts": {name: spoken.catalog.say(words.template) for name, words in PAGE_CAPTIONS.items()},
         "students": [
             {name: one[name] for name in ("student", "corrections", "drawn")}
             | {"views": [{"answers": view["answers"]} for view in one["views"]]}
@@ -66,15 +66,15 @@ def review_page(
         students=listed,
         unknown=[photo for photo in photos if photo.why and not photo.known],
         data=_safe(json.dumps(data, allow_nan=False)),
-        script=_file("review.js"),
-        review_style=_file("review.css"),
+        script=_page_file("review.js"),
+        review_style=_page_file("review.css"),
     )
 
 
 def _student(
     exercise: Exercise, student: SettledStudent, answer_key: AnswerKey | None, kept: KeptPhotographs
 ) -> dict[str, Any]:
-    drawn = [_drawn(exercise, one, student, answer_key) for one in student.answers if one.asked.drawn_as]
+    drawn = [_drawn_answer(exercise, one, student, answer_key) for one in student.answers if one.asked.mark_form]
     tables = (kept.picture(photo, TABLE) for photo in student.pages.values())
     refused = [photo for photo in student.others if photo.why]
     notes = [say("{name}: {why}; {remedy}", name=one.name, why=one.why, remedy=one.remedy) for one in refused]
@@ -84,22 +84,22 @@ def _student(
         "notes": [exercise.tell(note) for note in (*student.notes, *notes)],
         "drawn": drawn,
         "typed": [
-            {"name": one.asked.name, "text": _text(exercise, one, answer_key), "unit": one.asked.unit_said}
+            {"name": one.asked.name, "text": _answer_text(exercise, one, answer_key), "unit": one.asked.unit_said}
             for one in student.answers
-            if not one.asked.drawn_as
+            if not one.asked.mark_form
         ],
         "table": next((_address(data) for data in tables if data is not None), None),
         "views": [view for number, photo in student.pages.items() for view in _views(number, photo, student, kept)],
         "pages": [{"page": number, "bars": _bars(photo, kept)} for number, photo in student.pages.items()],
-        "corrections": student_said(student.corrections),
+        "corrections": student_data(student.corrections),
     }
 
 
-def _drawn(
+def _drawn_answer(
     exercise: Exercise, one: SettledAnswer, student: SettledStudent, answer_key: AnswerKey | None
 ) -> dict[str, Any]:
     """A drawn answer as the page shows it, and as its script takes it."""
-    right = right_in_photo(one, answer_key, student.stretches.get(one.page, UNSCALED))
+    right = right_in_photo(one, answer_key, student.stretches.get(one.page, UNIT_STRETCH))
     shown: NDArray[Any] | None = None
     if right is not None:
         shown = key_line(right) if one.asked.kind == "curve" else np.atleast_1d(np.asarray(right.value))
@@ -109,13 +109,13 @@ def _drawn(
     points = one.points if one.status != "corrected" or read is None else read.points
     return {
         "name": one.asked.name,
-        "text": _text(exercise, one, answer_key),
-        "mark": one.asked.drawn_as,
+        "text": _answer_text(exercise, one, answer_key),
+        "mark": one.asked.mark_form,
         "closed": read is not None and read.closed,
         "points": None if points is None else pairs(points),
-        "right": None if shown is None else pairs(shown[_some(shown.size)]),
+        "right": None if shown is None else pairs(shown[_shown_indices(shown.size)]),
         "digest": photo.digest if photo is not None else "",
-        "counts": one.status in COUNTING,
+        "counts": one.status in COUNTED_STATES,
         "why": exercise.tell(one.why),
         "remedy": exercise.tell(one.remedy),
         "share": None if read is None else read.share,
@@ -124,7 +124,7 @@ def _drawn(
     }
 
 
-def _text(exercise: Exercise, one: SettledAnswer, answer_key: AnswerKey | None) -> str:
+def _answer_text(exercise: Exercise, one: SettledAnswer, answer_key: AnswerKey | None) -> str:
     return sentence(one.asked.text, answer_key.parameters if answer_key is not None else {}, exercise.tell)
 
 
@@ -175,9 +175,9 @@ def _bars(photo: ReadPhoto, kept: KeptPhotographs) -> list[tuple[str, float, str
     return found
 
 
-def _some(count: int) -> NDArray[np.intp]:
+def _shown_indices(count: int) -> NDArray[np.intp]:
     """The indices of all points, or of so many as are shown."""
-    return np.unique(np.linspace(0, count - 1, min(count, MOST)).astype(np.intp))
+    return np.unique(np.linspace(0, count - 1, min(count, MAX_CURVE_POINTS)).astype(np.intp))
 
 
 def _address(data: bytes) -> str:
@@ -191,7 +191,7 @@ def _safe(text: str) -> Any:
     return Markup(text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026"))
 
 
-def _file(name: str) -> Any:
+def _page_file(name: str) -> Any:
     from markupsafe import Markup
 
     return Markup(resources.files("graphcam").joinpath("data", "grading", name).read_text(encoding="utf-8"))

@@ -10,24 +10,24 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.exercises.course.photo_reports import REPORT
+from graphcam.exercises.course.photo_reports import REPORT_FILE
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.definition.exercise import Exercise, Given
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.expectation import Expected
-from graphcam.exercises.photographs.kept_photographs import KeptPhotographs
+from graphcam.exercises.key.expected_answers import Expected
+from graphcam.exercises.photographs.counted_answers import UNIT_STRETCH, SettledAnswer, SettledStudent
+from graphcam.exercises.photographs.photograph_store import KeptPhotographs
 from graphcam.exercises.photographs.read_photo import ReadPhoto, pairs
-from graphcam.exercises.photographs.settling import UNSCALED, SettledAnswer, SettledStudent
 from graphcam.exercises.reading.submission_files import TOML
 from graphcam.files import digest, whole_folder
-from graphcam.photo.printed import Points
+from graphcam.photo.printed_page import Points
 from graphcam.words import Words, say
 
-AS_READ = "readings.toml"
+READINGS_FILE = "readings.toml"
 """What was read, without the teacher's corrections."""
-OURS = re.compile(r"(?:answers|readings)\.toml|report\.json|(?:overlay|traced)-\d+\.jpg")
+FORMER_FILE_PATTERN = re.compile(r"(?:answers|readings)\.toml|report\.json|(?:overlay|traced)-\d+\.jpg")
 """Files of a run before, which go when there are new ones."""
-DECIMALS = 6
+NUMBER_DECIMALS = 6
 """Decimals of a number: more than any drawing shows."""
 
 
@@ -41,7 +41,7 @@ def write_student(
     OutputError : it cannot be written
     """
     place = folder / folder_name(student.student)
-    former = {path.name: digest(path) for path in _files(place) if OURS.fullmatch(path.name)}
+    former = {path.name: digest(path) for path in _files(place) if FORMER_FILE_PATTERN.fullmatch(path.name)}
     with whole_folder(place, former) as draft:
         listed: list[dict[str, str]] = []
         for page, photo in student.pages.items():
@@ -51,10 +51,12 @@ def write_student(
                 for name, data in zip(names.values(), pictures, strict=True):
                     (draft / name).write_bytes(data)
                 listed.append(names)
-        (draft / AS_READ).write_text(answer_lines(exercise, student.read_values()), encoding="utf-8", newline="\n")
+        (draft / READINGS_FILE).write_text(
+            answer_lines(exercise, student.read_values()), encoding="utf-8", newline="\n"
+        )
         (draft / TOML).write_text(answer_lines(exercise, student.values()), encoding="utf-8", newline="\n")
         report = json.dumps(student_report(exercise, student) | {"overlays": listed}, indent=1, allow_nan=False)
-        (draft / REPORT).write_text(report + "\n", encoding="utf-8", newline="\n")
+        (draft / REPORT_FILE).write_text(report + "\n", encoding="utf-8", newline="\n")
 
 
 def _files(folder: Path) -> list[Path]:
@@ -73,7 +75,7 @@ def answer_lines(exercise: Exercise, values: Mapping[str, Given]) -> str:
     lines = [f"# {exercise.title}"]
     for asked in exercise.answers:
         if (value := values.get(asked.name)) is not None:
-            said = pairs(value) if isinstance(value, np.ndarray) else round(value, DECIMALS)
+            said = pairs(value) if isinstance(value, np.ndarray) else round(value, NUMBER_DECIMALS)
             lines.append(f"{asked.name} = {json.dumps(said)}")
     return "\n".join(lines) + "\n"
 
@@ -91,7 +93,7 @@ def _overlays(
     picture = kept.picture(photo, place)
     if picture is None:
         return None
-    stretch = student.stretches.get(page, UNSCALED)
+    stretch = student.stretches.get(page, UNIT_STRETCH)
     box = photo.pictures[place].box
     layers: tuple[list[OverlaidDrawing], list[OverlaidDrawing]] = ([], [])
     for one in drawn:
@@ -124,13 +126,13 @@ def student_report(exercise: Exercise, student: SettledStudent) -> dict[str, Any
         "to_be_looked_at": student.open,
         "reviewed": student.corrections.reviewed,
         "notes": [tell(note) for note in grading_notes(student)],
-        "photographs": [photo_said(photo, counts=photo is student.pages.get(photo.page)) for photo in photos],
-        "answers": [_answer_said(one, exercise) for one in student.answers],
+        "photographs": [photo_data(photo, counts=photo is student.pages.get(photo.page)) for photo in photos],
+        "answers": [_answer_data(one, exercise) for one in student.answers],
         "stretch": {str(page): list(parts) for page, parts in student.stretches.items()},
     }
 
 
-def photo_said(photo: ReadPhoto, *, counts: bool) -> dict[str, Any]:
+def photo_data(photo: ReadPhoto, *, counts: bool) -> dict[str, Any]:
     """A photograph as the report has it."""
     return {
         "photograph": photo.name,
@@ -146,7 +148,7 @@ def photo_said(photo: ReadPhoto, *, counts: bool) -> dict[str, Any]:
     }
 
 
-def _answer_said(one: SettledAnswer, exercise: Exercise) -> dict[str, Any]:
+def _answer_data(one: SettledAnswer, exercise: Exercise) -> dict[str, Any]:
     said: dict[str, Any] = {"answer": one.asked.name, "status": one.status, "page": one.page}
     said |= {"why": exercise.tell(one.why), "remedy": exercise.tell(one.remedy)}
     if one.read is not None:

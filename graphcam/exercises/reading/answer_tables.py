@@ -7,25 +7,27 @@ import re
 import tomllib
 from typing import Any
 
+from graphcam.exercises.reading.answer_values import Points, decimal, short_text
 from graphcam.exercises.reading.regular_file import UnreadableError
-from graphcam.exercises.reading.typed import mended
-from graphcam.exercises.reading.values import Points, decimal, shown
+from graphcam.exercises.reading.typed_answers import mended
 from graphcam.words import say
 
 MOST_PARTS = 16
 """Parts of a dotted key: tomllib takes minutes for thousands."""
-QUOTED = re.compile(r"""\"{3}(?:\\.|[^\\])*?"{3}|'{3}.*?'{3}|"(?:\\.|[^"\\\n])*"|'[^'\n]*'|#[^\n]*""", re.DOTALL)
+QUOTED_PATTERN = re.compile(
+    r"""\"{3}(?:\\.|[^\\])*?"{3}|'{3}.*?'{3}|"(?:\\.|[^"\\\n])*"|'[^'\n]*'|#[^\n]*""", re.DOTALL
+)
 """A text or a comment in TOML: what stands in it ends no key."""
-STATEMENT = re.compile(r"[ \t]*([^=\[\]{}#,\"']*?)[ \t]*=")
+STATEMENT_PATTERN = re.compile(r"[ \t]*([^=\[\]{}#,\"']*?)[ \t]*=")
 """The beginning of a line that gives something a value, be it written well or not."""
-HEADER = re.compile(r"[ \t]*\[[ \t]*([A-Za-z_][\w-]*)[ \t]*\][ \t]*(?:#.*)?", re.ASCII)
+HEADER_PATTERN = re.compile(r"[ \t]*\[[ \t]*([A-Za-z_][\w-]*)[ \t]*\][ \t]*(?:#.*)?", re.ASCII)
 """A line that begins a table."""
 
 
 def toml_statements(name: str, text: str) -> dict[str, Any]:
     """What a TOML file says; where a line is bad, the others count and its own answer is an UnreadableError.
 
-    A number with a unit behind it is a text; see :mod:`graphcam.exercises.reading.typed`.
+    A number with a unit behind it is a text; see :mod:`graphcam.exercises.reading.typed_answers`.
 
     Raises
     ------
@@ -42,7 +44,7 @@ def toml_statements(name: str, text: str) -> dict[str, Any]:
     except (ValueError, RecursionError) as error:
         # The library's own words are English, so only the line is taken from them.
         line = re.search(r"at line (\d+)", str(error))
-    values, errors, is_mended = _each(name, text)
+    values, errors, is_mended = _readable_values(name, text)
     if not values or not (errors or is_mended):
         raise _bad_line(name, line[1]) if line else UnreadableError(say("{name} is not valid TOML", name=name))
     answers = values.get("answers", values)
@@ -66,7 +68,7 @@ def _bad_line(name: str, line: object) -> UnreadableError:
     )
 
 
-def _each(name: str, text: str) -> tuple[dict[str, Any], dict[str, UnreadableError], bool]:
+def _readable_values(name: str, text: str) -> tuple[dict[str, Any], dict[str, UnreadableError], bool]:
     """The values of the statements that can be read, those of tables in a table; and by name what cannot.
 
     Last, whether one of them was mended.
@@ -76,7 +78,7 @@ def _each(name: str, text: str) -> tuple[dict[str, Any], dict[str, UnreadableErr
     errors: dict[str, UnreadableError] = {}
     table, counts = values, dict[tuple[int, str], int]()
     for number, said, lines in _pieces(text):
-        if header := HEADER.fullmatch(lines[0]):
+        if header := HEADER_PATTERN.fullmatch(lines[0]):
             table = values.setdefault(header[1], {})
             if not isinstance(table, dict) or len(lines) > 1:
                 table = {}
@@ -90,7 +92,7 @@ def _each(name: str, text: str) -> tuple[dict[str, Any], dict[str, UnreadableErr
             counts[id(table), key] = count = counts.get((id(table), key), 0) + 1
             table[key] = value
             if count > 1:
-                why = say("{answer} has {count} answers", answer=shown(key), count=count)
+                why = say("{answer} has {count} answers", answer=short_text(key), count=count)
                 errors[key] = UnreadableError(why)
         if not found:
             errors[said] = _bad_line(name, number)
@@ -103,8 +105,8 @@ def _pieces(text: str) -> list[tuple[int, str, list[str]]]:
     """The lines from the beginning of a statement to that of the next: number, name, lines."""
     found: list[tuple[int, str, list[str]]] = []
     for number, line in enumerate(text.replace("\r\n", "\n").split("\n"), 1):
-        begins = STATEMENT.match(line)
-        if begins or HEADER.fullmatch(line):
+        begins = STATEMENT_PATTERN.match(line)
+        if begins or HEADER_PATTERN.fullmatch(line):
             found.append((number, begins[1] if begins else "", [line]))
         elif line.strip() and not line.lstrip().startswith("#"):
             if found:
@@ -128,7 +130,7 @@ def _statement(lines: list[str]) -> tuple[dict[str, Any], str]:
 def _longest_key(text: str) -> int:
     """The greatest number of parts that stand between points, with nothing between them that ends a key."""
     longest = parts = 0
-    for piece in QUOTED.sub("q", text).split("."):
+    for piece in QUOTED_PATTERN.sub("q", text).split("."):
         if any(end in piece for end in ",=\n[]{}"):
             parts = 0
         elif piece.strip():
@@ -137,9 +139,9 @@ def _longest_key(text: str) -> int:
     return longest
 
 
-MOST_ROWS = 20_000
-HEADINGS = (["answer", "value"], ["answer", "x", "y"], ["answer", "value", "y"])
-DECIMAL_COMMA = re.compile(r"^([ \t]*[\w-]+[ \t]*=[ \t]*[+-]?\d+),(\d+[ \t]*(?:#.*)?\r?)$", re.ASCII | re.MULTILINE)
+MAX_ROWS = 20_000
+TABLE_HEADINGS = (["answer", "value"], ["answer", "x", "y"], ["answer", "value", "y"])
+COMMA_PATTERN = re.compile(r"^([ \t]*[\w-]+[ \t]*=[ \t]*[+-]?\d+),(\d+[ \t]*(?:#.*)?\r?)$", re.ASCII | re.MULTILINE)
 """A number with a comma, as many countries write it: no line of TOML has this form, and one spoils the whole file."""
 
 
@@ -153,7 +155,7 @@ def toml_values(name: str, data: bytes) -> dict[str, Any]:
     >>> toml_values("answers.toml", "v_max = 12,5  # мм/рад".encode())
     {'v_max': 12.5}
     """
-    text = DECIMAL_COMMA.sub(r"\1.\2", text_of(name, data))
+    text = COMMA_PATTERN.sub(r"\1.\2", text_of(name, data))
     whole = _of_numbers(text)
     whole = toml_statements(name, text) if whole is None else whole
     answers = whole.get("answers", whole)
@@ -176,12 +178,12 @@ def csv_values(name: str, data: bytes) -> dict[str, float | str | Points | Unrea
     rows: dict[str, list[list[str]]] = {}
     try:
         for count, row in enumerate(csv.reader(io.StringIO(text), delimiter=";" if ";" in first else ",")):
-            if count > MOST_ROWS:
-                raise UnreadableError(say("{name} has more than {most} rows", name=name, most=MOST_ROWS))
+            if count > MAX_ROWS:
+                raise UnreadableError(say("{name} has more than {most} rows", name=name, most=MAX_ROWS))
             cells = [cell.strip() for cell in row]
             while cells and not cells[-1]:
                 cells.pop()
-            if cells and not (count == 0 and [cell.lower() for cell in cells] in HEADINGS):
+            if cells and not (count == 0 and [cell.lower() for cell in cells] in TABLE_HEADINGS):
                 rows.setdefault(cells[0], []).append(cells[1:])
     except csv.Error:
         raise UnreadableError(say("{name} is not valid CSV", name=name)) from None
@@ -189,7 +191,7 @@ def csv_values(name: str, data: bytes) -> dict[str, float | str | Points | Unrea
     return {answer: _value(answer, listed) for answer, listed in rows.items() if listed != [[]]}
 
 
-_NUMBERS = re.compile(r"[ \t]*(?:([A-Za-z0-9_-]+)[ \t]*=([-+0-9.eE, \t\[\]]+)|#[^\x00-\x08\x0a-\x1f\x7f]*|)")
+_NUMBERS_PATTERN = re.compile(r"[ \t]*(?:([A-Za-z0-9_-]+)[ \t]*=([-+0-9.eE, \t\[\]]+)|#[^\x00-\x08\x0a-\x1f\x7f]*|)")
 """A line of TOML with a name and what JSON would read as well, numbers in lists or alone; or a comment, or nothing."""
 
 
@@ -203,7 +205,7 @@ def _of_numbers(text: str) -> dict[str, Any] | None:
     """
     found: dict[str, Any] = {}
     for line in text.replace("\r\n", "\n").split("\n"):
-        said = _NUMBERS.fullmatch(line)
+        said = _NUMBERS_PATTERN.fullmatch(line)
         if said is None or said[1] in found:
             return None
         if said[1] is not None:
@@ -221,9 +223,9 @@ def _value(answer: str, rows: list[list[str]]) -> float | str | Points | Unreada
         if all(len(row) == 2 for row in rows):
             return np.array([complex(decimal(answer, x), decimal(answer, y)) for x, y in rows])
         if len(rows) > 1:
-            raise UnreadableError(say("{answer} has {count} answers", answer=shown(answer), count=len(rows)))
+            raise UnreadableError(say("{answer} has {count} answers", answer=short_text(answer), count=len(rows)))
         if len(rows[0]) != 1:
-            raise UnreadableError(say("{answer} must have one value, or x and y", answer=shown(answer)))
+            raise UnreadableError(say("{answer} must have one value, or x and y", answer=short_text(answer)))
         text = rows[0][0]
         # What has a unit is read where it is known which is asked for.
         return text if not text[-1:].isdigit() and mended(f"a = {text}") != f"a = {text}" else decimal(answer, text)

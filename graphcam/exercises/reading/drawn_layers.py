@@ -7,19 +7,19 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.exercises.reading.answer_values import Points, short_text
 from graphcam.exercises.reading.regular_file import UnreadableError
-from graphcam.exercises.reading.values import Points, shown
 from graphcam.words import say
 
-TOUCHING = 0.2
+MAX_END_GAP = 0.2
 """Ends as near as this meet, mm: the width of a pencil line."""
-MOST_PIECES = 5000
+MAX_PIECES = 5000
 """Pieces that are joined; nobody draws one curve of more."""
-ORIGIN = "origin"
+ORIGIN_LAYER = "origin"
 """The layer whose one POINT marks the origin of the paper; ``<layer>-origin`` that of one layer alone."""
-SAME = 3
+POINT_DECIMALS = 3
 """Points that agree to so many decimals of a mm are one."""
-LISTED = 8
+MAX_LISTED_LAYERS = 8
 """Layers that a sentence names."""
 
 
@@ -33,11 +33,11 @@ def one_curve(layer: str, pieces: list[Points]) -> Points:
     >>> one_curve("s", [np.array([1 + 1j, 2 + 0j]), np.array([1 + 1j, 0j])])
     array([0.+0.j, 1.+1.j, 2.+0.j])
     """
-    if len(pieces) > MOST_PIECES:
+    if len(pieces) > MAX_PIECES:
         why = say(
             "the layer {layer} holds more than {most} pieces of a curve; join them to one polyline",
             layer=layer,
-            most=MOST_PIECES,
+            most=MAX_PIECES,
         )
         raise UnreadableError(why)
     left = _distinct(pieces)
@@ -74,7 +74,7 @@ def _traced(pieces: list[Points], ends: Points, free: NDArray[np.bool_]) -> Poin
             tail = chain[0][0] if at_start else chain[-1][-1]
             distance = np.where(free[:, None], np.abs(ends - tail), np.inf)
             k, side = divmod(int(np.argmin(distance)), 2)
-            if distance[k, side] > TOUCHING:
+            if distance[k, side] > MAX_END_GAP:
                 break
             free[k] = False
             if at_start:
@@ -129,7 +129,7 @@ class CadDrawing:
         if not found:
             raise UnreadableError(say("there is no point on the layer {layer}; mark it with a POINT", layer=name))
         # One that was copied onto itself is seen as one.
-        _, first = np.unique(np.round(found, SAME), return_index=True)
+        _, first = np.unique(np.round(found, POINT_DECIMALS), return_index=True)
         return np.array(found)[np.sort(first)] - self._origin(name)
 
     def curve(self, name: str) -> Points:
@@ -157,7 +157,7 @@ class CadDrawing:
 
     def _layer(self, name: str) -> Layer:
         if name.lower() not in self.layers:
-            there = ", ".join(shown(layer) for layer in sorted(self.layers)[:LISTED])
+            there = ", ".join(short_text(layer) for layer in sorted(self.layers)[:MAX_LISTED_LAYERS])
             if not there:
                 raise UnreadableError(say("the drawing is empty"))
             why = say("the drawing has nothing on the layer {layer}; its layers are {there}", layer=name, there=there)
@@ -178,4 +178,4 @@ class CadDrawing:
 
 
 def _origin_layers(name: str) -> tuple[str, str]:
-    return f"{name.lower()}-{ORIGIN}", ORIGIN
+    return f"{name.lower()}-{ORIGIN_LAYER}", ORIGIN_LAYER

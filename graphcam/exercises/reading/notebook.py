@@ -7,14 +7,14 @@ from collections.abc import Generator
 from typing import Any
 
 from graphcam.exercises.reading.answer_tables import text_of
+from graphcam.exercises.reading.answer_values import short_text
 from graphcam.exercises.reading.regular_file import UnreadableError
-from graphcam.exercises.reading.typed import mended
-from graphcam.exercises.reading.values import shown
+from graphcam.exercises.reading.typed_answers import mended
 from graphcam.words import say
 
-TAG = "answers"
+ANSWER_TAG = "answers"
 """The tag of the cells that hold the answers."""
-LONGEST_CELL = 64_000
+MAX_CELL_LENGTH = 64_000
 """Letters of the answer cells that are parsed."""
 
 
@@ -29,11 +29,13 @@ def notebook_values(name: str, data: bytes) -> dict[str, Any]:
     >>> notebook_values("a.ipynb", json.dumps({"cells": [cell]}).encode())
     {'v_max': 12.5, 'touch': [1, 2]}
     """
-    tagged = [cell_source(cell) for cell in code_cells(name, data) if TAG in cell_tags(cell)]
+    tagged = [cell_source(cell) for cell in code_cells(name, data) if ANSWER_TAG in cell_tags(cell)]
     if not tagged:
-        raise UnreadableError(say("{name} has no cell with the tag {tag}", name=name, tag=TAG))
-    if sum(map(len, tagged)) > LONGEST_CELL:
-        raise UnreadableError(say("{name}: the answers are longer than {most} letters", name=name, most=LONGEST_CELL))
+        raise UnreadableError(say("{name} has no cell with the tag {tag}", name=name, tag=ANSWER_TAG))
+    if sum(map(len, tagged)) > MAX_CELL_LENGTH:
+        raise UnreadableError(
+            say("{name}: the answers are longer than {most} letters", name=name, most=MAX_CELL_LENGTH)
+        )
     return _literals(name, tagged)
 
 
@@ -72,7 +74,7 @@ def _literals(name: str, sources: list[str]) -> dict[str, Any]:
             warnings.simplefilter("ignore")
             for key, node in (pair for source in sources for pair in _assignments(_parsed(source))):
                 if key in found:
-                    raise UnreadableError(say("{name}: {answer} is answered twice", name=name, answer=shown(key)))
+                    raise UnreadableError(say("{name}: {answer} is answered twice", name=name, answer=short_text(key)))
                 found[key] = ast.literal_eval(node)
     # Too deep for the parser is a MemoryError there; numbers too long are a ValueError or a SyntaxError.
     except (ValueError, TypeError, SyntaxError, MemoryError, RecursionError):

@@ -9,28 +9,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.exercises.definition.exercise import Kind
-from graphcam.exercises.key.expectation import Expected
+from graphcam.exercises.key.expected_answers import Expected
+from graphcam.exercises.reading.answer_values import Points
 from graphcam.exercises.reading.regular_file import UnreadableError
-from graphcam.exercises.reading.values import Points
 from graphcam.words import say
 
-SIZES = 5.0
+MAX_SIZE_RATIO = 5.0
 """A drawing so many times larger or smaller than any that can be meant is in another unit, or is a part only."""
-NEAR = 3.0
+MIN_STRAY = 3.0
 """What is drawn by hand strays less from what is meant, mm, where an answer key permits no more."""
-FINE = 0.1
+SHIFT_STEP = 0.1
 """The shift of a drawing is looked for as finely as that, mm."""
-VERTICES = 400
+MAX_VERTICES = 400
 """How many of a curve's vertices are enough to see whether it is moved."""
-ELSEWHERE = say(
+ELSEWHERE_REMARK = say(
     "the drawing on the layer {layer} lies far from where it should be, counted from the POINT on the layer "
     "ORIGIN; check that it marks the origin of this drawing"
 )
-ELSEWHERE_UNMARKED = say(
+ELSEWHERE_UNMARKED_REMARK = say(
     "the drawing on the layer {layer} lies far from where it should be, counted from the drawing's own zero; "
     "mark the origin of the paper by a POINT on the layer ORIGIN"
 )
-MOVED_UNMARKED = say(
+MOVED_UNMARKED_REMARK = say(
     "the drawing on the layer {layer} seems to be moved as a whole, and has no origin marked; mark the origin of "
     "the paper by a POINT on the layer ORIGIN"
 )
@@ -45,12 +45,12 @@ class PaperArea:
 
     kind: Kind
     known: tuple[Expected, ...]
-    near: float = NEAR
+    near: float = MIN_STRAY
 
     @staticmethod
     def around(kind: Kind, known: Iterable[Expected], tolerance: float) -> PaperArea:
         """The area of the right answer and of wrong ones, where a hand may stray by the tolerance."""
-        return PaperArea(kind, tuple(known), max(NEAR, tolerance))
+        return PaperArea(kind, tuple(known), max(MIN_STRAY, tolerance))
 
     def admit(self, name: str, points: Points, *, marked: bool) -> None:
         """Refuse what lies elsewhere, with a remedy; nothing is said of where it should be.
@@ -69,7 +69,7 @@ class PaperArea:
 it should be, counted from the drawing's own zero; mark the origin of the paper by a POINT on the layer ORIGIN
         """
         sizes = [_size(_points(each)) for each in self.known]
-        if not min(sizes) / SIZES <= _size(points) <= max(sizes) * SIZES:
+        if not min(sizes) / MAX_SIZE_RATIO <= _size(points) <= max(sizes) * MAX_SIZE_RATIO:
             why = say(
                 "the drawing on the layer {layer} is {size:.3g} mm across, but no answer has this size; draw the "
                 "whole of it in mm of paper and set the unit of the drawing ($INSUNITS) to mm",
@@ -80,9 +80,11 @@ it should be, counted from the drawing's own zero; mark the origin of the paper 
         low, high = _corners(np.concatenate([_points(each) for each in self.known]))
         middle = sum(_corners(points)) / 2
         if not (low.real <= middle.real <= high.real and low.imag <= middle.imag <= high.imag):
-            raise UnreadableError(replace(ELSEWHERE if marked else ELSEWHERE_UNMARKED, values={"layer": name}))
+            raise UnreadableError(
+                replace(ELSEWHERE_REMARK if marked else ELSEWHERE_UNMARKED_REMARK, values={"layer": name})
+            )
         if not marked and self.moved(points):
-            raise UnreadableError(replace(MOVED_UNMARKED, values={"layer": name}))
+            raise UnreadableError(replace(MOVED_UNMARKED_REMARK, values={"layer": name}))
 
     def moved(self, points: Points) -> bool:
         """Whether the drawing is none of what is known where it lies, and is one of them elsewhere.
@@ -92,12 +94,12 @@ it should be, counted from the drawing's own zero; mark the origin of the paper 
         (True, False)
         """
         if self.kind == "curve":
-            points = points[np.unique(np.linspace(0, points.size - 1, VERTICES).astype(int))]
-        if any(self._off(each, points, 0j) <= self.near for each in self.known):
+            points = points[np.unique(np.linspace(0, points.size - 1, MAX_VERTICES).astype(int))]
+        if any(self._distance(each, points, 0j) <= self.near for each in self.known):
             return False
-        return any(self._off(each, points, self._shift(each, points)) <= self.near for each in self.known)
+        return any(self._distance(each, points, self._shift(each, points)) <= self.near for each in self.known)
 
-    def _off(self, known: Expected, points: Points, shift: complex) -> float:
+    def _distance(self, known: Expected, points: Points, shift: complex) -> float:
         """How far the known points lie at most from the drawing, once that is put back by the shift."""
         return float(known.distances(points - shift, self.kind).max())
 
@@ -106,14 +108,14 @@ it should be, counted from the drawing's own zero; mark the origin of the paper 
         from scipy.optimize import minimize
 
         first = sum(_corners(points)) / 2 - sum(_corners(_points(known))) / 2
-        if self._off(known, points, first) > _size(points):
+        if self._distance(known, points, first) > _size(points):
             return first  # not even the number of points agrees
 
         def left(shift: NDArray[np.float64]) -> float:
             """How far the points lie off when they are shifted by x, y [mm]."""
-            return self._off(known, points, complex(shift[0], shift[1]))
+            return self._distance(known, points, complex(shift[0], shift[1]))
 
-        fine = {"xatol": FINE, "fatol": FINE}
+        fine = {"xatol": SHIFT_STEP, "fatol": SHIFT_STEP}
         best = minimize(left, np.array([first.real, first.imag]), method="Nelder-Mead", options=fine)
         return complex(best.x[0], best.x[1])
 

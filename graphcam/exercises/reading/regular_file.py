@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
-from graphcam.descriptors import READ
 from graphcam.drafting.ink import Caption, say
+from graphcam.file_descriptors import READ_FLAGS
 
 
 @dataclass(eq=False, repr=False)
@@ -26,15 +26,15 @@ class UnreadableError(Exception):
         return str(self.why)
 
 
-def _closed(name: str) -> UnreadableError:
+def _closed_error(name: str) -> UnreadableError:
     return UnreadableError(say("{name} cannot be opened", name=name))
 
 
-def _too_long(name: str, limit: int) -> UnreadableError:
+def _too_long_error(name: str, limit: int) -> UnreadableError:
     return UnreadableError(say("{name} is longer than the {limit} bytes that are read", name=name, limit=limit))
 
 
-BY_DESCRIPTOR = hasattr(os, "O_DIRECTORY") and os.open in os.supports_dir_fd
+OPENS_BY_DESCRIPTOR = hasattr(os, "O_DIRECTORY") and os.open in os.supports_dir_fd
 """Whether the system opens a file by the open folder in which it is; Windows does not."""
 
 
@@ -48,7 +48,7 @@ def open_folder(folder: str | os.PathLike[str]) -> Generator[int | Path]:
     ------
     OSError : it is not there, no folder, or a link
     """
-    if not BY_DESCRIPTOR:
+    if not OPENS_BY_DESCRIPTOR:
         if not stat.S_ISDIR(os.lstat(folder).st_mode):
             raise NotADirectoryError(errno.ENOTDIR, os.strerror(errno.ENOTDIR), os.fspath(folder))
         yield Path(folder)
@@ -70,11 +70,11 @@ def _open(path: str | os.PathLike[str], folder: int | Path | None) -> int:
     if isinstance(folder, Path):
         path, folder = folder / path, None
     if hasattr(os, "O_NOFOLLOW"):
-        return os.open(path, READ | os.O_NOFOLLOW, dir_fd=folder)
+        return os.open(path, READ_FLAGS | os.O_NOFOLLOW, dir_fd=folder)
     before = os.lstat(path)
     if stat.S_ISLNK(before.st_mode):
         raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
-    descriptor = os.open(path, READ)
+    descriptor = os.open(path, READ_FLAGS)
     if os.path.samestat(before, os.fstat(descriptor)):
         return descriptor
     # A link took its place meanwhile.
@@ -109,25 +109,25 @@ def read_regular(path: str | os.PathLike[str], limit: int, folder: int | Path | 
     except OSError as error:
         if error.errno == errno.ELOOP:
             raise UnreadableError(say("{name} is a link; hand in the file itself", name=name)) from None
-        raise _closed(name) from None
+        raise _closed_error(name) from None
     try:
         status = os.fstat(descriptor)
         if not stat.S_ISREG(status.st_mode):
-            raise UnreadableError(_not_a_file(name, status.st_mode))
+            raise UnreadableError(_irregular_file_remark(name, status.st_mode))
         if status.st_size > limit:
-            raise _too_long(name, limit)
+            raise _too_long_error(name, limit)
         # One byte more tells a file that grew meanwhile.
-        data = _read(descriptor, limit + 1)
+        data = _read_bytes(descriptor, limit + 1)
     except OSError:
-        raise _closed(name) from None
+        raise _closed_error(name) from None
     finally:
         os.close(descriptor)
     if len(data) > limit:
-        raise _too_long(name, limit)
+        raise _too_long_error(name, limit)
     return data
 
 
-def _read(descriptor: int, limit: int) -> bytes:
+def _read_bytes(descriptor: int, limit: int) -> bytes:
     parts: list[bytes] = []
     while limit > 0 and (part := os.read(descriptor, min(limit, 1 << 20))):
         parts.append(part)
@@ -135,7 +135,7 @@ def _read(descriptor: int, limit: int) -> bytes:
     return b"".join(parts)
 
 
-def _not_a_file(name: str, mode: int) -> Caption:
+def _irregular_file_remark(name: str, mode: int) -> Caption:
     found = {
         stat.S_IFDIR: say("{name} is a folder, not a file", name=name),
         stat.S_IFIFO: say("{name} is a pipe, not a file", name=name),

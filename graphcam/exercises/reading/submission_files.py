@@ -9,26 +9,26 @@ from typing import Any
 import numpy as np
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.exercises.definition.exercise import Answers, Asked, Given
+from graphcam.exercises.definition.exercise import Answers, AskedAnswer, Given
 from graphcam.exercises.reading.answer_tables import csv_values, toml_values
+from graphcam.exercises.reading.answer_values import number, points, short_text
 from graphcam.exercises.reading.drawn_layers import CadDrawing
 from graphcam.exercises.reading.dxf import read_dxf
 from graphcam.exercises.reading.notebook import cell_tags, code_cells, notebook_values
 from graphcam.exercises.reading.paper_area import PaperArea
 from graphcam.exercises.reading.regular_file import UnreadableError, open_folder, read_regular
-from graphcam.exercises.reading.typed import by_meant_names, left_commented, quantity
-from graphcam.exercises.reading.values import number, points, shown
+from graphcam.exercises.reading.typed_answers import by_answer_names, left_commented, quantity
 
 TOML, CSV, NOTEBOOK, DXF = "answers.toml", "answers.csv", "answers.ipynb", "answers.dxf"
-LIMITS = {TOML: 64_000, CSV: 200_000, NOTEBOOK: 20_000_000, DXF: 5_000_000}
+BYTE_LIMITS = {TOML: 64_000, CSV: 200_000, NOTEBOOK: 20_000_000, DXF: 5_000_000}
 """Bytes of a file that are read."""
-ALIKE = re.compile(
+SIMILAR_NAME_PATTERN = re.compile(
     r" *answers *(?:\(\d{1,4}\)|[-_]\d{1,4})? *\.(toml|csv|ipynb|dxf)(?:\.txt)? *", re.ASCII | re.IGNORECASE
 )
 """What systems make of the names: capitals, a number where there was a file, an ending that an editor adds."""
-NO_FILES = say("there is none of {names}", names=", ".join(LIMITS))
+NO_FILES_REMARK = say("there is none of {names}", names=", ".join(BYTE_LIMITS))
 """What is said of a folder without any of these files."""
-NONE_GIVEN = say("none of the answers is given")
+NO_ANSWERS_REMARK = say("none of the answers is given")
 """What is said of files without any answer."""
 Reader = Callable[[str, bytes], tuple[Mapping[str, Any], list[Caption]]]
 """Values by name out of a file's bytes, and sentences on it."""
@@ -49,13 +49,13 @@ def read_files(
             chosen, notes = answer_files(there)
             for name, handed_in in chosen.items():
                 try:
-                    found[name] = read_regular(there[handed_in], LIMITS[name], place)
+                    found[name] = read_regular(there[handed_in], BYTE_LIMITS[name], place)
                 except UnreadableError as error:
                     errors.append(error.why)
     except OSError:
         return {}, [say("the submission is not a folder")]
     if not found and not errors and not notes:
-        errors.append(NO_FILES)
+        errors.append(NO_FILES_REMARK)
     return found, [*errors, *notes]
 
 
@@ -65,9 +65,9 @@ def answer_files(there: Iterable[str]) -> tuple[dict[str, str], list[Caption]]:
     >>> answer_files(["Answers.toml", "answers (1).csv", "answers.dxf.txt", "notes.toml"])[0]
     {'answers.toml': 'Answers.toml', 'answers.csv': 'answers (1).csv', 'answers.dxf': 'answers.dxf.txt'}
     """
-    alike: dict[str, list[str]] = {name: [] for name in LIMITS}
+    alike: dict[str, list[str]] = {name: [] for name in BYTE_LIMITS}
     for name in there:
-        if meant := ALIKE.fullmatch(name):
+        if meant := SIMILAR_NAME_PATTERN.fullmatch(name):
             alike[f"answers.{meant[1].lower()}"].append(name)
     chosen: dict[str, str] = {}
     notes: list[Caption] = []
@@ -86,7 +86,7 @@ def answer_files(there: Iterable[str]) -> tuple[dict[str, str], list[Caption]]:
 
 
 def from_files(
-    asked: Iterable[Asked],
+    asked: Iterable[AskedAnswer],
     files: Mapping[str, bytes],
     notes: Iterable[Caption] = (),
     notebook: Reader | None = None,
@@ -114,7 +114,7 @@ def from_files(
         for answer, value in values.items():
             if not is_gap(value):
                 given.setdefault(answer, []).append(value)
-    given, more = by_meant_names(asked, given)
+    given, more = by_answer_names(asked, given)
     notes += more
     if TOML in files:
         # Bytes that are no text have been told already.
@@ -140,7 +140,7 @@ def _table(values: Callable[[str, bytes], Mapping[str, Any]]) -> Reader:
 
 
 def _answers(
-    asked: list[Asked],
+    asked: list[AskedAnswer],
     given: Mapping[str, list[Any]],
     drawing: CadDrawing | None,
     notes: list[Caption],
@@ -152,9 +152,9 @@ def _answers(
     for one in asked:
         try:
             if one.name in given:
-                values[one.name] = _agreed(one, given[one.name])
+                values[one.name] = _agreed_value(one, given[one.name])
             elif drawing is not None and one.kind != "number":
-                values[one.name], more = _drawn(one, drawing, rooms.get(one.name))
+                values[one.name], more = _drawn_answer(one, drawing, rooms.get(one.name))
                 notes = [*notes, *more]
                 unmarked = unmarked or not drawing.marks_origin(one.layer)
         except UnreadableError as error:
@@ -165,18 +165,18 @@ def _answers(
             say("{name} marks no origin by a POINT on the layer ORIGIN; the drawing's own zero is used", name=DXF),
         ]
     if not values and not problems:
-        notes = [*notes, NONE_GIVEN]
-    return Answers(values, problems, (*notes, *_bad_lines(asked, given), *_unknown(asked, given)))
+        notes = [*notes, NO_ANSWERS_REMARK]
+    return Answers(values, problems, (*notes, *_bad_lines(asked, given), *_unknown_name_remark(asked, given)))
 
 
-def _bad_lines(asked: list[Asked], given: Mapping[str, list[Any]]) -> list[Caption]:
+def _bad_lines(asked: list[AskedAnswer], given: Mapping[str, list[Any]]) -> list[Caption]:
     """A sentence on the first bad line that names none of the answers: it may have been meant for one."""
     names = {one.name for one in asked}
     values = [value for name, listed in given.items() if name not in names for value in listed]
     return [value.why for value in values if isinstance(value, UnreadableError)][:1]
 
 
-def _drawn(asked: Asked, drawing: CadDrawing, room: PaperArea | None) -> tuple[Given, list[Caption]]:
+def _drawn_answer(asked: AskedAnswer, drawing: CadDrawing, room: PaperArea | None) -> tuple[Given, list[Caption]]:
     """What is drawn, and sentences on it."""
     points = drawing.points(asked.layer) if asked.kind == "points" else drawing.curve(asked.layer)
     if room is None:
@@ -194,7 +194,7 @@ def _drawn(asked: Asked, drawing: CadDrawing, room: PaperArea | None) -> tuple[G
     return points, [moved]
 
 
-def _agreed(asked: Asked, listed: list[Any]) -> Given:
+def _agreed_value(asked: AskedAnswer, listed: list[Any]) -> Given:
     for value in listed:
         if isinstance(value, UnreadableError):
             raise value
@@ -204,7 +204,7 @@ def _agreed(asked: Asked, listed: list[Any]) -> Given:
     return found[0]
 
 
-def _value(asked: Asked, value: Any) -> Given:
+def _value(asked: AskedAnswer, value: Any) -> Given:
     if asked.kind == "number" and isinstance(value, str):
         return quantity(asked, value)
     if asked.kind == "number":
@@ -212,13 +212,13 @@ def _value(asked: Asked, value: Any) -> Given:
     return value if isinstance(value, np.ndarray) else points(asked.name, value)
 
 
-def _unknown(asked: list[Asked], given: Mapping[str, list[Any]]) -> list[Caption]:
+def _unknown_name_remark(asked: list[AskedAnswer], given: Mapping[str, list[Any]]) -> list[Caption]:
     """A sentence on the first name that was not asked: a slip of the keys loses an answer otherwise."""
     names = [one.name for one in asked]
     strange = [name for name in given if name not in names]
     if not strange or len(given.keys() & set(names)) == len(names):
         return []
-    first = shown(strange[0])
+    first = short_text(strange[0])
     if close := get_close_matches(first, names, n=1):
         return [
             say("there is no answer {answer} in this exercise; did you mean {meant}?", answer=first, meant=close[0])
@@ -267,14 +267,14 @@ def answers_in(folder: str | os.PathLike[str], names: Mapping[str, str] | None =
         with open_folder(folder) as place:
             there = {name: name for name in os.listdir(place)} if names is None else names  # noqa: PTH208
             chosen, _ = answer_files(there)
-            return any(_says(name, there[called], place) for name, called in chosen.items())
+            return any(_has_answers(name, there[called], place) for name, called in chosen.items())
     except OSError:
         return False
 
 
-def _says(name: str, there: str, place: Any) -> bool:
+def _has_answers(name: str, there: str, place: Any) -> bool:
     try:
-        return answers_something(name, read_regular(there, LIMITS[name], place))
+        return answers_something(name, read_regular(there, BYTE_LIMITS[name], place))
     except UnreadableError:
         return True
 

@@ -8,15 +8,15 @@ import numpy as np
 
 from graphcam.drafting.marks import Points
 from graphcam.exercises.definition.exercise import Kind
-from graphcam.exercises.key.expectation import Expected, paired
+from graphcam.exercises.key.expected_answers import Expected, paired
 
-MARGIN = 5.0
+PICTURE_MARGIN = 5.0
 """mm around what is shown."""
-MOST = 600
+MAX_CURVE_POINTS = 600
 """Points of a curve that a picture shows."""
 BAR_ROOM = 3.0
 """The room under what is shown, for the bar that tells the scale [mm of paper]."""
-DETAIL = 12.0
+DETAIL_HALF_SIDE = 12.0
 """Half the side of the enlarged detail about the worst place [mm of paper]."""
 
 
@@ -57,7 +57,9 @@ class CurvePicture:
         """What is shown enlarged: the surroundings of the spot."""
         if self.spot is None:
             return None
-        return Window(self.spot[0] - DETAIL, self.spot[1] - DETAIL, 2 * DETAIL, 2 * DETAIL)
+        return Window(
+            self.spot[0] - DETAIL_HALF_SIDE, self.spot[1] - DETAIL_HALF_SIDE, 2 * DETAIL_HALF_SIDE, 2 * DETAIL_HALF_SIDE
+        )
 
 
 def picture(curves: Sequence[tuple[str, Points, bool]], spot: complex | None) -> CurvePicture:
@@ -69,9 +71,9 @@ def picture(curves: Sequence[tuple[str, Points, bool]], spot: complex | None) ->
     '-5.0 -10.0 20.0 18.0'
     """
     everything = np.concatenate([points for _, points, _ in curves])
-    left, right = float(everything.real.min()) - MARGIN, float(everything.real.max()) + MARGIN
+    left, right = float(everything.real.min()) - PICTURE_MARGIN, float(everything.real.max()) + PICTURE_MARGIN
     # Under the drawing stands the bar.
-    low, high = float(everything.imag.min()) - MARGIN - BAR_ROOM, float(everything.imag.max()) + MARGIN
+    low, high = float(everything.imag.min()) - PICTURE_MARGIN - BAR_ROOM, float(everything.imag.max()) + PICTURE_MARGIN
     lines = tuple((kind, _line(points)) for kind, points, joined in curves if joined)
     dots = tuple((kind, float(z.real), -float(z.imag)) for kind, points, joined in curves if not joined for z in points)
     at = None if spot is None else (float(spot.real), -float(spot.imag))
@@ -114,5 +116,5 @@ def nearest_places(wanted: Points, own: Points) -> Points:
 
 
 def _line(points: Points) -> str:
-    shown = points[np.unique(np.linspace(0, points.size - 1, min(points.size, MOST)).astype(int))]
+    shown = points[np.unique(np.linspace(0, points.size - 1, min(points.size, MAX_CURVE_POINTS)).astype(int))]
     return " ".join(f"{z.real:.2f},{-z.imag:.2f}" for z in shown)

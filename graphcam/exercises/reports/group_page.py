@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.exercises.course.hand_ins import Refused
-from graphcam.exercises.definition.exercise import Asked, Exercise, Kind
+from graphcam.exercises.course.submissions import Refused
+from graphcam.exercises.definition.exercise import AskedAnswer, Exercise, Kind
 from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.key.answer_key import AnswerKey, Key
-from graphcam.exercises.key.expectation import Floats
-from graphcam.exercises.marking.copies import FALSE_ALARM, AlikePair
-from graphcam.exercises.marking.exactness import FALSE_ALARMS
+from graphcam.exercises.key.expected_answers import Floats
+from graphcam.exercises.marking.copy_detection import FALSE_ALARM_RATE, AlikePair
+from graphcam.exercises.marking.exactness import REMARK_RATE
 from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.curves import CurvePicture, points_of, worst_place
 from graphcam.exercises.reports.item_statistics import cronbach_alpha, earned_parts, item_statistics, variant_groups
@@ -43,8 +43,8 @@ class StudentRow:
 
 
 NOTHING: Caption = say("not handed in")
-UNREAD: Caption = say("no answer can be read; the student's page says why")
-UNANSWERED = ("missing", "unreadable")
+UNREADABLE_REMARK: Caption = say("no answer can be read; the student's page says why")
+UNANSWERED_OUTCOMES = ("missing", "unreadable")
 """Outcomes of an answer of which nothing can be marked."""
 
 
@@ -69,27 +69,27 @@ def _row(record: Mapping[str, Any], name: str, link: str) -> StudentRow:
     if record["too_exact"]:
         remarks.append(say("as exact as a program"))
     if is_unanswered(record):
-        remarks.insert(0, UNREAD)
+        remarks.insert(0, UNREADABLE_REMARK)
     by_hand = "overrides" in record
     return StudentRow(record["student"], name, record["total"], record["of"], by_hand, tuple(remarks), link)
 
 
 def is_unanswered(record: Mapping[str, Any]) -> bool:
     """Whether something was handed in and no answer of it can be marked, nor is anything given by hand."""
-    nothing = all(answer["outcome"] in UNANSWERED for answer in record["answers"])
+    nothing = all(answer["outcome"] in UNANSWERED_OUTCOMES for answer in record["answers"])
     return is_handed_in(record) and nothing and "overrides" not in record
 
 
-WIDTH, HEIGHT, LETTERS = 640, 70, 18
+CHART_WIDTH, CHART_HEIGHT, LABEL_LINE_HEIGHT = 640, 70, 18
 """Pixels: of the chart, and of the line of labels under it."""
-EDGE = 8.0
+CHART_LIMIT = 8.0
 """Pencil units that the diagrams show; what is farther off is counted in the last bar."""
-BARS = 32
-WEAK = 0.8
+BAR_COUNT = 32
+WEAK_SHARE = 0.8
 """A step that earned less than this part of its marks is taught again."""
-COMMON = 0.05
+COMMON_MISTAKE_SHARE = 0.05
 """A mistake that at least this part of the group made is taught again."""
-LARGEST_PICTURES = 6
+SHOWN_PICTURES = 6
 """Drawings that are shown singly for each curve: those farthest off."""
 
 
@@ -111,36 +111,36 @@ class Chart:
     bars: tuple[Bar, ...]
     labels: tuple[tuple[float, str, str], ...]
     band: tuple[float, float] | None = None
-    width: int = WIDTH
-    height: int = HEIGHT + LETTERS
-    base: int = HEIGHT
+    width: int = CHART_WIDTH
+    height: int = CHART_HEIGHT + LABEL_LINE_HEIGHT
+    base: int = CHART_HEIGHT
 
 
-def stacked(
+def stacked_chart(
     counts: Mapping[str, Sequence[int]], labels: Sequence[tuple[float, str]], band: tuple[float, float] | None = None
 ) -> Chart:
     """A chart of counts a bar, of several kinds one on the other.
 
     labels : (part of the width, text);  band : from, to as parts of the width
 
-    >>> chart = stacked({"right": [1, 2]}, [(0.5, "0")])
+    >>> chart = stacked_chart({"right": [1, 2]}, [(0.5, "0")])
     >>> chart.bars[1].height, chart.labels
     (64.0, ((320.0, 'middle', '0'),))
     """
     size = len(next(iter(counts.values())))
     highest = max([sum(column) for column in zip(*counts.values(), strict=True)] + [1])
-    unit, step = (HEIGHT - 6) / highest, WIDTH / size
+    unit, step = (CHART_HEIGHT - 6) / highest, CHART_WIDTH / size
     bars: list[Bar] = []
     for k in range(size):
-        top = float(HEIGHT)
+        top = float(CHART_HEIGHT)
         for kind, column in counts.items():
             if column[k]:
                 height = unit * column[k]
                 top -= height
                 bars.append(Bar(kind, *(round(length, 2) for length in (k * step + 1, top, step - 2, height))))
     anchors = {0.0: "start", 1.0: "end"}
-    placed = tuple((part * WIDTH, anchors.get(part, "middle"), text) for part, text in labels)
-    return Chart(tuple(bars), placed, band and (band[0] * WIDTH, (band[1] - band[0]) * WIDTH))
+    placed = tuple((part * CHART_WIDTH, anchors.get(part, "middle"), text) for part, text in labels)
+    return Chart(tuple(bars), placed, band and (band[0] * CHART_WIDTH, (band[1] - band[0]) * CHART_WIDTH))
 
 
 @dataclass(frozen=True)
@@ -148,11 +148,12 @@ class StepErrors:
     """One answer over all students.
 
     outcomes : how many of each kind that there are
-    bars : of every outcome that has a deviation, how many lie in each of the bars from -EDGE to EDGE pencil units
+    bars : of every outcome that has a deviation, how many lie in each of the bars from -CHART_LIMIT to CHART_LIMIT
+        pencil units
     earned : part of the marks that were earned
     """
 
-    asked: Asked
+    asked: AskedAnswer
     outcomes: Counter[str]
     bars: dict[str, list[int]]
     earned: float
@@ -183,8 +184,8 @@ def step_errors(exercise: Exercise, records: Sequence[dict[str, Any]]) -> list[S
     return [_step(asked, [each for each in answers if each["name"] == asked.name]) for asked in exercise.answers]
 
 
-def _step(asked: Asked, answers: list[dict[str, Any]]) -> StepErrors:
-    bars = {outcome: [0] * BARS for outcome in ("right", "follow-through", "partial", "wrong")}
+def _step(asked: AskedAnswer, answers: list[dict[str, Any]]) -> StepErrors:
+    bars = {outcome: [0] * BAR_COUNT for outcome in ("right", "follow-through", "partial", "wrong")}
     for answer in answers:
         if answer["outcome"] in bars:
             bars[answer["outcome"]][bar_of(answer["deviation"])] += 1
@@ -200,8 +201,8 @@ def bar_of(deviation: float | None) -> int:
     (16, 0, 31)
     """
     if deviation is None or not math.isfinite(deviation):
-        return BARS - 1
-    return min(max(int((deviation + EDGE) / (2 * EDGE) * BARS), 0), BARS - 1)
+        return BAR_COUNT - 1
+    return min(max(int((deviation + CHART_LIMIT) / (2 * CHART_LIMIT) * BAR_COUNT), 0), BAR_COUNT - 1)
 
 
 def mistakes(records: Sequence[dict[str, Any]]) -> list[Mistake]:
@@ -217,7 +218,7 @@ def mistakes(records: Sequence[dict[str, Any]]) -> list[Mistake]:
     return sorted(listed, key=lambda mistake: (-len(mistake.students), -mistake.lost, mistake.names))
 
 
-def _said(names: Sequence[str]) -> Caption:
+def _mistake_caption(names: Sequence[str]) -> Caption:
     """What is said of a mistake; of several that were named together, that it is one of them."""
     said = [misconception(name).said for name in names]
     return said[0] if len(said) == 1 else say("One of these: {mistakes}", mistakes=sequence(said, " "))
@@ -239,7 +240,7 @@ def group_page(
     rows : all students of the course, those who handed nothing in too
     """
     steps, found = step_errors(exercise, records), mistakes(records)
-    bounds, drawn = _compared(exercise, records, answer_keys)
+    bounds, drawn = _compared_drawings(exercise, records, answer_keys)
     bound = median(bounds) if bounds else 0.0
     return page(
         "group.html",
@@ -252,21 +253,21 @@ def group_page(
         levels=sorted({record["level"] for record in records}) or ["–"],
         memory=sorted({limit for record in records if (limit := record.get("memory"))}),
         # What most lost marks by: mistakes that several made, then steps that stay weak.
-        common=[mistake for mistake in found if len(mistake.students) >= max(1, COMMON * len(records))],
-        weak=sorted((step for step in steps if step.earned < WEAK), key=lambda step: step.earned),
-        marks=_marks(exercise, records),
+        common=[mistake for mistake in found if len(mistake.students) >= max(1, COMMON_MISTAKE_SHARE * len(records))],
+        weak=sorted((step for step in steps if step.earned < WEAK_SHARE), key=lambda step: step.earned),
+        marks=_marks_chart(exercise, records),
         policies=_policies(records),
-        steps=[(step, _chart(step, bound)) for step in steps],
+        steps=[(step, _step_chart(step, bound)) for step in steps],
         items=item_statistics(records),
         alpha=cronbach_alpha(earned_parts(records) * [asked.marks for asked in exercise.answers])
         if records
         else math.nan,
         groups=variant_groups(records, lambda value: sentence("{value}", {"value": value}, exercise.tell)),
         mistakes=found,
-        said={mistake.names: _said(mistake.names) for mistake in found},
+        said={mistake.names: _mistake_caption(mistake.names) for mistake in found},
         pairs=pairs,
-        copies_by_chance=100 * 2 * FALSE_ALARM,
-        false_alarms=FALSE_ALARMS,
+        copies_by_chance=100 * 2 * FALSE_ALARM_RATE,
+        false_alarms=REMARK_RATE,
         drawn=[(each.asked, each.bundle(), each.pictures()) for each in drawn if each.off],
     )
 
@@ -284,19 +285,21 @@ def _policies(records: Sequence[dict[str, Any]]) -> list[tuple[Caption, float]]:
     return [(said, sum(marks) / len(marks)) for said, marks in rows]
 
 
-def _marks(exercise: Exercise, records: Sequence[dict[str, Any]]) -> Chart:
+def _marks_chart(exercise: Exercise, records: Sequence[dict[str, Any]]) -> Chart:
     bars = [0] * 21
     for record in records:
         bars[round(20 * record["total"] / record["of"])] += 1
     ticks = [(part, exercise.tell(say("{marks:g}", marks=part * exercise.marks))) for part in (0.0, 0.5, 1.0)]
-    return stacked({"right": bars}, ticks)
+    return stacked_chart({"right": bars}, ticks)
 
 
-def _chart(step: StepErrors, bound: float) -> Chart:
-    ticks = [((k + EDGE) / (2 * EDGE), f"{k:+g}".replace("-", "−") if k else "0") for k in range(-6, 7, 2)]
-    ends = [(0.0, f"< −{EDGE:g}"), (1.0, f"> {EDGE:g}")]
-    inside = min(bound / EDGE, 1.0) / 2
-    return stacked(step.bars, [*ends, *ticks], (0.5 - inside, 0.5 + inside))
+def _step_chart(step: StepErrors, bound: float) -> Chart:
+    ticks = [
+        ((k + CHART_LIMIT) / (2 * CHART_LIMIT), f"{k:+g}".replace("-", "−") if k else "0") for k in range(-6, 7, 2)
+    ]
+    ends = [(0.0, f"< −{CHART_LIMIT:g}"), (1.0, f"> {CHART_LIMIT:g}")]
+    inside = min(bound / CHART_LIMIT, 1.0) / 2
+    return stacked_chart(step.bars, [*ends, *ticks], (0.5 - inside, 0.5 + inside))
 
 
 @dataclass(eq=False)
@@ -306,7 +309,7 @@ class _Drawings:
     off : how far each lies off along its key;  tolerances : of their keys;  farthest : those farthest off
     """
 
-    asked: Asked
+    asked: AskedAnswer
     off: list[Floats] = field(default_factory=list[Floats])
     tolerances: list[float] = field(default_factory=list[float])
     farthest: list[HandedInDrawing] = field(default_factory=list[HandedInDrawing])
@@ -317,7 +320,7 @@ class _Drawings:
         self.tolerances.append(drawing.key.tolerance)
         # Of two that are equally far off the former stays the first.
         ranked = sorted([*self.farthest, drawing], key=lambda each: -each.answer["off_paper"])
-        self.farthest = ranked[:LARGEST_PICTURES]
+        self.farthest = ranked[:SHOWN_PICTURES]
 
     def bundle(self) -> Bundle:
         """The drawings all in one picture."""
@@ -328,7 +331,7 @@ class _Drawings:
         return [(each, _picture(each)) for each in self.farthest]
 
 
-def _compared(
+def _compared_drawings(
     exercise: Exercise, records: Sequence[dict[str, Any]], answer_keys: Mapping[str, AnswerKey]
 ) -> tuple[list[float], list[_Drawings]]:
     """The bounds of all keys, and the drawings of every answer that is drawn, in one way through the keys."""

@@ -59,7 +59,7 @@ def cronbach_alpha(marks: Floats) -> float:
     """
     students, items = marks.shape if marks.ndim == 2 else (0, 0)
     total = float(np.var(marks.sum(axis=1))) if students else 0.0
-    if items < 2 or total <= _least(marks):
+    if items < 2 or total <= _rounding_of_sum(marks):
         return math.nan
     return items / (items - 1) * (1 - float(np.var(marks, axis=0).sum()) / total)
 
@@ -93,12 +93,12 @@ def variant_groups(records: Sequence[dict[str, Any]], spelled: Callable[[Value],
     found: list[VariantGroup] = []
     for name in known[0]["parameters"] if known else ():
         values = [record["parameters"][name] for record in known]
-        for said, chosen in _parted(values, spelled):
+        for said, chosen in _groups_by_value(values, spelled):
             found.append(VariantGroup(name, said, int(chosen.sum()), float(earned[chosen].mean())))
     return found
 
 
-def _parted(values: list[Value], spelled: Callable[[Value], str]) -> list[tuple[str, NDArray[np.bool_]]]:
+def _groups_by_value(values: list[Value], spelled: Callable[[Value], str]) -> list[tuple[str, NDArray[np.bool_]]]:
     words = sorted({value for value in values if isinstance(value, str)})
     steps = sorted({value for value in values if not isinstance(value, str)})
     single: list[Value] = [*steps, *words]
@@ -117,9 +117,9 @@ def _parted(values: list[Value], spelled: Callable[[Value], str]) -> list[tuple[
 def _correlation(a: Floats, b: Floats) -> float:
     a, b = a - a.mean(), b - b.mean()
     size = math.sqrt(float(a @ a) * float(b @ b))
-    return float(a @ b) / size if size > _least(a) + _least(b) else math.nan
+    return float(a @ b) / size if size > _rounding_of_sum(a) + _rounding_of_sum(b) else math.nan
 
 
-def _least(values: Floats) -> float:
+def _rounding_of_sum(values: Floats) -> float:
     """What rounding may leave of a sum of squares that is nought."""
     return 1e-12 * float(1 + np.sum(values * values))

@@ -12,9 +12,9 @@ from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.marking.record import is_handed_in
 
-CANVAS_STUDENT = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
+CANVAS_STUDENT_COLUMNS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 """Canvas's headings before the assignment's; ID is a number of Canvas's own, which is left empty."""
-POINTS_POSSIBLE = "    Points Possible"
+POINTS_POSSIBLE_CELL = "    Points Possible"
 """The cell that begins Canvas's second row; the spaces are Canvas's."""
 
 
@@ -27,7 +27,7 @@ def moodle_grades(exercise: Exercise, records: Sequence[Mapping[str, Any]]) -> s
     '"7","2.5","v: 1 &lt; 2.<br>Again."'
     """
     head = ("ID number", exercise.title, "Feedback")
-    return table(head, ([one["student"], grade_of(one), _said(one)] for one in records))
+    return table(head, ([one["student"], grade_of(one), _comment_text(one)] for one in records))
 
 
 def canvas_grades(exercise: Exercise, records: Sequence[Mapping[str, Any]]) -> str:
@@ -39,9 +39,9 @@ def canvas_grades(exercise: Exercise, records: Sequence[Mapping[str, Any]]) -> s
     >>> canvas_grades(find_exercise("pressure-angle"), [{"student": "7", "total": 2.5}]).splitlines()[2]
     '"7","","7","7","","2.5"'
     """
-    possible = [POINTS_POSSIBLE, "", "", "", "", exercise.marks]
+    possible = [POINTS_POSSIBLE_CELL, "", "", "", "", exercise.marks]
     rows = [[one["student"], "", one["student"], one["student"], "", grade_of(one)] for one in records]
-    return table((*CANVAS_STUDENT, exercise.title), [possible, *rows])
+    return table((*CANVAS_STUDENT_COLUMNS, exercise.title), [possible, *rows])
 
 
 def grade_of(record: Mapping[str, Any]) -> float | None:
@@ -49,7 +49,7 @@ def grade_of(record: Mapping[str, Any]) -> float | None:
     return record["total"] if is_handed_in(record) else None
 
 
-def _said(record: Mapping[str, Any]) -> str:
+def _comment_text(record: Mapping[str, Any]) -> str:
     """What the student is told, and what must be said of the submission; of one who has not handed in only that."""
     notes = list(record.get("notes", ()))
     told = [*record["feedback"], *notes] if is_handed_in(record) else notes

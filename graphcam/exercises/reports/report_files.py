@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from graphcam.exercises.course.hand_ins import Refused
 from graphcam.exercises.course.photo_reports import photo_pictures
 from graphcam.exercises.course.roster import folder_name
 from graphcam.exercises.course.spreadsheet import table
+from graphcam.exercises.course.submissions import Refused
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.marking.copies import AlikePair
+from graphcam.exercises.marking.copy_detection import AlikePair
 from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.group_page import group_page, student_rows
 from graphcam.exercises.reports.learning_platforms import canvas_grades, moodle_grades
@@ -22,11 +22,11 @@ from graphcam.exercises.reports.shown_names import ShownNames
 from graphcam.exercises.reports.student_page import student_page
 from graphcam.files import whole_folder
 
-LONG = (
+LONG_COLUMNS = (
     *("student", "exercise", "answer", "outcome", "marks", "of"),
     *("given", "pencil_units", "worst_station", "off_paper_mm"),
 )
-BY_HAND = ("student", "answer", "found", "marks", "comment")
+BY_HAND_COLUMNS = ("student", "answer", "found", "marks", "comment")
 
 
 @dataclass(frozen=True)
@@ -88,12 +88,12 @@ def _texts(
     by_hand = [(record, one) for record in records for one in record.get("overrides", [])]
     # The table of a former run would go on telling what was taken back.
     if by_hand or (out.parent / f"{out.stem}-by-hand.csv").exists():
-        rows = ([record["student"], *(one[column] for column in BY_HAND[1:])] for record, one in by_hand)
-        yield f"{out.stem}-by-hand.csv", [table(BY_HAND, rows)]
+        rows = ([record["student"], *(one[column] for column in BY_HAND_COLUMNS[1:])] for record, one in by_hand)
+        yield f"{out.stem}-by-hand.csv", [table(BY_HAND_COLUMNS, rows)]
     # One row an answer, for statistics.
     yield (
         f"{out.stem}-long.csv",
-        [table(LONG, (_long(record, answer) for record in graded for answer in record["answers"]))],
+        [table(LONG_COLUMNS, (_long_row(record, answer) for record in graded for answer in record["answers"]))],
     )
     yield f"{out.stem}-copies.csv", [copies_table(pairs)]
     # For grade books.
@@ -175,7 +175,7 @@ def wide_table(records: Sequence[dict[str, Any]], called: Mapping[str, str]) -> 
     """
     names = list(dict.fromkeys(answer["name"] for record in records for answer in record["answers"]))
     head = ["student", "exercise", "total", "of", *names, "diagnosis", "too_exact", "level", "notes", "name"]
-    return table(head, ([*_wide(record, names), called.get(record["student"], "")] for record in records))
+    return table(head, ([*_wide_row(record, names), called.get(record["student"], "")] for record in records))
 
 
 def copies_table(pairs: Iterable[AlikePair]) -> str:
@@ -188,7 +188,7 @@ def copies_table(pairs: Iterable[AlikePair]) -> str:
     return table(head, rows)
 
 
-def _wide(record: dict[str, Any], names: list[str]) -> list[Any]:
+def _wide_row(record: dict[str, Any], names: list[str]) -> list[Any]:
     given = is_handed_in(record)
     marks = {answer["name"]: answer["marks"] for answer in record["answers"] if given}
     diagnosis = record["diagnosis"]
@@ -197,7 +197,7 @@ def _wide(record: dict[str, Any], names: list[str]) -> list[Any]:
     return [*about, *map(marks.get, names), found, record["too_exact"], record["level"], " ".join(record["notes"])]
 
 
-def _long(record: dict[str, Any], answer: dict[str, Any]) -> list[Any]:
+def _long_row(record: dict[str, Any], answer: dict[str, Any]) -> list[Any]:
     station = None if answer["station"] is None else answer["station"] + 1
     marked = [answer[name] for name in ("name", "outcome", "marks", "of")]
     off = [answer["deviation"], station, answer["off_paper"]]

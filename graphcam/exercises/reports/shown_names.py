@@ -10,9 +10,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from graphcam.exercises.course.hand_ins import Refused
+from graphcam.exercises.course.submissions import Refused
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.marking.copies import AlikePair
+from graphcam.exercises.marking.copy_detection import AlikePair
 from graphcam.words import say
 
 
@@ -57,7 +57,7 @@ class ShownNames:
         return [Refused(table, say("it lists what was not graded, {count} in total", count=len(refused)))]
 
 
-SHORTEST = 6
+NAME_LENGTH = 6
 """Letters of a name: of 3000 students two agree in so many in one course out of 240."""
 
 
@@ -71,7 +71,7 @@ def hidden_names(secret: bytes, exercise: str, students: Iterable[str]) -> dict[
     False
     """
     whole = {student: _name(secret, exercise, student) for student in students}
-    length = SHORTEST
+    length = NAME_LENGTH
     # Of the whole digests no two agree.
     while len({name[:length] for name in whole.values()}) < len(whole):
         length += 1

@@ -4,18 +4,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from graphcam.exercises.definition.exercise import Asked, Exercise
+from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
 from graphcam.exercises.definition.variant import sentence
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.record import is_handed_in
 from graphcam.exercises.reports.curves import CurvePicture, picture, points_of, worst_place
-from graphcam.exercises.reports.first_step_off import first_step_off
+from graphcam.exercises.reports.first_wrong_step import first_step_off
 from graphcam.exercises.reports.unrolled_drawings import over_key
 from graphcam.exercises.reports.web_pages import page
 from graphcam.report.markdown import number
 from graphcam.words import Caption, Words, say
 
-OUTCOMES = {
+OUTCOME_CAPTIONS = {
     "right": say("right"),
     "follow-through": say("correct follow-through from your values"),
     "partial": say("partly right"),
@@ -23,7 +23,7 @@ OUTCOMES = {
     "unreadable": say("cannot be read"),
     "missing": say("not answered"),
 }
-PLAIN = ("right", "missing")
+PLAIN_OUTCOMES = ("right", "missing")
 """Outcomes of which a sentence would say no more."""
 
 
@@ -37,7 +37,7 @@ class AnswerRow:
     right : what would have been right; empty where that is not shown
     """
 
-    asked: Asked
+    asked: AskedAnswer
     answer: dict[str, Any]
     text: str
     said: Words
@@ -66,15 +66,18 @@ def student_page(
             asked,
             answer,
             sentence(asked.text, record["parameters"], exercise.tell),
-            _about(answer, record),
-            _right(asked, shown),
+            _answer_sentence(answer, record),
+            _right_answer(asked, shown),
             "right" if _is_settled(answer, record) else answer["outcome"],
         )
         for asked, answer in marked
     ]
     drawn = [(asked, answer) for asked, answer in marked if isinstance(answer["given"], list)]
     pictures = [
-        (_caption(answer, told=shown is not None), _own(asked, answer, answer_key, told=shown is not None))
+        (
+            _drawing_caption(answer, told=shown is not None),
+            _own_drawing(asked, answer, answer_key, told=shown is not None),
+        )
         for asked, answer in drawn
     ]
     return page(
@@ -91,7 +94,7 @@ def student_page(
     )
 
 
-def _about(answer: dict[str, Any], record: dict[str, Any]) -> Words:
+def _answer_sentence(answer: dict[str, Any], record: dict[str, Any]) -> Words:
     """What is said of an answer: its own sentence of the record, but where the outcome says all."""
     given = next((one for one in record.get("overrides", []) if one["answer"] == answer["name"]), None)
     if given is not None:
@@ -100,9 +103,13 @@ def _about(answer: dict[str, Any], record: dict[str, Any]) -> Words:
         return say("by your teacher")
     if answer["outcome"] != "right" and _is_settled(answer, record):
         return say("by your teacher: all marks")
-    begin = _begin(answer)
+    begin = _sentence_start(answer)
     said = next((each.removeprefix(begin) for each in record["feedback"] if each.startswith(begin)), "")
-    return OUTCOMES[answer["outcome"]] if answer["outcome"] in PLAIN or not said else said[0].upper() + said[1:]
+    return (
+        OUTCOME_CAPTIONS[answer["outcome"]]
+        if answer["outcome"] in PLAIN_OUTCOMES or not said
+        else said[0].upper() + said[1:]
+    )
 
 
 def _is_settled(answer: dict[str, Any], record: dict[str, Any]) -> bool:
@@ -125,18 +132,18 @@ def _remarks(record: dict[str, Any]) -> list[str]:
     """The sentences that stand nowhere else on the page; of an answer the first one stands in its row."""
     feedback: list[str] = list(record["feedback"])
     for answer in record["answers"]:
-        in_row = next((said for said in feedback if said.startswith(_begin(answer))), None)
+        in_row = next((said for said in feedback if said.startswith(_sentence_start(answer))), None)
         if in_row is not None:
             feedback.remove(in_row)
     return [said for said in feedback if said not in record["notes"]]
 
 
-def _begin(answer: dict[str, Any]) -> str:
+def _sentence_start(answer: dict[str, Any]) -> str:
     """The words with which the sentence on an answer begins."""
     return f"{answer['name']}: "
 
 
-def _right(asked: Asked, answer_key: AnswerKey | None) -> Words:
+def _right_answer(asked: AskedAnswer, answer_key: AnswerKey | None) -> Words:
     """What would have been right, and within what it counts as right."""
     if answer_key is None:
         return ""
@@ -147,7 +154,7 @@ def _right(asked: Asked, answer_key: AnswerKey | None) -> Words:
     return say("right: {value} ± {tolerance}", value=value, tolerance=tolerance)
 
 
-def _caption(answer: dict[str, Any], *, told: bool) -> Caption:
+def _drawing_caption(answer: dict[str, Any], *, told: bool) -> Caption:
     name, off = answer["name"], answer["outcome"] in ("wrong", "partial") and answer["station"] is not None
     if told and off:
         return say("{name}: your drawing is red, the right one blue; the largest deviation is circled.", name=name)
@@ -158,7 +165,9 @@ def _caption(answer: dict[str, Any], *, told: bool) -> Caption:
     return say("{name}: your drawing.", name=name)
 
 
-def _own(asked: Asked, answer: dict[str, Any], answer_key: AnswerKey | None, *, told: bool) -> CurvePicture:
+def _own_drawing(
+    asked: AskedAnswer, answer: dict[str, Any], answer_key: AnswerKey | None, *, told: bool
+) -> CurvePicture:
     """The student's drawing, circled where it is farthest off, and over the key where that is told."""
     key = None if answer_key is None else answer_key.keys[asked.name].expected
     spot = None

@@ -11,7 +11,7 @@ import numpy as np
 
 from graphcam.drafting.marks import Points
 from graphcam.exercises.definition.exercise import Kind
-from graphcam.exercises.key.expectation import Expected, Floats, paired
+from graphcam.exercises.key.expected_answers import Expected, Floats, paired
 from graphcam.exercises.reports.curves import CurvePicture, nearest_places, picture, points_of
 
 
@@ -26,19 +26,19 @@ def over_key(key: Expected, answer: dict[str, Any], kind: Kind, spot: complex | 
     return picture(curves, spot)
 
 
-WIDTH, HEIGHT = 640, 200
+PICTURE_WIDTH, PICTURE_HEIGHT = 640, 200
 """Pixels of the picture, without its labels."""
-PLACES = 61
+CURVE_PLACES = 61
 """Places along the curve at which deviations are taken."""
-IN_PART = 4
+PLACES_PER_PART = 4
 """Places on every part of the key's curve: an arc becomes as many chords."""
-MOST_LINES = 300
+MAX_LINES = 300
 """Drawings that are shown; the median and the quartiles are those of all."""
-LEAST_RANGE, GREATEST_RANGE = 2.0, 10.0
+MIN_RANGE, MAX_RANGE = 2.0, 10.0
 """Deviations that the picture shows at least, and at most [mm of paper]."""
-ONE_STEP = 1.5
+MAX_STEP_FACTOR = 1.5
 """How many times the longest part of a drawing is still one step."""
-SHOWN = 90
+SHOWN_PERCENT = 90
 """Percent of all deviations that the picture's range holds, where that lies between these."""
 
 
@@ -57,22 +57,22 @@ class Bundle:
     quartiles: str
     band: tuple[float, float]
     ticks: tuple[tuple[float, float], ...]
-    width: int = WIDTH
-    height: int = HEIGHT
+    width: int = PICTURE_WIDTH
+    height: int = PICTURE_HEIGHT
 
 
 def key_line(key: Expected) -> Points:
     """Places (n,) all along the curve of a key, its arcs as chords.
 
     >>> half_circle = key_line(Expected(np.array([1 + 0j, -1 + 0j]), np.ones(2), np.ones(1)))
-    >>> abs(half_circle).round(9).tolist() == [1.0] * (IN_PART + 1)
+    >>> abs(half_circle).round(9).tolist() == [1.0] * (PLACES_PER_PART + 1)
     True
     """
     stations = np.atleast_1d(np.asarray(key.value))
     if not key.bulge.size:
         return stations
     start, end = stations[: key.bulge.size], np.append(stations, stations[0])[1 : key.bulge.size + 1]
-    t = np.arange(IN_PART) / IN_PART
+    t = np.arange(PLACES_PER_PART) / PLACES_PER_PART
     # The tangent of a quarter of an arc's angle is its bulge; an arc of no angle is its chord.
     turn = 4 * np.arctan(key.bulge)[:, None]
     straight = np.abs(turn) < 1e-9
@@ -81,7 +81,8 @@ def key_line(key: Expected) -> Points:
 
 
 def deviations_along(key: Expected, own: Points, kind: Kind) -> Floats:
-    """How far a drawing lies off at places (PLACES,) equally spaced along the key, outwards positive [mm of paper].
+    """How far a drawing lies off at places (CURVE_PLACES,) equally spaced along the key, outwards positive [mm of
+    paper].
 
     >>> square = Expected(np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j]), np.ones(4), np.zeros(4))
     >>> outside = 2 * np.array([1 + 1j, -1 + 1j, -1 - 1j, 1 - 1j, 1 + 1j])
@@ -90,7 +91,7 @@ def deviations_along(key: Expected, own: Points, kind: Kind) -> Floats:
     """
     line = np.atleast_1d(np.asarray(key.value)) if kind == "points" else key_line(key)
     way = np.append(0.0, np.cumsum(np.abs(np.diff(line))))
-    at = np.linspace(0.0, way[-1], PLACES)
+    at = np.linspace(0.0, way[-1], CURVE_PLACES)
     if kind == "points":
         off = paired(own, line) - line
         return np.interp(at, way, np.sign((off * line.conj()).real) * np.abs(off))
@@ -100,42 +101,42 @@ def deviations_along(key: Expected, own: Points, kind: Kind) -> Floats:
     # The cam's centre is the origin, and a curve goes round it either way.
     if np.sum((normal * wanted.conj()).real) < 0:
         normal = -normal
-    off = nearest_places(wanted, _closed(own) if key.bulge.size == np.size(key.value) else own) - wanted
+    off = nearest_places(wanted, _closed_drawing(own) if key.bulge.size == np.size(key.value) else own) - wanted
     return np.where((off * normal.conj()).real < 0, -1.0, 1.0) * np.abs(off)
 
 
-def _closed(own: Points) -> Points:
+def _closed_drawing(own: Points) -> Points:
     """A drawing that stops one step short of its first point is a table of points, and goes back to it."""
     steps = np.abs(np.diff(own))
-    return np.append(own, own[0]) if steps.size and abs(own[0] - own[-1]) <= ONE_STEP * steps.max() else own
+    return np.append(own, own[0]) if steps.size and abs(own[0] - own[-1]) <= MAX_STEP_FACTOR * steps.max() else own
 
 
 def bundle(deviations: Sequence[Floats], tolerance: float) -> Bundle:
-    """The picture of drawings that lie so far off, each (PLACES,) [mm of paper].
+    """The picture of drawings that lie so far off, each (CURVE_PLACES,) [mm of paper].
 
     tolerance : what is accepted on either side [mm of paper]
 
-    >>> bundle([np.zeros(PLACES), np.ones(PLACES)], 0.5).ticks
+    >>> bundle([np.zeros(CURVE_PLACES), np.ones(CURVE_PLACES)], 0.5).ticks
     ((200.0, -2.0), (150.0, -1.0), (100.0, 0.0), (50.0, 1.0), (0.0, 2.0))
     """
     values = np.array(deviations)
     low, middle, high = np.percentile(values, (25, 50, 75), axis=0)
-    most = float(np.ceil(np.clip(np.percentile(np.abs(values), SHOWN), LEAST_RANGE, GREATEST_RANGE)))
-    unit = HEIGHT / (2 * most)
+    most = float(np.ceil(np.clip(np.percentile(np.abs(values), SHOWN_PERCENT), MIN_RANGE, MAX_RANGE)))
+    unit = PICTURE_HEIGHT / (2 * most)
 
     def drawn(line: Floats) -> list[str]:
         """The places of the line."""
         # What is far outside is cut off anyway, and would only make long numbers.
-        y = HEIGHT / 2 - unit * np.clip(line, -3 * most, 3 * most)
-        return [f"{x:.0f},{each:.1f}" for x, each in zip(np.linspace(0, WIDTH, PLACES), y, strict=True)]
+        y = PICTURE_HEIGHT / 2 - unit * np.clip(line, -3 * most, 3 * most)
+        return [f"{x:.0f},{each:.1f}" for x, each in zip(np.linspace(0, PICTURE_WIDTH, CURVE_PLACES), y, strict=True)]
 
-    shown = np.unique(np.linspace(0, len(values) - 1, min(len(values), MOST_LINES)).astype(int))
+    shown = np.unique(np.linspace(0, len(values) - 1, min(len(values), MAX_LINES)).astype(int))
     reach = min(tolerance, most)
     return Bundle(
         count=len(values),
         lines=tuple(" ".join(drawn(values[k])) for k in shown),
         median=" ".join(drawn(middle)),
         quartiles=" ".join(drawn(low) + drawn(high)[::-1]),
-        band=(HEIGHT / 2 - unit * reach, 2 * unit * reach),
-        ticks=tuple((HEIGHT / 2 - unit * part * most, part * most) for part in (-1.0, -0.5, 0.0, 0.5, 1.0)),
+        band=(PICTURE_HEIGHT / 2 - unit * reach, 2 * unit * reach),
+        ticks=tuple((PICTURE_HEIGHT / 2 - unit * part * most, part * most) for part in (-1.0, -0.5, 0.0, 0.5, 1.0)),
     )

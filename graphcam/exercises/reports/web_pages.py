@@ -18,7 +18,7 @@ def page(template: str, exercise: Exercise, **values: Any) -> str:
     """A page about an exercise, of a template in ``data/grading``; its captions are said in the exercise's language."""
     from markupsafe import Markup
 
-    style = Markup(_read("style.css"))
+    style = Markup(_page_text("style.css"))
     written = _environment().get_template(template).render(values, exercise=exercise, style=style, say=say)
     # Without the halves of characters that a folder's name may hold and no file can.
     return written.encode("utf-8", "backslashreplace").decode()
@@ -33,9 +33,9 @@ def _environment() -> Environment:
         """A caption in the language of the page's exercise; other values as they are."""
         return context["exercise"].tell(value) if isinstance(value, Caption) else value
 
-    loader = FunctionLoader(_read)
+    loader = FunctionLoader(_page_text)
     return Environment(loader=loader, autoescape=True, undefined=StrictUndefined, trim_blocks=True, finalize=told)
 
 
-def _read(name: str) -> str:
+def _page_text(name: str) -> str:
     return resources.files("graphcam").joinpath("data", "grading", name).read_text(encoding="utf-8")

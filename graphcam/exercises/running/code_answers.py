@@ -6,11 +6,11 @@ from contextlib import suppress
 from typing import Any
 
 from graphcam.drafting.ink import Caption, say
+from graphcam.exercises.reading.answer_values import short_text
 from graphcam.exercises.reading.notebook import cell_source, code_cells, notebook_values
 from graphcam.exercises.reading.regular_file import UnreadableError
-from graphcam.exercises.reading.values import shown
-from graphcam.exercises.running.levels import MEBIBYTE, Level, ResourceLimits
-from graphcam.exercises.running.process import Ended
+from graphcam.exercises.running.isolation_levels import MEBIBYTE, Level, ResourceLimits
+from graphcam.exercises.running.limited_process import RunEnd
 from graphcam.exercises.running.sandbox import run_cells
 
 
@@ -31,20 +31,20 @@ def run_notebook(
     # Without the lines that are for the notebook program itself.
     cells = ["\n".join("" if line.startswith(("%", "!")) else line for line in lines) for lines in sources]
     ended = run_cells(level, cells, [*names, "answers"], limits)
-    values, notes = _handed_out(name, ended.handed_out)
+    values, notes = _last_answers(name, ended.handed_out)
     if not values:
         with suppress(UnreadableError):
             values, notes = notebook_values(name, data), []
-    return values, [*_on_end(name, ended, limits), *notes]
+    return values, [*_end_remarks(name, ended, limits), *notes]
 
 
-def _handed_out(name: str, data: bytes) -> tuple[dict[str, Any], list[Caption]]:
+def _last_answers(name: str, data: bytes) -> tuple[dict[str, Any], list[Caption]]:
     """The last whole line that says something: an answer may be given again, improved."""
     lines = [line for line in data.split(b"\n")[:-1] if line.strip() not in (b"", b"{}")]
     if not lines:
         return {}, [say("{name} returns no answers", name=name)]
     try:
-        found = json.loads(lines[-1], object_pairs_hook=_once)
+        found = json.loads(lines[-1], object_pairs_hook=_without_repeats)
     except (ValueError, RecursionError):
         return {}, [say("{name}: what it returns cannot be read", name=name)]
     if not isinstance(found, dict):
@@ -53,14 +53,14 @@ def _handed_out(name: str, data: bytes) -> tuple[dict[str, Any], list[Caption]]:
     return {**(inner if isinstance(inner, dict) else {}), **found}, []
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+def _without_repeats(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     found = dict(pairs)
     if len(found) != len(pairs):
         raise ValueError("an answer stands there twice")
     return found
 
 
-def _on_end(name: str, ended: Ended, limits: ResourceLimits) -> list[Caption]:
+def _end_remarks(name: str, ended: RunEnd, limits: ResourceLimits) -> list[Caption]:
     if ended.late:
         return [say("{name} was stopped after {seconds:g} s", name=name, seconds=limits.seconds)]
     if ended.large:
@@ -75,7 +75,7 @@ def _on_end(name: str, ended: Ended, limits: ResourceLimits) -> list[Caption]:
     # The student's own words; what is shown of them is one short line.
     last = ended.text.strip().splitlines()[-1:]
     if last and ("Error" in last[0] or "SystemExit" in last[0] or "Interrupt" in last[0]):
-        return [say("{name} ended with {error}", name=name, error=shown(last[0]))]
+        return [say("{name} ended with {error}", name=name, error=short_text(last[0]))]
     if ended.status:
         return [say("{name} ended with status {status}", name=name, status=ended.status)]
     return []

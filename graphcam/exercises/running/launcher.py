@@ -15,7 +15,7 @@ import types
 from collections.abc import Callable
 from typing import Any
 
-MIME = "application/vnd.graphcam.answer.v1+json"
+ANSWER_MIME_TYPE = "application/vnd.graphcam.answer.v1+json"
 
 
 JOIN_SESSION_KEYRING, SET_NO_NEW_PRIVS, SET_SECCOMP, SECCOMP_FILTER = 1, 38, 22, 2
@@ -41,7 +41,7 @@ def main() -> None:
     def hand_out(values: dict[str, Any]) -> None:
         """Keep values, and write them to the pipe as a line of JSON."""
         shown.append(values)
-        os.write(order["pipe"], json.dumps(values, default=plain).encode() + b"\n")
+        os.write(order["pipe"], json.dumps(values, default=plain_values).encode() + b"\n")
 
     offer_display(namespace, hand_out)
     try:
@@ -90,8 +90,8 @@ def offer_display(namespace: dict[str, Any], hand_out: Callable[[dict[str, Any]]
         """Hand out the answers among what a cell shows."""
         for value in values:
             bundle = value if raw else bundle_of(value)
-            if isinstance(bundle, dict) and isinstance(bundle.get(MIME), dict):
-                hand_out(bundle[MIME])
+            if isinstance(bundle, dict) and isinstance(bundle.get(ANSWER_MIME_TYPE), dict):
+                hand_out(bundle[ANSWER_MIME_TYPE])
             else:
                 print(value)  # noqa: T201  the output of the notebook
 
@@ -121,7 +121,7 @@ def bundle_of(value: Any) -> Any:
     return make() if callable(make) else None
 
 
-def plain(value: Any) -> Any:
+def plain_values(value: Any) -> Any:
     """Arrays as lists, complex numbers as [x, y]."""
     if isinstance(value, complex):
         return [value.real, value.imag]

@@ -12,23 +12,23 @@ from contextlib import suppress
 from pathlib import Path
 
 from graphcam.exercises.running import launcher
-from graphcam.exercises.running.levels import MEBIBYTE, Level, ResourceLimits
-from graphcam.exercises.running.process import Ended, run_limited
-from graphcam.exercises.running.scratch import scratch_folder
+from graphcam.exercises.running.isolation_levels import MEBIBYTE, Level, ResourceLimits
+from graphcam.exercises.running.limited_process import RunEnd, run_limited
+from graphcam.exercises.running.scratch_folders import scratch_folder
 from graphcam.exercises.running.system_calls import new_keyring, refusals
 
-SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib64", "/lib32")
-SETTINGS = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/fonts")
+SYSTEM_FOLDERS = ("/usr", "/bin", "/sbin", "/lib", "/lib64", "/lib32")
+SETTINGS_PATHS = ("/etc/ld.so.cache", "/etc/alternatives", "/etc/fonts")
 """What the loader of shared libraries and matplotlib want; nothing of the host's own."""
-FIRST_USER, USERS = 20_000, 40_000
+FIRST_USER, USER_COUNT = 20_000, 40_000
 """Numbers that no account has, one for each run at a time, so that one cannot use up another's processes."""
-SHARED = 32 * MEBIBYTE
+SHARED_MEMORY_BYTES = 32 * MEBIBYTE
 """Bytes of /dev/shm in the sandbox."""
-ATTEMPTS = 20
+REMOVAL_ATTEMPTS = 20
 """How often what was left behind is looked for: it may go on forking meanwhile."""
 
 
-def run_cells(level: Level, cells: list[str], names: list[str], limits: ResourceLimits | None = None) -> Ended:
+def run_cells(level: Level, cells: list[str], names: list[str], limits: ResourceLimits | None = None) -> RunEnd:
     """Run a notebook's cells at a level.
 
     cells : their code
@@ -57,8 +57,8 @@ def run_cells(level: Level, cells: list[str], names: list[str], limits: Resource
 
 def _end_left_behind(folder: str) -> None:
     """Kill what a run at L1 has left in the background: it has a user of its own, or its folder in the environment."""
-    for _ in range(ATTEMPTS):
-        theirs = [int(process.name) for process in Path("/proc").glob("[0-9]*") if _is_of(process, folder)]
+    for _ in range(REMOVAL_ATTEMPTS):
+        theirs = [int(process.name) for process in Path("/proc").glob("[0-9]*") if _uses_folder(process, folder)]
         for number in theirs:
             with suppress(ProcessLookupError):
                 os.kill(number, signal.SIGKILL)
@@ -66,7 +66,7 @@ def _end_left_behind(folder: str) -> None:
             return
 
 
-def _is_of(process: Path, folder: str) -> bool:
+def _uses_folder(process: Path, folder: str) -> bool:
     try:
         if os.getuid() == 0:
             return process.stat().st_uid == _user()
@@ -75,10 +75,10 @@ def _is_of(process: Path, folder: str) -> bool:
         return False
 
 
-def visible() -> list[Path]:
+def visible_folders() -> list[Path]:
     """The folders of the host that code at L2 can read."""
     folders = [Path(sys.prefix), Path(sys.base_prefix), Path(sys.exec_prefix), *_packages()]
-    return sorted({folder.resolve() for folder in folders if folder.is_dir()} | {Path(name) for name in SYSTEM})
+    return sorted({folder.resolve() for folder in folders if folder.is_dir()} | {Path(name) for name in SYSTEM_FOLDERS})
 
 
 def _command(level: Level, limits: ResourceLimits) -> list[str]:
@@ -105,22 +105,22 @@ def _bubblewrap(limits: ResourceLimits) -> list[str]:
     # As root another user is taken inside; otherwise the kernel gives a name space in which nobody is anybody.
     # In neither can a further one be made: the launcher is refused the calls for it.
     command += ["--cap-add", "CAP_SETUID", "--cap-add", "CAP_SETGID"] if os.getuid() == 0 else ["--unshare-user"]
-    for folder in SYSTEM:
+    for folder in SYSTEM_FOLDERS:
         if Path(folder).is_symlink():
             command += ["--symlink", str(Path(folder).readlink()), folder]
         elif Path(folder).is_dir():
             command += ["--ro-bind", folder, folder]
-    for place in SETTINGS:
+    for place in SETTINGS_PATHS:
         command += ["--ro-bind-try", place, place]
     # Before the folders of Python, which may lie in /tmp themselves.
     command += ["--perms", "1777", "--size", str(limits.written), "--tmpfs", "/tmp"]
-    for folder in visible():
-        if not any(folder.is_relative_to(other) for other in SYSTEM):
+    for folder in visible_folders():
+        if not any(folder.is_relative_to(other) for other in SYSTEM_FOLDERS):
             for parent in reversed(folder.parents[:-1]):
                 command += ["--perms", "0755", "--dir", str(parent)]
             command += ["--ro-bind", str(folder), str(folder)]
     command += ["--proc", "/proc", "--dev", "/dev", "--remount-ro", "/dev"]
-    command += ["--perms", "1777", "--size", str(SHARED), "--tmpfs", "/dev/shm"]
+    command += ["--perms", "1777", "--size", str(SHARED_MEMORY_BYTES), "--tmpfs", "/dev/shm"]
     command += ["--ro-bind", launcher.__file__, "/launcher.py"]
     return [*command, "--chdir", "/tmp", "--remount-ro", "/"]
 
@@ -144,7 +144,7 @@ def _packages() -> tuple[Path, ...]:
 
 
 def _user() -> int:
-    return FIRST_USER + threading.get_native_id() % USERS if os.getuid() == 0 else 0
+    return FIRST_USER + threading.get_native_id() % USER_COUNT if os.getuid() == 0 else 0
 
 
 def _processes_of(user: int) -> int:

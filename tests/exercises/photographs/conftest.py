@@ -11,13 +11,13 @@ import cv2
 import numpy as np
 import pytest
 
-from graphcam.exercises.course.course_folder import TEACHER, AnswerKeys
-from graphcam.exercises.course.make import make
+from graphcam.exercises.course.course_folder import TEACHER_FOLDER, AnswerKeys
+from graphcam.exercises.course.course_making import make
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.photographs.course_photographs import READINGS, ReadCourse, ReadingOrder, read_course
-from graphcam.exercises.photographs.kept_photographs import KeptPhotographs
+from graphcam.exercises.photographs.course_photographs import READINGS_FOLDER, ReadCourse, ReadingOrder, read_course
+from graphcam.exercises.photographs.photograph_store import KeptPhotographs
 from graphcam.exercises.photographs.read_photo import BARS, TABLE, KeptPicture, ReadAnswer, ReadPhoto
 
 # A process that is forked from one in which OpenCV has threads hangs.
@@ -40,10 +40,10 @@ class Photographed:
 
     @property
     def photos(self) -> Path:
-        return self.place / READINGS
+        return self.place / READINGS_FOLDER
 
     def key(self, student: str) -> AnswerKey:
-        return AnswerKey.from_json(AnswerKeys(self.place / TEACHER).find(student))
+        return AnswerKey.from_json(AnswerKeys(self.place / TEACHER_FOLDER).find(student))
 
     def right(self, student: str) -> np.ndarray:
         """The stations of the right curve, or the right points."""

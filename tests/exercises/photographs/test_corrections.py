@@ -17,7 +17,7 @@ from graphcam.exercises.photographs.corrections import (
     Correction,
     StudentCorrections,
     read_corrections,
-    student_said,
+    student_data,
     to_json,
 )
 
@@ -46,7 +46,7 @@ def read(tmp_path, said: Any, students=("Anna",)):
 
 def test_what_is_written_is_read(tmp_path):
     found = read(tmp_path, WHOLE)
-    assert student_said(found["Anna"]) == WHOLE["students"]["Anna"]
+    assert student_data(found["Anna"]) == WHOLE["students"]["Anna"]
     assert json.loads(to_json(EXERCISE, found)) == WHOLE
 
 

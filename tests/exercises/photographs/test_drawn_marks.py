@@ -11,11 +11,11 @@ import numpy as np
 import pypdfium2
 import pytest
 
-from graphcam.exercises.course.course_folder import PRINTED, STUDENTS, TEACHER, AnswerKeys
-from graphcam.exercises.course.make import make
+from graphcam.exercises.course.course_folder import PRINTED_FOLDER, STUDENTS_FOLDER, TEACHER_FOLDER, AnswerKeys
+from graphcam.exercises.course.course_making import make
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.photographs.course_photographs import READINGS, ReadingOrder, read_course
-from graphcam.photo.printed import PrintedPage, PrintedView
+from graphcam.exercises.photographs.course_photographs import READINGS_FOLDER, ReadingOrder, read_course
+from graphcam.photo.printed_page import PrintedPage, PrintedView
 
 DPI = 200
 PER_MM = DPI / 25.4
@@ -39,12 +39,14 @@ class Handout:
         (place / "roster.csv").write_text("id\nAnna\n")
         make(str(place / "own.toml"), place / "roster.csv", place / "secret", place / "course", paper="A3")
         self.place = place
-        self.key = AnswerKey.from_json(AnswerKeys(place / "course" / TEACHER).find("Anna"))
+        self.key = AnswerKey.from_json(AnswerKeys(place / "course" / TEACHER_FOLDER).find("Anna"))
         self.pages: dict[int, tuple[np.ndarray, float]] = {}
 
     def view(self, name: str) -> tuple[int, PrintedView]:
         """The page on which a view is, counted from 0, and the view."""
-        for number, path in enumerate(sorted((self.place / "course" / TEACHER / PRINTED).glob("Anna-*.json"))):
+        for number, path in enumerate(
+            sorted((self.place / "course" / TEACHER_FOLDER / PRINTED_FOLDER).glob("Anna-*.json"))
+        ):
             page = PrintedPage.from_json(path.read_text(encoding="utf-8"))
             if name in page.views:
                 self.pages.setdefault(number, (self.printed(number), page.height))
@@ -52,7 +54,7 @@ class Handout:
         raise LookupError(name)
 
     def printed(self, number: int) -> np.ndarray:
-        document = pypdfium2.PdfDocument(self.place / "course" / STUDENTS / "Anna" / "worksheet.pdf")
+        document = pypdfium2.PdfDocument(self.place / "course" / STUDENTS_FOLDER / "Anna" / "worksheet.pdf")
         picture = np.ascontiguousarray(document[number].render(scale=DPI / 72).to_numpy()[..., :3])
         document.close()
         return picture
@@ -75,7 +77,7 @@ class Handout:
         for number, (picture, _) in self.pages.items():
             cv2.imwrite(str(self.place / "scans" / f"{number}.jpg"), picture, [cv2.IMWRITE_JPEG_QUALITY, 92])
         read_course(ReadingOrder([self.place / "scans"], self.place / "course", self.place / "secret"))
-        return tomllib.loads((self.place / "course" / READINGS / "Anna" / "answers.toml").read_text())
+        return tomllib.loads((self.place / "course" / READINGS_FOLDER / "Anna" / "answers.toml").read_text())
 
 
 def ring(place: complex) -> list[np.ndarray]:

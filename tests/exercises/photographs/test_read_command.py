@@ -21,15 +21,15 @@ from PIL import Image
 from typer.testing import CliRunner
 
 from graphcam.cli import app
-from graphcam.exercises.course.course_folder import PRINTED, TEACHER, AnswerKeys
-from graphcam.exercises.course.make import make
+from graphcam.exercises.course.course_folder import PRINTED_FOLDER, TEACHER_FOLDER, AnswerKeys
+from graphcam.exercises.course.course_making import make
 from graphcam.exercises.course.photo_reports import photo_pictures
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.photographs import course_photographs as run, photo_files
 from graphcam.exercises.photographs.course_photographs import ReadingOrder, read_course
-from graphcam.exercises.photographs.kept_photographs import KeptPhotographs
+from graphcam.exercises.photographs.photograph_store import KeptPhotographs
 from graphcam.exercises.reports.unrolled_drawings import key_line
-from graphcam.photo.printed import PrintedPage
+from graphcam.photo.printed_page import PrintedPage
 from graphcam.workers import WorkerPool
 
 DPI = 200
@@ -47,8 +47,8 @@ def scans(curves: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The second pages of Anna and Boris: hers with the right curve, his with a foreign one."""
     place = tmp_path_factory.mktemp("scans")
     for student, factor in (("Anna", 1.0), ("Boris", 1.3)):
-        page = PrintedPage.from_json((curves / TEACHER / PRINTED / f"{student}-2.json").read_text())
-        key = AnswerKey.from_json(AnswerKeys(curves / TEACHER).find(student))
+        page = PrintedPage.from_json((curves / TEACHER_FOLDER / PRINTED_FOLDER / f"{student}-2.json").read_text())
+        key = AnswerKey.from_json(AnswerKeys(curves / TEACHER_FOLDER).find(student))
         line = factor * key_line(key.keys[NAME].expected) + page.views["profile"].origin
         picture = rendered(curves / "students" / student / "worksheet.pdf", 1)
         draw(picture, line, page.height)
@@ -134,8 +134,8 @@ def test_a_page_on_two_taped_sheets_is_read_off_photographs_of_both(tmp_path, th
     (tmp_path / "roster.csv").write_text("id\nAnna\n")
     place = tmp_path / "course"
     make("inversion-translating", tmp_path / "roster.csv", tmp_path / "secret", place, paper="A3-tiles")
-    page = PrintedPage.from_json((place / TEACHER / PRINTED / "Anna-2.json").read_text())
-    expected = AnswerKey.from_json(AnswerKeys(place / TEACHER).find("Anna")).keys[NAME].expected
+    page = PrintedPage.from_json((place / TEACHER_FOLDER / PRINTED_FOLDER / "Anna-2.json").read_text())
+    expected = AnswerKey.from_json(AnswerKeys(place / TEACHER_FOLDER).find("Anna")).keys[NAME].expected
     pdf = place / "students" / "Anna" / "worksheet.pdf"
     picture = np.hstack([rendered(pdf, 2), rendered(pdf, 3)])
     draw(picture, key_line(expected) + page.views["profile"].origin, page.height)

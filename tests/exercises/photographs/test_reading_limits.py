@@ -34,7 +34,7 @@ READ = """
 import sys
 from pathlib import Path
 from graphcam.exercises.photographs.reading_limits import limited
-from graphcam.photo.intake import pictures_in
+from graphcam.photo.file_intake import pictures_in
 with limited(float(sys.argv[2])) as allow:
     allow(float(sys.argv[3]))
     print([found.name for found in pictures_in([Path(sys.argv[1])])])

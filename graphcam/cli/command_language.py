@@ -1,0 +1,112 @@
+"""The language in which the command line speaks: what ``--language`` says, else that of the task, else of the machine.
+
+A language whose catalog has no messages is not spoken here: half a sentence of it would be English.
+
+A task that names no language is English, as is one that names English: there the machine's counts, which is found as
+gettext finds it, in the first of LANGUAGE, LC_ALL, LC_MESSAGES and LANG that is set.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from typing import Any
+
+from graphcam.errors import GraphcamError
+from graphcam.help_texts import help_text
+from graphcam.language import ENGLISH, Language, language, languages
+from graphcam.words import Caption, Words
+
+LANGUAGE_VARIABLES = ("LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG")
+
+
+def language_of_machine(variables: Mapping[str, str] = os.environ) -> Language:
+    """The language that the variables of a machine name; English where graphcam has none of theirs.
+
+    >>> language_of_machine({"LANG": "ru_RU.UTF-8"}).name, language_of_machine({"LANG": "C.UTF-8"}).name
+    ('ru', 'en')
+    >>> language_of_machine({"LANGUAGE": "xx:ru:en", "LANG": "en_US.UTF-8"}).name
+    'ru'
+    """
+    named = next((value for name in LANGUAGE_VARIABLES if (value := variables.get(name, ""))), "")
+    for locale in named.split(":"):
+        name = locale.partition(".")[0].partition("@")[0]
+        for known in (name, name.partition("_")[0]):
+            if known in languages() and language(known).has_messages:
+                return language(known)
+    return ENGLISH
+
+
+@dataclass
+class Voice:
+    """Says texts in a language, which may be found only on the way.
+
+    chosen : the language that was asked for; empty where none was
+    """
+
+    chosen: str = ""
+    language: Language = field(default_factory=language_of_machine)
+
+    def choose(self, name: str | None) -> None:
+        """Speak the language of that name from now on; of one that is not there the command itself tells."""
+        if name in languages():
+            self.chosen = str(name)
+            self.language = language(self.chosen) if language(self.chosen).has_messages else ENGLISH
+
+    def adopt_language(self, name: str) -> None:
+        """Speak the language of a task or course, unless one was asked for or it is English, as where none is named."""
+        if not self.chosen and name in languages() and name != ENGLISH.name and language(name).has_messages:
+            self.language = language(name)
+
+    def tell(self, words: Words | GraphcamError) -> str:
+        """A text or an error in the language."""
+        return self.language.text(words.caption if isinstance(words, GraphcamError) else words)
+
+
+_voice: ContextVar[Voice] = ContextVar("voice")
+
+
+def use_machine_language() -> None:
+    """Speak the machine's language until a command knows better."""
+    _voice.set(Voice())
+
+
+def voice() -> Voice:
+    """The voice of the command that is run."""
+    if _voice.get(None) is None:
+        use_machine_language()
+    return _voice.get()
+
+
+def translated(words: Words | GraphcamError) -> str:
+    """A text in the language of the command that is run; see :meth:`Voice.tell`."""
+    return voice().tell(words)
+
+
+_helped: dict[str, Caption] = {}
+
+
+def helped(caption: Caption) -> str:
+    """A text of the help with values in it, which is known again when the help is told."""
+    _helped[str(caption)] = caption
+    return str(caption)
+
+
+def in_language_of_machine(command: Any) -> Any:
+    """A command of click, and those below it, with the first sentences of their help in the machine's language."""
+    spoken = language_of_machine()
+    if spoken != ENGLISH:
+        _translate_help(command, spoken)
+    return command
+
+
+def _translate_help(command: Any, spoken: Language) -> None:
+    first, found, rest = (command.help or "").partition("\n\n")
+    command.help = spoken.text(help_text(first)) + found + rest
+    for parameter in command.params:
+        if getattr(parameter, "help", None):
+            parameter.help = spoken.text(_helped.get(parameter.help) or help_text(parameter.help))
+    for inner in getattr(command, "commands", {}).values():
+        _translate_help(inner, spoken)

@@ -1,0 +1,182 @@
+"""The hands of students: how exactly they draw and read, one more so than another, on paper that stretches.
+
+Students differ.  Of every error a table says the least and the greatest standard deviation; who draws finely sets the
+dividers finely and reads the protractor finely too.  Paper takes up moisture, and a printer scales by a little: all
+lengths of one sheet are longer or shorter by the same part, and its angles stay.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from graphcam.drafting.acts import Floats, Kind
+from graphcam.drafting.pencil import Pencil, Stream
+from graphcam.drafting.slips import SLIPS
+from graphcam.errors import DesignError, among
+from graphcam.words import say
+
+
+class Range(NamedTuple):
+    """A range of deviations: of the finest student and of the coarsest; one number is both.
+
+    >>> Range(0.1, 0.3).middle
+    0.2
+    """
+
+    least: float
+    greatest: float
+
+    @property
+    def middle(self) -> float:
+        """The deviation of a student in the middle."""
+        return (self.least + self.greatest) / 2
+
+    def of(self, coarse: Floats) -> Floats:
+        """The deviations of students from the finest, 0, to the coarsest, 1."""
+        return self.least + coarse * (self.greatest - self.least)
+
+
+def _range(said: float | tuple[float, float]) -> Range:
+    return Range(*said) if isinstance(said, tuple) else Range(said, said)
+
+
+class Errors(NamedTuple):
+    """Standard deviations of the errors of a course's students.
+
+    line, dividers : of a line's place, of a length that dividers carry [mm]
+    division : to which a rule is read [mm]: students read to the finer or to the coarser one
+    protractor_deg : of an angle [degrees]
+    stretch : by what part of itself every length on a sheet may be longer or shorter
+    """
+
+    line: Range
+    dividers: Range
+    division: Range
+    protractor_deg: Range
+    stretch: float
+
+
+HANDS = {
+    "careful": Errors(Range(0.1, 0.2), Range(0.1, 0.2), Range(0.5, 0.5), Range(0.25, 0.5), 0.002),
+    "usual": Errors(Range(0.1, 0.3), Range(0.1, 0.3), Range(0.5, 1.0), Range(0.5, 1.0), 0.005),
+    "first-year": Errors(Range(0.2, 0.4), Range(0.2, 0.4), Range(1.0, 1.0), Range(1.0, 1.5), 0.005),
+}
+"""The hands that have a name: of practised draughtsmen with sharp pencils, of a course, and of its first weeks."""
+
+
+@dataclass(frozen=True)
+class SteadyPencil(Pencil):
+    """A :class:`~graphcam.Pencil` with the stream of random numbers that NumPy promises never to change.
+
+    Marks must not change with the version of a library, and a variant's parameters rest on them too.
+
+    >>> float(SteadyPencil(line=1.0, seed=1).stream("inversion").standard_normal(1)[0])
+    0.3506619882060858
+    """
+
+    def stream(self, construction: str) -> Stream:
+        """A stream of random numbers as of any pencil, but of the frozen generator."""
+        return np.random.RandomState([self.seed, *construction.encode()])
+
+
+@dataclass(frozen=True)
+class ManyHands(SteadyPencil):
+    """A pencil in the hands of many students, each of whom draws all of one sample.
+
+    Its own deviations are those of the coarsest hand.
+
+    errors : of the students
+    """
+
+    errors: Errors = HANDS["usual"]
+
+    @cached_property
+    def _students(self) -> Floats:
+        """What is each student's own in every sample (3, samples), each evenly from 0 to 1."""
+        assert self.samples is not None
+        return np.random.RandomState([self.seed, *b"students"]).uniform(size=(3, self.samples))
+
+    @cached_property
+    def stretch_factors(self) -> Floats:
+        """The factor by which the paper makes every sample's lengths off (samples,)."""
+        return 1 + self.errors.stretch * (2 * self._students[2] - 1)
+
+    def slips(self, kind: Kind, what: str, stream: Stream, shape: tuple[int, ...]) -> Floats:
+        """The errors of an act, every sample by its student's own deviation."""
+        off = super().slips(kind, what, stream, shape)
+        field = SLIPS[kind][what].of
+        own: Range = getattr(self.errors, "protractor_deg" if field == "protractor" else field)
+        if not own.greatest or len(shape) == 0:
+            return off
+        return off * _along_samples(own.of(self._students[0]) / own.greatest, shape)
+
+    def read_off(self, lengths: Floats) -> Floats:
+        """Lengths as they are read: by some students to the finer division, by the others to the coarser."""
+        fine, coarse = self.errors.division
+        if not coarse or not self.deviation(Kind.READ, "length"):
+            return lengths
+        division = _along_samples(np.where(self._students[1] < 0.5, fine, coarse), lengths.shape)
+        return np.where(division > 0, np.round(lengths / np.where(division > 0, division, 1.0)) * division, lengths)
+
+
+def _along_samples(of_samples: Floats, shape: tuple[int, ...]) -> Floats:
+    """Values (samples,) so that they go with arrays (samples, ...)."""
+    return of_samples.reshape(-1, *(1,) * (len(shape) - 1))
+
+
+@dataclass(frozen=True)
+class HandTable:
+    """``[hand]``: how exactly the students draw for whom the tolerances are made.
+
+    name : "careful", "usual" or "first-year"
+    line, dividers, division, protractor_deg, stretch : what is other than with these, as of :class:`Errors`; but for
+        the stretch one number, or those of the finest and of the coarsest student
+
+    >>> HandTable(line=0.15).errors.line
+    Range(least=0.15, greatest=0.15)
+    """
+
+    name: str = "usual"
+    line: float | tuple[float, float] | None = None
+    dividers: float | tuple[float, float] | None = None
+    division: float | tuple[float, float] | None = None
+    protractor_deg: float | tuple[float, float] | None = None
+    stretch: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.name not in HANDS:
+            raise DesignError("hand.name", self.name, *among(self.name, HANDS))
+        for field, said in self._own.items():
+            least, greatest = said if isinstance(said, tuple) else (said, said)
+            if not 0 <= least <= greatest < math.inf:
+                limit = say("0 or more, or the minimum and the maximum of such numbers")
+                raise DesignError(f"hand.{field}", said, limit)
+        if not self.errors.stretch < 1:
+            raise DesignError("hand.stretch", self.stretch, say("a part less than 1, such as 0.005"))
+
+    @property
+    def _own(self) -> dict[str, Any]:
+        said = {field: getattr(self, field) for field in Errors._fields}
+        return {field: value for field, value in said.items() if value is not None}
+
+    @cached_property
+    def errors(self) -> Errors:
+        """The errors of the named hand, but for what is given otherwise."""
+        own = {field: said if field == "stretch" else _range(said) for field, said in self._own.items()}
+        return HANDS[self.name]._replace(**own)
+
+    def pencil(self, samples: int, seed: int = 0) -> ManyHands:
+        """A pencil for as many students."""
+        errors = self.errors
+        return ManyHands(
+            line=errors.line.greatest,
+            dividers=errors.dividers.greatest,
+            division=errors.division.greatest,
+            protractor=math.radians(errors.protractor_deg.greatest),
+            samples=samples,
+            seed=seed,
+            errors=errors,
+        )

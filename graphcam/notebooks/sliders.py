@@ -1,0 +1,139 @@
+"""Sliders, and what stands in their place where no kernel runs: a few positions of the slider side by side."""
+
+import dataclasses
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from html import escape
+from typing import Any, Protocol, TypeVar
+
+from graphcam.errors import DesignError, nearest
+from graphcam.words import say
+
+WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
+
+
+class ShownPosition(Protocol):
+    """What a notebook shows of a position: a picture, or several things under one another."""
+
+    @property
+    def html(self) -> str:
+        """As part of a web page."""
+        ...
+
+
+@dataclass(frozen=True)
+class Slider:
+    """A quantity to be moved.
+
+    label : what it is called beside the slider
+    values : its positions
+    start : the one at which it begins
+    shown : the positions that the page shows where there is no slider; by default the start alone
+    """
+
+    label: str
+    values: Sequence[Any]
+    start: Any
+    shown: Sequence[Any] = ()
+
+
+@dataclass(frozen=True)
+class Exploration:
+    """What :func:`explore` shows: sliders in a running notebook, still pictures on a page."""
+
+    draw: Callable[..., ShownPosition]
+    sliders: dict[str, Slider]
+
+    @property
+    def html(self) -> str:
+        """The still pictures: each slider's ``shown`` positions while the others stand at their start."""
+        start = {name: slider.start for name, slider in self.sliders.items()}
+        moved = [(name, value) for name, slider in self.sliders.items() for value in slider.shown]
+        if not moved:
+            return self.draw(**start).html
+        return side_by_side(
+            {f"{self.sliders[name].label}: {value}": self.draw(**{**start, name: value}) for name, value in moved}
+        )
+
+    def _repr_mimebundle_(self, **_: object) -> dict[str, Any]:
+        still = {"text/html": self.html, "text/plain": "Sliders: " + ", ".join(s.label for s in self.sliders.values())}
+        widget = self._widget()
+        # A front end without sliders takes the page.
+        return still if widget is None else {WIDGET_VIEW: _view(widget), **still}
+
+    def _widget(self) -> Any:
+        try:
+            import ipywidgets
+        except ImportError:  # an extra, and the stills say the same
+            return None
+        picture = ipywidgets.HTML(self.draw(**{name: slider.start for name, slider in self.sliders.items()}).html)
+        shape = {"style": {"description_width": "initial"}, "layout": {"width": "32em"}, "continuous_update": False}
+        controls = {
+            name: ipywidgets.SelectionSlider(options=list(s.values), value=s.start, description=s.label, **shape)
+            for name, s in self.sliders.items()
+        }
+
+        def redraw(_: Any) -> None:
+            """Show the picture for where the sliders are now."""
+            picture.value = self.draw(**{name: control.value for name, control in controls.items()}).html
+
+        for control in controls.values():
+            control.observe(redraw, "value")
+        return ipywidgets.VBox([*controls.values(), picture])
+
+
+def side_by_side(stills: Mapping[str, ShownPosition]) -> str:
+    """Still pictures as part of a web page, each under what is said of it.
+
+    >>> from graphcam.notebooks.construction_stages import Picture
+    >>> side_by_side({"4 parts": Picture("<svg/>", "a square")})[:47]
+    '<div class="stills"><div class="still"><p>4 par'
+    """
+    cells = (f'<div class="still"><p>{escape(says)}</p>{shown.html}</div>' for says, shown in stills.items())
+    return f'<div class="stills">{"".join(cells)}</div>'
+
+
+def _view(widget: Any) -> dict[str, Any]:
+    return {"version_major": 2, "version_minor": 0, "model_id": widget.model_id}
+
+
+def explore(draw: Callable[..., ShownPosition], **sliders: Slider) -> Exploration:
+    """Move quantities and see the drawing change.
+
+    draw : makes what is shown of the sliders' values, by their names
+
+    >>> from graphcam.notebooks.construction_stages import Picture
+    >>> parts = Slider("parts", range(4, 25, 4), 12, shown=(4, 12))
+    >>> shown = explore(lambda n: Picture("<svg/>", f"{n} parts"), n=parts)
+    >>> shown.html.count("<img"), 'alt="4 parts"' in shown.html
+    (2, True)
+    """
+    return Exploration(draw, sliders)
+
+
+AnyTask = TypeVar("AnyTask")
+
+
+def changed_task(task: AnyTask, values: Mapping[str, Any]) -> AnyTask:
+    """The task with other values, named as in its file: "drawing.divisions", "follower.offset", "rotation".
+
+    >>> import graphcam as gc
+    >>> changed_task(gc.builtin_task(), {"follower.offset": 12.0, "rotation": "ccw"}).follower.offset
+    12.0
+
+    Raises
+    ------
+    DesignError : the task has no such key, or its value cannot be
+    """
+    for name, value in values.items():
+        task = _replaced(task, name, name.split("."), value)
+    return task
+
+
+def _replaced(table: Any, name: str, path: list[str], value: Any) -> Any:
+    known = [field.name for field in dataclasses.fields(table) if field.init]
+    if path[0] not in known:
+        raise DesignError("key", name, say("one of the task"), nearest(path[0], known))
+    if path[1:]:
+        value = _replaced(getattr(table, path[0]), name, path[1:], value)
+    return dataclasses.replace(table, **{path[0]: value})

@@ -1,0 +1,224 @@
+"""From marks to entities: dimensions, arrows, angles and hatching become lines, arcs, triangles and texts."""
+
+import cmath
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphcam.drafting import marks
+from graphcam.drafting.marks import Points, Role
+from graphcam.sheets.formats import Lettering
+from graphcam.sheets.label_candidates import LabelText, label_along, label_around, label_over, outside, unit
+from graphcam.sheets.model import Angle, ArcEntity, ArrowHeads, Circles, Curve, Entity, Length, Source, Stroke, Strokes
+from graphcam.sheets.styles import STYLES_BY_ROLE
+from graphcam.sheets.text_measures import extent
+from graphcam.words import Tell
+
+DOT_RADIUS = 0.75
+"""Radius of the small open circle that marks a plotted point, mm."""
+MIN_SMOOTH_POINTS = 40
+"""A closed bold line through at least so many points is drawn as a smooth curve: nobody draws such a polygon."""
+SAME_POINT = 1e-6
+"""Points so close together are one, mm."""
+EXTENSION_GAP, EXTENSION_OVERRUN = 1.0, 2.0
+"""Extension lines begin so far from what they measure and run so far beyond the dimension line, mm."""
+MIN_INNER_HEADS, TAIL_LENGTH = 9.0, 6.0
+"""A shorter dimension line has its heads outside, on tails of this length, mm."""
+MIN_DISTANCE = 6.0
+"""A dimension line comes no nearer to what it measures when it is shown reduced, mm."""
+HATCHING_SPACING = 3.0
+"""Between the lines of hatching, mm."""
+MAX_HATCHING_LINES = 2000
+"""Of a hatching: more than the largest sheet holds; what is larger than any sheet gets wider ones."""
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Where a view stands: its origin on the page, and the factor by which it is shown reduced."""
+
+    origin: complex
+    factor: float = 1.0
+
+    def __call__(self, points: Points) -> Points:
+        """Points of the view on the page."""
+        return self.origin + self.factor * np.asarray(points, dtype=np.complex128)
+
+    def point(self, at: complex) -> complex:
+        """One point of the view on the page."""
+        return self.origin + self.factor * complex(at)
+
+
+Drawn = tuple[list[Entity], list[LabelText]]
+"""Entities, and the texts that still have to find their place."""
+
+
+def expand(step_marks: Iterable[marks.Mark], place: Placement, letters: Lettering, tell: Tell = str) -> Drawn:
+    """The entities of marks, and the texts, as ``tell`` says them, that still have to find their place."""
+    drawn = [_sourced(mark, *_expanded(mark, place, letters, tell)) for mark in step_marks]
+    return [e for entities, _ in drawn for e in entities], [writing for _, writings in drawn for writing in writings]
+
+
+def _sourced(mark: marks.Mark, entities: list[Entity], writings: list[LabelText]) -> Drawn:
+    """The entities with what the mark shows, where it is not known in more detail."""
+    if mark.of is None:
+        return entities, writings
+    source = Source(mark.of, mark.index)
+    return (
+        [entity if entity.source else replace(entity, source=source) for entity in entities],
+        [replace(writing, source=source) for writing in writings],
+    )
+
+
+def _source_of_pieces(mark: marks.Line | marks.Segments, kept: NDArray[np.bool_]) -> Source | None:
+    """What a mark shows, of some of its pieces alone."""
+    if mark.of is None:
+        return None
+    return Source(mark.of, None if mark.index is None else mark.index[kept])
+
+
+def _expanded(mark: marks.Mark, place: Placement, letters: Lettering, tell: Tell) -> Drawn:
+    match mark:
+        case marks.Line():
+            return _line(mark, place), []
+        case marks.Segments():
+            starts, ends = place(mark.starts), place(mark.ends)
+            long = np.abs(ends - starts) > SAME_POINT
+            strokes = Strokes(starts[long], ends[long], mark.role, _source_of_pieces(mark, long))
+            return [strokes] if np.any(long) else [], []
+        case marks.Circle():
+            return [Circles(np.array([place.point(mark.centre)]), mark.radius * place.factor, mark.role)], []
+        case marks.Arc():
+            return _arc(mark, place), []
+        case marks.Dots():
+            # A curve runs on through the points that it is drawn through, and ends at pivots and centres.
+            opaque = mark.role is not Role.CONSTRUCTION
+            return [Circles(np.atleast_1d(place(mark.points)), DOT_RADIUS, mark.role, opaque=opaque)], []
+        case marks.Arrow():
+            return arrow(place.point(mark.start), place.point(mark.end), mark.role), []
+        case marks.Label():
+            height = letters.small if mark.small else letters.label
+            return [], [label_around(place.point(mark.at), tell(mark.text), height, mark.towards)]
+        case marks.Dimension():
+            return _dimension(mark, place, tell(mark.text), letters.label)
+        case marks.AngleMark():
+            return _angle(mark, place, tell(mark.text), letters.label)
+        case marks.Region():
+            # Where nothing is permitted nothing is hatched.
+            return [hatch(place(mark.boundary))] if np.size(mark.boundary) else [], []
+
+
+def _line(mark: marks.Line, place: Placement) -> list[Entity]:
+    points = place(mark.points)
+    # A repeated point would make a piece of no length.
+    following = np.roll(points, -1) if mark.closed else np.append(points[1:], np.inf)
+    apart = np.abs(following - points) > SAME_POINT
+    points, source = points[apart], _source_of_pieces(mark, apart)
+    if len(points) < 2:
+        return []
+    if mark.closed and mark.role is Role.RESULT and len(points) >= MIN_SMOOTH_POINTS:
+        return [Curve(points, mark.role, source)]
+    return [Stroke(points, mark.role, mark.closed, source)]
+
+
+def _head_length(role: str) -> float:
+    return 3.0 + 3.0 * STYLES_BY_ROLE[role].width
+
+
+def head(tip: complex, direction: complex, role: str) -> ArrowHeads:
+    """A slim arrow head with its ``tip``, pointing in the ``direction``; longer on bolder lines."""
+    back = -_head_length(role) * direction / abs(direction)
+    return ArrowHeads(np.array([[tip, tip + back * (1 + 0.16j), tip + back * (1 - 0.16j)]]), role)
+
+
+def arrow(start: complex, end: complex, role: str) -> list[Entity]:
+    """A line with a head at its end; without length it is nothing."""
+    way = end - start
+    if way == 0 or not cmath.isfinite(way):
+        return []
+    # The line stops behind the tip, so that a bold one does not blunt it.
+    tip = end - 1.5 * STYLES_BY_ROLE[role].width * way / abs(way)
+    return [Strokes(np.array([start]), np.array([tip]), role), head(end, way, role)]
+
+
+def _arc(mark: marks.Arc, place: Placement) -> list[Entity]:
+    centre, radius = place.point(mark.centre), mark.radius * place.factor
+    drawn: list[Entity] = [ArcEntity(centre, radius, mark.start, mark.end, mark.role)]
+    if mark.arrow:
+        drawn.append(_arc_head(centre, radius, mark.end if mark.arrow == "end" else mark.start, mark.arrow, mark.role))
+    return drawn
+
+
+def _arc_head(centre: complex, radius: float, at: float, end: str, role: str) -> ArrowHeads:
+    """A head at the direction ``at`` of an arc.  It lies on the chord, so that it does not leave the arc."""
+    sense = 1 if end == "end" else -1
+    half = min(1.0, _head_length(role) / (2 * radius))
+    return head(centre + cmath.rect(radius, at), sense * 1j * cmath.rect(1.0, at - sense * half), role)
+
+
+def _dimension(mark: marks.Dimension, place: Placement, text: str, height: float) -> Drawn:
+    """Extension lines, the dimension line with its heads (from outside where there is no room), and its text."""
+    start, end = place.point(mark.start), place.point(mark.end)
+    direction, length = unit(end - start), abs(end - start)
+    # Shown reduced, the line comes nearer too, but not so near that its text would touch what it measures.
+    distance = math.copysign(min(abs(mark.aside), max(MIN_DISTANCE, place.factor * abs(mark.aside))), mark.aside)
+    aside = 1j * direction * distance
+    foot, tip = start + aside, end + aside
+    drawn: list[Entity] = []
+    if abs(distance) > EXTENSION_GAP:
+        away, origins = aside / abs(aside), np.array([start, end])
+        drawn.append(
+            Strokes(origins + EXTENSION_GAP * away, origins + aside + EXTENSION_OVERRUN * away, Role.DIMENSION)
+        )
+    tail, outwards = (0.0, direction) if length >= MIN_INNER_HEADS else (TAIL_LENGTH, -direction)
+    line = np.array([foot - tail * direction, tip + tail * direction])
+    drawn.append(Strokes(line[:1], line[1:], Role.DIMENSION))
+    drawn += [head(foot, -outwards, Role.DIMENSION), head(tip, outwards, Role.DIMENSION)]
+    standing = label_along if extent(text, height)[0] + 1.0 <= length else label_over
+    return drawn, [replace(standing(foot, tip, text, height), of=Length(start, end, foot, tuple(drawn)))]
+
+
+def _angle(mark: marks.AngleMark, place: Placement, text: str, height: float) -> Drawn:
+    """An arc with heads at both ends (from outside where there is no room) and its text beyond the middle."""
+    centre, radius = place.point(mark.centre), mark.radius * place.factor
+    start, end = sorted((mark.start, mark.end))
+    tail, at_start, at_end = (0.0, "start", "end")
+    if (end - start) * radius < MIN_INNER_HEADS:
+        tail, at_start, at_end = TAIL_LENGTH / radius, "end", "start"
+    drawn: list[Entity] = [
+        ArcEntity(centre, radius, start - tail, end + tail, Role.DIMENSION),
+        _arc_head(centre, radius, start, at_start, Role.DIMENSION),
+        _arc_head(centre, radius, end, at_end, Role.DIMENSION),
+    ]
+    writing = outside(centre, radius, start, end, text, height)
+    return drawn, [replace(writing, of=Angle(centre, radius, start, end, tuple(drawn)))]
+
+
+def hatch(boundary: Points, spacing: float = HATCHING_SPACING) -> Strokes:
+    """Lines at 45 degrees inside a polygon (n,), which may have notches.
+
+    Every line runs inside from an odd crossing of the outline to the next one.
+
+    >>> square = np.array([0, 10, 10 + 10j, 10j])
+    >>> lines = hatch(square, spacing=5.0)
+    >>> bool(np.all(np.abs(lines.ends - lines.starts) < 14.15))
+    True
+    """
+    # Turned by -45 degrees the lines of hatching lie level, at heights that are whole multiples of the spacing.
+    turn = cmath.rect(1.0, -math.pi / 4)
+    corners = np.asarray(boundary, dtype=np.complex128) * turn
+    nexts = np.roll(corners, -1)
+    spacing = max(spacing, float(np.ptp(corners.imag)) / MAX_HATCHING_LINES)
+    low, high = math.floor(corners.imag.min() / spacing), math.ceil(corners.imag.max() / spacing)
+    starts: list[complex] = []
+    ends: list[complex] = []
+    for level in spacing * np.arange(low, high + 1):
+        # A corner on the line belongs to the side above it, so crossings come in pairs.
+        cut = (corners.imag <= level) != (nexts.imag <= level)
+        a, b = corners[cut], nexts[cut]
+        x = np.sort(a.real + (level - a.imag) * (b.real - a.real) / (b.imag - a.imag))
+        starts += list(x[::2] + 1j * level)
+        ends += list(x[1::2] + 1j * level)
+    return Strokes(np.array(starts, dtype=complex) / turn, np.array(ends, dtype=complex) / turn, Role.HATCH)

@@ -1,0 +1,193 @@
+"""Pages while they are being filled: their free room, and the empty parts of diagrams, where tables may stand."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cache, cached_property
+from itertools import product
+
+from graphcam.sheets.formats import Format
+from graphcam.sheets.model import Box, bounding_box
+from graphcam.sheets.packing import Preference, Room, middle, prefer_high
+from graphcam.sheets.sheet_frame import taken_boxes
+from graphcam.sheets.tables import Block
+from graphcam.sheets.view_panels import LABEL_MARGIN, Panel, are_disjoint, shares, stand
+
+FRAME_MARGIN = 4.0
+"""Free margin along the frame, mm; the air about a view is a part of it."""
+BOX_MARGIN = FRAME_MARGIN - LABEL_MARGIN
+"""What is left of it beside boxes that have air of their own, mm."""
+
+
+@cache
+def free_rooms(sheet: Format) -> tuple[tuple[float, float], ...]:
+    """Widths and heights [mm] of the largest boxes that a page takes beside what it bears itself, the widest first.
+
+    The boxes are those of views, with their air.
+
+    >>> free_rooms(Format("A3", "gost"))
+    ((393.0, 216.0), (323.0, 230.0), (208.0, 258.0), (138.0, 272.0), (96.0, 285.0))
+    """
+    inside, own = sheet.content.grown(-BOX_MARGIN), taken_boxes(sheet, BOX_MARGIN)
+    sides = product([inside.left, *(box.right for box in own)], [inside.right, *(box.left for box in own)])
+    rooms = [(right - left, _highest(inside, left, right, own)) for left, right in sides if right > left]
+    larger = [any(w >= wide and h >= high and (w, h) != (wide, high) for w, h in rooms) for wide, high in rooms]
+    return tuple(sorted({room for room, other in zip(rooms, larger, strict=True) if not other}, reverse=True))
+
+
+def _highest(inside: Box, left: float, right: float, kept: Sequence[Box]) -> float:
+    """The height of the largest free part of a strip between two uprights."""
+    across = sorted((box for box in kept if box.left < right and left < box.right), key=lambda box: box.bottom)
+    level, highest = inside.bottom, 0.0
+    for box in across:
+        highest, level = max(highest, box.bottom - level), max(level, box.top)
+    return max(highest, inside.top - level)
+
+
+@dataclass(frozen=True, eq=False)
+class ViewRun:
+    """Views that stand together on a page, at their origins.
+
+    gap : between them, mm; half of it is kept free about them where it is more than their air
+    closely : whether others may stand in the corners of their boxes, beyond their outlines
+    """
+
+    views: Sequence[Panel]
+    origins: Sequence[complex]
+    gap: float = 0.0
+    closely: bool = False
+
+    @cached_property
+    def boxes(self) -> list[Box]:
+        """The boxes that cover the views with their titles: one for each, or many that follow its outline."""
+        standing = list(zip(self.views, self.origins, strict=True))
+        if self.closely:
+            return [box.moved(origin) for panel, origin in standing for box in panel.outline]
+        return [panel.box.moved(origin) for panel, origin in standing]
+
+
+@dataclass(eq=False)
+class EmptyPart:
+    """The empty parts of a diagram, which are found when a table is to stand in them.
+
+    seen : how many of the boxes on the page it knows, at first those that were there before it
+    """
+
+    panel: Panel
+    origin: complex
+    seen: int
+    found: Room | None = None
+
+    def find(self, box: Box, taken: Sequence[Box]) -> complex | None:
+        """The move of a box into what the boxes on the page leave of the part; None if there is no room."""
+        if self.panel.hollow.find([box], prefer_high) is None:
+            return None
+        if self.found is None:
+            self.found = self.panel.hollow.copy(self.origin)
+        for other in taken[self.seen :]:
+            self.found.take(other)
+        self.seen = len(taken)
+        return self.found.find([box], prefer_high)
+
+
+@dataclass(eq=False)
+class OpenPage:
+    """A page while it is being filled.
+
+    taken : the boxes of all that stands on it, with the air about it
+    """
+
+    sheet: Format
+    room: Room
+    parts: list[EmptyPart] = field(default_factory=list[EmptyPart])
+    taken: list[Box] = field(default_factory=list[Box])
+    views: dict[str, tuple[Panel, complex]] = field(default_factory=dict[str, tuple[Panel, complex]])
+    blocks: list[tuple[Block, complex]] = field(default_factory=list[tuple[Block, complex]])
+
+    def copy(self) -> OpenPage:
+        """A copy of the page, to be filled in another way."""
+        parts = [replace(part, found=part.found and part.found.copy()) for part in self.parts]
+        return OpenPage(self.sheet, self.room.copy(), parts, list(self.taken), dict(self.views), list(self.blocks))
+
+    def put_views(self, run: ViewRun, by: complex) -> None:
+        """Put views that stand together, moved ``by`` x + iy."""
+        for box in run.boxes:
+            self._take(box.moved(by), max(run.gap, 0.0) / 2)
+        for panel, origin in zip(run.views, run.origins, strict=True):
+            self.views[panel.view.name] = panel, origin + by
+            if len(run.views) > 1:
+                self.parts.append(EmptyPart(panel, origin + by, len(self.taken)))
+
+    def put_block(self, block: Block, by: complex) -> None:
+        """Put a table or notes."""
+        self._take(block.box.moved(by).grown(LABEL_MARGIN))
+        self.blocks.append((block, by))
+
+    def _take(self, box: Box, margin: float = 0.0) -> None:
+        self.taken.append(box)
+        self.room.take(box.grown(margin))
+
+    def shares(self, views: Iterable[Panel]) -> bool:
+        """Whether one of the views shares an axis with one on the page."""
+        return any(shares(view, (panel for panel, _ in self.views.values())) for view in views)
+
+    def find(self, boxes: Sequence[Box], preference: Preference) -> complex | None:
+        """The move of boxes which stand together into free room; None if there is none."""
+        # With their corner on the grid on which room is sought they touch the fewest of its cells.
+        to_grid = self.room.corner - bounding_box(boxes).corner
+        by = self.room.find([box.moved(to_grid) for box in boxes], preference)
+        return None if by is None else by + to_grid
+
+    def find_for(self, block: Block, preference: Preference) -> complex | None:
+        """The move of a table into an empty part of a diagram or beside the views; None without room."""
+        box = block.box.grown(LABEL_MARGIN)
+        for part in self.parts:
+            if (by := part.find(box, self.taken)) is not None:
+                return by
+        return self.find([box], preference)
+
+    @property
+    def used(self) -> float:
+        """The part of the frame's inside that views with their titles, tables and what every sheet has cover."""
+        views = [panel.box.moved(origin) for panel, origin in self.views.values()]
+        blocks = [block.box.moved(at) for block, at in self.blocks]
+        area = kept_area(self.sheet) + sum(box.area for box in (*views, *blocks))
+        # Tables may stand in the empty parts of diagrams.
+        area -= sum(view.common(block) for view in views for block in blocks)
+        return area / self.sheet.content.area
+
+    def centred(self) -> OpenPage:
+        """The page with all that stands on it moved together, so that what is left empty lies around it."""
+        by = blank(self.sheet).find(self.taken, middle) if self.taken else 0j
+        if not by:
+            return self
+        views = {name: (panel, origin + by) for name, (panel, origin) in self.views.items()}
+        blocks = [(block, at + by) for block, at in self.blocks]
+        return OpenPage(self.sheet, self.room, [], [box.moved(by) for box in self.taken], views, blocks)
+
+
+def blank(sheet: Format) -> OpenPage:
+    """An empty page."""
+    return OpenPage(sheet, _blank_room(sheet).copy())
+
+
+@cache
+def _blank_room(sheet: Format) -> Room:
+    """The room of an empty sheet; it is looked into, and copied to be taken."""
+    return Room(sheet.content.grown(-BOX_MARGIN), taken_boxes(sheet, BOX_MARGIN))
+
+
+@cache
+def kept_area(sheet: Format) -> float:
+    """The area of the boxes inside the frame that every sheet needs, mm²."""
+    return sum(box.area for box in taken_boxes(sheet, 0.0))
+
+
+def fits_on_sheet(sheet: Format, views: Sequence[Panel], gap: float) -> bool:
+    """Whether views with a gap between them have room on an empty sheet."""
+    boxes = ViewRun(views, stand(views, gap)).boxes
+    # The air of neighbours may overlap where there is little.
+    return (
+        are_disjoint([box.grown(min(gap, 0.0)) for box in boxes]) and blank(sheet).find(boxes, prefer_high) is not None
+    )

@@ -1,0 +1,178 @@
+"""What the exact side warns of: a profile that cannot be cut, limits that are not kept."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from graphcam.constructions.board import Board
+from graphcam.constructions.chain import Chain
+from graphcam.drafting.scale import Scale, ratio_from_text, ratio_text
+from graphcam.errors import DesignError
+from graphcam.mechanism.cam import Cam, largest_roller
+from graphcam.mechanism.undercut import Undercut
+from graphcam.tasks.task import Task
+from graphcam.words import Caption, say, sequence
+
+PRINT_ROUNDING = 0.005
+"""mm or degrees: what differs by less does not differ in print."""
+ENLARGE_REMEDY = say("Enlarge the prime radius.")
+MAX_METRES_LIFT = 0.2
+"""A lift below so many mm looks like metres."""
+MAX_RADIANS_LIFT = 1.0
+"""A lift below so many degrees looks like radians."""
+
+
+@dataclass(frozen=True)
+class Caution:
+    """A sentence on what is wrong, and where it is seen.
+
+    of : what is not as it should be
+    phi : the cam angles [rad] there
+    alpha : the pressure angle there [rad], of one that exceeds its limit
+    """
+
+    said: Caption
+    of: Literal[
+        "profile", "pressure angle", "prime radius", "roller radius", "face", "contact", "contact stress", "rounding",
+        "unit", "scale",
+    ]  # fmt: skip
+    phi: tuple[float, ...] = ()
+    alpha: float | None = None
+
+
+def warnings_of(cam: Cam, board: Board, least_prime_radius: float) -> list[Caution]:
+    """What is to be warned of, the gravest first; nothing for a sound cam.
+
+    cam : as it was adopted;  board : what was given;  least_prime_radius : the exact one of the task [mm]
+    """
+    return [*_undercut(cam), *_limits(cam, board), *_prime_radius(board, least_prime_radius)]
+
+
+def _undercut(cam: Cam) -> Iterator[Caution]:
+    try:
+        lost = cam.undercuts()
+    except DesignError:
+        remedy = ENLARGE_REMEDY
+        if cam.kinematics.takes_roller:
+            remedy = say("Take a roller well below {radius} mm.", radius=_rounded_down(largest_roller(cam)))
+        said = say("The profile cannot be cut: its undercut consists of loops that cannot be told apart. {remedy}")
+        yield Caution(said.where(remedy=remedy), "profile")
+        return
+    if not lost:
+        return
+    too_large = (
+        say("with a roller of {radius:g} mm", radius=cam.roller_radius)
+        if cam.kinematics.takes_roller
+        else say("by the flat face on a prime radius of {radius:g} mm", radius=cam.prime_radius)
+    )
+    said = say("The profile cannot be cut {cause}: it is undercut {where}. {remedy}")
+    where = sequence([_undercut_place(part) for part in lost], "; ")
+    corners = tuple(part.crossing[0] for part in lost)
+    yield Caution(said.where(cause=too_large, where=where, remedy=_remedy(cam, lost)), "profile", corners)
+
+
+def _undercut_place(part: Undercut) -> Caption:
+    if part.is_cusp:
+        return say("to an edge at {phi}", phi=_degrees(part.cusps[0]))
+    lost = {name: _degrees(phi) for name, phi in zip(("start", "end"), part.crossing, strict=False)}
+    if not part.cusps:
+        return say("where its flanks meet, and is lost from {start} to {end}", **lost)
+    return say(
+        "between the cusps at {first} and {last}, and is lost from {start} to {end}",
+        first=_degrees(part.cusps[0]),
+        last=_degrees(part.cusps[-1]),
+        **lost,
+    )
+
+
+def _remedy(cam: Cam, lost: list[Undercut]) -> Caption:
+    if not cam.kinematics.takes_roller:
+        return ENLARGE_REMEDY
+    if any(part.cusps for part in lost):
+        return say("Every roller smaller than {radius} mm avoids the cusps.", radius=_rounded_down(largest_roller(cam)))
+    return say("Take a smaller roller or a larger prime radius.")
+
+
+EXCEEDED_WARNINGS = {
+    "rise": say("The pressure angle reaches {alpha:.2f}° on the rise, at {phi}; {limit:g}° are permitted."),
+    "return": say("The pressure angle reaches {alpha:.2f}° on the return, at {phi}; {limit:g}° are permitted."),
+}
+
+
+def _limits(cam: Cam, board: Board) -> Iterator[Caution]:
+    for word, alpha, phi, limit in angles_exceeded(cam, board, PRINT_ROUNDING):
+        values = {"alpha": abs(math.degrees(alpha)), "phi": _degrees(phi), "limit": math.degrees(limit)}
+        yield Caution(replace(EXCEEDED_WARNINGS[word], values=values), "pressure angle", (phi,), alpha)
+
+
+def angles_exceeded(cam: Cam, board: Board, slack: float) -> Iterator[tuple[str, float, float, float]]:
+    """The phases whose pressure angle exceeds its limit by more than ``slack`` [degrees]: their kind, then radians.
+
+    returns : "rise" or "return", the pressure angle, the cam angle there, and the limit
+    """
+    extremes, limits = cam.extremes(), board.limits
+    for word, (alpha, phi), limit in (
+        ("rise", extremes.pressure_angle_rise, limits.rise),
+        ("return", extremes.pressure_angle_return, limits.return_),
+    ):
+        at_rest = word == "rise" and alpha < 0 and not limits.rest  # the angle at the low rest, which is not limited
+        if limit is not None and not at_rest and math.degrees(abs(alpha) - limit) > slack:
+            yield word, alpha, phi, limit
+
+
+def _prime_radius(board: Board, least: float) -> Iterator[Caution]:
+    given = board.prime_radius
+    if given is not None and given < least - PRINT_ROUNDING:
+        said = say("The given prime radius of {given:g} mm is smaller than the minimum permitted one, {least:.2f} mm.")
+        yield Caution(said.where(given=given, least=least), "prime radius")
+
+
+def unit_slips(task: Task) -> Iterator[Caution]:
+    """The sentences on values that look as if they were given in another unit, though they make a cam."""
+    swings = task.follower.swings and task.follower.column == "s_deg"
+    lift = task.motion().lift / task.follower.lift_unit
+    if swings and lift < MAX_RADIANS_LIFT:
+        said = say("The lift of {lift:g}° looks like radians: if so, give {meant:.3g}, in degrees.")
+        yield Caution(said.where(lift=lift, meant=math.degrees(lift)), "unit")
+    elif not swings and lift < MAX_METRES_LIFT:
+        said = say("The lift of {lift:g} mm looks like metres: if so, give {meant:g}, in mm.")
+        yield Caution(said.where(lift=lift, meant=1000 * lift), "unit")
+    if slip := task.limits().slip():
+        said = say(
+            "The permitted pressure angle of {angle:g}° looks like radians: if so, give {meant:.3g}, in degrees."
+        )
+        yield Caution(said.where(angle=slip[1], meant=math.degrees(slip[1])), "unit")
+
+
+def title_scale(task: Task, drawn: Scale) -> Iterator[Caution]:
+    """The sentence on a scale in the title block at which the cam's profile is not drawn."""
+    said = ratio_from_text(task.title.scale or "")
+    if said is not None and not math.isclose(said, drawn.per_mm):
+        text = say(
+            "The title block says {said}, but the profile is drawn at {drawn}: title.scale only fills the title block; "
+            "drawing.profile_scale draws the profile larger or smaller."
+        )
+        yield Caution(text.where(said=ratio_text(said), drawn=ratio_text(drawn.per_mm)), "scale")
+
+
+def less_round(chain: Chain) -> list[Caution]:
+    """The sentence on sizes that are no multiples of the rounding, because none of them goes with another."""
+    if chain.rounded:
+        return []
+    said = say(
+        "No combination of multiples of {rounding:g} mm stays within the permitted pressure angles: the prime "
+        "radius {radius:g} mm with the centre distance {distance:g} mm is adopted.",
+        rounding=chain.rounding,
+        radius=chain.prime_radius,
+        distance=chain.place,
+    )
+    return [Caution(said, "rounding")]
+
+
+def _degrees(phi: float) -> Caption:
+    return say("{phi:.2f}°", phi=math.degrees(phi))
+
+
+def _rounded_down(length: float) -> Caption:
+    return say("{length:.3f}", length=math.floor(length * 1000) / 1000)

@@ -1,0 +1,298 @@
+"""What stays while the hand is down, and solving a task on the board that is held, once while nothing changes.
+
+The hold goes to the page with every answer, and comes back with the next request while a handle is dragged.  So the
+engine keeps nothing itself, and any engine can go on where another one was.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
+from typing import Any
+
+from graphcam.constructions.board import Board
+from graphcam.constructions.pressure_angle import shown_station
+from graphcam.constructions.views import REGION
+from graphcam.drafting.ink import Construction
+from graphcam.errors import DesignError
+from graphcam.given.motion import Motion, Rise
+from graphcam.sheets.labels import LabelPlace
+from graphcam.sheets.model import Box
+from graphcam.solving.arcs_solution import AnySolution, solve_arcs
+from graphcam.solving.diagram_sizes import DrawnHeights
+from graphcam.solving.solution import Solution, solved_on
+from graphcam.solving.task_board import board_of
+from graphcam.studio.views_request import pencil_in, task_in
+from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.task import Task
+from graphcam.words import say
+
+MAX_HEIGHT = 2000.0
+"""The maximum height of the diagrams and of every view [mm of paper]; no sheet takes a fifth of it."""
+
+
+PLACE_DECIMALS = 3
+"""Decimals of places [mm] and of angles [rad]: a thousandth is not seen."""
+Plain = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class HeldView:
+    """What a view keeps.
+
+    frame : the box that is shown, y upwards [mm]
+    drawn_by, settled_by : the constructions that draw in it, and those that settle its scale
+    labels : where its labels stand, by their names
+    """
+
+    frame: Box
+    drawn_by: tuple[str, ...]
+    settled_by: tuple[str, ...]
+    labels: Mapping[str, LabelPlace]
+
+    def plain(self) -> Plain:
+        """The held view as plain data."""
+        labels = {
+            name: [*_rounded_place(at.centre), round(at.angle, PLACE_DECIMALS)] for name, at in self.labels.items()
+        }
+        corners = [self.frame.left, self.frame.bottom, self.frame.right, self.frame.top]
+        constructions = {"drawn": list(self.drawn_by), "settled": list(self.settled_by)}
+        return {"frame": corners, **constructions, "labels": labels}
+
+
+@dataclass(frozen=True)
+class HeldDiagrams:
+    """What the diagrams over the cam angle keep, so that their scales stay.
+
+    ordinate : of the first rise [mm of paper], at the greatest acceleration ``peak``
+    poles : [mm of paper]
+    asked : the ordinate and the poles that the task gave then, None for what it left open
+    """
+
+    ordinate: float
+    peak: float
+    poles: tuple[float, float]
+    asked: tuple[float | None, tuple[float, float] | None]
+
+    def plain(self) -> Plain:
+        """The held diagrams as plain data."""
+        asked = [self.asked[0], self.asked[1] and list(self.asked[1])]
+        return {"ordinate": self.ordinate, "peak": self.peak, "poles": list(self.poles), "asked": asked}
+
+
+@dataclass(frozen=True)
+class DragHold:
+    """What an answer leaves to the next one.
+
+    scales : that views keep [mm/mm], by name;  diagrams : what the diagrams keep; a cam of arcs has none of these
+    station : whose velocity plan is drawn
+    views : by name and by whether they have labels
+    names : what the answer says of all views of the task
+    """
+
+    scales: Mapping[str, float] = field(default_factory=dict[str, float])
+    diagrams: HeldDiagrams | None = None
+    station: int | None = None
+    views: Mapping[str, HeldView] = field(default_factory=dict[str, HeldView])
+    names: tuple[Plain, ...] = ()
+
+    def plain(self) -> Plain:
+        """The hold as plain data."""
+        return {
+            "scales": dict(self.scales),
+            "diagrams": self.diagrams and self.diagrams.plain(),
+            "station": self.station,
+            "views": {key: view.plain() for key, view in self.views.items()},
+            "names": list(self.names),
+        }
+
+    def needs(self, keys: Iterable[str]) -> tuple[set[str], set[str]] | None:
+        """The constructions that draw in the views of these keys, and others that settle their scales.
+
+        It is None if one of the views is not known.
+        """
+        views = [self.views.get(key) for key in keys]
+        if any(view is None for view in views):
+            return None
+        drawing = {name for view in views if view for name in view.drawn_by}
+        return drawing, {name for view in views if view for name in view.settled_by} - drawing
+
+
+def hold_of(data: Mapping[str, Any]) -> DragHold:
+    """What an earlier answer left, from its plain data.
+
+    Raises
+    ------
+    DesignError : they are not what an answer left
+
+    >>> hold_of(DragHold(scales={"profile": 0.5}).plain()).scales
+    {'profile': 0.5}
+    """
+    try:
+        return _hold(data)
+    except (TypeError, ValueError, KeyError, AttributeError):
+        raise DesignError("hold", say("unknown data"), say("what an earlier answer left, or left out")) from None
+
+
+def _hold(data: Mapping[str, Any]) -> DragHold:
+    diagrams, names = data["diagrams"], tuple(_name(each) for each in data["names"])
+    scales = {str(name): _positive_number(scale) for name, scale in data["scales"].items()}
+    views = {str(key): _view(view) for key, view in data["views"].items()}
+    station = None if data["station"] is None else int(data["station"])
+    return DragHold(scales, None if diagrams is None else _diagrams(diagrams), station, views, names)
+
+
+def _view(data: Mapping[str, Any]) -> HeldView:
+    left, bottom, right, top = map(_finite, data["frame"])
+    labels = {
+        str(name): LabelPlace(complex(_finite(x), _finite(y)), _finite(angle))
+        for name, (x, y, angle) in data["labels"].items()
+    }
+    frame = Box(left, bottom, right, top)
+    return HeldView(frame, tuple(map(str, data["drawn"])), tuple(map(str, data["settled"])), labels)
+
+
+def _diagrams(data: Mapping[str, Any]) -> HeldDiagrams:
+    first, second = map(_positive_number, data["poles"])
+    ordinate, poles = data["asked"]
+    asked = None if ordinate is None else _positive_number(ordinate), None if poles is None else _pair(poles)
+    return HeldDiagrams(_positive_number(data["ordinate"]), _positive_number(data["peak"]), (first, second), asked)
+
+
+def _pair(values: Iterable[Any]) -> tuple[float, float]:
+    first, second = map(_positive_number, values)
+    return first, second
+
+
+def _name(data: Mapping[str, Any]) -> Plain:
+    return {
+        **{key: str(data[key]) for key in ("name", "title", "short")},
+        "steps": int(data["steps"]),
+    }
+
+
+def _finite(value: Any) -> float:
+    """A number, or an error that :func:`hold_of` tells."""
+    number = float(value)
+    if not abs(number) < MAX_DISTANCE:
+        raise ValueError(value)
+    return number
+
+
+MAX_DISTANCE = 1e9
+"""No place on paper is farther away [mm], and no scale coarser."""
+
+
+def _positive_number(value: Any) -> float:
+    number = _finite(value)
+    if not number > 1 / MAX_DISTANCE:
+        raise ValueError(value)
+    return number
+
+
+def _rounded_place(at: complex) -> tuple[float, float]:
+    return round(at.real, PLACE_DECIMALS) + 0.0, round(at.imag, PLACE_DECIMALS) + 0.0
+
+
+def is_usable_scale(value: float) -> bool:
+    """Whether a scale can be kept."""
+    return math.isfinite(value) and 1 / MAX_DISTANCE < value < MAX_DISTANCE
+
+
+def held_solution(
+    task: dict[str, Any], spoken: str = "en", hold: DragHold | None = None, station: int | None = None
+) -> AnySolution:
+    """The solution of a task in plain data, its constructions drawn when they are first asked for.
+
+    spoken : the language of its texts;  hold : what its drawing keeps
+    station : whose velocity plan is asked for
+
+    Raises
+    ------
+    GraphcamError : it is no task, or there is no such cam
+    """
+    kept = {} if hold is None else replace(hold, views={}, names=()).plain()
+    return _cached_solution(json.dumps(task), spoken, json.dumps(kept), station)
+
+
+# Views of one task are asked for one after another, and a drag is told from where the hand took hold.
+@lru_cache(maxsize=8)
+def _cached_solution(task: str, spoken: str, kept: str, station: int | None) -> AnySolution:
+    data, held = json.loads(task), json.loads(kept)
+    given, pencil, hold = task_in(data, spoken), pencil_in(data), hold_of(held) if held else DragHold()
+    if isinstance(given, ArcsTask):
+        return solve_arcs(given, pencil, hold.scales)
+    board = held_board(board_of(given), given, hold)
+    check_heights(board)
+    return solved_on(board if station is None else replace(board, station=station), given, pencil)
+
+
+def check_heights(board: Board) -> None:
+    """Check that no diagram is so high that its divisions and labels could not be drawn in reasonable time.
+
+    Raises
+    ------
+    DesignError : one of them is
+    """
+    (first, second), degrees = board.poles, math.degrees(board.mu_phi.per_mm)
+    a, v, s = (board.ordinate * height for height in DrawnHeights(board.motion, degrees).unit)
+    if (highest := max(a, v / first, s / (first * second))) > MAX_HEIGHT:
+        largest = board.ordinate * MAX_HEIGHT / highest
+        limit = say(
+            "at most {largest:.3g} mm, so that no diagram is higher than {most:g} mm", largest=largest, most=MAX_HEIGHT
+        )
+        remedy = say("take a smaller one or leave it out, or lengthen the shortest phase")
+        raise DesignError("drawing.ordinate", say("{length:.3g} mm", length=board.ordinate), limit, remedy)
+
+
+def held_board(board: Board, task: Task, hold: DragHold) -> Board:
+    """The board with the scales that are held.
+
+    With a fixed ordinate the scale of the acceleration, and with it all others, would go with the greatest
+    acceleration: so the ordinate grows with it instead, unless it is the ordinate that is changed.
+    """
+    board = replace(board, paper=replace(board.paper, held={**board.paper.held, **hold.scales}), station=hold.station)
+    if REGION.name in hold.scales:
+        board = replace(board, follower=board.follower.with_positions_at(hold.scales[REGION.name]))
+    held = hold.diagrams
+    if held is None or held.asked != (task.drawing.ordinate, task.drawing.poles):
+        return board
+    return replace(board, ordinate=held.ordinate * (peak_of(board.motion) / held.peak), poles=held.poles)
+
+
+def diagrams_of(solution: Solution) -> HeldDiagrams:
+    """What the diagrams of a solution keep."""
+    board, asked = solution.chain.board, solution.task.drawing
+    return HeldDiagrams(board.ordinate, peak_of(board.motion), board.poles, (asked.ordinate, asked.poles))
+
+
+def station_of(drawn: Mapping[str, Construction]) -> int | None:
+    """The station whose velocity plan is drawn, None without one."""
+    measured = drawn.get("pressure_angle")
+    return None if measured is None else shown_station(measured)
+
+
+def scales_of(solution: AnySolution, shown: dict[str, float]) -> dict[str, float]:
+    """The scales that views keep, by name.
+
+    shown : the drawing scales of the views
+    """
+    if isinstance(solution, Solution):
+        return {name: scale for name, scale in shown.items() if is_usable_scale(scale)}
+    of_diagrams = {name: scale["per_mm"] for name, scale in solution.scales.items() if name != "phi"}
+    return {name: scale for name, scale in {**shown, **of_diagrams}.items() if is_usable_scale(scale)}
+
+
+def peak_of(motion: Motion) -> float:
+    """The greatest acceleration of the first rise [lift/rad²].
+
+    >>> import graphcam as gc
+    >>> from math import pi
+    >>> round(peak_of(gc.Motion([gc.Rise(30, 1.0, "rectangular"), gc.Return(30, 2 * pi - 1, "rectangular")])), 9)
+    120.0
+    """
+    rise = next(phase for phase in motion.phases if isinstance(phase, Rise))
+    return rise.normalised.peak_acceleration * rise.lift / rise.angle**2
