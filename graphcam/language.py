@@ -56,7 +56,7 @@ class Catalog:
     plural: Callable[[int], int] = one_or_many
     unread: bool = False
 
-    def say(self, text: str, context: str = "") -> str:
+    def translation(self, text: str, context: str = "") -> str:
         """A text in the language; one that is not translated stays as it is."""
         return self.told.get((context, text), (text,))[0]
 
@@ -159,7 +159,7 @@ class Language:
     def _template(self, caption: Caption) -> str:
         if caption.plural:
             return self.catalog.plural_translation(caption.template, caption.plural, caption.count)
-        return self.catalog.say(caption.template, caption.context)
+        return self.catalog.translation(caption.template, caption.context)
 
 
 class _Written:

@@ -34,7 +34,7 @@ class Caption:
         template = self.plural if self.plural and self.count != 1 else self.template
         return template.format(**self.values)
 
-    def where(self, **values: Any) -> Caption:
+    def with_values(self, **values: Any) -> Caption:
         """The same text with these values in its places, besides those that it has.
 
         >>> str(say("The ray is {length:.1f} mm long.").where(length=3.14))

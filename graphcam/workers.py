@@ -83,7 +83,7 @@ def cluster(address: str) -> WorkerPool:
         client: Any = Client(address, timeout=SCHEDULER_SECONDS)
     except (OSError, ValueError) as error:
         silent = say("no dask scheduler answers at '{address}' ({error}); start one, or check the address")
-        raise OSError(silent.where(address=address, error=str(error))) from None
+        raise OSError(silent.with_values(address=address, error=str(error))) from None
     return WorkerPool(
         partial(client.get_executor, retries=0),
         max(sum(client.nthreads().values()), MIN_EXPECTED_WORKERS),

@@ -70,7 +70,7 @@ def test_the_rule_of_plurals_is_the_catalogs_own(count, form):
 
 def test_what_is_not_translated_stays_english():
     catalog = read_catalog(PLURALS)
-    assert catalog.say("part") == "part"
+    assert catalog.translation("part") == "part"
     assert [catalog.plural_translation("one", "many", count) for count in (1, 2)] == ["one", "many"]
 
 

@@ -56,7 +56,7 @@ class BenchFollower:
         """The exact counterparts of what is read, by name; they do not depend on the number of parts."""
         return Comparison(self.chain(self.board.divisions), self.cam).exact
 
-    def least(self) -> LeastRadius:
+    def exact_least_radius(self) -> LeastRadius:
         """The exact minimum prime radius."""
         board = self.board
         follower = board.follower.built(board.follower.place, 0.0)

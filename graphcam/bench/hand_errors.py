@@ -111,7 +111,7 @@ def bands(hands: int, parts: int = 12) -> Mapping[str, tuple[float, float]]:
     least = free.chain(parts, pencil)["minimum_radius"].readings["prime_radius"].value
     errors = {
         "displacement": shape_errors(fixed, parts, pencil),
-        "minimum prime radius": np.abs(least / free.least().prime_radius - 1),
+        "minimum prime radius": np.abs(least / free.exact_least_radius().prime_radius - 1),
         "profile": _profile_errors(fixed, parts, pencil),
     }
     return {question: tuple(np.nanpercentile(found, QUANTILES).tolist()) for question, found in errors.items()}

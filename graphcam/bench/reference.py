@@ -113,7 +113,7 @@ def displacement_eps(where: BenchFollower) -> float | None:
 
 def least_radius_eps(where: BenchFollower) -> float | None:
     """The error of the minimum radius of the free scene [eps]."""
-    return None if mp is None else abs(where.least().prime_radius / least_radius(where) - 1) / EPS
+    return None if mp is None else abs(where.exact_least_radius().prime_radius / least_radius(where) - 1) / EPS
 
 
 def profile_eps(where: BenchFollower) -> float | None:

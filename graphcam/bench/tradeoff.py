@@ -43,7 +43,12 @@ class Method:
 def methods(effort: Effort) -> Iterator[Method]:
     """All methods of all questions, each in the numbers of parts or stations that the effort gives for its kind."""
     fixed, free, sizes = scene("translating", MAIN_LAW), free_scene(MAIN_LAW), effort.sizes
-    motion, cam, free_motion, least = fixed.board.motion, fixed.cam, free.board.motion, free.least().prime_radius
+    motion, cam, free_motion, least = (
+        fixed.board.motion,
+        fixed.cam,
+        free.board.motion,
+        free.exact_least_radius().prime_radius,
+    )
     displacement, radius, profile = "displacement", "minimum prime radius", "profile"
 
     def sampled(question: str, name: str, kind: str, work: Work, error: Callable[[int], float]) -> Method:
@@ -82,7 +87,7 @@ def methods(effort: Effort) -> Iterator[Method]:
         buffered = partial(_buffered, fixed)
         yield sampled(profile, "shapely buffer", "buffer", buffered, partial(_buffered_error, fixed))
     yield exact(displacement, lambda n: motion(turn(n)), reference.displacement_eps(fixed))
-    yield exact(radius, lambda _: free.least(), reference.least_radius_eps(free))
+    yield exact(radius, lambda _: free.exact_least_radius(), reference.least_radius_eps(free))
     yield exact(profile, lambda n: cam.profile(turn(n)), reference.profile_eps(fixed))
 
 

@@ -60,7 +60,7 @@ class Voice:
         if not self.chosen and name in languages() and name != ENGLISH.name and language(name).has_messages:
             self.language = language(name)
 
-    def tell(self, words: Words | GraphcamError) -> str:
+    def translate(self, words: Words | GraphcamError) -> str:
         """A text or an error in the language."""
         return self.language.text(words.caption if isinstance(words, GraphcamError) else words)
 
@@ -81,8 +81,8 @@ def voice() -> Voice:
 
 
 def translated(words: Words | GraphcamError) -> str:
-    """A text in the language of the command that is run; see :meth:`Voice.tell`."""
-    return voice().tell(words)
+    """A text in the language of the command that is run; see :meth:`Voice.translate`."""
+    return voice().translate(words)
 
 
 _helped: dict[str, Caption] = {}

@@ -139,7 +139,7 @@ def _print_matrix(found: Simulation) -> None:
     for name, row in found.rows.items():
         most = sorted(row.named.items(), key=lambda pair: -pair[1])
         named = ", ".join(f"{other} {count}" for other, count in most)
-        rows.append([name, named, str(row.hands), str(row.accepted), f"{row.right(name):.1%}"])
+        rows.append([name, named, str(row.hands), str(row.accepted), f"{row.named_share(name):.1%}"])
     columns = (say("mistake made"), say("named"), say("submissions"), say("full marks"), say("named rightly"))
     print_table(columns, rows, words=2, title=say("{exercise}: what was named", exercise=found.exercise))
     draws, copies = say("{draws:.2f}, at most {most}", draws=found.draws, most=len(found.issued)), found.copies
@@ -235,7 +235,7 @@ def make(
         if not paper and chosen and find_spec("segno") is None:
             chosen = ""
             untagged = say("{name}: worksheets without tags; for such that can be photographed, {advice}")
-            progress(untagged.where(name=name, advice=install_advice("photo")))
+            progress(untagged.with_values(name=name, advice=install_advice("photo")))
         papers = {"language": language, "hand": hand, "paper": chosen}
         told = ids_from(roster)
         count = run(

@@ -86,7 +86,7 @@ def write_front(space: Space, out: str, front: Columns | None) -> None:
         else:
             # Readers of data sets pass over what begins so.
             name = f"_front{ending}"
-            with SharedFolder.reached(out).whole(name) as file:
+            with SharedFolder.open_folder(out).whole(name) as file:
                 file.write(text.encode())
             echo(f"{out.rstrip('/')}/{name}: {translated(what)}")
 

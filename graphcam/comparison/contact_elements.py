@@ -129,7 +129,7 @@ def contact_by_elements(
     reach = MESHED_SHARE * min(abs(radius1), abs(radius2))
     if not hertz.half_width < MAX_HALF_WIDTH * reach / MESHED_SHARE:
         expected = say("such that the half-width {half_width:.3g} mm is less than {most:g} of the radius")
-        expected = expected.where(half_width=hertz.half_width, most=MAX_HALF_WIDTH)
+        expected = expected.with_values(half_width=hertz.half_width, most=MAX_HALF_WIDTH)
         raise DesignError("force", force, expected, say("reduce the force, or widen the contact"))
     x = _graded(MESH_HALF_WIDTH * hertz.half_width, round(MESH_HALF_WIDTH * parts), reach)
     depth = _graded(MESH_DEPTH * hertz.half_width, round(MESH_DEPTH * parts), reach)

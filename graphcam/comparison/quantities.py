@@ -69,7 +69,7 @@ class Comparison:
     __repr__ = by_parts
 
     @cached_property
-    def least(self) -> tuple[float, float]:
+    def exact_least_radius(self) -> tuple[float, float]:
         """The exact least prime radius of the task and its place [mm]; NaN where no place keeps all the limits."""
         board = self.drawn.board
         follower = board.follower.built(board.follower.place, 0.0)
@@ -100,7 +100,7 @@ class Comparison:
     def exact(self) -> Mapping[str, float]:
         """The exact counterparts by name, in the order in which they are told."""
         board, extremes = self.drawn.board, self.cam.extremes()
-        least, place = self.least
+        least, place = self.exact_least_radius
         face = face_width(board.motion, board.rotation)
         rho = extremes.min_convex_radius[0]
         by_rule = min(term(rho=rho, r0=self.cam.prime_radius) for term in board.roller_rule)
@@ -166,7 +166,7 @@ def quantities_of(
     found = [
         (said.exact or said.name, _quantity(construction, reading, said, bounds, exact, proved))
         for construction in drawn.values()
-        for reading, said in construction.meaning.compared
+        for reading, said in construction.meaning.compared_readings
     ]
     nan, there = math.nan, {quantity.name for _, quantity in found}
     missing = {

@@ -222,12 +222,12 @@ def _by_their_laws(laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> tu
     told = say(
         "Over each moving phase draw the acceleration by its law: {laws}. Ordinates above the axis are positive; "
         "at a jump the line is vertical."
-    ).where(laws=sequence(named))
+    ).with_values(laws=sequence(named))
     if all(law.phase.normalised.name == MEASURED_LAW for law in laws):
         told = say(
             "The motion is a table, which has no law: its acceleration is that of the smoothed table, as under "
             "“{section}”. Ordinates above the axis are positive."
-        ).where(section=say("Velocity and acceleration by differentiation"))
+        ).with_values(section=say("Velocity and acceleration by differentiation"))
     return led_by(told, [Part(law.told(), (curve,)) for law, curve in zip(laws, curves, strict=True)])
 
 
@@ -239,12 +239,12 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
     level = say(
         "With T-square and ruler draw a horizontal line {length:.1f} mm long for one revolution, so 1 mm is "
         "{degree:.4g}° and μᵩ = {mu:.5f} rad/mm."
-    ).where(length=ends[-1], degree=np.degrees(mu_phi.per_mm), mu=mu_phi.per_mm)
+    ).with_values(length=ends[-1], degree=np.degrees(mu_phi.per_mm), mu=mu_phi.per_mm)
     level = level if omega is None else sequence([level, time_axis_caption(mu_phi, omega)], " ")
     upright = say(
         "From its left end set off {ends} mm with the ruler, where the phases end, and draw a vertical at each with "
         "the set square."
-    ).where(ends=sequence([say("{end:.1f}", end=end) for end in ends[1:]]))
+    ).with_values(ends=sequence([say("{end:.1f}", end=end) for end in ends[1:]]))
     cuts = diagram.acts["axis"].first[[k for span in stations.phases for k in (span.start, span.stop - 1)]]
     across, up, thin, *others = diagram.givens.axes("a", heights)
     # A thin line belongs to the cut that it stands on; that at the end of the turn goes with the last one.
@@ -264,10 +264,10 @@ def _ordinates(diagram: AccelerationDiagram, laws: Sequence[_LawOverPhase], curv
     others = say(
         "The others follow from y = y₁·(C·h/φ²)/(C₁·h₁/φ₁²), with lift h and angle φ of the phase and C = aₘₐₓ·φ²/h "
         "of its law, here {numbers}."
-    ).where(numbers=sequence(numbers))
+    ).with_values(numbers=sequence(numbers))
     marks = tuple(_dimension(diagram, k, law, curve) for k, (law, curve) in enumerate(zip(laws, curves, strict=True)))
     ends = diagram.acts["greatest"].first
-    first = Part(choice.where(phase=laws[chosen].title, y=laws[chosen].greatest), (ends[[chosen]],))
+    first = Part(choice.with_values(phase=laws[chosen].title, y=laws[chosen].greatest), (ends[[chosen]],))
     reckoned = [Part(laws[k].reckoned(laws[chosen]), (ends[[k]],)) for k in range(len(laws)) if k != chosen]
     why = say(
         "The lift of a phase is proportional to y·φ²/C, so the displacement returns to the axis only if the "
@@ -312,7 +312,7 @@ class _LawOverPhase:
         ends = [end for end, before in zip(ends, (None, *ends), strict=False) if end != before]
         places = [say("{y:.1f} at {x:.1f}", x=a, y=b) for a, b in ends]
         said = say("Over {phase} set off the ordinates {places} mm and join them {tool}.")
-        return said.where(phase=self.title, places=sequence(places), tool=FRENCH_CURVE if curved else RULER)
+        return said.with_values(phase=self.title, places=sequence(places), tool=FRENCH_CURVE if curved else RULER)
 
     def reckoned(self, first: _LawOverPhase) -> Caption:
         """How the largest ordinate follows from the chosen one; what both phases have alike is left out."""
@@ -324,18 +324,18 @@ class _LawOverPhase:
         ]
         if not isclose(ours.angle, theirs.angle):
             angles = {"phi": degrees(ours.angle), "phi1": degrees(theirs.angle)}
-            factors.append(say("({phi1}/{phi})²").where(**angles))
+            factors.append(say("({phi1}/{phi})²").with_values(**angles))
         if not factors:
             return say("For {phase} take {y:.1f} mm again.", phase=self.title, y=self.greatest)
         values = {"phase": self.title, "y1": first.greatest, "y": self.greatest, "factors": sequence(factors, " × ")}
-        return say("For {phase} take {y1:.1f} mm × {factors} = {y:.1f} mm.").where(**values)
+        return say("For {phase} take {y1:.1f} mm × {factors} = {y:.1f} mm.").with_values(**values)
 
 
 def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
     stations, axis, middles = diagram.givens.stations, diagram.acts["axis"], diagram.acts["middles"]
     x = axis.shown
     marks = (
-        middles.from_(diagram.acts["middles of the parts"], Role.CONSTRUCTION),
+        middles.segments_from(diagram.acts["middles of the parts"], Role.CONSTRUCTION),
         middles.dots(Role.CONSTRUCTION),
         Segments(x - UP, x + UP, Role.SCALE).left_by(axis),
         # On the side of the axis where no ordinates stand.
@@ -348,7 +348,7 @@ def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
     divided = say(
         "Divide the moving phases into parts, {equal}, and number the cuts; each part has the number of the cut at its "
         "end."
-    ).where(equal=equal_parts(stations))
+    ).with_values(equal=equal_parts(stations))
     parts = led_by(divided, [part for k in range(len(stations.phases)) for part in _divided_phase(diagram, k)])
     return Step(say("Middle ordinates"), parts, ACCELERATION, marks, ("middles",), given=marks, why=why)
 
@@ -366,7 +366,7 @@ def _divided_phase(diagram: AccelerationDiagram, k: int) -> Iterator[Part]:
         else:
             runs.append((start, stop))
     cut = [
-        say("{start:.1f} to {stop:.1f} mm into {n} parts of {width:.2f} mm").where(
+        say("{start:.1f} to {stop:.1f} mm into {n} parts of {width:.2f} mm").with_values(
             start=x[a], stop=x[b], n=b - a, width=(x[b] - x[a]) / (b - a)
         )
         for a, b in runs
@@ -374,7 +374,7 @@ def _divided_phase(diagram: AccelerationDiagram, k: int) -> Iterator[Part]:
     title, names = phase_title(motion, int(stations.phase[span.start])), station_names(stations)[span]
     divided = say("Over {phase} divide {cuts} with the dividers; number the cuts {first} to {last}.")
     values = {"phase": title, "cuts": joined(cut), "first": names[0], "last": names[-1]}
-    yield Part(divided.where(**values), (diagram.acts["axis"].first[span],))
+    yield Part(divided.with_values(**values), (diagram.acts["axis"].first[span],))
     heights: list[list[int]] = []
     for part in range(own.start, own.stop):
         if heights and abs(ordinates[part] - ordinates[heights[-1][0]]) < SAME_LENGTH:
@@ -387,7 +387,7 @@ def _divided_phase(diagram: AccelerationDiagram, k: int) -> Iterator[Part]:
         "{ordinates}."
     )
     lines = tuple(diagram.acts[name].first[own] for name in ("middles of the parts", "middles"))
-    yield Part(raised.where(phase=title, ordinates=sequence(told, "; ")), lines)
+    yield Part(raised.with_values(phase=title, ordinates=sequence(told, "; ")), lines)
 
 
 DIMENSION_OFFSET = 6.0

@@ -116,11 +116,11 @@ def adoption_step(adopted: Adoption, symbol: str, mu: float, view: View) -> Step
     symbol : of the place;  mu : mm of the machine to a millimetre of paper of the view
     """
     on_paper = say("On paper r₀ is {r0:g}/{mu:.5g} = {paper:.2f} mm.")
-    on_paper = on_paper.where(r0=adopted.prime_radius, mu=mu, paper=adopted.prime_radius / mu)
+    on_paper = on_paper.with_values(r0=adopted.prime_radius, mu=mu, paper=adopted.prime_radius / mu)
     parts = [Part(sequence([*_of_the_radius(adopted, symbol), on_paper], " "))]
     if adopted.found is not None:
         place = say("The value found, {symbol} = {found:.5g} mm, is rounded to {place:g} mm.")
-        parts.insert(0, Part(place.where(symbol=symbol, found=adopted.found, place=adopted.place)))
+        parts.insert(0, Part(place.with_values(symbol=symbol, found=adopted.found, place=adopted.place)))
     why = say("A round size is easily made and measured, and a radius larger than the minimum stays within the limits.")
     if adopted.given:
         why = say("The limits are satisfied only if the given radius is not smaller than the minimum permitted one.")
@@ -144,7 +144,7 @@ def _of_the_radius(adopted: Adoption, symbol: str) -> list[Caption]:
     if found.template == told.template:
         return [found]
     at = say("Read the minimum radius again at {symbol} = {place:g} mm: {least:.5g} mm.")
-    return [at.where(symbol=symbol, place=adopted.place, least=adopted.least), told]
+    return [at.with_values(symbol=symbol, place=adopted.place, least=adopted.least), told]
 
 
 def _against(adopted: Adoption, least: float) -> Caption:
@@ -169,4 +169,4 @@ def _against(adopted: Adoption, least: float) -> Caption:
         told = say("Round the minimum radius, {least:.5g} mm, up to r₀ = {r0:g} mm.")
     else:
         told = say("Take r₀ = {r0:g} mm, a round value that goes with it; the minimum is {least:.5g} mm.")
-    return told.where(r0=r0, least=least)
+    return told.with_values(r0=r0, least=least)

@@ -68,7 +68,7 @@ def angle_diagram(
     """
     hand, integrated = Hand(pencil, MEANING), measured.givens.integrated
     motion, stations, origin = integrated.givens.motion, integrated.givens.stations, hand.given("origin")
-    axis = hand.found(integrated.givens.diagram, "axis")
+    axis = hand.earlier_places(integrated.givens.diagram, "axis")
     curve = hand.lay_off("curve", axis, UP, hand.carry(measured.readings["alpha"], 1 / mu_alpha.per_mm))
     ends: dict[str, Drawn] = {}
     for phase, direction in (("rise", 1), ("return", -1)):
@@ -124,16 +124,16 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
     said = say(
         "At its station set off each angle from the axis with the dividers, {scale:.4g}° a millimetre, positive ones "
         "upward: {alpha:.2f}° at station {name} are {y:.2f} mm."
-    ).where(scale=np.degrees(plotted.givens.mu_alpha.per_mm), name=names[k], alpha=degrees[k], y=heights[k])
+    ).with_values(scale=np.degrees(plotted.givens.mu_alpha.per_mm), name=names[k], alpha=degrees[k], y=heights[k])
 
     def mm(k: int) -> Words:
         """The angle of a station, how long it is on the paper, and to which side of the axis."""
         said = say("{alpha:z.2f}°, {y:.2f} mm upward") if degrees[k] >= 0 else say("{alpha:.2f}°, {y:.2f} mm downward")
-        return said.where(alpha=degrees[k], y=abs(heights[k]))
+        return said.with_values(alpha=degrees[k], y=abs(heights[k]))
 
     set_off = run(said, STATION, names, curve, settings=mm)
     why = say("The maximum usually lies between two stations, so it is read off the curve through all of them.")
-    marks = (*axes, curve.from_(axis, Role.CONSTRUCTION), curve.dots(Role.CONSTRUCTION), *lines)
+    marks = (*axes, curve.segments_from(axis, Role.CONSTRUCTION), curve.dots(Role.CONSTRUCTION), *lines)
     title = say("The pressure angle over the cam angle")
     return Step(title, (set_off, *faired), ANGLE, marks, given=axes, why=why)
 
@@ -145,14 +145,14 @@ def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
         top, alpha = plotted.acts[name].first, float(np.degrees(plotted.value(name)))
         marks += [top.dots(Role.LIMIT), top.label(say("{alpha:.1f}°", alpha=alpha), _away_from_axis(top))]
         compared = _NO_LIMIT if limit is None else _limit_remark(abs(alpha), limit, plotted.givens.mu_alpha)
-        parts.append(Part(said.where(y=top.place.imag, alpha=alpha, compared=compared), (top,)))
+        parts.append(Part(said.with_values(y=top.place.imag, alpha=alpha, compared=compared), (top,)))
         if other := inside(plotted, name.removeprefix("max_")):
             beside = float(np.degrees(plotted.givens.mu_alpha.per_mm)) * other.place.imag
             inner_marks += [
                 other.dots(Role.LIMIT),
                 other.label(say("{alpha:.1f}°", alpha=beside), _away_from_axis(other)),
             ]
-            inner_parts.append(Part(_INSIDE_CAPTIONS[name].where(y=other.place.imag, alpha=beside), (other,)))
+            inner_parts.append(Part(_INSIDE_CAPTIONS[name].with_values(y=other.place.imag, alpha=beside), (other,)))
     found = say(
         "Slide the T-square up and down to the curve until it touches, over the rises and over the returns, and read "
         "the point farthest from the axis."
@@ -172,7 +172,7 @@ def _limit_remark(size: float, limit: float, mu_alpha: Scale) -> Caption:
     """An angle [degrees] against its limit [rad]."""
     beyond = mu_alpha.paper(np.radians(size) - limit)
     said = _WITHIN_LIMIT if beyond < -PENCIL_LINE else _AT_LIMIT if beyond <= PENCIL_LINE else _BEYOND_LIMIT
-    return said.where(size=size, limit=float(np.degrees(limit)))
+    return said.with_values(size=size, limit=float(np.degrees(limit)))
 
 
 _ON_THE_RISE = say("On the rise the farthest point of the curve is at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")

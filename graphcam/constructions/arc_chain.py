@@ -52,7 +52,7 @@ class ArcBoard:
 
         It is coarser where no page would take a centre that is found far away.
         """
-        if (kept := self.paper.kept(ARCS.name)) is not None:
+        if (kept := self.paper.kept_scale(ARCS.name)) is not None:
             return kept
         outer = math.hypot(*self.given.D) + 2 * self.roller_radius
         below = outer if self.given.C2 is None else max(outer, math.hypot(*self.given.C2))

@@ -126,7 +126,7 @@ def _scale(rolled: RollerOnArcs, name: str, height: float) -> Scale:
     # On the return the velocity goes as far down as it went up.
     size = (2 * high if name == "v" else high - low) or 1.0
     # The scale of a diagram is no drawing scale, so that the finer series serves every frame.
-    return rolled.givens.arcs.givens.paper.kept(name) or standard_scale(size, height, GOST_2_302)
+    return rolled.givens.arcs.givens.paper.kept_scale(name) or standard_scale(size, height, GOST_2_302)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -214,7 +214,7 @@ def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
     marks: list[Mark] = [
         *axes,
         Segments(limits.points + low * UP, limits.points + high * UP, Role.CONSTRUCTION).left_by(limits),
-        dots.from_(feet, Role.CONSTRUCTION),
+        dots.segments_from(feet, Role.CONSTRUCTION),
         *(dots.dots(Role.CONSTRUCTION), curve.line(Role.RESULT)),
         *(_phases(ends, mu_phi, low - PHASES_OFFSET) if name == "alpha" else ()),
     ]
@@ -231,9 +231,9 @@ def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
         said = say("{length} at {x:g} mm")
         if name == "a" and abs(place.imag) > NEGLIGIBLE_SIZE:
             said = say("{length} up at {x:g} mm") if place.imag > 0 else say("{length} down at {x:g} mm")
-        return said.where(length=lengths[k], x=x)
+        return said.with_values(length=lengths[k], x=x)
 
-    carried = PLOT_CAPTIONS[name].where(**values, name=stations.names[at], there=laid_off(at))
+    carried = PLOT_CAPTIONS[name].with_values(**values, name=stations.names[at], there=laid_off(at))
     parts = [
         _edges(ends, limits),
         telling.run(carried, telling.STATION, stations.titles, feet, dots, settings=laid_off),
@@ -258,8 +258,8 @@ def _maximum(
     if side < 0:
         touched = say("Slide the T-square up until it touches the curve: {paper:.2f} mm below the axis.")
     shown = say("{value:.2f}°") if name == "alpha" else say("{value:.2f}")
-    number = Label(top.place, shown.where(value=side * values["value"]), side * UP, of=read)
-    said = sequence([each.where(**values) for each in (touched, MAXIMUM_CAPTIONS[name])], " ")
+    number = Label(top.place, shown.with_values(value=side * values["value"]), side * UP, of=read)
+    said = sequence([each.with_values(**values) for each in (touched, MAXIMUM_CAPTIONS[name])], " ")
     return [top.dots(Role.LIMIT), number], Part(said, (top,))
 
 
@@ -277,14 +277,17 @@ def _lengths(plotted: Construction[ArcDiagramsGivens], name: str) -> list[Words]
         return [telling.setting(dots[k]) for k in range(dots.shown.size)]
     paper = dots.shown.imag.tolist()
     said = say("{degrees:.2f}° are {paper:.2f} mm")
-    return [said.where(degrees=a, paper=y) if y > NEGLIGIBLE_SIZE else "0" for a, y in zip(degrees, paper, strict=True)]
+    return [
+        said.with_values(degrees=a, paper=y) if y > NEGLIGIBLE_SIZE else "0"
+        for a, y in zip(degrees, paper, strict=True)
+    ]
 
 
 def _edges(ends: Drawn, limits: Drawn) -> Part:
     # Without an upper dwell the return begins where the rise ends.
     places = sequence([say("{at:.2f}", at=x) for x in np.unique(ends.shown[1:].real.round(6)).tolist()])
     said = say("On the axis mark the ends of arcs and phases from 0, at {places} mm, and draw a thin vertical in each.")
-    return Part(said.where(places=places), (ends, limits))
+    return Part(said.with_values(places=places), (ends, limits))
 
 
 def _along_the_curve(plotted: Construction[ArcDiagramsGivens], name: str, curve: Drawn, middle: float) -> list[Part]:
@@ -292,7 +295,7 @@ def _along_the_curve(plotted: Construction[ArcDiagramsGivens], name: str, curve:
     arcs, ends = plotted.givens.rolled.givens.arcs, plotted.acts["ends"].shown.real
     n = (curve.shown.size - 4) // 2
     held = Part(say("Upper dwell: a horizontal line, drawn with the T-square."), (curve[n : n + 2],))
-    back = RETURN_CAPTIONS[MIRROR_SIGNS[name]].where(middle=middle)
+    back = RETURN_CAPTIONS[MIRROR_SIGNS[name]].with_values(middle=middle)
     return [
         Part(say("Join the points with the French curve, each arc by itself."), (curve[:n],)),
         *([held] if arcs.givens.dwell else []),
@@ -336,7 +339,7 @@ def _phases(ends: Drawn, mu_phi: Scale, height: float) -> list[Mark]:
     angles = np.degrees(np.diff(bounds.real) * mu_phi.per_mm).round(2)
     angles[-1] = 360 - angles[:-1].sum()
     return [
-        Dimension(a, b, said.where(angle=angle)).left_by(ends[3:4])
+        Dimension(a, b, said.with_values(angle=angle)).left_by(ends[3:4])
         for (a, b), said, angle in zip(pairwise(bounds), SPAN_CAPTIONS, angles, strict=True)
         if abs(b - a) > 0
     ]

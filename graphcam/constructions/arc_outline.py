@@ -173,10 +173,10 @@ def _plot(arcs: ArcOutline, name: str, point: Point) -> Move:
         across = say("{mm:.2f} mm to the left")
     if at.imag < 0:
         up = say("{mm:.2f} mm down")
-    ways = [way.where(mm=mm) for way, mm in ((across, abs(at.real)), (up, abs(at.imag))) if mm > SAME_RADIUS]
+    ways = [way.with_values(mm=mm) for way, mm in ((across, abs(at.real)), (up, abs(at.imag))) if mm > SAME_RADIUS]
     told = say("({x:g}, {y:g}) mm", x=point[0], y=point[1])
     drawn = arcs.acts[f"given_{name}" if name in "AD" else name]
-    return PLOT_CAPTION.where(name=name, told=told, way=joined(ways)), drawn
+    return PLOT_CAPTION.with_values(name=name, told=told, way=joined(ways)), drawn
 
 
 def _data(arcs: ArcOutline) -> Step:
@@ -272,7 +272,7 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
     title = say("The other root") if name else say("The third centre")
     if np.isnan(arcs.first(c3)):
         parallel = say("The bisector of C1 P{prime} is almost parallel to the line: C3{prime} cannot be read.")
-        said = sequence([each.where(**values) for each in (LAID_OFF, parallel)], " ")
+        said = sequence([each.with_values(**values) for each in (LAID_OFF, parallel)], " ")
         return [unreadable(title, said, ARCS)]
     to_c3 = [
         (LAID_OFF, acts["G C2"], acts[p]),
@@ -328,19 +328,21 @@ def _profile(arcs: ArcOutline) -> Step:
     )
     held = say("Upper dwell, from D {dwell:.6g}° {sense} about O: compass {paper:.2f} mm, {rho:.3f} mm of the cam.")
     rest = say("Lower dwell, from the end of the return to A about O: compass {paper:.2f} mm, {rho:.3f} mm of the cam.")
-    middle = say("Set the protractor to {half:.6g}° from OD, {sense}: the middle line of the dwell.").where(**turned)
+    middle = say("Set the protractor to {half:.6g}° from OD, {sense}: the middle line of the dwell.").with_values(
+        **turned
+    )
     if not dwell:
         middle = say("There is no upper dwell, so the return is mirrored in the line OD itself.")
 
     def of_arc(said: Caption, arc: str, centre: str, name: str) -> Caption:
         """The caption with the sizes of an arc."""
-        return said.where(arc=arc, centre=centre, name=name, rho=radii[name], paper=radii[name] / mu_l)
+        return said.with_values(arc=arc, centre=centre, name=name, rho=radii[name], paper=radii[name] / mu_l)
 
     said = [
         *(of_arc(rise, arc, centre, name) for arc, centre, _, name in flank),
-        *([held.where(rho=outer, paper=outer / mu_l, **turned)] if dwell else []),
+        *([held.with_values(rho=outer, paper=outer / mu_l, **turned)] if dwell else []),
         *(of_arc(back, arc, centre, name) for arc, centre, _, name in flank[::-1]),
-        rest.where(rho=base, paper=base / mu_l),
+        rest.with_values(rho=base, paper=base / mu_l),
     ]
     pieces = cam(arcs, axis)
     parts = [Part(each, (circle,)) for each, (_, circle) in zip(said, pieces, strict=True)]
@@ -403,7 +405,7 @@ def _orders(arcs: ArcOutline, name: str) -> Caption:
     built = (first, second) == (["F", "C1", "C3"], ["G", "C3", "C2"])
     can, cannot = say("the arcs touch internally, and the cam can be made"), say("such a cam cannot be made")
     said = say("The orders on the lines are {first} and {second}: {verdict}.")
-    return said.where(first=sequence(first), second=sequence(second), verdict=can if built else cannot)
+    return said.with_values(first=sequence(first), second=sequence(second), verdict=can if built else cannot)
 
 
 def _order(arcs: ArcOutline, *names: str) -> list[str]:

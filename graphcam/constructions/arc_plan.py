@@ -75,7 +75,7 @@ def _at_scale(station: str, scale: VelocityScale) -> View:
     title = say("v and a at station {name}, {ratio}, μᵥ = {mu:.4g} ({per_v})/mm, μₐ = {mu_a:.4g} ({per_a})/mm")
     scales = {"ratio": ratio_text(scale.mu_l.per_mm), "mu": scale.mu.per_mm, "per_v": unit_named(scale.mu.unit)}
     scales |= {"mu_a": scale.acceleration.per_mm, "per_a": unit_named(scale.acceleration.unit)}
-    return replace(PLAN, title=title.where(name=station, **scales), mu_l=scale.mu_l.per_mm)
+    return replace(PLAN, title=title.with_values(name=station, **scales), mu_l=scale.mu_l.per_mm)
 
 
 def _scale(rolled: RollerOnArcs, places: Points, view: View) -> Scale:
@@ -83,7 +83,7 @@ def _scale(rolled: RollerOnArcs, places: Points, view: View) -> Scale:
     arcs = rolled.givens.arcs.givens
     size = arcs.mu_l.per_mm * complex(np.ptp(places.real), np.ptp(places.imag))
     usual = standard_scale(max(size.real, size.imag), MAX_PLAN_SIZE, arcs.paper.ratios)
-    return arcs.paper.kept(view.name) or coarsest(usual, arcs.paper.scale(size, PLAN_MARGINS))
+    return arcs.paper.kept_scale(view.name) or coarsest(usual, arcs.paper.scale(size, PLAN_MARGINS))
 
 
 PLACE_NAMES = ("B", "C", "K", "right", "beyond", "N", "M")
@@ -145,7 +145,11 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -
         (say("OK = {paper:.2f} mm × {mu:g} = {v:.3f} mm/rad is the velocity v."), acts["OK"]),
     ]
     axis = np.array([min(0.0, m.imag, c.imag) - LINE_OVERHANG, b.imag + LINE_OVERHANG]) * UP
-    speed = () if scale.omega is None else (Label(acts["K"].place / 2, scale.named("v", ok), -UP, of=acts["OK"].act),)
+    speed = (
+        ()
+        if scale.omega is None
+        else (Label(acts["K"].place / 2, scale.side_caption("v", ok), -UP, of=acts["OK"].act),)
+    )
     names = (("O", "O", -side - 1j), ("B", "B", side + 0j), ("C", centre, -side - 1j), ("K", "K", side + 0j))
     marks: tuple[Mark, ...] = (
         Line(axis, Role.AXIS).left_by(acts["follower"]),
@@ -225,10 +229,10 @@ def _velocities(rolled: RollerOnArcs) -> Step:
         if paper[j] <= NEGLIGIBLE_SIZE:
             return say("the rod lies on the ray, so K coincides with O; velocity and pressure angle are zero")
         said = say("OK = {paper:.2f} mm × {mu:g} = {v:.3f} mm/rad, and {alpha:.2f}°")
-        return said.where(paper=paper[j], mu=mu, v=float(rolled.value("v")[j]), alpha=alpha[j])
+        return said.with_values(paper=paper[j], mu=mu, v=float(rolled.value("v")[j]), alpha=alpha[j])
 
     rows = tuple(
-        Row(telling.STATION.where(name=name), told(j[0]), (rods[j], across[j], k[j]))
+        Row(telling.STATION.with_values(name=name), told(j[0]), (rods[j], across[j], k[j]))
         for name, j in stations.places.items()
     )
     first = [j for j, *_ in stations.places.values()]
@@ -244,7 +248,7 @@ def _velocities(rolled: RollerOnArcs) -> Step:
         "Do the same at every station, in the drawing of the roller itself: draw the rod from B towards the centre of "
         "its arc as far as the line through O square to the ray; K has the number of its ray. The angle between rod "
         "and ray, read with the protractor, is the pressure angle. Station {name}: {there}."
-    ).where(name=stations.names[at], there=told(at))
+    ).with_values(name=stations.names[at], there=told(at))
     why = say("The rod is the normal of the profile, so its angle with the follower's motion is the pressure angle.")
     return Step(say("Velocities at all stations"), (Part(said, rows=rows),), ROLLER, marks, ("v", "alpha"), why=why)
 
@@ -275,12 +279,12 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
         way, named = say("beyond O") if a > 0 else say("towards B"), {"centre": centre[j], "cn": cn[j]}
         said = say(
             "{centre}E = {centre}K = {ck:.2f} mm, {n_at}, OM = {om:.2f} mm {way}, × {mu:g}: a = {a:.3f} mm/rad²"
-        ).where(n_at=n_at.where(**named), **named)
+        ).with_values(n_at=n_at.with_values(**named), **named)
         return said.where(ck=ck[j], om=om[j], mu=mu, way=way, a=a)
 
     named = [j for j in range(stations.u.size) if not np.isnan(om[j])]
     marks: tuple[Mark, ...] = (
-        rays.ways(Role.CONSTRUCTION),
+        rays.segments(Role.CONSTRUCTION),
         Segments(np.zeros_like(m.shown), m.shown, Role.CURVE).left_by(rays),
         Segments(n.shown, m.shown, Role.CONSTRUCTION).left_by(across),
         *(b.dots(Role.CONSTRUCTION), m.dots(), n.dots(Role.CONSTRUCTION)),
@@ -291,7 +295,7 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
         "Do the same at every station in the drawing of the roller, with E laid off square to the rod; only the rays, "
         "B, N and M are shown here, at {ratio}, and the lengths given are those in the drawing of the roller. Station "
         "{name}: {there}."
-    ).where(ratio=ratio_text(scale.per_mm), name=stations.titles[at], there=told(at))
+    ).with_values(ratio=ratio_text(scale.per_mm), name=stations.titles[at], there=told(at))
     why = say(
         "Where two arcs meet, the length of the rod changes suddenly, so the acceleration jumps, and such a "
         "station has two points M."

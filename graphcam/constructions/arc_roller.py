@@ -139,7 +139,10 @@ def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pe
     off the rod, ``N``, ``M``; ``trace``, the roller's centre in A, G, F and D; ``ray``, directions.
     """
     hand, mu_l, sigma = Hand(pencil, MEANING), arcs.givens.mu_l.per_mm, sense_sign(arcs)
-    o, (a_, g, f, d, c1, c2, c3) = hand.given("O"), (hand.found(arcs, name) for name in (*"AGFD", "C1", "C2", "C3"))
+    o, (a_, g, f, d, c1, c2, c3) = (
+        hand.given("O"),
+        (hand.earlier_places(arcs, name) for name in (*"AGFD", "C1", "C2", "C3")),
+    )
     # The roller's centre lies on the line of centres through each joint.
     touch = hand.take("touch", a_, g, f, d)
     lines = hand.join("lines of centres", hand.take("centres", c2, c2, c3, c1), touch)
@@ -254,7 +257,7 @@ def _paths(rolled: RollerOnArcs) -> Step:
     circled = say(
         "Draw the prime circle about O through the path at A, also over the lower dwell: compass {prime:.2f} mm."
     )
-    parts.append(Part(circled.where(**values), (prime,)))
+    parts.append(Part(circled.with_values(**values), (prime,)))
     title, reads = say("The arcs of the roller's centre"), ("prime_radius", "roller_radius", "rho")
     return Step(title, tuple(parts), ROLLER, tuple(marks), reads, why=why)
 
@@ -264,22 +267,22 @@ def _lines_to_centre(rolled: RollerOnArcs, values: dict[str, float]) -> Part:
     said = say(
         "The roller's centre moves along arcs about the same centres, with radii larger by r = {roller:g} mm: from "
         "every joint set {paper:.2f} mm off outward on its line of centres."
-    ).where(**values)
+    ).with_values(**values)
     centres = [say("on the line from {centre}", centre=name) for name in ("O", "C3", "C3", "C1")]
     return telling.run(said, say("From {name}"), "AGFD", lines, trace, settings=centres.__getitem__)
 
 
 def _arcs(rolled: RollerOnArcs, circles: list[Drawn]) -> Part:
     radii, about = [_radii(circle)[0] for circle in circles], say("about {centre}, compass {radius:.2f} mm")
-    rows = [Row(ARCS[k], about.where(centre=CENTRES[k], radius=radii[k]), (circles[k],)) for k in range(3)]
+    rows = [Row(ARCS[k], about.with_values(centre=CENTRES[k], radius=radii[k]), (circles[k],)) for k in range(3)]
     if rolled.givens.arcs.givens.dwell:
-        rows.append(Row(say("Upper dwell"), about.where(centre="O", radius=radii[3]), (circles[3],)))
+        rows.append(Row(say("Upper dwell"), about.with_values(centre="O", radius=radii[3]), (circles[3],)))
     mirrored = say("the three arcs, mirrored in {line}", line=mirror_line(rolled.givens.arcs))
     rows.append(Row(say("Return"), mirrored, tuple(circles[-4:-1])))
     said = say(
         "Open the compass from each centre to the points set off and draw the arcs, {arc} about {centre} with "
         "{radius:.2f} mm."
-    ).where(arc=ARCS[0], centre=CENTRES[0], radius=radii[0])
+    ).with_values(arc=ARCS[0], centre=CENTRES[0], radius=radii[0])
     return Part(said, rows=tuple(rows))
 
 
@@ -294,14 +297,14 @@ def _joints(rolled: RollerOnArcs) -> Step:
         "others {sense}: {g:.3f}° at G, {f:.3f}° at F, and {d:.3f}° at D, where the rise ends."
     )
     size = abs(complex(trace.shown[0]))
-    marks: list[Mark] = [lines.ways(Role.CONSTRUCTION)]
+    marks: list[Mark] = [lines.segments(Role.CONSTRUCTION)]
     for k, name in enumerate(reads, 1):
         low, high = sorted((base, base - sigma * float(angles[k])))
         shown_as = say("{angle:.2f}°", angle=float(np.degrees(angles[k])))
         marks.append(AngleMark(0j, (0.15 + 0.15 * k) * size, low, high, shown_as, of=rolled.readings[name].act))
     why = say("These are the angles by which the cam turns while the roller runs over one arc after another.")
     part = telling.run(
-        *(said.where(**values), say("Line O{name}"), "AGFD", lines),
+        *(said.with_values(**values), say("Line O{name}"), "AGFD", lines),
         settings=lambda k: say("{angle:.3f}°", angle=float(np.degrees(angles[k]))) if k else "",
     )
     return Step(say("The angles of the arcs"), (part,), ROLLER, tuple(marks), reads, why=why)
@@ -333,7 +336,7 @@ def _stations(rolled: RollerOnArcs) -> Step:
     for name, places in stations.places.items():
         k = places[0]
         told = UNREADABLE if np.isnan(s[k]) else one if s[k] > NEGLIGIBLE_SIZE else level
-        told = told.where(phi=abs(phi[k]), centre=CENTRES[stations.arc[k]], s=s[k])
+        told = told.with_values(phi=abs(phi[k]), centre=CENTRES[stations.arc[k]], s=s[k])
         draws = rays[places], b.first[places], *(rollers[j] for j in places if j in rollers)
         rows.append(Row(say("Ray {name}", name=name), told, draws))
     said = say(
@@ -341,7 +344,7 @@ def _stations(rolled: RollerOnArcs) -> Step:
         "equal parts, set the angles off from OA with the protractor and number the rays. Ray {name} makes "
         "{phi:.3f}° with OA and meets the arc about {centre} in B. With the dividers take the distance of B "
         "outside the prime circle: {s:.2f} mm × {mu:g} = {lift:.3f} mm is the displacement."
-    ).where(
+    ).with_values(
         parts=stations.u.size // 3 - 1,
         name=stations.names[at],
         phi=abs(phi[at]),

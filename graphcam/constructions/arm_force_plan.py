@@ -107,9 +107,9 @@ def arm_force_plan(
     mu = mu_force or plain.round_scale(float(np.median(np.abs(force.amount))))
 
     # Of the arm positions: the arm C B, and A D.
-    pivot, centre = hand.given("pivot"), hand.found(measured, "centre")
-    arm = hand.join("arm", pivot, hand.found(measured, "ends")[k])
-    ray = hand.join("AD", centre, hand.found(measured, "tips")[k])
+    pivot, centre = hand.given("pivot"), hand.earlier_places(measured, "centre")
+    arm = hand.join("arm", pivot, hand.earlier_places(measured, "ends")[k])
+    ray = hand.join("AD", centre, hand.earlier_places(measured, "tips")[k])
     origin = hand.given("origin")
     down = hand.perpendicular("line of Q", arm, origin)
     foot = hand.lay_off("foot", origin, down, calculated(partial(np.multiply, 1 / mu.per_mm), force))
@@ -179,9 +179,9 @@ def _terms(plan: Construction[ArmForcePlanGivens]) -> list[tuple[Caption, float]
     if load.at is None:
         spring = say("spring c·s = {stiffness:g}·{s:.4g} = {torque:.0f} N·mm")
     alone = (
-        (inertia.where(inertia=load.inertia, omega=load.omega, a=float(a)), replace(none, inertia=load.inertia)),
+        (inertia.with_values(inertia=load.inertia, omega=load.omega, a=float(a)), replace(none, inertia=load.inertia)),
         (say("preload {torque:.0f} N·mm"), replace(none, preload=load.preload)),
-        (spring.where(stiffness=load.stiffness, s=float(s)), replace(none, stiffness=load.stiffness)),
+        (spring.with_values(stiffness=load.stiffness, s=float(s)), replace(none, stiffness=load.stiffness)),
         (say("load P {torque:.0f} N·mm"), replace(none, load=load.load)),
     )
     reduced = partial(
@@ -195,7 +195,9 @@ def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     terms, integrated, k = _terms(plan), givens.integrated, plan.givens.station
     s, a = float(integrated.value("s")[k]), float(integrated.value("a")[k])
     torque = sum(each for _, each in terms)
-    told = sequence([said.where(torque=each) for said, each in terms if abs(each) >= plain.READABLE_FORCE * givens.arm])
+    told = sequence(
+        [said.with_values(torque=each) for said, each in terms if abs(each) >= plain.READABLE_FORCE * givens.arm]
+    )
     values = {"name": plain.station_name(plan), "s": math.degrees(s), "a": a, "arm": givens.arm}
     values |= {"torque": torque, "terms": told}
     values |= {"load": torque / givens.arm, "mu": mu, "paper": abs(torque) / givens.arm / mu}
@@ -206,7 +208,7 @@ def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
         "set the dividers to {paper:.1f} mm, and lay Q off from its tail square to the arm of this station, {way}."
     )
     why = say("A torque about the pivot has the same effect as a force at the arm's end, square to the arm.")
-    return plain.loaded(plan, view, said.where(**values), -_corner_direction(plan), why)
+    return plain.loaded(plan, view, said.with_values(**values), -_corner_direction(plan), why)
 
 
 def _corner_direction(plan: Construction[ArmForcePlanGivens]) -> complex:
@@ -220,7 +222,7 @@ def _line_of_force(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     said = say(
         "In the arm positions lay the set squares along the line from A to D of station {name}. Carry it to the "
         "head of Q and draw the line of the contact force F there; it makes α = {alpha:.1f}° with Q."
-    ).where(name=plain.station_name(plan), alpha=abs(plain.alpha_at(plan)))
+    ).with_values(name=plain.station_name(plan), alpha=abs(plain.alpha_at(plan)))
     marks = plain.leaning(normal, plain.exceeded_lines(float(plan.first("normal"))), plain.alpha_at(plan), up)
     why = say("The contact normal passes through the centre of relative rotation, and A D is parallel to it.")
     return Step(say("The line of the contact force"), (Part(said, (normal,)),), view, marks, why=why)

@@ -130,7 +130,7 @@ def _pivots(inverted: ArmInverted) -> Step:
         "The cam turns {rotation}; hold it still and step the pivot round A the other way, {against}. Set the "
         "protractor on A and count {against} from the horizontal to the right of A, from station to station {steps}, "
         "so station {name} at {angle}; mark and number the pivots on their circle."
-    ).where(**profile_view.position_words(inverted))
+    ).with_values(**profile_view.position_words(inverted))
     first = pivots.first[0]
     marks = (
         *(pivots.dots(Role.CONSTRUCTION), first.label("C", UP * first.place)),
@@ -149,7 +149,7 @@ def _starts(inverted: ArmInverted) -> Step:
         "Set the compass to the arm, {arm:.1f} mm. From every pivot strike an arc across the prime circle, always at "
         "the crossing on the left as seen from A towards the pivot, and continue a little outside: from C{name} to "
         "B₀{name}."
-    ).where(arm=arm, name=names[k])
+    ).with_values(arm=arm, name=names[k])
     found = np.stack([starts.shown, pitch.shown], axis=-1)
     drawn = [arc_through(arcs[n], found[n], ARC_OVERHANG) for n in range(len(names))]
     phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
@@ -178,8 +178,8 @@ def _turned_arms_step(inverted: ArmInverted) -> Step:
         "Turn every arm about its pivot from the prime circle by the displacement, away from A (clockwise on the "
         "paper), with the protractor or, with dividers, by the chord of its arc. Station {name}: from B₀{name} along "
         "the arc about C{name} {turn}; mark the end {name} and draw the arm. The ends are points of the pitch curve."
-    ).where(name=names[k], turn=turn(k))
+    ).with_values(name=names[k], turn=turn(k))
     swung = run(said, STATION, names, arms, pitch, settings=turn)
     why = say("The displacement of an arm is the angle through which it has turned from its lowest position.")
-    title, marks = say("Arms turned by the displacement"), (arms.ways(Role.CONSTRUCTION),)
+    title, marks = say("Arms turned by the displacement"), (arms.segments(Role.CONSTRUCTION),)
     return Step(title, (swung,), PROFILE, marks, profile_view.CURVE_READINGS, why=why)

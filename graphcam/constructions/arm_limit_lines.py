@@ -36,7 +36,7 @@ class _AtLimit:
     limit: float
 
     @property
-    def said(self) -> dict[str, Words]:
+    def caption_values(self) -> dict[str, Words]:
         """How they are turned from the normal that points down, and on which side of them A must lie."""
         turn, kept = say("anticlockwise, towards C"), say_in("a side of a line", "away from C")
         if self.side < 0:
@@ -80,11 +80,11 @@ def family_step(drawn: ArmPositions, name: str, direction: int, limit: float, ha
     square = say(
         "At every point D of the {phase} draw the normal to the arm downwards with the set squares; that at D{name} is "
         "shown."
-    ).where(phase=phase, name=named[k])
+    ).with_values(phase=phase, name=named[k])
     said = say(
         "From every D draw with the protractor the line at {limit} to its normal, turned from it {turn}. The cam "
         "centre A must lie on the side {kept}."
-    ).where(**so.said)
+    ).with_values(**so.caption_values)
     normal, shown, angle = _normal(drawn, k, lines[own], so)
     # The worked one comes first.
     order = [own, *(i for i in range(len(at)) if i != own)]
@@ -95,7 +95,7 @@ def family_step(drawn: ArmPositions, name: str, direction: int, limit: float, ha
         why=say(
             "The direction from D to the cam centre makes the pressure angle with the normal to the arm, and on the "
             "{phase} this angle may be at most {limit}."
-        ).where(phase=phase, limit=degrees(limit)),
+        ).with_values(phase=phase, limit=degrees(limit)),
     )
 
 
@@ -121,7 +121,7 @@ def dwells_step(drawn: ArmPositions, limits: Limits, hatched: Points) -> Step:
     )
     parts, marks = list[Part](), list[Segments]()
     for name, so in families.items():
-        lines, said = drawn.acts[f"limits: {name}"], each.where(top=top, **so.said)
+        lines, said = drawn.acts[f"limits: {name}"], each.with_values(top=top, **so.caption_values)
         if not parts:
             said = sequence([say("In a dwell D is the end of the arm."), said], " ")
         marks.append(_lines_downwards(lines, hatched))

@@ -390,7 +390,7 @@ def _binding_captions(region: ArmRegion) -> list[tuple[int, Caption]]:
             at = touched(integrated, tips, complex(bind.shown[n]), 1 if family == "rise" else -1)
         else:
             at = [_dwell_line_starts(region)[k]]
-        named.append((n, BINDING_CAPTIONS[family].where(station="–".join(at))))
+        named.append((n, BINDING_CAPTIONS[family].with_values(station="–".join(at))))
     return named
 
 
@@ -403,7 +403,7 @@ def centre_caption(region: ArmRegion) -> Caption:
     found = dict[tuple[str, str], Caption]()
     for _, family, k in _bound_by(region):
         place = _dwell_line_starts(region)[k] if family in DWELL_ACTS else ""
-        found[family, place] = BOUND_CAPTIONS[family].where(place=place)
+        found[family, place] = BOUND_CAPTIONS[family].with_values(place=place)
     bounds = joined(list(found.values()))
     if region.givens.distance is not None:
         return say(
@@ -435,7 +435,7 @@ def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
     joining = say(
         "Join A₀ to B₀ and C and measure: A₀B₀ = {paper:.2f} mm, so r₀ = {r0:.3f} mm, and A₀C = {away:.2f} mm, so c = "
         "{c:.3f} mm."
-    ).where(paper=abs(centre.place - start.place), r0=r0, away=abs(centre.place), c=away)
+    ).with_values(paper=abs(centre.place - start.place), r0=r0, away=abs(centre.place), c=away)
     parts.append(Part(say("Mark A₀, {place}.", place=centre_caption(region)), (acts["lines that bind"], centre)))
     parts.append(Part(joining, (acts["prime radius"], line)))
     marks = (

@@ -119,12 +119,12 @@ def positions_step(drawn: ArmPositions) -> Step:
     base = say(
         "Mark the pivot C on the right. At {ratio} the arm is {arm:.1f} mm long: draw CB₀ horizontally to the left, "
         "and with the compass an arc of {arm:.1f} mm about C."
-    ).where(ratio=ratio_text(mu_l.per_mm), arm=arm)
+    ).with_values(ratio=ratio_text(mu_l.per_mm), arm=arm)
     said = say(
         "Multiply every ordinate of the displacement by {factor:.5g}°/mm, set the angle off at C with the protractor, "
         "upwards from CB₀ (clockwise), draw the arm there as far as the arc and number it. Station {name}: {angle}. "
         "The largest angle is {most:.2f}°."
-    ).where(factor=factor, name=names[k], angle=turning_angle(s[k], factor), most=s.max() * factor)
+    ).with_values(factor=factor, name=names[k], angle=turning_angle(s[k], factor), most=s.max() * factor)
 
     small = (np.abs(turns) > NEGLIGIBLE_SIZE) & (np.abs(turns) < MIN_PROTRACTOR_ANGLE)
     if small.any():
@@ -141,7 +141,7 @@ def positions_step(drawn: ArmPositions) -> Step:
         *(*given, start.label("B₀", -UP, small=True)),
         stroke(level, abs(start.place - level.place)),
         arc_through(arc, np.append(ends.shown, start.place)),
-        *(arms.ways(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION)),
+        *(arms.segments(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION)),
         *numbers(ends, stations, towards, shown=_first_at_place(ends, start, stations)),
     )
     swings = run(said, STATION, names, arms, ends, settings=swung)
@@ -179,7 +179,7 @@ def velocities_step(drawn: ArmPositions) -> Step:
         "Multiply every ordinate of the velocity by l·μᵥ = {arm:.1f} mm × {mu:.5g}/mm = {factor:.5g} and lay it off "
         "with dividers along the arm from its end, to D: on the rise {rise}, on the return {back}. Station {name}: "
         "{length}."
-    ).where(arm=arm, mu=mu, factor=arm * mu, rise=along_the_arm(sigma), back=along_the_arm(-sigma), name=names[k])
+    ).with_values(arm=arm, mu=mu, factor=arm * mu, rise=along_the_arm(sigma), back=along_the_arm(-sigma), name=names[k])
 
     def laid_off(n: int) -> Words:
         """How long the velocity is at a station, and in which sense it lies along the arm."""
@@ -195,13 +195,13 @@ def velocities_step(drawn: ArmPositions) -> Step:
     smooth = say("Join the ends D by smooth curves with the French curve, from jump to jump of the acceleration.")
     laid = run(said.where(length=setting(tips.first[[k]])), STATION, names, tips, settings=laid_off)
     marks = (
-        *(tips.from_(ends, Role.CURVE), *(curve.line(Role.RESULT) for curve in curves)),
+        *(tips.segments_from(ends, Role.CURVE), *(curve.line(Role.RESULT) for curve in curves)),
         *numbers(tips, stations, tips.shown, shown=clear_numbers(tips.shown, stations, ends.shown)),
     )
     why = say(
         "The end of the arm has the velocity l·ds/dφ square to the arm; turned by 90° in the sense of the cam's "
         "rotation ({rotation}) it lies along the arm."
-    ).where(rotation=sense_caption(drawn.givens.rotation))
+    ).with_values(rotation=sense_caption(drawn.givens.rotation))
     view = at_scale(REGION, drawn.givens.mu_l)
     return Step(say("Velocities along the arm"), (laid, Part(smooth, rows=through)), view, marks, why=why)
 
@@ -262,7 +262,7 @@ def region_enlarged(
         marks.append(Label(complex(ends[1]), name, way, small=True).left_by(drawn))
     marks += [a.dots(Role.RESULT), a.label("A₀", 1 + 0j if a.place.real > 0 else -1 + 0j)]
     first = say("Draw B₀ and A₀ again at {ratio}, {paper:.1f} mm from one another.")
-    first = first.where(ratio=ratio_text(scale.per_mm), paper=abs(a.place))
+    first = first.with_values(ratio=ratio_text(scale.per_mm), paper=abs(a.place))
     second = say("Draw the lines on which A₀ lies, and hatch again the region that no line cuts off.")
     return Step(
         *(say("The cam centre enlarged"), (Part(first, (b, a)), Part(second, (*through, permitted)))),

@@ -190,7 +190,7 @@ def plan_scale(measured: ArmAngles, k: int) -> Scale:
     places: Points = np.array([0, b, d, pole, pole + sigma * UP * b, pole + sigma * UP * (b - d)])
     size = complex(float(np.ptp(places.real)), float(np.ptp(places.imag)))
     usual = standard_scale(givens.arm, MAX_PLAN_ARM, givens.paper.ratios)
-    return givens.paper.kept(PLAN.name) or coarsest(usual, givens.paper.scale(size, PLAN_MARGINS))
+    return givens.paper.kept_scale(PLAN.name) or coarsest(usual, givens.paper.scale(size, PLAN_MARGINS))
 
 
 def _centre(measured: ArmAngles) -> Step:
@@ -222,9 +222,9 @@ def _centre(measured: ArmAngles) -> Step:
     )
     parts = (
         Part(before, (start, tips)),
-        Part(first.where(**sizes), (circles[0],)),
-        Part(second.where(**sizes), (circles[1], centre, radius)),
-        Part(third.where(**sizes), (line,)),
+        Part(first.with_values(**sizes), (circles[0],)),
+        Part(second.with_values(**sizes), (circles[1], centre, radius)),
+        Part(third.with_values(**sizes), (line,)),
     )
     why = say("The cam centre is as far from C as the centre distance, and from B₀ as the prime radius.")
     return Step(say("The cam centre"), parts, at_scale(REGION, givens.mu_l), marks, ("psi0",), why=why)
@@ -299,7 +299,7 @@ def _mechanism(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -
         *(a.label("A", -1 - 1j), b[k].label("B", 1 + 1j), c.label("C", 1 - 1j), d[k].label("D", -1 + 1j)),
     )
     draws = ((a, c), (cb[k], b[k]), (ab[k],), (bd[k], d[k]))
-    parts = tuple(Part(text.where(**sizes), drawn) for text, drawn in zip(texts, draws, strict=True))
+    parts = tuple(Part(text.with_values(**sizes), drawn) for text, drawn in zip(texts, draws, strict=True))
     why = say(
         "The velocity of B turned by 90°, l·ds/dφ, is a length along the arm, so it can be drawn in the mechanism."
     )
@@ -318,12 +318,12 @@ def _velocities(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) 
     )
     second = say(
         "From p draw v₂ = BD = {along:.1f} mm, square to the arm: the direction of BD turned by 90° {back}."
-    ).where(**sizes)
-    third = say("Join the tip of v₁ to the tip of v₂: v₂₁ measures {closing:.1f} mm.").where(**sizes)
-    closing = sequence([third, *scales.told(pole, v1, v2)], " ")
+    ).with_values(**sizes)
+    third = say("Join the tip of v₁ to the tip of v₂: v₂₁ measures {closing:.1f} mm.").with_values(**sizes)
+    closing = sequence([third, *scales.speed_captions(pole, v1, v2)], " ")
     return Step(
         say("Velocity plan at station {name}", name=names[k]),
-        (Part(first.where(**sizes), (pole, v1)), Part(second, (v2,)), Part(closing, (v21,))),
+        (Part(first.with_values(**sizes), (pole, v1)), Part(second, (v2,)), Part(closing, (v21,))),
         *(scales.view(names[k]), velocity_plan(pole, v1, v2, v21, scales)),
         why=say(
             "The velocity of the arm's end is that of the cam's point and the sliding along the profile together, "
@@ -347,7 +347,7 @@ def _angle(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -> St
     measure = say(
         "Join D to A and measure the angle from the normal to DA with the protractor: the pressure angle at station "
         "{name} is {alpha:.2f}°, and the transmission angle 90° − |α| = {transmission:.2f}°."
-    ).where(**sizes)
+    ).with_values(**sizes)
     why = say(
         "The plan turned by 90° is the triangle ABD: v₂ lies along BD, so DA is square to v₂₁ and has the direction "
         "of the normal to the profile."
@@ -376,12 +376,12 @@ def _all_stations_step(measured: ArmAngles, k: int) -> Step:
         "From every D draw the normal to its arm downwards with the set squares, join D to A and measure the angle "
         "from the normal to DA with the protractor, positive anticlockwise. Station {name}: {alpha:.2f}°. The minimum "
         "transmission angle is 90° − |α| = {least:.2f}°, at station {worst}."
-    ).where(name=names[k], alpha=alpha[k], least=90 - abs(alpha[worst]), worst=names[worst])
+    ).with_values(name=names[k], alpha=alpha[k], least=90 - abs(alpha[worst]), worst=names[worst])
     tips, centre = measured.acts["tips"], measured.acts["centre"]
     places = (tips.dots(Role.CONSTRUCTION), centre.dots(Role.RESULT), centre.label("A", -UP))
     named = numbers(tips, measured.givens.integrated.givens.stations, UP)
     every = run(said, STATION, names, normals, rays, settings=lambda n: say("{alpha:z.2f}°", alpha=alpha[n]))
-    marks = (strokes, rays.ways(Role.CONSTRUCTION), *places, *named, angle)
+    marks = (strokes, rays.segments(Role.CONSTRUCTION), *places, *named, angle)
     title, view = say("The pressure angle at every station"), at_scale(ARM_ANGLES, measured.givens.mu_l)
     why = say("What holds at one station holds at all: only D and the arm differ; A is the same.")
     return Step(title, (Part(apart, (tips, centre)), every), view, marks, ("alpha", "transmission"), why=why)

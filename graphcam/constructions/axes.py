@@ -156,7 +156,7 @@ def phase_symbol(motion: Motion, k: int) -> Caption:
     ...     gc.Dwell(FULL_TURN - 5.0)]), 3))
     'φ₄'
     """
-    return SYMBOLS[phase_kind(motion, k)].where(number=_number(motion, k))
+    return SYMBOLS[phase_kind(motion, k)].with_values(number=_number(motion, k))
 
 
 def low_dwell_symbol(motion: Motion, k: int) -> Caption:
@@ -167,7 +167,7 @@ def low_dwell_symbol(motion: Motion, k: int) -> Caption:
     >>> str(low_dwell_symbol(motion, 2))
     'δ₃'
     """
-    return LOW_DWELL.where(number=_number(motion, k))
+    return LOW_DWELL.with_values(number=_number(motion, k))
 
 
 def _number(motion: Motion, k: int) -> PhaseNumber:
@@ -178,7 +178,7 @@ def _number(motion: Motion, k: int) -> PhaseNumber:
 
 def phase_title(motion: Motion, k: int) -> Caption:
     """The name of phase ``k`` with its symbol: "rise φ₁"."""
-    return PHASES[phase_kind(motion, k)].where(symbol=phase_symbol(motion, k))
+    return PHASES[phase_kind(motion, k)].with_values(symbol=phase_symbol(motion, k))
 
 
 def phase_angle(motion: Motion, k: int) -> Caption:

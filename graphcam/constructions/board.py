@@ -131,8 +131,8 @@ class DrawnFollower(ABC):
     def limited(self, limits: Limits) -> Caption:
         """What the design must keep to, in a sentence."""
         if limits.return_ is None:
-            return FORCE_CLOSED.where(rise=degrees(limits.rise))
-        return FORM_CLOSED.where(rise=degrees(limits.rise), back=degrees(limits.return_))
+            return FORCE_CLOSED.with_values(rise=degrees(limits.rise))
+        return FORM_CLOSED.with_values(rise=degrees(limits.rise), back=degrees(limits.return_))
 
 
 FORCE_CLOSED = say(

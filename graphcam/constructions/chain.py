@@ -327,7 +327,7 @@ class Chain(Drawings):
     def profile_scale(self) -> Scale:
         """The largest standard scale at which the pitch curve, with its rollers or the phase angles, fits its room."""
         r0, board = self.prime_radius, self.board
-        if (kept := board.paper.kept(PROFILE.name)) is not None:
+        if (kept := board.paper.kept_scale(PROFILE.name)) is not None:
             return kept
         rollers = board.roller_radius
         if rollers is None:
@@ -358,7 +358,7 @@ class Chain(Drawings):
                 way, angle = slip
                 limit = say("large enough for lines that cross at a degree or more")
                 remedy = say("{degrees:.0f} degrees? {angle:g} was given; or give {names}")
-                remedy = remedy.where(degrees=math.degrees(angle), angle=angle, names=chained(missing))
+                remedy = remedy.with_values(degrees=math.degrees(angle), angle=angle, names=chained(missing))
                 found = say("{angle:g} degrees", angle=angle)
                 raise DesignError(LIMIT_NAMES[way], found, limit, remedy)
             limit = say("a place within all limits, where lines cross at a degree or more")

@@ -70,7 +70,11 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
     line = (Line(UP * np.array([bottom, float(ends.shown.imag.max()) + AXIS_OVERHANG]), Role.AXIS),)
     marks = (
         *line,
-        *(ends.from_(heights, Role.CONSTRUCTION), heights.dots(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION)),
+        *(
+            ends.segments_from(heights, Role.CONSTRUCTION),
+            heights.dots(Role.CONSTRUCTION),
+            ends.dots(Role.CONSTRUCTION),
+        ),
         # Beside the line of motion, away from the rest line; it stands there before the numbers look for room.
         start.label("B₀", towards=sense(region.givens.rotation) - UP),
         *numbers(ends, stations, np.where(np.abs(x) > 1, np.sign(x) + 0j, apart)),
@@ -107,7 +111,7 @@ def _laying_off(region: Construction[Any]) -> Caption:
             "mark lay v off horizontally with the dividers, {rise} on a rise and {back} on a return: v turned by 90° "
             "with the cam, {rotation}. Multiply every ordinate of v by μᵥ/μₛ = {factor:.5g}, so that it has the scale "
             "of s."
-        ).where(
+        ).with_values(
             rise=side_caption(-sigma),
             back=side_caption(sigma),
             rotation=sense_caption(region.givens.rotation),
@@ -116,7 +120,7 @@ def _laying_off(region: Construction[Any]) -> Caption:
     ]
     if integrated.first("v")[k] > NEGLIGIBLE_SIZE:
         worked = say("Station {name}: mark it {s:.2f} mm up and lay off {set}.", s=integrated.first("s")[k])
-        said.append(worked.where(name=station_names(integrated.givens.stations)[k], set=setting(ends.first[[k]])))
+        said.append(worked.with_values(name=station_names(integrated.givens.stations)[k], set=setting(ends.first[[k]])))
     return sequence([*said, say("The longest measures {longest:.1f} mm.", longest=longest)], " ")
 
 
@@ -150,6 +154,6 @@ def offset_caption(offset: float, mu: float) -> Caption:
         "{size:g}/{mu:.5g} = {paper:.2f} mm {other} of B₀."
     )
     size = abs(offset)
-    return said.where(
+    return said.with_values(
         e=offset, size=size, side=side_caption(offset), mu=mu, paper=size / mu, other=side_caption(-offset)
     )

@@ -112,7 +112,11 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     Points: the ``triple`` (..., 3) at the sharpest place and its ``centre``.
     """
     hand, integrated, mu_l = Hand(pencil, MEANING), inverted.givens.integrated, inverted.givens.mu_l.per_mm
-    pitch, centre, nowhere = hand.found(inverted, "pitch"), hand.given("cam centre"), hand.given("nowhere", [np.nan])
+    pitch, centre, nowhere = (
+        hand.earlier_places(inverted, "pitch"),
+        hand.given("cam centre"),
+        hand.given("nowhere", [np.nan]),
+    )
     rests, angles = _dwell_arcs(hand, inverted, pitch, centre)
     places, corner = hand.take("places", pitch, rests, nowhere), turns_a_corner(inverted)
     # The eye takes one place of the moving phases and one of the rests.
@@ -157,7 +161,7 @@ def _dwell_arcs(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> 
     arcs = hand.circle("arcs of the rests", centre, distance_between(centre, pitch[last]))
     ends = hand.join("rays to the rests", centre, pitch[last])[each]
     rays = hand.protractor("rays of the rests", centre, ends, -sense(inverted.givens.rotation) * turns)
-    axis = hand.found(integrated.diagram, "axis")
+    axis = hand.earlier_places(integrated.diagram, "axis")
     beyond = hand.lay_off("rests on the axis", axis[last][each], RIGHT, turns / integrated.mu_phi.per_mm)
     return hand.cross("rests", rays, arcs[each]), hand.take("axis", axis, beyond)
 
@@ -197,7 +201,9 @@ def detail_of(curved: Curved) -> Detail | None:
         return None
     triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], showing(curved)
     paper = curved.givens.inverted.givens.paper
-    scale = paper.kept(CURVATURE.name) or standard_scale(float(curved.value("rho")), MAX_DETAIL_RADIUS, paper.ratios)
+    scale = paper.kept_scale(CURVATURE.name) or standard_scale(
+        float(curved.value("rho")), MAX_DETAIL_RADIUS, paper.ratios
+    )
     times = curved.givens.inverted.givens.mu_l.per_mm / scale.per_mm
     shown, hub = (hand.enlarged(drawn.act.name, drawn, triple[1], times) for drawn in (triple, o))
     return Detail(hand, at_scale(CURVATURE, scale), scale.per_mm, times, shown, hub)
@@ -220,18 +226,18 @@ def _chords(curved: Curved, detail: Detail) -> Step:
     said = say(
         "Find the sharpest outward bend of the pitch curve and call this point B: here {place}, at φ = "
         "{phi:.1f}°. Copy {points} with dividers to a free part of the sheet, {copied}."
-    ).where(place=_place(curved), phi=np.degrees(phi[1] % FULL_TURN), points=points, copied=_copied(detail))
+    ).with_values(place=_place(curved), phi=np.degrees(phi[1] % FULL_TURN), points=points, copied=_copied(detail))
     joined = say(
         "Join them with a ruler: the chords measure {first:.2f} mm and {second:.2f} mm. They span {step:.3g}° of the "
         "cam angle."
-    ).where(first=first, second=second, step=np.degrees(phi[2] - phi[0]))
+    ).with_values(first=first, second=second, step=np.degrees(phi[2] - phi[0]))
     more = [ONLY_RESTS] if np.isnan(curved.first("rho_candidates")[0]) else []
     why = say(
         "The circle through three points is found by two of its chords, and it is smallest where the curve bends most."
     )
     chords = detail.hand.join("chords", triple[:2], triple[1:])
     marks = (
-        *(chords.ways(Role.CURVE), triple.dots()),
+        *(chords.segments(Role.CURVE), triple.dots()),
         *(triple[k].label(name, -detail.hub.place) for k, name in enumerate((before, "B", after))),
     )
     parts = Part(said, (triple,)), Part(sequence([joined, *more], " "), (chords,))
@@ -262,7 +268,7 @@ def _missed(curved: Curved) -> list[Caption]:
     said = say(
         "If every point may be off by {careful:g} mm, ρ may be off by {missed}: 4 × {careful:g} mm × ρ/h², with "
         "h = ({first:.2f} + {second:.2f})/2 = {chord:.1f} mm and ρ = {rho:.1f} mm on the profile."
-    ).where(
+    ).with_values(
         careful=CAREFUL_ERROR, missed=_percent(missed), chord=chord, rho=rho / mu_l, first=chords[0], second=chords[1]
     )
     wide = _twice_as_wide(curved)
@@ -275,7 +281,7 @@ def _missed(curved: Curved) -> list[Caption]:
     )
     by_hand, keep = say("For drawing by hand the longer chords are better."), say("So the short chords are better.")
     advice = by_hand if abs(other - rho) < 0.75 * missed * rho else keep
-    return [said, wider.where(names=sequence(names), other=other, rho=rho, advice=advice)]
+    return [said, wider.with_values(names=sequence(names), other=other, rho=rho, advice=advice)]
 
 
 def _percent(part: float) -> Caption:
@@ -303,7 +309,7 @@ def _bisected(curved: Curved, detail: Detail) -> Step:
     )
     second = say("Do the same with {setting:.1f} mm on the second chord.")
     why = say("The centre of a circle is equally far from both ends of a chord.")
-    told = (first.where(setting=settings[0], share=BISECTION_SHARE), second.where(setting=settings[1]))
+    told = (first.with_values(setting=settings[0], share=BISECTION_SHARE), second.with_values(setting=settings[1]))
     halves = [Part(caption, of) for caption, (_, of) in zip(told, lines, strict=True)]
     hub, marks = detail.hub, [mark for made, _ in lines for mark in made]
     found = Part(say("The two lines meet in O, the centre of curvature."), (hub,))
@@ -315,7 +321,7 @@ def _measured(curved: Curved, detail: Detail) -> Step:
     said = say(
         "Join O to B with a ruler: OB measures {paper:.2f} mm, at {ratio}, so the minimum radius of curvature of "
         "the pitch curve is ρ = {rho:.3f} mm."
-    ).where(paper=abs(detail.hub.place), ratio=ratio_text(detail.per_mm), rho=curved.value("rho"))
+    ).with_values(paper=abs(detail.hub.place), ratio=ratio_text(detail.per_mm), rho=curved.value("rho"))
     check = say(
         "Check with the compass: the arc about O through B passes through the neighbouring points and follows the "
         "curve closely."
@@ -332,7 +338,7 @@ def _on_profile(curved: Curved) -> Step:
     said = say(
         "On the profile mark O too, {paper:.1f} mm from B, square to the pitch curve on its inner side: the roller's "
         "centre turns about it while the roller passes B."
-    ).where(paper=abs(b.place - o.place))
+    ).with_values(paper=abs(b.place - o.place))
     why = say("The place of O shows how much of the cam is left between the roller and O.")
     marks = (
         Line(np.array([o.place, b.place]), Role.LIMIT).left_by(ob),
@@ -369,7 +375,7 @@ def _place(curved: Curved) -> Caption:
         dwell = (int(stations.phase[last]) + 1) % len(motion.phases)
         return say("the middle of a dwell ({symbol})", symbol=phase_symbol(motion, dwell))
     resting = say("station {name}, where the follower is at rest for an instant, on an arc about the cam centre")
-    return resting.where(name=names[last])
+    return resting.with_values(name=names[last])
 
 
 def _neighbours_named(curved: Curved) -> tuple[str, str]:

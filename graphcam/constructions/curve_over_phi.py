@@ -45,7 +45,7 @@ def curve_over_phi(
     either = any(straight) and not all(straight)
     for piece, by_ruler in zip(stations.pieces, straight, strict=True):
         tool = [RULER if by_ruler else FRENCH_CURVE] if either else []
-        corner = [] if piece.start in begins else [met.where(first=names[piece.start])]
+        corner = [] if piece.start in begins else [met.with_values(first=names[piece.start])]
         faired = hand.fair(name, curve.first, [piece])
         ends = from_to(names[piece.start], names[piece.stop - 1])
         rows.append(Row(ends, sequence([*tool, *corner], "; ") if tool or corner else "", (faired,)))

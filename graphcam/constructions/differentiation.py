@@ -290,19 +290,19 @@ class _Pass:
         return self.c.acts[f"{name} {self.number}"].first
 
     @property
-    def first(self) -> int:
+    def first_slope_number(self) -> int:
         """The number of the first slope: chords are numbered from 1, the points of the tangents from 0."""
         return int(self.c.givens.by == "chords")
 
     @property
     def names(self) -> list[str]:
         """The numbers of the slopes."""
-        return [f"{self.first + k}" for k in range(self.drawn("slopes").shown.size)]
+        return [f"{self.first_slope_number + k}" for k in range(self.drawn("slopes").shown.size)]
 
     def slope(self, k: int) -> Caption:
         """How a chord or a tangent runs."""
         way = complex(self.drawn("slopes").directions[k])
-        if self.first:
+        if self.first_slope_number:
             return run_of_chord(way)
         angle = math.degrees(np.angle(way))
         if abs(angle) < READABLE_ANGLE:
@@ -319,7 +319,7 @@ class _Pass:
         values = {"source": self.source, "target": self.target, "index": f"{self.number}".translate(SUBSCRIPTS)}
         values |= {"name": names[k], "count": len(names), "pole": self.c.givens.poles[self.number - 1]}
         values |= {"slope": self.slope(k), "height": self.height(k), "start": self.number - 1}
-        return sequence([each.where(**values) for each in sentences], " ")
+        return sequence([each.with_values(**values) for each in sentences], " ")
 
 
 def _draw(c: Construction[DifferentiationGivens]) -> list[Step]:
@@ -333,7 +333,7 @@ def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
     k = int(np.argmax(np.abs(s.shown.imag)))
     below = row_numbers(stations, 0, np.full(s.shown.shape, -UP))
     axes = (*_axes(c, "s"), *graduated(s.shown.imag, mu_s.per_mm, lift_unit=mu_s.unit))
-    plotted = (*axes, s.dots(Role.CONSTRUCTION), s.from_(stations, Role.CONSTRUCTION), *below)
+    plotted = (*axes, s.dots(Role.CONSTRUCTION), s.segments_from(stations, Role.CONSTRUCTION), *below)
     plotted_at = say_many(
         "The displacement is plotted at {count} station.",
         "The displacement is plotted at {count} stations.",
@@ -343,7 +343,7 @@ def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
         "Mark them on the axis, 1 mm = {degrees:.4g}°, and number them from 0. Draw the displacement as an "
         "ordinate at each, 1 mm = {mu:.4g} {unit}: station {name} lies {x:.2f} mm from the origin, and its "
         "ordinate is {y:.2f} mm. Join the ends by a smooth curve with the French curve."
-    ).where(name=k, x=stations.shown[k].real, y=s.shown[k].imag, unit=unit(mu_s.unit), mu=mu_s.per_mm)
+    ).with_values(name=k, x=stations.shown[k].real, y=s.shown[k].imag, unit=unit(mu_s.unit), mu=mu_s.per_mm)
     told = [plotted_at, said.where(degrees=math.degrees(c.givens.mu_phi.per_mm))]
     if c.givens.turn:
         told.append(say("After the last station the next turn begins with station 0."))
@@ -392,7 +392,7 @@ def _traced(run: _Pass) -> Step:
         beside, half = slopes, TANGENT_HALF_LENGTH * along / np.abs(along)
         line = Segments(places - half, places + half, Role.LIMIT).left_by(slopes)
         # The points of v have theirs already.
-        numbers = row_numbers(slopes, run.first, outward) if run.source == "s" else ()
+        numbers = row_numbers(slopes, run.first_slope_number, outward) if run.source == "s" else ()
         said = (
             say(
                 "Set a mirror across the curve of {source} at a point, and turn it until the curve runs into its "
@@ -415,9 +415,9 @@ def _with_rays(run: _Pass) -> Step:
     axes, outward = (*_axes(c, run.target), *pole), np.where(derived.shown.imag < 0, -UP, UP)
     carried = (
         Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act, index=rays.index[kept]),
-        *(derived.from_(heights, Role.CONSTRUCTION), derived.dots(Role.CONSTRUCTION)),
-        *ray_numbers(heights, run.first, groups, every_kth(derived.shown)),
-        *row_numbers(derived, run.first, outward),
+        *(derived.segments_from(heights, Role.CONSTRUCTION), derived.dots(Role.CONSTRUCTION)),
+        *ray_numbers(heights, run.first_slope_number, groups, every_kth(derived.shown)),
+        *row_numbers(derived, run.first_slope_number, outward),
     )
     why = say(
         "The triangle of pole, origin and height has the slope of {source}, so the height is H{index} times that "
@@ -449,7 +449,9 @@ def _curve_step(run: _Pass) -> Step:
     near, longest = int(np.argmax(heights if up >= down else -heights)), float(c.first(f"max_{target}"))
     said = say(
         "Join the points by a smooth curve with the French curve. Its longest ordinate, {height}, is near point {name}."
-    ).where(height=raised(longest if up >= down else -longest, say("at the origin")), name=run.first + near)
+    ).with_values(
+        height=raised(longest if up >= down else -longest, say("at the origin")), name=run.first_slope_number + near
+    )
     why = say("The values of {target} are wanted between the points too, above all the maximum.")
     title, curve = run.told(say("Curve of {target}")), _curve(c, target)
     return Step(title, (Part(said, (curve,)),), _view(c, target), (curve.line(Role.RESULT),), why=run.told(why))
@@ -503,6 +505,9 @@ def _scale(run: _Pass) -> Step:
     why = say("A ray cuts off H times a slope on paper, where {source} and φ have their scales.")
     end, heights, read = _end(c), c.acts[name].shown.imag, c.readings[name]
     upright = Line(end + UP * np.array(reach(heights)), Role.SCALE)
-    marks, part = (upright, *graduated(heights, float(read.scale), end, read.act)), Part(run.told(said.where(**values)))
+    marks, part = (
+        (upright, *graduated(heights, float(read.scale), end, read.act)),
+        Part(run.told(said.with_values(**values))),
+    )
     title, reads = run.told(say("The scale of {target}")), (f"max_{name}", name)
     return Step(title, (part,), _view(c, name), marks, reads, why=run.told(why))

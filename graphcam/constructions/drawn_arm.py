@@ -121,7 +121,7 @@ class DrawnOscillating(DrawnFollower):
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """Arm, pivot and roller."""
         return [
-            (KNIFE_EDGE_DATA if roller_radius == 0 else ROLLER_DATA).where(rotation=sense_caption(rotation)),
+            (KNIFE_EDGE_DATA if roller_radius == 0 else ROLLER_DATA).with_values(rotation=sense_caption(rotation)),
             say("The arm is l = {arm:g} mm long.", arm=self.arm),
             *([] if self.place is None else [say("The pivot is c = {place:g} mm from A.", place=self.place)]),
             *roller_given(roller_radius),

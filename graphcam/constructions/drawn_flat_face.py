@@ -96,7 +96,7 @@ class DrawnFlatFaced(DrawnFollower):
 
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """The face."""
-        return [FLAT_FACE_DATA.where(rotation=sense_caption(rotation))]
+        return [FLAT_FACE_DATA.with_values(rotation=sense_caption(rotation))]
 
     def limited(self, limits: Limits) -> Caption:
         """A face asks for a convex profile; a pressure angle there is none."""

@@ -119,10 +119,10 @@ class DrawnTranslating(DrawnFollower):
 
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """Line of motion and roller."""
-        moved = (KNIFE_EDGE_DATA if roller_radius == 0 else ROLLER_DATA).where(rotation=sense_caption(rotation))
+        moved = (KNIFE_EDGE_DATA if roller_radius == 0 else ROLLER_DATA).with_values(rotation=sense_caption(rotation))
         if self.place is None:
             return [moved, *roller_given(roller_radius)]
-        line = (CENTRAL_REMARK if self.place == 0 else LEFT_REMARK if self.place < 0 else RIGHT_REMARK).where(
+        line = (CENTRAL_REMARK if self.place == 0 else LEFT_REMARK if self.place < 0 else RIGHT_REMARK).with_values(
             offset=self.place
         )
         return [moved, line, *roller_given(roller_radius)]

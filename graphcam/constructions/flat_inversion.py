@@ -112,7 +112,7 @@ def flat_inversion(
     profile_view.curve_readings(hand, touch, mu_l)
     hand.read("contact", calculated(np.copysign, distance_between(feet, touch), aside), mu_l.per_mm)
     # The contact over the cam angle, faired as any other curve, says how far it wanders.
-    axis, origin = hand.found(integrated.givens.diagram, "axis"), hand.given("cam centre")
+    axis, origin = hand.earlier_places(integrated.givens.diagram, "axis"), hand.given("cam centre")
     wander = hand.lay_off("contacts", axis, UP, aside)
     lowest, highest = (hand.tangent(f"farthest {way}", wander, pieces, way * UP) for way in (-1, 1))
     hand.read("face_left", distance_between(lowest, origin, UP), mu_l.per_mm)
@@ -159,7 +159,7 @@ def _rays(inverted: profile_view.Inverted) -> Step:
         "The cam turns {rotation}: hold it still and turn the follower the other way, {against}. For every station set "
         "the protractor to its angle from the vertical, {against}, draw the ray from the cam centre to the prime "
         "circle, and number it: ray {name} at {angle}."
-    ).where(**profile_view.position_words(inverted))
+    ).with_values(**profile_view.position_words(inverted))
     marks = (
         Segments(rays.shown, starts.shown, Role.CONSTRUCTION).left_by(rays),
         *numbers(starts, _stations(inverted), -unit(starts.shown)),
@@ -179,9 +179,9 @@ def _faces(inverted: profile_view.Inverted) -> Step:
         "On each ray lay off the displacement with the dividers, outward from the prime circle: its ordinate times "
         "μₛ/μₗ = {mu:.5g}/{mu_l:g} = {factor:.5g}. Station {name}: {length}. With two set squares draw the face there, "
         "square to the ray."
-    ).where(length=setting(feet[profile_view.worked_station(_stations(inverted))]), **_on_profile(inverted, "s"))
+    ).with_values(length=setting(feet[profile_view.worked_station(_stations(inverted))]), **_on_profile(inverted, "s"))
     marks = (
-        *(feet.from_(starts, Role.CONSTRUCTION), feet.dots(Role.CONSTRUCTION)),
+        *(feet.segments_from(starts, Role.CONSTRUCTION), feet.dots(Role.CONSTRUCTION)),
         Segments(left, right, Role.CONSTRUCTION).left_by(faces),
     )
     why = say("The face is r₀ + s from the cam centre, square to the motion.")
@@ -202,12 +202,12 @@ def _contacts(inverted: profile_view.Inverted) -> Step:
         "From the end of each ray lay off the velocity along the face with the dividers: its ordinate times μᵥ/μₗ = "
         "{mu:.5g}/{mu_l:g} = {factor:.5g}, on a rise {side}, seen from the cam centre, and on a return to the other "
         "side. Station {name}: {length}. The ends are the contact points: number them."
-    ).where(side=_side(sigma), length=laid_off(profile_view.worked_station(_stations(inverted))))
+    ).with_values(side=_side(sigma), length=laid_off(profile_view.worked_station(_stations(inverted))))
     widths = {side: float(inverted.value(f"face_{side}")) for side in ("left", "right")}
     widest = say(
         "Joined over φ by a smooth curve, as the velocities are, these lengths reach {left_mm:.2f} mm to the left and "
         "{right_mm:.2f} mm to the right: times {mu_l:g} the half-widths of the face, {left:.2f} mm and {right:.2f} mm."
-    ).where(mu_l=mu_l, **widths, **{f"{side}_mm": width / mu_l for side, width in widths.items()})
+    ).with_values(mu_l=mu_l, **widths, **{f"{side}_mm": width / mu_l for side, width in widths.items()})
     said = said.where(**_on_profile(inverted, "v"))
     parts = run(said, STATION, station_names(_stations(inverted)), pitch, settings=laid_off), Part(widest)
     why = say("The cam's point ds/dφ beside the ray moves along the ray just as fast as the face: they touch there.")

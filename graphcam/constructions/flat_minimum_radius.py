@@ -194,7 +194,7 @@ def flat_curvature(region: FlatRegion, prime_radius: float, pencil: Pencil) -> F
     It is negative where the profile under the face would have to turn inside out, and its own only candidate.
     """
     hand, need = Hand(pencil, CURVATURE_MEANING), region.readings["need"]
-    origin, zero = hand.given("origin"), hand.found(region, "zero")
+    origin, zero = hand.given("origin"), hand.earlier_places(region, "zero")
     centre = hand.lay_off("A", origin, -UP, hand.at_scale(prime_radius, need))
     rho = calculated(np.subtract, distance_between(centre, origin, UP), hand.carry(need))
     hand.read("rho", rho, need.scale)
@@ -217,9 +217,9 @@ def _displacement_step(region: FlatRegion) -> Step:
     if adopted := region.givens.adopted():
         lowest.append(-adopted.prime_radius / region.readings["prime_radius"].per_mm)
     axes = _axes(region.first("curve"), min(lowest) - AXIS_OVERHANG)
-    marks = [after.from_(heights, Role.CONSTRUCTION), *numbers(after, stations, _outward(after))]
+    marks = [after.segments_from(heights, Role.CONSTRUCTION), *numbers(after, stations, _outward(after))]
     if jumps:
-        marks.append(near.from_(heights[jumps], Role.CONSTRUCTION))
+        marks.append(near.segments_from(heights[jumps], Role.CONSTRUCTION))
         marks += [near[k].label(named[jump], complex(_outward(near)[k]), small=True) for k, jump in enumerate(jumps)]
     ends = [(near[jumps.index(k)], after[k]) if k in jumps else (after[k],) for k in range(after.shown.size)]
     worked = int(np.argmax(np.round(np.abs(after.shown.real) * after.shown.imag, 3)))
@@ -227,9 +227,9 @@ def _displacement_step(region: FlatRegion) -> Step:
         "With the T-square carry each displacement across to a vertical axis. From there lay off the acceleration "
         "horizontally with the dividers, in the scale of s: times μₐ/μₛ = {mu_a:.5g}/{mu_s:.5g} = {factor:.4f}, to the "
         "right where it is positive. Station {name}: {there}. Number the ends."
-    ).where(name=named[worked], there=_station(region, worked), factor=_factor(region))
+    ).with_values(name=named[worked], there=_station(region, worked), factor=_factor(region))
     said = said.where(**{f"mu_{name}": integrated.readings[name].per_mm for name in "as"})
-    rows = tuple(Row(STATION.where(name=named[k]), _station(region, k), draws) for k, draws in enumerate(ends))
+    rows = tuple(Row(STATION.with_values(name=named[k]), _station(region, k), draws) for k, draws in enumerate(ends))
     why = say("The radius of curvature is ρ = r₀ + s + a, and lengths in one scale can be added on the paper.")
     title, marks = say("Displacement over acceleration"), (*axes, *marks)
     return Step(title, (Part(said, rows=rows),), OVER_ACCELERATION, marks, given=axes, why=why)
@@ -254,7 +254,7 @@ def _station(region: FlatRegion, k: int) -> Caption:
         said = say("{height}, from there before the jump {near}, after it {after}")
     elif abs(a) < NEGLIGIBLE_SIZE:
         said = say("{height}; the acceleration is zero")
-    return said.where(height=_height_caption(s), near=_level(before, region), after=_level(a, region))
+    return said.with_values(height=_height_caption(s), near=_level(before, region), after=_level(a, region))
 
 
 def _height_caption(y: float) -> Caption:
@@ -273,7 +273,7 @@ def _level(a: float, region: FlatRegion) -> Caption:
         if a > 0
         else say("{mm:.2f} mm × {factor:.4f} = {length:.2f} mm to the left")
     )
-    return said.where(mm=abs(a), factor=factor, length=abs(a) * factor)
+    return said.with_values(mm=abs(a), factor=factor, length=abs(a) * factor)
 
 
 def _curve_step(region: FlatRegion) -> Step:
@@ -303,7 +303,7 @@ def _touched(region: FlatRegion) -> Step:
     slide = say(
         "Hold a set square at 45° so that its edge falls to the right, and slide it in from the lower left until the "
         "edge touches the curve and crosses it nowhere: near {name}."
-    ).where(name=nearest_station(region))
+    ).with_values(name=nearest_station(region))
     read = say(
         "The edge meets the axis of s {height}, so the maximum of −(s + a) is {paper:.2f} mm × {mu:.5g} = "
         "{need:.3f} mm."
@@ -312,7 +312,7 @@ def _touched(region: FlatRegion) -> Step:
     if abs(paper) < NEGLIGIBLE_SIZE:
         read = say("The edge meets the axis of s {height}, so the maximum of −(s + a) is zero.")
     values = {"mu": region.readings["need"].per_mm, "paper": paper, "need": need}
-    read = read.where(height=_height_caption(zero.place.imag), **values)
+    read = read.with_values(height=_height_caption(zero.place.imag), **values)
     lean = say(
         "If a had kept its own scale, the edge would have to fall by arctan(μₐ/μₛ) = {angle:.1f}°.",
         angle=np.degrees(np.arctan(_factor(region))),
@@ -347,12 +347,12 @@ def _radius_step(region: FlatRegion) -> Step:
             "The radius of curvature of the profile must be at least ρ = {least:g} mm: r₀ = {sum} = {r0:.3f} mm. "
             "Set the dividers to {r0:.3f}/{mu:.5g} = {paper:.2f} mm and lay it off from the crossing of the axes "
             "straight down to the cam centre A₀."
-        ).where(least=least, sum=_sum(least, need), r0=r0, mu=mu, paper=r0 / mu)
+        ).with_values(least=least, sum=_sum(least, need), r0=r0, mu=mu, paper=r0 / mu)
     else:
         said = say(
             "The radius of curvature of the profile must be at least ρ = {least:g} mm, and r₀ = {sum} is not "
             "positive: any prime radius will do, and the cam centre A₀ is the crossing of the axes."
-        ).where(least=least, sum=_sum(least, need))
+        ).with_values(least=least, sum=_sum(least, need))
     radius = say("min r₀ = {r0:.2f}", r0=r0)
     marks = (
         *(centre.dots(Role.RESULT), centre.label("A₀", 1 - 1j)),
@@ -368,7 +368,7 @@ def _sum(least: float, need: float) -> Caption:
     if abs(need) < NEGLIGIBLE_SIZE / 10:
         return say("ρ")
     plus, minus = say("{least:g} + {need:.3f}"), say("{least:g} − {need:.3f}")
-    return (plus if need > 0 else minus).where(least=least, need=abs(need))
+    return (plus if need > 0 else minus).with_values(least=least, need=abs(need))
 
 
 def _axes(curve: Points, below: float) -> tuple[Mark, ...]:
@@ -388,7 +388,7 @@ def _draw_curvature(curved: FlatCurved) -> list[Step]:
     placed = say(
         "Set the dividers to {r0:g}/{mu:.5g} = {paper:.2f} mm, the adopted prime radius, and lay it off from the "
         "crossing of the axes straight down to the cam centre A."
-    ).where(r0=r0, mu=mu, paper=r0 / mu)
+    ).with_values(r0=r0, mu=mu, paper=r0 / mu)
     measured = (
         say("From A up to where the 45° line meets the axis it measures {paper:.2f} mm × {mu:.5g} = {rho:.3f} mm.")
         if value > 0
@@ -396,7 +396,7 @@ def _draw_curvature(curved: FlatCurved) -> list[Step]:
             "The 45° line meets the axis {paper:.2f} mm × {mu:.5g} below A: ρ = {rho:.3f} mm, so the profile "
             "would turn inside out."
         )
-    ).where(paper=abs(float(curved.first("rho"))), mu=mu, rho=value)
+    ).with_values(paper=abs(float(curved.first("rho"))), mu=mu, rho=value)
     named = say("ρ = {rho:.2f}", rho=value)
     label = centre.label(say("A (r₀ = {r0:g})", r0=r0), -1 - 1j)
     marks = (centre.dots(Role.RESULT), label, Dimension(centre.place, zero, named, -14.0, of=rho.act))

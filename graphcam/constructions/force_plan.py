@@ -285,12 +285,12 @@ def load_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     name, mu = station_name(plan), plan.givens.mu_force.per_mm
     terms, (s, a) = _terms(plan), _values(plan, "s", "a")
     load = sum(force for _, force in terms)
-    told = sequence([said.where(force=force) for said, force in terms if abs(force) >= READABLE_FORCE])
+    told = sequence([said.with_values(force=force) for said, force in terms if abs(force) >= READABLE_FORCE])
     said = say(
         "At station {name} the drawn s = {s:.2f} mm and a = {a:.2f} mm/rad² give the load Q = {load:.1f} N: {terms}. "
         "At μF = {mu:g} N/mm set the dividers to {size:.1f}/{mu:g} = {paper:.1f} mm, and lay Q off from its tail "
         "straight {way}."
-    ).where(name=name, s=s, a=a, load=load, terms=told, mu=mu, size=abs(load), paper=abs(load) / mu)
+    ).with_values(name=name, s=s, a=a, load=load, terms=told, mu=mu, size=abs(load), paper=abs(load) / mu)
     said = said.where(way=say("down") if load > 0 else say("up"))
     why = say("Inertia, spring and preload act along the motion: this force is known in magnitude and direction.")
     return loaded(plan, view, said, -side_of(plan) + 0j, why)
@@ -334,7 +334,7 @@ def _line_of_force(plan: Construction[ForcePlanGivens], view: View) -> Step:
     said = say(
         "At the head of Q set the protractor to α = {alpha:.2f}° from the vertical {side}, and draw the line of "
         "the contact force F there, parallel to the contact normal of this station."
-    ).where(alpha=abs(alpha), side=towards(side_of(plan)))
+    ).with_values(alpha=abs(alpha), side=towards(side_of(plan)))
     marks = leaning(normal, beyond(float(plan.first("normal"))), alpha)
     why = say("The cam pushes along the contact normal, which makes the pressure angle with the motion.")
     return Step(say("The line of the contact force"), (Part(said, (normal,)),), view, marks, why=why)

@@ -153,7 +153,7 @@ def _normal(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     said = say(
         "At the head of Q set the protractor to α = {alpha:.2f}° from the vertical {side}, and draw the contact "
         "normal of this station there."
-    ).where(alpha=abs(alpha), side=towards(-1.0 if normal.directions.real < 0 else 1.0))
+    ).with_values(alpha=abs(alpha), side=towards(-1.0 if normal.directions.real < 0 else 1.0))
     reach = max(BASE, 2 * LOAD_LENGTH if math.isnan(length) else length) + LINE_OVERHANG
     why = say("Without friction the cam would push along the contact normal.")
     return Step(say("The contact normal"), (Part(said, (normal,)),), view, plain.leaning(normal, reach, alpha), why=why)

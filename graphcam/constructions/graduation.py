@@ -60,7 +60,7 @@ def graduated(
     named = zip(ends[whole].tolist(), (counts[whole] // parts).tolist(), strict=True)
     return (
         Segments(starts, ends, Role.SCALE, of=of),
-        *(Label(at, value.where(value=n * every), towards=way[0], small=True, of=of) for at, n in named),
+        *(Label(at, value.with_values(value=n * every), towards=way[0], small=True, of=of) for at, n in named),
     )
 
 
@@ -157,7 +157,7 @@ def time_axis_caption(mu_phi: Scale, omega: float) -> Caption:
     return say(
         "At ω = {omega:.5g} rad/s one revolution takes T = 2π/ω = {turn:.4g} s, so the same axis is one of time: μₜ = "
         "μᵩ/ω = {mu:.4g} s/mm."
-    ).where(omega=omega, turn=FULL_TURN / omega, mu=time_scale(mu_phi, omega).per_mm)
+    ).with_values(omega=omega, turn=FULL_TURN / omega, mu=time_scale(mu_phi, omega).per_mm)
 
 
 _FACTORS = say("ω"), say("ω²"), say("ω³")
@@ -173,7 +173,7 @@ def time_scale_caption(per_mm: float, symbol: str, omega: float, lift_unit: str)
             "Over time a millimetre is {mu:.5g}·{factor}/1000 = {value:.4g} {unit}: the graduation farther to the "
             "right."
         )
-    return said.where(mu=per_mm, factor=factor, value=at.per_mm, unit=unit(at.unit))
+    return said.with_values(mu=per_mm, factor=factor, value=at.per_mm, unit=unit(at.unit))
 
 
 def graduated_at_speed(

@@ -151,7 +151,7 @@ def integration(
     """
     givens = IntegrationGivens(**vars(diagram.givens), diagram=diagram, poles=poles, lowest=lowest)
     hand, motion, stations, mu_phi = Hand(pencil, MEANING, givens.unit), givens.motion, givens.stations, givens.mu_phi
-    axis, origin, left = hand.found(diagram, "axis"), hand.given("vertical axis", along=UP), stations.left
+    axis, origin, left = hand.earlier_places(diagram, "axis"), hand.given("vertical axis", along=UP), stations.left
     middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
     uprights = hand.erect("verticals", axis)
 
@@ -318,23 +318,23 @@ def _draw_rays(c: Integrated, run: _Integrating) -> Step:
     marks = (
         *(places.dots(Role.CONSTRUCTION) for places in halves),
         Segments(projected.points, reach + projected.points, Role.CONSTRUCTION).left_by(projected),
-        rays.first[kept].ways(Role.CONSTRUCTION),
+        rays.first[kept].segments(Role.CONSTRUCTION),
         *height_names(projected, names),
     )
     marked = say("Mark the pole P{index} on the axis, H{index} = {distance:.1f} mm to the left of 0.")
-    marked = marked.where(index=run.subscript, distance=distance)
+    marked = marked.with_values(index=run.subscript, distance=distance)
     rows = tuple(
         Row(
-            (say("Rays {name}") if len(own) > 1 else say("Ray {name}")).where(name=name),
+            (say("Rays {name}") if len(own) > 1 else say("Ray {name}")).with_values(name=name),
             say("{source} = {y:z.2f} mm", source=source, y=height[k]),
             (*(places.first[own] for places in halves), levelled.first[[k]], rays.first[[k]]),
         )
         for k, own, name in zip(kept, same, names, strict=True)
     )
-    said = sequence([run.carried.where(source=source), rows[min(2, len(rows) - 1)].caption], " ")
+    said = sequence([run.carried.with_values(source=source), rows[min(2, len(rows) - 1)].caption], " ")
     why = say(
         "A ray rises by the ordinate y over the distance H, so its slope y/H is the slope that {target} has there."
-    ).where(target=target)
+    ).with_values(target=target)
     title = say("Pole and rays, {source} to {target}", source=source, target=target)
     parts = Part(marked, (pole.first,)), Part(said, rows=rows)
     return Step(title, parts, run.source, (*laid_out, *marks), given=laid_out, why=why)
@@ -353,7 +353,7 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
             axes, under = (*axes, *c.givens.phases_under(heights)), ()
     marks = (
         *(polygon.first[span].line(Role.CONSTRUCTION) for span in stations.phases),
-        curve.from_(curve.shown.real + 0j, Role.CONSTRUCTION),
+        curve.segments_from(curve.shown.real + 0j, Role.CONSTRUCTION),
         *numbers(polygon, stations, _outward_directions(y, stations), far),
     )
     # The fourth chord is worked in full, or the first one after it that climbs.
@@ -368,14 +368,14 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
         "to the next vertical, and number its end. Chord {name}: slide the set square from ray {name} to point "
         "{before} and draw as far as vertical {name}; it climbs by y·Δx/H = {height:.2f}·{width:.2f}/{distance:.1f} = "
         "{rise:.2f} mm."
-    ).where(**values)
+    ).with_values(**values)
     why = say(
         "A chord with the slope y/H climbs by y·Δx/H, the area of its part divided by H, so chords set end to end "
         "add up the area under {source}."
-    ).where(source=source)
+    ).with_values(source=source)
     chords = Part(said, rows=tuple(row for k in range(len(stations.phases)) for row in _chord_rows(c, run, k)))
     checks = tuple(_ordinates(c, run))
-    checks = led_by(run.closing.where(left=left), checks) if left > NEGLIGIBLE_SIZE else checks
+    checks = led_by(run.closing.with_values(left=left), checks) if left > NEGLIGIBLE_SIZE else checks
     title = say("Chords parallel to the rays: {target}", target=target)
     return Step(title, (chords, *checks), run.target, (*axes, *marks), given=axes, why=why, under=under)
 
@@ -393,10 +393,10 @@ def _chord_rows(c: Integrated, run: _Integrating, phase: int) -> Iterator[Row]:
     if run.index == 2:
         start = _START_CAPTIONS[0 if abs(y[span.start]) < NEGLIGIBLE_SIZE else 1 if phase else 2]
         title = say("Start of {phase}", phase=phase_title(c.givens.motion, int(stations.phase[span.start])))
-        yield Row(title, start.where(y=y[span.start], name=names[span.start]), (polygon.first[[span.start]],))
+        yield Row(title, start.with_values(y=y[span.start], name=names[span.start]), (polygon.first[[span.start]],))
     for k in range(span.start + 1, span.stop):
         rise = y[k] - y[k - 1]
-        change = _CHORD_CAPTIONS[0 if abs(rise) < NEGLIGIBLE_SIZE else 1 if rise > 0 else 2].where(rise=abs(rise))
+        change = _CHORD_CAPTIONS[0 if abs(rise) < NEGLIGIBLE_SIZE else 1 if rise > 0 else 2].with_values(rise=abs(rise))
         # The first chord of v starts at rest, where the phase does.
         first = k == span.start + 1 and run.index == 1
         said = say("{change} from {before} on the axis", before=names[k - 1], change=change) if first else change
@@ -423,9 +423,11 @@ def _ordinates(c: Integrated, run: _Integrating) -> Iterator[Part]:
         # What is nothing has no sign.
         y, end = (float(np.round(curve.shown.imag[each], 2)) + 0.0 for each in (k, last))
         ends = {"first": names[first], "last": names[last]}
-        said = _CHECK_CAPTIONS[int(end != 0)].where(symbol=run.symbols[1], y=y, name=names[k], end=end, **ends)
+        said = _CHECK_CAPTIONS[int(end != 0)].with_values(symbol=run.symbols[1], y=y, name=names[k], end=end, **ends)
         if np.abs(off).max() > NEGLIGIBLE_SIZE:
-            shared = _RESIDUAL_CAPTIONS[int(np.abs(off[0]) > NEGLIGIBLE_SIZE)].where(start=off[0], by=off[1], **ends)
+            shared = _RESIDUAL_CAPTIONS[int(np.abs(off[0]) > NEGLIGIBLE_SIZE)].with_values(
+                start=off[0], by=off[1], **ends
+            )
             said = sequence([shared, said], " ")
         yield Part(said, (curve.first[span],))
 
@@ -460,9 +462,9 @@ def _draw_scales(c: Integrated) -> Iterator[Step]:
         "v": say("Divide by μᵩ·H₂: μᵥ = {mu_s:.5g}/({mu_phi:.5g}·{h2:.6g}) = {mu_v:.5g} ({unit}/rad)/mm."),
         "a": say("Divide by μᵩ·H₁: μₐ = {mu_v:.5g}/({mu_phi:.5g}·{h1:.6g}) = {mu_a:.5g} ({unit}/rad²)/mm."),
     }
-    yield _scale(c, "s", known.where(**values), top, (height,))
+    yield _scale(c, "s", known.with_values(**values), top, (height,))
     for name, said in through.items():
-        yield _scale(c, name, said.where(**values))
+        yield _scale(c, name, said.with_values(**values))
 
 
 def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, marks: tuple[Mark, ...] = ()) -> Step:
@@ -471,7 +473,7 @@ def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, ma
     k = int(stations.left[min(3, stations.left.size - 1)]) + 1
     read = {"y": c.first(name)[k], "value": c.value(name)[k], "unit": unit(c.readings[name].unit)}
     told = say("Station {name}: {symbol} = {y:.2f} mm × {mu:.5g} = {value:.5g} {unit}; repeat for the others.")
-    told = told.where(name=station_names(stations)[k], symbol=name, mu=mu, **read)
+    told = told.with_values(name=station_names(stations)[k], symbol=name, mu=mu, **read)
     # From the pole rays run to the axis on the left.
     heights = np.concatenate([c.first("a"), c.first("a_before")]) if name == "a" else c.acts[f"{name}_curve"].shown.imag
     lift_unit = c.readings[name].unit

@@ -132,12 +132,12 @@ def _circles(inverted: OffsetInverted) -> Step:
         upright = say(
             "With e = {e:g} mm draw the vertical from the {side} end of the horizontal diameter of the offset circle "
             "up to the prime circle: {line}."
-        ).where(e=e, side=_side(inverted))
+        ).with_values(e=e, side=_side(inverted))
         why = say(
             "The follower's line passes the cam centre at the distance e in every position, so it always touches the "
             "offset circle; s is counted from the prime circle."
         )
-    parts.append(Part(upright.where(line=_first_line(inverted)), (line, top)))
+    parts.append(Part(upright.with_values(line=_first_line(inverted)), (line, top)))
     return profile_view.prime_step(inverted, title, start, circles, (*further, drawn), why=why, parts=tuple(parts))
 
 
@@ -170,10 +170,10 @@ def _positions(inverted: OffsetInverted) -> Step:
     why = say(
         "Only the motion relative to the cam shapes it: a frame that turns {against} about the fixed cam "
         "is the same as a cam that turns {rotation} in the frame."
-    ).where(rotation=sense_caption(inverted.givens.rotation), against=profile_view.against(inverted))
+    ).with_values(rotation=sense_caption(inverted.givens.rotation), against=profile_view.against(inverted))
     title, rays = say("Inverted positions of the follower's line"), inverted.acts["inverted positions"]
     names = station_names(stations)
-    turned = run((tangents if e else said).where(**values), STATION, names, rays, feet, starts, motion)
+    turned = run((tangents if e else said).with_values(**values), STATION, names, rays, feet, starts, motion)
     return Step(title, (turned, last), PROFILE, marks, why=why)
 
 
@@ -181,13 +181,15 @@ def _displacement_step(inverted: OffsetInverted) -> Step:
     integrated, starts, pitch = inverted.givens.integrated, inverted.acts["starts"], inverted.acts["pitch"]
     stations, mu_l = integrated.givens.stations, inverted.givens.mu_l.per_mm
     at, moved = profile_view.worked_station(stations), np.flatnonzero(_lengths(inverted))
-    drawn = pitch.first[moved].from_(starts.first[moved], Role.CONSTRUCTION)
+    drawn = pitch.first[moved].segments_from(starts.first[moved], Role.CONSTRUCTION)
     mu_s, names = integrated.readings["s"].per_mm, station_names(stations)
     said = say(
         "Take s at every station from the displacement diagram with dividers; 1 mm there is {mu_s:.5g} mm × {times:g} "
         "= {factor:.5g} mm here. Lay it off along the line of that station, from the prime circle outward: station "
         "{name}: {length}. The ends are points of the pitch curve."
-    ).where(mu_s=mu_s, times=round(1 / mu_l, 6), factor=mu_s / mu_l, name=names[at], length=setting(pitch.first[at]))
+    ).with_values(
+        mu_s=mu_s, times=round(1 / mu_l, 6), factor=mu_s / mu_l, name=names[at], length=setting(pitch.first[at])
+    )
     lengths = _lengths(inverted)
 
     def laid_off(k: int) -> Words:

@@ -100,8 +100,8 @@ def jerk(integrated: Integrated, pole: float, pencil: Pencil) -> DrawnJerk:
     """
     diagram, stations, mu_phi = integrated.givens.diagram, integrated.givens.stations, integrated.givens.mu_phi
     hand, left = Hand(pencil, MEANING, integrated.givens.unit), stations.left
-    axis, origin = hand.found(diagram, "axis"), hand.given("origin")
-    after, before = hand.found(diagram, "plotted"), hand.found(diagram, "near side")
+    axis, origin = hand.earlier_places(diagram, "axis"), hand.given("origin")
+    after, before = hand.earlier_places(diagram, "plotted"), hand.earlier_places(diagram, "near side")
     uprights = hand.erect("uprights", axis)
     chords = hand.join("chords", after[left], before[left + 1])
     middles = hand.divide("middles of the parts", axis[left], axis[left + 1], 0.5)
@@ -174,10 +174,10 @@ def _chords(c: DrawnJerk) -> Step:
     said = say(
         "In the acceleration diagram join with the ruler the ends of the ordinates at neighbouring stations, on the "
         "near side of every jump: chord {name} runs {slope}."
-    ).where(name=names[k], slope=slopes[k])
+    ).with_values(name=names[k], slope=slopes[k])
     part = telling.run(said, say("Chord {name}"), names, chords, settings=slopes.__getitem__)
     why = say("The slope of a chord is very nearly that of the acceleration in the middle of the part.")
-    return Step(say("Chords of a"), (part,), ACCELERATION, (chords.ways(Role.LIMIT),), why=why)
+    return Step(say("Chords of a"), (part,), ACCELERATION, (chords.segments(Role.LIMIT),), why=why)
 
 
 def _heights(c: DrawnJerk) -> Floats:
@@ -203,7 +203,7 @@ def _with_rays(c: DrawnJerk) -> Step:
     told = [joined_parts(group.tolist(), givens.stations) for group in groups]
     marks = (
         Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act, index=rays.index[kept]),
-        *(found.from_(heights, Role.CONSTRUCTION), found.dots(Role.CONSTRUCTION)),
+        *(found.segments_from(heights, Role.CONSTRUCTION), found.dots(Role.CONSTRUCTION)),
         *height_names(heights[kept], told),
     )
     ends = [raised(y, say("at the origin")) for y in heights.shown.imag.tolist()]
@@ -211,7 +211,7 @@ def _with_rays(c: DrawnJerk) -> Step:
         "Over a new axis mark the pole P₃, H₃ = {distance:g} mm to the left of 0. Slide the set square from each chord "
         "to P₃ and draw the ray, parallel to the chord, as far as the vertical axis; with the T-square carry the level "
         "of its end to the vertical in the middle of the part. Ray {name} ends {height}."
-    ).where(distance=distance, name=names[k], height=ends[k])
+    ).with_values(distance=distance, name=names[k], height=ends[k])
     part = telling.run(said, say("Ray {name}"), names, rays, heights, found, settings=ends.__getitem__)
     why = say("The triangle of pole, origin and height has the slope of the chord, so the height is H₃ times it.")
     title, under = say("Pole and rays, a to j"), givens.degrees_under(_heights(c))
@@ -236,7 +236,7 @@ def _curve_step(c: DrawnJerk) -> Step:
         marks += _arrows(c)
         places = sequence([degrees(jump.phi) for jump in jumps])
         jumping = say("At {places} the acceleration jumps: there the jerk is infinite, as an arrow shows.")
-        said.append(jumping.where(places=places))
+        said.append(jumping.with_values(places=places))
     else:
         said.append(say("The acceleration nowhere jumps, so the jerk is finite everywhere."))
     why = say("The slope is found in the middles, and is wanted everywhere between the places where it jumps.")
@@ -263,7 +263,7 @@ def _scale(c: DrawnJerk) -> Step:
     if greatest < NEGLIGIBLE_SIZE:
         found = say("Between its jumps the acceleration is constant, so the finite jerk is zero.")
     gives = say("The pole gives μⱼ = μₐ/(μᵩ·H₃) = {mu_a:.5g}/({mu_phi:.5g}·{pole:g}) = {mu:.5g} ({unit}/rad³)/mm.")
-    told = [gives.where(**values), found.where(**values)]
+    told = [gives.with_values(**values), found.with_values(**values)]
     heights, end = c.acts["curve"].first.shown.imag, givens.end
     # At the end of the turn an arrow may stand.
     end += GRADUATION_OFFSET if any(not jump.phi for jump in acceleration_jumps(givens.motion)) else 0.0

@@ -297,12 +297,12 @@ def _limit_line(
         said = say(
             "From B₀ draw the dwell line at {angle} to the line of motion, down {side}: it keeps the angle in "
             "the lower dwell within its limit."
-        ).where(angle=angle, side=side_caption(lean))
+        ).with_values(angle=angle, side=side_caption(lean))
     else:
         said = say(
             "For the limit {limited} set a set square at {angle} to the line of motion, {slide} until it touches "
             "{curve}: here {where}."
-        ).where(
+        ).with_values(
             limited=LIMIT_NAMES[line.name],
             angle=angle,
             slide=SLIDE_CAPTIONS[-1 if lean > 0 else 1],
@@ -328,7 +328,7 @@ def _at_zero_lift(region: LeastRadius) -> Caption:
     if np.isnan(place):
         return say("The rise line meets the horizontal through B₀ at too flat an angle to be read.")
     said = say("The rise line meets the horizontal through B₀ {distance:.1f} mm {side} of it.")
-    return said.where(distance=abs(place.real), side=side_caption(place.real))
+    return said.with_values(distance=abs(place.real), side=side_caption(place.real))
 
 
 def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
@@ -352,7 +352,7 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
         starts, tips = (strokes.points + side * 1.5 * strokes.directions for side in (-1, 1))
         marks.append(Segments(starts, tips, Role.CONSTRUCTION).left_by(strokes))
         marks.append(place.first.label(PLACE_NAMES[name], _outside(lines, place.place), small=True))
-        crosses.append(Part(PLACE_CAPTIONS[name].where(distance=abs(place.place)), (place.first, strokes)))
+        crosses.append(Part(PLACE_CAPTIONS[name].with_values(distance=abs(place.place)), (place.first, strokes)))
     chosen = say("Thin crosses mark the points that textbooks choose.")
     parts = Part(sequence([*sides, hatch], " "), (permitted,)), *led_by(chosen, crosses)
     why = say("The cam centre must satisfy all limits at once.")
@@ -387,12 +387,14 @@ def _result(region: LeastRadius) -> Step:
         parts.append(Part(offset_caption(offset, mu), (region.acts["line of the offset"].first,)))
     parts.append(Part(_centre_caption(region), (centre,)))
     measured = say("Join A₀ to B₀ and measure: {paper:.2f} mm × {mu:.5g} = {r0:.3f} mm = r₀.")
-    parts.append(Part(measured.where(paper=paper["prime_radius"], mu=mu, r0=values["prime_radius"]), (joined,)))
+    parts.append(Part(measured.with_values(paper=paper["prime_radius"], mu=mu, r0=values["prime_radius"]), (joined,)))
     if abs(x) > ON_THE_LINE:
         carried = say(
             "Carry A₀ horizontally to the line of motion with the T-square: {aside:.2f} mm × {mu:.5g}, so e = "
             "{e:.3f} mm, and {height}."
-        ).where(aside=abs(paper["offset"]), mu=mu, e=values["offset"], height=_height(paper["s0"], mu, values["s0"]))
+        ).with_values(
+            aside=abs(paper["offset"]), mu=mu, e=values["offset"], height=_height(paper["s0"], mu, values["s0"])
+        )
         parts.append(Part(carried, (level,)))
     shown, read = say("min r₀ = {r0:.2f}", r0=values["prime_radius"]), region.readings["prime_radius"].act
     marks = (
@@ -421,9 +423,9 @@ def _centre_caption(region: LeastRadius) -> Caption:
     if offset is None:
         nearest_place = say("The offset is free: A₀ is the point of the hatched region nearest to B₀, {where}.")
         if len(bound) == 1:
-            return nearest_place.where(where=say("where the perpendicular from B₀ meets {line}", line=bound[0]))
+            return nearest_place.with_values(where=say("where the perpendicular from B₀ meets {line}", line=bound[0]))
         crossing = say("where it lies on {lines}", lines=joined(bound))
-        return nearest_place.where(where=crossing if bound else say("B₀ itself"))
+        return nearest_place.with_values(where=crossing if bound else say("B₀ itself"))
     on = say(", on {lines}", lines=joined(bound)) if bound else say(", level with B₀")
     if not offset:
         return say("With e = 0, A₀ is where the line of motion itself enters the hatched region{on}.", on=on)

@@ -235,7 +235,7 @@ def plan_scale(measured: Construction[PressureAngleGivens], k: int, d: complex) 
     triangle = np.ptp([0.0, d.real, v, d.real + v])
     size = complex(float(triangle) + d.imag, max(d.imag, abs(v)))
     usual = coarsest(standard_scale(d.imag, PLAN_HEIGHT, paper.ratios), paper.scale(size, PLAN_MARGINS))
-    return paper.kept(PLAN.name) or usual
+    return paper.kept_scale(PLAN.name) or usual
 
 
 @dataclass(frozen=True, eq=False)
@@ -324,7 +324,7 @@ def _cam_centre(measured: Construction[PressureAngleGivens]) -> Step:
     )
     upright = say("this vertical") if offset else say("the line of motion itself, as e = 0,")
     read = {"below": float(measured.first("s0")), "s0": float(measured.value("s0"))}
-    cut = cut.where(upright=upright, paper=r0 / mu, r0=r0, mu=mu, **read)
+    cut = cut.with_values(upright=upright, paper=r0 / mu, r0=r0, mu=mu, **read)
     combined = say("Work in the combined diagram, with B₀ and the ends of v as laid off there.")
     parts = [Part(combined, (displacements, ends)), Part(cut, (prime, centre))]
     if offset:
@@ -349,13 +349,13 @@ def _mechanism(shown: _PlanStation) -> Step:
     beside = say("Mark A in a new drawing at {ratio}, and draw the guide vertical through A.")
     if offset:
         beside = say("Mark A in a new drawing at {ratio}, and draw the guide vertical, {paper:.2f} mm {side} of A.")
-    taken = taken.where(name=shown.name)
-    beside = beside.where(ratio=ratio_text(shown.mu), paper=abs(b.place.real), side=side_caption(offset))
+    taken = taken.with_values(name=shown.name)
+    beside = beside.with_values(ratio=ratio_text(shown.mu), paper=abs(b.place.real), side=side_caption(offset))
     s0, s = float(measured.value("s0")), float(measured.givens.integrated.value("s")[k])
     above = say(
         "On the guide mark B, s₀ + s = {s0:.5g} + {s:.5g} = {sum:.5g} mm above A, which is {paper:.2f} mm of paper. "
         "Join A to B: {ab:.2f} mm."
-    ).where(s0=s0, s=s, sum=s0 + s, paper=b.place.imag, ab=abs(b.place))
+    ).with_values(s0=s0, s=s, sum=s0 + s, paper=b.place.imag, ab=abs(b.place))
     parts = Part(sequence([taken, beside], " "), (a, guide)), Part(above, (b, acts["AB"]))
     marks = (
         _stroke(guide, complex(b.place.real, -6.0), b.place + 12 * UP, Role.AXIS),
@@ -374,13 +374,13 @@ def _velocities(shown: _PlanStation) -> Step:
     turned = say(
         "Divide all speeds by ω, so 1 mm of the plan is {mu:.5g} mm/rad. From the pole p draw v₁ = AB = {across:.2f} "
         "mm, with set squares square to AB, turned from it {rotation}."
-    ).where(mu=shown.mu, across=abs(one), rotation=sense_caption(shown.measured.givens.rotation))
+    ).with_values(mu=shown.mu, across=abs(one), rotation=sense_caption(shown.measured.givens.rotation))
     up = say(
         "From p draw v₂ straight up: v of station {name} in the combined diagram, {combined:.2f} mm × {mu_s:.5g} = "
         "{v:.2f} mm/rad, is {paper:.2f} mm here."
-    ).where(name=shown.name, combined=combined, mu_s=mu_s, v=abs(two) * shown.mu, paper=abs(two))
+    ).with_values(name=shown.name, combined=combined, mu_s=mu_s, v=abs(two) * shown.mu, paper=abs(two))
     closing = say("Join the tip of v₁ to the tip of v₂: v₂₁ measures {closing:.2f} mm.", closing=abs(two - one))
-    closing = sequence([closing, *shown.scales.told(pole, v1, v2)], " ")
+    closing = sequence([closing, *shown.scales.speed_captions(pole, v1, v2)], " ")
     parts = Part(turned, (pole, v1)), Part(up, (v2,)), Part(closing, (v21,))
     why = say(
         "B of the follower moves with the point of the cam under it and also slides along the profile: v₂ = v₁ + v₂₁."
@@ -395,7 +395,7 @@ def _normal(shown: _PlanStation) -> Step:
     level = say(
         "Draw the horizontal through A with the T-square; it meets the normal in C, {length:.2f} mm {side} of A: "
         "AC = {length:.2f} mm × {mu:.5g} = {value:.2f} mm/rad, equal in length to v₂."
-    ).where(length=abs(c.place), side=side_caption(c.place.real), mu=shown.mu, value=abs(c.place) * shown.mu)
+    ).with_values(length=abs(c.place), side=side_caption(c.place.real), mu=shown.mu, value=abs(c.place) * shown.mu)
     parts = Part(square, (normal,)), Part(level, (c, ac))
     marks = (
         _stroke(normal, b.place + (b.place - c.place) * 0.12, c.place, Role.CONSTRUCTION),
@@ -415,12 +415,12 @@ def _angle(shown: _PlanStation) -> Step:
     alpha = float(np.degrees(reading.paper))
     laid_off = say(
         "Lay AC off from B horizontally {side}, {length:.2f} mm to D: A, C, B and D make a parallelogram."
-    ).where(side=side_caption((d.place - acts["B"].place).real), length=abs(acts["C"].place))
+    ).with_values(side=side_caption((d.place - acts["B"].place).real), length=abs(acts["C"].place))
     joining = say("Join D to A: DA is parallel to the normal BC.")
     measuring = say(
         "Draw a vertical at D and measure its angle to DA with the protractor: at station {name} the pressure "
         "angle is α = {alpha:.2f}°, and the transmission angle 90° − |α| = {transmission:.2f}°."
-    ).where(name=shown.name, alpha=alpha, transmission=90 - abs(alpha))
+    ).with_values(name=shown.name, alpha=alpha, transmission=90 - abs(alpha))
     parts = Part(laid_off, (d, bd)), Part(joining, (da,)), Part(measuring, (motion,))
     label = say("α = {alpha:.1f}°", alpha=alpha)
     marks = (
@@ -446,9 +446,11 @@ def _all_stations_step(measured: Construction[PressureAngleGivens], shown: int) 
         "{angle:.2f}°. The angle of maximum magnitude is {greatest:.2f}°, at {name}; there the transmission angle "
         "90° − |α| has its minimum, {transmission:.2f}°. The maximum angle between stations is read from the angle "
         "diagram."
-    ).where(side=side_caption(-sigma), shown=names[shown], angle=alpha[shown], greatest=alpha[most], name=names[most])
+    ).with_values(
+        side=side_caption(-sigma), shown=names[shown], angle=alpha[shown], greatest=alpha[most], name=names[most]
+    )
     said = said.where(transmission=90 - abs(alpha[most]))
     joined = run(said, say("Ray {name}"), names, rays, settings=lambda k: say("{alpha:z.2f}°", alpha=alpha[k]))
     why = say("The ray from A to an end is parallel to the normal at its station, as DA is.")
     title, reads = say("The pressure angle at every station"), ("alpha", "transmission")
-    return Step(title, (joined,), COMBINED, (rays.ways(Role.CONSTRUCTION),), reads, why=why)
+    return Step(title, (joined,), COMBINED, (rays.segments(Role.CONSTRUCTION),), reads, why=why)

@@ -201,7 +201,7 @@ def _piece_row(inverted: Inverted, k: int, piece: Drawn, drawn: Drawn) -> Row:
         names, at = station_names(stations), piece.act.takes["points"].index
         return Row(sequence([from_to(names[at[0]], names[at[-1]]), phase]), FRENCH_CURVE, (drawn,))
     arc = say("compass {radius:.1f} mm, an arc of {angle} about A")
-    arc = arc.where(radius=abs(piece.shown[0]), angle=degrees(motion.phases[k].angle))
+    arc = arc.with_values(radius=abs(piece.shown[0]), angle=degrees(motion.phases[k].angle))
     return Row(say("In the {phase}", phase=phase), arc, (drawn,))
 
 
@@ -262,7 +262,7 @@ def phase_angles(inverted: Inverted, start: complex) -> tuple[list[Mark], Part]:
         AngleMark(0j, radius, min(a, b), max(a, b), phase_angle(motion, k), of=of, index=index[k : k + 1])
         for k, (a, b) in enumerate(pairwise(limits))
     ]
-    said = say("Mark the angles of the phases outside, {against}: {angles}.").where(**position_words(inverted))
+    said = say("Mark the angles of the phases outside, {against}: {angles}.").with_values(**position_words(inverted))
     return [Segments(0.0 * ends, ends, Role.AXIS, of=of, index=index), *angles], Part(said, (rays,))
 
 

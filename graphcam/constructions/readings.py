@@ -49,12 +49,12 @@ class ReadingRow:
             return [least]
         return [greatest] if self.value[least[1]] >= 0 else [least, greatest]
 
-    def at(self, what: Caption, place: int) -> Caption:
+    def extreme_caption(self, what: Caption, place: int) -> Caption:
         """An extreme and where it is, such as "minimum (station 4)"."""
         name = self.places[place]
         return say("{what} ({place})", what=what, place=say("station {name}", name=name) if self.stations else name)
 
-    def said(self, place: int | None = None) -> Caption:
+    def caption(self, place: int | None = None) -> Caption:
         """The reading in one line: of an array that at a ``place``."""
         at = () if place is None else (place,)
         paper, value = float(self.paper[at]), float(self.value[at])
@@ -65,7 +65,7 @@ class ReadingRow:
         said = say("{paper:.2f} mm × {mu:.5g} {unit}/mm = {value:.5g} {unit}")
         if "/" in self.unit:
             said = say("{paper:.2f} mm × {mu:.5g} ({unit})/mm = {value:.5g} {unit}")
-        return said.where(paper=paper, mu=self.mu, value=value, unit=unit(self.unit))
+        return said.with_values(paper=paper, mu=self.mu, value=value, unit=unit(self.unit))
 
 
 def rows(construction: Construction, step: Step) -> list[ReadingRow]:

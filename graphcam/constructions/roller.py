@@ -34,7 +34,7 @@ Rolled = Construction[RollerGivens]
 
 def _terms(rolled: Construction[RollerGivens]) -> list[Caption]:
     givens = rolled.givens
-    return [say("given")] if givens.given is not None else [term.said for term in givens.rule]
+    return [say("given")] if givens.given is not None else [term.formula_caption for term in givens.rule]
 
 
 def _by_rule(rolled: Construction[RollerGivens]) -> Values:
@@ -84,7 +84,7 @@ def roller_radius(curved: Curved, rule: tuple[Candidate, ...], given: float | No
     hand, inverted = Hand(pencil, MEANING), curved.givens.inverted
     mu_l, centre = inverted.givens.mu_l.per_mm, hand.given("cam centre")
     if given is None:
-        prime_radius = distance_between(centre, hand.found(inverted, "starts")[0])
+        prime_radius = distance_between(centre, hand.earlier_places(inverted, "starts")[0])
         proposed = calculated(partial(_proposed, rule, mu_l), hand.carry(curved.readings["rho"]), prime_radius)
     else:
         proposed = calculated(np.atleast_1d, hand.at_scale(given, inverted.readings["radius"]))
@@ -125,7 +125,7 @@ def _draw(rolled: Rolled) -> list[Step]:
         if np.isfinite(rho):
             known = say("ρ = {rho:.2f} mm and r₀ = {r0:g} mm", rho=rho, r0=r0)
         caption = say("With {known} the rule proposes {proposed}; take the smallest, {taken:.2f} mm.")
-        caption = caption.where(known=known, proposed=sequence(terms), taken=taken)
+        caption = caption.with_values(known=known, proposed=sequence(terms), taken=taken)
         if rule and rule[0].source:
             caption = sequence([caption, say("Source of the rule: {source}.", source=rule[0].source)], " ")
     elif given:
@@ -137,15 +137,15 @@ def _draw(rolled: Rolled) -> list[Step]:
         "Where the pitch curve has the radius ρ the working profile has ρ − r: a roller larger than ρ would "
         "cut the cam away."
     )
-    names = [term.said for term in rule] if given is None else ["r"]
+    names = [term.formula_caption for term in rule] if given is None else ["r"]
     view, marks, parts = laid_off_on_ob(rolled, names, candidates)
     return [Step(say("Roller radius"), led_by(caption, parts), view, marks, ("candidates", "roller_radius"), why=why)]
 
 
 def _proposal(term: Candidate, radius: float) -> Caption:
     if np.isfinite(radius):
-        return say("{term} = {radius:.2f} mm", term=term.said, radius=radius)
-    return say("{term}, which cannot be read", term=term.said)
+        return say("{term} = {radius:.2f} mm", term=term.formula_caption, radius=radius)
+    return say("{term}, which cannot be read", term=term.formula_caption)
 
 
 def _beside_rho(radius: float, rho: float) -> Caption:
@@ -173,5 +173,5 @@ def laid_off_on_ob(
         # What is taken stands on the other side of OB than what the terms of the rule propose.
         marks += [end.dots(Role.CONSTRUCTION), end.label(label, (UP if name == "r" else -UP) * hub.place)]
         said = say("Lay off {name} = {radius:.2f} mm from B towards O: {paper:.1f} mm.")
-        parts.append(Part(said.where(name=name, radius=radius, paper=paper), (end,)))
+        parts.append(Part(said.with_values(name=name, radius=radius, paper=paper), (end,)))
     return detail.view, tuple(marks), tuple(parts)

@@ -47,24 +47,28 @@ class VelocityScale:
         """The view of the plan at a station; its title says both scales."""
         title = say("Velocity plan at station {name}, {ratio}, μᵥ = {mu:.4g} ({unit})/mm")
         mu, ratio = self.mu, ratio_text(self.mu_l.per_mm)
-        said = title.where(name=station, ratio=ratio, mu=mu.per_mm, unit=unit(mu.unit))
+        said = title.with_values(name=station, ratio=ratio, mu=mu.per_mm, unit=unit(mu.unit))
         return replace(PLAN, title=said, mu_l=self.mu_l.per_mm)
 
-    def named(self, symbol: str, side: complex) -> Words:
+    def side_caption(self, symbol: str, side: complex) -> Words:
         """The name of a side [mm of paper], where a speed is given with the speed."""
         if self.omega is None:
             return symbol
-        return SPEED_CAPTION.where(symbol=symbol, speed=self.mu.value(abs(side)), unit=unit(self.mu.unit))
+        return SPEED_CAPTION.with_values(symbol=symbol, speed=self.mu.value(abs(side)), unit=unit(self.mu.unit))
 
-    def told(self, pole: Drawn, v1: Drawn, v2: Drawn) -> tuple[Caption, ...]:
+    def speed_captions(self, pole: Drawn, v1: Drawn, v2: Drawn) -> tuple[Caption, ...]:
         """The speeds that the sides stand for, in a sentence, where a speed is given."""
         if self.omega is None:
             return ()
         one, two = v1.place - pole.place, v2.place - pole.place
         said = say("At ω = {omega:.4g} {per_s} 1 mm is {mu:.4g} {unit}: {v1}, {v2}, {v21}.")
-        names = {"v1": self.named("v₁", one), "v2": self.named("v₂", two), "v21": self.named("v₂₁", two - one)}
+        names = {
+            "v1": self.side_caption("v₁", one),
+            "v2": self.side_caption("v₂", two),
+            "v21": self.side_caption("v₂₁", two - one),
+        }
         units = {"per_s": unit("rad/s"), "unit": unit(self.mu.unit)}
-        return (said.where(omega=self.omega, mu=self.mu.per_mm, **units, **names),)
+        return (said.with_values(omega=self.omega, mu=self.mu.per_mm, **units, **names),)
 
 
 def velocity_plan(pole: Drawn, v1: Drawn, v2: Drawn, v21: Drawn, scale: VelocityScale) -> tuple[Mark, ...]:
@@ -74,7 +78,7 @@ def velocity_plan(pole: Drawn, v1: Drawn, v2: Drawn, v21: Drawn, scale: Velocity
     return (
         *(v1.arrow(pole, Role.CURVE), v2.arrow(pole, Role.CURVE), Arrow(one, other, Role.CURVE).left_by(v21)),
         *(
-            Label((a + b) / 2, scale.named(symbol, b - a), _outward_direction(a, b, opposite)).left_by(side)
+            Label((a + b) / 2, scale.side_caption(symbol, b - a), _outward_direction(a, b, opposite)).left_by(side)
             for symbol, a, b, opposite, side in sides
         ),
         pole.label("p", -1 - 1j),

@@ -76,7 +76,7 @@ def working_profile(
     """
     hand, mu_l = Hand(pencil, MEANING), inverted.givens.mu_l.per_mm
     stations, sigma, radius = inverted.givens.integrated.givens.stations, sense(inverted.givens.rotation), roller / mu_l
-    found = pitch = hand.found(inverted, "pitch")
+    found = pitch = hand.earlier_places(inverted, "pitch")
     if roller:
         tangents = hand.tangents_at("tangents", pitch, partial(_tangents, stations, sigma))
         circles = hand.circle("roller circles", pitch, radius)
@@ -187,7 +187,7 @@ def _rounding_step(profile: Profile, rolled: Rolled) -> Step:
         )
     why = say("Rollers are made in round sizes, and a larger one would violate the rule.")
     view, marks, parts = laid_off_on_ob(rolled, ["r"], np.array([adopted]))
-    said = said.where(proposed=proposed, adopted=adopted)
+    said = said.with_values(proposed=proposed, adopted=adopted)
     return Step(say("Roller radius rounded"), led_by(said, parts), view, marks, why=why)
 
 
@@ -199,7 +199,7 @@ def _circles(profile: Profile) -> Step:
     roller, mu_l = profile.givens.roller_radius, profile.givens.inverted.givens.mu_l.per_mm
     circles, names = profile.acts["roller circles"].first, _names(profile)
     each = say_in("drawn", "the circle of the roller about every point of the pitch curve, from {first} to {last}")
-    said = circle_drawn(each.where(first=names[0], last=names[-1]), "r", roller, mu_l)
+    said = circle_drawn(each.with_values(first=names[0], last=names[-1]), "r", roller, mu_l)
     why = say("The roller's centre runs on the pitch curve: these circles are positions of the roller.")
     part = run(said, say("Circle {name}"), names, circles, settings=alike)
     marks = tuple(circles[k].drawn_circle(Role.CONSTRUCTION) for k in range(len(names)))
@@ -213,7 +213,7 @@ def _touched(profile: Profile) -> Step:
         "At every point of the pitch curve hold a set square or a mirror square to the curve, which runs there "
         "along the circle through the point and its two neighbours. Mark the contact point {paper:.1f} mm "
         "inward, on the roller's circle."
-    ).where(paper=paper)
+    ).with_values(paper=paper)
     why = say("A circle touches the profile where the common normal of profile and pitch curve cuts it.")
     # Where two neighbours lie in one place, the curve has no direction that could be seen.
     seen = np.flatnonzero(~np.isnan(found.points))
@@ -242,7 +242,7 @@ def _envelope(profile: Profile) -> Step:
             "envelope, the working profile."
         )
     radii = say("Its radii run from {least:.2f} to {greatest:.2f} mm.")
-    radii = radii.where(least=np.fmin.reduce(measured), greatest=np.fmax.reduce(measured))
+    radii = radii.with_values(least=np.fmin.reduce(measured), greatest=np.fmax.reduce(measured))
     parts.append(curve.told(joined, radii))
     return Step(say("Working profile"), tuple(parts), PROFILE, tuple(marks), ("radius",), why=why)
 
@@ -270,7 +270,7 @@ def _angles(profile: Profile) -> Step:
             shown = say("{alpha:.1f}° ({planned:.1f}° in the diagram)", alpha=degrees, planned=planned)
             apart = max(apart, abs(degrees - planned))
         marks += found.marks
-        rows.append(Row(STATION.where(name=name), shown, found.draws))
+        rows.append(Row(STATION.with_values(name=name), shown, found.draws))
     title = say("Pressure angles on the profile")
     why = say("The roller presses along the common normal, which runs through its centre.")
     if not rows:
@@ -320,7 +320,7 @@ def _arcs_of_dwells(profile: Profile) -> Iterator[Step]:
             "Join A to the contact points {start} and {end}, the ends of the arc of the lower dwell on the working "
             "profile, and measure with a protractor the angle between them: {said}; {rest:.1f}° are left of the turn."
         )
-        parts.append(Part(each.where(start=names[0], end=names[1], said=said, rest=360 - degrees), (places,)))
+        parts.append(Part(each.with_values(start=names[0], end=names[1], said=said, rest=360 - degrees), (places,)))
     if not parts:
         return
     why = say(

@@ -50,14 +50,14 @@ class WrittenActs:
             self._numbers[act] = len(self.rows)
             row: dict[str, Plain] = {"kind": str(act.kind), "construction": act.construction, "name": act.name}
             self.rows.append(row)
-            row["takes"] = {key: self._taken(act, key, value) for key, value in act.takes.items()}
+            row["takes"] = {key: self._source_data(act, key, value) for key, value in act.takes.items()}
         return self._numbers[act]
 
     def piece(self, piece: ActPlaces) -> list[Plain]:
         """Some places of an act: its number and theirs, None for all of them."""
         return [self.number(piece.act), None if len(piece.at) == piece.act.size else list(piece.at)]
 
-    def _taken(self, act: Act, key: str, value: Any) -> Plain:
+    def _source_data(self, act: Act, key: str, value: Any) -> Plain:
         if not callable(value):
             return self._value_data(value)
         # What the eye sees of a curve is written down as it is seen.
@@ -70,7 +70,7 @@ class WrittenActs:
     def _value_data(self, value: Any) -> Plain:
         match value:
             case Drawn():
-                return self._drawn(value)
+                return self._drawn_data(value)
             case Setting():
                 return self._setting(value)
             case Reading(act=Act() as act):
@@ -84,10 +84,10 @@ class WrittenActs:
             case _:
                 return _number(value)
 
-    def _drawn(self, drawn: Drawn) -> Plain:
+    def _drawn_data(self, drawn: Drawn) -> Plain:
         if drawn.whole is None:
             return {"act": self.number(drawn.act)}
-        part: dict[str, Plain] = {"whole": self._drawn(drawn.whole), "turn": _number(complex(drawn.turn))}
+        part: dict[str, Plain] = {"whole": self._drawn_data(drawn.whole), "turn": _number(complex(drawn.turn))}
         if drawn.at is not None:
             part["at"] = self._value_data(drawn.at if isinstance(drawn.at, int | slice) else np.asarray(drawn.at))
         return part

@@ -163,7 +163,9 @@ class FollowedBoard:
             new = [piece for piece in draws if _remaining_places(piece, self.lies.get(piece.act, frozenset[int]()))]
             done = tuple(self._needed_places(draws))
             closing = tuple(self._needed_places([*shown, *_all_read(readings)])) if k == len(parts) - 1 else ()
-            found.append(Moves(tuple(draws), done, tuple(self.beside(new if parts != [[]] else shown)), closing))
+            found.append(
+                Moves(tuple(draws), done, tuple(self.visible_sources(new if parts != [[]] else shown)), closing)
+            )
         return found
 
     def pass_step(self, step: Step, readings: Iterable[Reading] = ()) -> None:
@@ -180,7 +182,7 @@ class FollowedBoard:
                 yield from self._needed_places(sources(new))
                 yield new
 
-    def beside(self, pieces: Iterable[ActPlaces]) -> Iterator[ActPlaces]:
+    def visible_sources(self, pieces: Iterable[ActPlaces]) -> Iterator[ActPlaces]:
         """What can be seen of what pieces were found from, the pieces themselves left out."""
         own = list(pieces)
         tried: dict[Act, set[int]] = {}
@@ -192,7 +194,7 @@ class FollowedBoard:
             (source for act, source in found if "times" not in act.takes or source.act in self.visible), tried
         )
 
-    def seen(self, pieces: Iterable[ActPlaces]) -> Iterator[ActPlaces]:
+    def visible(self, pieces: Iterable[ActPlaces]) -> Iterator[ActPlaces]:
         """What can be seen of pieces; of what is only thought, that which it was found from."""
         return self._visible(pieces, {})
 

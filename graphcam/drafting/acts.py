@@ -163,13 +163,13 @@ class Drawn:
         """The places joined one after another."""
         return Line(self.shown, role, closed).left_by(self)
 
-    def from_(self, start: Drawn | Points | complex, role: Role) -> Segments:
+    def segments_from(self, start: Drawn | Points | complex, role: Role) -> Segments:
         """A segment to each place from ``start``, one for all or one for each."""
         begin = start.shown if isinstance(start, Drawn) else np.asarray(start)
         ends = self.shown
         return Segments(np.broadcast_to(begin, ends.shape), ends, role).left_by(self)
 
-    def ways(self, role: Role) -> Segments:
+    def segments(self, role: Role) -> Segments:
         """Of lines that join places: from each to the other."""
         first = self.first
         return Segments(self.shown, self.shown + np.atleast_1d(first.directions), role).left_by(self)

@@ -104,7 +104,7 @@ class Hand:
         takes = {"points": places, "along": direction}
         return self._record_act(Kind.GIVEN, name, takes, self.pencil.sheets(places), direction)
 
-    def found(self, construction: Construction, name: str) -> Drawn:
+    def earlier_places(self, construction: Construction, name: str) -> Drawn:
         """Places of a drawing that was made before, by their name there."""
         acts, place = construction.acts, (construction.name, name)
         along = acts[name].along if name in acts else None
@@ -273,7 +273,7 @@ class Hand:
     def protractor(self, name: str, vertex: Drawn, base: Direction, angle: Length) -> Drawn:
         """Lines through places at angles [rad], counter-clockwise from a direction: off by the setting and a line."""
         points, d, turn = np.broadcast_arrays(*_aligned(_places(vertex), _way(base), _amount(angle)))
-        along = euclid.turned_direction(d, self._turned(Kind.PROTRACTOR, turn))
+        along = euclid.turned_direction(d, self._with_angle_errors(Kind.PROTRACTOR, turn))
         points = self._with_place_errors(Kind.PROTRACTOR, "across", points, along * euclid.UP)
         return self._record_act(Kind.PROTRACTOR, name, {"vertex": vertex, "base": base, "angle": angle}, points, along)
 
@@ -298,7 +298,7 @@ class Hand:
         rule : the directions that the eye sees, from the points and their neighbours
         """
         along = rule(points.points)
-        along = euclid.turned_direction(along, self._turned(Kind.TANGENT, np.zeros(along.shape)))
+        along = euclid.turned_direction(along, self._with_angle_errors(Kind.TANGENT, np.zeros(along.shape)))
         beside = self._with_place_errors(Kind.TANGENT, "across", points.points, along * euclid.UP)
         return self._record_act(Kind.TANGENT, name, {"points": points, "rule": rule}, beside, along)
 
@@ -339,7 +339,7 @@ class Hand:
     def angle(self, name: str, base: Direction, line: Drawn, sense: int = 1) -> Reading:
         """The angles [rad] from a direction to lines, counter-clockwise or in a sense, measured with a protractor."""
         d, e = _aligned(_way(base), _way(line))
-        paper = self._turned(Kind.READ, sense * np.angle(e * np.conj(d)))
+        paper = self._with_angle_errors(Kind.READ, sense * np.angle(e * np.conj(d)))
         return self._record_reading(name, {"base": base, "line": line, "sense": sense}, paper, 1.0, "rad")
 
     def finished(
@@ -366,7 +366,7 @@ class Hand:
         """Places that an act of a kind leaves off along a direction of any length."""
         return points + euclid.unit(along) * self._errors(kind, what, points) if self.pencil.line else points
 
-    def _turned(self, kind: Kind, angles: Floats) -> Floats:
+    def _with_angle_errors(self, kind: Kind, angles: Floats) -> Floats:
         """Angles as they are set or read."""
         return angles + self._errors(kind, "turn", angles) if self.pencil.protractor else angles
 

@@ -126,11 +126,11 @@ class Step(Plottable):
         return in_lines(first, said, ".caption, .marks, .reads")
 
     @property
-    def own(self) -> tuple[Mark, ...]:
+    def own_marks(self) -> tuple[Mark, ...]:
         """The marks that are not given."""
         return tuple(mark for mark in self.marks if not any(mark is given for given in self.given))
 
-    def told(self, tell: Tell) -> Step:
+    def translated(self, tell: Tell) -> Step:
         """The same step with every text as ``tell`` says it.
 
         >>> step = Step(say("Pole"), (), View("v", say("v"), "phi", "v"), (Label(0j, say("H")),))

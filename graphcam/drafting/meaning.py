@@ -81,7 +81,7 @@ def per_mm(name: str) -> Caption:
     >>> str(per_mm("mm/rad")), str(per_mm("mm"))
     ('(mm/rad)/mm', 'mm/mm')
     """
-    return (say("({unit})/mm") if "/" in name else say("{unit}/mm")).where(unit=unit(name))
+    return (say("({unit})/mm") if "/" in name else say("{unit}/mm")).with_values(unit=unit(name))
 
 
 def sharpness(radii: NDArray[np.floating[Any]]) -> NDArray[np.floating[Any]]:
@@ -182,6 +182,6 @@ class Meaning:
         return self.readings[name]
 
     @property
-    def compared(self) -> Iterator[tuple[str, Compared]]:
+    def compared_readings(self) -> Iterator[tuple[str, Compared]]:
         """The names of the readings that are compared, with what they are compared as."""
         return ((name, said) for name, reading in self.readings.items() for said in reading.compared)

@@ -87,7 +87,7 @@ class Paper:
     ratios: Ratios
     held: Mapping[str, float] = field(default_factory=lambda: NO_HELD_SCALES, hash=False)
 
-    def kept(self, view: str) -> Scale | None:
+    def kept_scale(self, view: str) -> Scale | None:
         """The scale that a view keeps, if it does."""
         return Scale(self.held[view], "mm") if view in self.held else None
 

@@ -41,7 +41,7 @@ def setting(drawn: Drawn) -> Words:
         factor = abs(float(np.ravel(length.factor)[0]))
         if factor != 1:
             said = say("{paper:.2f} mm × {factor:.5g} = {mm:.2f} mm")
-            return said.where(paper=mm / factor, factor=factor, mm=mm)
+            return said.with_values(paper=mm / factor, factor=factor, mm=mm)
     return say("{mm:.2f} mm", mm=mm)
 
 
@@ -66,7 +66,7 @@ def circle_drawn(circle: Caption, symbol: Words, radius: float, per_mm: float) -
     """
     said = say("Set the compass to {paper:.1f} mm ({symbol} = {radius:g} mm at {ratio}) and draw {circle}.")
     values = {"symbol": symbol, "radius": radius, "paper": radius / per_mm, "ratio": ratio_text(per_mm)}
-    return said.where(circle=circle, **values)
+    return said.with_values(circle=circle, **values)
 
 
 def led_by(said: Caption, parts: Sequence[Part]) -> tuple[Part, ...]:
@@ -89,7 +89,7 @@ def in_parts(
     """
     told = [[said] for said, *_ in moves]
     told[0][:0], told[-1][len(told[-1]) :] = first, last
-    captions = [sequence([each.where(**values) for each in said], " ") for said in told]
+    captions = [sequence([each.with_values(**values) for each in said], " ") for said in told]
     return tuple(Part(caption, tuple(draws)) for caption, (_, *draws) in zip(captions, moves, strict=True))
 
 
@@ -115,7 +115,7 @@ def run(
 
     def row(k: int) -> Row:
         there = tuple(each.first[[k]] for each in drawn)
-        return Row(called.where(name=names[k]), settings(k) if settings else setting(there[0]), there)
+        return Row(called.with_values(name=names[k]), settings(k) if settings else setting(there[0]), there)
 
     rows = tuple(map(row, range(len(names))))
     return Part(caption, rows=rows)

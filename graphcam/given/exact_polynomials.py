@@ -194,7 +194,7 @@ class ExactPiece:
             self.width**order
         )
 
-    def about(self, place: Fraction, scale: Fraction) -> Exact:
+    def coefficients_about(self, place: Fraction, scale: Fraction) -> Exact:
         """The coefficients in y of s at place + scale y; a negative scale looks back."""
         return shifted(self.p, (place - self.start) / self.width, scale / self.width)
 
@@ -212,7 +212,7 @@ def pieces_between(pieces: Sequence[ExactPiece], start: Fraction, end: Fraction)
         if (low, high) == (piece.start, piece.end):
             found.append(piece)
         elif low < high:
-            found.append(ExactPiece(low, high - low, rounded_terms(piece.about(low, high - low))))
+            found.append(ExactPiece(low, high - low, rounded_terms(piece.coefficients_about(low, high - low))))
     return found
 
 

@@ -238,7 +238,7 @@ class _LevelRows:
     last: int
     level: float
 
-    def moved(self, rows: int) -> _LevelRows:
+    def shifted(self, rows: int) -> _LevelRows:
         """The level rows, so many rows on."""
         return replace(self, first=self.first + rows, last=self.last + rows)
 
@@ -270,13 +270,13 @@ def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float, advice: Wo
     # Three turns of rows, so that nothing begins or ends within the middle one.
     around, rows = np.concatenate([phi - FULL_TURN, phi, phi + FULL_TURN]), np.tile(s, 3)
     flats = [_level_rows(rows, k + s.size, noise) for k in turnings]
-    apart = all(a.last < b.first for a, b in pairwise([*flats, flats[0].moved(s.size)]))
+    apart = all(a.last < b.first for a, b in pairwise([*flats, flats[0].shifted(s.size)]))
     if not apart or len(turnings) > MAX_TURNINGS:
         limit = say("greater than the noise that turns the table {turnings} times", turnings=len(turnings))
         raise DesignError("tolerance", tolerance, limit, advice)
     flats = _with_intermediate_dwells(around, rows, flats, noise, MIN_LEG_LIFT * tolerance)
     gap = FULL_TURN / s.size
-    neighbours = zip([flats[-1].moved(-s.size), *flats], flats, [*flats[1:], flats[0].moved(s.size)], strict=False)
+    neighbours = zip([flats[-1].shifted(-s.size), *flats], flats, [*flats[1:], flats[0].shifted(s.size)], strict=False)
     found = [_stop(around, rows, near, noise, gap) for near in neighbours]
     # On a leg's way a stop without a rest is none.
     stops = [(flat, stop) for flat, (stop, turns) in zip(flats, found, strict=True) if turns or stop.end > stop.start]
@@ -328,12 +328,12 @@ def _with_intermediate_dwells(
     """The extremes' flats, and between them those that a rise or a return may have on its way."""
     n = rows.size // 3
     found: list[_LevelRows] = []
-    for a, b in pairwise([*flats, flats[0].moved(n)]):
+    for a, b in pairwise([*flats, flats[0].shifted(n)]):
         found.append(a)
         between = slice(a.last + 1, b.first)
         direction = 1.0 if b.level > a.level else -1.0
         slow = _slow_rows(around[between], direction * rows[between], noise, depth)
-        found += [replace(flat, level=direction * flat.level).moved(between.start) for flat in slow]
+        found += [replace(flat, level=direction * flat.level).shifted(between.start) for flat in slow]
     return found
 
 

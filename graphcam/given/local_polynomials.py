@@ -110,7 +110,7 @@ class _Cutter:
         # At a rest the series begins there, though the machine's place is another one by a rounding.
         about = rests[0] if rests else Fraction(anchor)
         scale = 2.0 ** math.frexp(float(reach))[1]
-        p = self.piece.about(self.origin + self.way * about, self.way * Fraction(scale))
+        p = self.piece.coefficients_about(self.origin + self.way * about, self.way * Fraction(scale))
         p = tuple(self.way * c for c in p)
         if rests:  # a place of rest that is no rational number was rounded
             level = p[0] if abs(p[0]) > Fraction(REST_MOVEMENT * self.greatest[0]) else Fraction(0)

@@ -277,7 +277,7 @@ def _remedy(tolerance: float, scatter: float) -> Words:
     told = say(
         "give a greater tolerance, as {enough}, {times:g} times what the rows scatter by, or a table with less noise"
     )
-    return told.where(enough=enough, times=times)
+    return told.with_values(enough=enough, times=times)
 
 
 def _scatter(phi: Floats, s: Floats) -> float:

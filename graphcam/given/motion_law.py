@@ -314,7 +314,7 @@ class Law:
             if off.max() > DERIVATIVE_ACCURACY * np.abs(inside[order]).max():
                 k, name = int(off.argmax()), DERIVATIVE_NAMES[order]
                 what = say("integral of {derivatives} from u = {low:.3g} to {high:.3g}")
-                what = what.where(derivatives=DERIVATIVE_NAMES[order + 1], low=low[k], high=high[k])
+                what = what.with_values(derivatives=DERIVATIVE_NAMES[order + 1], low=low[k], high=high[k])
                 remedy = say("correct the derivative; if one jumps there, give an edge and a formula for either side")
                 limit = say("{change:.6g}, the change of {name}", change=change[order, k], name=name)
                 raise self._error(what, integrals[order + 1, k], limit, remedy)

@@ -67,7 +67,7 @@ def _without_slivers(pieces: Sequence[ExactPiece]) -> list[ExactPiece]:
     return [
         piece
         if (low, high) == (piece.start, piece.end)
-        else ExactPiece(low, high - low, rounded_terms(piece.about(low, high - low)))
+        else ExactPiece(low, high - low, rounded_terms(piece.coefficients_about(low, high - low)))
         for piece, (low, high) in zip(kept, pairwise(cuts), strict=True)
     ]
 
@@ -181,7 +181,9 @@ def constant_velocity_law(start: float = 0.25, end: float = 0.25, smooth: int = 
     velocity = {1: (0, 1), 2: (0, 0, 3, -2), 3: (0, 0, 0, 10, -15, 6)}[smooth]
     blend = (Fraction(0), *(Fraction(c, k) for k, c in enumerate(velocity, 1)))
     up = tuple(c * v * first for c in blend)
-    back = ExactPiece(Fraction(0), Fraction(1), tuple(-c * v * last for c in blend)).about(Fraction(1), Fraction(-1))
+    back = ExactPiece(Fraction(0), Fraction(1), tuple(-c * v * last for c in blend)).coefficients_about(
+        Fraction(1), Fraction(-1)
+    )
     pieces = [
         ExactPiece(Fraction(0), first, up),
         ExactPiece(first, 1 - first - last, (v * first / 2, v * (1 - first - last))),

@@ -54,7 +54,7 @@ class Candidate:
     source: Words = ""
 
     @property
-    def said(self) -> Caption:
+    def formula_caption(self) -> Caption:
         """The term as a formula.
 
         >>> [str(term.said) for term in roller_rule("min(0.7 rho, 0.4 r0, rho - 4)")]

@@ -104,7 +104,7 @@ def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[floa
         least, most = np.diff(values).min(), np.abs(values[[0, -1]] - [0.0, 1.0]).max()
         if not (least >= 0 and most <= SAME_KNOT) or (symbol == "u" and least <= SAME_KNOT):
             found = say("{values} numbers from {values2:g} to {values3:g}, the smallest step {least:g}")
-            found = found.where(values=len(values), values2=values[0], values3=values[-1], least=least)
+            found = found.with_values(values=len(values), values2=values[0], values3=values[-1], least=least)
             remedy = say("divide by the last one; where the lift falls, begin another phase")
             quantity = say("samples {symbol} of the law '{name}'", symbol=symbol, name=name)
             raise DesignError(quantity, found, say("growing from 0 to 1"), remedy)

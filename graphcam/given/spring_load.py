@@ -339,7 +339,7 @@ class PlacedArmLoad:
             found = say("at the pivot")
             raise DesignError("at.anchor", found, say("elsewhere, for there the spring turns nothing"), remedy)
         limit = say("beside the line on which the spring passes over the pivot, after {degrees:.4g} degrees")
-        limit = limit.where(degrees=math.degrees(self._left))
+        limit = limit.with_values(degrees=math.degrees(self._left))
         remedy = say("move the anchor round the pivot, or the spring's point to the other side of it")
         anchor = say("({anchor:g}, {anchor2:g})", anchor=self.given.at.anchor[0], anchor2=self.given.at.anchor[1])
         raise DesignError("at.anchor", anchor, limit, remedy)

@@ -208,10 +208,10 @@ class Cam(Plottable):
         sharp = search.highest(kin.sharpness, kin.curvature_slope)
         direction = self.motion.directions
         return Extremes(
-            self._steepest(steep.where(direction[steep.phase] > 0)),
-            self._steepest(steep.where(direction[steep.phase] < 0)),
+            self._steepest(steep.selected(direction[steep.phase] > 0)),
+            self._steepest(steep.selected(direction[steep.phase] < 0)),
             self._sharpest(sharp),
-            self._sharpest(sharp.where(direction[sharp.phase] != 0)),
+            self._sharpest(sharp.selected(direction[sharp.phase] != 0)),
         )
 
     def undercuts(self) -> list[Undercut]:

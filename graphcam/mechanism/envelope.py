@@ -95,11 +95,11 @@ class Envelope:
         """c [mm], x + i y on the cam."""
         values = self.values(phi, piece)
         at = self.kinematics.point(values) - self.roller_radius * self.kinematics.normal(values)
-        return at * self._turned(phi)
+        return at * self._unit_vectors(phi)
 
     def tangent(self, phi: Floats | float, piece: Indices | int) -> Complexes:
         """The unit tangent, along which the profile runs where it runs forwards."""
-        return -1j * self.kinematics.sigma * self.kinematics.normal(self.values(phi, piece)) * self._turned(phi)
+        return -1j * self.kinematics.sigma * self.kinematics.normal(self.values(phi, piece)) * self._unit_vectors(phi)
 
     def velocity(self, phi: Floats | float, piece: Indices | int) -> Complexes:
         """c' [mm/rad]."""
@@ -127,7 +127,7 @@ class Envelope:
         radius = self.kinematics.convex_radius(self.values(phi, piece)) - self.roller_radius
         return radius / (self.roller_radius or self.prime_radius)
 
-    def _turned(self, phi: Floats | float) -> Complexes:
+    def _unit_vectors(self, phi: Floats | float) -> Complexes:
         return np.exp(-1j * self.kinematics.sigma * np.asarray(phi))
 
     def way(self, begin: Floats, end: Floats) -> Complexes:

@@ -101,7 +101,7 @@ class FlatFacedKinematics(Kinematics):
         along = -1j * self.sigma * contour.turning * contour.normal
         return contour.normal.real, along.real
 
-    def met(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any, Any]:
+    def motion_on_contour(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any, Any]:
         """The place is sigma v + i (r0 + s), the radius of curvature r0 + s + a."""
         height = contour.point.imag
         return height - self.prime_radius, self.sigma * contour.point.real, 1 / contour.curvature - height

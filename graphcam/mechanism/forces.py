@@ -327,7 +327,7 @@ class CamForces:
         """True: what jams raises an error."""
         if self.friction and (margin := jamming_margin(self.cam, self.friction)).value <= 0:
             allowed = say("less than the {most_friction:.4g} at which the follower jams, {where}")
-            allowed = allowed.where(most_friction=most_friction(self.cam), where=self._place_text(margin))
+            allowed = allowed.with_values(most_friction=most_friction(self.cam), where=self._place_text(margin))
             remedy = say("lubricate, let a roller turn, or enlarge the prime radius")
             raise DesignError("friction", self.friction, allowed, remedy)
         if self.guide.friction:
@@ -407,7 +407,7 @@ class CamForces:
             jamming_angle(self.guide, self.cam.motion(worst.phi)[0]),
         )
         found = say("{degrees:.4g} degrees at a cam angle of {degrees2:.4g}")
-        found = found.where(degrees=math.degrees(alpha), degrees2=math.degrees(worst.phi))
+        found = found.with_values(degrees=math.degrees(alpha), degrees2=math.degrees(worst.phi))
         allowed = say("less than the {degrees:.4g} degrees at which the guide jams", degrees=math.degrees(limit))
         remedy = say("enlarge the prime radius, lengthen the guide or bring it nearer to the cam")
         raise DesignError(say("pressure angle"), found, allowed, remedy)

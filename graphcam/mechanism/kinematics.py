@@ -160,7 +160,7 @@ class Kinematics(ABC):
         """
 
     @abstractmethod
-    def met(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any, Any]:
+    def motion_on_contour(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any, Any]:
         """(s, v, a) of a follower that meets a contour of the turned cam: from place, normal and curvature there."""
 
     @abstractmethod

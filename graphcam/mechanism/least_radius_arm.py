@@ -207,7 +207,7 @@ def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits
             free = arm_minimum_radius(motion, replace(follower, distance=None), sigma, limits)
             limit = say("one at which the pressure angle can keep its limits over the whole swing")
             remedy = say("leave it open: the minimum prime radius has a centre distance of {distance:.6g} mm")
-            remedy = remedy.where(distance=free.distance)
+            remedy = remedy.with_values(distance=free.distance)
             raise DesignError(say("centre distance"), distance, limit, remedy)
     names = [line.name for line in lines]
     return ArmMinimumRadius(abs(point), distance, tuple([name for name in LINE_NAMES if name in names]))

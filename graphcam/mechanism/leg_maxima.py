@@ -51,7 +51,7 @@ class Cells(NamedTuple):
     low: Floats
     high: Floats
 
-    def where(self, chosen: NDArray[np.bool_]) -> "Cells":
+    def selected(self, chosen: NDArray[np.bool_]) -> "Cells":
         """The cells that a mask chooses."""
         return Cells(self.phase[chosen], self.low[chosen], self.high[chosen])
 
@@ -123,7 +123,7 @@ class MaximumSearch:
         cells, middle = self._contenders(quantity, height, at_ends.copy())
         # Of cells that are flat, those count in which it is higher than at the ends.
         known = at_ends[self._groups[cells.phase]]
-        phase, low, high = cells.where(middle > known + VALUE_ROUNDING * np.abs(known))
+        phase, low, high = cells.selected(middle > known + VALUE_ROUNDING * np.abs(known))
         u = roots(lambda u: slope(self.motion.at(phase, u)), low, high)
         return at_places(self.motion, *self._ends, (phase, u, self.motion.at(phase, u)))
 
@@ -141,13 +141,15 @@ class MaximumSearch:
                 middle = height(over.value)
                 np.fmax.at(top, group, middle)
                 size = np.abs(top[group])
-                may = ~(middle + over.off < top[group] - VALUE_ROUNDING * size) & ~(np.abs(over.slope) > over.slope_off)
+                may = ~(middle + over.half_range < top[group] - VALUE_ROUNDING * size) & ~(
+                    np.abs(over.slope) > over.slope_off
+                )
                 alone = np.abs(over.bend) > over.spread
                 narrow = cells.high - cells.low <= VALUE_ROUNDING * cells.high
-                settled = may & (alone | narrow | (over.off <= FLATNESS * size) | (cells.phase.size > MAX_CELLS))
-                ceiling, middle = middle + over.off, np.where(alone, np.inf, middle)
-                found.append((_narrowed(cells, over, alone).where(settled), ceiling[settled], middle[settled]))
-                cells = cells.where(may & ~settled)
+                settled = may & (alone | narrow | (over.half_range <= FLATNESS * size) | (cells.phase.size > MAX_CELLS))
+                ceiling, middle = middle + over.half_range, np.where(alone, np.inf, middle)
+                found.append((_narrowed(cells, over, alone).selected(settled), ceiling[settled], middle[settled]))
+                cells = cells.selected(may & ~settled)
                 if not cells.phase.size:
                     break
                 cells = cells.divided()
@@ -157,7 +159,7 @@ class MaximumSearch:
         ceiling, middle = np.concatenate(ceilings), np.concatenate(middles)
         reached = top[self._groups[phase]]
         may = ~(ceiling < reached - VALUE_ROUNDING * np.abs(reached))
-        return Cells(phase, low, high).where(may), middle[may]
+        return Cells(phase, low, high).selected(may), middle[may]
 
 
 def _narrowed(cells: Cells, over: Taylor, alone: NDArray[np.bool_]) -> Cells:

@@ -89,7 +89,7 @@ class MadeCam:
         follows = (np.abs(step) < DIVERGED_STEP) & (contour.speed > 0)
         if not self.cam.kinematics.takes_roller:
             follows &= contour.turning > 0  # a face lies on summits alone
-        s, v, a = self.cam.kinematics.met(contour, self.deviations.sizes)
+        s, v, a = self.cam.kinematics.motion_on_contour(contour, self.deviations.sizes)
         return np.where(follows, s, np.nan), np.where(follows, v, np.nan), np.where(follows, a, np.nan)
 
     def _contour(self, theta: Floats, phi: Floats) -> Contour:

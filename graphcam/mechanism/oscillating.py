@@ -54,7 +54,7 @@ class OscillatingKinematics(RollerKinematics):
                 "between {nearest:g} and {farthest:g} mm, where the arm of {arm:g} mm meets it from a centre "
                 "distance of {distance:g} mm"
             )
-            limit = limit.where(nearest=nearest, farthest=farthest, arm=arm, distance=distance)
+            limit = limit.with_values(nearest=nearest, farthest=farthest, arm=arm, distance=distance)
             quantity = say("prime radius")
             raise DesignError(quantity, r0, limit, say("change the prime radius, the arm or the centre distance"))
         if math.isnan(self.psi0):
@@ -149,7 +149,7 @@ class OscillatingKinematics(RollerKinematics):
         along = -1j * self.sigma * contour.speed * contour.normal
         return np.abs(out) - arm, (along * out.conj()).real / np.abs(out)
 
-    def met(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any, Any]:
+    def motion_on_contour(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any, Any]:
         """psi from the place, tan(alpha) from the normal seen along i exp(-i psi), v from it, a from the curvature."""
         arm, distance = self._made_sizes(sizes)
         inwards = (distance - contour.point) / arm  # exp(-i psi)

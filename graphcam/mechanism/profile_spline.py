@@ -269,7 +269,7 @@ def _best_with_points(
     least = _fewest_points(stretches, smooth)
     if not least <= control_points <= MAX_CONTROL_POINTS:
         limit = say("{least} to {most} for this profile with degree {degree}")
-        limit = limit.where(least=least, most=MAX_CONTROL_POINTS, degree=stretches[0].degree)
+        limit = limit.with_values(least=least, most=MAX_CONTROL_POINTS, degree=stretches[0].degree)
         raise DesignError("control_points", control_points, limit)
     needs = [_needs(stretch, deviation) for stretch in stretches]
     wants = np.array([need.parts[-1] for parts in needs for need in parts])

@@ -185,7 +185,7 @@ def _steepest(motion: Motion, kin: Kinematics, direction: float, towards: float)
         return towards * kin.steepness(values)
 
     places = MaximumSearch(motion).highest(steepness, lambda values: towards * kin.pressure_slope(values))
-    values = places.where(motion.directions[places.phase] == direction).values
+    values = places.selected(motion.directions[places.phase] == direction).values
     k = np.argmax(steepness(values))
     s, v, a, j = (value[k] for value in values)
     return s, v, a, j

@@ -68,7 +68,7 @@ def refuse(problem: SizingProblem) -> NoReturn:
     left = problem.exact_margins(near)
     worst = min(left.values())
     together = [
-        name for name in problem.limits.kept if left[name] <= worst + SAME_EXCESS and left[name] < -BINDING_SHARE
+        name for name in problem.limits.names if left[name] <= worst + SAME_EXCESS and left[name] < -BINDING_SHARE
     ]
     for name in together:
         alone = nearest_sizes(problem, [name])
@@ -407,7 +407,7 @@ def feasible_region(problem: SizingProblem, parts: int = 60) -> FeasibleRegion:
         together = np.minimum.reduce(np.broadcast_arrays(*worst.values()))
         return {name: margin.max(axis=-1) for name, margin in (*worst.items(), (ALL_LIMITS, together))}
 
-    borders = {name: _border(problem, left, name, parts + 1) for name in problem.limits.kept}
+    borders = {name: _border(problem, left, name, parts + 1) for name in problem.limits.names}
     return FeasibleRegion(across, values, borders, _border(problem, left, ALL_LIMITS, parts + 1))
 
 

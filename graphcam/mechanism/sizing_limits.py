@@ -69,7 +69,7 @@ class SizingLimits:
         check_friction(self.friction)
 
     @property
-    def kept(self) -> tuple[str, ...]:
+    def names(self) -> tuple[str, ...]:
         """The names of the limits that there are."""
         without = {RETURN_LIMIT: self.return_ is None, SHARE_LIMIT: all(term.of == "rho" for term in self.rule)}
         return tuple(name for name in LIMITS if not without.get(name))
@@ -117,10 +117,10 @@ class TurnPlaces:
         every = np.repeat(phase, share.size)
         places = Places(every, u.ravel(), motion.angle_at(every, u.ravel()), (s, v, a, j))
         # A dwell is one place.
-        return cls.of(motion, load, places.where((motion.directions[every] != 0) | (u.ravel() == 0)))
+        return cls.of(motion, load, places.selected((motion.directions[every] != 0) | (u.ravel() == 0)))
 
     @classmethod
-    def worst(cls, stress: ContactStress) -> TurnPlaces:
+    def at_extremes(cls, stress: ContactStress) -> TurnPlaces:
         """The places where pressure angle, curvature and stress of one cam can have their exact extremes."""
         cam, load = stress.forces.cam, stress.forces.pressing
         kin, motion = cam.kinematics, cam.motion
@@ -138,7 +138,7 @@ class TurnPlaces:
         direction = np.concatenate([self.direction, other.direction])
         return TurnPlaces(direction, (s, v, a, j), np.concatenate([self.load, other.load]))
 
-    def where(self, chosen: NDArray[np.bool_]) -> TurnPlaces:
+    def selected(self, chosen: NDArray[np.bool_]) -> TurnPlaces:
         """The places that a mask chooses."""
         s, v, a, j = (value[chosen] for value in self.values)
         return TurnPlaces(self.direction[chosen], (s, v, a, j), self.load[chosen])
@@ -302,12 +302,12 @@ class SizingProblem:
 
     def exact_margins(self, sizes: Sizes) -> dict[str, float]:
         """What is left of every limit, from the exact extremes."""
-        left = self.margins(TurnPlaces.worst(self.stress(sizes)), sizes)
+        left = self.margins(TurnPlaces.at_extremes(self.stress(sizes)), sizes)
         return {name: float(margin.min()) for name, margin in left.items()}
 
     def exact_width(self, sizes: Sizes) -> float:
         """The least face width [mm] of the exact cam, its greatest stress being the permitted one then."""
-        return float(self.needed_width(TurnPlaces.worst(self.stress(sizes)), sizes).max())
+        return float(self.needed_width(TurnPlaces.at_extremes(self.stress(sizes)), sizes).max())
 
     def keeps(self, sizes: Sizes, slack: float = BINDING_SHARE) -> bool:
         """Whether the exact cam keeps all limits, but for a part of them."""

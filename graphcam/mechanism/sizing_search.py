@@ -85,7 +85,7 @@ def exchange(
     for _ in range(MAX_EXCHANGES):
         before = sizes
         sizes, room = _solve(problem, goal, watched.places, sizes, names)
-        worst = TurnPlaces.worst(problem.stress(sizes))
+        worst = TurnPlaces.at_extremes(problem.stress(sizes))
         left = problem.margins(worst, sizes)
         chosen = np.any([left[name] < room - EXCHANGE_SLACK for name in names], axis=0)
         # Where the radius leaves no room at all, a search for the width comes to rest a little beyond a limit.

@@ -49,7 +49,7 @@ class Taylor(NDArrayOperatorsMixin):
         return (np.abs(self.bend) + self.spread) * self.half
 
     @cached_property
-    def off(self) -> Floats:
+    def half_range(self) -> Floats:
         """How far the quantity may be from its value in the middle."""
         return (np.abs(self.slope) + self.slope_off / 2) * self.half
 
@@ -91,9 +91,9 @@ def _multiply(f: Taylor | Constant, g: Taylor | Constant) -> Taylor:
         f.value * g.value,
         f.slope * g.value + f.value * g.slope,
         f.bend * g.value + 2 * slopes + f.value * g.bend,
-        _times(f.bend, f.spread, g.value, g.off)
+        _times(f.bend, f.spread, g.value, g.half_range)
         + 2 * _times(f.slope, f.slope_off, g.slope, g.slope_off)
-        + _times(g.bend, g.spread, f.value, f.off),
+        + _times(g.bend, g.spread, f.value, f.half_range),
     )
 
 
@@ -109,22 +109,22 @@ def _divide(f: Taylor | Constant, g: Taylor | Constant) -> Taylor:
     quotient = (f.value if isinstance(f, Taylor) else f) / g.value
     # What is left of f = quotient g, divided by g, vanishes in the middle.
     left = f - quotient * g
-    least = _lower_bound(np.abs(g.value), g.off)
+    least = _lower_bound(np.abs(g.value), g.half_range)
     slope = left.slope / g.value
     bend = (left.bend - 2 * slope * g.slope) / g.value
     off = left.off / least
-    slope_off = (left.slope_off + np.abs(slope) * g.off + off * (np.abs(g.slope) + g.slope_off)) / least
+    slope_off = (left.slope_off + np.abs(slope) * g.half_range + off * (np.abs(g.slope) + g.slope_off)) / least
     spread = left.spread + 2 * _times(slope, slope_off, g.slope, g.slope_off)
-    spread = (spread + off * (np.abs(g.bend) + g.spread) + np.abs(bend) * g.off) / least
+    spread = (spread + off * (np.abs(g.bend) + g.spread) + np.abs(bend) * g.half_range) / least
     return Taylor(g.half, quotient, slope, bend, spread)
 
 
 def _sqrt(f: Taylor) -> Taylor:
     root = np.sqrt(f.value)
-    least = np.sqrt(_lower_bound(f.value, f.off))
+    least = np.sqrt(_lower_bound(f.value, f.half_range))
     slope = f.slope / (2 * root)
     bend = (f.bend - 2 * slope * slope) / (2 * root)
-    off = f.off / (least + root)
+    off = f.half_range / (least + root)
     slope_off = (f.slope_off + 2 * np.abs(slope) * off) / (2 * least)
     spread = (f.spread + 2 * _times(slope, slope_off, slope, slope_off) + 2 * np.abs(bend) * off) / (2 * least)
     return Taylor(f.half, root, slope, bend, spread)
@@ -132,10 +132,10 @@ def _sqrt(f: Taylor) -> Taylor:
 
 def _tan(f: Taylor) -> Taylor:
     tangent = np.tan(f.value)
-    greatest = np.tan(np.minimum(np.abs(f.value) + f.off, np.pi / 2))
+    greatest = np.tan(np.minimum(np.abs(f.value) + f.half_range, np.pi / 2))
     rate = 1 + tangent * tangent
     # t' = (1 + t^2) f' and t'' = (1 + t^2)(f'' + 2 t f'^2)
-    off = np.where(np.abs(f.value) + f.off < np.pi / 2, (1 + greatest * greatest) * f.off, np.inf)
+    off = np.where(np.abs(f.value) + f.half_range < np.pi / 2, (1 + greatest * greatest) * f.half_range, np.inf)
     rate_off = _times(tangent, off, tangent, off)
     square, square_off = f.slope * f.slope, _times(f.slope, f.slope_off, f.slope, f.slope_off)
     turn = f.bend + 2 * tangent * square

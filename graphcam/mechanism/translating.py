@@ -81,7 +81,7 @@ class TranslatingKinematics(RollerKinematics):
         along = -1j * self.sigma * contour.speed * contour.normal
         return contour.point.real - (self.offset + sizes.get("offset", 0.0)), along.real
 
-    def met(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any, Any]:
+    def motion_on_contour(self, contour: Contour, sizes: Mapping[str, Any]) -> tuple[Any, Any, Any]:
         """tan(alpha) from the normal (-sigma sin(alpha), cos(alpha)), v from it, a from the curvature."""
         place, height = self.sigma * (self.offset + sizes.get("offset", 0.0)), contour.point.imag
         across = -self.sigma * height * contour.normal.real / contour.normal.imag

@@ -39,7 +39,7 @@ class Places:
     phi: Floats
     values: Values
 
-    def where(self, chosen: NDArray[np.bool_]) -> Places:
+    def selected(self, chosen: NDArray[np.bool_]) -> Places:
         """The places that a mask chooses."""
         s, v, a, j = (value[chosen] for value in self.values)
         return Places(self.phase[chosen], self.u[chosen], self.phi[chosen], (s, v, a, j))

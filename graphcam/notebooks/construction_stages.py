@@ -150,7 +150,7 @@ class Stage:
         for k, page in self.strip.items():
             told = {"part": k + 1, "count": len(places), "caption": places[k].caption}
             below = said if _is_row(self.step, k) else bare
-            found.append(Picture(svg(page), self.tell(alt.where(**told)), self.tell(below.where(**told))))
+            found.append(Picture(svg(page), self.tell(alt.with_values(**told)), self.tell(below.with_values(**told))))
         return found
 
     @property
@@ -193,11 +193,11 @@ def _is_row(step: Step, place: int) -> bool:
 def _reading(row: ReadingRow, tell: Tell) -> str:
     """A reading as mm x mu = value; of several values the extremes, and all of them to be unfolded."""
     if not row.paper.ndim:
-        return in_html(escape(tell(say("{title} = {said}", title=row.title, said=row.said()))))
+        return in_html(escape(tell(say("{title} = {said}", title=row.title, said=row.caption()))))
     lines = "".join(
-        f"<li>{in_html(escape(tell(place)))}: {escape(tell(row.said(k)))}</li>" for k, place in enumerate(row.places)
+        f"<li>{in_html(escape(tell(place)))}: {escape(tell(row.caption(k)))}</li>" for k, place in enumerate(row.places)
     )
-    extremes = [say("{at} = {said}", at=row.at(what, k), said=row.said(k)) for what, k in row.extremes]
+    extremes = [say("{at} = {said}", at=row.extreme_caption(what, k), said=row.caption(k)) for what, k in row.extremes]
     first = say("{title}: {extremes}", title=row.title, extremes=sequence(extremes, "; "))
     return f"<details><summary>{escape(tell(first))}</summary><ul>{lines}</ul></details>"
 

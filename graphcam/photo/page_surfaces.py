@@ -341,7 +341,7 @@ class SeenTags:
     outward: Places
     found: Places
 
-    def only(self, kept: NDArray[np.bool_]) -> SeenTags:
+    def selected(self, kept: NDArray[np.bool_]) -> SeenTags:
         """The tags that a mask (n,) chooses."""
         return SeenTags(self.points[kept], self.outward[kept], self.found[kept])
 
@@ -393,7 +393,7 @@ def laid_through(sight: SeenTags, kind: Kind, surface: Surface, starts: Numbers)
     limit = max(MIN_STRAY_PIXELS, STRAY_TAG_FACTOR * float(np.median(misses)))
     kept = misses <= limit
     if not kept.all() and kept.sum() >= max(MIN_TAGS, 0.75 * len(kept)):
-        sight = sight.only(kept)
+        sight = sight.selected(kept)
         fit = _fit(sight, surface, fit.parameters[None])
     residual = float(np.sqrt(np.mean(np.abs(_misplaced(sight, surface, fit.parameters)) ** 2)))
     return LaidSurface(kind, surface, fit, sight, residual, loss)

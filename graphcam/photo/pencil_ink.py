@@ -168,7 +168,7 @@ def _patch(linear: Raster, corner: complex, side: float) -> NDArray[np.float64] 
     middle, across = corner + side / 2 * (1 + 1j), np.linspace(PATCH_EDGE - side / 2, side / 2 - PATCH_EDGE, 30)
     inside = middle + across[:, None] + 1j * across
     ring = middle + np.outer(np.array([1, 1j, -1, -1j]), side / 2 + PATCH_RING + 1j * across)
-    channels = [linear.like(np.ascontiguousarray(linear.values[..., channel])) for channel in range(3)]
+    channels = [linear.with_values(np.ascontiguousarray(linear.values[..., channel])) for channel in range(3)]
     paper, inked = (
         np.log(np.maximum([channel.at(places).ravel() for channel in channels], MIN_LIGHT_SHARE))
         for places in (ring, inside)
@@ -231,13 +231,13 @@ def ink_of(
     soft = np.asarray(cv2.GaussianBlur(density, (0, 0), blur), np.float32)
     sharp, blurred = density @ LUMA_WEIGHTS, soft @ LUMA_WEIGHTS
     del density
-    ink = _printed_ink(page, [light, *(_light(part) for part in patches)], light.like(soft))
-    black = light.like(_black(page.black + _patch_boxes(page), light))
-    distance = light.like(_distance(page.givens, light))
+    ink = _printed_ink(page, [light, *(_light(part) for part in patches)], light.with_values(soft))
+    black = light.with_values(_black(page.black + _patch_boxes(page), light))
+    distance = light.with_values(_distance(page.givens, light))
     if is_coloured(ink):
         neutral = soft @ weights_against(ink, soft)
         # JPEG smears the print's colour into a dark stroke over it, which then seems to be print; but print is light.
-        most = MAX_PRINT_FACTOR * _crest(light.like(blurred), black, page.givens)
+        most = MAX_PRINT_FACTOR * _crest(light.with_values(blurred), black, page.givens)
         np.maximum(neutral, blurred - np.float32(most) * np.maximum(lines_about(page.givens, light), 1), out=neutral)
         # The sharp picture has no colour of its own: it is dimmed where the soft one is print.
         sharp *= np.clip(neutral / np.maximum(blurred, 0.02), 0, 1)
@@ -247,9 +247,9 @@ def ink_of(
     del soft, blurred
     neutral[black.values > 0] = 0
     sharp[black.values > 0] = 0
-    pencil = light.like(neutral.astype(np.float32))
+    pencil = light.with_values(neutral.astype(np.float32))
     residue = _crest(pencil, black, page.givens)
-    return Ink(pencil, light.like(sharp.astype(np.float32)), black, distance, residue, _noise(pencil))
+    return Ink(pencil, light.with_values(sharp.astype(np.float32)), black, distance, residue, _noise(pencil))
 
 
 def _light(flat: EvenPicture) -> Raster:

@@ -64,7 +64,7 @@ class Raster:
         ]
         return np.concatenate(pieces).reshape(np.shape(points)).astype(np.float32)
 
-    def like(self, values: NDArray[Any]) -> Raster:
+    def with_values(self, values: NDArray[Any]) -> Raster:
         """Other values (rows, columns) over the same part."""
         return Raster(values, self.left, self.top, self.per_mm)
 
@@ -102,7 +102,7 @@ def ridges(picture: Raster) -> Iterator[tuple[float, Raster]]:
     0.0
     """
     for angle in np.pi * np.arange(DIRECTION_COUNT) / DIRECTION_COUNT:
-        yield float(angle), picture.like(cv2.filter2D(picture.values, -1, _filter(float(angle))))
+        yield float(angle), picture.with_values(cv2.filter2D(picture.values, -1, _filter(float(angle))))
 
 
 def spread(answers: NDArray[np.float32]) -> float:

@@ -85,7 +85,7 @@ def register(tags: Tags, page: PrintedPage, size: tuple[int, int], focal: float 
     """
     if page.seam is not None:
         page = half(page, side_seen(tags.numbers, page))
-    mine = tags.only(np.isin(tags.numbers, list(page.tags)))
+    mine = tags.selected(np.isin(tags.numbers, list(page.tags)))
     _check_tag_count(len(mine), len(tags), len(page.tags))
     corners = np.array([page.tags[number] for number in mine.numbers.tolist()])
     outward = np.broadcast_to(CORNER_DIRECTIONS, mine.corners.shape)

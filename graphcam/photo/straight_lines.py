@@ -78,7 +78,7 @@ class Pieces:
     places: Points
     directions: NDArray[np.float64]
 
-    def only(self, kept: NDArray[np.bool_]) -> Pieces:
+    def selected(self, kept: NDArray[np.bool_]) -> Pieces:
         """The pieces that a mask chooses."""
         return Pieces(self.places[kept], self.directions[kept])
 

@@ -61,7 +61,7 @@ class Tags:
     def __len__(self) -> int:
         return len(self.numbers)
 
-    def only(self, kept: NDArray[np.bool_]) -> Tags:
+    def selected(self, kept: NDArray[np.bool_]) -> Tags:
         """The tags that a mask (n,) chooses."""
         widths = None if self.widths is None else self.widths[kept]
         return Tags(self.numbers[kept], self.corners[kept], widths)

@@ -84,7 +84,7 @@ def registered_tiles(
     refused: list[tuple[int, PhotographError]] = []
     for side in SIDE_NAMES:
         sheet = half(page, side)
-        own = tags.only(np.isin(tags.numbers, list(sheet.tags)))
+        own = tags.selected(np.isin(tags.numbers, list(sheet.tags)))
         try:
             found[side] = Tile(picture, tags, register(own, sheet, (columns, rows), focal))
         except PhotographError as error:
@@ -151,7 +151,7 @@ def rectify_tiles(
 
 def _neighbours(tile: Tile, sheet: PrintedPage, seam: float) -> tuple[Places, Places]:
     """Corners (n, 4) of another sheet's tags that a picture shows: where they were meant to be, and where they are."""
-    seen = tile.tags.only(np.isin(tile.tags.numbers, list(sheet.tags)))
+    seen = tile.tags.selected(np.isin(tile.tags.numbers, list(sheet.tags)))
     corners: Places = np.array([sheet.tags[number] for number in seen.numbers.tolist()], np.complex128)
     meant = corners[:, None] + sheet.tag_side / 2 * (1 + 1j + CORNER_DIRECTIONS)
     # Farther tags are the farther from what the registration knows.

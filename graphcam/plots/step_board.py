@@ -90,7 +90,7 @@ class StepBoard:
         return tuple(titles) if self._has_titles else ()
 
     @cached_property
-    def _drawn(self) -> list[list[Entity]]:
+    def _entities(self) -> list[list[Entity]]:
         places = {name: Placement(self.origin + at, self.factor) for name, (_, at) in self._view_origins.items()}
         # A step without marks may name a view in which nothing is drawn.
         steps = (*self.former, *self.steps)
@@ -102,9 +102,9 @@ class StepBoard:
 
         part : index of the part up to which the step is drawn, which alone is in colour then; by default all are
         """
-        count = len(self._drawn) if current is None else len(self.former) + current + 1
+        count = len(self._entities) if current is None else len(self.former) + current + 1
         groups = [Group("titles", self._titles)] if self._has_titles else []
-        stages = [(FORMER_STEP_ROLE, entities) for entities in self._drawn[:count]]
+        stages = [(FORMER_STEP_ROLE, entities) for entities in self._entities[:count]]
         if current is not None:
             *stages, (_, last) = stages
             stages += [(CURRENT_STEP_ROLE, last)] if part is None else _up_to(self.steps[current], part, last)
@@ -202,7 +202,7 @@ def board_of(construction: Construction, tell: Tell = str, on: Construction | No
 
     on : a construction that it does not start from, but is drawn over
     """
-    board = StepBoard((), tuple(step.told(tell) for step in construction.steps()))
+    board = StepBoard((), tuple(step.translated(tell) for step in construction.steps()))
     before = (*ancestors(construction), *([on] if on else ()))
-    former = tuple(step.told(tell) for c in before for step in c.steps() if step.view.name in board.views)
+    former = tuple(step.translated(tell) for c in before for step in c.steps() if step.view.name in board.views)
     return StepBoard(former, board.steps)

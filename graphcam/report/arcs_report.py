@@ -45,7 +45,7 @@ def arcs_contents(solution: ArcsSolution) -> Contents:
     """What stands on its sheets: the arcs, the roller on them, the diagrams, the data, drawn against exact values."""
     quantities = solution.comparison.quantities
     # In two tables, so that they fit on the smallest format.
-    on_arcs = {said.name for _, said in solution.drawn["three_arcs"].meaning.compared}
+    on_arcs = {said.name for _, said in solution.drawn["three_arcs"].meaning.compared_readings}
     of_arcs = {name: q for name, q in quantities.items() if name in on_arcs}
     of_motion = {name: q for name, q in quantities.items() if name not in on_arcs}
     results = comparison(of_arcs, ARC_SIZES_TITLE), comparison(of_motion, MOTION_TITLE)

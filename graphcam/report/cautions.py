@@ -48,7 +48,7 @@ def in_degrees(solution: Solution) -> Iterator[Block]:
     """The lift of an arm, as a protractor has it."""
     if solution.drawn["integration"].readings["s"].unit == "rad":
         said = say("The displacement $s$ is the angle of the arm: in degrees the lift is {lift}°.")
-        yield said.where(lift=general(math.degrees(solution.cam.motion.lift)))
+        yield said.with_values(lift=general(math.degrees(solution.cam.motion.lift)))
 
 
 def sensitivity(solution: Solution) -> Iterator[Block]:
@@ -115,15 +115,17 @@ def greatest_angles(solution: Solution) -> Iterator[Block]:
         if other := inside(plotted, name):
             alpha = math.degrees(other.place.imag * plotted.givens.mu_alpha.per_mm)
             phi = math.degrees(other.place.real * board.mu_phi.per_mm)
-            yield INSIDE_CAPTIONS[name].where(at=number(phi, 1), alpha=number(alpha))
+            yield INSIDE_CAPTIONS[name].with_values(at=number(phi, 1), alpha=number(alpha))
         if limit is None:
             continue
         angle, over = float(plotted.value(f"max_{name}")), math.degrees(abs(exactly[name]) - limit)
         unlimited = name == "rise" and exactly[name] < 0 and not board.limits.rest  # the angle at the low rest
         if math.degrees(abs(angle)) > math.degrees(limit) + LAST_DIGIT:
-            yield warning(EXCEEDED_CAPTIONS[name].where(limit=degrees(limit), why=_why_exceeded(name, angle, solution)))
+            yield warning(
+                EXCEEDED_CAPTIONS[name].with_values(limit=degrees(limit), why=_why_exceeded(name, angle, solution))
+            )
         elif over > LAST_DIGIT and not unlimited:
-            yield EXACT_CAPTIONS[name].where(exact=number(math.degrees(abs(exactly[name]))), over=number(over))
+            yield EXACT_CAPTIONS[name].with_values(exact=number(math.degrees(abs(exactly[name]))), over=number(over))
 
 
 def _why_exceeded(name: str, angle: float, solution: Solution) -> Caption:
@@ -131,7 +133,7 @@ def _why_exceeded(name: str, angle: float, solution: Solution) -> Caption:
     given = chain.board.prime_radius
     if given is not None and given < least:
         said = say("the given prime radius of {given:g} mm is smaller than the minimum, {least} mm")
-        return said.where(given=given, least=number(least))
+        return said.with_values(given=given, least=number(least))
     if name == "rise" and angle < 0 and not chain.board.limits.rest:
         return say("it is the angle in the lower dwell, which this task does not limit")
     if not chain.pencil.perfect:
@@ -161,7 +163,7 @@ def undercut(solution: Solution) -> Iterator[Block]:
             "The roller is not smaller than the minimum radius of curvature, {rho} mm: the profile is undercut "
             "or pointed there. Take a smaller roller or a larger prime radius."
         )
-        yield warning(said.where(rho=number(rho)))
+        yield warning(said.with_values(rho=number(rho)))
     elif radius and math.isfinite(rho):
         yield say("The roller is smaller than ρ = {rho} mm, so the profile is not undercut.", rho=number(rho))
 

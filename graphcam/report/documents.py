@@ -96,7 +96,9 @@ def check_profile_size(solution: Solution) -> None:
     smaller = (1 / ratio for ratio in solution.chain.board.paper.ratios if 1 / ratio > given)
     largest = next(mu for mu in smaller if _scale_fits(solution, mu))
     value = ratio_text(given)
-    limit = say("at most {ratio_text} on {said}", ratio_text=ratio_text(largest), said=format_of(task.drawing).said)
+    limit = say(
+        "at most {ratio_text} on {said}", ratio_text=ratio_text(largest), said=format_of(task.drawing).description
+    )
     raise DesignError("drawing.profile_scale", value, limit, say("take a larger format, or leave it out"))
 
 
@@ -153,7 +155,7 @@ def drawing_of(contents: Contents, upto: int | str | None = None, *, per_constru
     """The same of contents that are at hand."""
     paper = contents.solution.task.drawing
     last = None if upto is None else contents.last_step(upto)
-    drawn = contents.parts if per_construction else [contents.whole]
+    drawn = contents.parts if per_construction else [contents.as_one_part]
     try:
         return compose_parts(drawn, contents.title, format_of(paper), last, paper.tell)
     except TooLargeError:

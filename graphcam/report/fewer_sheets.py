@@ -80,7 +80,7 @@ def _suggestion(contents: Contents, task: Task, now: _PageCounts, tried: Drawing
         if fewer or (found.pages == now.pages and found.spread == 1 < now.spread):
             sizes = {"ordinate": tried.ordinate, "first": first, "second": second}
             known = {"before": now.pages, "after": found.pages, "format": tried.format} if fewer else {}
-            return (FEWER_SHEETS_NOTE if fewer else ONE_SHEET_NOTE).where(**known, **sizes)
+            return (FEWER_SHEETS_NOTE if fewer else ONE_SHEET_NOTE).with_values(**known, **sizes)
     return None
 
 
@@ -100,7 +100,7 @@ def _smaller(solution: Solution) -> list[DrawingTable]:
 def _part(contents: Contents, chain: Chain) -> SheetPart:
     """What stands on the sheets, with the constructions of a chain; what was added does not depend on its scales."""
     drawn = {name: chain.get(name, each) for name, each in contents.drawn.items()}
-    return replace(contents.whole, steps=scaled_steps(drawn)).told(contents.solution.tell)
+    return replace(contents.as_one_part, steps=scaled_steps(drawn)).told(contents.solution.tell)
 
 
 def _page_counts(drawing: DrawingTable, part: SheetPart) -> _PageCounts:

@@ -39,7 +39,12 @@ def _formula(load: SpringLoad | ArmLoad) -> str:
 def contact(solution: Solution) -> list[Block]:
     """The spring's preload, the least contact force, and where contact is lost."""
     spring = _spring(solution)
-    load, needed, least, lost = spring.load, spring.least, spring.contact.least_force(), joined(spring.lost)
+    load, needed, least, lost = (
+        spring.load,
+        spring.least_preload,
+        spring.contact.least_force(),
+        joined(spring.lost_captions),
+    )
     along, preload, _ = spring.units
     keeps = say(
         "A preload of at least {preload} {unit} keeps contact over the whole turn; it is needed at φ = {phi}.",
@@ -99,7 +104,7 @@ def _presses(spring: SpringDesign) -> Caption:
         ]
     if load.acceleration:
         accelerated = say("The angular acceleration of the cam is $\\varepsilon = {epsilon:g}$ rad/s².")
-        sentences.append(accelerated.where(epsilon=load.acceleration))
+        sentences.append(accelerated.with_values(epsilon=load.acceleration))
     if isinstance(load.load, LoadCurve):
         least, most = min(load.load.force), max(load.load.force)
         varies = say(
@@ -225,15 +230,15 @@ def contact_stress(solution: Solution) -> list[Block]:
         poisson2=stress.material.poisson_follower,
     )
     modulus = Equation(formula(MODULUS, modulus=number(stress.material().modulus, 0), unit=unit("MPa")))
-    if stress.without:
-        said = NO_STRESS_REASONS[stress.without]
-        return [given, modulus, warning(said) if stress.without != "no force" else said]
+    if stress.no_stress_reason:
+        said = NO_STRESS_REASONS[stress.no_stress_reason]
+        return [given, modulus, warning(said) if stress.no_stress_reason != "no force" else said]
     return [given, modulus, *_found(stress)]
 
 
 def _found(stress: StressDesign) -> list[Block]:
     roller = stress.forces.cam.roller_radius
-    at, greatest = stress.contact, stress.greatest
+    at, greatest = stress.contact, stress.max_stress
     assert at is not None
     assert greatest is not None
     force, half_width, radius = float(at.force), float(at.half_width), float(at.profile_radius)
@@ -266,17 +271,21 @@ def _found(stress: StressDesign) -> list[Block]:
         depth=number(DEPTH * half_width, 3),
     )
     kind = "roller" if roller else "face"
-    shape = SHAPES[stress.shape].where(**numbers(radius=abs(radius)))
+    shape = SHAPES[stress.shape].with_values(**numbers(radius=abs(radius)))
     return [law, Equation(RELATIVE_RADIUS[kind]), where, shape, in_numbers, below, *_verdict(stress)]
 
 
 def _verdict(stress: StressDesign) -> list[Caption]:
     """Whether the stress is permitted, and what width it takes."""
     limit = stress.material.permitted_stress
-    if limit is None or stress.greatest is None or stress.least_width is None:
+    if limit is None or stress.max_stress is None or stress.least_width is None:
         return []
     values = {"limit": limit, "width": number(rounded_up(stress.least_width))}
     if stress.permitted:
         kept = say("{limit:g} MPa are permitted: a contact {width} mm wide would be enough.")
-        return [kept.where(**values)]
-    return [warning(say("Only {limit:g} MPa are permitted. A contact {width} mm wide satisfies this.").where(**values))]
+        return [kept.with_values(**values)]
+    return [
+        warning(
+            say("Only {limit:g} MPa are permitted. A contact {width} mm wide satisfies this.").with_values(**values)
+        )
+    ]

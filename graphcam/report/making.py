@@ -64,7 +64,7 @@ def _matters(design: ToleranceDesign) -> list[Caption]:
     if len(shares) == 1:
         return []
     return [
-        VARIANCE_CAPTION.where(symbol=told.symbol, part=100 * float(most.shares[k]), name=error_name(most.name))
+        VARIANCE_CAPTION.with_values(symbol=told.symbol, part=100 * float(most.shares[k]), name=error_name(most.name))
         for k, told in enumerate(design.quantities)
         for most in [most_important(shares, k)]
     ]

@@ -50,7 +50,7 @@ def note(solution: Solution) -> str:
     True
     """
     chapters = constructions(solution)
-    if solution.stress and solution.stress.without:
+    if solution.stress and solution.stress.no_stress_reason:
         chapters.append((STRESS_MEANING.title, contact_stress(solution)))
     if solution.tolerances and solution.tolerances.undercut:
         chapters.append((TOLERANCE_MEANING.title, errors_of_making(solution)))
@@ -197,7 +197,7 @@ def _at_speed(solution: Solution) -> list[Block]:
         "factors $C_v$ and $C_a$:"
     )
     return [
-        said.where(rpm=rpm, omega=omega),
+        said.with_values(rpm=rpm, omega=omega),
         Equation(SPEED_FORMULA),
         say("For the phase {phase}:", phase=phase_title(motion, k)),
         formula(f"$${SPEED_NUMBERS}$$", omega=omega, **values),
@@ -244,14 +244,14 @@ def _face(solution: Solution) -> list[Caption]:
     """How the adopted face follows from the contact that was drawn; nothing without one."""
     if (face := solution.face) is None:
         return []
-    (left, right), (needs_left, needs_right) = face.drawn, face.least
+    (left, right), (needs_left, needs_right) = face.drawn, face.min_half_widths
     sides = {"left": left, "right": right, "needs_left": needs_left, "needs_right": needs_right}
     said = say(
         "The contact moves {left} mm to the left and {right} mm to the right of the follower's axis. With {margin:g} "
         "mm on each side the face must reach {needs_left} mm to the left and {needs_right} mm to the right: its "
         "minimum width is {width} mm.",
         margin=face.margin,
-        **numbers(**sides, width=sum(face.least)),
+        **numbers(**sides, width=sum(face.min_half_widths)),
     )
     (left, right), whole = face.adopted, sum(face.adopted)
     rounded = say(
@@ -332,11 +332,11 @@ def _other_sides(solution: AnySolution) -> list[Caption]:
     names = [
         quantities[said.name].title
         for construction in solution.drawn.values()
-        for reading, said in construction.meaning.compared
+        for reading, said in construction.meaning.compared_readings
         if said.sides and float(construction.value(reading)) * quantities[said.name].exact < 0
     ]
     text = say("Nearly equal on both sides: {names}; the side is compared on which the exact value has its maximum.")
-    return [text.where(names=joined(names))] if names else []
+    return [text.with_values(names=joined(names))] if names else []
 
 
 def of_sheet(told: Table) -> Grid:

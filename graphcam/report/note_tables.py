@@ -68,7 +68,7 @@ def at_stations(solution: Solution) -> list[Block]:
     if "pressure_angle" in solution.drawn:
         columns.append(("α", np.degrees(drawn["alpha"]), np.degrees(exact.pressure_angle), 2))
         columns.append(("γ", transmission_deg(drawn["alpha"]), transmission_deg(exact.pressure_angle), 2))
-    return [said.where(**units), station_table(station_names(stations), stations.phi, columns)]
+    return [said.with_values(**units), station_table(station_names(stations), stations.phi, columns)]
 
 
 def station_table(names: Sequence[str], phi: Floats, columns: Sequence[Column]) -> Grid:

@@ -62,11 +62,11 @@ class Contents:
         if isinstance(upto, int) and 0 <= upto <= len(self.steps):
             return upto
         limit = say("a number of steps from 0 to {steps}, or one of {names}, or a step such as 2.1")
-        limit = limit.where(steps=len(self.steps), names=", ".join(last))
+        limit = limit.with_values(steps=len(self.steps), names=", ".join(last))
         raise DesignError("upto", upto, limit)
 
     @property
-    def whole(self) -> SheetPart:
+    def as_one_part(self) -> SheetPart:
         """All of it as one part."""
         return SheetPart(self.steps, self.givens + self.results, tuple(self.solution.warnings), self.numbers)
 
@@ -155,7 +155,7 @@ def _check_drawable(cam: Cam) -> None:
     travel = abs(high - low)
     if cam.prime_radius > MAX_LIFT_RATIO * travel:
         limit = say("at most {most} times the lift of {travel:g} mm, to be drawn at one scale with it")
-        limit = limit.where(most=MAX_LIFT_RATIO, travel=travel)
+        limit = limit.with_values(most=MAX_LIFT_RATIO, travel=travel)
         found = say("{length:g} mm", length=cam.prime_radius)
         raise DesignError(say("prime radius"), found, limit, say("check the units of both"))
 
@@ -217,7 +217,7 @@ def _with_scale_title(step: Step, by: Construction | None) -> Step:
     if view.scale is not None:
         values = {"unit": unit(read.unit), "degrees": math.degrees(mu), "ratio": ratio_text(mu)}
         mu_l = mu if view.main else None
-        view = replace(view, title=view.scale.where(mu=mu, **values), mu_l=mu_l)
+        view = replace(view, title=view.scale.with_values(mu=mu, **values), mu_l=mu_l)
     if found_by := by.meaning.scales_found_by:
         view = replace(view, answer=say("{mu:.4g}", mu=view.title.values["mu"]), found_by=found_by)
     return replace(step, view=view)

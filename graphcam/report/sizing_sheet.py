@@ -174,7 +174,7 @@ class _Chart:
         radius = SIZE_CAPTIONS[problem.measure]
         view = View(
             "sizing",
-            REGION_TITLES[across].where(radius=radius),
+            REGION_TITLES[across].with_values(radius=radius),
             across=f"sizing {across}",
             up=f"sizing {problem.measure}",
         )
@@ -182,7 +182,7 @@ class _Chart:
         values["active"] = sequence([BINDING_CAPTIONS[name] for name in self.sized.active])
         return [
             Step(say("The limits"), (Part(ABOVE_LINE_NOTE),), view, (*self.axes.marks(), *self._limits())),
-            Step(title, (Part(ABOVE_ALL_LINES_NOTE.where(**values)),), view, self._best_marks()),
+            Step(title, (Part(ABOVE_ALL_LINES_NOTE.with_values(**values)),), view, self._best_marks()),
         ]
 
     @property
@@ -259,7 +259,7 @@ def _front_step(sized: SizedCam, front: Sequence[SizedCam], size: complex) -> St
         Dots(points),
         Dots(np.array([found]), Role.RESULT),
         Label(complex(points[points.size // 2]), say("face {width:g} mm", width=problem.face_width[1]), towards=1 + 1j),
-        Label(found, BEST_CAM_LABEL.where(stress=sized.stress, width=sized.face_width), towards=1 + 1j),
+        Label(found, BEST_CAM_LABEL.with_values(stress=sized.stress, width=sized.face_width), towards=1 + 1j),
     ]
     title = say("Stress over {radius}", radius=SIZE_CAPTIONS[problem.measure])
     view = View("front", title, across="front radius", up="front stress")

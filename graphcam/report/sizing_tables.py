@@ -101,7 +101,7 @@ def _limits(cams: Sequence[SizedCam]) -> Iterator[Row]:
     least = max((cams[0].cam.roller_radius + term.margin) / term.factor for term in terms)
     found = [_length(cam.min_convex_radius) for cam in cams]
     yield CURVATURE_LIMIT, say("minimum radius of curvature"), found, say("{length:.3f}", length=least)
-    for factor in [min(term.factor for term in limits.rule if term.of == "r0")] if SHARE_LIMIT in limits.kept else []:
+    for factor in [min(term.factor for term in limits.rule if term.of == "r0")] if SHARE_LIMIT in limits.names else []:
         shares: list[Words] = [say("{share:.3f}", share=cam.cam.roller_radius / cam.cam.prime_radius) for cam in cams]
         yield SHARE_LIMIT, BINDING_CAPTIONS[SHARE_LIMIT], shares, say("{value:g}", value=factor)
     stresses: list[Words] = [say("{stress:.1f} MPa", stress=cam.stress) for cam in cams]

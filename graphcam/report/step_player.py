@@ -127,7 +127,7 @@ def _set_instrument(instrument: Caption, length: object, piece: ActPlaces) -> Ca
         set_to = say("{instrument} {length:.2f} mm = {source}", source=source)
     else:
         set_to = say("{instrument} {length:.2f} mm")
-    return set_to.where(instrument=instrument, length=high)
+    return set_to.with_values(instrument=instrument, length=high)
 
 
 def _source(length: object, amount: float) -> Caption | None:
@@ -137,7 +137,7 @@ def _source(length: object, amount: float) -> Caption | None:
     if length.value is not None:
         scale = float(np.ravel(length.reading.scale)[0])
         said = say("{value:.6g} {unit} : {scale:.5g}")
-        return said.where(value=abs(length.value), unit=UNITS[length.reading.unit], scale=scale)
+        return said.with_values(value=abs(length.value), unit=UNITS[length.reading.unit], scale=scale)
     factor = abs(float(np.ravel(length.factor)[0]))
     return say("{paper:.2f} mm × {factor:.5g}", paper=amount / factor, factor=factor) if factor != 1 else None
 
@@ -152,7 +152,7 @@ def _protractor_setting(instrument: Caption, degrees: Floats) -> Caption | None:
         return say("{instrument} {low:.2f}° to {high:.2f}°", instrument=instrument, low=low, high=high)
     left = float(np.fmax.reduce(degrees)) > 0
     turned = say("{instrument} {angle:.2f}° anticlockwise") if left else say("{instrument} {angle:.2f}° clockwise")
-    return turned.where(instrument=instrument, angle=high)
+    return turned.with_values(instrument=instrument, angle=high)
 
 
 def player_of(contents: Contents, drawing: Drawing) -> str:
@@ -315,26 +315,26 @@ class _Telling:
         """A reading; of several values the extremes, the last of them with all values."""
         tell = self.tell
         if not row.places:
-            taken, _, value = tell(row.said()).rpartition(" = ")
+            taken, _, value = tell(row.caption()).rpartition(" = ")
             yield ReadingText(tell(row.title), taken, value, lit=self._lit(read), name=row.name)
             return
         lines = tuple(self._line(row, read, k) for k in range(len(row.places)))
         _, last = row.extremes[-1]
         for what, k in row.extremes:
-            title = say("{title}, {extreme}", title=row.title, extreme=row.at(what, k))
-            taken, _, value = tell(row.said(k)).rpartition(" = ")
+            title = say("{title}, {extreme}", title=row.title, extreme=row.extreme_caption(what, k))
+            taken, _, value = tell(row.caption(k)).rpartition(" = ")
             yield ReadingText(tell(title), taken, value, lines if k == last else (), self._lit(read, k), row.name)
 
     def _lit(self, read: Reading, *places: int) -> Pieces:
         """What is seen of what is read, all or at some places."""
         if read.act is None:
             return []
-        return self._pieces(self.board.seen([ActPlaces(read.act, places) if places else all_places(read.act)]))
+        return self._pieces(self.board.visible([ActPlaces(read.act, places) if places else all_places(read.act)]))
 
     def _line(self, row: ReadingRow, read: Reading, place: int) -> RowText:
         """One value of many: where, on paper, value."""
         name = self.tell(row.places[place])
         if row.paper[place] != row.paper[place]:
             return RowText(name, "–", "–")
-        taken, _, value = self.tell(row.said(place)).rpartition(" = ")
+        taken, _, value = self.tell(row.caption(place)).rpartition(" = ")
         return RowText(name, taken.partition(" × ")[0], value, self._lit(read, place))

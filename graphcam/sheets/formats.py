@@ -59,21 +59,21 @@ class Format:
     def size(self) -> tuple[float, float]:
         """Width and height of the paper, mm."""
         width, height = SHEET_SIZES[self.name]
-        return (height, width) if self.upright else (width, height)
+        return (height, width) if self.is_upright else (width, height)
 
     @property
-    def upright(self) -> bool:
+    def is_upright(self) -> bool:
         """Whether the sheet stands on its short side."""
         return self.orientation == "portrait" or self._is_upright_only
 
     @property
-    def said(self) -> Words:
+    def description(self) -> Words:
         """What a message calls the sheet.
 
         >>> str(Format("A3", "iso").said), str(Format("A4", "gost").said)
         ('A3 landscape', 'A4 portrait')
         """
-        return say("{name} portrait", name=self.name) if self.upright else say("{name} landscape", name=self.name)
+        return say("{name} portrait", name=self.name) if self.is_upright else say("{name} landscape", name=self.name)
 
     @property
     def _is_upright_only(self) -> bool:

@@ -57,10 +57,10 @@ class SheetPart:
     notes: tuple[str, ...] = ()
     numbers: Mapping[int, str] = field(default_factory=dict[int, str])
 
-    def told(self, tell: Tell) -> SheetPart:
+    def translated(self, tell: Tell) -> SheetPart:
         """The part with every text translated by ``tell``."""
-        steps = tuple((number, name, step.told(tell)) for number, name, step in self.steps)
-        tables, notes = tuple(table.told(tell) for table in self.tables), tuple(map(tell, self.notes))
+        steps = tuple((number, name, step.translated(tell)) for number, name, step in self.steps)
+        tables, notes = tuple(table.translated(tell) for table in self.tables), tuple(map(tell, self.notes))
         return replace(self, steps=steps, tables=tables, notes=notes)
 
     def group_name(self, number: int, construction: str) -> str:
@@ -105,7 +105,7 @@ def compose_parts(
         tables nor notes.  None for a finished sheet.
     tell : says all texts in the language of the sheets
     """
-    parts = [part.told(tell) for part in parts]
+    parts = [part.translated(tell) for part in parts]
     laid_out = [(part, leaf) for part in parts for leaf in _filled_pages(sheet, part)]
     titles = [_with_scale(title, leaf, tell) for _, leaf in laid_out]
     sheets = [empty_sheet(sheet, each, k, len(laid_out), tell) for k, each in enumerate(titles, 1)]
@@ -131,7 +131,7 @@ def profile_room(paper: str, frame: str, orientation: str | None = None) -> tupl
     """Width and height [mm] for the cam's profile, rollers included, labels and title not."""
     sheet = Format(paper, frame, orientation)
     inside, block = sheet.content.grown(-FRAME_MARGIN), title_box(sheet)
-    if paper in ONE_PAGE and not sheet.upright:
+    if paper in ONE_PAGE and not sheet.is_upright:
         # To the right of 360 mm of cam angle and the poles; above the combined diagram and the details.
         return inside.width - 424.0, inside.height - 170.0
     if paper in ONE_PAGE:
@@ -193,7 +193,7 @@ def _pieces(part: SheetPart, leaf: OpenPage) -> Iterator[StepPart]:
     for number, _, step in part.steps:
         if step.view.name in leaf.views:
             panel, origin = leaf.views[step.view.name]
-            for marks, since in ((step.given + (step.under if panel.lowest else ()), 0), (step.own, number)):
+            for marks, since in ((step.given + (step.under if panel.lowest else ()), 0), (step.own_marks, number)):
                 if marks or since:
                     yield StepPart(number, since, expand(marks, Placement(origin), panel.letters))
 

@@ -74,7 +74,7 @@ class MarkedPaper:
         return self.edge + self.side + self.quiet_zone
 
     @property
-    def upright(self) -> bool:
+    def is_upright(self) -> bool:
         """Whether it stands on its short side."""
         return self.height > self.width
 
@@ -84,7 +84,7 @@ class MarkedPaper:
         return Box(0.0, 0.0, self.width, self.height)
 
     @cached_property
-    def free(self) -> Box:
+    def free_box(self) -> Box:
         """What the marks leave free."""
         beside = 0.0 if self.up_in_strip else BAR_ROOM
         left = self.strip + beside + (CODE_COLUMN_WIDTH if self.seam else 0.0)
@@ -93,7 +93,7 @@ class MarkedPaper:
     @property
     def square(self) -> float:
         """The side of the square room for a drawing about its centre, with room for a title above it, mm."""
-        return min(self.free.width, self.free.height - TITLE_ROOM, MAX_ROOM)
+        return min(self.free_box.width, self.free_box.height - TITLE_ROOM, MAX_ROOM)
 
     @cached_property
     def tags(self) -> dict[int, complex]:

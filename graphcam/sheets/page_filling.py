@@ -75,7 +75,7 @@ def _too_large(sheet: Format, panel: Panel) -> TooLargeError:
     box = panel.box
     best = max(free_rooms(sheet), key=lambda room: min(room[0] / box.width, room[1] / box.height))
     size, most = (f"{wide:.0f} × {high:.0f} mm" for wide, high in ((box.width, box.height), best))
-    limit = say("at most about {most} on {said}", most=most, said=sheet.said)
+    limit = say("at most about {most} on {said}", most=most, said=sheet.description)
     remedy = say("take a larger format or a smaller scale")
     return TooLargeError(say("the view {name!r}", name=panel.view.name), size, limit, remedy)
 
@@ -353,5 +353,5 @@ def _preferred(sheet: Format, panels: Sequence[Panel], largest: Panel | None) ->
     if panels[0] is not largest:
         return prefer_bottom_right
     if sheet.name in ONE_PAGE:
-        return prefer_bottom_left if sheet.upright else prefer_top_right
-    return top if sheet.upright else at_left
+        return prefer_bottom_left if sheet.is_upright else prefer_top_right
+    return top if sheet.is_upright else at_left

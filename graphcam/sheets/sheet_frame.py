@@ -252,7 +252,7 @@ def frame(paper: Format, title: TitleBlock, sheet: int, sheets: int, tell: Tell 
 
 def _has_upright_number(paper: Format) -> bool:
     """Whether the number of field 26 stands on end: on standing sheets larger than A4, which are filed lying."""
-    return paper.upright and paper.name != "A4"
+    return paper.is_upright and paper.name != "A4"
 
 
 def _number_box(paper: Format) -> Box:

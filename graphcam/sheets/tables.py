@@ -36,7 +36,7 @@ class Table:
     rows: tuple[tuple[Words, ...], ...]
     answers: frozenset[tuple[int, int]] = frozenset()
 
-    def told(self, tell: Tell) -> Table:
+    def translated(self, tell: Tell) -> Table:
         """The table with every text translated by ``tell``."""
         rows = tuple(tuple(tell(cell) for cell in row) for row in self.rows)
         return Table(tell(self.title), tuple(tell(cell) for cell in self.header), rows, self.answers)

@@ -55,13 +55,13 @@ class Panel:
         return replace(self, lowest=True) if self.under else self
 
     @cached_property
-    def _drawn(self) -> list[Entity]:
+    def _entities(self) -> list[Entity]:
         entities, writings = expand(self.marks + self.base, Placement(0j, self.factor), self.letters)
         return [*entities, *(writing.set_at(0) for writing in writings)]
 
     @cached_property
     def _lines(self) -> tuple[Points, Points]:
-        return linework(self._drawn)
+        return linework(self._entities)
 
     @cached_property
     def points(self) -> Points:

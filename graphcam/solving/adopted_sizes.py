@@ -51,7 +51,7 @@ class FaceDesign:
     rounding: float
 
     @property
-    def least(self) -> Sides:
+    def min_half_widths(self) -> Sides:
         """The drawn half-widths with the margin [mm]."""
         left, right = self.drawn
         return left + self.margin, right + self.margin
@@ -63,7 +63,7 @@ class FaceDesign:
         >>> FaceDesign((24.78, 24.08), (25.0, 24.2), 3.0, 1.0).adopted
         (28.0, 28.0)
         """
-        left, right = (multiple(steps_up(side, self.rounding), self.rounding) for side in self.least)
+        left, right = (multiple(steps_up(side, self.rounding), self.rounding) for side in self.min_half_widths)
         return left, right
 
     @property
@@ -121,13 +121,17 @@ def _radius(chain: Chain, cam: Cam) -> Iterator[Caution]:
         said = say(
             "The adopted prime radius of {radius:g} mm is smaller than the exact minimum{there}, {least:.5g} mm: the "
             "drawn one, {drawn:.5g} mm, is {short:.3g} mm too small."
-        ).where(least=least, drawn=drawn, short=least - drawn)
+        ).with_values(least=least, drawn=drawn, short=least - drawn)
     else:
         said = say("The prime radius of {radius:g} mm{there} does not satisfy the exact limits.")
     remedies = _remedies(chain)
     if board.prime_radius is not None and not remedies:  # it is too small at any place, which is told of a given one
         return
-    told = [said.where(radius=radius, there=_place_words(chain)), *_curvature_remarks(cam, board), _take(remedies)]
+    told = [
+        said.with_values(radius=radius, there=_place_words(chain)),
+        *_curvature_remarks(cam, board),
+        _take(remedies),
+    ]
     yield Caution(sequence(told, " "), "prime radius")
 
 
@@ -135,7 +139,7 @@ def _place_words(chain: Chain) -> Words:
     """The words for the adopted place beside which a radius is told."""
     name = chain.board.follower.place_name
     return (
-        PLACE_CAPTIONS[name].where(place=chain.place)
+        PLACE_CAPTIONS[name].with_values(place=chain.place)
         if name in PLACE_CAPTIONS and "curvature" not in _limit_arguments(chain)
         else ""
     )
@@ -233,7 +237,7 @@ def _roller(chain: Chain, cam: Cam) -> Iterator[Caution]:
     smaller = multiple(math.floor(most / chain.rounding + ARITHMETIC_TOLERANCE), chain.rounding)
     takes = [_key("follower.roller_radius", smaller)] if smaller > 0 else []
     finer = _divisions(chain, lambda other: other.roller_radius <= _by_rule(board, _exact_cam(chain, *_sizes(other))))
-    yield Caution(said.where(radius=adopted, most=most, rho=rho, remedy=_take([*finer, *takes])), "roller radius")
+    yield Caution(said.with_values(radius=adopted, most=most, rho=rho, remedy=_take([*finer, *takes])), "roller radius")
 
 
 def _by_rule(board: Board, cam: Cam) -> float:
@@ -249,7 +253,7 @@ def _face(chain: Chain, face: FaceDesign | None) -> Iterator[Caution]:
             finer = _divisions(chain, lambda other: face_design(other, face.exact, face.margin).is_wide_enough)
             wider = say("{length:g} mm", length=multiple(steps_up(least, face.rounding), face.rounding))
             remedy = _take([*finer, wider])
-            yield Caution(said.where(adopted=adopted, least=least, margin=face.margin, remedy=remedy), "face")
+            yield Caution(said.with_values(adopted=adopted, least=least, margin=face.margin, remedy=remedy), "face")
 
 
 FACE_REMARKS = (

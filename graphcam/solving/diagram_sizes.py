@@ -97,7 +97,7 @@ class DrawnHeights:
         (a, v, s), (first, second) = self.unit, poles
         return min(most.a / a, most.v * first / v, most.s * first * second / s)
 
-    def chosen(
+    def choose(
         self,
         room: DiagramRoom,
         most: DiagramRoom,

@@ -57,7 +57,7 @@ def _undercut(cam: Cam) -> Iterator[Caution]:
         if cam.kinematics.takes_roller:
             remedy = say("Take a roller well below {radius} mm.", radius=_rounded_down(largest_roller(cam)))
         said = say("The profile cannot be cut: its undercut consists of loops that cannot be told apart. {remedy}")
-        yield Caution(said.where(remedy=remedy), "profile")
+        yield Caution(said.with_values(remedy=remedy), "profile")
         return
     if not lost:
         return
@@ -69,7 +69,7 @@ def _undercut(cam: Cam) -> Iterator[Caution]:
     said = say("The profile cannot be cut {cause}: it is undercut {where}. {remedy}")
     where = sequence([_undercut_place(part) for part in lost], "; ")
     corners = tuple(part.crossing[0] for part in lost)
-    yield Caution(said.where(cause=too_large, where=where, remedy=_remedy(cam, lost)), "profile", corners)
+    yield Caution(said.with_values(cause=too_large, where=where, remedy=_remedy(cam, lost)), "profile", corners)
 
 
 def _undercut_place(part: Undercut) -> Caption:
@@ -125,7 +125,7 @@ def _prime_radius(board: Board, least: float) -> Iterator[Caution]:
     given = board.prime_radius
     if given is not None and given < least - PRINT_ROUNDING:
         said = say("The given prime radius of {given:g} mm is smaller than the minimum permitted one, {least:.2f} mm.")
-        yield Caution(said.where(given=given, least=least), "prime radius")
+        yield Caution(said.with_values(given=given, least=least), "prime radius")
 
 
 def unit_slips(task: Task) -> Iterator[Caution]:
@@ -134,15 +134,15 @@ def unit_slips(task: Task) -> Iterator[Caution]:
     lift = task.motion().lift / task.follower.lift_unit
     if swings and lift < MAX_RADIANS_LIFT:
         said = say("The lift of {lift:g}° looks like radians: if so, give {meant:.3g}, in degrees.")
-        yield Caution(said.where(lift=lift, meant=math.degrees(lift)), "unit")
+        yield Caution(said.with_values(lift=lift, meant=math.degrees(lift)), "unit")
     elif not swings and lift < MAX_METRES_LIFT:
         said = say("The lift of {lift:g} mm looks like metres: if so, give {meant:g}, in mm.")
-        yield Caution(said.where(lift=lift, meant=1000 * lift), "unit")
+        yield Caution(said.with_values(lift=lift, meant=1000 * lift), "unit")
     if slip := task.limits().slip():
         said = say(
             "The permitted pressure angle of {angle:g}° looks like radians: if so, give {meant:.3g}, in degrees."
         )
-        yield Caution(said.where(angle=slip[1], meant=math.degrees(slip[1])), "unit")
+        yield Caution(said.with_values(angle=slip[1], meant=math.degrees(slip[1])), "unit")
 
 
 def title_scale(task: Task, drawn: Scale) -> Iterator[Caution]:
@@ -153,7 +153,7 @@ def title_scale(task: Task, drawn: Scale) -> Iterator[Caution]:
             "The title block says {said}, but the profile is drawn at {drawn}: title.scale only fills the title block; "
             "drawing.profile_scale draws the profile larger or smaller."
         )
-        yield Caution(text.where(said=ratio_text(said), drawn=ratio_text(drawn.per_mm)), "scale")
+        yield Caution(text.with_values(said=ratio_text(said), drawn=ratio_text(drawn.per_mm)), "scale")
 
 
 def less_round(chain: Chain) -> list[Caution]:

@@ -62,7 +62,7 @@ def board_of(task: Task) -> Board:
     room = diagram_room(drawing, angles="angle_diagram" in follower.constructions)
     room = room.beside_jerk if drawing.jerk else room
     heights = DrawnHeights(motion, room.degrees_per_mm)
-    ordinate, poles = heights.chosen(room, page_room(task, heights, follower), drawing.ordinate, drawing.poles)
+    ordinate, poles = heights.choose(room, page_room(task, heights, follower), drawing.ordinate, drawing.poles)
     return Board(
         motion=motion,
         follower=follower,
@@ -142,7 +142,7 @@ where the combined diagram, which has the same scale, would be wider than the sh
 
 def diagram_room(drawing: SheetTable, *, angles: bool = True) -> DiagramRoom:
     """What the diagrams of a sheet are drawn for, with or without that of the pressure angle."""
-    upright = format_of(drawing).upright
+    upright = format_of(drawing).is_upright
     room = DIAGRAM_ROOMS[drawing.format, upright]
     return room if angles or drawing.format == "A4" else replace(room, s=MAX_HEIGHT_FACTOR * room.s)
 
@@ -194,7 +194,7 @@ def check_given_sizes(task: Task, times: float = 1.0) -> None:
     graphcam.errors.DesignError: drawing.ordinate is 2000 mm, but must be at most 149 mm on A1 landscape; take ...
     """
     drawing, board = task.drawing, board_of(task)
-    sheet, larger = format_of(drawing).said, say("take a larger format, or leave it out")
+    sheet, larger = format_of(drawing).description, say("take a larger format, or leave it out")
     heights = DrawnHeights(board.motion, math.degrees(board.mu_phi.per_mm))
     most = page_room(task, heights, board.follower)
     for k, pole in enumerate(drawing.poles or ()):

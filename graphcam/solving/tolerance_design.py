@@ -114,10 +114,10 @@ class ToleranceDesign:
     @property
     def drawn(self) -> dict[str, Construction]:
         """The diagrams by their name; none of an undercut profile."""
-        return {} if self.undercut else {TOLERANCE_MEANING.name: self._drawn}
+        return {} if self.undercut else {TOLERANCE_MEANING.name: self._construction}
 
     @cached_property
-    def _drawn(self) -> Construction:
+    def _construction(self) -> Construction:
         return turn_diagrams(TOLERANCE_MEANING, [self._diagram(k) for k in range(3)], self.chain.pencil)
 
     def _diagram(self, k: int) -> TurnDiagram:
@@ -131,12 +131,12 @@ class ToleranceDesign:
         return TurnDiagram(
             f"band_{told.symbol}",
             DIAGRAM_TITLES[k],
-            DIAGRAM_HEADINGS[k].where(unit=of_unit),
+            DIAGRAM_HEADINGS[k].with_values(unit=of_unit),
             say("± {symbol}, {unit}", symbol=told.symbol, unit=of_unit),
             told.unit,
             self.cam.motion,
             over_turn(self.cam.motion, half_width),
-            BAND_CAPTION.where(coverage=100 * self.given.coverage, unit=of_unit, phi=degrees(widest.phi)),
+            BAND_CAPTION.with_values(coverage=100 * self.given.coverage, unit=of_unit, phi=degrees(widest.phi)),
             why=DIAGRAM_REASONS[k],
             marked=((top, say("{value} {unit}", value=significant(top.value), unit=of_unit)),),
         )

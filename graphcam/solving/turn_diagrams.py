@@ -127,7 +127,7 @@ def diagram_step(diagram: TurnDiagram) -> Step:
     wrong = [part for stretch in diagram.wrong for part in _in_turn(*stretch)]
     marks += [Line(np.array(each) / mu_phi.per_mm + 0j, Role.LIMIT) for each in wrong]
     values = {"mu": mu.per_mm}
-    view = View(diagram.name, diagram.heading.where(**values), across="turn phi", up=f"{diagram.name} up")
+    view = View(diagram.name, diagram.heading.with_values(**values), across="turn phi", up=f"{diagram.name} up")
     said = replace(diagram.caption, values={**diagram.caption.values, **values})
     return Step(diagram.title, (Part(said),), view, tuple(marks), given=axes, why=diagram.why)
 

@@ -73,7 +73,7 @@ def _by_degrees(difference: float, lean: float, paper: float) -> Caption:
             "at the end of v."
         )
     )
-    return said.where(lean=lean, difference=abs(difference), paper=paper)
+    return said.with_values(lean=lean, difference=abs(difference), paper=paper)
 
 
 def _outermost(chain: Chain, k: int) -> Caption:
@@ -84,7 +84,7 @@ def _outermost(chain: Chain, k: int) -> Caption:
         "The outermost ray goes to station {station}: the end of v lies {across:.1f} mm beside A and {up:.1f} mm above "
         "it, so tan α = {across:.1f}/{up:.1f}. A lower A, or one nearer to the side of v, makes the ray steeper."
     )
-    return said.where(station=station_names(chain.board.stations)[k], across=abs(end.real), up=end.imag)
+    return said.with_values(station=station_names(chain.board.stations)[k], across=abs(end.real), up=end.imag)
 
 
 def steepest_foretold(chain: Chain) -> Prediction:
@@ -125,7 +125,7 @@ def _by_phi(difference: float, phi: float, paper: float) -> Caption:
         if difference > 0
         else say("Your point at φ = {phi:.1f}° is {difference:.1f}° too early, {paper:.1f} mm on paper.")
     )
-    return said.where(phi=phi, difference=abs(difference), paper=paper)
+    return said.with_values(phi=phi, difference=abs(difference), paper=paper)
 
 
 def _where_steep(chain: Chain, x: float, curve: Points, rising: NDArray[np.bool_]) -> Caption:
@@ -152,4 +152,4 @@ def _where_steep(chain: Chain, x: float, curve: Points, rising: NDArray[np.bool_
             "The angle is due to the velocity, and here the position of the arm shifts its maximum to "
             "{apart:.1f}° after that of v."
         )
-    return sequence([told, reason.where(apart=abs(apart)) if abs(apart) >= 1 else reason], " ")
+    return sequence([told, reason.with_values(apart=abs(apart)) if abs(apart) >= 1 else reason], " ")

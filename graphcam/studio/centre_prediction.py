@@ -118,7 +118,7 @@ def _answer_caption(radius: float, difference: float, paper: float) -> Caption:
         say("Its prime radius of {radius:.1f} mm is {difference:.1f} mm larger than the minimum.")
         if difference >= 0
         else say("Its prime radius of {radius:.1f} mm is {difference:.1f} mm smaller than the minimum.")
-    ).where(radius=radius, difference=abs(difference))
+    ).with_values(radius=radius, difference=abs(difference))
     return sequence([apart, more], " ")
 
 
@@ -136,12 +136,12 @@ def _permitted(chain: Chain, guess: complex, origin: complex, mu: float, near: b
             "From there the pressure angle at station {station} would be {angle:.1f}°, more than the {limit:.1f}° "
             "permitted, so A must lie farther away."
         )
-        return said.where(**values)
+        return said.with_values(**values)
     said = say(
         "From there all limits are satisfied, with {angle:.1f}° of {limit:.1f}° at station {station}. But they "
         "are also satisfied nearer to B₀: the cam would be larger than necessary."
     )
-    return said.where(**values)
+    return said.with_values(**values)
 
 
 def _worst_station(chain: Chain, guess: complex, origin: complex, mu: float) -> tuple[str, float, float] | None:
@@ -178,4 +178,4 @@ def _convex(chain: Chain, radius: float) -> Caption:
         )
     else:
         said = say("Then the minimum of ρ = r₀ + s + a is {rho:.1f} mm, and {least:g} mm is enough.")
-    return said.where(rho=rho, least=least)
+    return said.with_values(rho=rho, least=least)

@@ -49,7 +49,7 @@ class HandleAxis:
 
     def plain(self, tell: Tell) -> dict[str, Any]:
         """The axis as plain data for the page."""
-        each = self.range.around(self.value)
+        each = self.range.widened_to(self.value)
         return {
             "path": self.path,
             "name": tell(self.name),
@@ -141,7 +141,7 @@ def snapped(
     pulled = None if fine else nearest_magnet(value, magnets, reach)
     if pulled is not None and within.least <= pulled <= within.most:
         return pulled
-    return within.kept(value, fine=fine)
+    return within.nearest_step(value, fine=fine)
 
 
 def phi_axis(phi: float, screen: str = "x") -> HandleAxis:

@@ -66,10 +66,10 @@ class ArmRegionPlaces:
         """The centre distance and the prime radius of a cam centre that is put to a place [mm of paper]."""
         # The cam centre lies below the line of the arm at rest.
         below = complex(to.real, min(to.imag, -EDGE_TOLERANCE))
-        distance = self.distances().kept(abs(below) * self.mu, fine=fine)
+        distance = self.distances().nearest_step(abs(below) * self.mu, fine=fine)
         wanted, room = abs(below * self.mu + self.arm), self.radii(distance)
         edge = None if fine else self._edge(distance, wanted, room)
-        return distance, room.kept(wanted, fine=fine) if edge is None else edge
+        return distance, room.nearest_step(wanted, fine=fine) if edge is None else edge
 
     def _edge(self, distance: float, wanted: float, room: SizeRange) -> float | None:
         """The prime radius nearest to a wanted one at which the arc about the pivot enters the region, if near."""

@@ -73,9 +73,9 @@ class CentreOfRegion:
         aside = SizeRange(-self.aside, self.aside, self.step)
         place = None if fine else next((each for each in self.places if abs(each - to) <= MAGNET_REACH), None)
         if place is not None and abs(place.real) * self.mu <= self.aside:
-            offset = aside._replace(step=self.step / 5).kept(-place.real * self.mu)
+            offset = aside._replace(step=self.step / 5).nearest_step(-place.real * self.mu)
             return offset, self._radius(offset, self.edge(offset), rounded_up=True, fine=True)
-        offset = aside.kept(-to.real * self.mu, fine=fine)
+        offset = aside.nearest_step(-to.real * self.mu, fine=fine)
         radius = self.mu * abs(complex(offset / self.mu, min(to.imag, 0.0)))
         edge = self.edge(offset)
         if not fine and abs(radius - edge) <= MAGNET_REACH * self.mu:

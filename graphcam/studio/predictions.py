@@ -181,9 +181,9 @@ def _judged(asked: Prediction, guess: complex, tell: Tell) -> dict[str, Any]:
     return {
         "at": {view: dict(zip(("guess", "answer"), _in_view(pair), strict=True)) for view, pair in at.items()},
         "paper": round(found.paper, 3),
-        "paper_said": tell(MILLIMETRES_CAPTION.where(size=found.paper)),
+        "paper_said": tell(MILLIMETRES_CAPTION.with_values(size=found.paper)),
         "machine": round(found.machine, 4) if finite else None,
-        "machine_said": tell(DIFFERENCE_CAPTIONS[found.unit].where(size=found.machine + 0.0)) if finite else "",
+        "machine_said": tell(DIFFERENCE_CAPTIONS[found.unit].with_values(size=found.machine + 0.0)) if finite else "",
         "unit": found.unit,
         "quantity": tell(found.quantity),
         "said": tell(found.said),

@@ -191,7 +191,7 @@ def _check(folder: Path, name: str, content: bytes, known: set[str | None]) -> N
         trusted = sorted(each for each in known if each)
         sums = either(trusted) if trusted else say("one that is known")
         remedy = say("take the files of '{packing}', or state the sums that you trust in a file {sums} there")
-        remedy = remedy.where(packing=PACKING_COMMAND, sums=SUMS_FILE)
+        remedy = remedy.with_values(packing=PACKING_COMMAND, sums=SUMS_FILE)
         raise TaskError(str(folder), say("the SHA-256 of {name}", name=name), found, sums, remedy)
 
 

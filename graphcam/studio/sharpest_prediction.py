@@ -84,7 +84,7 @@ def _explanation(solution: Solution, phi: float, least: float, at: float) -> Cap
         "{least:.2f} mm."
     )
     unit = solution.chain.integration.readings["a"].unit
-    said = said.where(here=here, there=there, unit=unit, phi=math.degrees(at), least=least)
+    said = said.with_values(here=here, there=there, unit=unit, phi=math.degrees(at), least=least)
     if math.isclose(here, there, rel_tol=SAME_SHARPNESS):
         alike = say("Where a is the same, the point nearer to the cam centre is sharper.")
         return sequence([said, alike], " ")

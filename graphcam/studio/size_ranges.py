@@ -38,7 +38,7 @@ class SizeRange(NamedTuple):
     most: float
     step: float
 
-    def kept(self, value: float, *, fine: bool = False) -> float:
+    def nearest_step(self, value: float, *, fine: bool = False) -> float:
         """The nearest step inside; a fifth of a step where it is to be fine."""
         step = self.step / 5 if fine else self.step
         inside = min(max(round(value / step) * step, self.least), self.most)
@@ -49,7 +49,7 @@ class SizeRange(NamedTuple):
         """The range as plain data for the page."""
         return {"min": self.least, "max": self.most, "step": self.step}
 
-    def around(self, value: float | None) -> "SizeRange":
+    def widened_to(self, value: float | None) -> "SizeRange":
         """The range, wide enough for a value that stands there."""
         if value is None:
             return self
@@ -141,7 +141,7 @@ def _(solution: ArcsSolution) -> dict[str, SizeRange]:
 def _widened_ranges(found: dict[str, SizeRange], task: Task | ArcsTask) -> dict[str, SizeRange]:
     """The ranges with the values that stand in the task, though they lie outside what is usual."""
     said = task.to_dict()
-    return {path: each.around(value_at(said, path)) for path, each in found.items()}
+    return {path: each.widened_to(value_at(said, path)) for path, each in found.items()}
 
 
 def _usual_range(value: float) -> SizeRange:
@@ -258,5 +258,5 @@ def _of_drawing(solution: Solution) -> dict[str, SizeRange]:
     return {
         "drawing.divisions": SizeRange(4, 36, 1),
         "drawing.ordinate": SizeRange(step, most, step),
-        **{f"drawing.poles[{k}]": SizeRange(10.0, 80.0, 1.0).around(pole) for k, pole in enumerate(board.poles)},
+        **{f"drawing.poles[{k}]": SizeRange(10.0, 80.0, 1.0).widened_to(pole) for k, pole in enumerate(board.poles)},
     }

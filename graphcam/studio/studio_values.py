@@ -27,7 +27,7 @@ def compared_quantities(drawn: Mapping[str, Construction]) -> set[str]:
     >>> sorted(compared_quantities({"roller": drawn["roller"]}))
     ['roller_radius']
     """
-    return {said.name for each in drawn.values() for _, said in each.meaning.compared}
+    return {said.name for each in drawn.values() for _, said in each.meaning.compared_readings}
 
 
 def values(quantities: Mapping[str, Quantity], spoken: Language) -> list[dict[str, Any]]:

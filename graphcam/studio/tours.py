@@ -57,7 +57,7 @@ class Goal:
     operator: str
     value: float
 
-    def reached(self, task: Mapping[str, Any], phi: float = 0.0) -> bool:
+    def is_reached(self, task: Mapping[str, Any], phi: float = 0.0) -> bool:
         """Whether a task, or the cam angle [degrees], has reached it; what is open has not."""
         size = phi if self.path == "phi" else value_at(task, self.path)
         if isinstance(size, bool) or not isinstance(size, int | float):

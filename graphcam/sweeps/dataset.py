@@ -166,7 +166,7 @@ class Summary:
         """How many designs there are, and what they took."""
         designs = say("{designs} designs") if self.feasible is None else say("{designs} designs, {feasible} feasible")
         spent = say("{parts} parts, {bytes} bytes, {seconds:.1f} s of processor time")
-        return sequence([each.where(**vars(self)) for each in (designs, spent)], "; ")
+        return sequence([each.with_values(**vars(self)) for each in (designs, spent)], "; ")
 
     def __str__(self) -> str:
         return str(self.caption)
@@ -189,7 +189,7 @@ def sweep_to_folder(
     ------
     OutputError : the folder cannot be reached or holds something else, or workers failed; parts that are whole stay
     """
-    place = SharedFolder.reached(folder)
+    place = SharedFolder.open_folder(folder)
     manifest = _manifest(place, space)
     parts: list[Record] = manifest["parts"]
     save = partial(_save, place, manifest)
@@ -255,8 +255,8 @@ def write_part(space: Space, place: SharedFolder, version: str, job: tuple[int, 
     try:
         if MANIFEST_FILE not in place.sizes():
             unseen = say("the worker on {host} does not see it; all workers must share it")
-            return unseen.where(host=socket.gethostname())
-        with place.whole(file) as opened:
+            return unseen.with_values(host=socket.gethostname())
+        with place.open_for_writing(file) as opened:
             sealed = SealedFile(opened)
             with parquet_rows(place.url, sealed) as write:
                 for k in range(first, stop, BLOCK_DESIGNS):
@@ -346,6 +346,6 @@ def _difference(found: Any, wanted: Any, name: str = "") -> str:
 def _save(place: SharedFolder, manifest: Record) -> float:
     """Write the manifest; how long this took [s]."""
     start = time.monotonic()
-    with place.whole(MANIFEST_FILE) as file:
+    with place.open_for_writing(MANIFEST_FILE) as file:
         file.write((json.dumps(manifest, indent=1, allow_nan=False) + "\n").encode())
     return time.monotonic() - start

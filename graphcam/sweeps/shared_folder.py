@@ -19,7 +19,7 @@ class SharedFolder:
     url: str
 
     @staticmethod
-    def reached(folder: str) -> "SharedFolder":
+    def open_folder(folder: str) -> "SharedFolder":
         """The folder, made where it is not there yet.
 
         Raises
@@ -61,7 +61,7 @@ class SharedFolder:
         return system.cat_file(f"{path}/{name}")
 
     @contextmanager
-    def whole(self, name: str) -> Generator[Any]:
+    def open_for_writing(self, name: str) -> Generator[Any]:
         """A file to be written that takes its name when it is closed.
 
         Until then it has a name that readers of data sets pass over, and that nobody else writes.

@@ -41,7 +41,7 @@ class SweptLoad:
         else:
             check_kind("load", self.load, SpringLoad, say("a SpringLoad, for the followers slide"))
 
-    def beside(self, kin: Kinematics) -> FollowerLoad:
+    def load_for(self, kin: Kinematics) -> FollowerLoad:
         """The load beside each of many cams."""
         if isinstance(self.load, ArmLoad):
             sizes: Any = kin
@@ -68,7 +68,7 @@ class SoughtForce(SoughtQuantity):
 
     def _load(self, values: Values) -> tuple[Floats, Floats]:
         """The load, and its slope by phi."""
-        load = self.swept.beside(self.kin)
+        load = self.swept.load_for(self.kin)
         return load.force(values, self.direction), load.slope(values)
 
     def _moving_force(self, values: Values) -> tuple[Floats, Floats]:
@@ -89,7 +89,7 @@ class SoughtForce(SoughtQuantity):
     def _normal(self, values: Values) -> Floats:
         """The normal force [N], without its slope; NaN where the follower jams."""
         moved, size = self._part(values)
-        force = self.swept.beside(self.kin).force(values, self.direction)
+        force = self.swept.load_for(self.kin).force(values, self.direction)
         return force * size / np.where(moved > 0, moved, np.nan)
 
 
@@ -124,7 +124,7 @@ class GreatestTorque(SoughtForce):
 
     def reading(self, values: Values) -> Floats:
         """M = Q v + mu N w, with w the speed of sliding."""
-        passed = self.swept.beside(self.kin).force(values, self.direction) * values[1]
+        passed = self.swept.load_for(self.kin).force(values, self.direction) * values[1]
         if not self.swept.friction:
             return passed
         return passed + self.swept.friction * self._normal(values) * self.kin.sliding(values, self.roller)[0]
@@ -142,12 +142,12 @@ class NeededPreload(SoughtForce):
 
     def reading(self, values: Values) -> Floats:
         """F0 less the load over its lever."""
-        load = self.swept.beside(self.kin)
+        load = self.swept.load_for(self.kin)
         return load.preload - load.force(values, self.direction) / load.leverage(values)[0]
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:
         """The needed preload, and what has the sign of its slope."""
-        (q, q_slope), (w, w_slope) = self._load(values), self.swept.beside(self.kin).leverage(values)
+        (q, q_slope), (w, w_slope) = self._load(values), self.swept.load_for(self.kin).leverage(values)
         return self.swept.load.preload - q / w, q * w_slope - q_slope * w
 
 

@@ -148,7 +148,7 @@ class Chunk:
             found = np.maximum(found, self._over_legs(sought, legs))
         for level, angle in self._dwells:
             found = np.maximum(found, np.where(angle > 0, sought.at_rest(level), -np.inf))
-        placed = self.swept.beside(self.all_kinematics)
+        placed = self.swept.load_for(self.all_kinematics)
         if isinstance(placed, PlacedArmLoad):
             found = np.where(placed.presses(self._lift), found, np.nan)
         return found

@@ -228,7 +228,7 @@ def _remedy(turn: float, phases: tuple[PhaseTable, ...]) -> Words:
     if dwells and dwells[-1]:
         return say("{off} deg are missing: lengthen {which}", off=off, which=which)
     told = say('{off} deg are missing: add {{ kind = "dwell", angle = {off} }} at the end, or lengthen {which}')
-    return told.where(off=off, which=which)
+    return told.with_values(off=off, which=which)
 
 
 @lru_cache(maxsize=16)  # because a task asks for its motion in several places

@@ -147,7 +147,7 @@ def _keyway(table: PartTable, bore: float) -> KeySection | None:
         limit = say(
             "none for a bore of {bore:g} mm: the standard has keys from {thinnest_shaft:g} to {thickest_shaft:g} mm"
         )
-        limit = limit.where(bore=bore, thinnest_shaft=MIN_SHAFT, thickest_shaft=MAX_SHAFT)
+        limit = limit.with_values(bore=bore, thinnest_shaft=MIN_SHAFT, thickest_shaft=MAX_SHAFT)
         raise DesignError("part.keyway", table.keyway, limit, say("write 'none' or change part.bore"))
     return section
 
@@ -190,7 +190,7 @@ def _check_walls(part: CamPart, least_radius: float) -> None:
             keyway = say(" with its keyway {depth:g} mm deep", depth=part.keyway.depth) if part.keyway else ""
             found = say("{bore:g} mm{keyway}", bore=part.bore, keyway=keyway)
             limit = say("small enough to leave a wall of {least:g} of the bore inside {inside} of {outer:.4g} mm")
-            limit = limit.where(least=MIN_WALL, inside=inside, outer=outer)
+            limit = limit.with_values(least=MIN_WALL, inside=inside, outer=outer)
             fitting = [d for d in standard_diameters() if _keyway_top(part.table, d) + MIN_WALL * d <= outer]
             smaller = say("take a smaller bore")
             if fitting:

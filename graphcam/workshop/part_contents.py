@@ -107,7 +107,7 @@ class PartContents:
             author=given.author,
             checked=given.checked,
             material=tell(self.part.material),
-            mass=tell(told.where(mass=mass, decimals=decimals)),
+            mass=tell(told.with_values(mass=mass, decimals=decimals)),
             scale=tell(ratio_text(1 / scale)),
             remark=self.solution.task.drawing.remark,
         )

@@ -111,7 +111,7 @@ def part_tables(contents: PartContents, sheet: Format) -> PartTables:
     """The tables of a part as a sheet letters them."""
     tell, height = contents.tell, sheet.lettering.small
     told = [cam_data(contents.solution, contents.outline), *tolerance_data(contents.solution)]
-    data = tuple(table_block(each.told(tell), height) for each in told)
+    data = tuple(table_block(each.translated(tell), height) for each in told)
     return PartTables(data, polar_rows(contents.table, tell), tell, height)
 
 

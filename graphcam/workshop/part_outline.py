@@ -155,32 +155,32 @@ class Outline:
     sense: int
     zero_met: bool = True
 
-    def seen(self, points: Complexes) -> Complexes:
+    def as_seen(self, points: Complexes) -> Complexes:
         """Points or ways of cam coordinates as seen with the zero mark to the right and the angles anticlockwise."""
         turned = points * np.exp(-1j * self.zero)
         return turned if self.sense > 0 else np.conj(turned)
 
     @cached_property
     def sampled(self) -> list[tuple[Floats, Complexes, Complexes]]:
-        """Parameters, points and normals of each span as :meth:`seen`, densely."""
+        """Parameters, points and normals of each span as :meth:`as_seen`, densely."""
         total = math.fsum(span.end - span.begin for span in self.spans)
         samples: list[tuple[Floats, Complexes, Complexes]] = []
         for span in self.spans:
             share = (span.end - span.begin) / total
             at = np.linspace(span.begin, span.end, max(MIN_SPAN_SAMPLES, round(share * OUTLINE_SAMPLES)))
-            samples.append((at, self.seen(span.point(at)), self.seen(span.normal(at))))
+            samples.append((at, self.as_seen(span.point(at)), self.as_seen(span.normal(at))))
         return samples
 
     @cached_property
     def points(self) -> Complexes:
-        """Dense points on the closed outline as :meth:`seen`, none twice in a row."""
+        """Dense points on the closed outline as :meth:`as_seen`, none twice in a row."""
         parts = [points[:-1] for _, points, _ in self.sampled if abs(points[-1] - points[0]) > 0]
         return np.concatenate(parts)
 
     @property
     def corners(self) -> list[complex]:
-        """The corners as :meth:`seen`."""
-        return [complex(self.seen(np.array(span.at))) for span in self.spans if isinstance(span, CornerSpan)]
+        """The corners as :meth:`as_seen`."""
+        return [complex(self.as_seen(np.array(span.at))) for span in self.spans if isinstance(span, CornerSpan)]
 
     @cached_property
     def least_radius(self) -> float:
@@ -228,7 +228,7 @@ class Outline:
         remedy = say("take a smaller cutter, or leave it out")
         if not radius < self.least_hollow:
             limit = say("less than {least_hollow:.4g} mm, the minimum radius of the profile's hollows")
-            limit = limit.where(least_hollow=self.least_hollow)
+            limit = limit.with_values(least_hollow=self.least_hollow)
             raise DesignError("part.cutter_radius", radius, limit, remedy)
         from scipy.spatial import KDTree
 

@@ -176,7 +176,9 @@ def dimensioned_radii(shown: ShownPart) -> list[tuple[complex, Caption]]:
         # Away from the centre lines, where the text has most room, and from the arrow of the rotation.
         oblique = np.abs(np.sin(2 * np.angle(at))) - 2.0 * ((at.real > 0) & (at.imag < 0))
         way = np.angle(at[np.argmax(oblique.round(6))])
-        told.append((cmath.rect(shown.scale * extreme, way), name.where(radius=size(round(float(extreme), decimals)))))
+        told.append(
+            (cmath.rect(shown.scale * extreme, way), name.with_values(radius=size(round(float(extreme), decimals))))
+        )
     return told
 
 
@@ -399,7 +401,7 @@ def upper_deviation(over: float, frame: str) -> Caption:
     >>> str(upper_deviation(0.021, "iso")), str(upper_deviation(0.021, "gost"))
     ('+0.021/0', '+0.021')
     """
-    return (say("+{over:g}/0") if frame == "iso" else say("+{over:g}")).where(over=over)
+    return (say("+{over:g}/0") if frame == "iso" else say("+{over:g}")).with_values(over=over)
 
 
 def keyway_text(part: CamPart) -> Words:

@@ -97,7 +97,7 @@ class PolarCurve:
 
     def _point(self, number: int, at: Floats) -> Complexes:
         span = self.outline.spans[number]
-        return self.outline.seen(span.point(at) + self.distance * span.normal(at))
+        return self.outline.as_seen(span.point(at) + self.distance * span.normal(at))
 
 
 @dataclass(frozen=True, eq=False)

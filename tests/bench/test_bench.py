@@ -154,7 +154,7 @@ def test_sampled_integration_has_its_textbook_order(name, order):
 @pytest.mark.parametrize("law", SMOOTH)
 def test_a_sampled_least_radius_is_too_small_and_comes_near_with_the_second_order(law):
     free = free_scene(law)
-    exact, motion = free.least().prime_radius, free.board.motion
+    exact, motion = free.exact_least_radius().prime_radius, free.board.motion
     for solve in (
         lambda n: rivals.by_half_planes(rivals.translating_lines(motion, PERMITTED_ANGLE, n), INNER_POINT),
         lambda n: rivals.by_optimiser(rivals.translating_lines(motion, PERMITTED_ANGLE, n), INNER_POINT),
@@ -168,7 +168,7 @@ def test_a_sampled_least_radius_is_too_small_and_comes_near_with_the_second_orde
 def test_a_sampled_least_radius_of_an_arm_is_too_small():
     arm = scene("arm", "3-4-5")
     lines = rivals.arm_lines(arm.board.motion, arm.board.limits.rise, ARM, 360)
-    assert -1e-4 < rivals.by_optimiser(lines, (20.0, 90.0)) / arm.least().prime_radius - 1 < 0
+    assert -1e-4 < rivals.by_optimiser(lines, (20.0, 90.0)) / arm.exact_least_radius().prime_radius - 1 < 0
 
 
 def test_a_loop_over_stations_misses_the_extremes_of_a_sweep_with_the_second_order():

@@ -165,7 +165,7 @@ GIVEN_ROLES = (Role.AXIS, Role.SCALE)
 
 def own_marks(step: Step) -> list[Mark]:
     """The marks that are neither given nor axes."""
-    return [mark for mark in step.own if getattr(mark, "role", None) not in GIVEN_ROLES]
+    return [mark for mark in step.own_marks if getattr(mark, "role", None) not in GIVEN_ROLES]
 
 
 @SHOWN

@@ -136,7 +136,7 @@ def test_the_steps_say_in_sentences_what_was_read(rotation, load):
             assert re.fullmatch(r"(?!Because)[A-Z][^.]+\.", str(step.why))
             assert step.view.name == "forces"
             left = {(part.act, at) for each in step.parts for part in each.draws for at in part.index.tolist()}
-            for mark in step.own:
+            for mark in step.own_marks:
                 if getattr(mark, "role", None) is not Role.AXIS:
                     assert isinstance(mark.of, Act), str(step.title)
                     index = [0] if mark.index is None else mark.index.tolist()
@@ -154,7 +154,7 @@ def test_no_triangle_where_the_load_does_not_press():
     assert "does not press" in str(plan.steps()[-1].caption)
     assert plan.steps()[-1].marks == ()
     assert "in the sense of the rise" in str(plan.steps()[0].caption)
-    assert all(isinstance(mark, Line) for step in plan.steps()[2:3] for mark in step.own)
+    assert all(isinstance(mark, Line) for step in plan.steps()[2:3] for mark in step.own_marks)
 
 
 def test_a_trembling_chain_carries_its_samples_into_the_plan():

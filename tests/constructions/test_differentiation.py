@@ -218,7 +218,7 @@ def test_rays_are_parallel_to_what_they_were_drawn_from():
     c = drawn(24)
     steps = c.steps()
     chords = next(mark for mark in steps[1].marks if isinstance(mark, Line)).points
-    rays = next(mark for mark in steps[2].own if isinstance(mark, Segments))
+    rays = next(mark for mark in steps[2].own_marks if isinstance(mark, Segments))
     slopes = np.diff(chords).imag / np.diff(chords).real
     drawn_slopes = (rays.ends - rays.starts).imag / (rays.ends - rays.starts).real
     assert_allclose(np.unique(np.round(slopes * POLES[0], 3)), np.round(drawn_slopes * POLES[0], 3), atol=2e-3)

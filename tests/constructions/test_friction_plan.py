@@ -140,7 +140,7 @@ def test_the_arrows_close_and_every_number_is_a_length_times_the_scale(rotation)
         for step in steps:
             assert re.fullmatch(r"(?!Because)[A-Z][^.]+\.", str(step.why))
             left = {(part.act, at) for each in step.parts for part in each.draws for at in part.index.tolist()}
-            for mark in step.own:
+            for mark in step.own_marks:
                 if getattr(mark, "role", None) is not Role.AXIS:
                     assert isinstance(mark.of, Act), str(step.title)
                     index = [0] if mark.index is None else mark.index.tolist()

@@ -158,7 +158,7 @@ def undrawn(step: Step) -> list[Mark]:
         for piece in pieces_of(part.draws):
             found.setdefault(id(piece.act), set()).update(piece.at)
     left = list[Mark]()
-    for mark in step.own:
+    for mark in step.own_marks:
         if getattr(mark, "role", None) in (Role.AXIS, Role.SCALE) or not isinstance(mark.of, Act):
             continue
         index = set() if mark.index is None else set(mark.index.tolist())

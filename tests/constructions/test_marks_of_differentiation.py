@@ -423,7 +423,7 @@ def test_the_caption_of_a_step_works_the_steepest_slope_and_says_how_many_there_
 def test_the_parts_of_a_step_leave_all_its_own_marks(kind):
     for step in drawn(kind).steps():
         left = {(part.act, k) for each in step.places for part in each.draws for k in part.index.tolist()}
-        for mark in step.own:
+        for mark in step.own_marks:
             if mark.of is None or mark.of.kind is Kind.READ:
                 continue  # a graduation
             assert {(mark.of, k) for k in mark.index.tolist()} <= left, (str(step.title), mark)
@@ -447,8 +447,8 @@ def slope_begins_above(plotted, k: int) -> bool:
 def test_numbers_stand_at_the_ends_of_their_rays_and_at_their_points(kind):
     for plotted, derived, (traced, rays, _), distance, _ in passes(kind):
         names = named(derived.size, kind)
-        at_axis = [mark for mark in rays.own if isinstance(mark, Label) and abs(mark.at.real) < EXACT]
-        at_points = [mark for mark in rays.own if isinstance(mark, Label) and mark not in at_axis]
+        at_axis = [mark for mark in rays.own_marks if isinstance(mark, Label) and abs(mark.at.real) < EXACT]
+        at_points = [mark for mark in rays.own_marks if isinstance(mark, Label) and mark not in at_axis]
         assert len(at_axis) >= 3
         assert len(at_points) >= derived.size // 4
         slopes = slopes_of(kind, plotted, traced)
@@ -463,7 +463,7 @@ def test_numbers_stand_at_the_ends_of_their_rays_and_at_their_points(kind):
         for label in at_points:
             assert label.at == derived[names.index(str(label.text))]
             assert label.towards.imag * label.at.imag >= 0 == label.towards.real
-        numbered = [mark for mark in traced.own if isinstance(mark, Label)]
+        numbered = [mark for mark in traced.own_marks if isinstance(mark, Label)]
         for label in numbered:
             assert label.at == pytest.approx(complex(plotted[names.index(str(label.text))]), abs=EXACT)
             assert label.towards == (1j if slope_begins_above(plotted, names.index(str(label.text))) else -1j)
@@ -482,7 +482,7 @@ def test_every_step_has_a_reason_in_one_sentence(kind):
 @EVERY
 def test_every_mark_but_an_axis_names_its_act(kind):
     for step in drawn(kind).steps():
-        for mark in step.own:
+        for mark in step.own_marks:
             assert isinstance(mark.of, Act) or graduates(mark), (str(step.title), mark)
 
 

@@ -498,7 +498,7 @@ def test_the_profile_is_the_envelope_it_crosses_no_face(name):
 def test_the_parts_of_a_step_leave_all_its_own_marks_that_are_of_a_place(name):
     for (_, title), step in steps(name).items():
         left = {(part.act, k) for each in step.places for part in each.draws for k in part.index.tolist()}
-        for mark in step.own if step.parts else ():
+        for mark in step.own_marks if step.parts else ():
             if mark.of is not None and mark.index is not None:
                 assert {(mark.of, k) for k in mark.index.tolist()} <= left, (title, mark)
 
@@ -512,6 +512,6 @@ def test_every_step_has_a_reason_in_one_sentence(name):
 @EVERY
 def test_every_mark_but_an_axis_names_its_act(name):
     for (key, title), step in steps(name).items():
-        for mark in step.own:
+        for mark in step.own_marks:
             if getattr(mark, "role", None) not in (Role.AXIS, Role.SCALE):
                 assert isinstance(mark.of, Act), (key, title, mark)

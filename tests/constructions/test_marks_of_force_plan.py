@@ -226,7 +226,7 @@ def test_the_parts_of_a_step_leave_all_its_own_marks_and_every_step_has_a_reason
     for step in drawn(rotation, k, guide).steps():
         assert re.fullmatch(r"(?!Because)[A-Z][^.]+\.", str(step.why)), str(step.why)
         left = {(part.act, at) for each in step.parts for part in each.draws for at in part.index.tolist()}
-        for mark in step.own:
+        for mark in step.own_marks:
             if getattr(mark, "role", None) is Role.AXIS:
                 continue
             index = [0] if mark.index is None else mark.index.tolist()
@@ -248,6 +248,6 @@ def test_terms_of_the_load_that_are_nothing_are_not_told_and_friction_is():
 @EVERY
 def test_every_mark_but_the_axis_names_its_act(rotation, k, guide):
     for step in drawn(rotation, k, guide).steps():
-        for mark in step.own:
+        for mark in step.own_marks:
             if getattr(mark, "role", None) is not Role.AXIS:
                 assert isinstance(mark.of, Act), (str(step.title), mark)

@@ -56,7 +56,7 @@ def sigma(name):
 def test_it_is_given_and_nothing_in_it_was_found(name):
     step = diagram(name)
     assert step.marks == step.given
-    assert step.own == ()
+    assert step.own_marks == ()
     board = BOARDS[name]
     # Whatever the other sizes come to, it is the same.
     other = replace(board, limits=limits(20, 50), divisions=8)

@@ -628,7 +628,7 @@ def test_every_step_has_a_reason_and_its_parts_draw_all_of_its_own_marks(name, h
             assert re.fullmatch(r"(?!Because)[A-Z][^.]+\.", why), step.title
             drawn = {(each.act, k) for part in step.places for each in part.draws for k in each.index.tolist()}
             acts = {act for act, _ in drawn}
-            for mark in step.own if step.parts else ():
+            for mark in step.own_marks if step.parts else ():
                 if getattr(mark, "role", None) in (Role.AXIS, Role.SCALE) or mark.of.kind is Kind.READ:
                     continue
                 assert mark.of in acts, (step.title, mark)

@@ -807,7 +807,7 @@ def test_parts_draw_every_place_of_every_mark_once_and_nothing_else_is_left_over
     for step in (*diagram(name, hand), *steps(name, hand, "pressure_angle")):
         drawn = [(piece.act, k) for part in step.places for piece in part.draws for k in piece.index.tolist()]
         assert len(drawn) == len(set(drawn)), str(step.title)
-        for mark in step.own:
+        for mark in step.own_marks:
             if getattr(mark, "role", None) is Role.AXIS or mark.of is None or mark.of.kind is Kind.READ:
                 continue
             assert mark.index is not None

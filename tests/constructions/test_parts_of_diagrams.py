@@ -50,7 +50,7 @@ def diagrams(name: str, hand: str) -> list[Step]:
 
 def own_pieces(step: Step) -> set[tuple[Act, int]]:
     """The places of acts that the marks of a step show, but for what is given, the axes and the numbers of readings."""
-    marks = [mark for mark in step.own if getattr(mark, "role", None) not in (Role.AXIS, Role.SCALE)]
+    marks = [mark for mark in step.own_marks if getattr(mark, "role", None) not in (Role.AXIS, Role.SCALE)]
     marks = [mark for mark in marks if mark.of.kind is not Kind.READ]
     return {
         (mark.of, int(k)) for mark in marks for k in (mark.index if mark.index is not None else range(mark.of.size))
@@ -387,7 +387,7 @@ def test_the_scales_are_divided_as_is_told(name, hand):
         assert float(y) == pytest.approx(read[symbol].paper[k], abs=CENTI)
         assert float(value) == pytest.approx(float(y) * float(mu), rel=1e-4, abs=CENTI * float(mu))
         assert float(mu) == pytest.approx(read[symbol].per_mm, rel=1e-4)
-        divided = [label for label in step.own if isinstance(label, Label)]
+        divided = [label for label in step.own_marks if isinstance(label, Label)]
         # An arm's angle is told in degrees.
         said = [str(label.text) for label in divided]
         values = [math.radians(float(text[:-1])) if text.endswith("°") else float(text) for text in said]

@@ -51,7 +51,7 @@ def test_millimetres_times_the_scale_are_the_value(task, pencil):
     written = 0
     for construction, step in steps(task, pencil):
         for row, place in ((read, k) for read in rows(construction, step) for _, k in told(read)):
-            said = str(row.said(place))
+            said = str(row.caption(place))
             assert not re.search("nan|inf|None", said), said
             if row.mu is None:
                 assert re.fullmatch(r"-?\d+\.\d\d(°| mm)", said), said
@@ -120,8 +120,8 @@ def test_values_at_stations_bear_the_names_of_the_stations():
     )
     assert row.places[:3] == ("0", "1", "2")
     assert row.places[-1].endswith("′")
-    assert str(row.said(0)).startswith("0.00 mm × ")
-    assert [str(row.at(what, k)) for what, k in row.extremes] == ["maximum (station 12)"]
+    assert str(row.caption(0)).startswith("0.00 mm × ")
+    assert [str(row.extreme_caption(what, k)) for what, k in row.extremes] == ["maximum (station 12)"]
 
 
 def row_of(task: str, construction: str, name: str) -> ReadingRow:
@@ -150,7 +150,7 @@ def row_of(task: str, construction: str, name: str) -> ReadingRow:
 def test_several_values_are_summed_up_by_what_counts_and_where_it_is(task, name, extremes):
     """Both of what has two signs, of angles that must not be small the least."""
     row = row_of(task, *name.split("."))
-    found = [f"{row.at(what, k)} = {row.value[k]:.4g}" for what, k in row.extremes]
+    found = [f"{row.extreme_caption(what, k)} = {row.value[k]:.4g}" for what, k in row.extremes]
     where = [text.rpartition(" = ")[0] for text in found]
     assert where == [text.rpartition(" = ")[0] for text in extremes]
     values = [float(text.rpartition(" = ")[2]) for text in found]
@@ -192,5 +192,5 @@ def test_what_could_not_be_read_is_left_out():
 def test_a_wrong_scale_would_be_seen():
     """The first test multiplies what is printed: a value of another scale fails it."""
     row = ReadingRow("s0", say("s₀"), np.array(50.0), 0.5, np.array(25.1), "mm", ())
-    paper, mu, _, value, _ = WRITTEN.fullmatch(str(row.said())).groups()
+    paper, mu, _, value, _ = WRITTEN.fullmatch(str(row.caption())).groups()
     assert float(paper) * float(mu) != pytest.approx(float(value), abs=0.006 * 0.5 + 1e-4 * 25)

@@ -35,7 +35,7 @@ def answer(place: int, given: float | complex, key: Expected, wrong: bool | None
     """An answer beside its key; a complex one is drawn."""
     asked = POINTS if isinstance(given, complex) else NUMBER
     read = np.array([given]) if isinstance(given, complex) else given
-    off = key.off(read, asked.kind)
+    off = key.deviation_of(read, asked.kind)
     return ComparedAnswer(place, asked, read, key, off, abs(off.deviation) > BOUND if wrong is None else wrong)
 
 

@@ -295,7 +295,7 @@ def test_an_exercise_that_draws_other_variants_than_were_handed_out_is_refused(
 
 
 def test_a_second_run_into_the_same_grades_waits_for_the_first(tmp_path: Path):
-    store = run.Store.beside(tmp_path / "new" / "grades.csv", assignment())
+    store = run.Store.for_run(tmp_path / "new" / "grades.csv", assignment())
     with store.held(), pytest.raises(OutputError, match=r"grades\.csv.*another run is grading into it"), store.held():
         pass
     # The next one may, and where nothing was graded nothing is left.
@@ -432,7 +432,7 @@ def test_a_worker_that_dies_costs_one_record_only(tmp_path: Path, monkeypatch: p
         (place / student).mkdir(parents=True)
         (place / student / "answers.toml").write_text("")
     monkeypatch.setattr(run, "grade", deadly.grade)
-    store = run.Store.beside(tmp_path / "grades.csv", assignment())
+    store = run.Store.for_run(tmp_path / "grades.csv", assignment())
     kept = AnswerKeys(tmp_path)
     records = run.grade_folder(hand_ins_in(place, kept)[0], assignment(), processes(2), store, kept)
     assert [record["student"] for record in records] == sorted(ids)

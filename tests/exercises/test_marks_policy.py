@@ -234,7 +234,9 @@ def test_records_of_another_policy_do_not_count_when_a_run_goes_on(tmp_path: Pat
         MarksPolicy(follow_through=0.5),
         MarksPolicy(caps={"polar-angle": 0}),
     ]
-    stores = [Store.beside(tmp_path / "g.csv", Assignment(replace(exercise, policy=each), SECRET)) for each in policies]
+    stores = [
+        Store.for_run(tmp_path / "g.csv", Assignment(replace(exercise, policy=each), SECRET)) for each in policies
+    ]
     assert len({store.folder for store in stores}) == len(policies)
 
 

@@ -20,26 +20,26 @@ def test_what_is_written_is_read(exercise: str, student: str, draw: int, page: i
     assert text.isascii()
     # More would take modules finer than a camera sees.
     assert len(text) <= 100
-    assert SheetCode.read(text, SECRET, ["another", student], exercise) == code
+    assert SheetCode.from_text(text, SECRET, ["another", student], exercise) == code
 
 
 @given(st.text(max_size=60))
 def test_what_somebody_writes_is_refused(text: str):
     with pytest.raises(TaskError):
-        SheetCode.read(text, SECRET, ["Anna"])
+        SheetCode.from_text(text, SECRET, ["Anna"])
 
 
 def test_a_code_that_is_not_the_course_s_is_refused():
     text = ANNA.text(SECRET)
-    assert SheetCode.read(text, SECRET, ["Anna"]) == ANNA
+    assert SheetCode.from_text(text, SECRET, ["Anna"]) == ANNA
     with pytest.raises(TaskError, match="another secret"):
-        SheetCode.read(text, b"other", ["Anna"])
+        SheetCode.from_text(text, b"other", ["Anna"])
     with pytest.raises(TaskError, match="of a student of this course"):
-        SheetCode.read(text, SECRET, ["Ben"])
+        SheetCode.from_text(text, SECRET, ["Ben"])
     with pytest.raises(TaskError, match="of 'inversion-translating'"):
-        SheetCode.read(text, SECRET, ["Anna"], "inversion-translating")
+        SheetCode.from_text(text, SECRET, ["Anna"], "inversion-translating")
     with pytest.raises(TaskError, match="none of graphcam's"):
-        SheetCode.read("https://example.org/a/b/c", SECRET, ["Anna"])
+        SheetCode.from_text("https://example.org/a/b/c", SECRET, ["Anna"])
 
 
 @pytest.mark.parametrize("field", range(1, 7))
@@ -47,4 +47,4 @@ def test_a_changed_field_is_a_forgery(field: int):
     fields = ANNA.text(SECRET).split("/")
     fields[field] = {1: "integration", 3: "Ben", 6: "00000000"}.get(field, "7")
     with pytest.raises(TaskError, match="or changed"):
-        SheetCode.read("/".join(fields), SECRET, ["Anna", "Ben"])
+        SheetCode.from_text("/".join(fields), SECRET, ["Anna", "Ben"])

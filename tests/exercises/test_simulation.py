@@ -77,7 +77,7 @@ def test_a_mistake_is_named_in_every_variant_that_is_issued(name):
     for k in range(4):
         found = simulate(exercise, f"{SECRET!r} {k}".encode(), variants=1, hands=100)
         for mistake, row in found.rows.items():
-            assert row.right(mistake) >= 0.95, (k, mistake, row.named)
+            assert row.named_share(mistake) >= 0.95, (k, mistake, row.named)
 
 
 @pytest.mark.parametrize(

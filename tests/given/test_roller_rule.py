@@ -67,8 +67,8 @@ def test_a_rule_may_be_written_as_in_a_textbook(written):
 
 
 def test_a_comma_parts_terms_where_these_have_a_meaning():
-    assert [str(term.said) for term in roller_rule("min(rho - 5,0.4 r0)")] == ["ρ − 5 mm", "0.4 r₀"]
-    assert [str(term.said) for term in roller_rule("min(rho − 3,5; 0.4 r0)")] == ["ρ − 3.5 mm", "0.4 r₀"]
+    assert [str(term.formula_caption) for term in roller_rule("min(rho - 5,0.4 r0)")] == ["ρ − 5 mm", "0.4 r₀"]
+    assert [str(term.formula_caption) for term in roller_rule("min(rho − 3,5; 0.4 r0)")] == ["ρ − 3.5 mm", "0.4 r₀"]
 
 
 @pytest.mark.parametrize(

@@ -143,7 +143,7 @@ def fan_steps(drawn):
     given = (pole.dots(),)
     marks = (*given, rays.ways(Role.CONSTRUCTION), ends.line(Role.CURVE), pole.label("P"))
     one = say("Join P to the point {k}.")
-    parts = tuple(Part(one.where(k=k + 1), (rays[k], ends[k])) for k in range(6))
+    parts = tuple(Part(one.with_values(k=k + 1), (rays[k], ends[k])) for k in range(6))
     why = say("Because this is a toy.")
     view = View("fan", say("Fan"), "fan x", "fan y")
     return [Step(say("Rays"), parts, view, marks, given=given, why=why)]

@@ -122,7 +122,7 @@ def test_what_does_not_tell_how_sheets_lie_is_refused():
     tiles, _ = tiles_of((12.0 + 3j, 0.0))
     assert "do not form one page" in refusal(joined_tiles, tiles, PAGE)
     picture, tags, _ = photographed("left")
-    assert "only 2" in refusal(registered_tiles, picture, tags.only(np.arange(len(tags)) < 2), PAGE)
+    assert "only 2" in refusal(registered_tiles, picture, tags.selected(np.arange(len(tags)) < 2), PAGE)
 
 
 def test_one_picture_out_of_both():

@@ -114,10 +114,10 @@ def test_a4_of_gost_stands_upright_and_the_title_block_fills_its_short_side() ->
     """GOST 2.301: a sheet A4 is used upright only; GOST 2.104: its title block stands along the short side."""
     for asked in (None, "portrait"):
         paper = Format("A4", "gost", asked)
-        assert paper.upright
+        assert paper.is_upright
         assert paper.size == (210, 297)
         assert (title_box(paper).left, title_box(paper).right) == (paper.content.left, paper.content.right)
     with pytest.raises(DesignError, match=r"GOST 2\.301 uses A4 in portrait only; leave orientation out"):
         Format("A4", "gost", "landscape")
     # Every other sheet lies unless it is to stand.
-    assert [sheet for sheet in EVERY if Format(*sheet).upright] == [("A4", "gost")]
+    assert [sheet for sheet in EVERY if Format(*sheet).is_upright] == [("A4", "gost")]

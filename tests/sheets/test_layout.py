@@ -80,7 +80,7 @@ def test_what_fits_no_page_is_refused_with_its_size(paper: str, ordinate: float)
     with pytest.raises(gc.DesignError) as raised:
         compose(steps(ordinate, DRAWN_AT[paper]), [TABLE], TITLE, paper)
     assert raised.value.quantity == "the view 'acceleration'"
-    assert f"on {Format(paper, 'gost').said}" in raised.value.limit
+    assert f"on {Format(paper, 'gost').description}" in raised.value.limit
     wide, high = map(float, str(raised.value.value).removesuffix(" mm").split(" × "))
     drawn = 2 * ordinate * DRAWN_AT[paper]
     assert drawn < high < drawn + 40

@@ -139,7 +139,7 @@ def test_answers_are_kept_apart_and_left_out_of_a_worksheet():
 
 
 def test_a_table_is_told_cell_by_cell():
-    told = Table(PLAIN.title, PLAIN.header, PLAIN.rows, frozenset({(0, 1)})).told(lambda words: f"<{words}>")
+    told = Table(PLAIN.title, PLAIN.header, PLAIN.rows, frozenset({(0, 1)})).translated(lambda words: f"<{words}>")
     assert (told.title, told.header) == ("<Data>", ("<quantity>", "<value>", "<drawn>"))
     assert told.rows[1] == ("<prime radius r0>", "<44 mm>", "<2>")
     assert told.answers == {(0, 1)}

@@ -258,11 +258,11 @@ def test_paper_has_the_size_of_iso_216_and_the_margins_of_its_frame(paper, wide,
             found = Format(paper, frame, orientation)
             assert found.size == size
             assert found.content == Box(20, margin, size[0] - margin, size[1] - margin)
-            assert found.upright == (orientation == "portrait")
+            assert found.is_upright == (orientation == "portrait")
 
 
 def test_every_point_of_a_view_is_on_what_it_draws():
-    drawn = [sampled(*pieces(e), 1.0) for e in VIEWS["star"]._drawn]
+    drawn = [sampled(*pieces(e), 1.0) for e in VIEWS["star"]._entities]
     np.testing.assert_array_equal(np.concatenate(drawn), VIEWS["star"].points)
 
 

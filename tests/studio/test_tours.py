@@ -55,12 +55,12 @@ def test_a_card_is_answered_by_choosing_or_by_doing(built_in, card):
 @pytest.mark.parametrize(("built_in", "card"), [c for c in CARDS if "goal" in c[1]])
 def test_a_goal_is_not_reached_at_the_start_and_can_be_reached(built_in, card):
     goal, task = goal_of(card["goal"]), card_task(built_in, card)
-    assert not goal.reached(task, card.get("phi", 0.0))
+    assert not goal.is_reached(task, card.get("phi", 0.0))
     if goal.path == "phi":
         assert 0 <= goal.value < 360
         return
     reached = done(task, goal)
-    assert goal.reached(reached)
+    assert goal.is_reached(reached)
     gc.solve(task_of("card", reached))
 
 
@@ -126,6 +126,6 @@ def test_a_goal_that_is_none_is_refused(text):
 )
 def test_the_operators_of_goals(operator, below, at, above):
     goal = goal_of(f"cam.prime_radius {operator} 40")
-    assert [goal.reached({"cam": {"prime_radius": r}}) for r in (39.0, 40.0, 41.0)] == [below, at, above]
-    assert not goal.reached({"cam": {}})
+    assert [goal.is_reached({"cam": {"prime_radius": r}}) for r in (39.0, 40.0, 41.0)] == [below, at, above]
+    assert not goal.is_reached({"cam": {}})
     assert set(OPERATORS) == set(BEYOND)

@@ -287,7 +287,7 @@ def test_a_cluster_writes_no_single_file(space, tmp_path):
 
 
 def test_a_worker_of_another_version_or_without_the_folder_writes_nothing(space, tmp_path):
-    place, job = SharedFolder.reached(str(tmp_path / "out")), (0, "part-00000.parquet", 0, 5)
+    place, job = SharedFolder.open_folder(str(tmp_path / "out")), (0, "part-00000.parquet", 0, 5)
     assert "not 0.0.1" in str(write_part(load_space(space), place, "0.0.1", job))
     assert "all workers must share it" in str(write_part(load_space(space), place, dataset.__version__, job))
     assert list((tmp_path / "out").iterdir()) == []

@@ -161,8 +161,8 @@ def test_the_force_plan_is_drawn_where_the_least_preload_leaves_a_load(tmp_path)
     spring, stations = solution.spring, solution.chain.board.stations
     forces = gc.CamForces(solution.cam, spring.load)
     shown = shown_station(solution.chain.pressure_angle)
-    assert spring.least.phi == pytest.approx(math.radians(40 / 3.5))
-    assert math.radians(40) * stations.u[shown] == pytest.approx(spring.least.phi)
+    assert spring.least_preload.phi == pytest.approx(math.radians(40 / 3.5))
+    assert math.radians(40) * stations.u[shown] == pytest.approx(spring.least_preload.phi)
     k = spring.force_plan.givens.station
     normal = float(spring.force_plan.readings["normal"].value)
     assert normal == pytest.approx(float(forces.at(stations.phase[k], stations.u[k]).normal), rel=0.02)
@@ -238,14 +238,14 @@ def test_the_diagrams_show_curve_extreme_limit_and_what_is_wrong():
     assert diagram.mu.per_mm == 2.0  # 60 MPa in 50 mm at most, at a round scale
     assert str(step.view.title) == "Stress, 2 MPa/mm"
     assert str(step.caption) == "At 2 MPa/mm."
-    curve = [mark for mark in step.own if isinstance(mark, Line) and mark.role is Role.RESULT]
+    curve = [mark for mark in step.own_marks if isinstance(mark, Line) and mark.role is Role.RESULT]
     assert len(curve) == 2
     points = np.concatenate([line.points for line in curve])
     assert points.real / 120 * math.tau == pytest.approx(phi[np.isfinite(values)])
     assert 2 * points.imag == pytest.approx(values[np.isfinite(values)])
-    (dot,) = (mark for mark in step.own if isinstance(mark, Dots))
+    (dot,) = (mark for mark in step.own_marks if isinstance(mark, Dots))
     assert dot.points[0] == pytest.approx(30 + 20j)
-    level, *wrong = (mark.points for mark in step.own if isinstance(mark, Line) and mark.role is Role.LIMIT)
+    level, *wrong = (mark.points for mark in step.own_marks if isinstance(mark, Line) and mark.role is Role.LIMIT)
     assert level.imag == pytest.approx([30, 30])
     ends = [tuple(part.real / 120 * math.tau) for part in wrong]
     assert ends == [pytest.approx((6.0, math.tau)), pytest.approx((0.0, 6.6 - math.tau))]

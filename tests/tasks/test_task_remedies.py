@@ -60,7 +60,7 @@ def test_a_law_by_another_name_is_suggested_and_not_taken(called, name, tmp_path
 
 @pytest.mark.parametrize("spoken", [name for name in languages() if name != "en"])
 def test_the_caption_of_every_law_suggests_the_law(spoken):
-    captions = {name: language(spoken).catalog.say(name, "") for name in LAW_SYNONYMS}
+    captions = {name: language(spoken).catalog.translation(name, "") for name in LAW_SYNONYMS}
     assert {name: said for name, said in captions.items() if said not in {name, *LAW_SYNONYMS[name]}} == {}
 
 

@@ -40,7 +40,7 @@ class AnswerSearch:
     scratch: Path
     table: str = ""
 
-    def found(self, one: HandIn) -> HandIn:
+    def located(self, one: HandIn) -> HandIn:
         """The hand-in with the place where its answers lie; as it is where nothing else has any.
 
         What has other files and no answers is noted, and is "unread".

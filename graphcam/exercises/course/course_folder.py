@@ -59,7 +59,7 @@ class CourseThereError(OutputError):
         teacher, remedy = Path(path, TEACHER_FOLDER), say("choose another folder")
         secret = teacher / SECRET_FILE
         if secret.is_file():
-            remedy = KEEP.where(secret=str(secret), teacher=str(teacher))
+            remedy = KEEP.with_values(secret=str(secret), teacher=str(teacher))
         super().__init__(path, say("it already holds a course"), remedy)
 
     @property

@@ -172,12 +172,12 @@ def make(
     variants_told = (Variant(exercise, key.student, key.draw, key.parameters) for key in answer_keys[:1])
     for said, scale in filter(None, map(other_scale, variants_told)):
         other = say("the text of the exercise says '{said}', but the sheet is drawn at {scale:g}° to 1 mm")
-        tell(other.where(said=said, scale=scale))
+        tell(other.with_values(said=said, scale=scale))
     for answer, part in wide_tolerances(exercise, answer_keys).items():
         wide = say(
             "the tolerance of {answer} is {part:.0%} of its value; larger diagrams or --hand careful make it smaller"
         )
-        tell(wide.where(answer=answer, part=part))
+        tell(wide.with_values(answer=answer, part=part))
     return len(students)
 
 

@@ -99,7 +99,7 @@ def worksheet(variant: Variant, student: Student) -> Drawing:
 def answer_table(exercise: Exercise) -> Table:
     """The table for the answers, to be filled in."""
     blanks = [say("see the drawing") if asked.layer else " " * 12 for asked in exercise.answers]
-    rows = tuple((a.text, a.name, a.unit_said, blank) for a, blank in zip(exercise.answers, blanks, strict=True))
+    rows = tuple((a.text, a.name, a.unit_caption, blank) for a, blank in zip(exercise.answers, blanks, strict=True))
     return Table(say("Answers"), (say("question"), say("name"), say("unit"), say("answer")), rows)
 
 
@@ -127,7 +127,7 @@ def key_rows(exercise: Exercise, answer_key: AnswerKey) -> list[tuple[Words, ...
         value = key.expected.value
         told = number(value, asked.decimals) if isinstance(value, float) else say("see the drawing")
         tolerance = number(key.tolerance, asked.decimals + 1)
-        rows.append((asked.name, asked.unit_said, told, tolerance, say("{marks:g}", marks=asked.marks)))
+        rows.append((asked.name, asked.unit_caption, told, tolerance, say("{marks:g}", marks=asked.marks)))
     return rows
 
 
@@ -176,7 +176,7 @@ def _answer_form(asked: AskedAnswer) -> Caption:
     decimals = say_many("to {count} decimal", "to {count} decimals", asked.decimals)
     if not asked.unit:
         return say("({decimals}.)", decimals=decimals)
-    return say("(in {unit}, {decimals}.)", unit=asked.unit_said, decimals=decimals)
+    return say("(in {unit}, {decimals}.)", unit=asked.unit_caption, decimals=decimals)
 
 
 @dataclass(frozen=True)

@@ -103,7 +103,7 @@ def marked_views(exercise: Exercise, chain: Chain, side: float, tell: Tell) -> l
             limit = say("the profile and empty axes alone where worksheets are photographed")
             raise DesignError("sheet", step.view.name, limit, say("leave papers out"))
     views = [_diagram(exercise, chain, name, tell) for name in exercise.axes]
-    marks = [mark for step in steps for mark in step.told(tell).marks]
+    marks = [mark for step in steps for mark in step.translated(tell).marks]
     if marks:
         views.append(_profile(chain, side, marks, tell))
     return views
@@ -247,7 +247,7 @@ def _placed_views(views: Sequence[MarkedView], paper: MarkedPaper) -> list[list[
     """The views on their pages, diagrams one under the other as long as there is room."""
     stacks = list[list[MarkedView]]()
     for view in views:
-        if view.turn and stacks and stacks[-1][0].turn and _height([*stacks[-1], view]) <= paper.free.height:
+        if view.turn and stacks and stacks[-1][0].turn and _height([*stacks[-1], view]) <= paper.free_box.height:
             stacks[-1].append(view)
         else:
             stacks.append([view])
@@ -261,8 +261,8 @@ def _height(stack: Sequence[MarkedView]) -> float:
 
 def _stacked_views(stack: Sequence[MarkedView], paper: MarkedPaper) -> list[PlacedView]:
     """Views one under the other: a page that stands has its text above them, one that lies on their right."""
-    free, left = paper.free, paper.free.left + (TITLE_ROOM if stack[0].turn else 0.0)
-    level = free.bottom + _height(stack) if paper.upright else free.top - (0.0 if stack[0].turn else TITLE_ROOM)
+    free, left = paper.free_box, paper.free_box.left + (TITLE_ROOM if stack[0].turn else 0.0)
+    level = free.bottom + _height(stack) if paper.is_upright else free.top - (0.0 if stack[0].turn else TITLE_ROOM)
     placed: list[PlacedView] = []
     for view in stack:
         placed.append(PlacedView(view, complex(left - view.room.left, level - view.room.top)))
@@ -286,12 +286,12 @@ class _PageMaker:
 
     def column(self, placed: Sequence[PlacedView], page: int) -> TextColumn:
         """What the views leave of a page for text and code."""
-        free, side = self.paper.free, code_side(self.code(page), self.paper)
+        free, side = self.paper.free_box, code_side(self.code(page), self.paper)
         free = Box(free.left, free.bottom, free.right - TAG_GAP, free.top)
         if not placed:
             return TextColumn(free, side, upright=False)
         views = bounding_box([each.box for each in placed])
-        if self.paper.upright:
+        if self.paper.is_upright:
             return TextColumn(Box(free.left, views.top + BLOCK_GAP, free.right, free.top), side, upright=False)
         return TextColumn(Box(views.right + TEXT_GAP, free.bottom, free.right, free.top), side, upright=True)
 
@@ -315,7 +315,7 @@ class _PageMaker:
         crosses = any(asked.mark_form == "cross" for asked in self.variant.exercise.answers)
         how = [*taped, " ".join([tell(DRAWING_ADVICE), *([tell(CROSSES_ADVICE)] if crosses else [])])]
         text = paragraphs([instructions(self.variant), *how], self.letters, rooms[0].width)
-        table = answer_table(self.variant.exercise).told(tell)
+        table = answer_table(self.variant.exercise).translated(tell)
         tall = max(room.height for room in rooms)
         return [text, *table_blocks(table, self.letters, narrow, tall, row_height=ROW_HEIGHT)]
 
@@ -325,7 +325,7 @@ class _PageMaker:
         """A page of so many, and what a reader must know of it."""
         paper, exercise, code = self.paper, self.variant.exercise, self.code(page)
         column, who = self.column(placed, page), self.student.name or self.student.id
-        whose = [exercise.tell(said.where(who=who, page=page, pages=pages)) for said in self.whose]
+        whose = [exercise.tell(said.where(who=who, page=page, pages=pages)) for said in self.owner_captions]
         texts = [*captions(paper, exercise.title, whose), *bar_captions(paper, exercise.tell)]
         titles = [text for each in placed for text in self.titles(each)]
         corners = [column.code_corner]
@@ -356,7 +356,7 @@ class _PageMaker:
         )
 
     @property
-    def whose(self) -> tuple[Caption, ...]:
+    def owner_captions(self) -> tuple[Caption, ...]:
         """How a page says whose it is, or how either tile does."""
         if self.paper.seam is None:
             return (say("{who}, page {page} of {pages}"),)

@@ -48,7 +48,7 @@ class SheetCode:
         return f"{said}/{_signature(said, secret)}"
 
     @staticmethod
-    def read(text: str, secret: bytes, students: Iterable[str], exercise: str = "") -> SheetCode:
+    def from_text(text: str, secret: bytes, students: Iterable[str], exercise: str = "") -> SheetCode:
         """What a code says that was found on a photograph.
 
         students : the ids of those in the course

@@ -134,7 +134,7 @@ class AskedAnswer:
         return self.mark or DEFAULT_MARKS[self.kind]
 
     @property
-    def unit_said(self) -> Words:
+    def unit_caption(self) -> Words:
         """The unit as a language writes it; one that only this exercise has stays as its file writes it."""
         return UNITS.get(self.unit, self.unit)
 

@@ -58,7 +58,7 @@ class MarksPolicy:
         # A NaN is not less than anything.
         return (self.near - tolerances) / (self.near - 1) if tolerances < self.near else 0.0
 
-    def most(self, mistakes: Sequence[str]) -> float:
+    def max_share(self, mistakes: Sequence[str]) -> float:
         """The part of all marks that is left with one of these mistakes, the benefit of the doubt given.
 
         >>> policy = MarksPolicy(caps={"offset-sign": 0.5})

@@ -56,7 +56,7 @@ def write_course(folder: Path, exercise: Exercise, answer_keys: Sequence[AnswerK
 
 
 def _question(asked: AskedAnswer, tell: Tell) -> str:
-    unit = f" [{tell(asked.unit_said)}]" if asked.unit else ""
+    unit = f" [{tell(asked.unit_caption)}]" if asked.unit else ""
     points = tell(say("A list of points `[x, y]` in mm of paper."))
     text = asked.text if asked.kind == "number" else f"{asked.text} {points}"
     return f"**{asked.name}**{unit} {text}"

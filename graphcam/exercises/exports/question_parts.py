@@ -60,7 +60,7 @@ def question_body(exercise: Exercise, answer_key: AnswerKey, asked: AskedAnswer)
     tell = exercise.tell
     text = sentence(asked.text, answer_key.parameters, tell)
     if asked.kind == "number":
-        return f"{text} [{tell(asked.unit_said)}]" if asked.unit else text
+        return f"{text} [{tell(asked.unit_caption)}]" if asked.unit else text
     how = say("Hand in a DXF, drawn in mm on the layer {layer}.", layer=asked.layer)
     return f"{text} {tell(how)}"
 

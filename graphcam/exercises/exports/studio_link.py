@@ -76,7 +76,7 @@ def _answer_check(
     said: dict[str, Any] = {"name": asked.name, "text": text}
     if asked.kind != "number":
         return said | {"drawn": True}
-    said |= {"unit": tell(asked.unit_said), "decimals": asked.decimals}
+    said |= {"unit": tell(asked.unit_caption), "decimals": asked.decimals}
     if answer_key is None:
         return said
     key, wrong = answer_key.keys[asked.name], list[tuple[float, int]]()

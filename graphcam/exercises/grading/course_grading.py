@@ -70,7 +70,7 @@ class Store:
     folder: Path
 
     @staticmethod
-    def beside(out: Path, assignment: Assignment) -> Store:
+    def for_run(out: Path, assignment: Assignment) -> Store:
         """The store of a run that writes to ``out``."""
         # Of the secret only a digest is left, and of that a part.
         secret = hashlib.sha256(b"graphcam store" + assignment.secret).hexdigest()
@@ -78,7 +78,7 @@ class Store:
         return Store(out.parent / f".{out.name}-{hashlib.sha256(repr(said).encode()).hexdigest()[:16]}")
 
     @contextmanager
-    def held(self) -> Generator[None]:
+    def lock(self) -> Generator[None]:
         """Keep other runs out meanwhile: two that write the same records, and clear them, break each other.
 
         Raises
@@ -97,7 +97,7 @@ class Store:
             stack.callback(_remove_empty, (self.folder, self.folder.parent)[: 1 + made])
             yield
 
-    def finished(self) -> Finished:
+    def finished_submissions(self) -> Finished:
         """What a former run got done, by the names of the folders."""
         try:
             lines = self._journal.read_bytes().split(b"\n")
@@ -239,7 +239,7 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
             look = AnswerSearch(
                 exercise.name, [asked.name for asked in exercise.answers], Path(scratch), Path(table).name
             )
-            hand_ins = [look.found(one) for one in hand_ins]
+            hand_ins = [look.located(one) for one in hand_ins]
         awaiting = await_review(hand_ins, submissions)
         return _graded(course, assignment, kept, hand_ins, [*unsafe, *refused], awaiting, step)
 
@@ -263,7 +263,7 @@ def _graded(
     by_hand = _by_hand(course, exercise, kept, students, {one.student for one in hand_ins})
     hand_ins = with_paper(hand_ins, by_hand, kept.folder)
     names = _shown_names(course, assignment, hand_ins)
-    store = Store.beside(course.out, assignment)
+    store = Store.for_run(course.out, assignment)
     with store.held():
         store.clear_pages(course.out)
         with closing(worker_pool(course.workers, course.cluster, grade.__module__)) as pool:
@@ -293,9 +293,9 @@ def _graded(
     level: Words = f"{course.level}"
     if assignment.memory:
         watched = say("{level} (memory watched, {memory} MiB for all processes)")
-        level = watched.where(level=level, memory=assignment.memory)
+        level = watched.with_values(level=level, memory=assignment.memory)
     done = say("submissions graded: {count}, at level {level}; in {folder}: {files}")
-    done = done.where(count=len(graded), level=level, folder=str(course.out.parent), files=", ".join(files))
+    done = done.with_values(count=len(graded), level=level, folder=str(course.out.parent), files=", ".join(files))
     return [done, *told]
 
 
@@ -377,7 +377,7 @@ def grade_folder(
     step : progress callback (done, total)
     """
     found: dict[str, dict[str, Any]] = {}
-    finished = store.finished()
+    finished = store.finished_submissions()
 
     def unfinished() -> Generator[Submission]:
         """The hand-ins without a record yet; the records that are there are taken."""

@@ -59,7 +59,7 @@ def to_check(
         (exact, say("to check: readings as exact as by a program: {count} ({some}); see {page}")),
         (awaiting, say("to check: drawings that await review: {count} ({some}); see {page}")),
     )
-    return [line.where(count=len(found), some=_some(found), page=page) for found, line in lines if found]
+    return [line.with_values(count=len(found), some=_some(found), page=page) for found, line in lines if found]
 
 
 def _some(students: Sequence[str]) -> str:

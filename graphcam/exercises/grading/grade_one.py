@@ -175,7 +175,7 @@ def _paper_areas(exercise: Exercise, answer_key: AnswerKey) -> dict[str, PaperAr
         if asked.kind != "number":
             key = answer_key.keys[asked.name]
             known = [key.expected, *(wrong[k] for wrong in answer_key.hypotheses.values())]
-            areas[asked.name] = PaperArea.around(asked.kind, known, key.tolerance)
+            areas[asked.name] = PaperArea.for_answers(asked.kind, known, key.tolerance)
     return areas
 
 

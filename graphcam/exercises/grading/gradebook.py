@@ -79,7 +79,7 @@ def enter_scores(database: str, exercise: Exercise, records: Sequence[dict[str, 
             for answer in record["answers"]:
                 told += _enter(book, exercise.name, record, answer, former)
             if any(one["answer"] == TOTAL_ANSWER for one in record.get("overrides", [])):
-                told.append(BY_HAND.where(student=student))
+                told.append(BY_HAND.with_values(student=student))
         book.db.commit()
     entered.parent.mkdir(parents=True, exist_ok=True)
     draft = entered.with_name(f"{entered.name}.new")
@@ -112,7 +112,7 @@ def _enter(
         marks = answer["marks"]
     else:
         keeps = say("{place}: the grade book keeps {kept:g}, not {found:g}")
-        told.append(keeps.where(place=place, kept=grade.manual_score, found=answer["marks"]))
+        told.append(keeps.with_values(place=place, kept=grade.manual_score, found=answer["marks"]))
     if comment.manual_comment in (None, "", words, said):
         comment.manual_comment = words = said
     else:

@@ -134,9 +134,9 @@ class Expected:
         >>> Expected(10.0, 0.5).deviation(11.0, "number")
         2.0
         """
-        return self.off(given, kind, far).deviation
+        return self.deviation_of(given, kind, far).deviation
 
-    def off(self, given: Given, kind: Kind, far: float = math.inf) -> AnswerDeviation:
+    def deviation_of(self, given: Given, kind: Kind, far: float = math.inf) -> AnswerDeviation:
         """How far an answer is off, and where most; what is farther off than ``far`` need not be told exactly.
 
         Of points, in whatever order, the worst counts.  Of a curve it is the worst distance of an expected point to

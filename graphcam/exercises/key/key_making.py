@@ -167,7 +167,7 @@ def _remedy(reason: RefusalReason, count: int, asked: str) -> Caption:
     """What to do about it; ``asked`` is a reading that would tell two drawings apart."""
     alike = (NOT_RIGHT if reason.second == CAREFUL_WORK else ALIKE)[bool(asked)]
     told = alike if reason.kind == "alike" else REMEDY_CAPTIONS[reason.kind]
-    return told.where(count=count, first=reason.first, second=reason.second, asked=asked)
+    return told.with_values(count=count, first=reason.first, second=reason.second, asked=asked)
 
 
 def telling(drawings: Mapping[str, Chain], first: str, second: str) -> str:

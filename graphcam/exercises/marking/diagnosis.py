@@ -56,7 +56,7 @@ def compare(exercise: Exercise, answer_key: AnswerKey, answers: Answers) -> list
         if (given := _readable_answer(asked, answers)) is not None:
             key = answer_key.keys[asked.name].expected
             # As far as anything is paid it must be told exactly.
-            off = key.off(given, asked.kind, answer_key.bound * exercise.policy.near)
+            off = key.deviation_of(given, asked.kind, answer_key.bound * exercise.policy.near)
             # A NaN is wrong too.
             wrong = not abs(off.deviation) <= answer_key.bound
             found.append(ComparedAnswer(place, asked, given, key, off, wrong))

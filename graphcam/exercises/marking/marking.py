@@ -46,7 +46,7 @@ def earned(policy: MarksPolicy, judged: Sequence[JudgedAnswer], mistakes: Sequen
     [1.33, 0.66]
     """
     marks = [_alone(policy, each) for each in judged]
-    total, most = sum(marks), policy.most(mistakes) * sum(each.asked.marks for each in judged)
+    total, most = sum(marks), policy.max_share(mistakes) * sum(each.asked.marks for each in judged)
     if total <= most:
         return marks
     return [math.floor(100 * each * most / total + ROUNDING) / 100 for each in marks]
@@ -109,7 +109,7 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
     policies = (policy, policy.without_follow_through, policy.without_caps)
     marks, strict, uncapped = (earned(each, judged, mistakes) for each in policies)
     marked = tuple(_marked(one, beside_key.get(one.asked.name), paid) for one, paid in zip(judged, marks, strict=True))
-    most = policy.most(mistakes) * exercise.marks if sum(marks) < sum(uncapped) else None
+    most = policy.max_share(mistakes) * exercise.marks if sum(marks) < sum(uncapped) else None
     return Record(
         student=answer_key.student,
         exercise=answer_key.exercise,

@@ -86,7 +86,7 @@ class SimulatedRow:
     accepted: int
     named: dict[str, int]
 
-    def right(self, name: str) -> float:
+    def named_share(self, name: str) -> float:
         """The part of the submissions in which the mistake was named."""
         return self.named.get(name, 0) / self.hands
 

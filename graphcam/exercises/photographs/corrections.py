@@ -132,8 +132,8 @@ def read_corrections(path: Path, exercise: Exercise, students: Collection[str]) 
         ) from None
     reader = _Reader(str(path), exercise)
     table = reader.table(say("the file"), said, {"format", "exercise", "students"})
-    reader.one_of("format", table["format"], (FORMAT_VERSION,))
-    reader.one_of("exercise", table["exercise"], (exercise.name,))
+    reader.choice("format", table["format"], (FORMAT_VERSION,))
+    reader.choice("exercise", table["exercise"], (exercise.name,))
     listed = reader.table("students", table["students"])
     for student in listed:
         if student not in students:
@@ -149,7 +149,7 @@ class _Reader:
     path: str
     exercise: Exercise
 
-    def wrong(self, where: Words, value: object, allowed: Words) -> TaskError:
+    def value_error(self, where: Words, value: object, allowed: Words) -> TaskError:
         """The error about a value."""
         if isinstance(value, str):
             return TaskError(self.path, where, value[:60], allowed, EXPORT_REMEDY)
@@ -159,16 +159,16 @@ class _Reader:
     def table(self, where: Words, said: Any, names: set[str] | None = None) -> dict[str, Any]:
         """A table, with exactly these names if they are given."""
         if not isinstance(said, dict):
-            raise self.wrong(where, said, say("a table"))
+            raise self.value_error(where, said, say("a table"))
         if names is not None and said.keys() != names:
             limit = say("a table of {names}", names=", ".join(sorted(names)))
-            raise self.wrong(where, ", ".join(map(str, said)), limit)
+            raise self.value_error(where, ", ".join(map(str, said)), limit)
         return said
 
-    def one_of(self, where: str, said: Any, allowed: tuple[Any, ...]) -> Any:
+    def choice(self, where: str, said: Any, allowed: tuple[Any, ...]) -> Any:
         """One of the allowed values, of the same type."""
         if not any(type(said) is type(one) and said == one for one in allowed):
-            raise self.wrong(where, said, say("one of {names}", names=", ".join(map(str, allowed))))
+            raise self.value_error(where, said, say("one of {names}", names=", ".join(map(str, allowed))))
         return said
 
     def student(self, where: str, said: Any) -> StudentCorrections:
@@ -179,7 +179,7 @@ class _Reader:
         return StudentCorrections(
             {name: self.answer(f"{where}.answers.{name}", name, one) for name, one in answers.items()},
             dict(self.lengths(f"{where}.bars.{page}", page, one) for page, one in bars.items()),
-            self.one_of(f"{where}.reviewed", table["reviewed"], (True, False)),
+            self.choice(f"{where}.reviewed", table["reviewed"], (True, False)),
         )
 
     def answer(self, where: str, name: str, said: Any) -> Correction:
@@ -187,32 +187,32 @@ class _Reader:
         asked = next((one for one in self.exercise.answers if one.name == name), None)
         if asked is None:
             names = ", ".join(one.name for one in self.exercise.answers)
-            raise self.wrong(where, name, say("one of the answers {names}", names=names))
+            raise self.value_error(where, name, say("one of the answers {names}", names=names))
         table = self.table(where, said, {"verdict", "value", "photo"})
         # Nothing but a drawing is read, so nothing else can be right as it was read.
         verdicts = ("corrected", "confirmed", "left out") if asked.mark_form else ("corrected",)
-        verdict = self.one_of(f"{where}.verdict", table["verdict"], verdicts)
+        verdict = self.choice(f"{where}.verdict", table["verdict"], verdicts)
         photo = table["photo"]
         if not isinstance(photo, str) or len(photo) > 200:
-            raise self.wrong(f"{where}.photo", photo, say("a digest"))
+            raise self.value_error(f"{where}.photo", photo, say("a digest"))
         if verdict != "corrected":
-            self.one_of(f"{where}.value", table["value"], (None,))
+            self.choice(f"{where}.value", table["value"], (None,))
             return Correction(verdict, None, photo)
         try:
             given: Given = points(name, table["value"]) if asked.mark_form else number(name, table["value"])
         except UnreadableError as error:
-            raise self.wrong(f"{where}.value", str(error), say("as the answer is asked")) from None
+            raise self.value_error(f"{where}.value", str(error), say("as the answer is asked")) from None
         if isinstance(given, np.ndarray) and np.abs(given).max() > MAX_DISTANCE:
             found, limit = f"{np.abs(given).max():g} mm away", say("within {farthest:g} mm", farthest=MAX_DISTANCE)
-            raise self.wrong(f"{where}.value", found, limit)
+            raise self.value_error(f"{where}.value", found, limit)
         return Correction(verdict, given, photo)
 
     def lengths(self, where: str, page: str, said: Any) -> tuple[int, tuple[float | None, float | None]]:
         """A page, and what its bars measure."""
         if not (page.isascii() and page.isdecimal() and 0 < int(page[:4]) < 1000):
-            raise self.wrong(where, page, say("the number of a page"))
+            raise self.value_error(where, page, say("the number of a page"))
         if not isinstance(said, list) or len(said) != 2:
-            raise self.wrong(where, said, say("two lengths in mm, across and up"))
+            raise self.value_error(where, said, say("two lengths in mm, across and up"))
         across, up = (self.length(where, one) for one in said)
         return int(page), (across, up)
 
@@ -221,7 +221,7 @@ class _Reader:
         if said is None:
             return None
         if isinstance(said, bool) or not isinstance(said, int | float) or not 0 < said <= MAX_DISTANCE:
-            raise self.wrong(where, said, say("a length in mm, at most {farthest:g}", farthest=MAX_DISTANCE))
+            raise self.value_error(where, said, say("a length in mm, at most {farthest:g}", farthest=MAX_DISTANCE))
         return float(said)
 
 

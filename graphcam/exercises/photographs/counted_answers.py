@@ -244,7 +244,7 @@ def best_photographs(photos: Iterable[ReadPhoto]) -> dict[int, ReadPhoto]:
     """The photograph of each page that counts: the one with most answers read, most of them seen, least residual."""
     best: dict[int, ReadPhoto] = {}
     for photo in sorted(photos, key=_merit, reverse=True):
-        if photo.known and not photo.why and not photo.half:
+        if photo.is_identified and not photo.why and not photo.half:
             best.setdefault(photo.page, photo)
     return dict(sorted(best.items()))
 
@@ -314,7 +314,7 @@ class _Judge:
     closed: bool
     stretch: tuple[float, float]
 
-    def given(self, points: Points, stretch: tuple[float, float]) -> Given | None:
+    def answer_from(self, points: Points, stretch: tuple[float, float]) -> Given | None:
         """The answer that the points give; None where there are too few or too many."""
         key = None if self.answer_key is None else self.answer_key.keys[self.asked.name]
         points = np.append(points, points[:1]) if self.closed else points
@@ -332,7 +332,7 @@ class _Judge:
         )
         if why is None:
             # As long as the bars measure: a page that was printed small is not foreign for that.
-            given = self.given(points, self.stretch)
+            given = self.answer_from(points, self.stretch)
             if given is None:
                 why = say("{count} points are seen, not the required number", count=int(points.size))
             else:
@@ -344,15 +344,15 @@ def _settled_drawing(judge: _Judge, read: ReadAnswer, correction: Correction | N
     """What becomes of a drawn answer."""
     asked = judge.asked
     points, refused = judge.judged(read)
-    as_read = judge.given(points, UNIT_STRETCH) if points is not None and not refused else None
+    as_read = judge.answer_from(points, UNIT_STRETCH) if points is not None and not refused else None
     if correction is not None and correction.verdict == "left out":
         return SettledAnswer(asked, read, "left out", None, as_read, points, say("the teacher has excluded it"))
     if correction is not None:
         said = np.asarray(correction.value) if correction.verdict == "corrected" else points
-        given = None if said is None else judge.given(said, judge.stretch)
+        given = None if said is None else judge.answer_from(said, judge.stretch)
         if given is not None:
             return SettledAnswer(asked, read, correction.verdict, given, as_read, said)
     if refused or points is None:
         why, remedy = refused or ("", "")
         return SettledAnswer(asked, read, "refused", None, None, points, why, remedy)
-    return SettledAnswer(asked, read, "read", judge.given(points, judge.stretch), as_read, points)
+    return SettledAnswer(asked, read, "read", judge.answer_from(points, judge.stretch), as_read, points)

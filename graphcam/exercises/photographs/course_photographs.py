@@ -107,9 +107,9 @@ def read_course(order: ReadingOrder, step: Step = lambda done, total: None) -> R
     if order.corrections is not None:
         corrections = with_changes(corrections, read_corrections(order.corrections, exercise, sheets.students))
     readings = KeptPhotographs(out, _basis(exercise, kept))
-    with readings.held():
+    with readings.lock():
         refused = _read_photographs(order, exercise, sheets, readings, step)
-        photos = [*readings.all(), *refused]
+        photos = [*readings.all_photographs(), *refused]
         answer_keys = KeysAsNeeded(kept, sheets.students)
         students = _settled_students(exercise, photos, answer_keys, corrections)
         # Before anything is written, so that a bar that is measured wrongly changes nothing.
@@ -182,7 +182,7 @@ def _read_photographs(
             refused += found if found is not None else [_crashed_photograph(file.name, exercise)]
             step(done, len(files))
         # Of pages on two sheets both must be known first.
-        halves = halves_in(readings.all(), files, readings)
+        halves = halves_in(readings.all_photographs(), files, readings)
         for both, found in results(pool, partial(read_halves_of, job), halves, batch=1):
             refused += found if found is not None else [_crashed_photograph(both.name, exercise)]
     return sorted(refused, key=lambda photo: photo.name)

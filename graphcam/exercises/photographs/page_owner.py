@@ -45,7 +45,7 @@ class PrintedSheets:
         errors: list[TaskError] = []
         for text in dict.fromkeys(texts):
             try:
-                codes.add(SheetCode.read(text, self.secret, self.students, self.exercise))
+                codes.add(SheetCode.from_text(text, self.secret, self.students, self.exercise))
             except TaskError as error:
                 errors.append(error)
         if len(codes) > 1:

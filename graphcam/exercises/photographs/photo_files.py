@@ -53,7 +53,7 @@ class PhotoFile:
     named: bool
 
     @property
-    def told(self) -> bool:
+    def is_reported(self) -> bool:
         """Whether somebody wants to hear that it holds no photograph."""
         return self.named or self.path.suffix.lower() in PICTURE_ENDINGS
 
@@ -102,7 +102,7 @@ def _read_file(job: ReadingJob, file: PhotoFile, allow: Allow) -> list[ReadPhoto
     # Of a scan that is broken in its middle what comes before counts.
     if photos:
         job.kept.keep(digest, photos, pictures)
-    return unread if file.told else []
+    return unread if file.is_reported else []
 
 
 def _in_time(found: Iterator[Photograph | UnopenedFile], allow: Allow) -> Iterator[Photograph | UnopenedFile]:

@@ -55,7 +55,7 @@ def read_photograph(
         if found.page.seam is None:
             rows, columns = photograph.pixels.shape[:2]
             registration = register(found.tags, found.page, (columns, rows), photograph.focal)
-            seen = SeenPage.whole(photograph, found.page, registration)
+            seen = SeenPage.from_photograph(photograph, found.page, registration)
             return _read_page(sheets, exercise, _registered(known, registration), found.code, seen, prefix)
         tiles = registered_tiles(photograph.pixels, found.tags, found.page, photograph.focal)
         if len(tiles) == 1:
@@ -137,7 +137,7 @@ def _read_page(
     """What is drawn on a page, and the pictures of it."""
     asked = _answers_on_page(exercise, seen.page, code, sheets.secret)
     answers = answers_on(seen, asked, exercise.tell)
-    shown = dict(seen.shown())
+    shown = dict(seen.shown_pictures())
     pictures = {name: KeptPicture(f"{prefix}{k}.jpg", box) for k, (name, (_, box)) in enumerate(shown.items())}
     files = {pictures[name].file: data for name, (data, _) in shown.items()}
     return replace(known, answers=answers, pictures=pictures), files

@@ -51,7 +51,7 @@ class KeptPhotographs:
                 (draft / name).write_bytes(data)
             (draft / READINGS_FILE).write_text(to_json(photos, self.basis), encoding="utf-8", newline="\n")
 
-    def all(self) -> list[ReadPhoto]:
+    def all_photographs(self) -> list[ReadPhoto]:
         """All photographs, in the order of their names; a reading of another program is left out."""
         found: list[ReadPhoto] = []
         for path in sorted((self.folder / READINGS_FOLDER).glob("*")):
@@ -72,7 +72,7 @@ class KeptPhotographs:
             return None
 
     @contextmanager
-    def held(self) -> Generator[None]:
+    def lock(self) -> Generator[None]:
         """Keep other runs out meanwhile: of two that write the same files the slower one would win.
 
         Raises

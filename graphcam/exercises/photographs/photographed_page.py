@@ -62,7 +62,7 @@ class SeenPage:
     registered: Callable[[complex], Registration]
 
     @staticmethod
-    def whole(photograph: Photograph, page: PrintedPage, registration: Registration) -> SeenPage:
+    def from_photograph(photograph: Photograph, page: PrintedPage, registration: Registration) -> SeenPage:
         """A page in one photograph."""
         return SeenPage(page, partial(rectify, photograph.pixels, registration), lambda place: registration)
 
@@ -104,7 +104,7 @@ class SeenPage:
         ends = self.registered(middle).pixels(middle + np.array([-1.0, 1.0, -1j, 1j]))
         return float(min(abs(ends[1] - ends[0]), abs(ends[3] - ends[2])) / 2)
 
-    def shown(self) -> Iterator[tuple[str, tuple[bytes, Edges]]]:
+    def shown_pictures(self) -> Iterator[tuple[str, tuple[bytes, Edges]]]:
         """JPEGs by name of the views, of the table of answers and of the bars' written lengths, with their boxes.
 
         The box of a view is counted from its origin.

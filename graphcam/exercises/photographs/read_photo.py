@@ -94,7 +94,7 @@ class ReadPhoto:
     remedy: str = ""
 
     @property
-    def known(self) -> bool:
+    def is_identified(self) -> bool:
         """Whether it is known whose page it shows."""
         return self.page > 0
 

@@ -53,7 +53,7 @@ def review_page(
         "exercise": exercise.name,
         "stretch": STRETCH_RANGE,
         "decimal": spoken.decimal,
-        "texts": {name: spoken.catalog.say(words.template) for name, words in PAGE_CAPTIONS.items()},
+        "texts": {name: spoken.catalog.translation(words.template) for name, words in PAGE_CAPTIONS.items()},
         "students": [
             {name: one[name] for name in ("student", "corrections", "drawn")}
             | {"views": [{"answers": view["answers"]} for view in one["views"]]}
@@ -64,7 +64,7 @@ def review_page(
         "review.html",
         exercise,
         students=listed,
-        unknown=[photo for photo in photos if photo.why and not photo.known],
+        unknown=[photo for photo in photos if photo.why and not photo.is_identified],
         data=_safe(json.dumps(data, allow_nan=False)),
         script=_page_file("review.js"),
         review_style=_page_file("review.css"),
@@ -84,7 +84,7 @@ def _student(
         "notes": [exercise.tell(note) for note in (*student.notes, *notes)],
         "drawn": drawn,
         "typed": [
-            {"name": one.asked.name, "text": _answer_text(exercise, one, answer_key), "unit": one.asked.unit_said}
+            {"name": one.asked.name, "text": _answer_text(exercise, one, answer_key), "unit": one.asked.unit_caption}
             for one in student.answers
             if not one.asked.mark_form
         ],

@@ -48,7 +48,7 @@ class PaperArea:
     near: float = MIN_STRAY
 
     @staticmethod
-    def around(kind: Kind, known: Iterable[Expected], tolerance: float) -> PaperArea:
+    def for_answers(kind: Kind, known: Iterable[Expected], tolerance: float) -> PaperArea:
         """The area of the right answer and of wrong ones, where a hand may stray by the tolerance."""
         return PaperArea(kind, tuple(known), max(MIN_STRAY, tolerance))
 
@@ -83,10 +83,10 @@ it should be, counted from the drawing's own zero; mark the origin of the paper 
             raise UnreadableError(
                 replace(ELSEWHERE_REMARK if marked else ELSEWHERE_UNMARKED_REMARK, values={"layer": name})
             )
-        if not marked and self.moved(points):
+        if not marked and self.is_moved(points):
             raise UnreadableError(replace(MOVED_UNMARKED_REMARK, values={"layer": name}))
 
-    def moved(self, points: Points) -> bool:
+    def is_moved(self, points: Points) -> bool:
         """Whether the drawing is none of what is known where it lies, and is one of them elsewhere.
 
         >>> area = PaperArea("points", (Expected(np.array([0j, 30 + 40j]), 1.0),))

@@ -183,7 +183,7 @@ def _drawn_answer(asked: AskedAnswer, drawing: CadDrawing, room: PaperArea | Non
         return points, []
     marked = drawing.marks_origin(asked.layer)
     room.admit(asked.layer, points, marked=marked)
-    if not (marked and room.moved(points)):
+    if not (marked and room.is_moved(points)):
         return points, []
     moved = say(
         "the drawing on the layer {layer} seems to be moved as a whole relative to the POINT on the layer "

@@ -55,7 +55,7 @@ def quantity(asked: AskedAnswer, text: str) -> float:
     if said is None:
         return decimal(asked.name, text)
     if _plain_unit(said[2]) != _plain_unit(asked.unit):
-        values = {"answer": asked.name, "given": short_text(said[2]), "unit": asked.unit_said or "1"}
+        values = {"answer": asked.name, "given": short_text(said[2]), "unit": asked.unit_caption or "1"}
         raise UnreadableError(say("{answer} has the unit {given}, but is asked in {unit}", **values))
     return decimal(asked.name, said[1])
 

@@ -142,8 +142,8 @@ def _picture(
     views = {step.view.name for step in steps if step.marks}
     if not views:
         return None
-    told = tuple(step.told(tell) for step in steps)
-    former = tuple(step.told(tell) for step in before if step.view.name in views)
+    told = tuple(step.translated(tell) for step in steps)
+    former = tuple(step.translated(tell) for step in before if step.view.name in views)
     board = StepBoard(former, told)
     page = board.page(len(told) - 1)
     drawn = "".join(group_svg(group, page.height) for group in page.groups)

@@ -160,7 +160,7 @@ def write_feedback(
     """
     with whole_folder(folder) as draft:
         for record in records:
-            name, answer_key = names.of(record["student"]), answer_keys.get(record["student"])
+            name, answer_key = names.name_of(record["student"]), answer_keys.get(record["student"])
             place = folders.get(record["student"])
             photographs = photo_pictures(place, right=right) if place is not None else []
             shown = {**record, "student": name}

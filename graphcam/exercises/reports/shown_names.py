@@ -28,24 +28,24 @@ class ShownNames:
 
     hidden: Mapping[str, str] = field(default_factory=dict[str, str])
 
-    def of(self, student: str) -> str:
+    def name_of(self, student: str) -> str:
         """The student's name on the pages."""
         return self.hidden[student] if self.hidden else student
 
     def records(self, records: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
         """The records under these names, in their order: that of the ids would tell something of who it is."""
-        named = [{**record, "student": self.of(record["student"])} for record in records]
+        named = [{**record, "student": self.name_of(record["student"])} for record in records]
         return sorted(named, key=lambda record: record["student"]) if self.hidden else named
 
     def answer_keys(self, answer_keys: Mapping[str, AnswerKey]) -> Mapping[str, AnswerKey]:
         """The answer keys by these names."""
         if not self.hidden:
             return answer_keys
-        return {self.of(student): answer_key for student, answer_key in answer_keys.items()}
+        return {self.name_of(student): answer_key for student, answer_key in answer_keys.items()}
 
     def pairs(self, pairs: Sequence[AlikePair]) -> list[AlikePair]:
         """The pairs who agree, under these names."""
-        return [replace(pair, student=self.of(pair.student), other=self.of(pair.other)) for pair in pairs]
+        return [replace(pair, student=self.name_of(pair.student), other=self.name_of(pair.other)) for pair in pairs]
 
     def refused(self, refused: Sequence[Refused], table: str) -> list[Refused]:
         """What is not graded; folders have the names of students, so where those are hidden only their number is told.

@@ -74,7 +74,7 @@ class Photographed:
             answer = next(iter(photo.answers.values()), None)
             drawn = None if answer is None else answer.points
             files = {"0.jpg": drawing(drawn), "1.jpg": grey(360, 180), "2.jpg": grey(90, 48)}
-            kept.keep(photo.digest.partition("-")[0], [photo], files if photo.known and not photo.why else {})
+            kept.keep(photo.digest.partition("-")[0], [photo], files if photo.is_identified and not photo.why else {})
 
     def read(self, **order: object) -> ReadCourse:
         return read_course(ReadingOrder([], self.place, self.secret, **order))  # type: ignore[arg-type]

@@ -273,7 +273,7 @@ def test_without_the_libraries_the_extra_is_named(course, monkeypatch):
 
 
 def test_two_runs_do_not_write_the_same_files(course):
-    with KeptPhotographs(course.photos, "").held():
+    with KeptPhotographs(course.photos, "").lock():
         done = command("read", "--course", course.place, "--secret-file", course.secret)
     assert done.exit_code == 2
     assert "another run reads photographs into it" in done.output
