@@ -1,4 +1,4 @@
-"""``graphcam``, and ``python -m graphcam``: Ctrl-C is heard while the libraries load, which takes long."""
+"""The entry point of ``graphcam`` and ``python -m graphcam``; Ctrl-C works even while the libraries load."""
 
 import os
 import signal
@@ -44,7 +44,7 @@ def main() -> None:
 
 
 def _end(signal_number: int = signal.SIGINT, _frame: FrameType | None = None) -> None:
-    """Say it and end at once: there is nothing to be cleared away, not yet or no more."""
+    """Print one line and end at once; nothing needs clearing away at this time."""
     os.write(2, b"graphcam: interrupted\n")
     os._exit(INTERRUPTED_STATUS)
 

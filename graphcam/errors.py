@@ -1,4 +1,4 @@
-"""What can go wrong, said once: every error names the quantity, its value and what is allowed."""
+"""The errors of graphcam: each names the quantity, its value, what is allowed, and a remedy."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FILE = say("file")
 class GraphcamError(Exception):
     """The base class of every error that graphcam raises on purpose.
 
-    Its ``args`` are what it was given, captions among them; ``str`` says it in English.
+    Its ``args`` are what it was given, captions among them; ``str`` is their English text.
 
     advice : what to do about it; may be empty
     """
@@ -28,17 +28,17 @@ class GraphcamError(Exception):
 
     @property
     def fault(self) -> Words:
-        """What is wrong."""
+        """What is wrong, without the remedy."""
         raise NotImplementedError
 
     @property
     def remedy(self) -> str:
-        """What to do about it, in English."""
+        """What to do about the error, in English; may be empty."""
         return str(self.advice)
 
     @property
     def caption(self) -> Message:
-        """What is wrong and what to do about it, for every language."""
+        """Fault and remedy as one text, for any language."""
         return message(say("{fault}; {remedy}", fault=self.fault, remedy=self.advice) if self.advice else self.fault)
 
     def __str__(self) -> str:
@@ -49,7 +49,7 @@ class GraphcamError(Exception):
 
 
 def _again(kind: type[GraphcamError], given: tuple[Any, ...], kept: dict[str, Any]) -> GraphcamError:
-    """The error again, in another process."""
+    """The error of a pickle, rebuilt in another process from its arguments and attributes."""
     error = kind.__new__(kind, *given)
     error.__dict__ |= kept
     return error
@@ -82,7 +82,7 @@ class DesignError(GraphcamError, ValueError):
 
     @property
     def fault(self) -> Caption:
-        """What is wrong."""
+        """The sentence of quantity, value and limit."""
         return _sentence(*self.args[:3])
 
 
@@ -104,7 +104,7 @@ class TaskError(GraphcamError):
 
     @property
     def fault(self) -> Caption:
-        """What is wrong, and in which file."""
+        """The sentence of field, value and what was expected, after the file's name."""
         return Caption("{path}: {fault}", {"path": self.args[0], "fault": _sentence(*self.args[1:4])})
 
 
@@ -126,7 +126,7 @@ class MissingFileError(TaskError):
 
     @property
     def fault(self) -> Caption:
-        """What is missing, and where."""
+        """The sentence that names what is missing, and where."""
         missing = say("there is no {kind} {path}", kind=self.kind, path=self.path)
         return sequence([missing, self.where], " ") if self.where else missing
 
@@ -141,9 +141,9 @@ def _sentence(what: Words, value: object, allowed: Words) -> Caption:
 
 
 def install_advice(extra: str) -> Caption:
-    """How an extra is installed: from the source that graphcam came from, as any index may hold another package.
+    """The command that installs an extra, from graphcam's source, as a package index may hold another package.
 
-    In double quotes, which every shell takes, and by the interpreter's own pip.
+    The extra is in double quotes, which every shell takes; the pip is the interpreter's own.
 
     >>> print(install_advice("photo"))
     in the folder of graphcam's source run: python -m pip install ".[photo]"
@@ -153,11 +153,11 @@ def install_advice(extra: str) -> Caption:
 
 @contextmanager
 def installed(option: str, library: str, extra: str) -> Generator[None]:
-    """An import of what an option needs and an extra brings.
+    """Turn a failed import in the block into the advice to install the extra that an option needs.
 
     Raises
     ------
-    TaskError : it is not there
+    TaskError : the library is not installed
 
     >>> with installed("--cluster", "dask", "cluster"):  # doctest: +ELLIPSIS
     ...     import no_such_module
@@ -178,7 +178,7 @@ def unreadable(
 
     what : the file, as a message names it: "the roster"
     expected : what it must be: "a CSV file"
-    remedy : of a missing one, in place of "check the name"
+    remedy : for a missing file, in place of "check the name"
 
     >>> print(unreadable("no.csv", "the roster", "a CSV file", FileNotFoundError()))
     there is no file no.csv; check the name
@@ -198,13 +198,13 @@ def unreadable(
 def check_kind(
     quantity: Words, value: object, kinds: type | tuple[type, ...], limit: Words = "", remedy: Words = ""
 ) -> None:
-    """That an argument is of a kind that a function can use.
+    """Refuse an argument that is of none of the given kinds.
 
     limit : what is allowed, in place of the names of the kinds
 
     Raises
     ------
-    DesignError : it is another thing
+    DesignError : the value is of another kind
 
     >>> check_kind("follower", 40, (str, list, dict))
     Traceback (most recent call last):
@@ -228,13 +228,13 @@ def check_number(
     above: float = -math.inf,
     most: float = math.inf,
 ) -> None:
-    """That an argument is a finite number, at least one number, greater than another and at most a third.
+    """Refuse an argument that is not a finite number, at least ``least``, greater than ``above``, at most ``most``.
 
     limit : what is allowed, in words
 
     Raises
     ------
-    DesignError : it is not, or it is no number
+    DesignError : the value is out of these bounds, or is no number
 
     >>> check_number("lift", "20", "a finite number greater than 0 mm", above=0)
     Traceback (most recent call last):
@@ -250,13 +250,13 @@ def check_number(
 
 
 _LOOKALIKES = str.maketrans("АВЕКМНОРСТУХасеорхуі", "ABEKMHOPCTYXaceopxyi")
-"""Cyrillic letters that look like Latin ones."""
+"""Translation table from Cyrillic letters to the Latin ones that look alike."""
 
 
 def suggestion(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> Words:
-    """A remedy for a word that is none of those known: which of them is meant; empty where none is near.
+    """The remedy for an unknown word: the known word that is probably meant; empty where none is similar.
 
-    called : what else a known word is called, as by a textbook or in another language
+    called : synonyms of the known words, as in a textbook or another language
 
     >>> str(suggestion("Cicloidal", ["cosine", "cycloidal"]))
     "did you mean 'cycloidal'?"
@@ -283,7 +283,7 @@ def suggestion(word: str, known: Iterable[str], called: Mapping[str, Iterable[st
 def among(
     word: object, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None
 ) -> tuple[Caption, Words]:
-    """The limit and the remedy of a word that is none of those known; ``called`` as in :func:`suggestion`.
+    """Limit and remedy for a word that is not among the known ones; ``called`` as in :func:`suggestion`.
 
     >>> print(DesignError("law", "cicloidal", *among("cicloidal", ["cosine", "cycloidal"])))
     law is 'cicloidal', but must be one of cosine, cycloidal; did you mean 'cycloidal'?
@@ -293,7 +293,7 @@ def among(
 
 
 def nearest(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> Words:
-    """A remedy for a mistyped word: the known word that is meant, or all of them; ``called`` as in :func:`suggestion`.
+    """The remedy for a mistyped word: the known word that is meant, or all; ``called`` as in :func:`suggestion`.
 
     Where the limit lists them already, :func:`suggestion` alone is enough.
 

@@ -1,4 +1,4 @@
-"""Files of strangers, opened so that nothing is waited for: a pipe, for instance, may never end."""
+"""Flags for opening files of unknown origin without waiting: a pipe, for instance, may never end."""
 
 from __future__ import annotations
 
@@ -9,6 +9,6 @@ BINARY_FLAGS, INHERITANCE_FLAGS, NONBLOCKING_FLAGS = (
     ("O_CLOEXEC", "O_NOINHERIT"),
     ("O_NONBLOCK", "O_NOCTTY"),
 )
-"""What Windows or Unix calls it: bytes as they are; for this process alone; without waiting, and as no terminal."""
+"""Names of flags on Windows or Unix: bytes unchanged; not inherited by other processes; no waiting, no terminal."""
 READ_FLAGS = os.O_RDONLY | sum(getattr(os, name, 0) for name in (*BINARY_FLAGS, *INHERITANCE_FLAGS, *NONBLOCKING_FLAGS))
-"""Flags for :func:`os.open`, each where the system knows it."""
+"""Flags for :func:`os.open`, as far as the system has them."""

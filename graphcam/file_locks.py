@@ -1,4 +1,4 @@
-"""Locks that the system gives free when the process that holds them ends, however it ends: of Unix, or of Windows."""
+"""Locks that the system releases when the process that holds them ends, however it ends: on Unix, or on Windows."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 LOCK_SUFFIX = "lock"
-"""How files end that are there to be locked."""
+"""The ending of files that exist only to be locked."""
 
 
 def lock(descriptor: int) -> bool:
@@ -50,12 +50,12 @@ def _lock_of_windows(descriptor: int) -> bool:
 
 @contextmanager
 def locked_folder(folder: Path) -> Generator[None]:
-    """Hold a lock on a folder, or on a file beside it where the system locks files alone; the file goes at the end.
+    """Hold a lock on a folder, or on a file beside it where only files can be locked; that file is removed at the end.
 
     Raises
     ------
     BlockingIOError : another process holds it
-    OSError : the folder is not there or cannot be opened
+    OSError : the folder does not exist or cannot be opened
 
     >>> from tempfile import TemporaryDirectory
     >>> with TemporaryDirectory() as place, locked_folder(Path(place)):

@@ -1,4 +1,4 @@
-"""Output that is there whole or not at all.
+"""Output that is written as a whole or not at all.
 
 Files are written in drafts, hidden folders, before they go to their place.  A run holds a lock on its draft, which the
 system gives free when the run ends, however it ends: so the next run tells a draft that a killed one has left from one
@@ -31,21 +31,21 @@ REMEDIES: Mapping[int | None, Words] = {
     errno.EFBIG: say("choose a folder on another disk, or raise the limit on the size of files"),
     errno.EIO: say("check the disk, or choose a folder on another one"),
 }
-"""What to do about an error of the system, by its number."""
+"""The remedy for an error of the system, by its ``errno``."""
 DEFAULT_REMEDY = say("choose another place")
-"""What to do about any other."""
+"""The remedy for any other error of the system."""
 THERE = say("it already exists"), say("choose another name, or remove that file first")
-"""What is wrong with a new file that is there, and what to do about it."""
+"""Fault and remedy for a new file that exists already."""
 NO_FORMER_FILES: Mapping[str, str] = MappingProxyType({})
 
 
 FOLDER_PREFIX = ".graphcam-draft-"
-"""How the names of drafts begin."""
+"""The prefix of the names of draft folders."""
 
 
 @contextmanager
 def draft_folder(place: Path) -> Generator[Path]:
-    """A new folder in a place that is there, gone at the end; what killed runs left in the place goes too.
+    """A new folder inside an existing place, removed at the end; drafts that killed runs left there are removed too.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def draft_folder(place: Path) -> Generator[Path]:
 
 
 def _new_draft(place: Path) -> tuple[Path, int]:
-    """A new draft and its lock, a file descriptor."""
+    """A new draft folder, and the file descriptor of its lock."""
     while True:
         draft = Path(tempfile.mkdtemp(prefix=FOLDER_PREFIX, dir=place))
         lock: int | None = None
@@ -83,7 +83,7 @@ def _new_draft(place: Path) -> tuple[Path, int]:
 
 
 def clear_drafts(place: Path) -> None:
-    """Remove the drafts in a place whose runs are no more."""
+    """Remove the drafts in a place whose runs have ended."""
     with suppress(OSError):
         for path in list(place.glob(f"{FOLDER_PREFIX}*")):
             if path.is_dir() and not path.is_symlink():
@@ -120,7 +120,7 @@ class OutputError(GraphcamError):
 
     @property
     def fault(self) -> Caption:
-        """What cannot be written, and why."""
+        """The sentence that names the output and why it cannot be written."""
         return say("the output '{path}' cannot be written ({why})", path=str(self.path), why=self.why)
 
 
@@ -184,7 +184,7 @@ def whole_file(path: str | Path) -> Generator[Path]:
 
 @contextmanager
 def _draft(target: Path, place: Path) -> Generator[Path]:
-    """A temporary folder in a place that is made where it is not there yet; on an error nothing is left of both."""
+    """A temporary folder in a place, which is made if need be; after an error neither is left."""
     made = _missing_folders(place)
     try:
         with ExitStack() as drafts:
@@ -207,14 +207,14 @@ def _draft(target: Path, place: Path) -> Generator[Path]:
 
 
 def _error_concerns(place: Path, error: OSError) -> bool:
-    """Whether an error is of a place: it names a file there, or it names none and is of a disk."""
+    """Whether an error of the system is about a place: it names a file there, or names none and is about a disk."""
     if error.filename is None:
         return error.errno in REMEDIES
     return Path(os.fsdecode(error.filename)).absolute().is_relative_to(place.absolute())
 
 
 def check_new(path: str | Path) -> None:
-    """See, before long work, that there is a place for a file which must not be there yet.
+    """Refuse, before long work, a new file that exists already or whose folder does not exist.
 
     Raises
     ------
@@ -246,12 +246,12 @@ def write_new(path: str | Path, text: str) -> None:
 
 
 def digest(path: Path) -> str:
-    """What tells whether a file is still the same: the SHA-256 of its bytes, in hexadecimal."""
+    """The SHA-256 of a file's bytes, in hexadecimal, which tells whether the file has changed."""
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def _exchange(new: Path, old: Path, folder: Path, former: Mapping[str, str]) -> None:
-    """Move all files from ``new`` into the folder, what stood there in their place into ``old``, and former files too.
+    """Move all files from ``new`` into the folder; what they replace, and former files, move into ``old``.
 
     If one cannot be moved, all go back to where they were.
     """
@@ -286,7 +286,7 @@ def _unchanged(folder: Path, name: str, known: str) -> bool:
 
 
 def _missing_folders(folder: Path) -> list[Path]:
-    """The folders on the way to ``folder`` that are not there yet, the innermost first."""
+    """The folders on the path to ``folder`` that do not exist yet, the innermost first."""
     missing: list[Path] = []
     for path in (folder, *folder.parents):
         try:

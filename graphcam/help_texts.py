@@ -1,4 +1,4 @@
-"""The texts of the command line's help, found in the code for the tools of gettext.
+"""The extractor of the command line's help texts, for the tools of gettext.
 
 Typer takes them as plain text: what an option, an argument or a group of commands says as its ``help``, and the first
 paragraph of a command's docstring.  Each stands in the catalogs as a whole, and is told as one when the help is shown.
@@ -13,11 +13,11 @@ from typing import IO, Any
 from graphcam.words import Caption
 
 HELP_CALLS = {"Option", "Argument", "Typer"}
-"""What of typer has a help."""
+"""The calls of typer that have a parameter ``help``."""
 
 
 def help_text(text: str) -> Caption:
-    """A text of the help, as it stands in the catalogs.
+    """The caption of a help text, its white space folded as in the catalogs.
 
     >>> str(help_text("Where the files\\n  go."))
     'Where the files go.'
@@ -26,7 +26,7 @@ def help_text(text: str) -> Caption:
 
 
 def extract(file: IO[bytes], keywords: Any, comment_tags: Any, options: Any) -> Iterator[Any]:
-    """A method for ``pybabel extract``: what it finds in Python itself, and the texts of the help."""
+    """An extractor for ``pybabel extract``: what pybabel finds in Python itself, and the texts of the help."""
     from babel.messages.extract import extract_python
 
     yield from extract_python(file, keywords, comment_tags, options)
@@ -36,7 +36,7 @@ def extract(file: IO[bytes], keywords: Any, comment_tags: Any, options: Any) -> 
 
 
 def texts_of_help(code: str) -> Iterator[tuple[int, str]]:
-    """Lines and texts.
+    """The help texts in a module's code, each with its line number.
 
     >>> code = '@app.command()\\ndef solve(out=Option(help="The folder.")):\\n    "Draw a cam.\\\\n\\\\nMore."'
     >>> [text for _, text in texts_of_help(code)]

@@ -19,13 +19,13 @@ from graphcam.errors import DesignError, among
 from graphcam.words import Caption, Message, Words, message, say, say_in
 
 MINUS_SIGN = "−"
-"""As wide as a plus; a hyphen is what a program reads."""
+"""The minus of printed numbers, which is as wide as a plus."""
 SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"
-"""The digits and the minus of a power of ten."""
+"""The digits and the minus of exponents."""
 DECIMAL_SIGN = say_in("decimal sign", ".")
-"""What stands before the decimals, which a catalog tells as it does every text."""
+"""The decimal sign, which a catalog translates as it does every text."""
 SENTENCE = "{what} is {shown}, but must be {allowed}"
-"""That of an error; a language that has it can tell messages."""
+"""The template of an error's sentence; a language whose catalog has it can tell messages."""
 UNREVIEWED_NOTE = say("This translation has not yet been read by a native speaker.")
 
 
@@ -35,20 +35,20 @@ _UNREVIEWED_PATTERN = re.compile(r"^X-Read-By-Native-Speaker: *no *$", re.MULTIL
 _ESCAPE_PATTERN = re.compile(r"\\(.)")
 _ESCAPE_VALUES = {"n": "\n", "t": "\t", "r": "\r"}
 Entry = dict[str, str]
-"""What one entry of a file says, by the keyword: "msgid", "msgstr[1]"."""
+"""An entry of a ``.po`` file: its strings by keyword ("msgid", "msgstr[1]")."""
 
 
 def one_or_many(count: int) -> int:
-    """The rule of plurals of a catalog that states none: that of English."""
+    """The number of the plural form for a count by the rule of English, for a catalog that states no rule."""
     return int(count != 1)
 
 
 @dataclass(frozen=True)
 class Catalog:
-    """The texts of one language by those of the code.
+    """The translations of one language.
 
     told : by context (empty where there is none) and text, its translations: one, or one for each plural form
-    plural : the number of the form that a count takes
+    plural : gives the number of the plural form for a count
     unread : whether its header says ``X-Read-By-Native-Speaker: no``
     """
 
@@ -57,11 +57,11 @@ class Catalog:
     unread: bool = False
 
     def translation(self, text: str, context: str = "") -> str:
-        """A text in the language; one that is not translated stays as it is."""
+        """The translation of a text; the text itself where there is none."""
         return self.told.get((context, text), (text,))[0]
 
     def plural_translation(self, one: str, many: str, count: int) -> str:
-        """A text that depends on a count."""
+        """The translation of a text for a count, in its plural form."""
         forms = self.told.get(("", one))
         return forms[self.plural(count)] if forms else (one, many)[one_or_many(count)]
 
@@ -85,7 +85,7 @@ def read_catalog(text: str) -> Catalog:
 
 
 def _entries(text: str) -> Iterator[Entry]:
-    """The entries of a file that are not fuzzy, with their strings put together."""
+    """The entries of a file that are not fuzzy, their split strings joined."""
     entry: Entry = {}
     keyword, fuzzy, next_fuzzy = "", False, False
     for line in text.splitlines():
@@ -107,16 +107,16 @@ def _entries(text: str) -> Iterator[Entry]:
 
 
 def _unescaped(quoted: str) -> str:
-    """What stands between quotes."""
+    """The text of a quoted string, its escapes resolved."""
     return _ESCAPE_PATTERN.sub(lambda sign: _ESCAPE_VALUES.get(sign[1], sign[1]), quoted) if "\\" in quoted else quoted
 
 
 @dataclass(frozen=True)
 class Language:
-    """A language: how it says captions, and how it writes numbers.
+    """A language: it translates captions and writes their numbers.
 
-    name : as in a task file, "en"
-    catalog : of the templates; what it leaves out stays English
+    name : as in a task file, such as "en"
+    catalog : translations of the templates; what it lacks stays English
 
     >>> from graphcam.words import say
     >>> russian = language("ru")
@@ -131,21 +131,21 @@ class Language:
 
     @cached_property
     def decimal(self) -> str:
-        """What stands before the decimals."""
+        """The decimal sign."""
         return self._template(DECIMAL_SIGN)
 
     @property
     def remark(self) -> str:
-        """What whoever reads the language should know of the translation; empty where a native speaker has read it."""
+        """A remark for readers that no native speaker has read the translation; empty where one has."""
         return self.text(UNREVIEWED_NOTE) if self.catalog.unread else ""
 
     @cached_property
     def has_messages(self) -> bool:
-        """Whether the command line can speak it: its catalog has the messages too, or it is that of the code."""
+        """Whether the command line has messages in this language: English, or the catalog translates them."""
         return self.name == ENGLISH.name or ("", SENTENCE) in self.catalog.told
 
     def text(self, words: Words) -> str:
-        """What somebody who speaks the language writes; half a message in it would be English, and is so as a whole."""
+        """The translated text; a message that the catalog has only in part stays English as a whole."""
         if isinstance(words, str):
             return words
         if isinstance(words, Message) and not self.has_messages:
@@ -163,9 +163,9 @@ class Language:
 
 
 class _Written:
-    """A value in a place of a template: a caption in the language, a number with its decimal sign and a true minus.
+    """A value in a template: a caption is translated, a number gets its decimal sign and a true minus.
 
-    typed : numbers stand as they are typed
+    typed : numbers stay as they are typed, as in a message
     """
 
     __slots__ = ("language", "typed", "value")
@@ -190,7 +190,7 @@ class _Written:
 
 
 def _power(number: str) -> str:
-    """A number with its power of ten as it is written, not as a program reads it.
+    """A number with its power of ten in print form.
 
     >>> _power("2.008e+05"), _power("1e-09"), _power("12.5")
     ('2.008·10⁵', '1·10⁻⁹', '12.5')
@@ -209,7 +209,7 @@ def _folder() -> Path:
 
 
 def languages() -> tuple[str, ...]:
-    """The names of the languages there are: English, and every one that has a catalog.
+    """The names of the available languages: English, and every one with a catalog.
 
     >>> {"en", "ru"} <= set(languages())
     True

@@ -1,4 +1,4 @@
-"""Products of plane vectors, which are complex numbers: what the drawn and the exact side compute alike."""
+"""Products of plane vectors, which are complex numbers; used by both the drawn and the exact side."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Vectors = NDArray[np.complexfloating[Any, Any]]
 
 
 def dot(a: Vectors | complex, b: Vectors | complex) -> NDArray[np.float64]:
-    """The scalar product |a| |b| cos of the angle between.
+    """The scalar product |a| |b| cos(a, b), by elements of arrays that broadcast.
 
     >>> float(dot(3 + 0j, 2 + 5j))
     6.0
@@ -20,7 +20,7 @@ def dot(a: Vectors | complex, b: Vectors | complex) -> NDArray[np.float64]:
 
 
 def cross(a: Vectors | complex, b: Vectors | complex) -> NDArray[np.float64]:
-    """The vector product |a| |b| sin of the angle from a to b, counter-clockwise positive.
+    """The vector product |a| |b| sin(a, b), positive if b lies counter-clockwise from a; by elements of arrays.
 
     >>> float(cross(3 + 0j, 2 + 5j))
     15.0

@@ -1,4 +1,4 @@
-"""Values that show themselves: in few lines of text, and as a drawing made in a room above the value's own.
+"""How values show themselves: in few lines of text, and as a drawing by a function of a higher room.
 
 Imports go down only, and importing graphcam loads no renderer: a motion stands in one of the lowest rooms, what draws
 it in one of the highest.  So a value names the function that shows it, which is looked up when somebody wants to see
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Figure
 
 MAX_LINES, MAX_WIDTH = 8, 100
-"""Of a value's text at most: lines, and letters of a line that may be cut."""
+"""The maximum number of lines of a value's text, and of letters in a line."""
 
 
 def from_above(function: str) -> Callable[..., Any]:
-    """The function of a room above, such as "report.output_folder.write".
+    """The function of a higher room, by its path such as "report.output_folder.write".
 
     >>> from_above("plots.cam_outline.plot").__name__
     'plot'
@@ -34,7 +34,7 @@ def from_above(function: str) -> Callable[..., Any]:
 
 
 def in_lines(first: str, rows: Iterable[str], last: str) -> str:
-    """The text of a value: what it is, its sizes as far as there is room, and how to go on.
+    """The text of a value: its name, as many rows of sizes as fit, and its methods.
 
     >>> in_lines("Cam", ["radius 20 mm"], ".plot()")
     'Cam\\n  radius 20 mm\\n.plot()'
@@ -46,7 +46,7 @@ def in_lines(first: str, rows: Iterable[str], last: str) -> str:
 
 
 def by_parts(self: Any) -> str:
-    """The text of a dataclass of such values: the first line of each.
+    """The text of a dataclass whose fields are such values: the first line of each.
 
     >>> import graphcam as gc
     >>> gc.Contact(gc.builtin_task().motion(), gc.SpringLoad(0.2, 550, 3))
@@ -60,7 +60,7 @@ def by_parts(self: Any) -> str:
 
 
 class Plottable:
-    """A value that is drawn by the function ``_drawn_in`` of :mod:`graphcam.plots`; a notebook shows that."""
+    """A value whose plot, also in notebooks, is drawn by the function ``_drawn_in`` of :mod:`graphcam.plots`."""
 
     _drawn_in: ClassVar[str]
 
@@ -69,7 +69,7 @@ class Plottable:
 
         Raises
         ------
-        DesignError : there is nothing to draw
+        DesignError : the value has nothing to draw
 
         >>> import graphcam as gc
         >>> motion = gc.builtin_task().motion()

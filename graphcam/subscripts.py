@@ -1,6 +1,6 @@
 """Indices in texts: by Unicode where it has their letters (μₐ, r₀), else after an underscore (φ_у, φ_д.с).
 
-So a text can be read wherever it is printed; what can set letters lower does.
+So a text can be read wherever it is printed; sheets and pages set the letters lower.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ SUBSCRIPT_PATTERN = re.compile("[\u2080-\u209c\u1d62-\u1d6a\u2c7c]+")
 
 
 def parts(text: str) -> Iterator[tuple[str, bool]]:
-    """The parts of a text, and whether each is an index; indices in plain letters.
+    """The pieces of a text, each with whether it is an index; indices are in plain letters.
 
     >>> list(parts("μₐ = 2, φ_д.с = 45°"))
     [('μ', False), ('a', True), (' = 2, φ', False), ('д.с', True), (' = 45°', False)]
@@ -32,7 +32,7 @@ def parts(text: str) -> Iterator[tuple[str, bool]]:
 
 
 def plain_index(index: str) -> str:
-    """An index in letters that stand on the base line.
+    """An index in letters of full size on the base line.
 
     >>> plain_index("₂₁"), plain_index("у₁")
     ('21', 'у1')
@@ -41,7 +41,7 @@ def plain_index(index: str) -> str:
 
 
 def in_html(text: str) -> str:
-    """A text of HTML or Markdown with elements for those indices that Unicode has no letters for.
+    """A text of HTML or Markdown, with elements ``sub`` for indices that Unicode has no letters for.
 
     >>> in_html("φ_у = 80°, r₀")
     'φ<sub>у</sub> = 80°, r₀'

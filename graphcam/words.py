@@ -1,4 +1,4 @@
-"""Sentences as data: a template and its values, kept apart so that every language can say them in its own words.
+"""Sentences as data: a template and its values, kept apart so that each language can translate the template.
 
 Templates are written in English, and literally where they are used, so that the tools of gettext find them.  A plain
 ``str`` among the values is the same in every language: the name of a point, a formula's symbol, what a user wrote.
@@ -13,11 +13,11 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Caption:
-    """A text with numbers, symbols and other captions in it.
+    """A text in which numbers, symbols and other captions stand.
 
     template : English, in the style of :meth:`str.format`
-    values : what stands in its places
-    context : tells apart templates that are alike in English but not in every language
+    values : by the names of the template's places
+    context : distinguishes templates that are alike in English but not in every language
     plural : the template for any ``count`` but 1, if the two differ
 
     >>> str(Caption("The pole distance is {h:.1f} mm.", {"h": 40}))
@@ -35,7 +35,7 @@ class Caption:
         return template.format(**self.values)
 
     def with_values(self, **values: Any) -> Caption:
-        """The same text with these values in its places, besides those that it has.
+        """The caption with these values besides those that it has.
 
         >>> str(say("The ray is {length:.1f} mm long.").where(length=3.14))
         'The ray is 3.1 mm long.'
@@ -45,13 +45,13 @@ class Caption:
 
 @dataclass(frozen=True)
 class Message(Caption):
-    """A caption on what somebody typed: numbers stand in it as they are typed, in every language."""
+    """A caption about typed input: numbers stand in it as they were typed, in every language."""
 
 
 Words = str | Caption
-"""A text: the same in every language, or not."""
+"""A text: the same in every language (``str``), or translated (``Caption``)."""
 Tell = Callable[[Words], str]
-"""Says a text in a language, such as :meth:`graphcam.language.Language.text`; ``str`` says it in English."""
+"""A translator of texts, such as :meth:`graphcam.language.Language.text`; ``str`` gives English."""
 
 
 def say(template: str, /, **values: Any) -> Caption:
@@ -64,7 +64,7 @@ def say(template: str, /, **values: Any) -> Caption:
 
 
 def say_in(context: str, template: str, /, **values: Any) -> Caption:
-    """A caption whose English words alone do not say which of their meanings is meant; ``context`` does.
+    """A caption whose meaning depends on a ``context``, for words that are ambiguous in English.
 
     >>> str(say_in("of a title block", "Sheet {number}", number=2))
     'Sheet 2'
@@ -73,7 +73,7 @@ def say_in(context: str, template: str, /, **values: Any) -> Caption:
 
 
 def say_many(one: str, many: str, count: int, /, **values: Any) -> Caption:
-    """A caption for a number of things, which stands in its ``{count}``.
+    """A caption about a number of things, which stands in its place ``{count}``.
 
     >>> str(say_many("{count} part", "{count} parts", 1)), str(say_many("{count} part", "{count} parts", 12))
     ('1 part', '12 parts')
@@ -82,7 +82,7 @@ def say_many(one: str, many: str, count: int, /, **values: Any) -> Caption:
 
 
 def sequence(items: Sequence[Words], separator: str = ", ") -> Caption:
-    """Texts one after another.
+    """A caption of texts one after another.
 
     >>> str(sequence([say("One."), say("Two.")], " "))
     'One. Two.'
@@ -92,7 +92,7 @@ def sequence(items: Sequence[Words], separator: str = ", ") -> Caption:
 
 
 def message(words: Words) -> Message:
-    """The same words as those of a message.
+    """The words as a message.
 
     >>> str(message(say("at most {most:g} mm", most=-0.5)))
     'at most -0.5 mm'
@@ -102,7 +102,7 @@ def message(words: Words) -> Message:
 
 
 def bare(text: str) -> Caption:
-    """What somebody wrote, where a message is to show it without quotes.
+    """A caption of what somebody wrote, which a message shows without quotes.
 
     >>> str(bare("[a, b]"))
     '[a, b]'
@@ -111,7 +111,7 @@ def bare(text: str) -> Caption:
 
 
 def either(items: Sequence[Words]) -> Words:
-    """Texts of which one is wanted.
+    """Texts joined as alternatives, with "or" before the last.
 
     >>> str(either(["a", "b", "c"])), str(either(["a"]))
     ('a, b or c', 'a')
@@ -121,7 +121,7 @@ def either(items: Sequence[Words]) -> Words:
 
 
 def chained(items: Sequence[Words]) -> Words:
-    """Texts with an "and" between each two.
+    """Texts joined with "and" between each two.
 
     >>> str(chained(["a", "b", "c"])), str(chained(["a"]))
     ('a and b and c', 'a')
@@ -133,7 +133,7 @@ def chained(items: Sequence[Words]) -> Words:
 
 
 def joined(items: Sequence[Words]) -> Words:
-    """Texts as a sentence lists them.
+    """Texts joined as a list, with commas and "and" before the last.
 
     >>> str(joined(["a", "b", "c"])), str(joined(["a"])), str(joined([]))
     ('a, b and c', 'a', '')

@@ -1,4 +1,4 @@
-"""Jobs shared out among processes or machines: in order, or so that one that kills its worker costs only itself."""
+"""Jobs shared among processes or machines, in order, or so that a job that kills its worker costs only itself."""
 
 from __future__ import annotations
 
@@ -25,31 +25,31 @@ J = TypeVar("J")
 R = TypeVar("R")
 
 BATCH_SIZE = 16
-"""Short jobs that travel together: less talk between processes, and still an even load."""
+"""The number of short jobs that are sent together: little traffic between processes, and still an even load."""
 MAX_BATCHES_AHEAD = 3
-"""Batches a worker that are on their way: none waits, and not all jobs are in memory."""
+"""The maximum number of batches under way for each worker: none waits, and not all jobs are in memory."""
 JOBS_AHEAD = 128
-"""Jobs that wait for an executor at a time where they come in order: they bound the memory, and feed a cluster."""
+"""The number of jobs under way at a time where results come in order: it bounds the memory, and feeds a cluster."""
 SCHEDULER_SECONDS = 5.0
-"""Seconds in which a scheduler must answer."""
+"""The time in which a scheduler must answer [s]."""
 MIN_EXPECTED_WORKERS = 32
-"""Workers of a cluster for which jobs are handed out, though fewer are there yet."""
+"""The number of cluster workers for which jobs are handed out, though fewer may have started."""
 SHUTDOWN_SECONDS = 2.0
-"""Seconds that a worker has to clear away when the run has been killed."""
+"""The time that a worker has to clear away when the run has been killed [s]."""
 MAX_WINDOWS_PROCESSES = 61
-"""Processes that one can wait for on Windows."""
+"""The maximum number of processes that can be waited for on Windows."""
 _job_in_hand = threading.Event()
-"""Whether this process, a worker, has a job in hand."""
+"""Set while this process, a worker, does a job."""
 _run_killed = threading.Event()
-"""Whether its run has been killed, so that no other job is begun."""
+"""Set when this worker's run has been killed, so that it begins no other job."""
 
 
 @dataclass(frozen=True)
 class WorkerPool:
-    """Where jobs are done.
+    """A pool of workers for jobs.
 
     executor : makes a :class:`concurrent.futures.Executor`, a new one after one has broken
-    workers : how many jobs it does at once
+    workers : the number of jobs done at once
     close : to be called when all jobs are done
     """
 
@@ -59,7 +59,7 @@ class WorkerPool:
 
 
 def processes(workers: int, *preloaded: str, fresh: bool = False) -> WorkerPool:
-    """Processes on this machine.
+    """A pool of processes on this machine.
 
     preloaded : modules that the jobs need, loaded once where the processes do not begin as copies of this one
     fresh : whether they never do: a copy of one whose libraries have threads of their own, as OpenCV has, may hang
@@ -70,12 +70,12 @@ def processes(workers: int, *preloaded: str, fresh: bool = False) -> WorkerPool:
 
 
 def cluster(address: str) -> WorkerPool:
-    """The workers of a dask scheduler; needs the extra ``cluster``.
+    """A pool of the workers of a dask scheduler; needs the extra ``cluster``.
 
     Raises
     ------
     OSError : no scheduler answers at the address
-    TaskError : there is no dask
+    TaskError : dask is not installed
     """
     with installed("--cluster", "dask's distributed", "cluster"):
         from distributed import Client
@@ -92,7 +92,7 @@ def cluster(address: str) -> WorkerPool:
 
 
 def worker_pool(workers: int, address: str, *preloaded: str) -> WorkerPool:
-    """Processes on this machine, or the workers of the dask scheduler at an address that is not empty."""
+    """A pool of processes on this machine, or of the dask scheduler at an address that is not empty."""
     return cluster(address) if address else processes(workers, *preloaded)
 
 
@@ -105,7 +105,7 @@ def executor_of(workers: int, address: str = "") -> Generator[Executor | None]:
     Raises
     ------
     OSError : no scheduler answers at the address
-    TaskError : there is no dask
+    TaskError : dask is not installed
     """
     if not address and workers == 1:
         yield None
@@ -117,7 +117,7 @@ def executor_of(workers: int, address: str = "") -> Generator[Executor | None]:
 def in_order(
     executor: Executor | None, function: Callable[[J], R], jobs: Iterable[J], ahead: int = JOBS_AHEAD
 ) -> Iterator[R]:
-    """The function's results in the order of the jobs, which are taken only as they are needed.
+    """The results of the function in the order of the jobs, which are taken only as they are needed.
 
     Unlike ``executor.map``, which takes all of them at once.
 
@@ -144,10 +144,10 @@ def in_order(
 def results(
     pool: WorkerPool, function: Callable[[J], R], jobs: Iterable[J], batch: int = BATCH_SIZE
 ) -> Generator[tuple[J, R | None]]:
-    """Every job with its result as they come, or with None where the worker died of it.
+    """Each job with its result, in the order of completion; None where the worker died of it.
 
-    function : of a module, one that does not raise
-    batch : jobs that travel together
+    function : defined in a module, so that it can be pickled; it does not raise
+    batch : the number of jobs that are sent together
 
     >>> from concurrent.futures import ThreadPoolExecutor
     >>> sorted(results(WorkerPool(ThreadPoolExecutor, 2), abs, [-1, 2]))
@@ -170,9 +170,9 @@ def results(
 def _batch_results(
     pool: WorkerPool, function: Callable[[J], R], batches: Iterator[list[J]], ahead: int
 ) -> Generator[tuple[list[J], list[R] | None]]:
-    """Batches with their results, or with None where they were under way when their executor broke.
+    """Batches with their results, in the order of completion; None for those under way when their executor broke.
 
-    ahead : batches that are under way at a time
+    ahead : the number of batches under way at a time
     """
     while first := next(batches, []):
         with pool.executor() as executor:
@@ -212,7 +212,7 @@ def _results(function: Callable[[J], R], jobs: list[J]) -> list[R]:
 
 
 def _ignore_interrupts() -> None:
-    """Between its jobs a process does not hear Ctrl-C: it may hold the locks of the queue, and all would wait."""
+    """Ignore Ctrl-C between jobs: a process interrupted there may hold the locks of the queue, and all would wait."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
@@ -230,13 +230,13 @@ def _process_executor(workers: int, preloaded: tuple[str, ...], fresh: bool = Fa
 
 
 def _start_worker() -> None:
-    """Make this process a worker."""
+    """Let this process ignore Ctrl-C between its jobs, and end when the run has been killed."""
     _ignore_interrupts()
     threading.Thread(target=_end_with_the_run, daemon=True).start()
 
 
 def _end_with_the_run() -> None:
-    """End this worker when the run has been killed: by itself it waits for jobs for ever."""
+    """End this worker when the run has been killed; otherwise it would wait for jobs for ever."""
     run = multiprocessing.parent_process()
     if run is None:
         return

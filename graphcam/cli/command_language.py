@@ -1,4 +1,4 @@
-"""The language in which the command line speaks: what ``--language`` says, else that of the task, else of the machine.
+"""The language of the command line: what ``--language`` says, else that of the task, else of the machine.
 
 A language whose catalog has no messages is not spoken here: half a sentence of it would be English.
 
@@ -41,7 +41,7 @@ def language_of_machine(variables: Mapping[str, str] = os.environ) -> Language:
 
 @dataclass
 class Voice:
-    """Says texts in a language, which may be found only on the way.
+    """The language in which a command tells its texts; it may become known only while the command runs.
 
     chosen : the language that was asked for; empty where none was
     """
@@ -50,18 +50,18 @@ class Voice:
     language: Language = field(default_factory=language_of_machine)
 
     def choose(self, name: str | None) -> None:
-        """Speak the language of that name from now on; of one that is not there the command itself tells."""
+        """Tell texts in the language of that name from now on; the command itself refuses an unknown one."""
         if name in languages():
             self.chosen = str(name)
             self.language = language(self.chosen) if language(self.chosen).has_messages else ENGLISH
 
     def adopt_language(self, name: str) -> None:
-        """Speak the language of a task or course, unless one was asked for or it is English, as where none is named."""
+        """Tell texts in the language of a task or course, unless one was asked for or it is English."""
         if not self.chosen and name in languages() and name != ENGLISH.name and language(name).has_messages:
             self.language = language(name)
 
     def translate(self, words: Words | GraphcamError) -> str:
-        """A text or an error in the language."""
+        """The text, or the caption of the error, in the chosen language."""
         return self.language.text(words.caption if isinstance(words, GraphcamError) else words)
 
 
@@ -69,7 +69,7 @@ _voice: ContextVar[Voice] = ContextVar("voice")
 
 
 def use_machine_language() -> None:
-    """Speak the machine's language until a command knows better."""
+    """Tell texts in the machine's language until a command knows better."""
     _voice.set(Voice())
 
 
@@ -89,13 +89,13 @@ _helped: dict[str, Caption] = {}
 
 
 def helped(caption: Caption) -> str:
-    """A text of the help with values in it, which is known again when the help is told."""
+    """A help text with its values put in, registered so that it can be translated when the help is shown."""
     _helped[str(caption)] = caption
     return str(caption)
 
 
 def in_language_of_machine(command: Any) -> Any:
-    """A command of click, and those below it, with the first sentences of their help in the machine's language."""
+    """The command of click, its help and that of its subcommands translated into the machine's language."""
     spoken = language_of_machine()
     if spoken != ENGLISH:
         _translate_help(command, spoken)

@@ -43,12 +43,12 @@ Hand = Annotated[
     str, Option(metavar="NAME", help="Students whose drawing errors set the tolerances: careful, usual or first-year.")
 ]
 SECRET = b"simulation"
-"""Of the simulated course."""
+"""The secret of the simulated course, always the same, so that the figures repeat."""
 Name = Annotated[str, Argument(metavar="NAME", help="Name of an exercise, or its file NAME.toml.")]
 
 
 def _keep(secret: Path) -> Caption:
-    """What is to be done with a new secret."""
+    """The sentence that tells where a new secret is, and that it must be kept."""
     advice = say("Keep the folder 'teacher' safe and to yourself: without it nothing can be graded.")
     return say("{file} is new: the course's secret. {advice}", file=str(secret), advice=advice)
 
@@ -121,7 +121,7 @@ def simulate(
             check_new(out)
 
         def step(done: int, total: int) -> None:
-            """Tell which variant is done."""
+            """Show which variant has been simulated."""
             progress(say("variant {done} of {total}", done=done, total=total))
 
         found = run(find_exercise(name, hand=hand), SECRET, variants, hands, step, workers=workers, cluster=cluster)
@@ -221,11 +221,11 @@ def make(
     progress = progress_lines(quiet=False)
 
     def step(done: int, total: int) -> None:
-        """Tell whose turn it is."""
+        """Show for which student files are being made."""
         progress(say("student {done} of {total}", done=done, total=total))
 
     def remark(line: Words) -> None:
-        """Tell what is odd about the course, beside its output."""
+        """Print what is odd about the course on standard error, beside its output."""
         typer.echo(translated(line), err=True)
 
     with one_message():

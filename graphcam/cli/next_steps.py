@@ -1,4 +1,4 @@
-"""What ``graphcam`` alone shows: what to do next."""
+"""What ``graphcam`` without a command shows: what to do next."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SUGGESTIONS = (
         say("every combination of sizes"),
     ),
 )
-"""What somebody may want, the commands for it, and what they do."""
+"""For each thing to do next: its heading, the commands for it, and what they do."""
 
 
 def show_next_steps() -> None:

@@ -1,4 +1,4 @@
-"""What the commands share: how they end on wrong input, and how they say what they are doing."""
+"""What the commands share: how they end on wrong input, read tasks, and print tables, progress and files."""
 
 from __future__ import annotations
 
@@ -31,22 +31,22 @@ if TYPE_CHECKING:
 INPUT_ERROR_STATUS = 2
 """Exit status when the input is wrong."""
 REFRESH_INTERVAL = 0.1
-"""Seconds between two looks of a bar."""
+"""The minimum time between two updates of a progress bar [s]."""
 NUMBER_PATTERN = re.compile(r"[-−]?\d+\.\d+(e[-+]?\d+)?[*%]?")
 """A decimal number in a table, perhaps a percentage."""
 DEFAULT_FOLDER = Path("graphcam-out")
-"""Where the files go if nothing is said."""
+"""The folder for output where none is named."""
 
 
 def nonempty_place(place: str) -> str:
-    """A place that is said: an empty one would be taken for the folder in which one is."""
+    """The place, if it is not empty: an empty one would be taken for the current folder."""
     if not place:
         raise typer.BadParameter(translated(say("'' names no place; '.' is the current folder")))
     return place
 
 
 def named(path: str | Path) -> Path:
-    """A path that is named."""
+    """The path, if it is not empty."""
     return Path(nonempty_place(str(path)))
 
 
@@ -65,7 +65,7 @@ def echo(words: Words, *, err: bool = False) -> None:
 
 
 def echo_line(words: Words) -> None:
-    """Print it as one line: a name may hold what is no line, and what a terminal obeys."""
+    """Print a text as a single line, since a name may hold line breaks or characters that control a terminal."""
     line = translated(words)
     typer.echo(line if line.isprintable() else ascii(line))
 
@@ -78,7 +78,7 @@ TaskFile = Annotated[
 
 @contextmanager
 def one_message() -> Generator[None]:
-    """Wrong input ends with one message and status 2."""
+    """Let wrong input end the command with one message and status 2."""
     try:
         yield
     except GraphcamError as error:
@@ -94,12 +94,12 @@ def one_message() -> Generator[None]:
 
 @contextmanager
 def short_warnings() -> Generator[None]:
-    """What a drawing's letters lack on this machine is told in one line."""
+    """Print a warning about characters that no font has on one line."""
     with warnings.catch_warnings(action="always", category=LetteringWarning):
         otherwise = warnings.showwarning
 
         def told(message: Warning | str, category: type[Warning], *where: Any) -> None:
-            """In one line, as every other warning; what else warns is shown as before."""
+            """Print a lettering warning on one line; other warnings are shown as before."""
             if issubclass(category, LetteringWarning):
                 echo(say("warning: {message}", message=message), err=True)
             else:
@@ -110,7 +110,7 @@ def short_warnings() -> Generator[None]:
 
 
 def progress_lines(*, quiet: bool) -> Callable[[Words], None]:
-    """Lines on standard error; with ``quiet`` only for somebody who sits before it."""
+    """A printer of progress on standard error; with ``quiet`` it prints only where that is a terminal."""
     silent = quiet and not sys.stderr.isatty()
     return lambda line: None if silent else typer.echo(f"{translated(line)} ...", err=True)
 
@@ -118,7 +118,7 @@ def progress_lines(*, quiet: bool) -> Callable[[Words], None]:
 def print_table(
     columns: Sequence[Words], rows: Iterable[Sequence[str]], words: int = 1, *, title: Words = "", caption: Words = ""
 ) -> None:
-    """Print a table: the first columns are words, the others numbers, which stand to the right."""
+    """Print a table: the first ``words`` columns are words, the others numbers, which are aligned to the right."""
     width = shutil.get_terminal_size().columns
     head = [translated(column) for column in columns]
     said = [[*row[:words], *map(_number, row[words:])] for row in rows]
@@ -127,14 +127,14 @@ def print_table(
 
 
 def _number(cell: str) -> str:
-    """A number with the decimal sign of the language; any other text as it is."""
+    """The cell with the decimal sign of the language, if it is a number; any other text as it is."""
     return cell.replace(".", voice().language.decimal) if NUMBER_PATTERN.fullmatch(cell) else cell
 
 
 def table_lines(rows: Sequence[Sequence[str]], words: int, width: int) -> list[str]:
-    """A table whose first row is its head; where it is wider than the window, as many words as need be stand above.
+    """The lines of a table whose first row is its head; if it is wider than ``width``, columns of words move above.
 
-    Words that several rows share are said once then.
+    There, words that several rows share stand once.
 
     >>> table = [("what", "of what", "ratio"), ("law", "f", "0.9"), ("law", "f and f'", "1.2")]
     >>> print(*table_lines(table, 2, 80), sep="\\n")
@@ -166,7 +166,6 @@ def table_lines(rows: Sequence[Sequence[str]], words: int, width: int) -> list[s
 
 
 def _aligned(rows: Sequence[Sequence[str]], words: int) -> list[str]:
-    """The rows as lines of one length."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     places = [f"{'<' if k < words else '>'}{width}" for k, width in enumerate(widths)]
     return ["  ".join(map(format, row, places)) for row in rows]
@@ -184,7 +183,7 @@ def progress_bar(things: Words) -> Generator[Callable[[int, int], None]]:
     shown = -REFRESH_INTERVAL
 
     def step(done: int, total: int) -> None:
-        """Move the bar, and show it when it is due."""
+        """Set the bar to ``done`` of ``total``, and show it when it is due."""
         nonlocal shown
         now = time.monotonic()
         due = now - shown >= REFRESH_INTERVAL
@@ -199,10 +198,10 @@ def progress_bar(things: Words) -> Generator[Callable[[int, int], None]]:
 
 
 _LANGUAGE_PATTERN = re.compile(r"^[^#\n]*\blanguage\s*=\s*[\"']([\w-]+)[\"']", re.MULTILINE)
-"""Where a task file names its language: the table ``[drawing]`` alone has such a key."""
+"""The language key of a task file, which only the table ``[drawing]`` has."""
 
 COMMAND_OPTIONS = ("upto", "dxf", "files", "working_drawing")
-"""What is wrong with a choice of the command line is no matter of the file."""
+"""Quantities of a :class:`DesignError` that are options of the command line, not values of the task file."""
 
 
 def read_task(path: Path | None, builtin: str = "coursework") -> Task | ArcsTask:
@@ -228,7 +227,7 @@ def language_in(path: Path) -> str:
 
 @contextmanager
 def errors_name(path: Path | None) -> Generator[None]:
-    """What is wrong with a task as a design is told with the name of its file too, where it has one."""
+    """Name the file of the task, if it has one, in errors about the design too."""
     try:
         yield
     except DesignError as error:
@@ -247,17 +246,17 @@ FILE_DESCRIPTIONS: Mapping[str, Caption] = {
     "working-drawing": say("the cam as a part"),
     "solution": say("all of it, for programs"),
 }
-"""What the files of a solution are, by their names without page number and ending; in the order they are told."""
+"""What each file of a solution is, by its name without page number and ending, in the order of printing."""
 FILES_TO_OPEN_FIRST: Mapping[str, Caption] = {
     "player.html": say("in a browser"),
     "sheet.pdf": say("print at 100 %"),
     "worksheet.pdf": say("print at 100 %"),
 }
-"""What to open first, and how."""
+"""How the files that are to be opened first are opened, by their names."""
 
 
 def file_kind(name: str) -> str:
-    """Of which kind a file is, by its name.
+    """The kind of a file, which is a key of ``FILE_DESCRIPTIONS``, by its name; empty for a file of another origin.
 
     >>> file_kind("sheet-12.svg"), file_kind("working-drawing.pdf"), file_kind("mine.txt")
     ('sheet', 'working-drawing', '')
@@ -269,7 +268,7 @@ def file_kind(name: str) -> str:
 
 
 def grouped(names: Iterable[str]) -> list[tuple[Caption | str, list[str]]]:
-    """The files of each kind and what they are, in the order of ``ABOUT``; pages by their numbers.
+    """Descriptions with the files of each kind, in the order of ``FILE_DESCRIPTIONS``; pages by their numbers.
 
     >>> for what, names in grouped(["solution.json", "sheet-10.svg", "sheet-2.svg", "sheet.svg"]):
     ...     print(what, names)
@@ -305,7 +304,7 @@ def print_files(folder: Path, names: Sequence[str]) -> None:
 
 
 def print_file(path: Path, what: Caption) -> None:
-    """Print that a file was written, and what it is."""
+    """Print the path of a file that was written, and ``what`` it is."""
     from rich.console import Console
 
     console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
@@ -313,7 +312,7 @@ def print_file(path: Path, what: Caption) -> None:
 
 
 def linked_text(path: Path, words: str) -> Text:
-    """Words that open a file or folder when they are clicked; plain ones where nobody could."""
+    """Words that open a file or folder when they are clicked; plain words where the terminal has no links."""
     from rich.style import Style
     from rich.text import Text
 

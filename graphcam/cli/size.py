@@ -1,4 +1,4 @@
-"""``graphcam size``."""
+"""The command ``graphcam size``, which finds the best cam within ranges of its sizes."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ LANGUAGE_HELP = helped(say("Language of the chart, instead of the task's: {names
 
 
 class Objective(StrEnum):
-    """What best means."""
+    """The quantity that is minimal for the best cam."""
 
     SIZE = "size"
     STRESS = "stress"
@@ -86,7 +86,7 @@ def size(
 
 
 def _print(sizing: Sizing) -> None:
-    """The best cam with what binds it, and the front."""
+    """Print the best cam with its active limits, and the front."""
     from graphcam.report.sizing_tables import BINDING_CAPTIONS, TITLES_BY_OBJECTIVE, cam_table, front_table
 
     title = TITLES_BY_OBJECTIVE[sizing.objective]

@@ -1,4 +1,4 @@
-"""``graphcam solve``."""
+"""The command ``graphcam solve``, which draws a task and compares it with exact values."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ GIVEN_LABEL, FOUND_LABEL, MINIMUM_LABEL = say("given"), say("found"), say("minim
 
 
 def adopted_sizes(solution: AnySolution) -> Caption | None:
-    """The adopted sizes, each with where it comes from; None of a cam of arcs, whose sizes are all given.
+    """A line with the adopted sizes and the origin of each; None for a cam of arcs, whose sizes are all given.
 
     >>> import graphcam as gc
     >>> print(adopted_sizes(gc.solve(gc.builtin_task())))
@@ -180,7 +180,7 @@ def solve(
 
 @contextmanager
 def _collecting_later() -> Generator[None]:
-    """No search for garbage among all that was loaded and drawn, of which nearly nothing becomes garbage on the way."""
+    """Switch the garbage collector off, since nearly nothing that is loaded and drawn becomes garbage meanwhile."""
     gc.disable()
     try:
         yield
@@ -199,7 +199,6 @@ def _read_task(path: Path | None, divisions: int | None, language: str | None, *
 
 
 def _last_step(upto: str | None, *, worksheet: bool) -> int | str | None:
-    """The last step that is drawn."""
     if worksheet and upto is not None:
         limit = say("left out with --worksheet")
         raise graphcam.DesignError("upto", upto, limit, say("a worksheet is the sheet up to step 0"))
@@ -209,7 +208,7 @@ def _last_step(upto: str | None, *, worksheet: bool) -> int | str | None:
 
 
 def _document(solution: AnySolution, *, finished: bool) -> dict[str, Any]:
-    """What is told of a solution; of an unfinished sheet nothing that holds an answer."""
+    """The figures of a solution for printing; of an unfinished sheet nothing that holds an answer."""
     from graphcam.solving.shown_solution import without_answers
 
     return solution.to_dict() if finished else without_answers(solution.to_dict())
@@ -218,7 +217,7 @@ def _document(solution: AnySolution, *, finished: bool) -> dict[str, Any]:
 def _print_solution(
     document: dict[str, Any], folder: Path | None, sentences: Iterable[object], sizes: Caption | None, *, as_json: bool
 ) -> None:
-    """The document as JSON, or quantities and sizes, which an unfinished sheet does not tell; warnings; the files."""
+    """Print the document as JSON, or quantities and sizes (none of an unfinished sheet), warnings, and the files."""
     if as_json:
         typer.echo(json.dumps(document, indent=2, allow_nan=False))
     else:
@@ -236,7 +235,7 @@ def _print_solution(
 
 
 def _print_hint(solution: AnySolution, folder: Path) -> None:
-    """With which sizes of the diagrams, where the task leaves them open, fewer sheets would do."""
+    """Print the sizes of the diagrams, where the task leaves them open, with which fewer sheets would do."""
     # Loaded already, by what wrote the files.
     from graphcam.report.documents import contents_of
     from graphcam.report.fewer_sheets import fewer_sheets

@@ -1,4 +1,4 @@
-"""``graphcam studio``."""
+"""The command ``graphcam studio``, which opens or writes the page with sliders."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def studio(
 
 
 def _check(html: Path | None, site: Path | None, pyodide: Path | None) -> None:
-    """That the options go together."""
+    """Refuse options that do not go together."""
     if html is not None and site is not None:
         raise DesignError("--site", str(site), say("left out with --html"), say("write one after the other"))
     if (html or site) is not None and pyodide is None:
@@ -90,7 +90,7 @@ def _read_task(path: Path | None, spoken: str | None) -> Task | ArcsTask:
 
 
 def _written(task: Task | ArcsTask, html: Path | None, site: Path | None, pyodide: Path) -> Path:
-    """Write the studio that needs no server: where to."""
+    """Write the studio that needs no server; returns the file or folder."""
     from graphcam.studio.worker_page import write_one_file, write_site
 
     if html is not None:

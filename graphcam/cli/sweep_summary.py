@@ -1,4 +1,4 @@
-"""What ``graphcam sweep`` ends with: how many designs keep the limits, the smallest, and the front of the best."""
+"""The summary at the end of ``graphcam sweep``: how many designs satisfy the limits, the smallest, the Pareto front."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ if TYPE_CHECKING:
     from graphcam.sweeps.sweep import Columns
 
 MAX_TABLE_ROWS = 12
-"""Of the table; the file has all."""
+"""The maximum number of rows that are printed; the file has all."""
 
 
 def print_sweep(space: Space, found: FoundBest | Summary) -> None:
-    """Print how many designs keep the limits, the smallest of them, and the front as a table."""
+    """Print how many designs satisfy the limits, the smallest of them, and the front as a table."""
     designs = say_many("{count} design", "{count} designs", found.designs)
     if found.feasible is None:
         echo(
@@ -92,7 +92,7 @@ def write_front(space: Space, out: str, front: Columns | None) -> None:
 
 
 def _front_files(space: Space, front: Columns) -> Iterator[tuple[str, str, Caption]]:
-    """Ending, text and what it is; a figure only of more than one design."""
+    """Ending, text and description of each file of a front; the figure only if it has more than one design."""
     yield ".csv", front_csv(front), say("these designs with all their quantities")
     if front[SIZE].size > 1:
         # Loads matplotlib.
@@ -104,7 +104,6 @@ def _front_files(space: Space, front: Columns) -> Iterator[tuple[str, str, Capti
 
 
 def _first_values(front: Columns, names: list[str]) -> str:
-    """The values of the first design."""
     return ", ".join(f"{_short_name(name)} {_value(front, name, 0)}" for name in names)
 
 

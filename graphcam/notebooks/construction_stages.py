@@ -1,4 +1,4 @@
-"""A construction step by step: the drawing so far, the current step in colour, its caption and its readings."""
+"""A construction step by step in a notebook: the drawing so far, the current step in colour, its text, its readings."""
 
 from __future__ import annotations
 
@@ -28,16 +28,16 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SHEET_DPI = 65
-"""Dots an inch at which a sheet of A1 is as sharp as a screen is wide."""
+"""The resolution [dots an inch] at which a sheet of A1 fills a screen."""
 SHADE_COUNT = 16
 
 
 @dataclass(frozen=True)
 class Picture:
-    """An image.
+    """An image with its caption.
 
-    image : the file, an SVG as text or a PNG
-    alt : what is seen on it, in words
+    image : the content of the file, SVG as text or PNG as bytes
+    alt : the text in place of the image, for screen readers
     caption : the line below it; may be empty
 
     >>> print(Picture("<svg/>", "a blank sheet", "Nothing").html)
@@ -50,7 +50,7 @@ class Picture:
 
     @property
     def html(self) -> str:
-        """The picture as a figure of a web page, with nothing to be fetched."""
+        """The picture as a figure of a web page, the image inside."""
         kind, data = ("svg+xml", self.image.encode()) if isinstance(self.image, str) else ("png", self.image)
         below = f"<figcaption>{escape(self.caption)}</figcaption>" if self.caption else ""
         source = f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
@@ -61,7 +61,7 @@ class Picture:
 
 
 def picture_of_page(page: Page, alt: str, caption: str = "") -> Picture:
-    """The picture of a page of a sheet; a PNG, which is smaller than an SVG of so many lines."""
+    """The picture of a page of a sheet; a PNG, since an SVG with so many lines is larger."""
     from PIL import Image
 
     from graphcam.sheets.matplotlib_renderer import write_png
@@ -76,7 +76,7 @@ def picture_of_page(page: Page, alt: str, caption: str = "") -> Picture:
 def chart(across: str, up: str, height: float = 3.0) -> tuple[Figure, Axes]:
     """An empty matplotlib figure and its axes, for what is plotted rather than drawn.
 
-    across, up : what the axes say
+    across, up : the labels of the axes
     height : of the figure [inches], which is 7 wide
 
     >>> chart("φ, °", "s, mm")[1].get_xlabel()
@@ -107,14 +107,14 @@ def picture_of(figure: Figure, alt: str, caption: str = "") -> Picture:
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """One step of a construction, as a notebook shows it.
+    """One step of a construction for a notebook.
 
     number : of the step, within its task such as "3.2", or of a construction alone such as "2."
-    step : what is done, in words
+    step : its texts
     page : the drawing so far; None for a step of words alone, before which nothing was drawn
-    reads : what is read off the paper with this step
-    tell : says all texts
-    strip : some of its parts, by their indices, each with the drawing so far; the only part is the step itself
+    reads : the readings that are taken off the paper with this step
+    tell : translates all texts
+    strip : some of its parts, by index, each with the drawing so far
     """
 
     number: str
@@ -139,7 +139,7 @@ class Stage:
 
     @property
     def pictures(self) -> list[Picture]:
-        """The drawing as far as some of its parts, each of them in colour."""
+        """The drawing as far as each part of the strip, that part in colour."""
         from graphcam.sheets.matplotlib_renderer import svg
 
         number, places = self.number.rstrip("."), self.step.places
@@ -155,7 +155,7 @@ class Stage:
 
     @property
     def html(self) -> str:
-        """Title, what is done part by part, and the reason; some parts side by side; the whole step; readings."""
+        """Title, instructions part by part, and the reason; some parts side by side; the whole step; readings."""
         title, why = (in_html(escape(self.tell(said))) for said in (self.step.title, self.step.why))
         parts = "".join(f"<li>{self._told(part)}</li>" for part in self.step.parts)
         words = f"<h4>{self.number} {title}</h4><ol>{parts}</ol>" + (f'<p class="why">{why}</p>' if why else "")
@@ -167,7 +167,7 @@ class Stage:
         return f'<section class="step">{words}{shown}{readings}</section>'
 
     def _told(self, part: Part) -> str:
-        """A part in words, a run with its table."""
+        """A part in words, a run of like parts with its table, as HTML."""
         said = in_html(escape(self.tell(part.caption)))
         rows = [(self.tell(row.name), self.tell(row.setting)) for row in part.rows]
         run = run_text("", 0, rows) if rows else None
@@ -185,13 +185,13 @@ class Stage:
 
 
 def _is_row(step: Step, place: int) -> bool:
-    """Whether a place of a step is one of a run."""
+    """Whether a place of a step belongs to a run."""
     inside = [bool(part.rows) for part in step.parts for _ in part.rows or (part,)]
     return inside[place]
 
 
 def _reading(row: ReadingRow, tell: Tell) -> str:
-    """A reading as mm x mu = value; of several values the extremes, and all of them to be unfolded."""
+    """A reading as mm x mu = value, in HTML; of several values the extremes, and all of them to be unfolded."""
     if not row.paper.ndim:
         return in_html(escape(tell(say("{title} = {said}", title=row.title, said=row.caption()))))
     lines = "".join(
@@ -224,7 +224,7 @@ def stages(
 
 
 def shown_parts(count: int) -> list[int]:
-    """Which of so many parts stand beside the whole: the first and the middle one, which fill a line of a page.
+    """The indices of the parts that are shown beside the whole: the first and the middle one, which fill a line.
 
     >>> [shown_parts(count) for count in (0, 1, 2, 3, 24)]
     [[], [], [0], [0, 1], [0, 12]]
@@ -233,7 +233,7 @@ def shown_parts(count: int) -> list[int]:
 
 
 def drawing(construction: Construction, view: str | None = None, tell: Tell = str) -> Picture:
-    """The finished drawing of a construction in one of its views, by default the first; ``tell`` says all texts.
+    """The finished drawing of a construction in one of its views, by default the first.
 
     >>> import graphcam as gc
     >>> drawing(gc.solve(gc.builtin_task()).drawn["minimum_radius"]).caption
@@ -262,9 +262,9 @@ def show_steps(
 ) -> None:
     """Show steps of a construction in a notebook, by their places in it from 1; without a number all of them.
 
-    within : the solution that it belongs to: the steps bear the numbers that they have there, such as "3.2"
-    tell : says all texts; by default in the language of that solution's task
-    on : a construction that this one does not start from, but is drawn over: it is shown below it
+    within : the solution that it belongs to, in which the steps have numbers such as "3.2"
+    tell : translates all texts; by default into the language of that solution's task
+    on : a construction over which this one is drawn, though it does not start from it
     """
     from IPython.display import display
 
@@ -274,11 +274,11 @@ def show_steps(
 
 
 FRAME_HEIGHT = 720
-"""Of the frame in which the player stands, in pixels of a page."""
+"""The height of the frame with the player, in pixels of a page."""
 
 
 def player(solution: AnySolution) -> HTML:
-    """The step player of a solution as a frame that holds the whole page: nothing is fetched.
+    """The step player of a solution, as a frame that holds the whole page.
 
     >>> import graphcam as gc
     >>> player(gc.solve(gc.builtin_task())).data.startswith('<div class="player"><iframe')

@@ -14,7 +14,7 @@ from graphcam.words import Caption, say
 PYTHON_METADATA = {"kernelspec": {"name": "python3", "display_name": "Python 3"}, "language_info": {"name": "python"}}
 """Metadata of a notebook whose code is Python."""
 CELL_SECONDS = 120
-"""Seconds that one cell may take."""
+"""The time limit of a cell [s]."""
 
 
 @dataclass(eq=False, repr=False)
@@ -30,7 +30,7 @@ class MissingExtraError(GraphcamError):
 
     @property
     def fault(self) -> Caption:
-        """What needs it."""
+        """The sentence that names the library, and what needs it."""
         return say("{what} needs {library}, which is not installed", what=self.what, library=self.library)
 
     def __post_init__(self) -> None:
@@ -38,11 +38,11 @@ class MissingExtraError(GraphcamError):
 
 
 def required_library(library: str, what: str) -> ModuleType:
-    """A library of the extra.
+    """The module of a library of the extra ``notebooks``; ``what`` names its use for the message.
 
     Raises
     ------
-    MissingExtraError : it is not installed
+    MissingExtraError : the library is not installed
     """
     try:
         return import_module(library)
@@ -52,7 +52,7 @@ def required_library(library: str, what: str) -> ModuleType:
 
 @dataclass(eq=False, repr=False)
 class NotebookError(GraphcamError):
-    """A notebook whose cell fails, or warns: the cell's source and what it said.
+    """A notebook with a cell that fails, or warns: the cell's source and its message.
 
     >>> print(NotebookError("1 / 0", "ZeroDivisionError: division by zero"))
     ZeroDivisionError: division by zero
@@ -65,7 +65,7 @@ class NotebookError(GraphcamError):
 
     @property
     def fault(self) -> Caption:
-        """What it said, and the cell."""
+        """The message, and the source of the cell."""
         return say("{said}\nin the cell\n{cell}", said=self.said, cell=self.cell)
 
 

@@ -1,4 +1,4 @@
-"""The notebook of a task into a folder: the notebook, its task, and if asked for its pages as HTML and PDF.
+"""A folder with the notebook of a task, the task itself, and if asked for pages as HTML and PDF.
 
 A page stands alone: formulas are MathML, figures inside, nothing is fetched.
 """
@@ -33,7 +33,7 @@ from graphcam.words import Tell, Words, bare, say, say_in
 
 TEMPLATE_FOLDER = Path(__file__).parent / "templates"
 SHOWN_OUTPUT_TYPES = ["text/html", "text/markdown", "image/svg+xml", "image/png", "text/plain"]
-"""What a page shows of an output, the first that there is; of sliders it shows the stills."""
+"""The types of an output, of which a page shows the first that there is; of sliders it shows the stills."""
 BROWSERS = (
     *("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "msedge"),
     r"C:\Program Files\Google\Chrome\Application\chrome.exe",
@@ -46,9 +46,9 @@ NO_BROWSER_ERROR = (
     say("there is no Chromium to print it"),
     say("install Chromium or Chrome, or print the page of --html from your browser"),
 )
-"""Why there is no PDF, and what to do."""
+"""Fault and remedy where there is no browser to print with."""
 PRINT_SECONDS = 120
-"""Seconds that printing may take."""
+"""The time limit of printing [s]."""
 NOTEBOOK_FILE, PAGE_FILE, PRINT_FILE = "notebook.ipynb", "notebook.html", "notebook.pdf"
 
 
@@ -105,7 +105,7 @@ def write_notebook(task: Task | ArcsTask) -> NotebookNode:
 
 
 def notebook_of(solution: AnySolution) -> NotebookNode:
-    """The same of a task that is solved, with all that its chain draws.
+    """The notebook of a solution, with all constructions of its chain; see :func:`write_notebook`.
 
     >>> import graphcam as gc
     >>> notebook_of(gc.solve(gc.builtin_task("flat"))) == write_notebook(gc.builtin_task("flat"))
@@ -141,7 +141,7 @@ def notebook_of(solution: AnySolution) -> NotebookNode:
 
 
 def notebook_title(task: Task | ArcsTask) -> str:
-    """What the notebook of a task is called: as its sheet."""
+    """The title of a task's notebook, which is that of its sheet."""
     tell = task.drawing.tell
     return task.title.translated_name(tell) or tell(DEFAULT_NAME)
 
@@ -159,7 +159,7 @@ def _hidden_cell(source: str) -> NotebookNode:
 
 
 def _chapter(number: int, name: str, solution: AnySolution) -> list[NotebookNode]:
-    """Number, title, why and steps of a construction of the solution, or of its spring."""
+    """Title, reason and steps of a construction of the solution, or of its spring, as cells."""
     meaning = all_constructions(solution)[name].meaning
     title = say("{number}. {title}", number=number, title=meaning.title)
     of = "solution" if name in solution.drawn else "solution.spring"
@@ -170,7 +170,7 @@ def _chapter(number: int, name: str, solution: AnySolution) -> list[NotebookNode
 
 
 def _asked_quantities(solution: AnySolution) -> list[str]:
-    """The quantities that a reader of the drawing is asked for."""
+    """The names of the quantities that a reader of the drawing is asked for."""
     asked = ("max_v", "minimum_prime_radius", "max_pressure_angle_rise_deg", "min_pitch_curvature_radius", "lift")
     quantities = solution.comparison.quantities
     return [name for name in asked if name in quantities and quantities[name].drawn == quantities[name].drawn]
@@ -184,7 +184,7 @@ def _question_cells(solution: AnySolution, name: str) -> list[NotebookNode]:
 
 
 def _parts(solution: AnySolution) -> str:
-    """A slider for the number of parts, on the drawing that shows them best."""
+    """The code of a slider for the number of parts, on the drawing that shows them best."""
     arcs = isinstance(solution, ArcsSolution)
     construction, view = ("arc_diagrams", "acceleration") if arcs else ("integration", "displacement")
     start = solution.task.drawing.divisions
@@ -194,10 +194,10 @@ def _parts(solution: AnySolution) -> str:
 
 
 class _Renderer(IPythonRenderer):
-    """Markdown with formulas as MathML, which browsers draw without a script."""
+    """A renderer of Markdown with formulas as MathML, which browsers draw without a script."""
 
     def block_math(self, body: str) -> str:
-        """A formula on lines of its own."""
+        """A formula on a line of its own."""
         return mathml(body, "block")
 
     def inline_math(self, body: str) -> str:
@@ -205,7 +205,7 @@ class _Renderer(IPythonRenderer):
         return mathml(body)
 
     def latex_environment(self, name: str, body: str) -> str:
-        """A named arrangement of formulas, such as aligned ones."""
+        """An environment of LaTeX, such as aligned formulas."""
         return mathml(f"\\begin{{{name}}}{body}\\end{{{name}}}", "block")
 
 
@@ -239,12 +239,12 @@ def to_html(notebook: NotebookNode, title: str, language: str = "en") -> str:
 
 
 def browser() -> str | None:
-    """The path of an installed Chromium, or None."""
+    """The path of an installed browser of Chromium's family, or None."""
     return next((path for name in BROWSERS if (path := shutil.which(name))), None)
 
 
 def print_pdf(page: Path, pdf: Path) -> None:
-    """Print a page's file as PDF.
+    """Print the file of a page as PDF.
 
     Raises
     ------
@@ -279,7 +279,7 @@ def write_folder(
 ) -> list[str]:
     """Write the notebook of a task into a folder: all of it, or nothing.
 
-    run : executes it; html, pdf : make a page of it, which executes it too
+    run : whether it is executed; html, pdf : whether a page is made of it, which executes it too
     returns : the names of the files
 
     Raises

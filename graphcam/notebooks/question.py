@@ -1,4 +1,4 @@
-"""Questions of the cells in which the reader tries it: an answer gets a verdict or a hint, never the number."""
+"""Questions in a notebook: an answer gets a verdict or a hint, never the number."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from graphcam.language import MINUS_SIGN
 from graphcam.words import Caption, Tell, Words, say
 
 EXAMPLE_NUMBER = 12.3
-"""How a number is written."""
+"""The example in the hint on how numbers are written."""
 CAREFUL_HAND_ERROR = 1.0
-"""How far a careful drawing may be off [mm of paper]: twice half a division, for a line drawn and a length read."""
+"""The error permitted to a careful drawing [mm of paper]: twice half a division, for drawing and reading."""
 RIGHT_VERDICT, NEARLY_VERDICT, WRONG_VERDICT, OPEN_VERDICT = "right", "nearly", "wrong", "open"
 PAPER_LENGTH_HINT = say("that is the length on paper; multiply it by the scale")
 DOUBLE_STOP_PATTERN = re.compile(r"([.?!…。？！])[.。](?=\s|$)")
-"""A stop after a sentence that ends already: of a hint, or of a place that is asked about."""
+"""A full stop after a sign that ends the sentence already."""
 ROUGH_TOLERANCES = 3.0
-"""Up to so many tolerances the way was right and the hand was not."""
+"""The error, in tolerances, up to which a wrong answer counts as the right way drawn roughly."""
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What an answer gets: ``status`` is "right", "nearly", "wrong" or "open"; ``text`` says it."""
+    """The verdict on an answer: ``status`` is "right", "nearly", "wrong" or "open"; ``text`` is for the reader."""
 
     status: str
     text: str
@@ -44,7 +44,7 @@ class Question:
     value, tolerance : in ``unit``
     look : where to look again if nothing else is known ("step 3")
     mistakes : hints by the wrong answer that each belongs to
-    tell : says the texts of the verdicts; ``look`` and ``mistakes`` are said as they are
+    tell : translates the texts of the verdicts; ``look`` and ``mistakes`` stay as they are
 
     >>> radius = Question(43.28, 0.6, "mm", "step 5", {"the distance is still in mm of paper": 72.13})
     >>> print(radius.check(43.0).text)
@@ -66,7 +66,7 @@ class Question:
     def of(
         cls, reading: Reading, look: str, mistakes: Mapping[str, float] | None = None, at: int | None = None
     ) -> Question:
-        """The question for a reading, to be answered as a careful hand draws; ``at`` is the station.
+        """The question for a reading, with the tolerance of a careful drawing; ``at`` is the station.
 
         >>> from graphcam.drafting.ink import reading
         >>> print(Question.of(reading(50.0, 0.6, "mm"), "step 7").check(50.0).text)
@@ -79,7 +79,7 @@ class Question:
 
     @classmethod
     def about(cls, quantity: Quantity, tell: Tell = str) -> Question:
-        """The question for a quantity of a solution, to be answered as a careful hand draws; ``tell`` says its texts.
+        """The question for a quantity of a solution, with the tolerance of a careful drawing.
 
         >>> import graphcam as gc
         >>> greatest = gc.solve(gc.builtin_task()).comparison.quantities["max_v"]
@@ -93,7 +93,7 @@ class Question:
         return cls(quantity.drawn, tolerance, quantity.unit, tell(quantity.title), mistakes, tell)
 
     def check(self, answer: float | str | None) -> Verdict:
-        """What the answer is worth; without one an invitation.
+        """The verdict on an answer; without an answer an invitation.
 
         answer : a number, or a text with one, with a decimal point or comma
 
@@ -153,7 +153,7 @@ class Question:
 
 
 def _number(given: float | str, units: tuple[str, ...]) -> float | None:
-    """The number that is given, perhaps as a text with its unit behind it; None where there is none.
+    """The number in an answer, which may be a text with a unit; None where there is none.
 
     >>> _number("−1 234,5 mm", ("mm",)), _number("1,234.5", ("mm",)), _number("5 cm", ("mm",))
     (-1234.5, None, None)

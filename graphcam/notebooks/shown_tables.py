@@ -1,4 +1,4 @@
-"""Tables of a notebook."""
+"""Tables of a notebook, in Markdown."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[object]], digits: int = 3) -> Markdown:
-    """A table: texts as they are, numbers with so many decimals.
+    """A table: texts stay as they are, numbers get ``digits`` decimals.
 
     >>> print(table(("law", "C"), [("2-3", 6.0)], digits=1).data)
     | law |   C |
@@ -35,7 +35,7 @@ def _cell(cell: object, digits: int) -> str:
 
 
 def comparison_table(solution: AnySolution, *names: str) -> Markdown:
-    """Drawn against exact, by the names of ``solution.json``; without a name all quantities that there are.
+    """The table of drawn and exact values, of quantities named as in ``solution.json``; without names of all.
 
     >>> import graphcam as gc
     >>> print(comparison_table(gc.solve(gc.builtin_task()), "max_v").data.splitlines()[2].split("|")[1:4])
@@ -54,7 +54,7 @@ def comparison_table(solution: AnySolution, *names: str) -> Markdown:
 
 
 def error_budget(solution: AnySolution, pencil: Pencil) -> Markdown:
-    """What a hand's acts of each kind bring to the scatter of every reading, in percent of its variance.
+    """The table of the share that each kind of act has in the scatter of every reading, in percent of its variance.
 
     >>> import graphcam as gc
     >>> print(error_budget(gc.solve(gc.builtin_task()), gc.Pencil.of(0.2)).data.splitlines()[2].split("|")[1:3])

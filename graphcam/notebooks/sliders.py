@@ -1,4 +1,4 @@
-"""Sliders, and what stands in their place where no kernel runs: a few positions of the slider side by side."""
+"""Sliders; where no kernel runs, pictures of a few positions stand side by side in their place."""
 
 import dataclasses
 from collections.abc import Callable, Mapping, Sequence
@@ -13,22 +13,22 @@ WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
 
 
 class ShownPosition(Protocol):
-    """What a notebook shows of a position: a picture, or several things under one another."""
+    """A picture, or several things under one another, for one position of the sliders."""
 
     @property
     def html(self) -> str:
-        """As part of a web page."""
+        """The HTML of this position."""
         ...
 
 
 @dataclass(frozen=True)
 class Slider:
-    """A quantity to be moved.
+    """A quantity that the reader can change.
 
-    label : what it is called beside the slider
+    label : the text beside the slider
     values : its positions
-    start : the one at which it begins
-    shown : the positions that the page shows where there is no slider; by default the start alone
+    start : the position at the beginning
+    shown : the positions on a page without sliders; by default the start alone
     """
 
     label: str
@@ -46,7 +46,7 @@ class Exploration:
 
     @property
     def html(self) -> str:
-        """The still pictures: each slider's ``shown`` positions while the others stand at their start."""
+        """The pictures without a kernel: each slider's ``shown`` positions while the others stand at their start."""
         start = {name: slider.start for name, slider in self.sliders.items()}
         moved = [(name, value) for name, slider in self.sliders.items() for value in slider.shown]
         if not moved:
@@ -74,7 +74,7 @@ class Exploration:
         }
 
         def redraw(_: Any) -> None:
-            """Show the picture for where the sliders are now."""
+            """Show the picture for the present positions of the sliders."""
             picture.value = self.draw(**{name: control.value for name, control in controls.items()}).html
 
         for control in controls.values():
@@ -83,7 +83,7 @@ class Exploration:
 
 
 def side_by_side(stills: Mapping[str, ShownPosition]) -> str:
-    """Still pictures as part of a web page, each under what is said of it.
+    """Pictures side by side as HTML, each under its label.
 
     >>> from graphcam.notebooks.construction_stages import Picture
     >>> side_by_side({"4 parts": Picture("<svg/>", "a square")})[:47]
@@ -98,9 +98,9 @@ def _view(widget: Any) -> dict[str, Any]:
 
 
 def explore(draw: Callable[..., ShownPosition], **sliders: Slider) -> Exploration:
-    """Move quantities and see the drawing change.
+    """Sliders, and the drawing that follows them.
 
-    draw : makes what is shown of the sliders' values, by their names
+    draw : makes the picture; its keyword arguments are the values of the sliders
 
     >>> from graphcam.notebooks.construction_stages import Picture
     >>> parts = Slider("parts", range(4, 25, 4), 12, shown=(4, 12))
@@ -123,7 +123,7 @@ def changed_task(task: AnyTask, values: Mapping[str, Any]) -> AnyTask:
 
     Raises
     ------
-    DesignError : the task has no such key, or its value cannot be
+    DesignError : the task has no such key, or the value is impossible
     """
     for name, value in values.items():
         task = _replaced(task, name, name.split("."), value)

@@ -1,1 +1,1 @@
-"""Plots: values as figures of matplotlib and as pictures of a notebook, one module for each kind of value."""
+"""Plots: values as matplotlib figures, and as pictures in a notebook; one module for each kind of value."""

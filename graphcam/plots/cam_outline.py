@@ -25,7 +25,7 @@ SENSE_NAMES = {"ccw": "anticlockwise", "cw": "clockwise"}
 
 
 def plot(cam: Cam, on: Axes | Figure | None = None) -> Axes:
-    """Draw a cam in its own coordinates, mm, as it stands at the start of the turn."""
+    """Draw a cam in its own coordinates [mm], as it stands at the start of the turn; returns the axes."""
     axes = axes_on(on, *FIGURE_SIZE)
     phi = turn(cam.motion.breaks)
     pitch, profile = cam.pitch_curve(phi), cam.profile(phi)
@@ -54,12 +54,12 @@ def turn(breaks: Floats) -> Floats:
 
 
 def mark_centre(axes: Axes) -> None:
-    """The cam centre."""
+    """Draw a cross at the cam centre."""
     axes.plot([0.0], [0.0], "+", color=ACCENT, markersize=10, label="cam centre")
 
 
 def finish_axes(axes: Axes) -> Axes:
-    """Equal scales, what the axes measure, and the legend below the cam, in room of its own."""
+    """Set equal scales and axis labels, and put the legend below the cam, in room of its own; returns the axes."""
     bottom, top = axes.get_ylim()
     axes.set(xlabel="x, mm", ylabel="y, mm", aspect="equal", ylim=(bottom - LEGEND_ROOM * (top - bottom), top))
     axes.legend(loc="lower center", ncols=2, frameon=False, fontsize="small")
@@ -67,11 +67,11 @@ def finish_axes(axes: Axes) -> Axes:
 
 
 MAX_CENTRE_DISTANCE = 1.2
-"""A centre farther away than so many of the cam's greatest radii is not shown."""
+"""The distance up to which a centre is shown, as a multiple of the cam's maximum radius."""
 
 
 def plot_arcs(cam: ThreeArcCam, on: Axes | Figure | None = None) -> Axes:
-    """Draw the profile of a sound cam, its flank's arcs and their centres, in mm."""
+    """Draw the profile of a sound cam, its flank's arcs and their centres [mm]; returns the axes."""
     motion = cam.motion()  # of a knife edge, which runs on the profile itself
     axes = axes_on(on, *FIGURE_SIZE)
     axes.plot(*motion.pitch_curve(turn(motion.breaks)).T, color=BLACK, linewidth=2.0, label="profile")

@@ -1,4 +1,4 @@
-"""A construction as it is drawn, all of it or up to a step; a step alone, and all constructions of a cam."""
+"""Constructions as plots: one as a whole or up to a step, a single step, or all constructions of a cam."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from graphcam.solving.arcs_solution import AnySolution
 from graphcam.words import say
 
 FIGURE_MARGIN = 1.0
-"""What the axes of a new figure need beside the drawing [inches]."""
+"""The margin of a new figure around the drawing [inches]."""
 
 
 def plot(
     drawn: Construction | Step | Mapping[str, Construction], on: Axes | Figure | None = None, step: int | None = None
 ) -> Axes:
-    """Draw on axes in mm of paper from the origin of the first view.
+    """Draw on axes in mm of paper from the origin of the first view; returns the axes.
 
     step : index of the last step that is drawn, which is in colour; by default all are
 
@@ -55,7 +55,7 @@ def plot(
 
 
 def plot_sheet(solution: AnySolution, on: Axes | Figure | None = None) -> Axes:
-    """Draw the first page of the finished sheet on axes in mm of paper, from its lower left corner."""
+    """Draw the first page of the finished sheet on axes in mm of paper from its lower left corner; returns them."""
     page = sheet_of(solution).pages[0]
     axes = axes_on(on, page.width / MM_PER_INCH, page.height / MM_PER_INCH)
     draw_on(axes, page)

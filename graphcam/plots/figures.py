@@ -32,7 +32,7 @@ def axes_on(on: Axes | FigureBase | None, width: float, height: float) -> Axes:
 
 
 def svg_of(shown: Plottable) -> str:
-    """What a value plots, as SVG; pyplot hears nothing of it.
+    """A value's plot as SVG text, made without pyplot.
 
     >>> import graphcam as gc
     >>> svg_of(gc.builtin_task().motion()).startswith("<?xml")
@@ -44,7 +44,7 @@ def svg_of(shown: Plottable) -> str:
 
 
 def figure_svg(figure: Figure) -> str:
-    """A figure as SVG, cut to what is drawn."""
+    """A figure as SVG text, cropped to what is drawn."""
     text = StringIO()
     # Letters as letters, and nothing that changes from one run to the next.
     with mpl.rc_context({"svg.fonttype": "none", "svg.hashsalt": "graphcam"}):

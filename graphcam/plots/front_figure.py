@@ -1,4 +1,4 @@
-"""The front of size and pressure angle that a sweep found, as a figure."""
+"""The Pareto front of size and pressure angle that a sweep found, as a figure."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ FIGURE_SIZE = 6.4, 4.2
 
 
 def front_figure(front: Columns, limit: float) -> Figure:
-    """The designs of a front over their size, what none of all designs reaches, and the permitted pressure angle.
+    """The figure of a front: its designs, the region that no design reaches, and the permitted pressure angle.
 
     front : by column, with the pressure angle [degrees];  limit : of the pressure angle on the rise [degrees]
     """

@@ -1,4 +1,4 @@
-"""A motion over one turn of the cam: s, v, a and j one under the other."""
+"""A motion over one turn of the cam: s, v, a and j one under the other, and the bands of its tolerances."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from graphcam.plots.figures import axes_on
 from graphcam.sheets.styles import ACCENT, BLACK, CURRENT_COLOUR, GREY
 
 CURVE_LABELS = (("lift s", BLACK), ("v = ds/dφ", CURRENT_COLOUR), ("a = dv/dφ", ACCENT), ("j = da/dφ", GREY))
-"""What the axes say, and the colour of the curve, from the top."""
+"""Axis label and colour of each curve, from the top."""
 ANGLE_LABEL = "cam angle φ, degrees\ns in mm, of an arm in rad; v, a and j per rad of cam angle"
 FIGURE_SIZE = 7.0, 7.0
 """The size of a new figure [inches]."""
@@ -25,13 +25,13 @@ PIECE_POINTS = 61
 DIAGRAM_GAP = 0.03
 """The gap between two diagrams, as a part of the axes."""
 AXIS_NAME_OFFSET = -0.125
-"""The place of the names of the axes, as a part of the diagram's width."""
+"""The horizontal place of the axis labels, as a part of the diagram's width."""
 MIN_NAME_ANGLE, MIN_UPRIGHT_NAME_ANGLE = 28.0, 8.0
-"""A phase of at least so many degrees has room for its name, one of at least so many for its name turned."""
+"""The minimum angles of a phase [degrees] for its name, and for its name turned upright."""
 
 
 class PhasedMotion(Protocol):
-    """What is drawn here: a motion of phases or of arcs."""
+    """A motion that can be drawn here, of phases or of arcs."""
 
     @property
     def breaks(self) -> Floats:
@@ -40,7 +40,7 @@ class PhasedMotion(Protocol):
 
     @property
     def timing(self) -> list[tuple[str, float, float]]:
-        """The kind of every phase, and the cam angles [rad] from which and to which it lasts."""
+        """For each phase its kind, and the cam angles [rad] where it begins and ends."""
         ...
 
     def __call__(self, phi: ArrayLike, side: Side = "right") -> tuple[Floats, Floats, Floats, Floats]:
@@ -75,7 +75,7 @@ def plot(motion: PhasedMotion, on: Axes | Figure | None = None) -> Axes:
 
 
 def _curves(motion: PhasedMotion) -> tuple[Floats, Floats]:
-    """Cam angles [rad] over the turn, those of jumps twice, and (4, n) the values there, of both sides of a jump."""
+    """Cam angles (n,) [rad] over the turn, those of jumps twice, and (4, n) the values of s, v, a, j there."""
     ends = np.append(motion.breaks, FULL_TURN)
     phi = np.linspace(ends[:-1], ends[1:], PIECE_POINTS, axis=1)
     right, left = np.array(motion(phi[:, :-1])), np.array(motion(phi[:, -1:], "left"))
@@ -83,7 +83,7 @@ def _curves(motion: PhasedMotion) -> tuple[Floats, Floats]:
 
 
 def _name_phases(diagram: Axes, motion: PhasedMotion) -> None:
-    """The name of every phase over the diagram."""
+    """Write the name of every phase over the diagram."""
     for kind, start, end in motion.timing:
         wide = np.degrees(end - start)
         if wide >= MIN_UPRIGHT_NAME_ANGLE:
@@ -93,13 +93,13 @@ def _name_phases(diagram: Axes, motion: PhasedMotion) -> None:
 
 
 SIZE_OF_BANDS = 7.0, 7.5
-"""The size of a new figure [inches]."""
+"""The size of a new figure of bands [inches]."""
 CURVE_SYMBOLS = "s", "v", "a"
 BAND_HEIGHT_SHARE = 0.12
-"""The widest place of a band is drawn about so many times as high as the nominal curve ranges."""
+"""The height of a band at its widest, as a part of the range of the nominal curve."""
 ROUND_FACTORS = 1.0, 2.0, 5.0, 10.0
 BEFORE_BANDS = -0.12
-"""The place of the names of the axes, as a part of the diagrams' width."""
+"""The horizontal place of the axis labels beside bands, as a part of the diagrams' width."""
 
 
 def plot_bands(bands: MotionBands, on: Axes | Figure | None = None) -> Axes:
@@ -136,7 +136,7 @@ def plot_bands(bands: MotionBands, on: Axes | Figure | None = None) -> Axes:
 
 
 def magnified(nominal: Floats, half_width: Floats) -> float:
-    """How many times as wide a band is drawn, a round number.
+    """The factor, a round number, by which bands are drawn wider.
 
     >>> magnified(np.array([0.0, 30.0]), np.array([0.01, 0.02]))
     100.0

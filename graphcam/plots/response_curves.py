@@ -1,4 +1,4 @@
-"""An elastic follower: its response to one rise, and its steady motion over a turn."""
+"""An elastic follower: its response to one rise, its steady motion over a turn, and shock spectra."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from graphcam.sheets.styles import ACCENT, BLACK, CURRENT_COLOUR, GREY
 FIGURE_SIZE = 7.0, 5.0
 """The size of a new figure [inches]."""
 POINTS_PER_PERIOD, MIN_POINTS = 24, 400
-"""Points of a curve in a natural period, and in all."""
+"""Points of a curve in a natural period, and the minimum number in all."""
 SHOWN_AFTER_RISE = 0.6, 3.0
 """The time shown after the rise: rise times, or natural periods, whichever is longer."""
 AXIS_NAME_OFFSET = -0.11
-"""The place of the names of the axes, as a part of the diagrams' width."""
+"""The horizontal place of the axis labels, as a part of the diagrams' width."""
 
 
 def plot(shown: FollowerResponse | VibratingFollower, on: Axes | Figure | None = None) -> Axes:
@@ -44,7 +44,7 @@ def plot(shown: FollowerResponse | VibratingFollower, on: Axes | Figure | None =
 
 
 def _response(response: FollowerResponse, upper: Axes, lower: Axes) -> None:
-    """Plot over the time where the cam is and where the mass is, and their accelerations."""
+    """Plot displacement and acceleration of the cam and of the mass over the time."""
     end = response.event.end
     until = end + max(SHOWN_AFTER_RISE[0], SHOWN_AFTER_RISE[1] / response.n)
     u = np.linspace(0, until, MIN_POINTS + round(POINTS_PER_PERIOD * response.n * until))
@@ -71,7 +71,7 @@ def _response(response: FollowerResponse, upper: Axes, lower: Axes) -> None:
 
 
 def _turn(follower: VibratingFollower, upper: Axes, lower: Axes) -> None:
-    """Plot over the turn the cam's and the mass's acceleration, and the force on the cam."""
+    """Plot the acceleration of the cam and of the mass, and the force on the cam, over the turn."""
     phi = _dense(follower)
     found = follower(phi)
     degrees = np.degrees(phi)
@@ -93,7 +93,7 @@ def _turn(follower: VibratingFollower, upper: Axes, lower: Axes) -> None:
 
 
 def _dense(follower: VibratingFollower) -> Floats:
-    """Cam angles [rad] over the turn, on both sides of every break, so dense that vibrations are seen."""
+    """Cam angles (n,) [rad] over the turn, on both sides of every break, close enough to show the vibrations."""
     breaks = follower.motion.breaks
     phi = np.linspace(0, FULL_TURN, MIN_POINTS + round(POINTS_PER_PERIOD * follower.vibrations))
     before = np.nextafter(breaks[breaks > 0], 0)
@@ -101,19 +101,19 @@ def _dense(follower: VibratingFollower) -> Floats:
 
 
 SIZE_OF_SPECTRUM = 7.0, 4.2
-"""The size of a new figure [inches]."""
+"""The size of a new figure of a spectrum [inches]."""
 LEGEND_OFFSET = -0.16
-"""The place where the legend begins, as a part of the diagram's height."""
+"""The vertical place of the legend, as a part of the diagram's height."""
 AXIS_ROOM = 1.05
-"""The height of the axes, as a multiple of the highest value."""
+"""The height of the axes, as a multiple of the maximum value."""
 MIN_CURVE_POINTS = 3
-"""Fewer ratios are points and no curve."""
+"""The minimum number of ratios that are joined by a curve; fewer are points."""
 MAX_LINEAR_DECADES = 2.0
-"""Ratios over more decades stand on a scale of logarithms."""
+"""The maximum number of decades of the ratios on a linear scale; more stand on a logarithmic one."""
 
 
 def plot_spectrum(spectrum: ShockSpectrum, on: Axes | Figure | None = None) -> Axes:
-    """Draw primary and residual accelerations over n, with the cam's own greatest acceleration."""
+    """Draw primary and residual accelerations over n, with the cam's own maximum acceleration; returns the axes."""
     axes = axes_on(on, *SIZE_OF_SPECTRUM)
     order = np.argsort(spectrum.n)
     n = spectrum.n[order]

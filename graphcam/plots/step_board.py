@@ -19,22 +19,22 @@ from graphcam.sheets.view_panels import Panel, clusters, panels, stand
 from graphcam.words import Tell
 
 LETTER_HEIGHTS = Lettering(3.5, 3.0, 2.4)
-"""Heights of letters [mm], for a drawing that is read on a screen."""
+"""Heights of letters [mm] in a drawing for the screen."""
 MAX_WIDTH, MAX_HEIGHT = 230.0, 175.0
-"""What a screen shows well [mm]: a larger view is shown reduced."""
+"""The maximum width and height of a view on a screen [mm]; a larger view is shown reduced."""
 DRAWING_MARGIN = 5.0
-"""Free margin around a drawing, where its outermost labels find room [mm]."""
+"""The free margin around a drawing for its outermost labels [mm]."""
 VIEW_GAP = 8.0
 """The gap between views [mm]."""
 MAX_ASPECT_RATIO = 1.1
-"""Views that share no axis are laid out in columns, so that all are at most about so many times as wide as high."""
+"""The width over height that columns of views without a common axis do not exceed by much."""
 
 
 @dataclass(frozen=True, eq=False)
 class StepBoard:
-    """Views of constructions with all that is drawn in them, so that nothing moves from one step to the next.
+    """Views with all that constructions draw in them, laid out once, so that nothing moves from step to step.
 
-    former : steps that were drawn in the same views before, of the constructions that these start from
+    former : earlier steps in the same views, of the constructions that these start from
     steps : the steps themselves
     """
 
@@ -48,12 +48,12 @@ class StepBoard:
 
     @cached_property
     def by_view(self) -> dict[str, StepBoard]:
-        """Every view on a board of its own."""
+        """A board for each view alone, by the view's name."""
         return {name: StepBoard(_in_view(self.former, name), _in_view(self.steps, name)) for name in self.views}
 
     @cached_property
     def factor(self) -> float:
-        """What all views are shown reduced by."""
+        """The factor by which all views are reduced."""
         sizes = [panel.content for panel in self._full_size]
         return min(1.0, *(min(MAX_WIDTH / size.width, MAX_HEIGHT / size.height) for size in sizes))
 
@@ -68,7 +68,7 @@ class StepBoard:
 
     @cached_property
     def _view_origins(self) -> dict[str, tuple[Panel, complex]]:
-        """The views by name, each with its origin, that of the first one at 0."""
+        """By name the views and their origins [mm], the first one's at 0."""
         shown, factor = self._full_size, self.factor
         return _arranged(shown if factor == 1.0 else [replace(panel, factor=factor) for panel in shown])
 
@@ -85,7 +85,7 @@ class StepBoard:
 
     @cached_property
     def _titles(self) -> tuple[Entity, ...]:
-        """The titles of several views; a single one is named beside the drawing."""
+        """The titles of several views; a single view has none, since the text beside the drawing names it."""
         titles = (e for panel, at in self._view_origins.values() for e in panel.title(self.origin + at))
         return tuple(titles) if self._has_titles else ()
 
@@ -98,7 +98,7 @@ class StepBoard:
         return lettered(expanded, self._titles, self._box.moved(self.origin))
 
     def page(self, current: int | None = None, part: int | None = None) -> Page:
-        """The drawing up to the own step of that index, which is in colour; by default the finished drawing.
+        """The drawing up to the step with index ``current``, which is in colour; by default the finished drawing.
 
         part : index of the part up to which the step is drawn, which alone is in colour then; by default all are
         """
@@ -117,7 +117,7 @@ class StepBoard:
 
 
 def _up_to(step: Step, part: int, entities: Sequence[Entity]) -> list[tuple[str, list[Entity]]]:
-    """What stands of a step before a part of it, and what the part adds.
+    """The stages of a step up to a part of it, each with its entities: what stood before, and what the part adds.
 
     What no part draws, such as the number of a reading, comes with the last of them; what is given is there before.
     """
@@ -129,7 +129,7 @@ def _up_to(step: Step, part: int, entities: Sequence[Entity]) -> list[tuple[str,
     given = {mark.of for mark in step.given}
 
     def since(source: Source | None, at: int | None) -> int:
-        """The part with which a piece is drawn; -1 if it is there before."""
+        """The index of the part that draws a piece; -1 if the piece is there before."""
         if source is None or (source.of in given and source.of not in places):
             return -1
         of_act = places.get(source.of, {})
@@ -146,10 +146,10 @@ def _in_view(steps: Sequence[Step], name: str) -> tuple[Step, ...]:
 
 @dataclass
 class Column:
-    """Views one under the other.
+    """A column of views one under the other.
 
-    left, width : where it stands
-    down : how far it is filled
+    left, width : mm of the drawing
+    down : the height that is filled [mm]
     """
 
     left: float
@@ -158,7 +158,7 @@ class Column:
 
 
 def _arranged(views: Sequence[Panel]) -> dict[str, tuple[Panel, complex]]:
-    """Views by name with their origins, the first one's 0: those that share an axis as it asks, others in columns."""
+    """Views by name with their origins, the first one's at 0: along their common axes, otherwise in columns."""
     if len(views) == 1:
         return {views[0].view.name: (views[0], 0j)}
     groups = [(group, stand(group, VIEW_GAP)) for group in clusters(views)]
@@ -184,7 +184,7 @@ def _arranged(views: Sequence[Panel]) -> dict[str, tuple[Panel, complex]]:
 
 
 def ancestors(construction: Construction) -> list[Construction]:
-    """The constructions that one starts from, directly or not, the first drawn first.
+    """The constructions that one starts from, directly or indirectly, in the order of drawing.
 
     >>> import graphcam as gc
     >>> [c.name for c in ancestors(gc.solve(gc.builtin_task()).drawn["minimum_radius"])]
@@ -198,9 +198,9 @@ def ancestors(construction: Construction) -> list[Construction]:
 
 
 def board_of(construction: Construction, tell: Tell = str, on: Construction | None = None) -> StepBoard:
-    """The views that a construction draws in, each with what stood in it before.
+    """The board of a construction: the views that it draws in, with what was drawn in them before.
 
-    on : a construction that it does not start from, but is drawn over
+    on : a construction over which it is drawn, though it does not start from it
     """
     board = StepBoard((), tuple(step.translated(tell) for step in construction.steps()))
     before = (*ancestors(construction), *([on] if on else ()))
