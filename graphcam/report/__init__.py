@@ -1,1 +1,1 @@
-"""What a solution is handed in as: sheets, note, tables, step player and profile, together in one folder."""
+"""The files of a solution: sheets, note, tables, step player and profile, together in one folder."""

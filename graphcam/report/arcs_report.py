@@ -42,7 +42,7 @@ ARC_SIZES_TITLE, MOTION_TITLE = say("Sizes of the arcs: drawn and exact"), say("
 
 
 def arcs_contents(solution: ArcsSolution) -> Contents:
-    """What stands on its sheets: the arcs, the roller on them, the diagrams, the data, drawn against exact values."""
+    """The contents of its sheets: the arcs, the roller on them, the diagrams, the data, drawn against exact values."""
     quantities = solution.comparison.quantities
     # In two tables, so that they fit on the smallest format.
     on_arcs = {said.name for _, said in solution.drawn["three_arcs"].meaning.compared_readings}
@@ -79,7 +79,7 @@ def _data(solution: ArcsSolution) -> Table:
 
 
 def _at_speed(solution: ArcsSolution) -> list[Row]:
-    """The speed, and the greatest velocity and acceleration at it."""
+    """Rows of the data: the speed, and the maximum velocity and acceleration at it."""
     rpm = solution.task.speed_rpm
     if rpm is None:
         return []
@@ -93,7 +93,7 @@ def _at_speed(solution: ArcsSolution) -> list[Row]:
 
 
 def arcs_note(solution: ArcsSolution) -> str:
-    """The note in Markdown.
+    """The note of a cam of arcs, in Markdown.
 
     >>> import graphcam as gc
     >>> "C1, F, C3 instead of F, C1, C3" in arcs_note(gc.solve(gc.builtin_arcs_task()))
@@ -121,7 +121,7 @@ def arcs_note(solution: ArcsSolution) -> str:
 
 
 def _roots(solution: ArcsSolution) -> list[Block]:
-    """Both roots, exactly, and why one of them is taken."""
+    """The paragraphs on both roots, exactly, and on the reason for taking one of them."""
     first, second = solution.roots
     rows = [_root(say("first"), first), _root(say("second"), second)]
     why = say("- The first root: {why}", why=first.reason), say("- The second root: {why}", why=second.reason)

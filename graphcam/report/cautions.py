@@ -1,4 +1,4 @@
-"""The note's chapter on a construction: its steps as prose, and what the note alone says below them."""
+"""The note's chapter on a construction: its steps as prose, and cautions below them."""
 
 import math
 from collections.abc import Callable, Iterator, Mapping
@@ -24,12 +24,12 @@ from graphcam.solving.solution import Solution
 from graphcam.words import Caption, Tell, Words, joined, say, sequence
 
 LAST_DIGIT = 0.005
-"""Lengths [mm] and angles [degrees] are told to two decimals; what differs by less does not differ in print."""
+"""The difference that is not seen in print: lengths [mm] and angles [degrees] have two decimals."""
 ONE_DEGREE = math.radians(1)
 
 
 def ordinates(solution: Solution) -> Iterator[Block]:
-    """The phases with their laws' factors, and the ordinates that follow."""
+    """The table of the phases, with the factors of their laws and the ordinates that follow."""
     diagram, motion, stations = solution.drawn["acceleration"], solution.cam.motion, solution.chain.board.stations
     phases, index = moving_phases(motion, stations), stations.phase[stations.last].tolist()
     rows = [
@@ -45,14 +45,14 @@ def ordinates(solution: Solution) -> Iterator[Block]:
 
 
 def in_degrees(solution: Solution) -> Iterator[Block]:
-    """The lift of an arm, as a protractor has it."""
+    """The paragraph on the lift of an arm in degrees, as a protractor has it."""
     if solution.drawn["integration"].readings["s"].unit == "rad":
         said = say("The displacement $s$ is the angle of the arm: in degrees the lift is {lift}°.")
         yield said.with_values(lift=general(math.degrees(solution.cam.motion.lift)))
 
 
 def sensitivity(solution: Solution) -> Iterator[Block]:
-    """What an ideal pencil reads, and what one more degree of permitted angle is worth, both drawn again."""
+    """The paragraph on what an ideal pencil reads, and on the gain of one more permitted degree, both drawn again."""
     chain, limits = solution.chain, solution.chain.board.limits
     if (least := chain.adopted().least) and not chain.pencil.perfect and not math.isnan(least):
         yield say("The ideal pencil gives {radius} mm.", radius=number(least))
@@ -74,7 +74,7 @@ def sensitivity(solution: Solution) -> Iterator[Block]:
 
 
 def permitted_bend(solution: Solution) -> Iterator[Block]:
-    """Under a flat face, the least radius of curvature beside the permitted one."""
+    """The paragraph on the minimum radius of curvature under a flat face, beside the permitted one."""
     least = solution.task.limits.min_curvature_radius
     if "pressure_angle" in solution.drawn or least is None:
         return
@@ -85,7 +85,7 @@ def permitted_bend(solution: Solution) -> Iterator[Block]:
 
 
 def perfect_roller(solution: Solution) -> Iterator[Block]:
-    """What an ideal pencil makes of the rule."""
+    """The paragraph on the roller radius that the rule gives with an ideal pencil."""
     if not solution.chain.pencil.perfect and solution.chain.board.roller_radius is None:
         perfect = float(solution.chain.perfect.roller.value("roller_radius"))
         yield say("The ideal pencil gives {radius} mm.", radius=number(perfect))
@@ -108,7 +108,7 @@ EXCEEDED_CAPTIONS = {
 
 
 def greatest_angles(solution: Solution) -> Iterator[Block]:
-    """The maxima inside the phases, and why a limit is exceeded, or by how much the exact angle exceeds it."""
+    """The paragraph on the maximum angles inside the phases, and on why and by how much a limit is exceeded."""
     plotted, board, extremes = solution.drawn["angle_diagram"], solution.chain.board, solution.cam.extremes()
     exactly = {"rise": extremes.pressure_angle_rise[0], "return": extremes.pressure_angle_return[0]}
     for name, limit in (("rise", board.limits.rise), ("return", board.limits.return_)):
@@ -144,7 +144,7 @@ def _why_exceeded(name: str, angle: float, solution: Solution) -> Caption:
 
 
 def undercut(solution: Solution) -> Iterator[Block]:
-    """Whether the profile is undercut, and what to do."""
+    """The paragraph on whether the profile is undercut, and the remedy."""
     if "roller" not in solution.drawn:
         return
     rho, radius = float(solution.drawn["curvature"].value("rho")), solution.chain.roller_radius
@@ -169,7 +169,7 @@ def undercut(solution: Solution) -> Iterator[Block]:
 
 
 def jerks(solution: Solution) -> Iterator[Block]:
-    """At a speed the greatest jerk over time; all parts drawn and exact; where the jerk is infinite."""
+    """The jerk: its maximum over time at a speed, all parts drawn and exact, and where it is infinite."""
     c, board = solution.drawn["jerk"], solution.chain.board
     read, of_lift = c.readings["j"], board.follower.unit
     if board.omega is not None:
@@ -206,25 +206,25 @@ CAUTIONS: Mapping[str, Callable[[Solution], Iterator[Block]]] = {
     "working_profile": undercut,
     "jerk": jerks,
 }
-"""What is said below the steps, by the name of the construction."""
+"""The paragraphs below the steps, by the name of the construction."""
 
 
 MOST_BESIDE = 3
-"""So many pairs of columns a table of places has at the most."""
+"""The maximum number of pairs of columns in a table of places."""
 WIDEST, BETWEEN = 108, 5
-"""So many letters stand in a line of a table, and so many are lost between the columns of a pair."""
+"""The maximum number of letters in a line of a table, and the letters lost between the columns of a pair."""
 MIN_TABLE_ROWS = 4
-"""So many places are told in the paragraph itself."""
+"""The number of places up to which the paragraph itself names them, without a table."""
 
 Known = set[tuple[str, str]]
-"""Letters with what they stand for."""
+"""Symbols of formulas, each with its meaning."""
 
 
 def chapter(drawn: Construction, number: int, of_lift: str, known: Known, tell: Tell) -> Iterator[Block]:
-    """Why it is drawn, and its steps in order, each with the formulas of the readings that it takes.
+    """The chapter: why the construction is drawn, and its steps in order with the formulas of their readings.
 
     number : of the chapter;  of_lift : the unit of the lift
-    known : the letters that earlier formulas explained, and then those of this chapter too
+    known : the symbols that earlier formulas explained; those of this chapter are added
     """
     yield drawn.meaning.why
     steps = steps_of({drawn.name: drawn})
@@ -239,7 +239,7 @@ def chapter(drawn: Construction, number: int, of_lift: str, known: Known, tell: 
 
 
 def _step(number: str, step: Step, tell: Tell) -> Iterator[Block]:
-    """A step in one paragraph, and the tables of its longer runs."""
+    """A step as one paragraph, with its formulas and the tables of its longer runs."""
     parts = step.parts
     runs = [part for part in parts if len({tell(row.setting) for row in part.rows}) > 1]
     short, long = ([part for part in runs if (len(part.rows) > MIN_TABLE_ROWS) is many] for many in (False, True))
@@ -250,7 +250,7 @@ def _step(number: str, step: Step, tell: Tell) -> Iterator[Block]:
 
 
 def _beside(part: Part, tell: Tell) -> Iterator[Caption]:
-    """The rows of a short run, but for those without a setting and those whose numbers its sentence has."""
+    """The rows of a short run, without those that have no setting or whose numbers the sentence has already."""
     said = tell(part.caption)
     for row in part.rows:
         setting = tell(row.setting)
@@ -260,7 +260,7 @@ def _beside(part: Part, tell: Tell) -> Iterator[Caption]:
 
 
 def _places(title: Caption, part: Part, tell: Tell) -> Grid:
-    """The settings of a run, in as many columns side by side as there is room for."""
+    """The table of a run's settings, in as many columns side by side as there is room for."""
     told = [(tell(row.name), tell(row.setting)) for row in part.rows]
     # A few long cells may be broken.
     widths = sorted(len(name) + len(setting) + BETWEEN for name, setting in told)
@@ -273,7 +273,7 @@ def _places(title: Caption, part: Part, tell: Tell) -> Grid:
 
 
 def _formula(said: Formula, drawn: Construction, of_lift: str, known: Known) -> Iterator[Block]:
-    """A formula in general, what its letters are, and what it comes to with the numbers; nothing where it has none."""
+    """A formula in general, its legend, and the formula with the numbers; nothing where there is none."""
     units = {"mm": unit("mm"), "rad_per_mm": per_mm("rad")}
     applied = [units | dict(each) for each in said.values(drawn)] if said.values else [units]
     if not applied:

@@ -1,4 +1,4 @@
-"""The documents that a solution gets, whichever kind of task it solves, at a scale that a page takes."""
+"""The documents of a solution, whichever kind of task it solves, at a scale for which a page has room."""
 
 import re
 from dataclasses import replace
@@ -24,11 +24,11 @@ from graphcam.solving.task_board import MAX_OVERSIZE, board_of, check_given_size
 from graphcam.words import say
 
 DECIMAL_COMMA = re.compile(r"<mn>(\d+)</mn><mrow><mo>&#x0002C;</mo></mrow><mn>(\d+)</mn>")
-"""A decimal comma, which is no operator with a gap behind it."""
+"""A decimal comma in MathML, which is no operator with a gap behind it."""
 TAG = re.compile(r"\\tag\{(\d+)\}")
 TABLE = re.compile("<table>(?=(.*?)</thead>)", re.DOTALL)
 MIN_WIDE_COLUMNS = 7
-"""Tables that have more of "<th" than this in their heads, the head itself counted, have smaller letters."""
+"""The number of "<th" in the head of a table, its own among them, above which its letters are smaller."""
 
 
 def mathml(latex: str, display: str = "inline") -> str:
@@ -44,7 +44,7 @@ def mathml(latex: str, display: str = "inline") -> str:
 
 
 def note_page(note: str, language: str) -> str:
-    """A note in Markdown as a page that stands alone.
+    """A note in Markdown as a page of HTML that stands alone.
 
     >>> page = note_page("# Cam\\n\\nWith $r$:\\n\\n$$s = r \\\\tag{1}$$\\n", "en")
     >>> "<h1>Cam</h1>" in page, page.count("<math"), '<span class="number">(1)</span>' in page
@@ -65,7 +65,7 @@ def note_page(note: str, language: str) -> str:
 
 
 def _formula(tex: str) -> str:
-    """A formula between its dollars: within a line, or on lines of its own with its number."""
+    """The MathML of a formula between dollars: within a line, or on lines of its own with its number."""
     if not tex.startswith("$$"):
         return mathml(tex.strip("$"))
     tex = tex.strip("$")
@@ -76,13 +76,13 @@ def _formula(tex: str) -> str:
 
 
 def check_profile_size(solution: Solution) -> None:
-    """That a page takes the profile at the scale that the task gives.
+    """Refuse a profile that no page can take at the scale that the task gives.
 
     A profile that is far too large is refused without being drawn, for its strokes alone would fill the memory.
 
     Raises
     ------
-    DesignError : none does
+    DesignError : no page can take it
 
     >>> import graphcam as gc
     >>> task = gc.builtin_task()
@@ -103,11 +103,11 @@ def check_profile_size(solution: Solution) -> None:
 
 
 def check_profile_hopeful(solution: Solution) -> None:
-    """The same of a profile that is so large that its strokes alone would fill the memory.
+    """Refuse a profile that is so large that its strokes alone would fill the memory.
 
     Raises
     ------
-    DesignError : it is
+    DesignError : it is so large
     """
     given = given_profile_scale(solution.task.drawing)
     if given is not None and _is_far_too_large(solution, given):
@@ -121,7 +121,7 @@ def _is_far_too_large(solution: Solution, per_mm: float) -> bool:
 
 
 def _scale_fits(solution: Solution, per_mm: float) -> bool:
-    """Whether a page takes the profile at a scale [mm/mm]."""
+    """Whether a page has room for the profile at a scale [mm/mm]."""
     if _is_far_too_large(solution, per_mm):
         return False
     board, sheet = solution.chain.board, format_of(solution.task.drawing)
@@ -152,7 +152,7 @@ def sheet_of(solution: AnySolution, upto: int | str | None = None, *, per_constr
 
 
 def drawing_of(contents: Contents, upto: int | str | None = None, *, per_construction: bool = False) -> Drawing:
-    """The same of contents that are at hand."""
+    """The sheets of contents that are made already; see :func:`sheet_of`."""
     paper = contents.solution.task.drawing
     last = None if upto is None else contents.last_step(upto)
     drawn = contents.parts if per_construction else [contents.as_one_part]
@@ -167,11 +167,11 @@ def drawing_of(contents: Contents, upto: int | str | None = None, *, per_constru
 
 
 def contents_of(solution: AnySolution) -> Contents:
-    """What stands on the sheets.
+    """The contents of the sheets of a solution.
 
     Raises
     ------
-    DesignError : what the task gives makes diagrams, or the profile, far larger than a page
+    DesignError : with the sizes in the task, diagrams or the profile are far larger than a page
     """
     if isinstance(solution, ArcsSolution):
         return arcs_contents(solution)
@@ -180,15 +180,15 @@ def contents_of(solution: AnySolution) -> Contents:
 
 
 def note_of(solution: AnySolution) -> str:
-    """The note in Markdown."""
+    """The note of a solution in Markdown."""
     return arcs_note(solution) if isinstance(solution, ArcsSolution) else note(solution)
 
 
 def note_page_of(solution: AnySolution) -> str:
-    """The note as a page that prints."""
+    """The note of a solution as a page of HTML for printing."""
     return note_page(note_of(solution), solution.task.drawing.language)
 
 
 def scene_of(solution: AnySolution) -> MechanismScene:
-    """The mechanism over a turn."""
+    """The mechanism of a solution over a turn."""
     return arcs_scene(solution) if isinstance(solution, ArcsSolution) else cam_scene(solution)

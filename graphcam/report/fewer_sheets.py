@@ -21,11 +21,11 @@ from graphcam.solving.task_board import board_of, format_of
 from graphcam.tasks.task import DrawingTable, Task
 
 PROJECTED_VIEWS = ACCELERATION.name, VELOCITY.name, DISPLACEMENT.name, COMBINED.name
-"""The views from one to the other of which lines are drawn across."""
+"""The names of the views between which lines are projected."""
 MIN_ORDINATE_SHARE = 0.5
-"""So small a part of the chosen ordinate is still suggested."""
+"""The minimum ordinate that is suggested, as a part of the chosen one."""
 MAX_TRIED_ORDINATES = 3
-"""So many ordinates are tried at most, for a layout takes its time."""
+"""The maximum number of ordinates that are tried, since a layout takes its time."""
 FEWER_SHEETS_NOTE = say(
     "{before} sheets of format {format}; with ordinate = {ordinate:g} and poles = [{first:g}, {second:g}] in [drawing] "
     "it would be {after}."
@@ -38,14 +38,14 @@ ONE_SHEET_NOTE = say(
 
 @dataclass(frozen=True)
 class _PageCounts:
-    """How many pages there are, and how many of them hold views that are carried over to one another."""
+    """The number of pages, and of pages with views between which lines are projected."""
 
     pages: int
     spread: int
 
 
 def fewer_sheets(contents: Contents, pages: int) -> Caption | None:
-    """What to give so that fewer sheets are needed than these ``pages``, or related diagrams stand on one; or nothing.
+    """A suggestion of sizes with which fewer sheets than ``pages`` are needed, or related diagrams share one; or None.
 
     On the largest format these are parted only where a page cannot take them, so there only the pages count.
 
@@ -69,7 +69,7 @@ def fewer_sheets(contents: Contents, pages: int) -> Caption | None:
 
 
 def _suggestion(contents: Contents, task: Task, now: _PageCounts, tried: DrawingTable) -> Caption | None:
-    """What a table with an ordinate and poles would bring; nothing where it is of no use."""
+    """The gain from a table with an ordinate and poles, as a sentence; None where there is none."""
     # What makes a view too large for the format is no suggestion.
     with suppress(DesignError):
         part = _part(contents, Chain(board_of(replace(task, drawing=tried))))
@@ -98,7 +98,7 @@ def _smaller(solution: Solution) -> list[DrawingTable]:
 
 
 def _part(contents: Contents, chain: Chain) -> SheetPart:
-    """What stands on the sheets, with the constructions of a chain; what was added does not depend on its scales."""
+    """The contents of the sheets with the constructions of a chain; additional ones do not depend on its scales."""
     drawn = {name: chain.get(name, each) for name, each in contents.drawn.items()}
     return replace(contents.as_one_part, steps=scaled_steps(drawn)).told(contents.solution.tell)
 

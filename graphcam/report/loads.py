@@ -1,4 +1,4 @@
-"""What the note alone says of the loads of a follower: contact, forces over the turn, contact stress."""
+"""The note on the loads of a follower: contact, forces over the turn, contact stress."""
 
 import numpy as np
 
@@ -19,7 +19,7 @@ FORMULAS = {
     "torsion": r"\xi = J\,(a\,\omega^2 + v\,\varepsilon) + F_0 + c\,s<outer>.",
     "at a point": r"\xi = J\,(a\,\omega^2 + v\,\varepsilon) + (F_0 + c\,x)\,\frac{dx}{ds}<outer>.",
 }
-"""The contact function, by what presses."""
+"""The formula of the contact function, by the kinds of forces on the follower."""
 
 
 def _spring(solution: Solution) -> SpringDesign:
@@ -37,7 +37,7 @@ def _formula(load: SpringLoad | ArmLoad) -> str:
 
 
 def contact(solution: Solution) -> list[Block]:
-    """The spring's preload, the least contact force, and where contact is lost."""
+    """The chapter on contact: the spring's preload, the minimum contact force, and where contact is lost."""
     spring = _spring(solution)
     load, needed, least, lost = (
         spring.load,
@@ -70,7 +70,7 @@ def contact(solution: Solution) -> list[Block]:
 
 
 def _presses(spring: SpringDesign) -> Caption:
-    """What presses, in a sentence that the formula ends."""
+    """The sentence on the forces that press the follower, which the formula ends."""
     load = spring.load
     if isinstance(load, SpringLoad):
         sentences = [
@@ -139,7 +139,7 @@ NORMAL_FORCE = {
 
 
 def forces(solution: Solution) -> list[Block]:
-    """Normal force and torque: formulas, extremes, and the values at the stations."""
+    """The chapter on normal force and torque: formulas, extremes, and the values at the stations."""
     spring = _spring(solution)
     mean, most, fewest = spring.torques
     least, greatest = spring.forces.least_normal(), spring.greatest_normal
@@ -186,12 +186,12 @@ def _at_stations(solution: Solution, spring: SpringDesign) -> Grid:
 
 
 def _zero(value: float) -> float:
-    """A value without the rounding that is left where it is zero."""
+    """A value; zero in place of a rounding error."""
     return round(value, 9) + 0.0
 
 
 SHEAR, DEPTH = 0.300, 0.786
-"""The greatest shear stress under a line contact as a part of the peak pressure, and its depth in half-widths."""
+"""The maximum shear stress under a line contact as a part of the maximum pressure, and its depth in half-widths."""
 MODULUS = r"\frac{1}{E'} = \frac{1-\nu_1^2}{E_1} + \frac{1-\nu_2^2}{E_2},\qquad E' = <modulus>\ \text{<unit>}."
 PRESSURE = r"p_0 = \sqrt{\frac{N E'}{\pi\,w\,R}},\qquad b = \sqrt{\frac{4 N R}{\pi\,w\,E'}},\qquad "
 RELATIVE_RADIUS = {
@@ -217,7 +217,7 @@ NO_STRESS_REASONS = {
 
 
 def contact_stress(solution: Solution) -> list[Block]:
-    """What presses how hard, the greatest stress, and whether it is permitted."""
+    """The chapter on contact stress: the forces, the maximum stress, and whether it is permitted."""
     stress = solution.stress
     assert stress is not None
     given = say(
@@ -276,7 +276,7 @@ def _found(stress: StressDesign) -> list[Block]:
 
 
 def _verdict(stress: StressDesign) -> list[Caption]:
-    """Whether the stress is permitted, and what width it takes."""
+    """The sentences on whether the stress is permitted, and on the width that it needs."""
     limit = stress.material.permitted_stress
     if limit is None or stress.max_stress is None or stress.least_width is None:
         return []

@@ -1,4 +1,4 @@
-"""What the note alone says of the errors of making."""
+"""The note on the errors of making."""
 
 import numpy as np
 
@@ -27,7 +27,8 @@ VARIANCE_CAPTION = say("Most of the variance of ${symbol}$, {part:.0f} %, is due
 
 
 def errors_of_making(solution: Solution) -> list[Block]:
-    """How far the follower may be off, which tolerance matters most, and how a sample of solved mechanisms agrees."""
+    """The chapter on bands of the motion, the most important tolerance, and how a sample of solved mechanisms agrees.
+    """
     design = solution.tolerances
     assert design is not None
     if design.undercut:
@@ -71,7 +72,7 @@ def _matters(design: ToleranceDesign) -> list[Caption]:
 
 
 def _solved(design: ToleranceDesign) -> Caption:
-    """How wide the bands of the sample are."""
+    """The sentence on the width of the bands of the sample."""
     bands, rows = design.bands, list[Caption]()
     for k, told in enumerate(design.quantities):
         at = int(np.argmax(bands.sample.half_width[k]))

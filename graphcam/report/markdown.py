@@ -12,11 +12,11 @@ from graphcam.subscripts import in_html
 from graphcam.words import Caption, Tell, Words, say, sequence
 
 FINEST_READING = 0.01
-"""What is told of a length on paper [mm]."""
+"""The smallest length on paper that can be read [mm]."""
 
 
 def digits(per_mm: float) -> int:
-    """As many decimals as the finest reading on paper has in the machine.
+    """The number of decimals of a value whose scale is ``per_mm``: those of the finest reading on paper.
 
     >>> digits(0.48), digits(2.0), digits(500.0)
     (3, 2, 0)
@@ -25,7 +25,7 @@ def digits(per_mm: float) -> int:
 
 
 def number(value: float, digits: int = 2, *, sign: bool = False) -> Caption:
-    """A number with so many decimals, a dash where there is none, no minus before zero.
+    """A number with so many decimals, a dash in place of NaN, and no minus before zero.
 
     >>> [str(x) for x in (number(2.345, 1), number(float("nan")), number(-0.001), number(0.5, sign=True))]
     ['2.3', '–', '0.00', '+0.50']
@@ -36,7 +36,7 @@ def number(value: float, digits: int = 2, *, sign: bool = False) -> Caption:
 
 
 def numbers(**values: float) -> dict[str, Caption]:
-    """Numbers with two decimals, by name.
+    """The values by their names, as numbers with two decimals.
 
     >>> str(say("r = {r}, e = {e}", **numbers(r=17, e=-10)))
     'r = 17.00, e = -10.00'
@@ -45,17 +45,17 @@ def numbers(**values: float) -> dict[str, Caption]:
 
 
 def general(value: float, digits: int = 6) -> Caption:
-    """A number with so many digits, without needless zeros."""
+    """A number with so many significant digits, without needless zeros."""
     return say("{value:.{digits}g}", value=value, digits=digits)
 
 
 def warning(sentence: Words) -> Caption:
-    """A sentence that must not be overlooked."""
+    """A sentence as a warning, in bold."""
     return say("**{sentence}**", sentence=sentence)
 
 
 def text(plain: str) -> str:
-    """A text of the user's, so that nothing in it is taken for markup.
+    """A text with its Markdown characters escaped.
 
     >>> text("Cam *A* | 2")
     'Cam \\\\*A\\\\* \\\\| 2'
@@ -67,9 +67,9 @@ FORMULA_PATTERN = re.compile(r"((?<!\\)\$\$?[^$]+\$\$?)")
 
 
 def printed(note: str) -> str:
-    """A note as Markdown has it: indices as elements of HTML, and within formulas what TeX knows.
+    """A note as Markdown: indices become elements of HTML, and commands of TeX within formulas.
 
-    There a decimal comma would be followed by a gap but for its braces.
+    A decimal comma in a formula gets braces, without which a gap would follow it.
 
     >>> printed("φ_у = 1,5, $r = −1,5·10⁵$ mm, \\\\$2,5")
     'φ<sub>у</sub> = 1,5, $r = -1{,}5 \\\\cdot 10^{5}$ mm, \\\\$2,5'
@@ -85,7 +85,7 @@ def _in_tex(tex: str) -> str:
 
 
 def formula(tex: str, **values: Any) -> Caption:
-    r"""A formula in TeX, which keeps its braces to itself: a value stands where its name does in angle brackets.
+    r"""A formula in TeX, in which a name in angle brackets is the place of a value.
 
     >>> str(formula("$\\frac{<s:.2f>}{<n>}$", s=3, n="2"))
     '$\\frac{3.00}{2}$'
@@ -110,14 +110,14 @@ def _value(value: Any, form: str | None) -> Words:
 
 @dataclass(frozen=True)
 class Equation:
-    """A formula on a line of its own that gets a number; ``tex`` without dollars."""
+    """A numbered formula on a line of its own; ``tex`` without dollars."""
 
     tex: Words
 
 
 @dataclass(frozen=True)
 class Grid:
-    """A table that gets a number, with its title; of words all columns stand to the left."""
+    """A numbered table with its title; with ``of_words`` all columns are aligned to the left."""
 
     title: Words
     header: Sequence[Words]
@@ -130,7 +130,7 @@ Block = Words | Equation | Grid
 
 
 def blocks(*parts: Block, tell: Tell = str) -> str:
-    """Paragraphs, tables and formulas one under the other, these two with their numbers; empty ones are left out.
+    """The blocks as Markdown, one under the other, tables and formulas numbered; empty blocks are left out.
 
     >>> blocks("One.", "", Equation("x = 1"), say("Two."))
     'One.\\n\\n$$x = 1 \\\\tag{1}$$\\n\\nTwo.'
@@ -138,7 +138,7 @@ def blocks(*parts: Block, tell: Tell = str) -> str:
     formulas, tables = count(1), count(1)
 
     def told(block: Block) -> str:
-        """A block with its number."""
+        """The Markdown of a block with its number."""
         if isinstance(block, Equation):
             return f"$${tell(block.tex)} \\tag{{{next(formulas)}}}$$"
         if isinstance(block, Grid):
@@ -150,7 +150,7 @@ def blocks(*parts: Block, tell: Tell = str) -> str:
 
 
 def table(header: Sequence[Words], rows: Iterable[Sequence[Words]], tell: Tell = str, *, of_words: bool = False) -> str:
-    """A table: the first column to the left, the others to the right, every column as wide as its widest cell.
+    """A table in Markdown: the first column to the left, the others to the right, each as wide as its widest cell.
 
     of_words : all columns to the left
 
@@ -166,7 +166,7 @@ def table(header: Sequence[Words], rows: Iterable[Sequence[Words]], tell: Tell =
     sides = ["<", *((">", "<")[of_words] for _ in widths[1:])]
 
     def line(cells: Sequence[str]) -> str:
-        """A row, every cell at its side."""
+        """The text of a row."""
         return (
             "| " + " | ".join(f"{c:{side}{width}}" for c, side, width in zip(cells, sides, widths, strict=True)) + " |"
         )

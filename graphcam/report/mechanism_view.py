@@ -1,4 +1,4 @@
-"""The mechanism over a turn, exactly, and as plain data for the step player: the page looks it up and turns the cam.
+"""The exact mechanism over a turn, and as plain data with which the step player turns the cam.
 
 Points are complex, in mm, in the frame with the cam centre at the origin; the step player lets them move.
 """
@@ -24,23 +24,23 @@ from graphcam.subscripts import in_html
 from graphcam.words import Tell
 
 DECIMALS = 3
-"""Of lengths [mm] and angles [degrees]: far more than a screen shows."""
+"""Decimals of lengths [mm] and angles [degrees], more than a screen shows."""
 DESCRIPTIONS = {
     "stem": say("Cam and translating follower; the normal and the line of motion make the pressure angle."),
     "arm": say("Cam and oscillating follower; the normal and the direction of motion make the pressure angle."),
     "face": say("Cam and flat-faced follower; the normal of the face is its line of motion."),
 }
 LIVE_READINGS = ("pressure_angle", "displacement", "velocity")
-"""What is read off while the cam turns; a flat face has no pressure angle."""
+"""Quantities shown while the cam turns; a flat face has no pressure angle."""
 
 
 POSITION_COUNT = 720
-"""In a turn, so that the cam angle goes in halves of a degree."""
+"""The number of positions in a turn, one for each half degree of the cam angle."""
 
 
 @dataclass(frozen=True)
 class TurnPhase:
-    """A phase of the turn: its name in full and in short, and the cam angles [rad] where it begins and ends."""
+    """A phase of the turn: its name, its short name, and the cam angles [rad] where it begins and ends."""
 
     name: str | Caption
     symbol: str | Caption
@@ -50,9 +50,9 @@ class TurnPhase:
 
 @dataclass(frozen=True, eq=False)
 class MechanismScene:
-    """A mechanism at n + 1 cam angles, the last position the first again.
+    """A mechanism at n + 1 cam angles; the last position is the first again.
 
-    kind : what follows: a stem with a roller or a knife edge, an arm, a flat face
+    kind : of the follower: a stem with a roller or a knife edge, an arm, a flat face
     sigma : the sense in which the cam turns;  roller : its radius, 0 for none;  pivot : of the arm
     profile : (m,) the closed profile of the cam as it lies at phi = 0
     face : how far the face reaches to the left (negative) and to the right
@@ -104,7 +104,7 @@ def cam_scene(solution: Solution) -> MechanismScene:
 
 
 def _outline(cam: Cam, contact: Points, phi: Floats) -> Points:
-    """The profile that is cut; where none can be cut, the whole envelope with its loops."""
+    """The profile (m,) that is cut; where none can be cut, the whole envelope with its loops."""
     try:
         points = cam.trimmed_profile(POSITION_COUNT)
     except DesignError:
@@ -113,7 +113,7 @@ def _outline(cam: Cam, contact: Points, phi: Floats) -> Points:
 
 
 def arcs_scene(solution: ArcsSolution) -> MechanismScene:
-    """The mechanism of a cam of arcs, seen so that the follower stands upright."""
+    """The mechanism of a cam of arcs, turned so that the follower is vertical."""
     moved, phi = solution.motion, _turn()
     s, v, _, _ = moved(phi)
     alpha = moved.pressure_angle(phi)
@@ -133,9 +133,9 @@ def _turn() -> Floats:
 
 
 def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dict[str, Any]:
-    """The data of ``mechanism.js``: lengths in mm, angles in degrees.
+    """The scene as data for ``mechanism.js``: lengths in mm, angles in degrees.
 
-    tell : says a caption in the language of the page, whose decimals stand behind ``decimal``
+    tell : translates into the language of the page, whose decimal sign is ``decimal``
     """
     greatest = float(np.abs(scene.trace).max())
     unit, swings = greatest / 28, scene.kind == "arm"
@@ -182,7 +182,7 @@ def _phase(phase: TurnPhase, tell: Tell) -> dict[str, Any]:
 
 
 def _guide(scene: MechanismScene, unit: float) -> tuple[list[dict[str, Any]], float]:
-    """The guide of a stem above its highest place, and how high it reaches [mm]."""
+    """The marks of a stem's guide above its highest position, and the height of the guide [mm]."""
     x, low = float(scene.trace[0].real), float(scene.trace.imag.max()) + scene.roller + 1.5 * unit
     high = low + 4 * unit
     marks = [_mark("axis", np.array([x - 1j * 3 * unit, x + 1j * (high + 2 * unit)]))]
@@ -205,7 +205,7 @@ def _pivot(scene: MechanismScene, unit: float) -> list[dict[str, Any]]:
 
 
 def _box(scene: MechanismScene, data: dict[str, Any], unit: float) -> list[float]:
-    """The box of all that ever shows, y downwards: left, top, width, height [mm]."""
+    """The box of all positions, y downwards: left, top, width, height [mm]."""
     # The cam sweeps a whole circle, and its pitch curve with it.
     swept = float(np.abs(scene.profile if data["pitch"] is None else scene.trace).max())
     corners = [complex(-swept, -swept), complex(swept, swept)]

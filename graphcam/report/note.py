@@ -1,4 +1,4 @@
-"""The coursework note that goes with the sheet, in Markdown: the steps as prose, then tables and conclusions."""
+"""The coursework note in Markdown: the steps as prose, then tables and conclusions."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -39,11 +39,11 @@ from graphcam.tasks.sheet_tables import SheetTable, TitleTable
 from graphcam.words import Caption, joined, say, sequence
 
 Chapter = tuple[Caption, Sequence[Block]]
-"""Title and content of a chapter."""
+"""Title and contents of a chapter."""
 
 
 def note(solution: Solution) -> str:
-    """The note in Markdown, with formulas in LaTeX.
+    """The note of a cam with a motion, in Markdown with formulas in LaTeX.
 
     >>> import graphcam as gc
     >>> "Round the minimum radius, 43.28 mm, up to r₀ = 44 mm." in note(gc.solve(gc.builtin_task()))
@@ -69,7 +69,7 @@ def note(solution: Solution) -> str:
 
 
 def whole_note(head: Sequence[Block], chapters: Sequence[Chapter], solution: AnySolution) -> str:
-    """Head and numbered chapters."""
+    """The text of the note: head and numbered chapters."""
     tell, parts = solution.tell, list(head)
     for k, (title, said) in enumerate(chapters, 1):
         parts += [f"## {k}. {tell(title)}", *said]
@@ -77,7 +77,7 @@ def whole_note(head: Sequence[Block], chapters: Sequence[Chapter], solution: Any
 
 
 def comparison_file(solution: AnySolution) -> str:
-    """The table of drawn against exact values as a Markdown file of its own."""
+    """The text of a Markdown file with the table of drawn and exact values."""
     title = say("{name}: drawn against exact", name=text(solution.task.title.translated_name(solution.tell)))
     return printed(blocks(f"# {solution.tell(title)}", *against_exact(solution), tell=solution.tell) + "\n")
 
@@ -89,11 +89,11 @@ CHAPTER_OPENINGS: Mapping[str, Callable[[Solution], Sequence[Block]]] = {
     "contact_stress": contact_stress,
     "tolerances": errors_of_making,
 }
-"""What is given or calculated before the steps of a construction, by its name."""
+"""The paragraphs before the steps of a construction, on what is given or calculated, by its name."""
 
 
 def constructions(solution: AnySolution) -> list[Chapter]:
-    """A chapter on each construction: why it is drawn, its steps with formulas, and what is to be noted."""
+    """A chapter for each construction: its reason, its steps with formulas, and cautions."""
     known, of_lift = Known(), solution.chain.board.follower.unit if isinstance(solution, Solution) else "mm"
     chapters: list[Chapter] = []
     for k, (name, drawn) in enumerate(all_constructions(solution).items(), 1):
@@ -107,7 +107,7 @@ def constructions(solution: AnySolution) -> list[Chapter]:
 
 
 def heading(title: TitleTable, drawing: SheetTable) -> list[Block]:
-    """The note's title, who wrote it, and what is to be said of its language."""
+    """The note's title, its author, and the remark on its language."""
     tell = drawing.tell
     lines = [title.organisation, title.document, title.group, title.author, title.checked]
     names = (say("Organisation"), say("Document"), say("Group"), say("Author"), say("Checked by"))
@@ -127,11 +127,11 @@ ASSIGNMENT_CAPTIONS = {
     ),
     "flat-faced": (say("A disk cam is to move a flat-faced follower by the following motion."),) * 2,
 }
-"""What is to be designed, without a roller and with one."""
+"""The assignment by the kind of follower, without a roller and with one."""
 
 
 def task_data(solution: Solution) -> list[Block]:
-    """What is given, and what is to be found."""
+    """The chapter on what is given, and what is to be found."""
     roller, given, asked = solution.chain.board.roller_radius != 0, data(solution), conditions(solution)
     rows = tuple((name, say("to be found") if by == ADOPTED_LABEL else value) for name, value, by in given.rows)
     return [
@@ -143,7 +143,7 @@ def task_data(solution: Solution) -> list[Block]:
 
 
 def hand_description(pencil: Pencil) -> Caption:
-    """What is to be known of the hand."""
+    """The sentence on the errors of a pencil."""
     said = [say("Everything below was found on the drawing board: a length in millimetres of paper times a scale.")]
     if pencil.perfect:
         return sequence([*said, say("It was drawn with an ideal pencil.")], " ")
@@ -168,7 +168,7 @@ SPEED_NUMBERS = (
     r"\frac{<omega>}{<angle>} = <v>\ \text{<per_s>}, \qquad a_{\max} = <ca> \cdot <lift> \cdot "
     r"\frac{<omega>^2}{<angle>^2} = <a>\ \text{<per_s>²}."
 )
-"""Time, greatest velocity and greatest acceleration of a phase."""
+"""The formula with numbers for time, maximum velocity and maximum acceleration of a phase."""
 
 
 def _at_speed(solution: Solution) -> list[Block]:
@@ -210,7 +210,7 @@ def _at_speed(solution: Solution) -> list[Block]:
 
 
 def _impact(solution: Solution) -> list[Block]:
-    """Rigid, soft or none, and where."""
+    """The paragraphs on impact: rigid, soft or none, and where."""
     motion, of_lift = solution.cam.motion, solution.chain.board.follower.unit
     if rigid := velocity_jumps(motion):
         said = warning(say("The velocity jumps: the impact is rigid."))
@@ -225,7 +225,7 @@ def _impact(solution: Solution) -> list[Block]:
 
 
 def jumps_sentence(jumps: list[Jump], symbol: str, of_symbol: str) -> Grid:
-    """Where a quantity jumps, from what to what."""
+    """The table of a quantity's jumps: where, from which value, to which."""
     header = ("φ", say("{symbol} before", symbol=symbol), say("{symbol} after", symbol=symbol), say("jump"))
     rows = [
         (say("{phi}°", phi=number(math.degrees(jump.phi))), *map(number, (jump.before, jump.after, jump.size)))
@@ -241,7 +241,7 @@ def _result(solution: Solution) -> list[Block]:
 
 
 def _face(solution: Solution) -> list[Caption]:
-    """How the adopted face follows from the contact that was drawn; nothing without one."""
+    """The sentences by which the adopted face follows from the drawn contact; none without a face."""
     if (face := solution.face) is None:
         return []
     (left, right), (needs_left, needs_right) = face.drawn, face.min_half_widths
@@ -261,7 +261,7 @@ def _face(solution: Solution) -> list[Caption]:
 
 
 def against_exact(solution: AnySolution) -> list[Block]:
-    """The table of drawn and exact values, and what the bound means."""
+    """The table of drawn and exact values, and the explanation of the bound."""
     pencil = solution.chain.pencil
     meaning = say(
         "The bound is an estimate, from redrawing, of how far the drawn value may deviate from the exact one on "
@@ -288,7 +288,7 @@ def against_exact(solution: AnySolution) -> list[Block]:
 
 
 def errors_of_the_hand(solution: AnySolution) -> list[Chapter]:
-    """The chapter on what the acts of each kind bring to the scatter, where the hand errs."""
+    """The chapter on the share of each kind of act in the scatter; none without drawing errors."""
     pencil = solution.chain.pencil
     if pencil.perfect:
         return []
@@ -304,7 +304,7 @@ def errors_of_the_hand(solution: AnySolution) -> list[Chapter]:
 
 
 def _verdict(solution: AnySolution) -> list[Caption]:
-    """Which drawn values keep their bounds."""
+    """The sentences on which drawn values are within their bounds."""
     quantities = solution.comparison.quantities.values()
     outside = joined([q.title for q in quantities if abs(q.error_paper) > q.tolerance_paper])
     unknown = joined([q.title for q in quantities if math.isfinite(q.error) and math.isnan(q.tolerance_paper)])
@@ -327,7 +327,7 @@ def _verdict(solution: AnySolution) -> list[Caption]:
 
 
 def _other_sides(solution: AnySolution) -> list[Caption]:
-    """What is said where the drawing takes the other side of a signed extreme for the greater one."""
+    """The sentences on signed extremes for which the drawing took the other side as the greater one."""
     quantities = solution.comparison.quantities
     names = [
         quantities[said.name].title
@@ -340,5 +340,5 @@ def _other_sides(solution: AnySolution) -> list[Caption]:
 
 
 def of_sheet(told: Table) -> Grid:
-    """A table of the sheet as the note prints it."""
+    """A table of the sheet as the note has it."""
     return Grid(told.title, told.header, told.rows)

@@ -1,4 +1,4 @@
-"""The chapters of the note that are long tables."""
+"""The note's chapters of long tables."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -26,7 +26,7 @@ from graphcam.workshop.polar_table import PolarCurve
 
 SIDE_HEADINGS = (say("{name} drawn"), say("{name} exact"))
 EXACT_DIGITS = 4
-"""Decimals of an exact value, at least."""
+"""The minimum number of decimals of an exact value."""
 ROUND_DIGITS = 3
 """Decimals of a radius of the exact profile [mm]."""
 STATION_TABLE_NOTE = say(
@@ -41,13 +41,13 @@ STATION_TABLE_NOTE_FACE = say(
     "Displacement s in {s}, velocity v in {v} and acceleration a in {a}, drawn and exact. The acceleration at both "
     "ends of a phase is the one inside the phase."
 )
-"""What stands in the table of the stations."""
+"""The legend of the table of stations."""
 Column = tuple[str, Floats, Floats, int]
-"""A quantity at the stations: its symbol, what was drawn, what it is exactly, and decimals of what was drawn."""
+"""A quantity at the stations: its symbol, drawn and exact values, and the decimals of the drawn ones."""
 
 
 def at_stations(solution: Solution) -> list[Block]:
-    """s, v, a, the pressure angle and the transmission angle at the stations, drawn and exact; an arm's s in °."""
+    """The table of s, v, a, pressure angle and transmission angle at the stations, drawn and exact; an arm's s in °."""
     of_lift, swings = solution.chain.board.follower.unit, solution.chain.board.follower.unit == "rad"
     units = {name: unit(of_lift + per) for name, per in (("s", ""), ("v", "/rad"), ("a", "/rad²"))}
     compared, stations, integrated = solution.comparison, solution.chain.board.stations, solution.drawn["integration"]
@@ -72,7 +72,7 @@ def at_stations(solution: Solution) -> list[Block]:
 
 
 def station_table(names: Sequence[str], phi: Floats, columns: Sequence[Column]) -> Grid:
-    """The stations, their cam angles [rad], and what was drawn at them beside what is exact."""
+    """The table of the stations: cam angles [rad], and drawn and exact values at them."""
     header = [
         say("station"),
         "φ",
@@ -88,7 +88,7 @@ def station_table(names: Sequence[str], phi: Floats, columns: Sequence[Column]) 
 
 
 def polar_coordinates(solution: Solution) -> list[Block]:
-    """The polar coordinates of the pitch curve and of the working profile at the stations, drawn.
+    """The tables of polar coordinates of the drawn pitch curve and working profile at the stations.
 
     Under a flat face they are one curve.  Where the task asks for a table of the profile, that follows, exact.
     """
@@ -110,7 +110,7 @@ def polar_coordinates(solution: Solution) -> list[Block]:
 
 
 def _at_round_angles(solution: Solution) -> list[Block]:
-    """The exact profile in the steps that the task's table ``[part]`` names; without one, nothing."""
+    """The table of the exact profile in the steps of the task's table ``[part]``; none without one."""
     if solution.task.part is None:
         return []
     step = solution.task.part.table_step
@@ -132,7 +132,7 @@ def _at_round_angles(solution: Solution) -> list[Block]:
 
 
 def comparison_table(quantities: Mapping[str, Quantity]) -> Grid:
-    """Every quantity drawn and exact, its error in machine units and in mm of paper, and the bounds that are known."""
+    """The table of every quantity: drawn, exact, its error in machine units and mm of paper, and known bounds."""
     there = [q for q in quantities.values() if q.exists]
     rows = [(q.title, unit(q.unit), number(q.drawn, 3), *_exact_captions(q), *on_paper(q)) for q in there]
     header = (say("quantity"), say("unit"), say("drawn"), say("exact"), say("error"))
@@ -161,13 +161,13 @@ SHARE_SOURCES: Mapping[Kind | None, Caption] = {
     Kind.READ: say("readings"),
     None: say("together"),
 }
-"""What brings a share: the acts of a kind, or those of several kinds together only."""
+"""Column headings of the shares: the acts of a kind; None is those of several kinds together."""
 NEGLIGIBLE_SHARE = 0.005
-"""A share of less is not shown."""
+"""The share below which none is shown."""
 
 
 def budget_table(drawn: Chain | ArcChain, pencil: Pencil) -> tuple[tuple[Words, ...], list[tuple[Words, ...]]]:
-    """Header and rows: of every reading its scatter, then the shares in percent.
+    """Header and rows of a table: for every reading its scatter, then the shares of kinds of acts in percent.
 
     >>> import graphcam as gc
     >>> header, rows = budget_table(gc.solve(gc.builtin_arcs_task()).chain, gc.Pencil.of(0.2))
@@ -198,7 +198,7 @@ def _share(shares: Shares, kind: Kind | None) -> float:
 
 
 def _scatter(construction: Construction, reading: str, deviation: float) -> Caption:
-    """As a length on the paper, or the angle that was measured itself."""
+    """The standard deviation of a reading, as a length on paper or as the measured angle."""
     read = construction.readings[reading]
     if read.unit == "rad" and read.per_mm == 1:
         return say("{angle:.2f}°", angle=np.degrees(deviation))

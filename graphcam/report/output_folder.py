@@ -1,4 +1,4 @@
-"""The files of a solution: all of them in one folder, or none."""
+"""The files of a solution, written into one folder: all of them, or none."""
 
 from __future__ import annotations
 
@@ -29,17 +29,17 @@ if TYPE_CHECKING:
     from graphcam.workshop.part_contents import PartContents
 
 DXF_KINDS = "plain", "cad"
-"""Kinds of DXF."""
+"""The kinds of DXF files."""
 FONT_PACKAGE = "fonts-noto-cjk"
-"""A package of fonts with more letters than any other."""
+"""A package of fonts with more characters than any other, for the advice."""
 MAX_NAMED_CHARACTERS = 12
-"""Characters that no font has; of a sheet in Chinese there are hundreds."""
+"""The maximum number of missing characters that a warning names; a sheet in Chinese has hundreds."""
 SHEET_KINDS = "pdf", "svg", "png", "dxf"
 """The kinds of files that show the sheet."""
 SOLUTION_FILE = "solution.json"
-"""The file that names all others."""
+"""The name of the file that lists all others."""
 PART_KINDS = "pdf", "svg", "dxf"
-"""Those that show the working drawing of the cam."""
+"""The kinds of files that show the working drawing of the cam."""
 
 
 def check_choices(
@@ -50,7 +50,7 @@ def check_choices(
     files: Collection[str] | None = None,
     working_drawing: bool = False,
 ) -> None:
-    """Refuse what :func:`write` would refuse of its choices, without drawing anything.
+    """Refuse, without drawing anything, choices that :func:`write` would refuse.
 
     Raises
     ------
@@ -82,7 +82,7 @@ def _check_names(
 
 
 def _checked_part(solution: AnySolution) -> PartContents:
-    """The part, of which there can be a working drawing."""
+    """The part, after checking that there can be a working drawing of it."""
     # What makes the part is loaded only when it is asked for.
     from graphcam.workshop.part_contents import PartContents
 
@@ -134,14 +134,14 @@ def write(
 
 
 def _wanted_kinds(files: Collection[str] | None, *, finished: bool, working_drawing: bool) -> list[str]:
-    """The kinds of files that are written: those that are asked for, or the usual ones."""
+    """The kinds of files to write: those asked for, or the default ones."""
     usual = (*DEFAULT_KINDS, *CUTTING_KINDS) if working_drawing else DEFAULT_KINDS
     # What is not a sheet holds answers.
     return [kind for kind in (usual if files is None else files) if finished or kind in SHEET_KINDS]
 
 
 def _write_texts(solution: AnySolution, folder: Path, wanted: Collection[str]) -> dict[str, str]:
-    """Tables and note, as far as they are wanted; returns their names by kind."""
+    """Write the wanted tables and notes; returns the file names by kind."""
     written: dict[str, str] = {}
     for kind, (name, text) in TEXT_FILES.items():
         if kind in wanted:
@@ -153,7 +153,7 @@ def _write_texts(solution: AnySolution, folder: Path, wanted: Collection[str]) -
 def _write_list(
     solution: AnySolution, folder: Path, files: Mapping[str, str | None], facts: Mapping[str, Any], *, finished: bool
 ) -> None:
-    """``solution.json`` with ``facts`` about its files, and the digest of every file that the folder holds besides."""
+    """Write ``solution.json`` with ``facts`` about its files, and the digests of all other files in the folder."""
     document = {**solution.to_dict(), "files": files, **facts}
     digests = {path.name: digest(path) for path in sorted(folder.iterdir())}
     document = (document if finished else without_answers(document)) | {"written": digests}
@@ -162,7 +162,7 @@ def _write_list(
 
 
 def written_before(folder: Path, names: str) -> dict[str, str]:
-    """The files that the run before wrote into a folder, with their digests; none where no file of a name says so."""
+    """The files of the last run in a folder with their digests, from its list ``names``; none without a list."""
     try:
         document = json.loads((folder / names).read_bytes())
         return {str(name): str(known) for name, known in document["written"].items()}
@@ -171,13 +171,13 @@ def written_before(folder: Path, names: str) -> dict[str, str]:
 
 
 def written_files(folder: Path | str) -> list[str]:
-    """All files that the last run wrote into a folder, ``solution.json`` too; none where there was no run."""
+    """The names of all files of the last run in a folder, ``solution.json`` too; none where there was no run."""
     names = [*written_before(Path(folder), SOLUTION_FILE)]
     return [*names, SOLUTION_FILE] if names else names
 
 
 def _warn_of_boxes(drawing: Drawing) -> None:
-    """Say which characters of a drawing are shown as boxes, because nothing on the machine has them."""
+    """Warn of the characters of a drawing that are shown as boxes, because no font on the machine has them."""
     if missing := missing_characters(text.text for text in drawing.texts):
         named = " ".join(missing[:MAX_NAMED_CHARACTERS]) + (
             f" and {more} more" if (more := len(missing) - MAX_NAMED_CHARACTERS) > 0 else ""
@@ -187,13 +187,13 @@ def _warn_of_boxes(drawing: Drawing) -> None:
 
 
 def unheard(_: Words) -> None:
-    """What hears of the progress where nobody asks for it."""
+    """Progress that nobody asked for: does nothing."""
 
 
 def _write_profiles(
     solution: AnySolution, folder: Path, wanted: Collection[str]
 ) -> tuple[dict[str, str], dict[str, Any]]:
-    """The files of the exact profile that are wanted: their names by kind, and what ``solution.json`` says of them."""
+    """Write the wanted files of the exact profile; returns file names by kind, and facts for ``solution.json``."""
     if not isinstance(solution, Solution) or not any(kind in FILE_NAMES for kind in wanted):
         return {}, {}
     try:
@@ -213,7 +213,7 @@ def _write_profiles(
 def _write_cutting(
     solution: AnySolution, part: PartContents | None, folder: Path, wanted: Collection[str]
 ) -> dict[str, str]:
-    """The files by which a machine cuts the cam, as far as they are wanted: their names by kind."""
+    """Write the wanted files by which a machine cuts the cam; returns the file names by kind."""
     if not any(kind in CUTTING_KINDS for kind in wanted):
         return {}
     from graphcam.workshop.cutting_files import write_cutting
@@ -225,7 +225,7 @@ def _write_cutting(
 def write_sheet(
     drawing: Drawing, folder: Path, stem: str, kinds: Collection[str], dxf: str, report: Callable[[Words], None]
 ) -> dict[str, str]:
-    """The drawing in every format that is wanted, its files named after the stem."""
+    """Write the drawing in every wanted format, named after the stem; returns the file names by kind."""
     # The renderers take long to load, so they come when there is something to render.
     from graphcam.sheets.cad_renderer import write_cad
     from graphcam.sheets.dxf_renderer import write_dxf
@@ -249,7 +249,7 @@ def write_sheet(
 
 
 def _write_part(part: PartContents, folder: Path, report: Callable[[Words], None]) -> dict[str, str]:
-    """The working drawing of the cam; its DXF has true dimensions and attributes."""
+    """Write the working drawing, its DXF with true dimensions and attributes; returns the file names by kind."""
     from graphcam.workshop.working_drawing import working_drawing_of
 
     report(say("laying out the working drawing"))
@@ -273,4 +273,4 @@ TEXT_FILES: Mapping[str, tuple[str, Callable[[AnySolution], str]]] = {
     "note": ("note.md", note_of),
     "note_html": ("note.html", note_page_of),
 }
-"""The files of text: name, and what stands in it."""
+"""The text files by kind: the name, and the function that makes the text."""

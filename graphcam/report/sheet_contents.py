@@ -1,4 +1,4 @@
-"""What stands on the sheets of a solution, and which of it is drawn: finished, half done, or a blank worksheet."""
+"""The contents of the sheets of a solution: finished, half done, or a blank worksheet."""
 
 import math
 from collections import Counter
@@ -24,12 +24,12 @@ from graphcam.tasks.sheet_tables import TitleTable
 from graphcam.words import Tell
 
 MAX_LIFT_RATIO = 1000
-"""Of a prime radius: of more, the paper would be as long as a hall."""
+"""The maximum lift as a multiple of the prime radius; with more the paper would be as long as a hall."""
 
 
 @dataclass(frozen=True, eq=False)
 class Contents:
-    """What stands on the sheets of a solution.
+    """The contents of the sheets of a solution.
 
     drawn : the constructions by name
     steps : (number, name of the construction, step), in order
@@ -67,7 +67,7 @@ class Contents:
 
     @property
     def as_one_part(self) -> SheetPart:
-        """All of it as one part."""
+        """All contents as one part."""
         return SheetPart(self.steps, self.givens + self.results, tuple(self.solution.warnings), self.numbers)
 
     @property
@@ -101,33 +101,33 @@ def chapter_numbers(steps: Numbered) -> dict[int, str]:
 
 
 def chapters_of(names: Iterable[str]) -> dict[str, int]:
-    """The numbers of chapters, each on a construction, by their names in order."""
+    """The numbers of chapters, by the names of their constructions in order."""
     return {name: k for k, name in enumerate(dict.fromkeys(names), 1)}
 
 
 def all_constructions(solution: AnySolution) -> dict[str, Construction]:
-    """All constructions of a solution by name, in the order in which they are shown: its chain, and what was added."""
+    """All constructions of a solution by name, in the order in which they are shown: chain, then additions."""
     return {name: construction_named(solution, name) for name in names_of(solution)}
 
 
 def names_of(solution: AnySolution) -> list[str]:
-    """The names of all its constructions, in that order, none of which is drawn for it."""
+    """The names of all constructions of a solution, in the order in which they are shown; nothing is drawn for it."""
     return [*solution.drawn, *_added_constructions(solution)]
 
 
 def construction_named(solution: AnySolution, name: str) -> Construction:
-    """One of its constructions, of that name."""
+    """The construction of a solution by its name."""
     return solution.drawn[name] if name in solution.drawn else _added_constructions(solution)[name]
 
 
 def _added_constructions(solution: AnySolution) -> Mapping[str, Construction]:
-    """What a spring, the materials and the tolerances add."""
+    """The constructions that a spring, the materials and the tolerances add, by name."""
     designs = (solution.spring, solution.stress, solution.tolerances) if isinstance(solution, Solution) else ()
     return {name: drawn for design in designs if design for name, drawn in design.drawn.items()}
 
 
 def motion_contents(solution: Solution) -> Contents:
-    """What stands on its sheets: every construction, the data, the scales, and drawn against exact values.
+    """The contents of its sheets: every construction, the data, the scales, and drawn against exact values.
 
     Raises
     ------
@@ -149,7 +149,7 @@ def motion_contents(solution: Solution) -> Contents:
 
 
 def _check_drawable(cam: Cam) -> None:
-    """The lift and the prime radius are drawn at one scale, where both must be seen."""
+    """Refuse a lift and a prime radius that cannot both be seen at one scale."""
     still = np.zeros(2)
     low, high = cam.kinematics.point((np.array([0.0, cam.motion.lift]), still, still, still)).tolist()
     travel = abs(high - low)
@@ -161,7 +161,7 @@ def _check_drawable(cam: Cam) -> None:
 
 
 def title_block(title: TitleTable, tell: Tell = str, remark: str = "") -> TitleBlock:
-    """What the title block says: the task's table; and a remark below it."""
+    """The title block from the task's table, with a remark below it."""
     return TitleBlock(
         name=title.translated_name(tell),
         number=title.document,
@@ -176,7 +176,7 @@ def title_block(title: TitleTable, tell: Tell = str, remark: str = "") -> TitleB
 
 
 def scaled_steps(drawn: Mapping[str, Construction], silent: Collection[str] = ()) -> Numbered:
-    """The steps of all constructions; the titles of their views say the scales that were settled.
+    """The steps of all constructions, in whose view titles the scales are filled in.
 
     silent : constructions that settle scales, but whose steps are not asked for
     """
@@ -192,7 +192,7 @@ def steps_of(drawn: Mapping[str, Construction]) -> Numbered:
 
 
 def scales_found(drawn: Mapping[str, Construction], steps: Numbered) -> dict[str, int]:
-    """The views whose scales are found by drawing, with the running numbers of the steps that find them."""
+    """By view the running number of the step that finds its scale, for views whose scale is found by drawing."""
     # A construction may settle the scale of a view that this task has not.
     seen = {step.view.name for _, _, step in steps}
     reading_in: dict[tuple[str, str], int] = {}
@@ -209,7 +209,7 @@ def scales_found(drawn: Mapping[str, Construction], steps: Numbered) -> dict[str
 
 
 def _with_scale_title(step: Step, by: Construction | None) -> Step:
-    """The step with its view's title, whose scale is an answer if drawing finds it."""
+    """The step with its view's title; the scale in it is an answer if drawing finds it."""
     if by is None:
         return step
     view, read = step.view, by.readings[by.meaning.scales[step.view.name]]

@@ -1,4 +1,4 @@
-"""The tables that the sheet and the note have in common."""
+"""The tables that both the sheet and the note have."""
 
 from collections.abc import Mapping, Sequence
 from itertools import product
@@ -17,18 +17,18 @@ from graphcam.solving.solution import Solution
 from graphcam.words import Caption, Words, say, sequence
 
 Row = tuple[Words, Words, Words]
-"""What something is called, its value, and where it comes from."""
+"""Name, value and origin of a quantity."""
 DRAWN_AND_EXACT_TITLE = say("Drawn and exact")
 GIVEN_LABEL, ADOPTED_LABEL, LIMIT_LABEL = say("given"), say("adopted"), say("limit")
 SPEED_HEADINGS: Mapping[str, tuple[Caption, ...]] = {
     "mm": (say("t, s"), say("v, m/s"), say("a, m/s²")),
     "rad": (say("t, s"), say("v, rad/s"), say("a, rad/s²")),
 }
-"""What is told of a phase at a speed, by the unit of the lift: v and a are the greatest."""
+"""Headings for a phase at a speed, by the unit of the lift: its time, and the maxima of v and a."""
 
 
 MAX_SHEET_ROWS = 16
-"""A longer table stands in the note only."""
+"""The maximum number of rows of a table on the sheet; a longer one stands in the note only."""
 TITLE_IN_MM, TITLE_IN_DEGREES = (
     say("Conditions of the motion, mm and rad"),
     say("Conditions of the motion, degrees and rad"),
@@ -36,7 +36,7 @@ TITLE_IN_MM, TITLE_IN_DEGREES = (
 
 
 def conditions(solution: Solution) -> Table | None:
-    """The points of all parts, in the units of the task file; None where the motion has another source.
+    """The table of the points of all parts, in the units of the task; None where the motion has another source.
 
     >>> import graphcam as gc
     >>> conditions(gc.solve(gc.builtin_task())) is None
@@ -60,13 +60,13 @@ def conditions(solution: Solution) -> Table | None:
 
 
 def on_sheet(solution: Solution) -> tuple[Table, ...]:
-    """The same where there is room for it."""
+    """The table of conditions if the sheet has room for it, else nothing."""
     table = conditions(solution)
     return () if table is None or len(table.rows) > MAX_SHEET_ROWS else (table,)
 
 
 def sizes(solution: Solution) -> list[Row]:
-    """The sizes of the cam that is built: name, value, and whether it was given or adopted."""
+    """Rows of the sizes of the cam that is built: name, value, and whether it was given or adopted."""
     cam, board = solution.cam, solution.chain.board
     follower, prime_radius = board.follower, mm(cam.prime_radius)
     asked = {follower.place_name: follower.place, "roller_radius": board.roller_radius}
@@ -82,7 +82,7 @@ def sizes(solution: Solution) -> list[Row]:
 
 
 def _face(face: FaceDesign | None) -> list[Row]:
-    """The face that is built, beside the margin that the task asks for."""
+    """Rows of the face that is built, and of the margin that the task asks for; none without a face."""
     if face is None:
         return []
     (left, right), whole = face.adopted, sum(face.adopted)
@@ -94,7 +94,7 @@ def _face(face: FaceDesign | None) -> list[Row]:
 
 
 def mm(length: float) -> Caption:
-    """A length as it is given."""
+    """A length [mm] as it is given."""
     return say("{length:g} mm", length=length)
 
 
@@ -103,7 +103,7 @@ def _limit_origin(asked: float | None) -> Caption:
 
 
 def data(solution: Solution) -> Table:
-    """The data of the cam, and which of them the task gives; a limit may be the usual one."""
+    """The table of the cam's data and their origin: given, adopted, or the usual limit."""
     task = solution.task
     rows: list[Row] = [
         (say("rotation"), sense_caption(task.rotation), GIVEN_LABEL),
@@ -117,18 +117,18 @@ def data(solution: Solution) -> Table:
 
 
 def speed(rpm: float | None) -> list[Row]:
-    """The row of a speed that is given."""
+    """The row of the speed; none where no speed is given."""
     return [(say("speed"), say("{rpm:g} rpm", rpm=rpm), GIVEN_LABEL)] if rpm else []
 
 
 def data_table(rows: Sequence[Row], found: Sequence[Words]) -> Table:
-    """The data; a worksheet leaves those empty that come from one of ``found``."""
+    """The table of rows; a worksheet leaves those values empty whose origin is one of ``found``."""
     answers = frozenset((row, 1) for row, (_, _, by) in enumerate(rows) if by in found)
     return Table(say("Data"), (say("quantity"), say("value"), ""), tuple(rows), answers)
 
 
 def _measured(solution: Solution) -> list[Row]:
-    """Of a measured motion: its table, how near it comes to the rows, and from where its cam angle is counted."""
+    """Rows on a measured motion: its table, the maximum deviation from it, and the origin of its cam angle."""
     table, motion = solution.task.motion.table, solution.chain.board.motion
     if table is None or not isinstance(motion, MeasuredMotion):
         return []
@@ -145,7 +145,7 @@ def _measured(solution: Solution) -> list[Row]:
 
 
 def _by_conditions(solution: Solution) -> list[Row]:
-    """From where the cam angle of a motion by conditions is counted, and its displacement, where not from 0."""
+    """Rows on the origins of cam angle and displacement of a motion by conditions, where these are not 0."""
     motion = solution.chain.board.motion
     if not isinstance(motion, BoundaryMotion):
         return []
@@ -168,7 +168,7 @@ def _limits(solution: Solution) -> list[Row]:
 
 
 def phases(solution: Solution) -> Table:
-    """The phases of the motion; an arm's lift is an angle."""
+    """The table of the phases of the motion; an arm's lift is an angle."""
     motion, swings = solution.cam.motion, solution.chain.board.follower.unit == "rad"
     lifts = [degrees(phase.lift) if swings else say("{lift:g}", lift=phase.lift) for phase in motion.phases]
     rows = tuple(
@@ -180,7 +180,7 @@ def phases(solution: Solution) -> Table:
 
 
 def phases_at_speed(solution: Solution) -> Table:
-    """The phases; with a speed their times and greatest velocity and acceleration."""
+    """The table of the phases, with a speed also their times, maximum velocities and accelerations."""
     table, at_speed = phases(solution), solution.comparison.phases(solution.task.speed_rpm)
     if not at_speed:
         return table
@@ -199,7 +199,7 @@ def on_paper(q: Quantity) -> tuple[Caption, Caption]:
 
 
 def comparison(quantities: Mapping[str, Quantity], title: Caption = DRAWN_AND_EXACT_TITLE) -> Table:
-    """Every quantity, drawn and exact, with its error and the bound in mm of paper."""
+    """The table of every quantity, drawn and exact, with its error and its bound in mm of paper."""
     rows = tuple(
         (sequence([q.title, unit(q.unit)]), number(q.drawn, 3), number(q.exact, 3), *on_paper(q))
         for q in quantities.values()

@@ -24,10 +24,10 @@ if TYPE_CHECKING:
     from graphcam.solving.sizing_design import Sizing
 
 RESULTS_FILE = "sizing.json"
-"""The file that names all others."""
+"""The name of the file that lists all others."""
 FRONT_FILE = "front.csv"
 SIZED_TASK_FILE = "sized.toml"
-"""The task that ``graphcam solve`` draws."""
+"""The name of the sized task, which ``graphcam solve`` draws."""
 FILE_STEM = "sizing"
 
 
@@ -50,7 +50,7 @@ def write(
 
 
 def chart(sizing: Sizing, language: str | None = None) -> Drawing:
-    """The sheet on the task's paper, with its title block.
+    """The sheet of a sizing, on the task's paper with its title block.
 
     language : by default the task's
     """
@@ -72,7 +72,7 @@ def chart(sizing: Sizing, language: str | None = None) -> Drawing:
 
 
 def write_task(sizing: Sizing, folder: Path) -> dict[str, str]:
-    """The sized task, and the table of a measured motion beside it."""
+    """Write the sized task, and the table of a measured motion beside it; returns the file names by kind."""
     written: dict[str, str] = {}
     for name, text in task_files(sizing.sized_task).items():
         kind, name = ("task", SIZED_TASK_FILE) if name == TASK_FILE else ("table", name)

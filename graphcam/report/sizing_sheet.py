@@ -27,9 +27,9 @@ from graphcam.sheets.sheet_frame import TitleBlock
 from graphcam.words import Caption, sequence
 
 CHART_SIZES = {"A1": 280 + 230j, "A2": 185 + 150j, "A3": 125 + 105j, "A4": 100 + 80j}
-"""Width and height of a chart by format [mm of paper]; its axes have scales of their own."""
+"""Width and height of a chart by format [mm of paper]."""
 MIN_AXIS_SHARE = 0.05
-"""An axis is at least this part of the maximum radius long, so that a range of one size has an axis too."""
+"""The minimum span of an axis as a part of the maximum radius, so that a range of one size has an axis too."""
 ABOVE_LINE_NOTE = say(
     "Above its line a limit is kept, whatever the others: with the roller that suits it best and with the widest face, "
     "where roller or face are not what the axis shows. Lines that hold the best cam back are drawn in the accent."
@@ -58,17 +58,17 @@ REGION_TITLES: dict[Across, Caption] = {
 
 
 MAX_TICKS = 6
-"""Parts of an axis with numbers, at most."""
+"""The maximum number of parts of an axis with numbers."""
 AXIS_OVERHANG = 8.0
-"""By so much an axis is longer than its span [mm of paper]."""
+"""The length of an axis beyond its span [mm of paper]."""
 Span = tuple[float, float]
 
 
 @dataclass(frozen=True)
 class ChartAxes:
-    """Two axes.
+    """The two axes of a chart.
 
-    size : width and height on paper [mm];  across, up : what their ends stand for
+    size : width and height on paper [mm];  across, up : the values at their ends
     names : of the axes
     """
 
@@ -78,7 +78,7 @@ class ChartAxes:
     names: tuple[Caption, Caption]
 
     def place(self, across: Floats | float, up: Floats | float) -> Points:
-        """Places on paper [mm] of values."""
+        """Places (n,) on paper [mm] of values."""
         (x0, x1), (y0, y1) = self.across, self.up
         x, y = (np.asarray(across) - x0) / (x1 - x0), (np.asarray(up) - y0) / (y1 - y0)
         return np.asarray(x * self.size.real + UP * y * self.size.imag)
@@ -97,7 +97,7 @@ class ChartAxes:
 
 
 def _ticks(end: complex, span: Span, outwards: complex) -> tuple[Mark, ...]:
-    """Short strokes with round numbers along an axis from the origin."""
+    """Short strokes with round numbers along an axis, which begins at the origin."""
     low, high = span
     values = round_values(low, high)
     at = (values - low) / (high - low) * end
@@ -109,7 +109,7 @@ def _ticks(end: complex, span: Span, outwards: complex) -> tuple[Mark, ...]:
 
 
 def round_values(low: float, high: float) -> Floats:
-    """Round numbers from one end of a span to the other.
+    """Round numbers (n,) between the ends of a span.
 
     >>> round_values(60, 120).tolist()
     [60.0, 70.0, 80.0, 90.0, 100.0, 110.0, 120.0]
@@ -133,12 +133,12 @@ def sizing_sheet(
     block: TitleBlock | None = None,
     orientation: str | None = None,
 ) -> Drawing:
-    """A sheet with the permitted region and the values of the cam, for the writers of :mod:`graphcam.sheets`.
+    """The sheet with the permitted region and the values of the cam.
 
     paper : "A1" to "A4"; frame : "gost" or "iso"; orientation : "landscape" or "portrait"
     language : such as "en"
     front : cams of :func:`~graphcam.mechanism.sizing.pareto_front`, drawn in a chart of their own
-    adopted : the cam of round sizes, shown beside the best;  title : of the table;  block : the title block
+    adopted : the cam of round sizes, shown beside the best;  title : of the table
 
     Raises
     ------
@@ -154,7 +154,7 @@ def sizing_sheet(
 
 @dataclass(frozen=True, eq=False)
 class _Chart:
-    """The region, on axes of the radius and another size."""
+    """The chart of the permitted region, over the radius and another size."""
 
     sized: SizedCam
     region: FeasibleRegion
@@ -162,7 +162,7 @@ class _Chart:
 
     @classmethod
     def of(cls, sized: SizedCam, region: FeasibleRegion, size: complex) -> "_Chart":
-        """On axes as long as the ranges."""
+        """The chart with axes as long as the ranges."""
         problem = sized.problem
         across, radii = problem.ranges[region.across], problem.radius
         spans = _nonzero_span(across, radii[1]), _nonzero_span(radii, radii[1])
@@ -187,13 +187,13 @@ class _Chart:
 
     @property
     def _value(self) -> float:
-        """Of the best cam, of the size on the axis [mm]."""
+        """The value of the best cam on the second axis [mm]."""
         problem = self.sized.problem
         values = dict(zip(problem.ranges, problem.values(self.sized.sizes), strict=True))
         return values[self.region.across] + 0.0
 
     def _limits(self) -> tuple[Mark, ...]:
-        """The line of every limit, with its name, and the ends of the ranges that bind."""
+        """The line of every limit with its name, and the active ends of the ranges."""
         marks: list[Mark] = []
         for name, radius in self.region.by_limit.items():
             line = self.axes.place(self.region.values, radius)[~np.isnan(radius)]

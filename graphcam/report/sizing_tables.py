@@ -26,20 +26,20 @@ BINDING_CAPTIONS: Mapping[str, Caption] = {
         *(say("minimum face width"), say("maximum face width")),
     )
 }
-"""What can bind, limits and ends of ranges, by their names in :class:`~graphcam.mechanism.sizing.SizedCam`."""
+"""Captions of active limits and ends of ranges, by their names in :class:`~graphcam.mechanism.sizing.SizedCam`."""
 SIZE_CAPTIONS: Mapping[str, Caption] = {
     str(words): words
     for words in (say("prime radius"), say("base radius"), say("offset"), say("roller radius"), say("face width"))
 }
-"""The sizes by their names in :class:`~graphcam.mechanism.sizing_limits.SizingProblem`."""
+"""Captions of the sizes, by their names in :class:`~graphcam.mechanism.sizing_limits.SizingProblem`."""
 SMALLEST_CAM_TITLE, LEAST_STRESS_TITLE = say("The smallest cam"), say("The cam under the minimum stress")
 TITLES_BY_OBJECTIVE = {"size": SMALLEST_CAM_TITLE, "stress": LEAST_STRESS_TITLE}
-"""By the objective."""
+"""Titles of the table, by the objective."""
 FRONT_TITLE = say("Radius against stress")
 
 
 def cam_table(best: SizedCam, adopted: SizedCam | None = None, title: Caption = SMALLEST_CAM_TITLE) -> Table:
-    """Sizes and limits with what is permitted; a star where that binds."""
+    """The table of sizes and limits with the permitted values; a star marks the active ones."""
     cams = [best, adopted] if adopted else [best]
     rows = tuple(
         (said, *columns, sequence([limit, "*"], " ") if _is_binding(name, best) else limit)
@@ -50,7 +50,7 @@ def cam_table(best: SizedCam, adopted: SizedCam | None = None, title: Caption = 
 
 
 def front_table(front: Sequence[SizedCam]) -> Table:
-    """The cams of a front: sizes, stress with the widest face, and the least width for the permitted stress."""
+    """The table of a front's cams: sizes, stress with the widest face, and the least width for the permitted stress."""
     measure = front[0].problem.measure
     header = (
         *(say("{size}, mm", size=SIZE_CAPTIONS[name]) for name in (measure, "offset", "roller radius", "face width")),
@@ -72,7 +72,7 @@ def front_table(front: Sequence[SizedCam]) -> Table:
 
 
 Row = tuple[str, Caption, list[Words], Words]
-"""The name, what is said, the value of each cam, and what is permitted."""
+"""Name, caption, the value of each cam, and what is permitted."""
 
 
 def _is_binding(name: str, best: SizedCam) -> bool:

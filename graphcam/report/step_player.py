@@ -1,4 +1,4 @@
-"""The step player of a solution: its sheet step by step with instruments and what is read off, and its mechanism."""
+"""The step player of a solution: its sheet step by step with instruments and readings, and its mechanism."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -35,15 +35,15 @@ INSTRUMENTS: Mapping[str, Caption] = {
     "T-square": say("T-square"),
     "curve template": say("French curve"),
 }
-"""The instruments by the names that kinds of acts give them."""
+"""Captions of the instruments, by their names in kinds of acts."""
 MAX_DIVIDER_OPENING = 150.0
-"""Dividers open so far [mm]; longer lengths are set off with the ruler."""
+"""The maximum opening of dividers [mm]; longer lengths are set off with the ruler."""
 STRAIGHTNESS = 0.02
-"""Points no farther than this from the line through the ends of a piece are joined with the ruler [mm]."""
+"""The maximum distance of points from a line [mm] for which they are joined with the ruler."""
 
 
 def instruments(moves: Iterable[ActPlaces]) -> list[Caption]:
-    """The instruments of moves in the order in which they are taken up, each with its setting, none twice.
+    """The instruments of moves in the order of use, each with its setting, none twice.
 
     >>> import graphcam as gc
     >>> from graphcam.drafting.act_order import pieces_of
@@ -60,7 +60,7 @@ def instruments(moves: Iterable[ActPlaces]) -> list[Caption]:
 
 
 def _instrument(piece: ActPlaces) -> Caption | None:
-    """With what one move is done; None for what is done by eye or in the head."""
+    """The instrument of one move; None for what is done by eye or in the head."""
     act, kind = piece.act, piece.act.kind
     if kind is Kind.READ:
         return _reading_instrument(act)
@@ -79,7 +79,7 @@ def _instrument(piece: ActPlaces) -> Caption | None:
 
 
 def _is_straight(act: Act) -> bool:
-    """Whether every piece of a faired curve goes through points of one line."""
+    """Whether each piece of a faired curve is straight."""
     points = act.takes["points"].shown
     ways = [points[piece] - points[piece][0] for piece in act.takes["pieces"] if points[piece].size]
     off = [np.abs(cross(unit(way[-1]), way)).max() for way in ways if abs(way[-1]) > NEGLIGIBLE_SIZE]
@@ -87,7 +87,7 @@ def _is_straight(act: Act) -> bool:
 
 
 def _is_arc(piece: ActPlaces) -> bool:
-    """Whether one length is laid off along many rays: an arc."""
+    """Whether a move lays one length off along many rays, as an arc does."""
     along, amounts = piece.act.takes["along"], _amounts(piece.act.takes["length"], piece)
     rays = isinstance(along, Drawn) and along.act.kind is Kind.PROTRACTOR
     return rays and len(piece.at) > 2 and float(np.ptp(amounts)) < NEGLIGIBLE_SIZE
@@ -99,14 +99,14 @@ def _level(along: object) -> bool:
 
 
 def _reading_instrument(act: Act) -> Caption | None:
-    """A length is read off a ruler, an angle off a protractor; what is carried over or reckoned is not read again."""
+    """The instrument of a reading: ruler or protractor; None for a value that is transferred or calculated."""
     if "line" in act.takes:
         return INSTRUMENTS["protractor"]
     return INSTRUMENTS["ruler"] if act.takes["length"].ends is not None else None
 
 
 def _amounts(length: object, piece: ActPlaces) -> Floats:
-    """What an instrument is set to at the places of a piece."""
+    """The settings of an instrument at the places of a piece."""
     if isinstance(length, Setting):
         length = length.amount[0] if length.sampled else length.amount
     amounts = np.atleast_1d(np.asarray(length, dtype=np.float64))
@@ -114,7 +114,7 @@ def _amounts(length: object, piece: ActPlaces) -> Floats:
 
 
 def _set_instrument(instrument: Caption, length: object, piece: ActPlaces) -> Caption | None:
-    """Dividers or a compass, and the length that they are set to."""
+    """Dividers or a compass, with the length of their opening."""
     amounts = np.abs(_amounts(length, piece))
     low, high = float(np.fmin.reduce(amounts)), float(np.fmax.reduce(amounts))
     if not high > NEGLIGIBLE_SIZE:
@@ -131,7 +131,7 @@ def _set_instrument(instrument: Caption, length: object, piece: ActPlaces) -> Ca
 
 
 def _source(length: object, amount: float) -> Caption | None:
-    """Where a setting comes from: a reading times a factor, or a machine length in a scale."""
+    """The origin of a setting: a reading times a factor, or a machine length in a scale."""
     if not isinstance(length, Setting) or length.reading is None or length.reading.unit == "rad":
         return None
     if length.value is not None:
@@ -143,7 +143,7 @@ def _source(length: object, amount: float) -> Caption | None:
 
 
 def _protractor_setting(instrument: Caption, degrees: Floats) -> Caption | None:
-    """A protractor, and the angle that it is set to."""
+    """A protractor with the angle of its setting."""
     # A protractor has no angles below zero.
     low, high = (float(np.round(bound(np.abs(degrees)), 2)) for bound in (np.fmin.reduce, np.fmax.reduce))
     if high < NEGLIGIBLE_SIZE:
@@ -156,9 +156,9 @@ def _protractor_setting(instrument: Caption, degrees: Floats) -> Caption | None:
 
 
 def player_of(contents: Contents, drawing: Drawing) -> str:
-    """The page of HTML.
+    """The player's page of HTML.
 
-    drawing : the finished sheet of these contents, all of it
+    drawing : the whole finished sheet of these contents
     """
     solution = contents.solution
     spoken = language(solution.task.drawing.language)
@@ -169,7 +169,7 @@ def player_of(contents: Contents, drawing: Drawing) -> str:
 
 
 def slides(contents: Contents, tell: Tell = str) -> tuple[list[Slide], Acts]:
-    """What is said of each step of the sheet, in order, and the acts that it is drawn by."""
+    """The slides of all steps, in order, and the acts by which the sheet is drawn."""
     record, found = WrittenActs(), scales_found(contents.drawn, contents.steps)
     answers = {step.view.name: tell(step.view.answer) for _, _, step in contents.steps if step.view.answer}
     said = [
@@ -182,14 +182,14 @@ def slides(contents: Contents, tell: Tell = str) -> tuple[list[Slide], Acts]:
 
 
 class ActNumbers(Protocol):
-    """Numbers for acts, by which a page knows what it shows."""
+    """A numbering of acts, by which a page knows what it shows."""
 
     def number(self, act: Act) -> int:
         """The number of an act."""
         ...
 
     def piece(self, piece: ActPlaces) -> list[Any]:
-        """Some places of an act: its number and theirs, None for all of them."""
+        """Places of an act as [number of the act, numbers of the places, or None for all of them]."""
         ...
 
 
@@ -201,7 +201,7 @@ def step_slides(
     tell: Tell = str,
     asked: Callable[[Step], bool] = lambda _: True,
 ) -> Iterator[tuple[int, Slide]]:
-    """What is said of the steps that are asked for, each with its running number.
+    """The slides of the steps that are asked for, each with its running number.
 
     numbers : of the steps within the task, such as "3.2", by the running ones
     record : numbers the acts
@@ -217,13 +217,13 @@ def step_slides(
 
 
 def drawn_in_parts(slides: Iterable[Slide]) -> set[int]:
-    """The numbers of the acts that parts of these steps draw or light in parts."""
+    """The numbers of the acts that parts of these slides draw or highlight piece by piece."""
     pieces = (piece for slide in slides for part in slide.parts for piece in (*part.draws, *part.lit))
     return {number for number, places in pieces if places is not None}
 
 
 def _views(steps: Iterable[Step]) -> dict[Act, str]:
-    """The view in which an act is shown first."""
+    """The name of the view in which an act is shown first, by act."""
     found: dict[Act, str] = {}
     for step in steps:
         for mark in step.marks:
@@ -233,7 +233,7 @@ def _views(steps: Iterable[Step]) -> dict[Act, str]:
 
 
 def run_text(caption: str, first: int, rows: Sequence[tuple[str, str]]) -> RunText:
-    """A run as it is shown: what is said of all its places, and its table of names and settings."""
+    """A run for the page: the text for all its places, and its table of names and settings."""
     head = _head([name for name, _ in rows])
     alike = len({setting for _, setting in rows}) == 1
     shown = tuple((name[len(head) :], "" if alike else setting) for name, setting in rows)
@@ -241,7 +241,7 @@ def run_text(caption: str, first: int, rows: Sequence[tuple[str, str]]) -> RunTe
 
 
 def _head(names: Sequence[str]) -> str:
-    """The words with which names begin, all of them, if they go on behind.
+    """The words at the beginning of all names, if each name goes on behind them.
 
     >>> _head(["Station 0", "Station 12′"]), _head(["Ray 3", "Rays 4, 9"])
     ('Station ', '')
@@ -251,16 +251,16 @@ def _head(names: Sequence[str]) -> str:
 
 
 def _of_all(parts: Iterable[PartText]) -> tuple[str, ...]:
-    """The instruments that are used in every part."""
+    """The instruments that every part uses."""
     first, *others = (part.tools for part in parts)
     return tuple(tool for tool in first if all(tool in tools for tools in others))
 
 
 @dataclass(frozen=True)
 class _Telling:
-    """What is needed to tell the steps, one after another.
+    """The state of telling the steps one after another.
 
-    tell : says all texts;  board, record : what lies there and what is written down so far
+    tell : translates all texts;  board, record : the drawing and the acts so far
     views : the names of the views in which acts are shown
     """
 
@@ -270,7 +270,7 @@ class _Telling:
     views: Mapping[Act, str]
 
     def slide(self, construction: Construction, step: Step, number: str, *, opens: bool) -> Slide:
-        """What is said of a step; that which opens a chapter says why the construction is drawn."""
+        """The slide of a step; that which opens a chapter also gives the reason of the construction."""
         tell, read = self.tell, {name: construction.readings[name] for name in step.reads}
         moves = self.board.followed(step, read.values())
         captions, runs = self._said(step) if step.parts else ([""], [])
@@ -291,7 +291,7 @@ class _Telling:
         )
 
     def _said(self, step: Step) -> tuple[list[str], list[RunText]]:
-        """What is said at every place of a step, and its runs."""
+        """The texts for all places of a step, and its runs."""
         said, runs = list[str](), list[RunText]()
         for part in step.parts:
             if not part.rows:
@@ -312,7 +312,7 @@ class _Telling:
         return [self.record.piece(piece) for piece in pieces]
 
     def _reading(self, row: ReadingRow, read: Reading) -> Iterator[ReadingText]:
-        """A reading; of several values the extremes, the last of them with all values."""
+        """The texts of a reading; of several values the extremes, the last of them with all values."""
         tell = self.tell
         if not row.places:
             taken, _, value = tell(row.caption()).rpartition(" = ")
@@ -326,13 +326,13 @@ class _Telling:
             yield ReadingText(tell(title), taken, value, lines if k == last else (), self._lit(read, k), row.name)
 
     def _lit(self, read: Reading, *places: int) -> Pieces:
-        """What is seen of what is read, all or at some places."""
+        """The visible pieces from which a reading is taken, at all or some places."""
         if read.act is None:
             return []
         return self._pieces(self.board.visible([ActPlaces(read.act, places) if places else all_places(read.act)]))
 
     def _line(self, row: ReadingRow, read: Reading, place: int) -> RowText:
-        """One value of many: where, on paper, value."""
+        """One value of many: its place, length on paper, and value."""
         name = self.tell(row.places[place])
         if row.paper[place] != row.paper[place]:
             return RowText(name, "–", "–")

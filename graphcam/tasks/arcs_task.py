@@ -14,7 +14,7 @@ from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain_data
 from graphcam.words import say
 
 MAX_PARTS = 200
-"""Parts of an arc; more cannot be drawn apart."""
+"""The maximum number of parts of an arc; more cannot be drawn apart."""
 XY = tuple[float, float]
 
 
@@ -22,7 +22,7 @@ XY = tuple[float, float]
 class ArcsTable:
     """``[arcs]``: the data of :class:`~graphcam.given.three_arcs.ThreeArcs`, points as [x, y] in mm.
 
-    dwell : degrees for which the outer circle holds the follower up; the return is the rise's mirror image
+    dwell : degrees of the upper dwell on the outer circle; the return is the rise's mirror image
     """
 
     D: XY
@@ -43,7 +43,7 @@ class ArcsTable:
                 bounded(name, coordinate, "mm")
 
     def __call__(self) -> ThreeArcs:
-        """The data."""
+        """The data of the cam."""
         return ThreeArcs(self.D, self.G, self.rho1, self.A, self.C1, self.C2)
 
 

@@ -20,49 +20,49 @@ from graphcam.errors import DesignError
 from graphcam.words import Words, either, say
 
 Place = tuple[int | str, ...]
-"""Where in a file: keys, numbers of list entries, and the choices among classes by their kind."""
+"""A place in a file: keys, numbers of list entries, and the choices among classes by their kind."""
 TABLE_FORM = say("a table")
 _Read = TypeVar("_Read")
 
 
 class ByKind:
-    """Marks a choice among dataclasses as one by the key ``kind``, whose ``Literal`` each of them has."""
+    """Marks a union of dataclasses that is read by the key ``kind``, whose ``Literal`` each of them has."""
 
 
 class ByKeys:
-    """Marks a choice among dataclasses as one by the keys of the table: that which knows most of them is read."""
+    """Marks a union of dataclasses that is read by its keys: the class that knows most of them is taken."""
 
 
 class ByName:
-    """Marks a field whose value is a name in a file, whatever else it may be in Python."""
+    """Marks a field whose value is a name in a file, whatever other types it may have in Python."""
 
 
 @dataclass(frozen=True)
 class MissingKey:
-    """A key that must be there."""
+    """The fault of a key that is required and missing."""
 
     place: Place
 
 
 @dataclass(frozen=True)
 class UnknownKey:
-    """A key that its table does not have."""
+    """The fault of a key that its table does not have."""
 
     place: Place
 
 
 @dataclass(frozen=True)
 class UnknownKind:
-    """A table whose key ``kind`` is missing or names none of its classes."""
+    """The fault of a table whose key ``kind`` is missing or names none of its classes."""
 
     place: Place
 
 
 @dataclass(frozen=True)
 class WrongType:
-    """A value that is not of the field's type; ``expected`` is what the file must give.
+    """The fault of a value that is not of the field's type; ``expected`` is what the file must give.
 
-    choices : the words that it may be, where these are few
+    choices : the permitted words, where these are few
     """
 
     place: Place
@@ -72,7 +72,7 @@ class WrongType:
 
 @dataclass(frozen=True)
 class Misfit:
-    """A table whose values are of their types and make no design."""
+    """The fault of a table whose values have the right types, but make no design."""
 
     place: Place
     error: DesignError
@@ -80,7 +80,7 @@ class Misfit:
 
 Fault = MissingKey | UnknownKey | UnknownKind | WrongType | Misfit
 Reader = Callable[[Any, Place, list[Fault]], Any]
-"""Makes a value of what a file says at a place; what is wrong goes into the list, and the value is then of no use."""
+"""A reader of the value at a place; it appends faults to the list, and then its value is of no use."""
 
 
 def read_dataclass(kind: type[_Read], said: Mapping[str, Any]) -> _Read | list[Fault]:
@@ -105,7 +105,7 @@ def read_dataclass(kind: type[_Read], said: Mapping[str, Any]) -> _Read | list[F
 
 @cache
 def _dataclass_reader(kind: type) -> Reader:
-    """Reads a table as a dataclass; a field's key in the file is its name, or its ``alias``."""
+    """The reader of a table as a dataclass; a field's key in the file is its name, or its ``alias``."""
     hints = get_type_hints(kind, include_extras=True)
     fields = [each for each in dataclasses.fields(kind) if each.init]
     readers = {each.metadata.get("alias", each.name): (each.name, _reader(hints[each.name])) for each in fields}
@@ -132,7 +132,7 @@ def _dataclass_reader(kind: type) -> Reader:
 
 
 def _reader(hint: Any) -> Reader:
-    """What reads a value as a type hint says."""
+    """The reader of a value by a type hint."""
     origin, parts = get_origin(hint), get_args(hint)
     if origin is Annotated:
         marks = [type(mark) for mark in parts[1:]]
@@ -157,7 +157,7 @@ def _reader(hint: Any) -> Reader:
 
 
 def _number(said: Any, place: Place, faults: list[Fault]) -> Any:
-    """A finite number; a whole one becomes one with decimals, as of every field that is measured."""
+    """A finite number; a whole one becomes a float."""
     if isinstance(said, bool) or not isinstance(said, int | float):
         return faults.append(WrongType(place, say("a number (without quotes)")))
     try:
@@ -201,7 +201,7 @@ def _literal_reader(choices: tuple[Any, ...]) -> Reader:
 
 
 def _union_reader(hints: tuple[Any, ...]) -> Reader:
-    """Reads what the first of several hints can read; else the fault of what came furthest is told."""
+    """The reader of the first of several hints that fits; else it tells the faults of the choice that fits best."""
     readers = [_reader(hint) for hint in hints if hint is not type(None)]
     optional = type(None) in hints
     if len(readers) == 1 and not optional:
@@ -223,7 +223,7 @@ def _union_reader(hints: tuple[Any, ...]) -> Reader:
 
 
 def _closest_faults(found: list[list[Fault]], place: Place) -> list[Fault]:
-    """The faults of the choice that fits best; where none fits at all, what each of them expected."""
+    """The faults of the choice that fits best; where none fits at all, what each choice expected."""
     best = max(found, key=lambda faults: len(faults[0].place))
     if len(found) == 1 or best[0].place != place:
         return best
@@ -232,7 +232,7 @@ def _closest_faults(found: list[list[Fault]], place: Place) -> list[Fault]:
 
 
 def _kind_reader(classes: tuple[type, ...]) -> Reader:
-    """Reads a table as that class whose ``kind`` it names."""
+    """The reader of a table as the class that its key ``kind`` names."""
     tags = {kind: get_args(get_type_hints(kind)["kind"])[0] for kind in classes}
     readers: dict[Any, Reader] = {tag: _dataclass_reader(kind) for kind, tag in tags.items()}
 
@@ -248,7 +248,7 @@ def _kind_reader(classes: tuple[type, ...]) -> Reader:
 
 
 def _keys_reader(classes: tuple[type, ...]) -> Reader:
-    """Reads a table as that class which has most of its keys, the first of several."""
+    """The reader of a table as the class that has most of its keys, the first of several."""
     known = {kind: {each.name for each in dataclasses.fields(kind) if each.init} for kind in classes}
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
@@ -259,7 +259,7 @@ def _keys_reader(classes: tuple[type, ...]) -> Reader:
 
 
 def _list_reader(hint: Any) -> Reader:
-    """Reads a list of any length."""
+    """The reader of a list of any length."""
     reader = _reader(hint)
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
@@ -272,7 +272,7 @@ def _list_reader(hint: Any) -> Reader:
 
 
 def _tuple_reader(hints: tuple[Any, ...]) -> Reader:
-    """Reads a list of just so many."""
+    """The reader of a list of fixed length."""
     readers = [_reader(hint) for hint in hints]
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
@@ -293,7 +293,7 @@ def _tuple_reader(hints: tuple[Any, ...]) -> Reader:
 
 
 def _mapping_reader(hint: Any) -> Reader:
-    """Reads a table with keys of the file's own."""
+    """The reader of a table with keys of the file's own."""
     reader = _reader(hint)
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:

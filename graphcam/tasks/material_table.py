@@ -1,4 +1,4 @@
-"""The table ``[material]`` of a task file: cam and follower where they touch, and what stress is permitted there."""
+"""The table ``[material]`` of a task file: the materials of cam and follower, and the permitted stress."""
 
 from dataclasses import dataclass
 
@@ -15,7 +15,7 @@ class MaterialTable:
     width : mm, of the contact along the axes
     young_cam, young_follower : MPa, moduli of elasticity of the cam, and of the roller or the flat face
     poisson_cam, poisson_follower : their Poisson's ratios
-    permitted_stress : MPa, of the pressure in the middle of the contact; None judges no stress
+    permitted_stress : MPa, of the pressure in the middle of the contact; with None no stress is judged
 
     Raises
     ------

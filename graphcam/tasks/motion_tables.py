@@ -17,11 +17,11 @@ from graphcam.tasks.dataclass_reader import ByKind, ByName
 from graphcam.words import Words, say
 
 ANGLE_CLOSURE = 1e-9
-"""How far the phase angles of a file may miss 360 degrees."""
+"""The maximum error of the sum of a file's phase angles [degrees]."""
 
 
 TWO_TURNS = 720.0
-"""A part may lead over the end of the turn."""
+"""The maximum angle [degrees] at which a part may end, as a part may pass the end of the turn."""
 
 
 def _check_angle(angle: float, name: str = "angle") -> None:
@@ -32,7 +32,7 @@ def _check_angle(angle: float, name: str = "angle") -> None:
 
 @dataclass(frozen=True)
 class PointTable:
-    """What is asked at a cam angle [degrees]; what is left out is free.
+    """Conditions on the motion at a cam angle [degrees]; what is left out is free.
 
     s : mm (degrees for an arm);  v, a, j : its derivatives by the cam angle in radians
     """
@@ -57,7 +57,7 @@ class PointTable:
 
 @dataclass(frozen=True)
 class PolynomialTable:
-    """The polynomial through points, of the degree that all their conditions ask for."""
+    """The polynomial through points, of the degree that all their conditions need."""
 
     points: tuple[PointTable, ...]
     degree: int | None = None
@@ -73,7 +73,7 @@ class PolynomialTable:
 
 @dataclass(frozen=True)
 class SplineTable:
-    """The B-spline of a degree through points; its inner knots [degrees] are chosen where they are left out."""
+    """The B-spline of a degree through points; inner knots [degrees] that are left out are chosen."""
 
     points: tuple[PointTable, ...]
     degree: int = 5
@@ -118,7 +118,7 @@ class DwellTable:
         check_positive("angle", self.angle, "degrees")
 
     def __call__(self, unit: float = 1.0) -> Dwell:
-        """The phase in radians; ``unit`` is there because every phase is called alike."""
+        """The phase in radians; ``unit`` has no effect, since a dwell has no lift."""
         return Dwell(math.radians(self.angle))
 
 
@@ -149,7 +149,7 @@ class _MovingTable:
 
 @dataclass(frozen=True)
 class RiseTable(_MovingTable):
-    """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law, of that name or one's own.
+    """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees, by a law of graphcam or of your own.
 
     blends : of the law "constant-velocity", the fractions of the phase that its blends take; None is a quarter each
     """
@@ -218,7 +218,7 @@ class MotionTable:
 
 
 def _remedy(turn: float, phases: tuple[PhaseTable, ...]) -> Words:
-    """What to do about the angles of phases [degrees] that sum to ``turn``, which is none."""
+    """The remedy for phase angles [degrees] whose sum ``turn`` is not 360."""
     if abs(turn - FULL_TURN) < NEAR_TURN_SHARE * FULL_TURN:
         return say("about 2 pi: give the angles in degrees, not in radians")
     off, dwells = f"{abs(360 - turn):.10g}", [isinstance(phase, DwellTable) for phase in phases]

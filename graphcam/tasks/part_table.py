@@ -16,7 +16,7 @@ SplineDegree = Literal[2, 3, 4, 5]
 
 @dataclass(frozen=True)
 class PartTable:
-    """``[part]``: what the workshop must know beside the profile; what is None follows from the cam or the frame.
+    """``[part]``: sizes and data of the part for the workshop; what is None follows from the cam or the frame.
 
     bore : mm; None is the largest standard shaft diameter that leaves enough wall
     keyway : standard of the keyway in the bore; None is that of the sheet's frame
@@ -84,7 +84,7 @@ class PartTable:
                 raise DesignError(name, text, say("printable text on one line"))
 
     def _check_hub(self) -> None:
-        """A hub has both sizes, and both reach beyond what it surrounds."""
+        """Refuse a hub with one size alone, or one that does not reach beyond what it surrounds."""
         diameter, length = self.hub_diameter, self.hub_length
         if (diameter is None) != (length is None):
             missing, there = ("hub_diameter", "hub_length") if diameter is None else ("hub_length", "hub_diameter")

@@ -1,4 +1,4 @@
-"""What every task file has: the tables about the sheet, and how values are checked and written back."""
+"""The tables about the sheet, which every task file has; checks of values, and values as plain data."""
 
 import dataclasses
 from dataclasses import dataclass, field, replace
@@ -15,7 +15,7 @@ Orientation = Literal["landscape", "portrait"]
 
 
 DEFAULT_NAME = say("Cam mechanism")
-"""What a task is called whose file does not say."""
+"""The name of a task whose file gives none."""
 BUILTIN_NAMES = {
     str(name): name
     for name in (
@@ -26,18 +26,18 @@ BUILTIN_NAMES = {
         say("Cam of three circular arcs"),
     )
 }
-"""What the built-in tasks are called, which every language knows."""
+"""The names of the built-in tasks, which are translated."""
 
 
 def check_choice(quantity: str, value: str, known: tuple[str, ...]) -> None:
-    """Check a word."""
+    """Refuse a word that is not among the known ones."""
     if value not in known:
         raise DesignError(quantity, value, *among(value, known))
 
 
 @dataclass(frozen=True)
 class TitleTable:
-    """``[title]``: what the title block says; the number of the sheet and of the sheets comes by itself.
+    """``[title]``: the entries of the title block; the numbers of sheets are added automatically.
 
     scale : None is, on each sheet, the scale of what is drawn on it: of the cam, or else of the largest other view
         that has a drawing scale; a sheet of diagrams, each with scales of its own, has none
@@ -58,7 +58,7 @@ class TitleTable:
                 raise DesignError(key.name, text, say("printable text on one line"))
 
     def translated_name(self, tell: Tell) -> str:
-        """The name as the file says it, that of a built-in task in the language of the sheet."""
+        """The name in the file; that of a built-in task in the language of the sheet."""
         return tell(BUILTIN_NAMES.get(self.name, self.name))
 
 
@@ -66,7 +66,7 @@ class TitleTable:
 class SheetTable:
     """The part of ``[drawing]`` that is about the sheet.
 
-    orientation : None lies, but A4 in the frame of GOST stands
+    orientation : None is landscape, but portrait for A4 in the frame of GOST
     """
 
     format: Format = "A1"
@@ -82,22 +82,22 @@ class SheetTable:
         check_choice("language", self.language, languages())
 
     def on(self, format_: Format) -> Self:
-        """The same on another format."""
+        """The same table for another format."""
         return replace(self, format=format_)
 
     @property
     def tell(self) -> Tell:
-        """Says texts in the language of the sheet."""
+        """Translates texts into the language of the sheet."""
         return language(self.language).text
 
     @property
     def remark(self) -> str:
-        """What stands on the sheet about its language; mostly nothing."""
+        """The remark on the sheet about its translation; empty where there is none."""
         return language(self.language).remark
 
 
 def plain_data(value: Any) -> Any:
-    """A table and all in it as dictionaries, lists, numbers and text; what is None is left out, a law is its name."""
+    """A table as dictionaries, lists, numbers and texts; what is None is left out, a law is its name."""
     if isinstance(value, tuple):
         return [plain_data(item) for item in value]  # pyright: ignore[reportUnknownVariableType]
     if isinstance(value, Law):

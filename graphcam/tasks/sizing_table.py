@@ -1,4 +1,4 @@
-"""The table ``[sizing]`` of a task file: between what sizes the best cam is sought, and what best means."""
+"""The table ``[sizing]`` of a task file: the ranges of sizes for the best cam, and the objective."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -55,13 +55,13 @@ class SizingTable:
             raise DesignError("base_radius", found, say("left out"), say("give {either}", either=either))
 
     def ranges(self) -> dict[str, tuple[float, float]]:
-        """The ranges that are given, by their keys; one size is a range of two equal ends."""
+        """The ranges (low, high) that are given [mm], by their keys; one size is a range of two equal ends."""
         said = {name: getattr(self, name) for name in RANGE_KEYS if getattr(self, name) is not None}
         return {name: value if isinstance(value, tuple) else (value, value) for name, value in said.items()}
 
 
 RANGE_KEYS = "prime_radius", "base_radius", "offset", "roller_radius", "width"
-"""The keys that are ranges."""
+"""The keys of the table that are ranges."""
 
 
 def _finite(name: str, value: float) -> None:

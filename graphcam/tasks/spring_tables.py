@@ -1,4 +1,4 @@
-"""The table ``[spring]`` of a task file: what presses the follower on its cam, of one that slides and of an arm."""
+"""The table ``[spring]`` of a task file: spring, mass and loads of a sliding follower, and of an arm."""
 
 import math
 from dataclasses import dataclass
@@ -47,7 +47,7 @@ def _check_turning(acceleration: float, friction: float, load: LoadTable) -> Non
 
 
 MAX_FRICTION = 2.0
-"""A greater coefficient is a slip of the digits."""
+"""The maximum coefficient of friction; a greater one is a typing error."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class SpringTable:
         _check_turning(self.acceleration, self.friction, self.load)
 
     def __call__(self, speed_rpm: float) -> SpringLoad:
-        """The load at a speed; an open preload is 0 in it.  The friction is a matter of the contact."""
+        """The load at a speed [rpm]; an open preload is 0 in it.  Friction belongs to the contact, not to the load."""
         load, preload = load_of(self.load), self.preload or 0.0
         return SpringLoad(self.mass, speed_rpm, self.stiffness, preload, self.acceleration, load=load)
 
@@ -101,7 +101,7 @@ class ArmSpringPlace:
             bounded("anchor", coordinate, "mm")
 
     def __call__(self) -> ArmSpring:
-        """The same for the exact side."""
+        """The spring in the terms of the exact side."""
         return ArmSpring(self.arm, self.anchor)
 
 
@@ -135,6 +135,6 @@ class ArmSpringTable:
         _check_turning(self.acceleration, self.friction, self.load)
 
     def __call__(self, speed_rpm: float) -> ArmLoad:
-        """The load at a speed; an open preload is 0 in it.  The friction is a matter of the contact."""
+        """The load at a speed [rpm]; an open preload is 0 in it.  Friction belongs to the contact, not to the load."""
         load, preload, at = load_of(self.load), self.preload or 0.0, self.at and self.at()
         return ArmLoad(self.inertia, speed_rpm, self.stiffness, preload, self.acceleration, load, at)

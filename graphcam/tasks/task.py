@@ -28,42 +28,42 @@ from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.words import say
 
 MAX_DIVISIONS = 1000
-"""Parts of a phase; more cannot be drawn apart."""
+"""The maximum number of parts of a phase; more cannot be drawn apart."""
 LARGER_RADIUS_REMEDY = say("or a larger cam.prime_radius")
 FACE_ONLY_REMEDY = "only a flat face is limited by it; a roller has its roller_rule"
 NO_FACE_REMEDY = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
 
 
 class _FollowerTable:
-    """What the task asks of ``[follower]``; a kind states what differs from a stem with a roller."""
+    """The properties of ``[follower]`` that a task uses; each kind states what differs from a stem with a roller."""
 
     roller_radius: float | None
     without: ClassVar[Mapping[str, str]] = {"min_curvature_radius": FACE_ONLY_REMEDY}
-    """The limits that it does not have, and why."""
+    """The limits that this follower does not have, each with the remedy."""
     swings: ClassVar[bool] = False
-    """Whether a spring turns it about a pivot."""
+    """Whether the follower turns about a pivot, so that its spring exerts a moment."""
     sought: ClassVar[tuple[str, ...]] = ()
-    """The sizes for which ranges may be given; a follower without any is not sized."""
+    """The sizes for which ranges may be given; a follower without any cannot be sized."""
     made_to: ClassVar[tuple[str, ...]] = ("roller_diameter", "offset")
-    """The sizes that may have a tolerance."""
+    """The sizes of this kind of follower that may have a tolerance."""
 
     @property
     def made_sizes(self) -> tuple[str, ...]:
-        """Those that have one: a knife edge has no roller."""
+        """The sizes that may have a tolerance on this follower: a knife edge has no roller."""
         return tuple(name for name in self.made_to if name != "roller_diameter" or self.roller_radius != 0)
 
     @property
     def lift_unit(self) -> float:
-        """One unit of the phases' lift [mm or rad]."""
+        """The unit of the phases' lift in the API [mm or rad]."""
         return 1.0
 
     @property
     def column(self) -> str:
-        """The name of a measured displacement."""
+        """The name of the column of displacements in a measured table."""
         return "s_mm"
 
     def check(self, prime_radius: float) -> None:
-        """That the sizes leave room on a given prime radius, whatever the motion."""
+        """Refuse sizes that leave no room on a given prime radius [mm], whatever the motion."""
         if (self.roller_radius or 0.0) >= prime_radius:
             limit = say("less than the prime radius of {prime_radius:g} mm", prime_radius=prime_radius)
             remedy = say("take a smaller roller {or_larger}", or_larger=LARGER_RADIUS_REMEDY)
@@ -92,11 +92,11 @@ class TranslatingTable(_FollowerTable):
         roller_rule(self.roller_rule)
 
     def __call__(self) -> Translating:
-        """The follower; what is open is 0 in it: a central follower, a knife edge."""
+        """The follower; an open offset and an open roller radius are 0: a central follower, a knife edge."""
         return Translating(self.offset or 0.0, self.roller_radius or 0.0)
 
     def check(self, prime_radius: float) -> None:
-        """That the sizes leave room on a given prime radius, the offset first."""
+        """Refuse sizes that leave no room on a given prime radius [mm], the offset first."""
         if abs(self.offset or 0.0) >= prime_radius:
             limit = say("less than the prime radius of {prime_radius:g} mm in magnitude", prime_radius=prime_radius)
             remedy = say("take a smaller offset {or_larger}", or_larger=LARGER_RADIUS_REMEDY)
@@ -133,16 +133,16 @@ class OscillatingTable(_FollowerTable):
 
     @property
     def lift_unit(self) -> float:
-        """One unit of the phases' lift [rad]."""
+        """The unit of the phases' lift [rad]: a degree, or a mm of arc."""
         return math.radians(1) if self.lift == "angle" else 1 / self.arm
 
     @property
     def column(self) -> str:
-        """The name of a measured displacement."""
+        """The name of the column of displacements in a measured table."""
         return "s_deg" if self.lift == "angle" else "s_mm"
 
     def __call__(self) -> Oscillating:
-        """The follower; an open roller radius is 0 in it: a knife edge."""
+        """The follower; an open roller radius is 0: a knife edge."""
         return Oscillating(self.arm, self.distance, self.roller_radius or 0.0)
 
 
@@ -183,7 +183,7 @@ class CamTable:
 
 @dataclass(frozen=True)
 class LimitsTable:
-    """``[limits]``: what the cam must keep to.
+    """``[limits]``: what the cam must satisfy.
 
     pressure_angle_rise : degrees; None takes the usual one of the follower's kind
     pressure_angle_return : degrees; None is force closure, where the return does not limit the radius
@@ -211,7 +211,7 @@ class LimitsTable:
 
 @dataclass(frozen=True)
 class DrawingTable(SheetTable):
-    """``[drawing]``: how it is drawn.
+    """``[drawing]``: divisions, scales and rounding of the constructions, and the sheet.
 
     divisions : equal parts per phase
     ordinate : mm on paper, the maximum ordinate of the first rise's acceleration; None is the longest of a round
@@ -241,7 +241,7 @@ class DrawingTable(SheetTable):
         check_positive("rounding", self.rounding, "mm")
 
     def on(self, format_: Format) -> Self:
-        """The same on another format, with ordinate, poles and scale that suit it: the given ones suit this one.
+        """The same table for another format; ordinate, poles and scale are left open, as the given ones suit this one.
 
         >>> DrawingTable("A1", ordinate=50, poles=(40, 40)).on("A3").ordinate is None
         True
@@ -251,7 +251,7 @@ class DrawingTable(SheetTable):
 
 @dataclass(frozen=True)
 class Task:
-    """A design task, as its file says it.
+    """A design task, with the tables of its file.
 
     rotation : "ccw" or "cw"
     speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
@@ -310,7 +310,7 @@ class Task:
         self._check_sizing()
 
     def _check_sizing(self) -> None:
-        """That ranges come with what is limited in them, and that every size has a range or a value."""
+        """Refuse ranges without the limits that they need, and sizes with neither a range nor a value."""
         if self.sizing is None:
             return
         if not self.follower.sought:
@@ -347,14 +347,14 @@ class Task:
             raise DesignError("spring.inertia", getattr(self.spring, "inertia", None), left_out, remedy)
 
     def _check_limits(self) -> None:
-        """Limits that the follower does not have are refused: they would be given, and not kept."""
+        """Refuse limits that the follower does not have."""
         for key, reason in self.follower.without.items():
             left_out = say("left out for a follower of kind {kind}", kind=self.follower.kind)
             if (value := getattr(self.limits, key)) is not None:
                 raise DesignError(f"limits.{key}", value, left_out, reason)
 
     def _inform_tables(self) -> None:
-        """What a table means depends on the follower: an arm's lift is an angle, each kind has its usual limit."""
+        """Set what a table takes from the follower: the unit of the lift, and the usual limits."""
         motion, column = dataclasses.replace(self.motion), self.follower.column
         object.__setattr__(motion, "lift_unit", self.follower.lift_unit)
         if motion.table is not None and motion.table.column not in (column, "a"):

@@ -33,9 +33,9 @@ from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.words import Caption, Words, bare, chained, say
 
 BUILTIN_TASK_NAMES = ("coursework", "arm", "flat", "measured")
-"""Names of the task files that come with graphcam; "arcs" is one more, of a cam of three circular arcs."""
+"""Names of the built-in tasks; "arcs" is one more, a cam of three circular arcs."""
 SIZING_TASK_NAME = "sizing"
-"""The name of the task with a table ``[sizing]`` that comes with graphcam."""
+"""The name of the built-in task with a table ``[sizing]``."""
 THE_FILE = say("the task file")
 EXAMPLE_REMEDY = say("'graphcam init FILE' writes a commented example")
 Classes = dict[tuple[str, ...], type]
@@ -73,7 +73,7 @@ _CLASSES_OF_ARCS: Classes = {
     ("drawing",): arcs.ArcsDrawingTable,
     ("part",): PartTable,
 }
-"""The same for a cam of three circular arcs."""
+"""The class of each table of the file of a cam of three circular arcs, by its place without numbers."""
 _KEYS_BY_QUANTITY = {
     "sum of the phase angles": "phases",
     "sum of rises less returns": "phases",
@@ -87,9 +87,9 @@ _KEYS_BY_QUANTITY = {
     "minimum radius of curvature": "min_curvature_radius",
     "the table's lift": "table",
 }
-"""What a quantity of a design error is called in the file, where that differs."""
+"""Keys of the file by the quantity of a design error, where the two differ."""
 _MAX_SHOWN_LENGTH = 60
-"""Characters of a value that a message shows."""
+"""The maximum number of characters of a value in a message."""
 
 
 def load_task(path: str | Path) -> Task | ArcsTask:
@@ -120,7 +120,7 @@ def load_task(path: str | Path) -> Task | ArcsTask:
 
 
 def read_content(path: str | Path) -> bytes:
-    """What stands in a file.
+    """The bytes of a file.
 
     Raises
     ------
@@ -135,7 +135,7 @@ def read_content(path: str | Path) -> bytes:
 
 @contextmanager
 def other_file(kind: Words, example: Words) -> Generator[None]:
-    """Errors of a file that is no task file, told of that kind of file: a task's example is of no use there."""
+    """Give errors in the block the kind and the example of a file that is no task file."""
     try:
         yield
     except MissingFileError as error:
@@ -148,7 +148,7 @@ def other_file(kind: Words, example: Words) -> Generator[None]:
 
 
 def task_of(path: str, data: dict[str, Any]) -> Task:
-    """The task that a table of a TOML file says, ``path`` for the messages.
+    """The task in a table of a TOML file; ``path`` is for the messages.
 
     Raises
     ------
@@ -161,9 +161,9 @@ def task_of(path: str, data: dict[str, Any]) -> Task:
 
 
 def task_from(data: dict[str, Any], name: str = "task") -> Task | ArcsTask:
-    """The task that plain data say, with the keys and units of a file; a measured table stands in them itself.
+    """The task in plain data with the keys and units of a file; a measured table stands in them itself.
 
-    name : what messages call it
+    name : of the task in messages
 
     Raises
     ------
@@ -180,8 +180,7 @@ def task_from(data: dict[str, Any], name: str = "task") -> Task | ArcsTask:
 
 
 def builtin_task(name: str = "coursework") -> Task:
-    """A task that comes with graphcam, by its name in :data:`BUILTIN_TASK_NAMES`; "sizing" is one more, with ranges of
-    sizes.
+    """A task that comes with graphcam, by its name in :data:`BUILTIN_TASK_NAMES`; "sizing" has ranges of sizes.
 
     >>> import graphcam as gc
     >>> gc.builtin_task().follower().offset
@@ -208,7 +207,7 @@ def builtin_arcs_task() -> ArcsTask:
 
 
 def builtin_text(name: str) -> str:
-    """The file of a built-in task.
+    """The text of the file of a built-in task.
 
     >>> 'rotation = "cw"' in builtin_text("coursework")
     True
@@ -251,7 +250,7 @@ def parse_toml(path: str, content: bytes) -> dict[str, Any]:
 
 
 def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """The data with what the file of a measured motion says in place of its name."""
+    """The data with the rows of a measured motion's file in place of its name."""
     motion = data.get("motion")
     if not isinstance(motion, dict) or "table" not in motion:
         return data
@@ -267,7 +266,7 @@ def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]
 
 
 def _task(path: str, data: dict[str, Any], whole: dict[str, Any]) -> Task | ArcsTask:
-    """The task in ``whole``; its errors are told in the words of the file's ``data``."""
+    """The task that ``whole`` describes; errors use the words of the file's ``data``."""
     if "arcs" in data:
         return checked_table(ArcsTask, _CLASSES_OF_ARCS, path, data, whole)
     return checked_table(Task, _CLASSES, path, data, whole)
@@ -276,7 +275,7 @@ def _task(path: str, data: dict[str, Any], whole: dict[str, Any]) -> Task | Arcs
 def checked_table(
     kind: type[_Checked], classes: Classes, path: str, data: dict[str, Any], whole: dict[str, Any]
 ) -> _Checked:
-    """The dataclass that ``whole`` describes; its errors are told in the words of the file's ``data``.
+    """The dataclass that ``whole`` describes; errors use the words of the file's ``data``.
 
     classes : the class of each table of the file, by its place without numbers
 
@@ -292,7 +291,7 @@ def checked_table(
 
 
 def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault) -> TaskError:
-    """The error of a file in the words of its writer."""
+    """The error for a fault, in the words of the file."""
     place, value = _look_up(data, fault.place)
     match fault:
         case Misfit(table, error):
@@ -318,7 +317,7 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
 
 
 def _lacking(path: str, place: str, data: dict[str, Any]) -> TaskError:
-    """That a key of a spring or a material must be given, with all others that are missing beside it."""
+    """The error for a missing key of a spring or a material, which names all others missing beside it."""
     remedy = EXAMPLE_REMEDY
     if place == "spring.mass" and _swings(data):
         place = "spring.inertia"
@@ -329,7 +328,7 @@ def _lacking(path: str, place: str, data: dict[str, Any]) -> TaskError:
 
 
 def _missing_keys(data: dict[str, Any]) -> list[str]:
-    """The keys that a material lacks, which takes a spring, and the spring, which takes a speed."""
+    """The missing keys of a material, which needs a spring, and of the spring, which needs a speed."""
     material, spring = data.get("material"), data.get("spring", {})
     found = ["material.width"] if isinstance(material, dict) and "width" not in material else []
     if isinstance(spring, dict):
@@ -348,7 +347,7 @@ def _swings(data: dict[str, Any]) -> bool:
 def _unknown_key(
     path: str, place: str, value: Any, classes: Classes, table: tuple[str, ...], data: dict[str, Any]
 ) -> TaskError:
-    """A key that its table does not have, or that only a table of another kind has."""
+    """The error for a key that its table does not have, or that only a table of another kind has."""
     key, known = place.split(".")[-1], _keys(classes[table])
     alike = [other for other in classes if table[:-1] and other[:-1] == table[:-1]]
     kinds = [other[-1] for other in alike if key in _keys(classes[other])]
@@ -360,12 +359,12 @@ def _unknown_key(
 
 
 def _keys(table: type) -> list[str]:
-    """The keys of a table in a file; what the loader sets itself is none."""
+    """The keys of a table in a file, without those that the loader sets itself."""
     return [field.name for field in dataclasses.fields(table) if field.init]
 
 
 def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -> TaskError:
-    """A value that fits its type but no design, named and shown as it stands in the file where it does."""
+    """The error for a value that makes no design, named and shown as in the file where it stands there."""
     key = _KEYS_BY_QUANTITY.get(error.quantity, error.quantity)
     field, value = _look_up(data, (*place, *key.split(".")))
     # What follows from a table is no value that its key has.
@@ -384,7 +383,7 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
 
 
 def _look_up(data: Any, place: Place) -> tuple[str, Any]:
-    """How a place is written, such as ``motion.phases[2].angle``, and the value there (None if there is none)."""
+    """The written form of a place, such as ``motion.phases[2].angle``, and the value there (None if there is none)."""
     name = ""
     for step in place:
         if isinstance(step, int):
@@ -403,7 +402,7 @@ def _table(place: Place) -> tuple[str, ...]:
 
 
 def _shown_value(value: Any) -> Any:
-    """A value as TOML writes it, as far as that differs from Python; tables and lists by name, long ones cut."""
+    """A value as TOML writes it where Python differs; tables and lists by name, long values cut."""
     if isinstance(value, Caption):
         return value
     if isinstance(value, bool):

@@ -1,4 +1,4 @@
-"""What to do about a fault of a task file: where others say it otherwise than graphcam, or where it is not TOML.
+"""Remedies for faults of a task file: for the terms of other programs and textbooks, and for what is not TOML.
 
 Each remedy is empty where nothing better is known than the commented example.
 
@@ -19,11 +19,11 @@ from graphcam.given.laws import LAW_SYNONYMS
 from graphcam.words import Words, bare, say
 
 OPTIONAL_KEYS = ("offset", "prime_radius", "roller_radius", "distance")
-"""Keys that may be left out, because graphcam finds what they say."""
+"""Keys that may be left out, because graphcam finds their values."""
 BASE_RADIUS_SYNONYMS = ("base_radius", "base_circle_radius", "base_circle")
-"""What the radius is called where it is that of the working profile."""
+"""Names of the radius of the base circle, which is that of the working profile."""
 SYNONYMS = {**SENSE_SYNONYMS, **LAW_SYNONYMS, "gost": ("ГОСТ",), "iso": ("ИСО",)}
-"""What else words of a task file are called."""
+"""Synonyms of the words of a task file."""
 
 
 def key_remedy(key: str, value: Any, known: Iterable[str], data: Mapping[str, Any]) -> Words:
@@ -43,7 +43,7 @@ def key_remedy(key: str, value: Any, known: Iterable[str], data: Mapping[str, An
 
 
 def _radius_remedy(key: str, value: Any, follower: Any) -> Words:
-    """How the prime radius follows from the radius of the base circle."""
+    """The remedy that gives the prime radius from the radius of the base circle."""
     said: Mapping[str, Any] = follower if isinstance(follower, dict) else {}
     roller = 0 if said.get("kind") == "flat-faced" else said.get("roller_radius")
     radius = say("graphcam takes the prime radius, of the pitch curve: prime_radius = {key}", key=key)
@@ -57,7 +57,7 @@ def _radius_remedy(key: str, value: Any, follower: Any) -> Words:
 def value_remedy(key: str, value: Any, choices: Iterable[str]) -> Words:
     """The remedy for a value of another type than its key's.
 
-    choices : the words that it may be
+    choices : the permitted words
 
     >>> print(value_remedy("format", "a3", ["A3", "A4"]), value_remedy("offset", "auto", ()), sep="\\n")
     did you mean 'A3'?
@@ -90,22 +90,22 @@ def missing_remedy(key: str, data: Mapping[str, Any]) -> Words:
 _PLACE_PATTERN = re.compile(r" \(at (?:line (\d+), column \d+|end of document)\)$")
 _STRING_OR_COMMENT_PATTERN = re.compile(r"\"(?:[^\"\\]|\\.)*\"|'[^']*'|#.*")
 _VALUE_PATTERN = re.compile(r"=\s*([^=,\[\]{}\s](?:[^=,\[\]{}]*[^=,\[\]{}\s])?)")
-"""What stands behind an equals sign up to the next comma or bracket, without spaces around it."""
+"""A value: what stands between an equals sign and the next comma or bracket, without spaces around it."""
 _DECIMAL_COMMA_PATTERN = re.compile(r"=\s*[-+]?(\d+),(\d+)")
 _VALUE_WITH_UNIT_PATTERN = re.compile(r"([-+]?\d[\d_]*(?:\.\d+)?)\s*([^\W\d_]+(?:/[^\W\d_]+)?|°|%)")
 _BOOLEAN_SPELLINGS = {"True": "true", "False": "false", "TRUE": "true", "FALSE": "false"}
 _QUOTES = "“”„‟«»‹›″‘’‚‛′`´"
 _DASHES = "−–—‐‑‒―"
 _PLAIN_CHARACTERS = {**dict.fromkeys(_QUOTES, '"'), **dict.fromkeys(_DASHES, "-"), "、": ",", "。": "."}
-"""Characters of typography by those of the keyboard; what Unicode itself holds to be the same is not listed."""
+"""Characters of the keyboard by those of typography; what Unicode normalises is not listed."""
 _MAX_SHOWN_LENGTH = 60
-"""Characters of a line that a message shows."""
+"""The maximum number of characters of a line in a message."""
 
 
 def toml_fault(path: str, text: str, error: Exception, example: Words) -> TaskError:
-    """What to say of a text that a parser refused.
+    """The error for a text that a parser refused.
 
-    path : how the message calls the file
+    path : of the file, for the message
     error : of the parser, which names the line
     example : the remedy where nothing better is known
 
@@ -138,11 +138,11 @@ def toml_fault(path: str, text: str, error: Exception, example: Words) -> TaskEr
 
 
 Told = tuple[Words, Words, Words, Words]
-"""What in a line, its value, what it must be, and the remedy."""
+"""The fault of a line: quantity, value, what it must be, and the remedy."""
 
 
 def _typography(line: str, place: Words) -> Told | None:
-    """A character outside of texts and comments that is not the one of the keyboard."""
+    """The fault of a typographic character outside of texts and comments."""
     outside = _STRING_OR_COMMENT_PATTERN.sub(lambda found: " " * len(found[0]), line)
     for column, letter in enumerate(outside, 1):
         plain = _plain_character(letter)
@@ -161,7 +161,7 @@ def _typography(line: str, place: Words) -> Told | None:
 
 
 def _plain_character(letter: str) -> str | None:
-    """The plain character that is meant by one of typography; None for a plain one, and for letters."""
+    """The plain character for one of typography; None for a plain one, and for letters."""
     if letter.isascii():
         return None
     if letter in _PLAIN_CHARACTERS:
@@ -175,7 +175,7 @@ def _plain_character(letter: str) -> str | None:
 
 
 def _comma(line: str, place: Words) -> Told | None:
-    """A number with a decimal comma."""
+    """The fault of a number with a decimal comma."""
     if comma := _DECIMAL_COMMA_PATTERN.search(line):
         found, remedy = bare(f"{comma[1]},{comma[2]}"), say("write {word}", word=f"{comma[1]}.{comma[2]}")
         return say("{place}: the number", place=place), found, say("written with a decimal point"), remedy
@@ -183,7 +183,7 @@ def _comma(line: str, place: Words) -> Told | None:
 
 
 def _value(line: str, place: Words) -> Told | None:
-    """A text without quotes, or a number with its unit."""
+    """The fault of a text without quotes, or of a number with its unit."""
     for found in _VALUE_PATTERN.finditer(_STRING_OR_COMMENT_PATTERN.sub("''", line)):
         word = found[1]
         if word.startswith("''") or _is_value(word):

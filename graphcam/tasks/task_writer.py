@@ -1,4 +1,4 @@
-"""A task as the files that it is read from again."""
+"""A task as the files from which it can be read again."""
 
 from collections.abc import Mapping
 from pathlib import PurePath
@@ -16,11 +16,11 @@ TASK_FILE = "task.toml"
 
 
 def task_files(task: Task | ArcsTask) -> dict[str, str]:
-    """The files of a task by their names: TOML, and the table of a measured motion.
+    """The contents of a task's files by their names: TOML, and the table of a measured motion.
 
     Raises
     ------
-    DesignError : a phase follows a law of one's own, which no file can name
+    DesignError : a phase follows a law of your own, which no file can name
 
     >>> import graphcam as gc
     >>> list(task_files(gc.builtin_task("measured")))

@@ -1,4 +1,4 @@
-"""The table ``[tolerances]`` of a task file: how far profile and sizes may be off as they are made."""
+"""The table ``[tolerances]`` of a task file: how far profile and sizes may deviate when they are made."""
 
 from dataclasses import dataclass
 
@@ -10,7 +10,7 @@ from graphcam.words import say
 
 @dataclass(frozen=True)
 class TolerancesTable:
-    """``[tolerances]``: errors of making, and what part of all cams shall lie within the bands that are told.
+    """``[tolerances]``: errors of making, and the part of all cams that is to lie within the stated bands.
 
     waviness : mm, amplitudes of the profile's waves;  harmonics : as many, waves per turn
     roller_diameter, offset, distance, arm : mm, widths of tolerance zones; None is exact
@@ -43,16 +43,16 @@ class TolerancesTable:
         deviations_within(self.coverage)
 
     def __call__(self) -> MakingErrors:
-        """The errors."""
+        """The errors of making in the terms of the exact side."""
         sizes = {name: getattr(self, name) or 0.0 for name in TOLERANCED_SIZES}
         return MakingErrors(self.waviness, self.harmonics, **sizes, distribution=self.distribution)
 
     def check(self, kind: str, own: tuple[str, ...]) -> None:
-        """That the tolerances are those of sizes that the follower of that kind has.
+        """Refuse tolerances of sizes that this kind of follower does not have.
 
         Raises
         ------
-        DesignError : one is not
+        DesignError : there is such a tolerance
         """
         for name in TOLERANCED_SIZES:
             if (tolerance := getattr(self, name)) is not None and name not in own:

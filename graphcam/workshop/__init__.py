@@ -1,1 +1,1 @@
-"""The cam as a part: what a workshop needs to make it, from the exact side."""
+"""The cam as a part: drawings and files with which a workshop makes it, from the exact side."""

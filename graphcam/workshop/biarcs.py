@@ -1,4 +1,4 @@
-"""A smooth curve as arcs that touch one another: biarcs within a tolerance.
+"""A smooth curve as arcs with common tangents: biarcs within a tolerance.
 
 Two places of a curve with their tangents are joined by two arcs with a common tangent, one at each place.  Of the
 many such pairs that with two equal lengths of tangent is taken, d from either place:
@@ -20,16 +20,16 @@ from graphcam.mechanism.kinematics import Complexes
 from graphcam.plane_vectors import dot
 
 MIN_SAMPLES = 8
-"""Samples that a biarc has at least: by fewer its distance from the curve is not known."""
+"""The minimum number of samples under a biarc: with fewer its distance from the curve is not known."""
 SAME_CENTRE_DISTANCE = 5e-5
-"""Arcs that touch and have one centre within so many mm are one."""
+"""The maximum distance of two centres [mm] for arcs that touch to be one."""
 STRAIGHT_RISE = 2e-5
-"""An arc that rises by less over its chord [mm] is straight."""
+"""The rise of an arc over its chord [mm] below which it is a straight line."""
 
 
 @dataclass(frozen=True)
 class Move:
-    """A way along a straight line, or an arc of less than a turn, in the plane [mm]; ``centre`` is None if straight."""
+    """A straight line, or an arc of less than a turn, in the plane [mm]; ``centre`` is None if straight."""
 
     start: complex
     end: complex
@@ -59,7 +59,7 @@ class Biarc:
 
 
 def arcs_along(points: Complexes, tangents: Complexes, tolerance: float) -> tuple[list[Move], float] | None:
-    """The arcs that follow a smooth curve, and their greatest distance from it [mm]; None if its samples are too few.
+    """The arcs that follow a smooth curve, and their maximum distance from it [mm]; None if its samples are too few.
 
     points, tangents : (n,) dense samples of the curve, and its unit tangents there
 
@@ -84,7 +84,7 @@ def arcs_along(points: Complexes, tangents: Complexes, tolerance: float) -> tupl
 
 
 def _longest_biarc(points: Complexes, tangents: Complexes, here: int, guess: int, tolerance: float) -> int:
-    """How many samples on the farthest place is whose biarc keeps the tolerance; at least one."""
+    """The number of samples to the farthest place whose biarc is within the tolerance; at least one."""
     good, bad, trial = 0, points.size - here, guess
     while bad - good > 1:
         trial = trial if good < trial < bad else (good + bad) // 2
@@ -97,7 +97,7 @@ def _longest_biarc(points: Complexes, tangents: Complexes, here: int, guess: int
 
 
 def _biarc(points: Complexes, tangents: Complexes) -> Biarc:
-    """The biarc between the first and the last of some samples; its error is infinite if it turns by 90 degrees."""
+    """The biarc from the first to the last of some samples; its error is infinite if it turns by 90 degrees or more."""
     p0, p1, t0, t1 = complex(points[0]), complex(points[-1]), complex(tangents[0]), complex(tangents[-1])
     v, t = p1 - p0, t0 + t1
     along, opened = float(dot(v, t)), 1 - float(dot(t0, t1))
@@ -116,7 +116,7 @@ def _biarc(points: Complexes, tangents: Complexes) -> Biarc:
 
 
 def _deviations_from_circle(points: Complexes, start: complex, tangent: complex, end: complex) -> Floats:
-    """How far points lie beside the circle through two places with a tangent at the first, however flat it is."""
+    """Distances (n,) [mm] of points from the circle through two places with a tangent at the first, also a flat one."""
     seen, chord = (points - start) / tangent, (end - start) / tangent
     bend = 2 * chord.imag / abs(chord) ** 2
     off = seen.imag - bend * np.abs(seen) ** 2 / 2
@@ -132,7 +132,7 @@ def _arc(start: complex, end: complex, tangent: complex) -> Move:
 
 
 def merged(moves: list[Move]) -> list[Move]:
-    """The moves with neighbours on one circle made one, up to half a turn."""
+    """The moves, neighbours on one circle joined as far as they make up half a turn."""
     kept = moves[:1]
     for move in moves[1:]:
         last = kept[-1]

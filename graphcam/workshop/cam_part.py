@@ -1,4 +1,4 @@
-"""The part that is made of a cam: what the table ``[part]`` says, and what follows from the cam where it is silent."""
+"""The part that is made of a cam: sizes from the table ``[part]``, and others that follow from the cam."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from graphcam.workshop.limits_and_fits import (
 )
 
 DEFAULT_WALL, MIN_WALL = 0.3, 0.15
-"""Between the keyway's bottom and the profile or the hub, as parts of the bore: where the bore is chosen; at least."""
+"""Walls between the keyway's bottom and the profile or the hub, as parts of the bore: to choose a bore; at least."""
 DEFAULT_TOLERANCE_SHARE = 0.0005
-"""The tolerance of the profile, as a part of its greatest diameter."""
+"""The default tolerance of the profile, as a part of its maximum diameter."""
 ROUNDING_SHARE = 0.5
-"""The last decimal of a radius is at most this part of the tolerance."""
+"""The maximum value of a radius's last decimal, as a part of the tolerance."""
 CHAMFERS = (30, 1.6), (10, 1.0), (5, 0.5)
-"""Bores beyond such a diameter, and the size of their chamfers [mm]."""
+"""Bore diameters, and the chamfers of larger bores [mm]."""
 SMALL_CHAMFER_SHARE, MAX_CHAMFER_SHARE = 0.05, 0.2
-"""The chamfer as a part of a smaller bore's diameter; its maximum, as a part of the bore's length."""
+"""The chamfer as a part of a smaller bore's diameter; its maximum as a part of the bore's length."""
 DEFAULT_WIDTH_SHARE = 0.8
-"""The width of the cam, as a part of the bore."""
+"""The default width of the cam, as a part of the bore."""
 DEFAULT_MATERIALS = {"iso": "C45 EN ISO 683-1", "gost": say("Steel 45 GOST 1050-2013")}
-"""The material where the task names none, by the frame of the sheet."""
+"""The default material, by the frame of the sheet."""
 KEYWAY_STANDARDS = {"iso": "din6885", "gost": "gost23360"}
 
 
@@ -44,10 +44,10 @@ class Hub:
 
 @dataclass(frozen=True)
 class CamPart:
-    """The part, every size settled, in mm.
+    """The part with all its sizes [mm].
 
-    keyway : None for a bore without one;  key_standard : what the drawing calls its standard
-    table : the rest of what the task says: roughness, tolerances, cutter, step
+    keyway : None for a bore without one;  key_standard : the name of its standard on the drawing
+    table : the task's data for roughness, tolerances, cutter and step
     """
 
     bore: float
@@ -60,22 +60,22 @@ class CamPart:
 
     @property
     def length(self) -> float:
-        """The length of the bore."""
+        """The length of the bore [mm]."""
         return self.hub.length if self.hub else self.width
 
     @property
     def keyway_top(self) -> float:
-        """The distance from the axis to the keyway's bottom, or to the bore where there is none."""
+        """The distance from the axis to the keyway's bottom [mm], or to the bore where there is none."""
         return self.bore / 2 + (self.keyway.depth if self.keyway else 0.0)
 
     @property
     def chamfer(self) -> float:
-        """The chamfer of the bore's edges at 45 degrees."""
+        """The size of the 45° chamfers of the bore [mm]."""
         usual = next((size for least, size in CHAMFERS if self.bore > least), SMALL_CHAMFER_SHARE * self.bore)
         return min(usual, MAX_CHAMFER_SHARE * self.length)
 
     def mass(self, profile_area: float) -> float:
-        """The mass [kg] with a profile of that area [mm^2]; chamfers are left out.
+        """The mass [kg] for a profile of that area [mm^2]; chamfers are left out.
 
         >>> part = cam_part(PartTable(bore=20, width=10), "iso", 27)
         >>> round(part.mass(6000), 4)
@@ -87,7 +87,7 @@ class CamPart:
 
 
 def cam_part(table: PartTable, frame: str, least_radius: float) -> CamPart:
-    """The part of a cam whose profile comes as near as ``least_radius`` mm to the axis.
+    """The part of a cam whose profile has the minimum radius ``least_radius`` mm.
 
     frame : "iso" or "gost", by whose standards the rest is chosen
 
@@ -113,7 +113,7 @@ def cam_part(table: PartTable, frame: str, least_radius: float) -> CamPart:
 
 
 def profile_tolerance(table: PartTable, greatest_radius: float) -> float:
-    """The tolerance of the profile [mm]: as given, else the round value next to the usual part of its diameter.
+    """The tolerance of the profile [mm]: as given, else the round value next to the default part of its diameter.
 
     >>> profile_tolerance(PartTable(), 56.5), profile_tolerance(PartTable(), 500), profile_tolerance(PartTable(), 3)
     (0.05, 0.5, 0.002)
@@ -127,7 +127,7 @@ def profile_tolerance(table: PartTable, greatest_radius: float) -> float:
 
 
 def radius_decimals(table: PartTable, greatest_radius: float) -> int:
-    """Decimals of computed radii [mm]: the last is at most half the profile's tolerance, and two there are at least.
+    """Decimals of computed radii [mm]: at least two, and the last is at most half the profile's tolerance.
 
     >>> radius_decimals(PartTable(), 56.5), radius_decimals(PartTable(), 3)
     (2, 3)
@@ -153,7 +153,7 @@ def _keyway(table: PartTable, bore: float) -> KeySection | None:
 
 
 def _usual_bore(table: PartTable, least_radius: float) -> float:
-    """The largest standard diameter that leaves the usual wall, not larger than what the standards have keys for."""
+    """The largest standard diameter [mm] that leaves the default wall and for which the standards have a key."""
     outer = least_radius if table.hub_diameter is None else min(least_radius, table.hub_diameter / 2)
     standard = [d for d in standard_diameters() if d <= MAX_SHAFT]
     fitting = [d for d in standard if _keyway_top(table, d) + DEFAULT_WALL * d <= outer]
@@ -166,7 +166,7 @@ def _keyway_top(table: PartTable, bore: float) -> float:
 
 
 def _usual_width(bore: float) -> float:
-    """The usual width in round millimetres, of small cams in round parts of one."""
+    """The default width [mm], in whole millimetres or for small cams in round parts of one."""
     step = min(1.0, 10.0 ** math.floor(math.log10(bore)) / 10)
     return round(math.ceil(DEFAULT_WIDTH_SHARE * bore / step - 1e-9) * step, 12)
 

@@ -1,7 +1,7 @@
-"""The way of a cutter around the cam: the outline moved outwards by its radius, as arcs and lines, and as G-code.
+"""The path of a cutter around the cam: the outline moved outwards by its radius, as arcs and lines, and as G-code.
 
 It begins and ends where it is farthest from the axis.  There a quarter of a circle leads on and off: it stays beyond
-the tangent, which no other place of the way reaches, since all are nearer to the axis.
+the tangent, which no other place of the path reaches, since all are nearer to the axis.
 
 The program uses what every controller knows: G17 (plane XY), G21 (mm), G40 (no compensation of its own), G90
 (absolute), G94 (feed per minute), G0, G1, G2 and G3 with centres I, J counted from the start of the arc, and M30 at the
@@ -21,27 +21,27 @@ from graphcam.workshop.biarcs import Move, arcs_along, merged
 from graphcam.workshop.part_outline import Outline
 
 SAMPLE_COUNTS = 2048, 8192, 32768, 131072, 524288
-"""Samples of the way: of these numbers the first that suffices ..."""
+"""Numbers of samples of the path; the first that suffices is taken."""
 MIN_SPAN_SAMPLES = 17
 """The minimum number of samples of a span."""
 SAME_TANGENT = 1e-6
-"""Two tangents, or curvatures as parts of one another, that differ by no more are the same."""
+"""The maximum difference of two tangents, or relative difference of curvatures, that count as the same."""
 MIN_SPAN_LENGTH = 1e-9
-"""A span that moves the cutter by no more [mm] is a corner that it passes."""
+"""The minimum length of a span [mm]; at a shorter one the cutter passes a corner."""
 LEAD_RADIUS_SHARE = 0.1
-"""Radius on which the cutter is led to the cam, as a part of the farthest place; not less than the cutter's."""
+"""The radius of the lead-in and lead-out, as a part of the maximum radius; at least that of the cutter."""
 
 Samples = tuple[Complexes, Complexes]
-"""Points and unit tangents, in order."""
+"""Points [mm] and unit tangents, in order."""
 
 
 @dataclass(frozen=True, eq=False)
 class CutterPath:
-    """The way of the cutter's centre, clockwise around the cam, in cam coordinates [mm].
+    """The path of the cutter's centre, clockwise around the cam, in cam coordinates [mm].
 
-    contour : closed;  lead_in, lead_out : arcs that touch it where it begins
+    contour : the closed path;  lead_in, lead_out : arcs that touch it where it begins
     cutter_radius : 0 for the outline itself
-    error : greatest distance from the exact way [mm]
+    error : maximum distance from the exact path [mm]
     """
 
     contour: list[Move]
@@ -52,7 +52,7 @@ class CutterPath:
 
 
 def cutter_path(outline: Outline, cutter_radius: float, tolerance: float) -> CutterPath:
-    """The way of a cutter that leaves the outline within a tolerance [mm].
+    """The path around the outline, within a tolerance [mm].
 
     Raises
     ------
@@ -79,7 +79,7 @@ def cutter_path(outline: Outline, cutter_radius: float, tolerance: float) -> Cut
 
 
 def _sampled(outline: Outline, cutter_radius: float, count: int) -> list[Samples]:
-    """The exact way of the cutter's centre, span by span and clockwise."""
+    """The exact path of the cutter's centre, span by span and clockwise."""
     # Densely at the ends, where a cusp may be near.
     each = max(MIN_SPAN_SAMPLES, count // len(outline.spans))
     share = np.sin(np.linspace(0, np.pi / 2, each)) ** 2
@@ -94,7 +94,7 @@ def _sampled(outline: Outline, cutter_radius: float, count: int) -> list[Samples
 
 
 def _joined_pieces(pieces: list[Samples]) -> list[Samples]:
-    """The pieces, neighbours made one where the way has no corner; arcs stay by themselves, and so are met exactly."""
+    """The pieces, neighbours joined where the path has no corner; arcs stay by themselves, so that they are exact."""
     joined: list[list[Samples]] = []
     after_arc = True
     for piece in pieces:
@@ -107,19 +107,19 @@ def _joined_pieces(pieces: list[Samples]) -> list[Samples]:
 
 
 def _is_arc(points: Complexes, tangents: Complexes) -> bool:
-    """Whether the curvature is the same everywhere."""
+    """Whether samples have the same curvature everywhere."""
     curvature = np.angle(tangents[1:] / tangents[:-1]) / np.maximum(np.abs(np.diff(points)), MIN_SPAN_LENGTH)
     return bool(np.ptp(curvature) <= SAME_TANGENT * np.abs(curvature).max())
 
 
 def _concatenated(parts: list[Samples]) -> Samples:
-    """Samples that follow one another, what two have in common once."""
+    """The samples of all parts in order; where two parts have a point in common it stands once."""
     points, tangents = (np.concatenate([*(part[k][:-1] for part in parts[:-1]), parts[-1][k]]) for k in (0, 1))
     return points, tangents
 
 
 def _rotated_to_farthest(pieces: list[Samples]) -> list[Samples]:
-    """The pieces begun at the farthest of the samples."""
+    """The pieces in an order that begins at the sample farthest from the axis."""
     k = int(np.argmax([np.abs(points).max() for points, _ in pieces]))
     points, tangents = pieces[k]
     j = int(np.argmax(np.abs(points)))
@@ -136,15 +136,15 @@ def _lead_moves(start: complex, radius: float) -> tuple[Move, Move]:
 
 DECIMALS = 4
 CIRCLE_ROUNDING = 2e-4
-"""How far rounded ends and centres may move a circle [mm]."""
+"""The maximum shift of a circle by the rounding of its ends and centre [mm]."""
 MIN_ARC_LENGTH = 0.001
-"""A shorter one [mm] is straight: of so few digits it might turn the wrong way round."""
+"""The minimum length of an arc [mm]; a shorter one is a line, since rounded it might turn the wrong way."""
 MIN_TOLERANCE = 0.001
-"""The minimum tolerance of the program [mm]: less is spent by rounding."""
+"""The minimum tolerance of the program [mm]; a finer one would be used up by rounding."""
 DEFAULT_TOLERANCE = 0.005
-"""The tolerance where none is stated [mm]."""
+"""The default tolerance of the program [mm]."""
 DEFAULT_FEED = 100.0
-"""The feed where none is stated [mm/min]."""
+"""The default feed [mm/min]."""
 
 
 def cutting_program(
@@ -155,11 +155,11 @@ def cutting_program(
     feed: float = DEFAULT_FEED,
     name: str = "",
 ) -> str:
-    """A program that leads a cutter of that radius around the cam, clockwise: a climb cut with a spindle that does too.
+    """The G-code that leads a cutter clockwise around the cam, a climb cut if the spindle turns clockwise too.
 
     outline : in cam coordinates, as in ``profile.csv``
     cutter_radius : mm; 0 for the profile itself, for a machine that is told its tool otherwise
-    tolerance : how far the program may leave the exact way [mm]
+    tolerance : the permitted distance of the program from the exact path [mm]
     feed : mm/min
 
     Raises
@@ -207,7 +207,7 @@ def _head(path: CutterPath, tolerance: float, feed: float, name: str) -> list[st
 
 
 def _comment_text(name: str) -> str:
-    """What of a name may stand in a comment: ASCII without brackets."""
+    """The letters of a name that may stand in a comment: ASCII without brackets."""
     return "".join(c if c.isascii() and c.isprintable() and c not in "()%;" else "?" for c in name)
 
 
@@ -230,7 +230,7 @@ def _moves(moves: list[Move], feed: float) -> list[str]:
 
 
 def _feed(feed: float) -> str:
-    """The feed as a word of G-code, in digits alone: controllers know no powers of ten."""
+    """The word for a feed, in digits alone: controllers know no powers of ten."""
     return f"{feed:.{DECIMALS}f}".rstrip("0").rstrip(".")
 
 

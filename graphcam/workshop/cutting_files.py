@@ -18,17 +18,17 @@ from graphcam.workshop.solid import solid_file
 
 FILE_NAMES = {"profile_step": "profile.step", "profile_gcode": "profile.ngc"}
 PROGRAM_TOLERANCE_SHARE = 0.1
-"""The part of the profile's tolerance that the program may use up."""
+"""The tolerance of the program, as a part of the profile's."""
 ARC_TOLERANCE = 1e-6
-"""How nearly the arcs of a cam of arcs are met [mm]."""
+"""The tolerance for the arcs of a cam of arcs [mm]."""
 
 
 def write_cutting(contents: PartContents, folder: Path, kinds: Collection[str]) -> dict[str, str]:
-    """Write the solid and the program of G-code into a folder, as far as they are wanted; returns their names by kind.
+    """Write the solid and the program into a folder, those of the wanted kinds; returns the file names by kind.
 
     Raises
     ------
-    DesignError : no profile can be told that could be cut, the part cannot be made of this cam, or the cutter does not
+    DesignError : no profile can be cut, the part cannot be made of this cam, or the cutter does not
         reach into its hollows
     """
     texts = {"profile_step": solid_text, "profile_gcode": program_text}
@@ -39,7 +39,7 @@ def write_cutting(contents: PartContents, folder: Path, kinds: Collection[str]) 
 
 
 def solid_text(contents: PartContents) -> str:
-    """The STEP file of a cam, as the part that its task asks for.
+    """The text of the STEP file of a cam, as the part that its task describes.
 
     >>> import graphcam as gc
     >>> solid_text(PartContents(gc.solve(gc.builtin_arcs_task()))).count("CYLINDRICAL_SURFACE")
@@ -50,13 +50,13 @@ def solid_text(contents: PartContents) -> str:
 
 
 def solid_around(around: Loop, near: float, part: CamPart, zero: float, name: str) -> str:
-    """The STEP file of a part whose outline is given as edges, and how near they are to the exact profile [mm]."""
+    """The text of the STEP file of a part with the outline ``around``, which is exact within ``near`` mm."""
     said = f"cam, in mm; greatest distance from the exact profile {near:.2g} mm"
     return solid_file(around, part, zero, name, said, f"graphcam {__version__}")
 
 
 def _outline_loop(contents: PartContents) -> tuple[Loop, float]:
-    """The outline as edges, and how near they are [mm]: of a cam of arcs these themselves, else the spline."""
+    """The outline as edges and its error [mm]: the arcs of a cam of arcs, otherwise the spline."""
     solution = contents.solution
     if isinstance(solution, ArcsSolution):
         path = cutter_path(contents.outline, 0.0, ARC_TOLERANCE)
@@ -65,7 +65,7 @@ def _outline_loop(contents: PartContents) -> tuple[Loop, float]:
 
 
 def program_text(contents: PartContents) -> str:
-    """The program of G-code for a cam, with the cutter and the feed that its task states.
+    """The G-code for a cam, with the cutter and the feed of its task.
 
     >>> import graphcam as gc
     >>> program_text(PartContents(gc.solve(gc.builtin_task()))).splitlines()[3]
@@ -75,7 +75,7 @@ def program_text(contents: PartContents) -> str:
 
 
 def program_around(outline: Outline, table: PartTable, name: str) -> str:
-    """The program of G-code around an outline, with the cutter and the feed of a table ``[part]``."""
+    """The G-code around an outline, with the cutter and the feed of a table ``[part]``."""
     allowed = PROGRAM_TOLERANCE_SHARE * profile_tolerance(table, outline.greatest_radius)
     return cutting_program(
         outline,

@@ -1,4 +1,4 @@
-"""Standards of bores: tolerances, diameters (ISO 3, GOST 6636, series R20) and keyways of parallel keys.
+"""Standards for bores: tolerances, diameters (ISO 3, GOST 6636, series R20) and keyways of parallel keys.
 
 DIN 6885-1 form A and GOST 23360-78 give a keyway the same width and depths (ISO/R 773) by the shaft's diameter, so
 there is one table.
@@ -30,12 +30,12 @@ _TOLERANCES_BY_SIZE = (
 )
 _FINEST_GRADE = 6
 _R20_VALUES = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40, 45, 50, 56, 63, 71, 80, 90)
-"""Round values of the series R20, which goes on in every decade."""
+"""The values of the series R20 in one decade."""
 _DECADES = range(-12, 4)
 
 
 def tolerance(size: float, grade: int) -> float | None:
-    """The standard tolerance of a grade from 6 to 9 [mm]; None beyond the table, which ends at 500 mm.
+    """The standard tolerance [mm] of a size [mm] in a grade from 6 to 9; None for sizes over 500 mm.
 
     >>> tolerance(20.0, 7), tolerance(20.0, 9)
     (0.021, 0.052)
@@ -45,7 +45,7 @@ def tolerance(size: float, grade: int) -> float | None:
 
 
 def standard_diameters() -> list[float]:
-    """Standard diameters in order [mm].
+    """Standard diameters, in order [mm].
 
     >>> [d for d in standard_diameters() if 20 <= d <= 32]
     [20.0, 22.0, 25.0, 28.0, 32.0]
@@ -85,16 +85,16 @@ _KEY_SECTIONS = (
     (500.0, 100.0, 50.0, 19.5),
 )
 MIN_SHAFT, MAX_SHAFT = 6.0, 500.0
-"""Diameters for which the standards have keys: over the first, up to the second, mm."""
+"""The range of diameters for which the standards have keys: over the first, up to the second [mm]."""
 STANDARD_NAMES = {"din6885": "DIN 6885-1", "gost23360": say("GOST 23360-78")}
-"""What a standard of a task file is called on a drawing."""
+"""The names on drawings of the standards of a task file."""
 
 
 @dataclass(frozen=True)
 class KeySection:
-    """A keyway in a bore: width of the key, its height, the depth in the hub over the bore, and that depth's tolerance.
+    """A keyway in a bore: width and height of its key, and its depth in the hub beyond the bore [mm].
 
-    All in mm; the depth may be greater by ``depth_over`` and not less.
+    The depth may be greater by ``depth_over`` and not less.
     """
 
     width: float
@@ -103,11 +103,11 @@ class KeySection:
 
     @property
     def depth_over(self) -> float:
-        """Upper deviation of the depth, by the standards."""
+        """The upper deviation of the depth [mm]; the lower one is zero."""
         return 0.1 if self.width <= 6 else 0.2 if self.width <= 32 else 0.3
 
     def area(self, bore: float) -> float:
-        """What the keyway takes away beyond the bore [mm^2].
+        """The area that the keyway removes outside the bore [mm^2].
 
         >>> round(KeySection(6, 6, 2.8).area(20), 3)
         17.713

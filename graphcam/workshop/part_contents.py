@@ -1,4 +1,4 @@
-"""What the working drawing tells: the part, its exact outline, its polar table, words, and the title block."""
+"""The contents of the working drawing: the part, its exact outline, its polar table, notes, and the title block."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from graphcam.workshop.polar_table import PolarTable, polar_table
 
 @dataclass(frozen=True, eq=False)
 class PartContents:
-    """What drawing and files tell of the cam of a solution as a part, before it finds its place.
+    """The cam of a solution as a part: what its drawing and its files contain.
 
-    Each is found when it is first asked for, since the program of G-code takes no bore, and the solid no table.
+    Each is computed when it is first used, since the G-code needs no bore, and the solid no table.
 
     >>> import graphcam as gc
     >>> contents = PartContents(gc.solve(gc.builtin_task()))
@@ -40,7 +40,7 @@ class PartContents:
 
     @property
     def given(self) -> PartTable:
-        """What the task says of the part."""
+        """The table ``[part]`` of the task."""
         return self.solution.task.part or PartTable()
 
     @cached_property
@@ -49,7 +49,7 @@ class PartContents:
 
         Raises
         ------
-        DesignError : no profile can be told that could be cut
+        DesignError : no profile can be cut
         """
         return outline_of(self.solution)
 
@@ -59,13 +59,13 @@ class PartContents:
 
         Raises
         ------
-        DesignError : the part cannot be
+        DesignError : the part is impossible
         """
         return cam_part(self.given, self.frame, self.outline.least_radius)
 
     @cached_property
     def table(self) -> PolarTable:
-        """The polar table.
+        """The polar table of the outline.
 
         Raises
         ------
@@ -80,7 +80,7 @@ class PartContents:
 
     @property
     def tell(self) -> Tell:
-        """Says texts in the language of the task."""
+        """Translates texts into the language of the task."""
         return self.solution.tell
 
     def check(self) -> None:
@@ -88,12 +88,12 @@ class PartContents:
 
         Raises
         ------
-        DesignError : as for what it tells
+        DesignError : as for outline, part and table
         """
         _ = self.part, self.table
 
     def title(self, scale: float) -> TitleBlock:
-        """The title block of the part."""
+        """The title block of the part, with the drawing's scale."""
         given, tell = self.solution.task.title, self.tell
         mass = self.part.mass(self.outline.area)
         # Three digits at least, and no powers of ten.
@@ -117,17 +117,17 @@ GENERAL_TOLERANCES = {
     "iso": say("General tolerances ISO 2768-mK."),
     "gost": say("General tolerances GOST 30893.1: H14, h14, ±IT14/2."),
 }
-"""What holds for sizes without a tolerance, by the frame."""
+"""The note on sizes without a tolerance, by the frame."""
 MAX_PHASES = 8
-"""The maximum number of phases of a motion that the table of data names."""
+"""The maximum number of phases that the table of data names."""
 PHASE_NAMES = {"rise": say("rise"), "dwell": say("dwell"), "return": say("return")}
-"""What kinds of phases are called."""
+"""The names of the kinds of phases."""
 
 
 def requirements(
     solution: AnySolution, part: CamPart, outline: Outline, table: PolarTable, frame: str
 ) -> list[Caption]:
-    """The notes over the title block."""
+    """The technical requirements: the notes above the title block."""
     return [
         *([say("Profile hardened to {hardness}.", hardness=part.table.hardness)] if part.table.hardness else []),
         GENERAL_TOLERANCES[frame],
@@ -183,7 +183,7 @@ def _cutter(part: CamPart) -> list[Caption]:
 
 
 def _contact_caption(solution: AnySolution) -> Caption:
-    """What the profile is made for."""
+    """The note on the roller, knife edge or face for which the profile is made."""
     if not isinstance(solution, ArcsSolution) and not solution.cam.kinematics.takes_roller:
         return say("The profile works with a flat-faced follower.")
     roller = solution.motion.roller_radius if isinstance(solution, ArcsSolution) else solution.cam.roller_radius
@@ -193,7 +193,7 @@ def _contact_caption(solution: AnySolution) -> Caption:
 
 
 def cam_data(solution: AnySolution, outline: Outline) -> Table:
-    """The data of the cam that belong to the profile."""
+    """The table of the cam's data that the profile depends on."""
     rows: list[tuple[Words, Words]] = [*_sizes(solution)]
     rows += [(say("lift"), _lift(solution)), (say("rotation"), sense_caption(_rotation(solution)))]
     if solution.task.speed_rpm:
@@ -207,7 +207,7 @@ def cam_data(solution: AnySolution, outline: Outline) -> Table:
 
 
 def tolerance_data(solution: AnySolution) -> list[Table]:
-    """What the tolerances of profile and follower do to the motion, which one matters most first, if there are some."""
+    """Tables of the errors of motion by the task's tolerances, the most important first; none without tolerances."""
     design = None if isinstance(solution, ArcsSolution) else solution.tolerances
     return [replace(design.table(), answers=frozenset())] if design and not design.undercut else []
 
@@ -229,7 +229,7 @@ def _lift(solution: AnySolution) -> Words:
 
 
 def _sizes(solution: AnySolution) -> list[tuple[Words, Words]]:
-    """Prime radius and the follower's sizes."""
+    """Names and values of the prime radius and the follower's sizes."""
     if isinstance(solution, ArcsSolution):
         motion = solution.motion
         return [(say("prime radius r₀"), _mm(motion.prime_radius)), (say("roller radius"), _mm(motion.roller_radius))]
@@ -239,7 +239,7 @@ def _sizes(solution: AnySolution) -> list[tuple[Words, Words]]:
 
 
 def polar_rows(table: PolarTable, tell: Tell) -> list[tuple[str, ...]]:
-    """The head of the polar table and its rows, in the language of the drawing."""
+    """The rows of the polar table, the head first, in the language of the drawing."""
     columns = [table.radii] if table.cutter is None else [table.radii, table.cutter]
     told = [[tell(_angle(angle)) for angle in table.angles]]
     told += [[tell(_radius(radius, table.decimals)) for radius in radii] for radii in columns]
@@ -248,7 +248,7 @@ def polar_rows(table: PolarTable, tell: Tell) -> list[tuple[str, ...]]:
 
 
 def side_by_side_table(rows: Sequence[tuple[str, ...]], columns: int, tell: Tell) -> Table:
-    """A table of some of the rows, the head first, in so many columns."""
+    """A table of these rows, the head first, in so many columns side by side."""
     head, *cells = rows
     high = math.ceil(len(cells) / columns)
     cells += [("",) * len(head)] * (high * columns - len(cells))

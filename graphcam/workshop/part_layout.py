@@ -1,4 +1,4 @@
-"""Where on which sheet the views, notes and tables of a working drawing stand, and at which standard scale.
+"""The layout of the working drawing: its sheet, its standard scale, and the places of views, notes and tables.
 
 The true view stands at the upper left and the section beside it, the notes over the title block; the bore, the data and
 the polar table go where there is room.
@@ -31,26 +31,26 @@ from graphcam.workshop.part_contents import (
 from graphcam.workshop.part_views import ShownPart, bore_box, front_box, section_box
 
 FRAME_MARGIN = 5.0
-"""Free along the frame and between what stands on the sheet, mm."""
+"""The margin along the frame and between what stands on the sheet [mm]."""
 NUMBER_ROOM = 17.0
-"""The room from the border to below the drawing's number in the upper left corner by GOST 2.104, mm."""
+"""The room from the border to below the drawing's number in the upper left corner by GOST 2.104 [mm]."""
 MIN_PROFILE = 70.0
-"""The profile is not drawn smaller than this, mm on paper ..."""
+"""The preferred minimum size of the drawn profile [mm of paper]."""
 SHEET_CHOICES = (("A3", MIN_PROFILE), ("A2", MIN_PROFILE), ("A2", 20.0), ("A1", 5.0))
-"""The sheets for a part that is much wider than its profile is large. The first one that has room is taken."""
+"""Sheets, each with the minimum size of the profile on it [mm of paper]; the first that has room is taken."""
 BORE_ROOM = 70.0
-"""The enlarged bore is at most so wide, mm on paper."""
+"""The maximum width of the enlarged bore [mm of paper]."""
 ROW_HEIGHT = 1.75
-"""Height of a row of the polar table, in heights of its letters."""
+"""The height of a row of the polar table, in heights of its letters."""
 RIGHT_PREFERENCE = least_weighted(-10, -1)
-"""The preference: at the right, then high."""
+"""The preference for a place at the right, then high."""
 SCALE_SERIES = (5.0, 2.0, 1.0)
 """The series of drawing scales that both ISO 5455 and GOST 2.302 have, in every decade."""
 MAX_PROFILE = 300.0
-"""The maximum size of the drawn profile, mm on paper."""
+"""The maximum size of the drawn profile [mm of paper]."""
 
 Placed = list[tuple[Block, complex]]
-"""Blocks and where their lower left corners stand."""
+"""Blocks with the places of their lower left corners."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +58,7 @@ class PartLayout:
     """The layout of the views and the notes: places of their axes, and boxes.
 
     fixed : blocks with their corners: the notes, the roughness of the other faces
-    room : what is left free
+    room : the free room
     """
 
     shown: ShownPart
@@ -73,7 +73,7 @@ class PartLayout:
 
 @dataclass(frozen=True, eq=False)
 class PartTables:
-    """The tables in letters of ``height`` mm.
+    """The tables of a part, in letters of ``height`` mm.
 
     data : of the cam, and its tolerances if the task has some
     rows : of the polar table, the head first, in the language of the drawing
@@ -86,29 +86,29 @@ class PartTables:
 
     @property
     def count(self) -> int:
-        """The number of the rows without the head."""
+        """The number of rows without the head."""
         return len(self.rows) - 1
 
     def polar(self, first: int, last: int, columns: int) -> Block:
-        """The polar table from row ``first`` to before ``last``, in so many columns side by side."""
+        """The block of the polar table from row ``first`` to before ``last``, in so many columns side by side."""
         rows = [self.rows[0], *self.rows[first + 1 : last + 1]]
         return table_block(side_by_side_table(rows, columns, self.tell), self.height, row_height=ROW_HEIGHT)
 
     def capacity(self, free: Box) -> tuple[int, int]:
-        """How many columns of the polar table a box has room for, and how many lines in each."""
+        """The numbers of columns of the polar table, and of lines in each, for which a box has room."""
         column, head = self._sizes
         return max(1, int(free.width / column)), int((free.height - head) / (ROW_HEIGHT * self.height))
 
     @cached_property
     def _sizes(self) -> tuple[float, float]:
-        """Width of a column and height of title and head, mm on paper."""
+        """The width of a column, and the height of title and head together [mm of paper]."""
         # A column alone is as wide as the title of the table.
         one, two = (self.polar(0, self.count, columns).box for columns in (1, 2))
         return two.width / 2, one.height - self.count * ROW_HEIGHT * self.height
 
 
 def part_tables(contents: PartContents, sheet: Format) -> PartTables:
-    """The tables of a part as a sheet letters them."""
+    """The tables of a part in the letters of a sheet."""
     tell, height = contents.tell, sheet.lettering.small
     told = [cam_data(contents.solution, contents.outline), *tolerance_data(contents.solution)]
     data = tuple(table_block(each.translated(tell), height) for each in told)
@@ -116,7 +116,7 @@ def part_tables(contents: PartContents, sheet: Format) -> PartTables:
 
 
 def standard_ratios(most: float) -> Iterator[float]:
-    """Paper over part, by the standards, from ``most`` or the next lower one downwards, without end.
+    """The standard scales (paper over part) from ``most`` or the next lower one downwards, without end.
 
     >>> from itertools import islice
     >>> list(islice(standard_ratios(3.0), 5))
@@ -148,7 +148,7 @@ def part_layout(contents: PartContents) -> tuple[PartLayout, Placed | None]:
 
 
 def _scaled_views(contents: PartContents, sheet: Format, least_profile: float) -> Iterator[PartLayout]:
-    """The views at the standard scales at which they fit and the profile is not too small, the largest first."""
+    """Layouts of the views at the standard scales at which they fit and the profile is large enough, largest first."""
     width = 2 * contents.outline.greatest_radius
     for ratio in standard_ratios(MAX_PROFILE / width):
         if width * ratio < least_profile:
@@ -157,7 +157,7 @@ def _scaled_views(contents: PartContents, sheet: Format, least_profile: float) -
 
 
 def _views(contents: PartContents, sheet: Format, ratio: float) -> Iterator[PartLayout]:
-    """The views at a scale, where they have room, with the bore the larger the better, but no smaller than in them."""
+    """Layouts of the views at a scale, if they have room, with the bore as large as possible."""
     shown = ShownPart(contents.part, sheet.frame, contents.outline, ratio, ratio, sheet.lettering, contents.tell)
     inside = sheet.content.grown(-FRAME_MARGIN)
     front, section = front_box(shown), section_box(shown)
@@ -188,14 +188,13 @@ def _views(contents: PartContents, sheet: Format, ratio: float) -> Iterator[Part
 
 
 def _is_free(room: Room, box: Box) -> bool:
-    """Whether nothing stands in a box."""
     left, bottom = (max(0, math.floor(x / MESH)) for x in (box.left - room.corner.real, box.bottom - room.corner.imag))
     right, top = (math.ceil(x / MESH) for x in (box.right - room.corner.real, box.top - room.corner.imag))
     return not room.full[bottom:top, left:right].any()
 
 
 def _fixed(contents: PartContents, sheet: Format, shown: ShownPart) -> tuple[Placed, tuple[PartSymbol, complex]]:
-    """The notes over the title block, and the roughness of all other faces where the frame's standard has it."""
+    """The notes above the title block, and the roughness of all other faces where the frame's standard has it."""
     block, letters, inside = title_box(sheet), sheet.lettering, sheet.content.grown(-FRAME_MARGIN)
     said = requirements(contents.solution, contents.part, contents.outline, contents.table, contents.frame)
     notes = notes_block([contents.tell(note) for note in said], letters.small, block.width - FRAME_MARGIN)
@@ -212,7 +211,7 @@ def _fixed(contents: PartContents, sheet: Format, shown: ShownPart) -> tuple[Pla
 
 
 def _placed_tables(tables: PartTables, views: PartLayout) -> Placed | None:
-    """The polar table, in as many columns as it takes, and the data, in what the views leave free."""
+    """The places of the polar table, in as many columns as it needs, and of the data; None without room for them."""
     most, lines = tables.capacity(views.sheet.content)
     for columns in range(math.ceil(tables.count / lines), most + 1):
         room, placed = views.room.copy(), Placed()
@@ -230,7 +229,7 @@ def _placed_tables(tables: PartTables, views: PartLayout) -> Placed | None:
 
 
 def table_pages(contents: PartContents, sheet: Format) -> list[Placed]:
-    """The data with the first part of the polar table, and the rest of it, over the title blocks of further pages."""
+    """Further pages: the data with the first part of the polar table, then the rest of it, above the title blocks."""
     tables, inside = part_tables(contents, sheet), sheet.content.grown(-FRAME_MARGIN)
     data, rows = tables.data, tables.count
     top = inside.top - (NUMBER_ROOM if sheet.frame == "gost" else 0.0)
@@ -249,7 +248,7 @@ def table_pages(contents: PartContents, sheet: Format) -> list[Placed]:
 
 
 def piled(blocks: Sequence[Block], corner: complex) -> Placed:
-    """Blocks one under the other from an upper left corner downwards."""
+    """Places of blocks one under the other, downwards from an upper left corner."""
     placed = Placed()
     for block in blocks:
         placed.append((block, corner - 1j * block.box.height))
@@ -258,5 +257,5 @@ def piled(blocks: Sequence[Block], corner: complex) -> Placed:
 
 
 def drawn_blocks(placed: Placed) -> tuple[Entity, ...]:
-    """All that stands in the blocks, on the page."""
+    """The entities of all blocks in their places on the page."""
     return tuple(entity for block, at in placed for entity in block.drawn(at))

@@ -1,4 +1,4 @@
-"""The outline of the part: the exact profile that can be cut, as a curve that goes once around the bore.
+"""The outline of the part: the exact profile that can be cut, as a curve that runs once around the bore.
 
 It is followed span by span, each smooth and in the order in which the follower meets it: along the profile of the
 exact side, and of an undercut cam around its corners, where the point stays and the normal turns.
@@ -27,11 +27,11 @@ from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.words import say
 
 OUTLINE_SAMPLES, MIN_SPAN_SAMPLES = 12_000, 33
-"""Samples on the whole outline, shared by its spans, and the minimum on each of them."""
+"""The number of samples of the whole outline, and the minimum number for each of its spans."""
 CUT_SHARE = 1e-9
 """The part of an outline's greatest radius below which a cutter cuts nothing off."""
 SPAN_PARTS = 8
-"""The number of parts of a span, for integration."""
+"""The number of parts of a span for integration."""
 
 
 class Span(Protocol):
@@ -48,21 +48,21 @@ class Span(Protocol):
         ...
 
     def point(self, at: Floats) -> Complexes:
-        """The points in cam coordinates [mm]."""
+        """The points (n,) in cam coordinates [mm]."""
         ...
 
     def velocity(self, at: Floats) -> Complexes:
-        """Their derivatives by the parameter."""
+        """The derivatives (n,) of the points by the parameter [mm/rad]."""
         ...
 
     def normal(self, at: Floats) -> Complexes:
-        """The unit normals away from the cam."""
+        """The unit normals (n,), away from the cam."""
         ...
 
 
 @dataclass(frozen=True, eq=False)
 class EnvelopeSpan:
-    """A part of the profile of a cam, over the cam angle."""
+    """A smooth part of a cam's profile, over the cam angle."""
 
     envelope: Envelope
     piece: int
@@ -70,21 +70,21 @@ class EnvelopeSpan:
     end: float
 
     def point(self, at: Floats) -> Complexes:
-        """The points in cam coordinates [mm]."""
+        """The points (n,) in cam coordinates [mm]."""
         return self.envelope.point(at, np.full(at.shape, self.piece))
 
     def velocity(self, at: Floats) -> Complexes:
-        """Their derivatives by the cam angle."""
+        """The derivatives (n,) of the points by the cam angle [mm/rad]."""
         return self.envelope.velocity(at, np.full(at.shape, self.piece))
 
     def normal(self, at: Floats) -> Complexes:
-        """The unit normals away from the cam."""
+        """The unit normals (n,), away from the cam."""
         return 1j * self.envelope.kinematics.sigma * self.envelope.tangent(at, np.full(at.shape, self.piece))
 
 
 @dataclass(frozen=True, eq=False)
 class ArcSpan:
-    """One of the arcs of a cam of circular arcs, over the cam angle at which a knife edge would stand on it."""
+    """An arc of a cam of circular arcs, over the cam angle at which a knife edge would stand on it."""
 
     knife_edge: ArcMotion
     start: complex
@@ -92,16 +92,16 @@ class ArcSpan:
     end: float
 
     def point(self, at: Floats) -> Complexes:
-        """The points in cam coordinates [mm]."""
+        """The points (n,) in cam coordinates [mm]."""
         return self._values(at)[0] * self._direction(at)
 
     def velocity(self, at: Floats) -> Complexes:
-        """Their derivatives by the angle."""
+        """The derivatives (n,) of the points by the angle [mm/rad]."""
         radius, slope = self._values(at)
         return (slope - 1j * self.knife_edge.sigma * radius) * self._direction(at)
 
     def normal(self, at: Floats) -> Complexes:
-        """The unit normals away from the cam."""
+        """The unit normals (n,), away from the cam."""
         along = self.velocity(at)
         return 1j * self.knife_edge.sigma * along / np.abs(along)
 
@@ -129,24 +129,24 @@ class CornerSpan:
     begin: float = 0.0
 
     def point(self, at: Floats) -> Complexes:
-        """The corner."""
+        """The corner (n,), the same for all parameters [mm]."""
         return np.full(at.shape, self.at)
 
     def velocity(self, at: Floats) -> Complexes:
-        """The velocity at a corner: zero."""
+        """The derivatives (n,) of the points, which are zero."""
         return np.zeros(at.shape, dtype=np.complex128)
 
     def normal(self, at: Floats) -> Complexes:
-        """The normal, from that of the side before to that of the side behind."""
+        """The unit normals (n,), from that of the side before to that of the side behind."""
         return self.first * np.exp(1j * self.sense * at)
 
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """The outline as spans in order.
+    """The outline of the part, as spans in order.
 
     zero : direction of the zero mark in cam coordinates [rad]: that in which the follower meets the cam at cam angle 0
-    zero_met : whether it does: an undercut may have lost that place
+    zero_met : whether the follower does meet it there; an undercut may have lost that place
     sense : in which the outline is followed and its angles are counted, +1 for anticlockwise: against the rotation
     """
 
@@ -156,13 +156,13 @@ class Outline:
     zero_met: bool = True
 
     def as_seen(self, points: Complexes) -> Complexes:
-        """Points or ways of cam coordinates as seen with the zero mark to the right and the angles anticlockwise."""
+        """Points or vectors (n,) turned so that the zero mark is at the right and angles are anticlockwise."""
         turned = points * np.exp(-1j * self.zero)
         return turned if self.sense > 0 else np.conj(turned)
 
     @cached_property
     def sampled(self) -> list[tuple[Floats, Complexes, Complexes]]:
-        """Parameters, points and normals of each span as :meth:`as_seen`, densely."""
+        """Dense parameters, points and normals (n,) of each span, as :meth:`as_seen`."""
         total = math.fsum(span.end - span.begin for span in self.spans)
         samples: list[tuple[Floats, Complexes, Complexes]] = []
         for span in self.spans:
@@ -173,28 +173,28 @@ class Outline:
 
     @cached_property
     def points(self) -> Complexes:
-        """Dense points on the closed outline as :meth:`as_seen`, none twice in a row."""
+        """Dense points (n,) on the closed outline, as :meth:`as_seen`, none twice in a row."""
         parts = [points[:-1] for _, points, _ in self.sampled if abs(points[-1] - points[0]) > 0]
         return np.concatenate(parts)
 
     @property
     def corners(self) -> list[complex]:
-        """The corners as :meth:`as_seen`."""
+        """The corners, as :meth:`as_seen` [mm]."""
         return [complex(self.as_seen(np.array(span.at))) for span in self.spans if isinstance(span, CornerSpan)]
 
     @cached_property
     def least_radius(self) -> float:
-        """How near the outline comes to the axis [mm]."""
+        """The minimum radius of the outline about the axis [mm]."""
         return float(np.abs(self.points).min())
 
     @cached_property
     def greatest_radius(self) -> float:
-        """How far the outline goes from the axis [mm]."""
+        """The maximum radius of the outline about the axis [mm]."""
         return float(np.abs(self.points).max())
 
     @cached_property
     def area(self) -> float:
-        """Inside the outline [mm^2]."""
+        """The area inside the outline [mm^2]."""
         total = 0.0
         for span in self.spans:
             ends = np.linspace(span.begin, span.end, SPAN_PARTS + 1)
@@ -206,7 +206,7 @@ class Outline:
 
     @cached_property
     def least_hollow(self) -> float:
-        """The least radius of curvature of the hollows [mm]; infinite where the outline bulges everywhere."""
+        """The minimum radius of curvature of the hollows [mm]; infinite if the outline is convex."""
         least = math.inf
         for _, points, normals in self.sampled:
             way = np.abs(np.diff(points))
@@ -217,11 +217,11 @@ class Outline:
         return least
 
     def check_cutter(self, radius: float) -> None:
-        """Refuse a cutter of a radius [mm] that is rounder than a hollow, or that cuts elsewhere where it stands.
+        """Refuse a cutter whose radius [mm] is larger than that of a hollow, or which cuts elsewhere at the same time.
 
         Raises
         ------
-        DesignError : it does not reach into a hollow of the profile
+        DesignError : the cutter does not reach into a hollow of the profile
         """
         if not math.isfinite(self.least_hollow):
             return  # seen from every place of its way a cutter has only one nearest place of a convex cam
@@ -246,7 +246,7 @@ def outline_of(solution: AnySolution) -> Outline:
 
     Raises
     ------
-    DesignError : no profile can be told that could be cut
+    DesignError : no profile can be cut
     """
     return _of_arcs(solution) if isinstance(solution, ArcsSolution) else of_cam(solution.cam)
 
@@ -256,7 +256,7 @@ def of_cam(cam: Cam) -> Outline:
 
     Raises
     ------
-    DesignError : no profile can be told that could be cut
+    DesignError : no profile can be cut
 
     >>> from math import radians
     >>> import graphcam as gc
@@ -288,7 +288,7 @@ def _corner(envelope: Envelope, lost: LostStretch, sense: int) -> CornerSpan:
 
 
 def _of_arcs(solution: ArcsSolution) -> Outline:
-    """The spans of a cam of arcs, by a knife edge on it, whose centre is the point of contact."""
+    """The outline of a cam of arcs, by a knife edge on it, whose trace point is the point of contact."""
     knife_edge = solution.cam.motion(0.0, solution.motion.dwell)
     a = complex(*solution.cam.A)
     ends = [0.0, *(edge for edge in knife_edge.edges[1:].tolist() if edge < FULL_TURN), FULL_TURN]

@@ -1,6 +1,6 @@
 """The views of the part: the profile in true view, its section through the axis, and the bore enlarged.
 
-A view is drawn about a place of the page; what it measures are dimensions, what it names are labels that find room.
+A view is drawn about a place of the page; its labels find room by themselves.
 """
 
 from __future__ import annotations
@@ -28,25 +28,25 @@ from graphcam.workshop.limits_and_fits import tolerance
 from graphcam.workshop.part_outline import Outline
 
 FIRST_DIMENSION_OFFSET, DIMENSION_SPACING = 9.0, 8.0
-"""Distance of the first dimension line from what it measures, and of the next ones from it, mm on paper."""
+"""Distances of the first dimension line from the view, and from each to the next [mm of paper]."""
 CENTRE_LINE_OVERHANG, AXIS_OVERHANG = 5.0, 4.0
-"""Overhang of centre lines over the outline, and of the axis over the section, mm on paper."""
+"""The overhang of centre lines over the outline, and of the axis over the section [mm of paper]."""
 ZERO_MARK_LENGTH = 6.0
-"""Length of the zero mark, mm on paper."""
+"""The length of the zero mark [mm of paper]."""
 DRAWN_POINT_STEP = 12
-"""The step by which dense points of the outline are drawn as a smooth curve, which passes between them exactly."""
+"""The step at which dense points of the outline are taken for the drawn smooth curve, exact between them."""
 SHELF_OFFSET = 5.0
-"""The distance from the left face of the section to the shelf of its chamfer, mm on paper."""
+"""The distance from the left face of the section to the shelf of its chamfer [mm of paper]."""
 ARROW_GAP = 5.0
-"""The gap between the profile and an arrow outside it, mm on paper."""
+"""The gap between the profile and an arrow outside it [mm of paper]."""
 SAME_RADIUS = 0.05
-"""The outline keeps a radius where it leaves it by no more than this, mm on paper."""
+"""The change of a radius [mm of paper] up to which it counts as constant."""
 SECTION_LETTER, DETAIL_LETTER = say_in("of a view", "A"), say_in("of a detail", "C")
 
 
 @dataclass(frozen=True, eq=False)
 class ShownPart:
-    """What the views show.
+    """A part as its views show it.
 
     frame : of the sheet, "iso" or "gost";  scale : mm of paper for a mm of the part;  bore_scale : the same of the
     bore enlarged
@@ -61,32 +61,32 @@ class ShownPart:
     tell: Tell
 
     def paper(self, seen: Points) -> Points:
-        """Points of the outline on paper, the zero mark upwards, in true view."""
+        """Points (n,) of the outline on paper [mm], in true view with the zero mark upwards."""
         return 1j * self.scale * (seen if self.outline.sense > 0 else np.conj(seen))
 
     @cached_property
     def profile(self) -> Points:
-        """The dense outline on paper, about the axis."""
+        """The dense outline (n,) on paper, about the axis [mm]."""
         return self.paper(self.outline.points)
 
     @cached_property
     def extent(self) -> Box:
-        """The extent of the profile on paper, about the axis."""
+        """The box of the profile on paper, about the axis."""
         return box_around(self.profile)
 
     def reach(self, start: float, sweep: float) -> float:
-        """The greatest radius on paper between directions."""
+        """The maximum radius on paper [mm] between the directions ``start`` and ``start + sweep`` [rad]."""
         low, high = sorted((start, start + sweep))
         turned = (np.angle(self.profile) - low) % (2 * math.pi)
         inside = turned <= high - low + 0.05
         return float(np.abs(self.profile[inside]).max())
 
     def radius(self, direction: complex) -> float:
-        """The radius on paper in a direction."""
+        """The radius of the profile on paper [mm] in a direction."""
         return float(np.interp(0.0, *self._about(direction)))
 
     def expanded(self, marks: Sequence[Mark], origin: complex) -> Drawn:
-        """Marks about a place, their texts in the language of the drawing."""
+        """Entities of marks about a place, their texts in the language of the drawing."""
         told = [
             replace(mark, text=self.tell(mark.text)) if isinstance(mark, Label | Dimension) else mark for mark in marks
         ]
@@ -99,7 +99,7 @@ class ShownPart:
 
 
 def size(length: float) -> Caption:
-    """A given length [mm] as drawings say it, without needless zeros.
+    """A length [mm] as on drawings, without needless zeros.
 
     >>> str(size(22.800000000000001)), str(size(27.0)), str(size(12.345))
     ('22.8', '27', '12.345')
@@ -111,13 +111,13 @@ def size(length: float) -> Caption:
 
 
 def front_box(shown: ShownPart) -> Box:
-    """The room of the true view about the axis, its symbols included."""
+    """The box of the true view about the axis, with its symbols."""
     box = shown.extent
     return Box(box.left - 16, box.bottom - 24, box.right + 16, box.top + 26)
 
 
 def front_view(shown: ShownPart, origin: complex) -> Drawn:
-    """Profile, bore, hub, centre lines, zero mark, the sense of angle and rotation, and the cutting plane."""
+    """The true view: profile, bore, hub, centre lines, zero mark, senses of angle and rotation, and cutting plane."""
     marks = [*bore_marks(shown.part, shown.scale), *_front_marks(shown), *_sense_labels(shown)]
     entities, writings = shown.expanded(marks, origin)
     radii = [_radius_dimension(shown, origin, place) for place in dimensioned_radii(shown)]
@@ -126,7 +126,7 @@ def front_view(shown: ShownPart, origin: complex) -> Drawn:
 
 
 def _profile(shown: ShownPart, origin: complex) -> list[Entity]:
-    """The profile as one closed curve; with corners, through all its dense points."""
+    """The profile as one closed curve; if it has corners, as a polygon through all its dense points."""
     points = origin + shown.profile
     if shown.outline.corners:
         return [Stroke(points, Role.RESULT, closed=True)]
@@ -168,7 +168,7 @@ def bore_marks(part: CamPart, scale: float) -> list[Mark]:
 
 
 def dimensioned_radii(shown: ShownPart) -> list[tuple[complex, Caption]]:
-    """The places on the profile at which its least and its greatest radius are dimensioned."""
+    """The places of the minimum and the maximum radius on the profile, each with the text of its dimension."""
     radii, decimals = np.abs(shown.outline.points), radius_decimals(shown.part.table, shown.outline.greatest_radius)
     told: list[tuple[complex, Caption]] = []
     for extreme, name in ((radii.min(), say("R{radius} min")), (radii.max(), say("R{radius} max"))):
@@ -211,7 +211,7 @@ def _cutting_planes(shown: ShownPart, origin: complex) -> list[Entity]:
 
 @dataclass(frozen=True)
 class SenseArrow:
-    """An arrow about the axis: its name, its radius on paper, from where it runs and by how much [rad]."""
+    """An arrow about the axis: its name, its radius [mm of paper], its start and its sweep [rad]."""
 
     name: Caption
     radius: float
@@ -220,7 +220,7 @@ class SenseArrow:
 
 
 def _sense_arrows(shown: ShownPart) -> list[SenseArrow]:
-    """Outside the profile: in which sense the angle is counted, and in which the cam turns."""
+    """The arrows outside the profile for the sense of the angle and that of the rotation."""
     sense = shown.outline.sense
     # Beside the zero mark, and at the lower right.
     counted, turned = (math.pi / 2 + 0.12 * sense, 0.5 * sense), (-0.35 - 0.275 * (1 - sense), -0.55 * sense)
@@ -234,7 +234,6 @@ def _senses(shown: ShownPart, origin: complex) -> list[Entity]:
 
 
 def _sense_labels(shown: ShownPart) -> list[Mark]:
-    """The names of the arrows."""
     ways = [(arrow, cmath.rect(1.0, arrow.start + arrow.sweep / 2)) for arrow in _sense_arrows(shown)]
     return [Label(arrow.radius * way, arrow.name, way) for arrow, way in ways]
 
@@ -243,7 +242,7 @@ def _sense_labels(shown: ShownPart) -> list[Mark]:
 
 
 def section_box(shown: ShownPart) -> Box:
-    """The room of the section about the axis on the left face."""
+    """The box of the section, about the axis on the left face."""
     box, part = shown.extent, shown.part
     right = shown.scale * part.length + (FIRST_DIMENSION_OFFSET + DIMENSION_SPACING if part.hub else 0.0)
     below = FIRST_DIMENSION_OFFSET + (DIMENSION_SPACING if part.hub else 0.0) + 4
@@ -251,7 +250,7 @@ def section_box(shown: ShownPart) -> Box:
 
 
 def section_view(shown: ShownPart, origin: complex) -> Drawn:
-    """The section through axis and keyway, seen from the left, with what is seen behind it."""
+    """The section through axis and keyway seen from the left, with the edges behind it."""
     part, k = shown.part, shown.scale
     # The edges over the hatching that ends on them.
     marks: list[Mark] = [*_cut_faces(shown), *_cut_edges(shown), *_section_dimensions(shown)]
@@ -262,14 +261,14 @@ def section_view(shown: ShownPart, origin: complex) -> Drawn:
 
 
 def heights(shown: ShownPart) -> tuple[float, float, float, float]:
-    """Heights on paper: the cut profile below and above the axis, and how far the half behind it is seen."""
+    """Heights on paper [mm]: the cut profile below and above the axis, and the profile seen behind it."""
     behind = shown.profile[shown.profile.real >= 0]
     cut = -shown.radius(-1j), shown.radius(1j)
     return (*cut, min(float(behind.imag.min()), cut[0]), max(float(behind.imag.max()), cut[1]))
 
 
 def _cut_edges(shown: ShownPart) -> list[Mark]:
-    """All visible edges."""
+    """All visible edges of the section."""
     part, k = shown.part, shown.scale
     low, high, seen_low, seen_high = heights(shown)
     w, end, c = k * part.width, k * part.length, k * part.chamfer
@@ -301,7 +300,7 @@ def _cut_edges(shown: ShownPart) -> list[Mark]:
 
 
 def _cut_faces(shown: ShownPart) -> list[Mark]:
-    """What is cut, hatched: below the bore, and above the keyway."""
+    """The hatched faces of the section: below the bore, and above the keyway."""
     part, k = shown.part, shown.scale
     low, high, *_ = heights(shown)
     w, end, c = k * part.width, k * part.length, k * part.chamfer
@@ -309,7 +308,7 @@ def _cut_faces(shown: ShownPart) -> list[Mark]:
     half = k * part.hub.diameter / 2 if part.hub else None
 
     def face(side: float, reach: float, inner: Sequence[complex]) -> Mark:
-        """One of the two faces; ``inner`` runs along the bore from the right to the left."""
+        """One of the two faces; ``inner`` runs along the bore from right to left."""
         outer = [complex(0, side * reach), complex(w, side * reach)]
         outer += [complex(w, side * half), complex(end, side * half)] if half else []
         return Region(np.array([*outer, *inner]))
@@ -339,7 +338,7 @@ def _section_dimensions(shown: ShownPart) -> list[Mark]:
 
 
 def _chamfer_marks(shown: ShownPart) -> list[Mark]:
-    """The size of the chamfer on a shelf at the left of the section, on the line square to it."""
+    """The size of the chamfer on a shelf at the left of the section, with a line to the chamfer."""
     text = say("{size} × 45°", size=size(shown.part.chamfer))
     c, r = shown.scale * shown.part.chamfer, shown.scale * shown.part.bore / 2
     face, knee = complex(c / 2, -r - c / 2), complex(-SHELF_OFFSET, SHELF_OFFSET - r)
@@ -351,13 +350,13 @@ DATUM_LETTER = say_in("of a datum", "B")
 
 
 def bore_box(shown: ShownPart) -> Box:
-    """The room of the enlarged bore about its axis."""
+    """The box of the enlarged bore, about its axis."""
     r, top = (shown.bore_scale * x for x in (shown.part.bore / 2, shown.part.keyway_top))
     return Box(-r - 30, -r - 20, r + 24, top + FIRST_DIMENSION_OFFSET + 20)
 
 
 def bore_view(shown: ShownPart, origin: complex) -> Drawn:
-    """Bore and keyway with their tolerances, and the datum: the axis."""
+    """The enlarged bore and keyway with their tolerances, and the axis as datum."""
     part, k = shown.part, shown.bore_scale
     r, top = k * part.bore / 2, k * part.keyway_top
     marks: list[Mark] = list(bore_marks(part, k))
@@ -379,7 +378,7 @@ def bore_view(shown: ShownPart, origin: complex) -> Drawn:
 
 
 def _datum(shown: ShownPart, at: complex) -> list[Entity]:
-    """The datum triangle on the extension line of the bore's diameter, in line with the dimension: its axis."""
+    """The datum triangle of the axis, on the extension line of the bore's diameter, in line with the dimension."""
     height = shown.letters.label
     letter = datum_letter(shown.tell(DATUM_LETTER), height)
     corner = at + complex(height + 5.0, -height)
@@ -388,7 +387,7 @@ def _datum(shown: ShownPart, at: complex) -> list[Entity]:
 
 
 def bore_text(part: CamPart, frame: str) -> Words:
-    """Diameter, tolerance class and its deviations."""
+    """The text of the bore's dimension: diameter, tolerance class and deviations."""
     grade = part.table.bore_tolerance
     over = tolerance(part.bore, int(grade[1:]))
     text = say("⌀{size} {grade}", size=size(part.bore), grade=grade)
@@ -396,7 +395,7 @@ def bore_text(part: CamPart, frame: str) -> Words:
 
 
 def upper_deviation(over: float, frame: str) -> Caption:
-    """The upper deviation of two; the lower one, which is zero, is told by ISO 129-1 and not by GOST 2.307.
+    """The text of deviations up to ``over`` mm; the lower one, zero, stands by ISO 129-1 and not by GOST 2.307.
 
     >>> str(upper_deviation(0.021, "iso")), str(upper_deviation(0.021, "gost"))
     ('+0.021/0', '+0.021')
@@ -405,7 +404,7 @@ def upper_deviation(over: float, frame: str) -> Caption:
 
 
 def keyway_text(part: CamPart) -> Words:
-    """Width, tolerance class JS9 of a normal fit, and its deviations."""
+    """The text of the keyway's dimension: width, tolerance class JS9 of a normal fit, and deviations."""
     assert part.keyway is not None
     zone = tolerance(part.keyway.width, 9)
     assert zone is not None

@@ -1,6 +1,6 @@
-"""The closed loops that bound the part in its plane: outline, hub, and bore with keyway, of lines, arcs and splines.
+"""The closed loops that bound the part in its plane: outline, hub, and bore with keyway; of lines, arcs and splines.
 
-Each is followed with the material to the left, an outer one anticlockwise and an inner one clockwise.
+Each loop runs with the material to its left, an outer one anticlockwise and an inner one clockwise.
 """
 
 import math
@@ -18,7 +18,7 @@ from graphcam.workshop.biarcs import Move
 from graphcam.workshop.cam_part import CamPart
 
 MAX_EDGE_PARTS = 4
-"""The maximum number of parts of an edge, between its knots."""
+"""The maximum number of parts, between knots, of an edge."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,12 +31,12 @@ class SplineEdge:
 
     @property
     def start(self) -> complex:
-        """The point at which the edge begins."""
+        """The point at which the edge begins [mm]."""
         return complex(self.control[0])
 
     @property
     def end(self) -> complex:
-        """The point at which the edge ends."""
+        """The point at which the edge ends [mm]."""
         return complex(self.control[-1])
 
 
@@ -73,7 +73,7 @@ def spline_loop(spline: ProfileSpline) -> list[SplineEdge]:
 
 
 def _cuts(corners: list[int]) -> list[int]:
-    """The knots, by their numbers, at which edges begin and end: the corners, and some between two of them."""
+    """The numbers of the knots at which edges begin and end: the corners, and some between each two."""
     cuts = corners[:1]
     for a, b in pairwise(corners):
         count = max(math.ceil((b - a) / MAX_EDGE_PARTS), 2 if len(corners) == 2 else 1)

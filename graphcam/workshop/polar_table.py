@@ -25,16 +25,16 @@ from graphcam.workshop.cam_part import profile_tolerance, radius_decimals
 from graphcam.workshop.part_outline import Outline
 
 CHORD_TOLERANCE_SHARE = 0.25
-"""How far a straight line between rows may leave the curve, as a part of the profile's tolerance."""
+"""The maximum distance of a line between rows from the curve, as a part of the profile's tolerance."""
 STEP_DIVISIONS = (1, 2, 5, 10, 20, 50, 100)
 """The numbers of equal parts into which a step may be divided."""
 MAX_ROWS = 1500
-"""The maximum number of rows of a table that somebody reads."""
+"""The maximum number of rows, which a person may still read."""
 CORNER_DECIMALS = 3
-"""Decimals of the angle of a corner [deg]."""
+"""Decimals of the angle of a corner [degrees]."""
 FILES_REMEDY = say("give a larger one; the files of the profile have the curve itself")
 MIN_BACKWARD_ANGLE = 1e-12
-"""The angle [rad] by which a curve turns back at least: less is rounding."""
+"""The minimum angle [rad] by which a curve turns back; less is rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +59,7 @@ class PolarCurve:
 
     @cached_property
     def _sampled(self) -> tuple[Floats, Complexes, NDArray[np.intp]]:
-        """Parameters, points and numbers of their spans, densely."""
+        """Dense parameters, points, and numbers of their spans, each (n,)."""
         samples = self.outline.sampled
         points = np.concatenate([points + self.distance * normals for _, points, normals in samples])
         number = np.repeat(np.arange(len(samples)), [at.size for at, *_ in samples])
@@ -67,12 +67,12 @@ class PolarCurve:
 
     @cached_property
     def angles(self) -> Floats:
-        """Dense angles [rad] in order over one turn."""
+        """Dense angles (n,) [rad], in order over one turn."""
         return np.unwrap(np.angle(self._sampled[1]))
 
     @cached_property
     def turn(self) -> tuple[Floats, Floats, Floats]:
-        """Angles [deg] from before 0 to beyond 360, exact radii there [mm], and cosines between radius and normal."""
+        """Angles [deg] from before 0 to beyond 360, their radii [mm], and cosines of radius and normal, each (n,)."""
         _, points, _ = self._sampled
         normals = np.concatenate([normals for *_, normals in self.outline.sampled])
         lean = np.abs((points.conj() * normals).real) / np.abs(points)
@@ -102,11 +102,11 @@ class PolarCurve:
 
 @dataclass(frozen=True, eq=False)
 class PolarTable:
-    """The rows of the table.
+    """The polar table of an outline.
 
     angles : (n,) from the zero mark [deg], in the outline's sense;  radii : (n,) of the profile [mm]
     cutter : (n,) of the centre of the cutter at the same angles [mm]; None without a cutter
-    bound : what a straight line between rows leaves the curves by, at most, along their normals [mm]
+    bound : the maximum distance of a straight line between rows from the curves, along their normals [mm]
     decimals : of the radii
     """
 
@@ -148,7 +148,7 @@ def polar_table(outline: Outline, table: PartTable) -> PolarTable:
 
 
 def _rows(curves: list[PolarCurve], step: int, bound: float, corners: Floats) -> Floats:
-    """The angles of the rows [deg], from 0 to below 360, one at each corner."""
+    """The angles (n,) of the rows [deg], from 0 to below 360, one at each corner."""
     rows: list[Floats] = []
     for start in range(0, 360, step):
         inside = corners[(start < corners) & (corners < start + step)]
@@ -163,7 +163,7 @@ def _rows(curves: list[PolarCurve], step: int, bound: float, corners: Floats) ->
 
 
 def _departure(row: Floats, angles: Floats, radii: Floats, lean: Floats) -> float:
-    """How far straight lines between the rows leave the curve, along its normal [mm]."""
+    """The maximum distance of straight lines between the rows from the curve, along its normal [mm]."""
     inside = slice(*np.searchsorted(angles, [row[0], row[-1]]).tolist())
     straight = np.interp(angles[inside], row, np.interp(row, angles, radii))
     return float((lean[inside] * np.abs(radii[inside] - straight)).max(initial=0.0))

@@ -16,20 +16,20 @@ from graphcam.mechanism.profile_spline import ProfileSpline
 from graphcam.mechanism.undercut import CutProfile, trimmed_profile
 
 PROFILE_POINTS = 720
-"""The number of points on the profile: one for every half degree of the cam angle."""
+"""The number of points on the profile, one for each half degree of the cam angle."""
 FILE_NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profile_xyz": "profile.xyz"}
 
 
 def write_curves(
     cam: Cam, spline: ProfileSpline | None, folder: Path, kinds: Collection[str] = tuple(FILE_NAMES)
 ) -> dict[str, str]:
-    """Write those of the three files into a folder that are wanted; returns their names by kind.
+    """Write the wanted ones of the three files into a folder; returns the file names by kind.
 
     spline : of the profile that can be cut, for the DXF; None where that is not wanted
 
     Raises
     ------
-    DesignError : no profile can be told that could be cut
+    DesignError : no profile can be cut
     """
     from graphcam.sheets.dxf_renderer import write_spline
 

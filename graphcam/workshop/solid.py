@@ -22,39 +22,39 @@ UP_AXIS, DOWN_AXIS, RIGHT_AXIS = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0
 
 
 LENGTH_UNCERTAINTY = 1e-5
-"""What two points may be apart and still be one [mm]."""
+"""The distance up to which two points count as one [mm]."""
 
 
 class StepFile:
-    """Entities in the order in which they are added; each is known by what :meth:`add` returns."""
+    """A STEP file in the making: entities in order, each known by the reference that :meth:`add` returns."""
 
     def __init__(self) -> None:
         self._lines: list[str] = []
 
     def add(self, name: str, *values: object) -> str:
-        """An entity of that name with these values, as :func:`written` writes them; returns its reference."""
+        """Add an entity with these values, as :func:`written` writes them; returns its reference."""
         return self.add_text(f"{name}({','.join(map(written, values))})")
 
     def add_text(self, text: str) -> str:
-        """An entity written out."""
+        """Add an entity that is written out; returns its reference."""
         self._lines.append(text)
         return f"#{len(self._lines)}"
 
     def point(self, *xyz: float) -> str:
-        """A point [mm]."""
+        """Add a point [mm]; returns its reference."""
         return self.add("CARTESIAN_POINT", "''", xyz)
 
     def direction(self, *xyz: float) -> str:
-        """A unit vector."""
+        """Add a unit vector; returns its reference."""
         return self.add("DIRECTION", "''", xyz)
 
     def axes(self, origin: tuple[float, ...], axis: tuple[float, ...], across: tuple[float, ...]) -> str:
-        """A system of axes: its origin, its third and its first one."""
+        """Add a system of axes by its origin, its third axis and its first axis; returns its reference."""
         places = self.point(*origin), self.direction(*axis), self.direction(*across)
         return self.add("AXIS2_PLACEMENT_3D", "''", *places)
 
     def finish(self, solid: str, name: str, description: str, program: str) -> str:
-        """The whole file, with a solid as the shape of a product."""
+        """The text of the whole file, with a solid as the shape of a product."""
         self._product(solid, text(name))
         entities = (f"#{k}={line};" for k, line in enumerate(self._lines, 1))
         head = (
@@ -85,7 +85,7 @@ class StepFile:
         self.add("SHAPE_DEFINITION_REPRESENTATION", shape, is_shape)
 
     def _units(self) -> str:
-        """Millimetres and radians."""
+        """The units millimetre and radian; returns the reference of their context."""
         length = self.add_text("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))")
         angle = self.add_text("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))")
         solid_angle = self.add_text("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())")
@@ -101,7 +101,7 @@ class StepFile:
 
 
 def written(value: object) -> str:
-    """A value of an entity: references, texts and what is written out stay, the rest follows the standard.
+    """The text of a value of an entity: references and written-out texts stay, other values follow the standard.
 
     >>> written([1.0, 2.5e-7]), written(True), written(3), written("#7")
     ('(1.,2.5E-07)', '.T.', '3', '#7')
@@ -120,7 +120,7 @@ def written(value: object) -> str:
 
 
 def real(value: float) -> str:
-    """A real number, which always has a point.
+    """The text of a real number, which always has a point.
 
     >>> real(-0.0), real(1e-5), real(1 / 3)
     ('0.', '1.E-05', '0.333333333333333')
@@ -130,7 +130,7 @@ def real(value: float) -> str:
 
 
 def text(said: str) -> str:
-    r"""A text in ASCII, other letters by their numbers.
+    r"""The quoted text in ASCII, other letters by their code numbers.
 
     >>> print(text("cam's"), text("Кулачок №1"))
     'cam''s' '\X2\041A0443043B04300447043E043A\X0\ \X2\2116\X0\1'
@@ -149,7 +149,7 @@ def text(said: str) -> str:
 
 @dataclass(frozen=True)
 class Wall:
-    """The faces that stand on a loop, and their edges below and above, in order."""
+    """The faces that stand on a loop, and their lower and upper edges, in order."""
 
     faces: list[str]
     lower: list[str]
@@ -157,7 +157,7 @@ class Wall:
 
 
 def solid_file(outline: Loop, part: CamPart, zero: float, name: str, description: str, program: str) -> str:
-    """The solid as a STEP file; the axis is z, the cam stands from z = 0 upwards, and the hub on it.
+    """The text of the STEP file of the solid; its axis is z, the cam begins at z = 0, and the hub stands on it.
 
     outline : anticlockwise, in cam coordinates [mm]
     zero : direction of the keyway [rad]
@@ -209,7 +209,7 @@ def _wall(file: StepFile, loop: Loop, low: float, high: float) -> Wall:
 
 
 def _plane(file: StepFile, z: float, normal: tuple[float, float, float], bounds: list[list[str]]) -> str:
-    """The face in a plane across the axis: its outer bound and the inner one."""
+    """The face in a plane across the axis, with its outer and inner bounds."""
     kinds = "FACE_OUTER_BOUND", "FACE_BOUND"
     made = [
         file.add(kind, "''", file.add("EDGE_LOOP", "''", around), True)
@@ -246,7 +246,7 @@ def _line(file: StepFile, at: complex, z: float, way: tuple[float, float, float]
 
 
 def _curve(file: StepFile, edge: PlaneEdge, z: float) -> str:
-    """The curve of an edge at a height; an arc's axis points to where it runs anticlockwise."""
+    """The curve of an edge at the height ``z``; the axis of an arc points to where it runs anticlockwise."""
     if not isinstance(edge, Move):
         knots, times = np.unique(edge.knots, return_counts=True)
         points = [file.point(point.real, point.imag, z) for point in edge.control.tolist()]

@@ -1,4 +1,4 @@
-"""The working drawing of the cam with its callouts: from it alone a machinist can make the part.
+"""The working drawing of the cam with its callouts, from which alone a machinist can make the part.
 
 It takes the smallest sheet on which everything stands side by side at a standard scale; what is too long even for the
 largest goes on with the polar table on further pages.
@@ -50,20 +50,20 @@ from graphcam.workshop.part_views import (
 )
 
 SYMBOL_OFFSET = 30.0
-"""The distance from the left face of the section to the symbols of it, mm."""
+"""The distance from the left face of the section to its symbols [mm]."""
 EDGE_DISTANCE = 4.0
-"""The distance from the edges of a face at which a line ends on it, mm, or a third of its height."""
+"""The distance from the edges of a face at which a line ends on it [mm]; at most a third of its height."""
 
 
 RADIUS_LINE_ANGLE = math.radians(10)
-"""The angle between the line of a radius and the end of another line on the profile, seen from the axis."""
+"""The angle between the line of a radius and the end of another line on the profile, about the axis [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
 class Callout:
-    """A symbol of a view, with a line to a face.
+    """A symbol of a view with a line to a face.
 
-    wanted : where the lower left corner of its box would stand best;  face : places on the face
+    wanted : the best place for the lower left corner of its box;  face : places on the face
     lead : draws the line from the symbol's box to the nearest of these
     """
 
@@ -75,7 +75,7 @@ class Callout:
 
 
 def called_out(contents: PartContents, layout: PartLayout, lines: Iterable[Entity]) -> dict[str, list[Entity]]:
-    """The symbols with their lines, by the view; ``lines`` are all that stands on the page."""
+    """The entities of the symbols and their lines, by the view; ``lines`` are all that stands on the page."""
     room = Room(layout.sheet.content.grown(-2))
     room.take_points(sampled(*linework(lines), 1.0), 2.0)
     found: dict[str, list[Entity]] = {}
@@ -93,7 +93,7 @@ def called_out(contents: PartContents, layout: PartLayout, lines: Iterable[Entit
 
 def _nearness(wanted: complex) -> Preference:
     def distance(x: Grid, y: Grid) -> Grid:
-        """In cells, squared."""
+        """The square of the distance, in cells."""
         return (x - wanted.real) ** 2 + (y - wanted.imag) ** 2
 
     return distance
@@ -109,7 +109,7 @@ def _callouts(contents: PartContents, layout: PartLayout) -> list[Callout]:
     )
 
     def ra(micrometres: float) -> PartSymbol:
-        """The symbol of a roughness."""
+        """The symbol of a roughness Ra."""
         return roughness(tell(say("Ra {ra:g}", ra=micrometres)), height)
 
     line, square = (
@@ -145,7 +145,7 @@ def _profile_face(shown: ShownPart, start: complex) -> Points:
 
 
 def _side(shown: ShownPart, way: int) -> Points:
-    """Places on the left face of the section above or below the bore, as far as the face is seen."""
+    """Places on the visible left face of the section, above or below the bore."""
     *_, low, high = heights(shown)
     inner, outer = shown.scale * shown.part.keyway_top, high if way > 0 else -low
     edge = min(EDGE_DISTANCE, (outer - inner) / 3)
@@ -153,7 +153,7 @@ def _side(shown: ShownPart, way: int) -> Points:
 
 
 def _bore_face(shown: ShownPart) -> Points:
-    """Places on the bore, at its upper left."""
+    """Places on the upper left of the bore."""
     ways: Points = np.exp(1j * np.linspace(2.4, 3.0, 30))
     return shown.bore_scale * shown.part.bore / 2 * ways
 
@@ -163,7 +163,7 @@ def working_drawing_of(contents: PartContents) -> Drawing:
 
     Raises
     ------
-    DesignError : the part cannot be, or no profile can be cut
+    DesignError : the part is impossible, or no profile can be cut
 
     >>> import graphcam as gc
     >>> drawing = working_drawing_of(PartContents(gc.solve(gc.builtin_task())))
@@ -203,7 +203,6 @@ def _first_page(contents: PartContents, views: PartLayout, tables: Placed, empty
 
 
 def _view_titles(views: PartLayout) -> list[Entity]:
-    """The titles over the section and over the enlarged bore."""
     shown, tell, height = views.shown, views.shown.tell, views.sheet.lettering.title
     letter = tell(SECTION_LETTER)
     section = views.section + complex(shown.scale * shown.part.length / 2, section_box(shown).top - 8)

@@ -1,4 +1,4 @@
-"""The exact profile of a cam as files for CAD and machines, without a task: also of own laws and measured motions."""
+"""The exact profile of a cam as files for CAD and machines, without a task; for own laws and measured motions too."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def _spline(cam: Cam, table: PartTable) -> ProfileSpline:
 
 
 def _texts(cam: Cam, spline: ProfileSpline | None, table: PartTable, name: str, wanted: set[str]) -> dict[str, str]:
-    """The files by which a machine cuts the cam, as far as they are wanted."""
+    """The contents of the wanted files by which a machine cuts the cam, by their kinds."""
     texts: dict[str, str] = {}
     if not wanted & cutting_files.FILE_NAMES.keys():
         return texts
