@@ -1,1 +1,1 @@
-"""Pixels to millimetres: what is drawn by hand on a printed sheet, read off a photograph; it knows no cams."""
+"""Pixels to millimetres: drawings by hand on a printed sheet, read off a photograph; nothing here knows cams."""

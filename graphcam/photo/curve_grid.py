@@ -1,4 +1,4 @@
-"""The places at which a curve may run (once round an origin, or over an axis), and the best way through them.
+"""A grid of places for a curve, once round an origin or over an axis, and the best way through the grid.
 
 The best way is found by a dynamic programme whose states are a place across and a slope.  The slope is part of it, so
 that a line that bends costs more than one that runs on.  R. Bellman, "Dynamic Programming", 1957; for lines in pictures
@@ -18,40 +18,40 @@ from graphcam.photo.printed_page import Points, PrintedView
 from graphcam.photo.raster import DIRECTION_COUNT, PIXELS_PER_MM, Raster, ridges, spread
 
 ACROSS_STEP = 0.2
-"""Step across an axis [mm]; the place of a curve is refined afterwards."""
+"""The step across an axis [mm]; the place of a curve is refined afterwards."""
 RELATIVE_STEP, MAX_STEP = 0.0035, 0.4
-"""Step across a curve round an origin, as a share of the distance from it, so that slopes have equal steps everywhere,
-and the widest one [mm], which is as wide as a stroke."""
+"""The step across a curve round an origin as a share of the distance from it, and its maximum [mm], a stroke's width.
+"""
 MAX_STATES = 900
-"""Across an axis: a diagram on A1 takes no more memory than one on A3."""
+"""The maximum number of states across an axis: a diagram on A1 takes no more memory than one on A3."""
 ROUND_STATIONS = 360
-"""Stations round an origin."""
+"""The number of stations round an origin."""
 MIN_STATION_STEP, MAX_STATION_STEP = 0.5, 1.0
-"""Step along an axis [mm]: a drawing over 360 mm has as many stations as one round an origin."""
+"""The bounds of the step along an axis [mm]; an axis of 360 mm has as many stations as a curve round an origin."""
 INNER_RADIUS = 10.0
-"""No curve runs nearer to its origin [mm]: there all rays of a construction meet."""
+"""The minimum distance of a curve from its origin [mm], where all rays of a construction meet."""
 EDGE_MARGIN = 0.8
 """The margin beside the edge of the room [mm] in which its own line may be printed."""
 MAX_ROUND_SLOPE = 1.2
-"""Slope against the circle, 50 degrees: a cam's pressure angle is less."""
+"""The maximum slope against the circle, 50 degrees; a cam's pressure angle is less."""
 MAX_AXIS_SLOPE = 3.7
-"""Slope over an axis, 75 degrees."""
+"""The maximum slope over an axis, 75 degrees."""
 OUTSIDE_REWARD = -0.02
-"""Reward of a place without room, as little as noise has."""
+"""The reward of a place outside the room, as small as that of noise."""
 
 
 BEND_PRICE = 0.03
-"""Price of a slope that changes by one, in rewards of the best possible station."""
+"""The price of a change of slope by one, in rewards of the best possible station."""
 MAX_BEND = 2
-"""The slope changes by at most so much a station, except at a corner."""
+"""The maximum change of slope from station to station, except at a corner."""
 CORNER_PRICE = 1.5
-"""Price of a corner, at which the slope changes at will: a station and a half without a line."""
+"""The price of a corner, at which the slope changes freely: that of one and a half stations without a line."""
 FORBIDDEN_REWARD = np.float32(-1e6)
 BLOCK_STATIONS = 32
-"""Stations whose values are kept at a time: those of the others are reckoned again on the way back, to save memory."""
+"""The number of stations whose values are kept at a time; the others are computed again on the way back."""
 
 Rewards = NDArray[np.float32]
-"""(stations, states, slopes): of leaving a state of a station with a slope, which is the change of the state up to the
+"""Rewards (stations, states, slopes) of leaving a state of a station with a slope, the change of the state up to the
 next station; slopes run from -m to m."""
 
 
@@ -64,7 +64,7 @@ class BestWay:
 
 
 def best_way(rewards: Rewards, wraps: bool) -> BestWay:
-    """The way with the greatest sum of rewards, less what its bends cost.
+    """The way with the maximum sum of rewards less the prices of its bends.
 
     wraps : whether the last station is followed by the first
 
@@ -123,7 +123,7 @@ def _arrived(
 
 
 def _with_slope_changes(arrived: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The best values (slopes, states) after the slope may have changed."""
+    """The best values (slopes, states) after a change of slope."""
     best = np.maximum(arrived, arrived.max(0) - np.float32(CORNER_PRICE))
     for change in range(1, MAX_BEND + 1):
         price = np.float32(BEND_PRICE * change)
@@ -150,13 +150,13 @@ def _traced_back(arrived: NDArray[np.float32], slope: int, state: int) -> NDArra
 
 @dataclass(frozen=True, eq=False)
 class CurveGrid:
-    """Places on the page, by stations along and states across.
+    """A grid of places on the page, by stations along and states across.
 
-    base : (stations, 1) from where the states are counted
-    across : (stations, 1) towards the next state, of length one
+    base : (stations, 1) places from which the states are counted
+    across : (stations, 1) unit vectors towards the next state
     offsets : (states,) of the states from the base [mm]
-    along : (stations, states) from a place to that of the next station with the same state
-    steepest : greatest slope, in states a station
+    along : (stations, states) vectors from a place to that of the next station with the same state
+    steepest : maximum slope, in states per station
     inside : (stations, states) whether there is room
     """
 
@@ -170,25 +170,25 @@ class CurveGrid:
 
     @cached_property
     def places(self) -> Points:
-        """(stations, states) mm of page."""
+        """The places (stations, states) [mm of page]."""
         return self.base + self.across * self.offsets
 
     @cached_property
     def spacing(self) -> NDArray[np.float64]:
-        """(states,) mm from state to state."""
+        """The distances (states,) from state to state [mm]."""
         return np.gradient(self.offsets)
 
     def between(self, states: NDArray[np.float64]) -> Points:
-        """Places (stations,) of states that need not be whole."""
+        """Places (stations,) of states that need not be whole numbers."""
         return self.base[:, 0] + self.across[:, 0] * np.interp(states, np.arange(self.offsets.size), self.offsets)
 
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
-    """What speaks for the places of a grid.
+    """The ink that is evidence for a line at the places of a grid.
 
     answers : how much more ink lies on a line with each slope than beside it (stations, states, slopes)
-    best : the same of a line in any direction (stations, states)
+    best : the maximum of such answers over all directions (stations, states)
     noise : standard deviation of an answer on bare paper
     """
 
@@ -238,7 +238,7 @@ def _inside(places: Points, view: PrintedView) -> NDArray[np.bool_]:
 
 
 def evidence_of(ink: Ink, grid: CurveGrid) -> Evidence:
-    """What the pencil says for every place and slope."""
+    """The pencil's answers for every place and slope of a grid."""
     reduced = ink.pencil.reduced(PIXELS_PER_MM)
     answers = np.empty((DIRECTION_COUNT, *grid.places.shape), np.float32)
     quiet: list[NDArray[np.float32]] = []

@@ -1,4 +1,4 @@
-"""A curve drawn in a view, read without knowing how it should run; what is not seen of it stays missing.
+"""A curve drawn in a view, read without knowledge of its course; what is not seen of it stays missing.
 
 Of a closed curve r(theta) about the view's origin is read, else y(x) over its axis; both are the best way through a
 grid of places, looked for by lines in the pencil, then looked at station by station.
@@ -42,65 +42,65 @@ from graphcam.photo.printed_page import Points, PrintedView
 from graphcam.words import Words, say
 
 FULL_REWARD = 12.0
-"""Standard deviations of noise from which on more contrast is no better."""
+"""The contrast for full reward, in standard deviations of noise."""
 INITIAL_FULL_DENSITY = 0.05
-"""Density that is full reward while it is not known how strong the curve is."""
+"""The density for full reward while the strength of the curve is not known yet."""
 FULL_STRENGTH_SHARE = 0.7
-"""Share of the curve's strong places that is full reward, so that one dark stroke does not outweigh a whole curve."""
+"""The share of the curve's strong places for full reward, so that a dark stroke does not outweigh a whole curve."""
 RIVAL_FULL_REWARD, RIVAL_STRENGTH_SHARE = 8.0, 0.35
-"""Full reward and share of strong places for a second curve, which may be fainter."""
+"""The full reward and the share of strong places for a second curve, which may be fainter."""
 RIVAL_DISTANCE = 1.2
-"""A second curve runs at least so far [mm] from the first; nearer ones are told by their crests."""
+"""The minimum distance of a second curve from the first [mm]; nearer ones are found by their crests."""
 SAME_STRENGTH_SHARE, SAME_STRENGTH_LENGTH, SAME_STRENGTH_PRESENCE = 0.6, 10.0, 0.7
-"""Share of the curve's strength that a second line has, over so many mm, and share of these on which it is seen, to
-leave it open there which of both is the curve."""
+"""The share of the curve's strength, the length [mm], and the share of it on which a second line is seen, for doubt
+which of both is the curve."""
 MEETING_DISTANCE = 3.0
-"""How near [mm] a second line comes to the curve before and behind; the lines of a hatching do not."""
+"""The distance [mm] within which a second line meets the curve before and behind; lines of a hatching do not."""
 MAX_DARKNESS_RATIO = 1.8
-"""Times as dark as the strong places of a curve no long piece of it, nor any other line, may be: a hand presses evenly,
-and what is so much lighter an eraser has left."""
+"""The maximum darkness of a long piece or another line, as a multiple of a curve's strong places: a hand presses
+evenly, and what is so much lighter an eraser has left."""
 STEEPEST_COSINE = 0.2
-"""Cosine of the steepest slope for which this is reckoned."""
+"""The cosine of the steepest slope for which the distance across is computed."""
 MIN_RIVAL_STRENGTH = 0.45
-"""Share of the curve's strong places that a second curve must pass, to be one that was meant."""
+"""The minimum strength of a second curve that was meant, as a share of the curve's strong places."""
 
 
 MIN_SEEN_SHARE = 0.90
-"""Share of its length on which a curve is seen: a half has far less, a faint but whole one more."""
+"""The minimum share of its length on which a curve is seen: a half has far less, a faint but whole one more."""
 MIN_COHERENCE = 0.80
-"""Median share of the best direction's answer that the curve's own direction has: through a scribble the way jumps."""
+"""The minimum coherence of a curve (see :class:`Measures`): through a scribble the way jumps."""
 MAX_RIVAL_SHARE = 0.25
-"""Share of its length over which a second curve is seen; rays and digits beside a lone curve make less."""
+"""The maximum share of its length over which a second curve is seen; rays and digits make less."""
 MAX_BEND = 3.5
-"""Degrees by which the direction changes from station to station, on average: the way through a scribble turns much."""
+"""The maximum mean change of direction from station to station [degrees]; through a scribble the way turns more."""
 MAX_TWIN_SHARE = 0.06
-"""Share of its length along which a second crest runs beside the first."""
+"""The maximum share of its length along which a second crest runs beside the first."""
 MAX_DARKER_SHARE = 0.10
-"""Share of its length along which a line far darker than the curve runs, on it or elsewhere."""
+"""The maximum share of its length along which a line far darker than the curve runs, on it or elsewhere."""
 MAX_HIDDEN_SHARE = 0.10
-"""Share of its length that lies under black print, where nothing is seen."""
+"""The maximum share of its length under black print, where nothing is seen."""
 EMPTY_SHARE = 0.25
-"""Below this share there is nothing that looks like a curve."""
+"""The share of its length below which nothing is taken for a curve."""
 
 
 PROFILE_HALF_WIDTH = 2.2
-"""Half the profile [mm] in which a second crest is looked for."""
+"""Half the width of the profile in which a second crest is looked for [mm]."""
 PROFILE_STEP = 0.1
-"""The step along the profile [mm]."""
+"""The step along such a profile [mm]."""
 OWN_CREST_DISTANCE = 0.7
-"""The curve's own crest lies so near to its path [mm]."""
+"""The maximum distance of the curve's own crest from its path [mm]."""
 MIN_CREST_DISTANCE = 0.55
-"""Two crests are at least so far apart [mm]; nearer ones a photograph shows as one."""
+"""The minimum distance of two crests [mm]; a photograph shows nearer ones as one."""
 MIN_SECOND_CREST = 0.45
-"""Share of the first crest's height that a second one has: what an eraser leaves has less."""
+"""The minimum height of a second crest, as a share of the first: what an eraser leaves has less."""
 MAX_VALLEY = 0.8
-"""Share of the second crest's height below which the profile falls between the two."""
+"""The maximum height of the profile between two crests, as a share of the second."""
 PROFILE_SMOOTHING = 1.5
-"""Deviation over which profiles are smoothed along the curve [stations], against crosses and digits."""
+"""The deviation of the smoothing of profiles along the curve [stations], against crosses and digits."""
 
 
 def twin_share(track: Track, seen: Flags, ink: Ink, wraps: bool) -> float:
-    """Share of the seen length along which there are two crests, over at least ``SHORTEST_RUN`` at once."""
+    """The share of the seen length along which there are two crests, over at least ``MIN_RUN_LENGTH`` at once."""
     offsets = np.arange(-PROFILE_HALF_WIDTH, PROFILE_HALF_WIDTH + PROFILE_STEP / 2, PROFILE_STEP)
     profiles = ink.at(track.path[:, None] + track.normal[:, None] * offsets)
     profiles = gaussian_filter1d(profiles, PROFILE_SMOOTHING, axis=0, mode="wrap" if wraps else "nearest")
@@ -109,7 +109,7 @@ def twin_share(track: Track, seen: Flags, ink: Ink, wraps: bool) -> float:
 
 
 def _two_crests(profiles: NDArray[Any], offsets: NDArray[np.float64]) -> Flags:
-    """Whether profiles (n, m) have a second crest."""
+    """Flags (n,) of profiles (n, m) with a second crest."""
     station = np.arange(profiles.shape[0])
     central = np.flatnonzero(np.abs(offsets) < OWN_CREST_DISTANCE)
     crest = central[profiles[:, central].argmax(1)]
@@ -128,16 +128,16 @@ def _two_crests(profiles: NDArray[Any], offsets: NDArray[np.float64]) -> Flags:
 
 @dataclass(frozen=True)
 class Measures:
-    """How well a curve is seen.
+    """Measures of how well a curve is seen.
 
-    share : of its length that is seen
+    share : share of its length that is seen
     gap : the longest piece that is not seen, mm
     coherence : median share of the best direction's answer that its own direction has
     rival : share of its length over which a second curve is seen elsewhere
     bend : mean change of its direction from station to station, degrees
     twin : share of its length along which a second line runs within 2 mm
     hidden : share of its length under black print
-    contrast : density of its strong places against their surroundings
+    contrast : density of its strong places relative to their surroundings
     length : mm
     darker : share of its length along which a far darker line runs, on it or elsewhere
     """
@@ -155,7 +155,7 @@ class Measures:
 
 
 def refusal_of(measures: Measures) -> tuple[Words, Words] | None:
-    """The reason why a curve cannot be used, and the remedy; None if it can.
+    """The reason why a curve cannot be used, and the remedy; None for a usable curve.
 
     >>> from dataclasses import replace
     >>> good = Measures(.98, 3, .95, .05, 1.5, 0, 0, .3, 300, 0)
@@ -218,12 +218,12 @@ def _gap_refusal(measures: Measures) -> Words:
 
 @dataclass(frozen=True, eq=False)
 class CurveReading:
-    """A curve as it was read.
+    """A curve that was read.
 
     points : (n,) mm of paper from the view's origin, in order, closed ones counter-clockwise; in gaps up to
-        ``LONGEST_GAP`` by the run of what is seen before and behind, NaN in others
+        ``MAX_GAP`` by the run of what is seen before and behind, NaN in others
     seen : (n,) whether the line is seen there
-    measures : of how well it is seen
+    measures : how well it is seen
     """
 
     points: Points
@@ -231,12 +231,12 @@ class CurveReading:
     measures: Measures
 
     def refusal(self) -> tuple[Words, Words] | None:
-        """The reason why the curve cannot be used, and the remedy; None if it can."""
+        """The reason why the curve cannot be used, and the remedy; None for a usable curve."""
         return refusal_of(self.measures)
 
 
 def read_curve(ink: Ink, view: PrintedView) -> CurveReading:
-    """The curve in a view."""
+    """The curve that is drawn in a view."""
     grid = grid_of(view)
     evidence = evidence_of(ink, grid)
     black = hidden_places(ink.black, grid)
@@ -252,7 +252,7 @@ def read_curve(ink: Ink, view: PrintedView) -> CurveReading:
 
 @dataclass(frozen=True, eq=False)
 class RivalLine:
-    """A second curve, at least ``APART`` from the first, and at which stations (n,) it is seen."""
+    """A second curve, at least ``RIVAL_DISTANCE`` from the first, and the stations (n,) at which it is seen."""
 
     track: Track
     seen: Flags
@@ -264,7 +264,7 @@ class RivalLine:
 
 
 def _best_curve(grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[BestWay, Track, float]:
-    """The curve, and the share of its length along which a far darker line runs."""
+    """The curve as way and track, and the share of its length along which a far darker line runs."""
     full = max(FULL_REWARD * evidence.noise, INITIAL_FULL_DENSITY)
     strong = track_of(best_way(_rewards(evidence, black, full), grid.wraps), grid, evidence, ink).strong
     way, track = _at_strength(strong, grid, evidence, black, ink)
@@ -277,7 +277,7 @@ def _best_curve(grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> 
 
 
 def _at_strength(strong: float, grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[BestWay, Track]:
-    """The curve, if its strong places are so dark."""
+    """The curve, as way and track, if ``strong`` is the density of its strong places."""
     way = best_way(
         _rewards(evidence, black, max(FULL_REWARD * evidence.noise, FULL_STRENGTH_SHARE * strong)), grid.wraps
     )
@@ -285,7 +285,7 @@ def _at_strength(strong: float, grid: CurveGrid, evidence: Evidence, black: Flag
 
 
 def _darker(track: Track, grid: CurveGrid, evidence: Evidence, black: Flags, ink: Ink) -> tuple[float, float]:
-    """Share of the length along which the darkest line is ``DARKER`` than the curve, and how dark it is there."""
+    """The share of the length along which the darkest line is darker by ``MAX_DARKNESS_RATIO``, and its density."""
     full = max(FULL_REWARD * evidence.noise, 2 * MAX_DARKNESS_RATIO * track.strong)
     line = track_of(best_way(_rewards(evidence, black, full), grid.wraps), grid, evidence, ink)
     # Of a line so dark its flanks are reward enough, so the way need not run on its crest.
@@ -354,7 +354,7 @@ def _by_another_way(track: Track, rival: RivalLine, grid: CurveGrid) -> Flags:
 
 
 def _room_of(track: Track, grid: CurveGrid) -> NDArray[np.float64]:
-    """How far (n,) across the grid the curve keeps others away, at stations, which for a steep one is farther."""
+    """Distances (n,) across the grid within which the curve keeps others away; they are greater where it is steep."""
     upright = np.abs((track.normal * np.conj(grid.across[:, 0])).real)
     own = RIVAL_DISTANCE / np.maximum(upright, STEEPEST_COSINE)
     return maximum_filter1d(own, 3, mode="wrap" if grid.wraps else "nearest")

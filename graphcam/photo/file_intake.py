@@ -1,6 +1,6 @@
-"""Pictures out of files that strangers made: photographs, scans, whole folders of them; one that cannot be is told.
+"""Pictures from files of unknown origin: photographs, scans, folders of them; what cannot be read is reported.
 
-What a file is, its content tells, not its name.  Its size is looked at before anything is unpacked, and one picture at
+The kind of a file is found by its content, not its name.  Its size is checked before it is unpacked, and one picture at
 a time is in memory.
 """
 
@@ -39,31 +39,31 @@ from graphcam.words import Words, say
 MAX_BYTES = 200_000_000
 """The maximum number of bytes of a file."""
 SIGNATURE_BYTES = 1024
-"""Bytes in which a file says what it is."""
+"""The number of bytes in which a file's kind is looked for."""
 PICTURE_ENDINGS = frozenset({".jpg", ".jpeg", ".jpe", ".png", ".heic", ".heif", ".tif", ".tiff", ".pdf"})
 """Endings of files in a folder that are reported if they cannot be read; others are passed over."""
 MAX_FOLDER_DEPTH = 1
-"""Folders within a folder that are looked into."""
+"""The depth of folders within a folder that are searched."""
 
 __all__ = ["Photograph", "UnopenedFile", "pictures_in"]
 
 
 POINTS_PER_INCH = 72.0
-"""Points of an inch."""
+"""The number of points in an inch."""
 RENDERING_DPI = 300.0
-"""The resolution of a page that is more than one picture."""
+"""The resolution at which a page that is more than one picture is drawn."""
 MIN_COVERED_SHARE = 0.9
-"""The part of a page that its one picture covers at least."""
+"""The minimum part of a page that its one picture covers."""
 MAX_GROUP_DEPTH = 8
-"""Groups within groups in which pictures are looked for."""
+"""The depth of groups within groups in which pictures are looked for."""
 
 
 def scanned_pages(file: BinaryIO, name: str) -> Iterator[Photograph | PhotographError]:
-    """The pages of a PDF, or why one is none.
+    """The pages of a PDF in order, each as a photograph or the error that it makes.
 
     Raises
     ------
-    PhotographError : there is none
+    PhotographError : it has no pages
     """
     try:
         document = PdfDocument(file)
@@ -103,7 +103,7 @@ def _picture(document: PdfDocument, number: int, name: str) -> Photograph:
 
 
 def _scale(page: PdfPage, area: float) -> float:
-    """Pixels a point: those of the page's one picture, or the usual ones.
+    """Pixels per point: those of the page's one picture, or the default.
 
     Raises
     ------
@@ -122,7 +122,7 @@ def _scale(page: PdfPage, area: float) -> float:
 
 
 def _measured(picture: Any) -> tuple[int, int, float]:
-    """Columns and rows of a picture in a PDF, and the area of the page that it covers.
+    """Columns and rows of a picture in a PDF, and the area of the page that it covers [square points].
 
     The library's own methods for it are called differently in its versions 4 and 5.
     """
@@ -135,10 +135,10 @@ def _measured(picture: Any) -> tuple[int, int, float]:
 
 @dataclass(frozen=True)
 class UnopenedFile:
-    """A file of which no picture, or not all, could be had.
+    """A file of which no picture, or not all, could be read.
 
     name : of the file, as it was given or found
-    why, remedy : to tell people
+    why, remedy : for the user
     """
 
     name: str
@@ -147,7 +147,7 @@ class UnopenedFile:
 
 
 def pictures_in(paths: Sequence[Path]) -> Iterator[Photograph | UnopenedFile]:
-    """The pictures of files and folders, one after another; in a folder by name, and other files are passed over."""
+    """The pictures of files and folders, in order; in a folder by name, and files of other kinds are passed over."""
     for path in paths:
         if path.is_dir():
             yield from _folder(path, path.name or str(path), MAX_FOLDER_DEPTH)
@@ -173,7 +173,7 @@ def _folder(folder: Path, name: str, deeper: int) -> Iterator[Photograph | Unope
 
 
 def _file(path: Path, name: str, named: bool) -> Iterator[Photograph | UnopenedFile]:
-    """The pictures of a file; ``named`` by the user, who wants to hear of every one that is none."""
+    """The pictures of a file, and errors; errors of every kind only if the user ``named`` the file."""
     told = named or path.suffix.lower() in PICTURE_ENDINGS
     try:
         file = _opened_file(path)
@@ -198,7 +198,7 @@ def _file(path: Path, name: str, named: bool) -> Iterator[Photograph | UnopenedF
 
 
 def _opened_file(path: Path) -> BinaryIO:
-    """A regular file; nothing is waited for, as a pipe may never end."""
+    """A regular file, open for reading; others are refused without waiting, as a pipe may never end."""
     descriptor = os.open(path, READ_FLAGS)
     try:
         status = os.fstat(descriptor)
@@ -250,19 +250,19 @@ def _open_error_words(error: OSError) -> tuple[Words, Words]:
 
 
 PILLOW_FORMATS = ("JPEG", "PNG", "TIFF")
-"""The formats that Pillow is to read; the fewer its readers, the fewer doors for a hostile file."""
+"""The formats for which Pillow is used; fewer readers leave a hostile file fewer ways in."""
 HEIF_BRANDS = tuple(b"ftyp" + brand for brand in (b"heic", b"heix", b"hevc", b"heim", b"heis", b"mif1", b"msf1"))
-"""The brands with which a HEIC file begins, after four bytes."""
+"""The beginnings of a HEIC file, after its first four bytes."""
 MAX_PAGES = 500
 """The maximum number of pages of a file."""
 HEIC_PIXEL_BYTES = 6
-"""Bytes a pixel that a HEIC takes while it is unpacked."""
+"""The number of bytes per pixel that a HEIC needs while it is unpacked."""
 FILE_ERRORS = (OSError, SyntaxError, ValueError, TypeError, KeyError, IndexError, OverflowError, EOFError, struct.error)
-"""What Pillow raises for broken files, all of it seen in its readers."""
+"""The exceptions that Pillow's readers raise for broken files."""
 
 
 def image_pictures(file: BinaryIO, name: str) -> Iterator[Photograph]:
-    """The pictures of a file, of a TIFF's many pages one after another.
+    """The pictures of a file, those of a TIFF with many pages in order.
 
     Raises
     ------

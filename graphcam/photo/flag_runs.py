@@ -1,4 +1,4 @@
-"""Runs of stations of a curve that are alike, and short gaps, bridged by the run of what is seen beside them."""
+"""Runs of like stations of a curve, and short gaps in it, bridged by the run of the curve on both sides."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +9,7 @@ Flags = NDArray[np.bool_]
 
 
 def flag_runs(flags: Flags, wraps: bool) -> list[NDArray[np.int64]]:
-    """The numbers of the stations of each run of true flags (n,), in order; of a closed curve also over its end.
+    """The station numbers of each run of true flags (n,), in order; of a closed curve also across its end.
 
     >>> [run.tolist() for run in flag_runs(np.array([1, 1, 0, 1, 0, 1], bool), wraps=True)]
     [[3], [5, 0, 1]]
@@ -37,7 +37,7 @@ def long_runs(flags: Flags, lengths: NDArray[np.float64], least: float, wraps: b
 
 
 def longest_run(flags: Flags, lengths: NDArray[np.float64], wraps: bool) -> float:
-    """The length of the longest run of true flags (n,).
+    """The length of the longest run of true flags (n,), in the unit of the stations' ``lengths`` (n,).
 
     >>> longest_run(np.array([1, 1, 0, 1], bool), np.ones(4), wraps=True)
     3.0
@@ -48,12 +48,12 @@ def longest_run(flags: Flags, lengths: NDArray[np.float64], wraps: bool) -> floa
 MAX_GAP = 9.0
 """The maximum gap of a curve [mm]: less than the distance of two stations, so that it cannot turn unseen."""
 NEIGHBOUR_COUNT = 5
-"""Stations on either side whose run is prolonged, about 5 mm: less is the hand's tremor."""
+"""The number of stations on either side that give the run, about 5 mm: fewer would follow the hand's tremor."""
 NOWHERE = complex(np.nan, np.nan)
 
 
 def bridged(points: Points, seen: Flags, lengths: NDArray[np.float64], wraps: bool) -> Points:
-    """The points (n,) where they are seen, between them over gaps up to ``LONGEST_GAP``, and NaN elsewhere.
+    """The points (n,) where they are seen, between them over gaps up to ``MAX_GAP``, and NaN elsewhere.
 
     A gap at an end of an open curve has one neighbour only, and stays.
 
@@ -78,7 +78,7 @@ def bridged(points: Points, seen: Flags, lengths: NDArray[np.float64], wraps: bo
 
 
 def _run(points: Points, last: int, away: int, wraps: bool) -> tuple[complex, complex]:
-    """The point at the edge of a gap and the step from station to station there, by the stations away from it."""
+    """The point at the edge of a gap, and the step per station there."""
     stations = last + away * np.arange(NEIGHBOUR_COUNT)
     if not wraps:
         stations = stations[(stations >= 0) & (stations < points.size)]

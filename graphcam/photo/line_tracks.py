@@ -1,4 +1,4 @@
-"""A way through a grid looked at station by station: where a line is seen on it, and where exactly that lies."""
+"""The track of a line through a grid: at which stations it is seen, and its exact place there."""
 
 from __future__ import annotations
 
@@ -16,44 +16,44 @@ from graphcam.photo.printed_page import Points
 from graphcam.photo.raster import ALONG_DEVIATION, Raster
 
 MIN_SIGNAL_TO_NOISE = 6.0
-"""Standard deviations of noise that a line passes."""
+"""The minimum strength of a line, in standard deviations of noise."""
 STRENGTH_SHARE = 0.35
-"""Share of the strong places of the same line that any of it passes: what an eraser leaves is fainter."""
+"""The minimum strength of a line, as a share of its strong places: what an eraser leaves is fainter."""
 STRENGTH_PERCENTILE = 80
-"""Percentile of a line's answers that is meant by a strong place."""
+"""The percentile of a line's answers that is the strength of its strong places."""
 MIN_RESIDUE_FACTOR = 2.0
-"""Times what is left of the print, that a line passes beside print."""
+"""The minimum strength of a line beside print, as a multiple of what is left of the print."""
 MIN_DENSITY = 0.02
-"""Density of the faintest line."""
+"""The density of the faintest line."""
 MIN_COHERENCE = 0.6
-"""Share of the best answer in any direction that the line's own direction has: a crossing or a digit has less."""
+"""The minimum answer in the line's own direction, as a share of the best in any: a crossing or digit has less."""
 COHERENCE_OFFSETS = np.array([-0.4, -0.2, 0.0, 0.2, 0.4])
-"""mm to both sides among which the best direction is looked for."""
+"""Offsets to both sides at which the best direction is looked for [mm]."""
 MIN_RUN_LENGTH = 5.0
-"""A line is seen over so many mm at once; shorter ones are chance, of crossings."""
+"""The minimum length over which a line is seen at once [mm]; shorter runs come from crossings."""
 MIN_GAP = 2.0
-"""A gap of so many mm is one, and not the crossing of a ray."""
+"""The minimum length of a gap [mm]; a shorter one is the crossing of a ray."""
 STEP_SMOOTHING = 1.5
-"""Deviation over which the steps of the grid are smoothed [stations]."""
+"""The deviation of the smoothing of the grid's steps [stations]."""
 PROFILE_HALF_WIDTH = 0.8
-"""Half the profile across a line, by which it is placed [mm]."""
+"""Half the width of the profile by which a line is placed [mm]."""
 BARE_PAPER_DISTANCE = 1.4
-"""mm from the crest of a stroke, where the paper is bare on both sides."""
+"""The distance from the crest of a stroke at which the paper is bare on both sides [mm]."""
 MAX_PAPER_DENSITY_SHARE = 0.3
-"""Share of a stroke's density that the paper beside it has at most; within a finger or a table's edge it has half."""
+"""The maximum density of the paper beside a stroke as a share of its own; in a finger or a table's edge it is half."""
 PROFILE_FOOT_SHARE = 0.3
-"""Share of a profile's height that is its foot, and does not count for its place."""
+"""The share of a profile's height that is its foot, and has no weight for its place."""
 PLACE_SMOOTHING = 1.0
-"""Deviation over which places are smoothed [stations], about a mm: rough paper is shorter, tremor longer."""
+"""The deviation of the smoothing of places [stations], about 1 mm: between rough paper and tremor."""
 
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """A way and what is seen on it, by stations (n,).
+    """A way through a grid with what is seen on it, by stations (n,).
 
-    path : places on the page, to the grid's step
-    normal : of length one, to the side of the greater states
-    answers : how much more ink lies on it than beside it;  strong : of its strong places
+    path : places on the page, exact to the grid's step
+    normal : unit normals, to the side of the greater states
+    answers : how much more ink lies on it than beside it;  strong : that of its strong places
     best : how much more ink lies on a line in any direction near by;  coherence : share of it that the answers are
     hidden : by black print, or outside the room;  beside : light print
     lengths : of the path, mm
@@ -72,7 +72,7 @@ class Track:
 
 
 def track_of(way: BestWay, grid: CurveGrid, evidence: Evidence, ink: Ink) -> Track:
-    """What lies along a way."""
+    """The track along a way through a grid."""
     station = np.arange(way.states.size)
     states = grid.places.shape[1]
     around = np.round(COHERENCE_OFFSETS / grid.spacing[way.states][:, None]).astype(np.int64)
@@ -103,7 +103,7 @@ def track_of(way: BestWay, grid: CurveGrid, evidence: Evidence, ink: Ink) -> Tra
 
 
 def steps(path: Points, wraps: bool) -> Points:
-    """The way (n,) from the middle before each station to the middle behind it.
+    """The vectors (n,) from the middle before each station to the middle behind it.
 
     >>> steps(np.array([0j, 1, 3]), wraps=False).tolist()
     [(1+0j), (1.5+0j), (2+0j)]
@@ -112,7 +112,7 @@ def steps(path: Points, wraps: bool) -> Points:
 
 
 def seen_stations(track: Track, evidence: Evidence, ink: Ink, wraps: bool) -> Flags:
-    """Flags (n,) of the stations at which a line is seen; elsewhere nothing is known."""
+    """Flags (n,) of the stations at which a line is seen; at the others it may be hidden."""
     least = max(MIN_SIGNAL_TO_NOISE * evidence.noise, STRENGTH_SHARE * track.strong, MIN_DENSITY)
     beside_print = max(least, MIN_RESIDUE_FACTOR * ink.residue)
     enough = track.answers > np.where(track.beside, beside_print, least)
@@ -125,7 +125,7 @@ def seen_stations(track: Track, evidence: Evidence, ink: Ink, wraps: bool) -> Fl
 
 
 def _without_ends(seen: Flags, lengths: NDArray[np.float64], wraps: bool) -> Flags:
-    """What is seen (n,) less that beside a true gap, where a filter still answers to the stroke that has ended."""
+    """Flags (n,) without those beside a true gap, where a filter still answers to the stroke that has ended."""
     kept = seen.copy()
     for gap in flag_runs(~seen, wraps):
         if lengths[gap].sum() > MIN_GAP:
@@ -136,7 +136,7 @@ def _without_ends(seen: Flags, lengths: NDArray[np.float64], wraps: bool) -> Fla
 
 
 def line_places(track: Track, sharp: Raster, wraps: bool) -> Points:
-    """The places (n,) of the line: the middle of its profile across, as sharp as the photograph is."""
+    """The places (n,) of the line: the middle of its profile, as sharp as the photograph is."""
     offsets = np.arange(-PROFILE_HALF_WIDTH, PROFILE_HALF_WIDTH + 0.025, 0.05)
     profile = sharp.at(track.path[:, None] + track.normal[:, None] * offsets)
     profile = gaussian_filter1d(profile, PLACE_SMOOTHING, axis=0, mode="wrap" if wraps else "nearest")
@@ -145,7 +145,7 @@ def line_places(track: Track, sharp: Raster, wraps: bool) -> Points:
 
 
 def is_stroke(track: Track, pencil: Raster) -> Flags:
-    """Whether the paper is lighter on both sides (n,): beside the edge of a finger or of a table it is not."""
+    """Flags (n,) of stations with lighter paper on both sides, as beside no edge of a finger or of a table."""
     offsets = np.arange(-PROFILE_HALF_WIDTH, PROFILE_HALF_WIDTH + 0.05, 0.1)
     profile = pencil.at(track.path[:, None] + track.normal[:, None] * offsets)
     crest = track.path + track.normal * offsets[profile.argmax(1)]
@@ -154,7 +154,7 @@ def is_stroke(track: Track, pencil: Raster) -> Flags:
 
 
 def above_foot(profile: NDArray[Any], offsets: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Weights (n, m) of profiles (n, m) across a line: what rises above the paper at both ends and above the foot."""
+    """Weights (n, m) of profiles (n, m): what rises above the paper at both ends, and above the foot."""
     ends = np.abs(offsets) > np.abs(offsets).max() - 0.25
     risen = profile - np.median(profile[:, ends], axis=1, keepdims=True)
     return np.asarray(np.maximum(risen - PROFILE_FOOT_SHARE * risen.max(1, keepdims=True), 0), float)

@@ -15,23 +15,23 @@ from graphcam.photo.robust_fit import FittedParameters, Numbers, Prior, best_fit
 Places = NDArray[np.complex128]
 Kind = Literal["plane", "fold", "cylinder"]
 MIN_TAGS = 3
-"""The minimum number of tags by which a page is located."""
+"""The minimum number of tags for locating a page."""
 CORNER_ERROR = 0.1
-"""How far a tag's corner is misplaced [px] in an ordinary picture."""
+"""The expected error of a tag's corner in an ordinary picture [px]."""
 EDGE_GROWTH = 0.1
-"""mm by which printing or light may move every edge of a tag outward, one and the same in the whole picture."""
+"""The expected outward shift of tag edges by printing or light [mm], the same in the whole picture."""
 FIT_ROUNDS = 40
 """The maximum number of rounds of a fit; it ends earlier as a rule."""
 FLAT_PAGE_ERROR = 0.2
-"""Pixels by which the corners of a flat page miss on the average; if they miss by more, bent sheets are tried."""
+"""The mean error of the corners of a flat page [px] above which bent sheets are tried."""
 SIMPLER_FIT_FACTOR = 2.0
-"""A flat page may fit worse by this factor: a bent one has four or five parameters more."""
+"""The factor by which the error of a flat page may be greater: a bent one has four or five parameters more."""
 SAME_FIT_FACTOR, SAME_FIT_SUM = 1.3, 4.0
-"""Bent sheets of which the other is worse by no more than this factor and sum are not told apart."""
+"""The factor and the sum within which the errors of two bent sheets count as equal."""
 STRAY_TAG_FACTOR = 6.0
-"""A tag that misses by so many times the middle one is out of its place: partly hidden, or bent up."""
+"""The error of a tag, as a multiple of the median, above which it is out of place: partly hidden, or bent up."""
 MIN_STRAY_PIXELS = 0.25
-"""Pixels that no tag is called out of its place for."""
+"""The minimum error of a tag that counts as out of place [px]."""
 
 
 PLACE_UNIT = 100.0
@@ -39,40 +39,40 @@ PLACE_UNIT = 100.0
 DEFAULT_FOCAL_LENGTH = 1.48
 """The focal length of a telephone's lens, in halves of the picture's longer side."""
 FOCAL_DEVIATION = 0.15
-"""The part by which a lens that is not known may differ from that."""
+"""The standard deviation of an unknown focal length, as a part of it."""
 KNOWN_FOCAL_DEVIATION = 0.05
-"""The part by which a picture's own word may be wrong."""
+"""The standard deviation of a focal length that the picture states, as a part of it."""
 STRETCH_DEVIATION = 0.007
-"""The part by which a printer may draw longer across than up."""
+"""The standard deviation of a printer's stretch across against up, as a part."""
 TURN_DEVIATION = 3.0
-"""Radians: a direction may be any."""
+"""The standard deviation of a direction [rad]: any is possible."""
 FOLD_DEVIATION = 0.3
-"""Angles of folds, in radians."""
+"""The standard deviation of the angle of a fold [rad]."""
 ROLL_DEVIATIONS = (0.2, 0.07, 0.15, 0.07)
-"""Slopes that a rolled sheet gains towards its edge: evenly, to one side, faster and faster, and faster yet."""
+"""Standard deviations of slopes that a roll gains towards its edge: evenly, to one side, faster, and faster yet."""
 GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(6)
 """Gauss nodes and weights for lengths along a rolled sheet."""
 POSE_PARAMETERS = 10
-"""Parameters that every bent sheet has before those of its shape."""
+"""The number of parameters of every bent sheet before those of its shape."""
 SEARCH_ROUNDS = 25
-"""Rounds in which a place of the picture is found on the paper."""
+"""The number of rounds in which a place of the picture is found on the paper."""
 DIFFERENCE_STEP = 0.02
-"""mm for the slope of the map there."""
+"""The step for the slope of the map there [mm]."""
 
 
 PLACE_UNIT = 200.0
 """mm that count as one in a homography, so that its numbers are alike."""
 LENS_DEVIATIONS = (0.08, 0.03)
-"""How much a lens may bend: k1 and k2, at half the picture's longer side from its centre."""
+"""Standard deviations of a lens's k1 and k2, at half the picture's longer side from its centre."""
 CENTRE_DEVIATION = 0.1
-"""How far the lens's middle may be from the picture's, in the same unit: people cut off edges."""
+"""The standard deviation of the lens's centre from the picture's, in the same unit: pictures may be cropped."""
 UNDISTORTION_ROUNDS = 12
-"""Rounds in which the lens is taken away again; each makes the miss ten times smaller at least."""
+"""The number of rounds that remove the lens; each reduces the error at least ten times."""
 
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """What a page and a picture are measured by.
+    """The units and origins in which a page and a picture are measured.
 
     middle : of the paper's part with tags [mm];  half : from there to its upper right corner
     centre : of the picture [px]; the lens is round about it
@@ -86,7 +86,7 @@ class Frame:
 
     @staticmethod
     def of(points: Places, size: tuple[int, int]) -> Frame:
-        """The frame for places on the paper (n,) [mm], and a picture of so many columns and rows."""
+        """The frame for places on the paper (n,) [mm], and a picture of ``size`` columns and rows."""
         columns, rows = size
         low, high = complex(points.real.min(), points.imag.min()), complex(points.real.max(), points.imag.max())
         return Frame((low + high) / 2, (high - low) / 2, complex(columns - 1, rows - 1) / 2, max(size) / 2)
@@ -102,11 +102,11 @@ class Plane:
     frame: Frame
 
     def prior(self) -> Prior:
-        """Nothing is known of where the page lies; lenses bend little, and pictures are cut little."""
+        """The prior: the pose is unknown; lenses bend little, and pictures are cropped little."""
         return Prior(np.zeros(12), np.array([*[np.inf] * 8, *LENS_DEVIATIONS, CENTRE_DEVIATION, CENTRE_DEVIATION]))
 
     def start(self, points: Places, found: Places) -> Numbers:
-        """The parameters (12,) for which points of the paper (n,) are about where they were found."""
+        """Parameters (12,) by which points of the paper (n,) are about where they were found."""
         paper, picture = (points - self.frame.middle) / PLACE_UNIT, (found - self.frame.centre) / self.frame.unit
         from_paper, to_picture = (np.stack([places.real, places.imag], -1) for places in (paper, picture))
         matrix = cast("Numbers | None", cv2.findHomography(from_paper, to_picture)[0])
@@ -136,14 +136,14 @@ class Plane:
 
 
 def bent(straight: Places, lens: Numbers) -> Places:
-    """The places to which a lens (..., 2) of k1 and k2 puts places (..., n)."""
+    """Places (..., n) after distortion by a lens (..., 2) of k1 and k2."""
     squared = straight.real**2 + straight.imag**2
     first, second = np.moveaxis(lens, -1, 0)[..., None]
     return straight * (1 + first * squared + second * squared**2)
 
 
 def unbent(seen: Places, lens: Numbers) -> Places:
-    """The places that a lens (2,) puts where they are seen."""
+    """Places before distortion by a lens (2,), from places where they are seen."""
     radius = np.abs(seen)
     straight = radius.copy()
     first, second = lens
@@ -156,13 +156,13 @@ def unbent(seen: Places, lens: Numbers) -> Places:
 
 @dataclass(frozen=True, eq=False)
 class Sheet:
-    """What folded and rolled sheets have in common.
+    """What folded and rolled sheets have in common: pose and lens.
 
-    Their parameters: the logarithm of the focal length over ``focal``, a rotation (3), a place (3, in ``FAR``), k1
-    and k2, the stretch across; then the direction in which the height changes, and what the shape says.
+    Parameters: the logarithm of the focal length over ``focal``, a rotation (3), a place (3, in ``PLACE_UNIT``), k1
+    and k2, the stretch across; then the direction in which the height changes, and those of the shape.
 
     focal : of the lens [px]
-    focal_off : the part by which it may be wrong
+    focal_off : its standard deviation, as a part of it
     flat : the plane through the same tags and its parameters, near which places are searched
     """
 
@@ -172,19 +172,19 @@ class Sheet:
     flat: tuple[Plane, Numbers]
 
     def shaped(self, along: Numbers, shape: Numbers) -> tuple[Numbers, Numbers]:
-        """Distance and height [mm] at lengths (..., n) along the paper, for a shape's numbers (k, ..., 1)."""
+        """Distance and height [mm] at lengths (..., n) along the paper, for parameters (k, ..., 1) of a shape."""
         raise NotImplementedError
 
     def shape_spread(self) -> list[float]:
-        """How large the parameters of the shape may be."""
+        """Standard deviations of the parameters of the shape."""
         raise NotImplementedError
 
     def shape_starts(self) -> list[tuple[float, ...]]:
-        """Shapes to begin with, their direction first."""
+        """Start values of the parameters of the shape, its direction first."""
         raise NotImplementedError
 
     def prior(self) -> Prior:
-        """The lens is known about; where the sheet lies is not."""
+        """The prior: the lens is roughly known, the pose is not."""
         spread = [
             self.focal_off,
             *[np.inf] * 6,
@@ -196,7 +196,7 @@ class Sheet:
         return Prior(np.zeros(len(spread)), np.array(spread))
 
     def starts(self, points: Places, found: Places) -> Numbers:
-        """Parameters (b, m) to begin with: the flat sheet's poses and every shape."""
+        """Start values (b, m) of the parameters: the flat sheet's poses with every shape."""
         paper = points - self.frame.middle
         # The camera looks along its third axis, and rows go down.
         solid = np.stack([paper.real, -paper.imag, np.zeros(len(paper))], -1)
@@ -250,20 +250,20 @@ class Sheet:
 
 
 class Folded(Sheet):
-    """Folded once along a straight line: the direction across it, its place, and the angle [rad]."""
+    """A sheet folded once along a straight line: the direction across it, its place, and the angle [rad]."""
 
     def shaped(self, along: Numbers, shape: Numbers) -> tuple[Numbers, Numbers]:
-        """Flat up to the fold, and flat again after it."""
+        """Distance and height: flat up to the fold, and flat again behind it."""
         place, angle = shape
         beyond = np.maximum(along - PLACE_UNIT * place, 0.0)
         return along - beyond * (1 - np.cos(angle)), beyond * np.sin(angle)
 
     def shape_spread(self) -> list[float]:
-        """Anywhere on the sheet."""
+        """Standard deviations of the fold: it may be anywhere on the sheet."""
         return [1.5, FOLD_DEVIATION]
 
     def shape_starts(self) -> list[tuple[float, ...]]:
-        """Across and along and slanting, at several places, to both sides."""
+        """Start values: folds across, along and slanting, at several places, to both sides."""
         half = self.frame.half
         starts = []
         for turn, part, angle in product((0.0, 0.7, 1.57, -0.7), (-0.5, 0.0, 0.5), (-0.15, 0.15)):
@@ -273,10 +273,10 @@ class Folded(Sheet):
 
 
 class Rolled(Sheet):
-    """Rolled as a part of a cylinder of any section: the direction across it, and how its slope changes along that."""
+    """A sheet rolled as a part of a cylinder of any section: the direction across it, and the change of its slope."""
 
     def shaped(self, along: Numbers, shape: Numbers) -> tuple[Numbers, Numbers]:
-        """Lengths along the paper stay, so that the distance is the sum of the slopes' cosines, the height of sines."""
+        """Distance and height as sums of the slopes' cosines and sines, since lengths along the paper stay."""
         size = abs(self.frame.half)
         part = along / size
         cosines, sines = np.zeros_like(part), np.zeros_like(part)
@@ -288,7 +288,7 @@ class Rolled(Sheet):
         return along * cosines, along * sines
 
     def shape_spread(self) -> list[float]:
-        """Slopes at half the sheet's diagonal from its middle."""
+        """Standard deviations of the slopes at half the sheet's diagonal from its middle."""
         return [*ROLL_DEVIATIONS]
 
     def shape_starts(self) -> list[tuple[float, ...]]:
@@ -297,7 +297,7 @@ class Rolled(Sheet):
 
 
 def bent_sheets(frame: Frame, focal: float | None, flat: tuple[Plane, Numbers]) -> tuple[Folded, Rolled]:
-    """Both shapes, with the usual focal length [px] if none is known, and the plane with its parameters."""
+    """A folded and a rolled sheet, with the default focal length [px] if none is known, and the plane."""
     known, off = (
         (DEFAULT_FOCAL_LENGTH * frame.unit, FOCAL_DEVIATION) if focal is None else (focal, KNOWN_FOCAL_DEVIATION)
     )
@@ -314,7 +314,7 @@ def _rotations(turns: Numbers) -> Numbers:
 
 
 class Surface(Protocol):
-    """A shape that paper can have under a camera, with parameters (m,)."""
+    """A shape of paper under a camera, with parameters (m,)."""
 
     def project(self, parameters: Numbers, points: Places) -> Places:
         """Points (..., n) of the paper [mm] as places in the picture [px], for parameters (..., m)."""
@@ -325,15 +325,15 @@ class Surface(Protocol):
         ...
 
     def prior(self) -> Prior:
-        """What is known of the parameters before."""
+        """The prior of the parameters."""
         ...
 
 
 @dataclass(frozen=True, eq=False)
 class SeenTags:
-    """The tags of a page that are seen in a picture.
+    """The tags of a page in a picture.
 
-    points, outward : (n, 4) their corners on the paper [mm], and the way out of the square to each
+    points, outward : (n, 4) their corners on the paper [mm], and the direction outwards at each
     found : (n, 4) the corners in the picture [px]
     """
 
@@ -348,12 +348,12 @@ class SeenTags:
 
 @dataclass(frozen=True, eq=False)
 class LaidSurface:
-    """A surface laid through the tags.
+    """A surface fitted to the tags.
 
     fit : its parameters, the growth of the tags as the last one
     sight : the tags that were used
     residual : by how much they miss [px], root of the mean square
-    loss : of all tags, those too that were left out
+    loss : of all tags, also those that were left out
     """
 
     kind: Kind
@@ -365,7 +365,7 @@ class LaidSurface:
 
 
 def laid_surfaces(sight: SeenTags, frame: Frame, focal: float | None) -> list[LaidSurface]:
-    """Surfaces that the tags lie on about equally well, the best one first; a flat one alone if it does."""
+    """Surfaces that fit the tags about equally well, the best one first; a flat one alone if it fits."""
     plane = Plane(frame)
     points, found = sight.points.ravel(), sight.found.ravel()
     flat = laid_through(sight, "plane", plane, plane.start(points, found)[None])
@@ -386,7 +386,7 @@ def laid_surfaces(sight: SeenTags, frame: Frame, focal: float | None) -> list[La
 
 
 def laid_through(sight: SeenTags, kind: Kind, surface: Surface, starts: Numbers) -> LaidSurface:
-    """A surface through the tags, from starts (b, m); tags out of their places are left out, one in four at most."""
+    """A surface fitted to the tags from starts (b, m); tags out of place are left out, at most one in four."""
     fit = _fit(sight, surface, np.column_stack([starts, np.zeros(len(starts))]))
     misses = np.abs(_misplaced(sight, surface, fit.parameters)).max(-1)
     loss = fit.loss
@@ -404,7 +404,7 @@ def _fit(sight: SeenTags, surface: Surface, starts: Numbers) -> FittedParameters
     prior = Prior(np.append(known.values, 0.0), np.append(known.spread, EDGE_GROWTH))
 
     def misses(parameters: Numbers) -> Numbers:
-        """By how much the corners miss, in units of what is expected: columns, then rows."""
+        """The misses (..., n) of the corners in units of their expected error: columns, then rows."""
         places = _misplaced(sight, surface, parameters) / CORNER_ERROR
         flat = places.reshape(*places.shape[:-2], -1)
         return np.concatenate([flat.real, flat.imag], -1)

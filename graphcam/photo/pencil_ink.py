@@ -1,4 +1,4 @@
-"""What was drawn on a page, with the print removed, as far as a photograph shows it; no curve is known here.
+"""The pencil on a page, with the print removed, as far as a photograph shows it; nothing here knows curves.
 
 Light print is removed by its colour: all channels are blurred alike (cameras blur the colours anyway), and weighed so
 that the ink of the printed patches vanishes.  Where there is no colour, the print's own profile is taken off along its
@@ -22,25 +22,25 @@ from graphcam.photo.raster import Raster, spread
 from graphcam.photo.rectify import EvenPicture
 
 BLUR_WIDTH = 0.22
-"""All channels are blurred by so much before they are mixed [mm]: print then vanishes a third better."""
+"""The blur of all channels before they are mixed [mm], by which print vanishes a third better."""
 BLUR_PIXELS = 2.0
-"""The minimum blur in pixels of the photograph, as wide as its colours are blurred."""
+"""The minimum blur [px of the photograph], as wide as its colours are blurred."""
 CAMERA_PIXEL = 0.112
-"""Side of a pixel of the photograph on the paper [mm], if it is not given: A3 at 12 megapixels."""
+"""The default side of a pixel of the photograph on the paper [mm]: A3 at 12 megapixels."""
 BLACK_PRINT_MARGIN = 0.45
 """The width of the margin about black print [mm] that its blur reaches."""
 MAX_PRINT_FACTOR = 1.4
-"""What is darker than so many times a printed line has been drawn, whatever its colour."""
+"""The darkness, as a multiple of a printed line's, above which something was drawn, whatever its colour."""
 PROFILE_BIN = 0.05
-"""Steps of the distance to a printed line [mm] in which its profile is measured."""
+"""The step of the distance to a printed line in which its profile is measured [mm]."""
 PROFILE_REACH = 1.2
 """Half the width of a printed line's profile [mm]."""
 FLANK_DISTANCE = 0.9
-"""The distance from which on the profile is bare paper [mm]."""
+"""The distance from which on a profile shows bare paper [mm]."""
 PRINT_NEIGHBOURHOOD = 0.8
-"""The distance from a printed line [mm] within which a stroke must be told from what is left of the line."""
+"""The distance from a printed line within which a stroke may be confused with what is left of it [mm]."""
 RESIDUE_STEP = 0.5
-"""Places along printed lines [mm] at which is looked what is left of them."""
+"""The step along printed lines at which their residue is measured [mm]."""
 
 
 Channels = NDArray[np.float32]
@@ -48,29 +48,29 @@ Channels = NDArray[np.float32]
 LUMA_WEIGHTS = np.array([0.3, 0.59, 0.11], np.float32)
 """Weights of a camera's brightness, which JPEG keeps sharp while it blurs the colours."""
 BARE_PAPER_REACH = 5.0
-"""Within so many mm there is bare paper beside every line."""
+"""The distance within which there is bare paper beside every line [mm]."""
 COARSE_PIXELS = 4
-"""Pixels to a side of those in which the paper is looked for."""
+"""The side of the coarse pixels in which the paper is looked for [px]."""
 MIN_LIGHT_SHARE = 0.02
-"""Below this share of the paper's light nothing is told."""
+"""The minimum brightness, as a share of the paper's, for a density."""
 MIN_COLOUR_SHARE = 0.2
-"""How far the densities of an ink lie from grey, as a share of them, before its colour is used: that of light cyan is
-half of them, that of a grey picture nothing."""
+"""The minimum distance of an ink's densities from grey, as a share of them, for use of its colour: half for light cyan,
+zero for a grey picture."""
 BARE_LINE_PERCENTILES = (5, 35)
-"""Percentiles of the brightness on printed lines between which they bear no pencil."""
+"""The percentiles of brightness between which printed lines bear no pencil."""
 PATCH_EDGE = 1.2
-"""The width of a patch's edge [mm], where blur mixes it with the paper."""
+"""The width of a patch's edge, where blur mixes it with the paper [mm]."""
 PATCH_RING = 1.5
-"""The width of a ring beside a patch [mm], where bare paper is looked for."""
+"""The width of the ring of bare paper beside a patch [mm]."""
 PATCH_DENSITY = (0.04, 1.2)
-"""Densities that a patch of light print may have: others are a finger, or the edge of the photograph."""
+"""The range of densities of a patch of light print: others are a finger, or the edge of the photograph."""
 PATCH_UNEVEN = 0.25
-"""The difference of the quartiles of a patch, and of the paper about it; a greater one is half covered."""
+"""The maximum difference of the quartiles of a patch, and of the paper about it; a greater one is half covered."""
 GREY_INK = np.ones(3)
 
 
 def densities(linear: Channels, per_mm: float) -> Channels:
-    """Density (rows, columns, 3) of what lies on the paper, against the paper about each place.
+    """Densities (rows, columns, 3) on the paper, relative to the bare paper about each place.
 
     linear : light, so that uneven light divides out
 
@@ -93,7 +93,7 @@ def densities(linear: Channels, per_mm: float) -> Channels:
 
 
 def ink_of_patches(pictures: Sequence[Raster], page: PrintedPage) -> NDArray[np.float64] | None:
-    """Densities (3,) of the printed ink, from the patches that are filled with it; None where no patch is shown.
+    """Densities (3,) of the printed ink, from the patches filled with it; None where no patch is seen.
 
     pictures : light, linear, of parts of the page
     """
@@ -103,7 +103,7 @@ def ink_of_patches(pictures: Sequence[Raster], page: PrintedPage) -> NDArray[np.
 
 
 def ink_of_lines(soft: Raster, lines: Sequence[NDArray[np.complex128]]) -> NDArray[np.float64] | None:
-    """The ink measured on the printed lines, where they bear no pencil; None where there are none.
+    """Densities (3,) of the printed ink, from printed lines without pencil; None where there are none.
 
     soft : densities (rows, columns, 3), blurred
     """
@@ -116,7 +116,7 @@ def ink_of_lines(soft: Raster, lines: Sequence[NDArray[np.complex128]]) -> NDArr
 
 
 def weights_against(ink: NDArray[np.float64], soft: Channels) -> NDArray[np.float32]:
-    """Weights (3,) of the channels that answer to grey with its density, to the ink with nought, and least to noise.
+    """Weights (3,) of the channels that answer to grey with its density, to the ink with zero, and least to noise.
 
     soft : densities, blurred as they are used
 
@@ -137,7 +137,7 @@ def is_coloured(ink: NDArray[np.float64]) -> bool:
 
 
 def lines_mask(lines: Sequence[NDArray[np.complex128]], picture: Raster) -> NDArray[np.uint8]:
-    """A mask of the lines (rows, columns), one pixel wide: 255 there, else 0."""
+    """A mask (rows, columns) of the lines, one pixel wide: 255 on a line, else 0."""
     mask = np.zeros(picture.values.shape[:2], np.uint8)
     fraction = 4
     for line in lines:
@@ -147,7 +147,7 @@ def lines_mask(lines: Sequence[NDArray[np.complex128]], picture: Raster) -> NDAr
 
 
 def lines_about(lines: Sequence[NDArray[np.complex128]], picture: Raster) -> NDArray[np.uint8]:
-    """How many lines run within a mm of each pixel (rows, columns); where they cross, their densities add."""
+    """The number (rows, columns) of lines within a mm of each pixel; where they cross, their densities add."""
     rows, columns = picture.values.shape[:2]
     count = np.zeros((-(-rows // COARSE_PIXELS), -(-columns // COARSE_PIXELS)), np.uint8)
     coarse = Raster(count, picture.left, picture.top, picture.per_mm / COARSE_PIXELS)
@@ -180,7 +180,7 @@ def _patch(linear: Raster, corner: complex, side: float) -> NDArray[np.float64] 
 
 
 def _noise_of_lines(soft: Channels) -> NDArray[np.float64]:
-    """Covariance (3, 3) of the channels on bare paper, at the width of a line."""
+    """The covariance (3, 3) of the channels on bare paper, at the width of a line."""
     fine = soft[::3, ::3]
     bands = (fine - cv2.GaussianBlur(fine, (0, 0), 2.0))[::2, ::2].reshape(-1, 3)
     grey = bands.mean(1)
@@ -191,12 +191,12 @@ def _noise_of_lines(soft: Channels) -> NDArray[np.float64]:
 
 @dataclass(frozen=True, eq=False)
 class Ink:
-    """What was drawn.
+    """The drawn ink of a page.
 
-    pencil : density with the print removed, soft; nought on black print
-    sharp : the same as sharp as the photograph is, to place a line by
+    pencil : density with the print removed, blurred; zero on black print
+    sharp : that density without blur, to place a line by
     black : 1 where black print hides what was drawn, else 0
-    print_distance : to the nearest printed light line [mm], at most ``PROFILE`` (all of it, where there is none)
+    print_distance : to the nearest printed light line [mm], at most ``PROFILE_REACH`` (all of it, where there is none)
     residue : density that is left of the printed lines, against their surroundings
     noise : standard deviation of the density at the size of a line's width
     """
@@ -209,11 +209,11 @@ class Ink:
     noise: float
 
     def at(self, points: Points) -> NDArray[np.float32]:
-        """Density of the pencil at places on the page (...)."""
+        """Densities (...) of the pencil at places (...) on the page."""
         return self.pencil.at(points)
 
     def beside_print(self, points: Points) -> NDArray[np.bool_]:
-        """Whether places on the page (...) lie at a printed light line."""
+        """Flags (...) of places (...) on the page at a printed light line."""
         return self.print_distance.at(points, nearest=True) < PRINT_NEIGHBOURHOOD
 
 
@@ -257,7 +257,7 @@ def _light(flat: EvenPicture) -> Raster:
 
 
 def _printed_ink(page: PrintedPage, pictures: Sequence[Raster], soft: Raster) -> NDArray[np.float64]:
-    """Densities (3,) of the ink of the givens, as far as any can be told."""
+    """Densities (3,) of the ink of the givens, as far as they can be measured."""
     if page.ink == "grey":
         return GREY_INK
     for ink in (ink_of_patches(pictures, page), ink_of_lines(soft, page.givens)):
@@ -295,7 +295,7 @@ def _distance(givens: Sequence[Points], light: Raster) -> NDArray[np.float32]:
 def _without_profile(
     density: NDArray[np.float32], distance: NDArray[np.float32], black: NDArray[np.uint8]
 ) -> NDArray[np.float32]:
-    """The median profile across the printed lines taken off: most of their length bears no pencil."""
+    """Densities without the median profile across printed lines, most of whose length bears no pencil."""
     bins = np.round(distance / PROFILE_BIN).astype(np.uint8)
     near = (distance < PROFILE_REACH) & (black == 0)
     values, of = density[near], bins[near]
@@ -309,7 +309,7 @@ def _without_profile(
 
 
 def _crest(density: Raster, black: Raster, givens: Sequence[Points]) -> float:
-    """How dark the printed lines are: the middle less the flanks, the median along them, pencil or no pencil."""
+    """The density of the printed lines: the median along them of the middle less the flanks."""
     across = np.arange(-PROFILE_REACH, PROFILE_REACH + 0.05, 0.1)
     left = [_places_across(line, across) for line in givens if line.size > 1]
     if not left:

@@ -1,4 +1,4 @@
-"""A picture in memory: upright, blue, green, red, of bounded size, with what the camera says of its lens."""
+"""A picture in memory: upright, blue, green, red, of bounded size, with the camera's data on its lens."""
 
 from __future__ import annotations
 
@@ -15,21 +15,21 @@ from graphcam.words import Words, say
 
 Pixels = NDArray[np.uint8]
 MAX_PIXELS = 120_000_000
-"""The maximum number of pixels before a picture is reduced: no telephone makes larger ones."""
+"""The maximum number of pixels of a file's picture: no telephone makes larger ones."""
 MAX_KEPT_PIXELS = 24_000_000
-"""The maximum number of pixels of a picture that is read: finer ones tell no more about a pencil line."""
+"""The maximum number of pixels of a picture that is read; a larger one is reduced first."""
 MAX_UNPACKED_BYTES = 320_000_000
-"""Bytes that a picture may take when it is unpacked, so that all stays within 600 MB."""
+"""The maximum number of bytes of an unpacked picture, so that all stays within 600 MB."""
 COLOUR_PIXEL_BYTES = 4
-"""Bytes a pixel in memory for colours; grey ones and those of a palette take one."""
+"""The number of bytes per pixel of colours in memory; pixels of grey and of palettes take one."""
 PIXEL_BYTES_BY_MODE: Mapping[str, int] = {"1": 1, "L": 1, "P": 1, "I;16": 2, "I;16B": 2, "I;16L": 2}
-"""Bytes a pixel of the other modes."""
+"""The number of bytes per pixel, by the mode of a picture."""
 STRIP_ROWS = 256
-"""Rows that are copied at a time."""
+"""The number of rows that are copied at a time."""
 ORIENTATION_TAG = 0x0112
-"""EXIF says here how the camera was held."""
+"""The number of EXIF's tag for how the camera was held."""
 LENS_TAG = 0x8769
-"""EXIF tells about the lens in a table of its own, by the following numbers."""
+"""The number of EXIF's tag for the table on the lens; the following numbers are of its entries."""
 FOCAL_35_TAG, FOCAL_MM_TAG, PLANE_RESOLUTION_TAG, PLANE_UNIT_TAG, PLANE_WIDTH_TAG = (
     0xA405,
     0x920A,
@@ -38,15 +38,15 @@ FOCAL_35_TAG, FOCAL_MM_TAG, PLANE_RESOLUTION_TAG, PLANE_UNIT_TAG, PLANE_WIDTH_TA
     0xA002,
 )
 MM_PER_EXIF_UNIT: Mapping[int, float] = {2: 25.4, 3: 10.0, 4: 1.0}
-"""mm of EXIF's units of length."""
+"""EXIF's units of length in mm, by their numbers."""
 DIAGONAL_35 = 43.27
-"""mm of the film to which focal lengths are compared."""
+"""The diagonal of the film to which focal lengths are compared [mm]."""
 FOCAL_RANGE = (0.4, 4.0)
-"""Focal lengths that are believed, in diagonals of the picture."""
+"""The range of plausible focal lengths, in diagonals of the picture."""
 
 
 class PhotographError(GraphcamError):
-    """A photograph, or what is drawn on it, that is not read; nothing of it is marked.
+    """A photograph, or a drawing on it, that cannot be read; nothing of it is marked.
 
     why : a sentence without its full stop ("only 2 of 8 marks are seen")
     remedy : what to do about it ("take in the whole sheet")
@@ -62,7 +62,7 @@ class PhotographError(GraphcamError):
 
     @property
     def fault(self) -> Words:
-        """Why it is not read."""
+        """The reason why it cannot be read."""
         return self.why
 
 
@@ -72,16 +72,16 @@ def _linear() -> NDArray[np.float32]:
 
 
 LINEAR_LIGHT = _linear()
-"""Light (256,) in parts of all of it, by the value of a pixel."""
+"""Light (256,) as a share of full light, by the value of a pixel."""
 
 
 @dataclass(frozen=True, eq=False)
 class Photograph:
-    """A picture.
+    """A picture in memory.
 
     name : of its file, with the page's number if that has several
     pixels : (h, w, 3) blue, green, red, upright
-    focal : the lens's focal length in pixels, None if nobody says
+    focal : the lens's focal length in pixels, None if it is not known
     """
 
     name: str
@@ -90,7 +90,7 @@ class Photograph:
 
 
 def check_size(width: int, height: int, bytes_a_pixel: int = 1) -> None:
-    """Check the size of a picture before it is unpacked.
+    """Refuse a picture of impossible size before it is unpacked.
 
     Raises
     ------
@@ -106,7 +106,7 @@ def check_size(width: int, height: int, bytes_a_pixel: int = 1) -> None:
 
 
 def picture_of(image: Image.Image, name: str) -> Photograph:
-    """A picture that has been opened but not unpacked yet.
+    """The photograph of a picture that has been opened but not unpacked yet.
 
     Raises
     ------
@@ -127,9 +127,9 @@ def picture_of(image: Image.Image, name: str) -> Photograph:
 
 
 def bounded(pixels: Pixels, name: str, focal: float | None, longer: int) -> Photograph:
-    """A picture of grey pixels (h, w), or red, green, blue (h, w, 3); the average over areas if they are too many.
+    """The photograph of grey pixels (h, w), or red, green, blue (h, w, 3), reduced if they are too many.
 
-    focal : the lens's in pixels, where the picture's longer side was ``longer`` of them
+    focal : the lens's focal length in pixels of a picture whose longer side has ``longer``
     """
     height, width = pixels.shape[:2]
     shrink = float(np.sqrt(MAX_KEPT_PIXELS / (width * height)))
@@ -160,7 +160,7 @@ def _colours(image: Image.Image) -> Pixels:
 
 
 def _copied(image: Image.Image, mode: str) -> Pixels:
-    """The pixels of a picture, strip by strip: all at once they would be in memory three times."""
+    """The pixels of a picture, copied in strips: all at once they would be in memory three times."""
     width, height = image.size
     copy = np.empty((height, width) if mode == "L" else (height, width, 3), np.uint8)
     for top in range(0, height, STRIP_ROWS):
@@ -170,7 +170,7 @@ def _copied(image: Image.Image, mode: str) -> Pixels:
 
 
 def upright_pixels(pixels: Pixels, orientation: int) -> Pixels:
-    """Pixels (h, w, 3) as they are to be seen, for one of EXIF's orientations 1 to 8."""
+    """Pixels (h, w, 3) turned upright, by one of EXIF's orientations 1 to 8."""
     upright = {
         2: pixels[:, ::-1],
         3: pixels[::-1, ::-1],
@@ -184,13 +184,13 @@ def upright_pixels(pixels: Pixels, orientation: int) -> Pixels:
 
 
 def orientation(exif: Image.Exif) -> int:
-    """How the camera was held, 1 to 8; 1 if nobody says."""
+    """EXIF's orientation of the camera, 1 to 8; 1 if it is not known."""
     said = exif.get(ORIENTATION_TAG, 1)
     return said if isinstance(said, int) and 1 <= said <= 8 else 1
 
 
 def focal_length(exif: Image.Exif, size: tuple[int, int]) -> float | None:
-    """The focal length in pixels of a picture of so many columns and rows; None if nobody says, or it cannot be."""
+    """The focal length in pixels of a picture of ``size`` columns and rows; None if it is unknown or implausible."""
     diagonal = float(np.hypot(*size))
     try:
         said = exif.get_ifd(LENS_TAG)

@@ -18,60 +18,60 @@ from graphcam.photo.raster import Raster
 
 Mark = Literal["cross", "dot", "ring"]
 PIXELS_PER_MM = 6.0
-"""Pixels of the picture in which marks are looked for."""
+"""The resolution of the picture in which marks are looked for [px/mm]."""
 MIN_SCORES: Mapping[Mark, float] = {"cross": 0.73, "dot": 0.78, "ring": 0.68}
-"""Correlation with a mark's shape, also on a ray: little else is as round as a ring, but much is like a cross, and a
+"""The minimum correlation with a mark's shape: little else is as round as a ring, but much is like a cross, and a
 printed arrowhead is like a dot."""
 MIN_DENSITY = 0.06
-"""Density of the faintest mark."""
+"""The density of the faintest mark."""
 MIN_RESIDUE_FACTOR = 3.0
-"""Times what is left of the print, that a mark passes beside print, where printed lines cross."""
+"""The minimum density of a mark beside print, where printed lines cross, as a multiple of their residue."""
 MIN_SIGNAL_TO_NOISE = 5.0
-"""Standard deviations of noise that a mark passes."""
+"""The minimum density of a mark, in standard deviations of noise."""
 CROSS_TURNS = (0, 15, 30, 45, 60, 75)
-"""Degrees by which crosses may be turned."""
+"""The angles of crosses that are looked for [degrees]."""
 ARM_LENGTH = 1.5
 """Half the length of a cross [mm]."""
 STROKE_WIDTH = 0.2
-"""Deviation of the Gauss curve across a stroke [mm]."""
+"""The standard deviation of the Gauss curve across a stroke [mm]."""
 DOT_RADIUS = 0.45
-"""Radius of a dot [mm]."""
+"""The radius of a dot [mm]."""
 RING_RADII = (0.75, 1.1)
-"""Radii of rings [mm]."""
+"""The radii of rings that are looked for [mm]."""
 PATTERN_HALF_SIDE = 2.2
 """Half the side of a pattern [mm]."""
 MIN_MARK_DISTANCE = 2.0
 """The minimum distance of two marks [mm]: nearer ones are one."""
 MAX_CONTINUATION_SHARE = 0.6
-"""Share of its strength that an arm of a cross has at most where it should have ended; construction lines run on."""
+"""The maximum strength behind the end of a cross's arm, as a share of the arm's; construction lines run on."""
 ARM_SPAN, BEYOND_ARM_SPAN = (0.5, 1.2), (2.2, 3.2)
-"""The spans along an arm, and behind its end, that are looked at [mm]."""
+"""The spans along an arm, and behind its end, in which strengths are measured [mm]."""
 DOT_RADII = (0.05, 0.15, 0.25)
-"""Radii [mm] in a dot."""
+"""The radii in a dot at which densities are measured [mm]."""
 SURROUNDING_RADII = (1.0, 1.2, 1.4)
-"""Radii [mm] about a dot."""
+"""The radii about a dot at which densities are measured [mm]."""
 MIN_DOT_CONTRAST = 2.15
-"""Times the density of the lines about it that a dot has; where lines cross, their densities add to twice."""
+"""The minimum density of a dot as a multiple of lines about it; where lines cross, their densities add to twice."""
 MIN_DOT_CONTRAST_ON_LINE = 1.95
-"""Times the density about it that a dot has where one line runs through."""
+"""The minimum density of a dot as a multiple of that about it, where one line runs through."""
 RING_SEARCH_RADII = np.arange(0.4, 1.75, 0.1)
-"""Radii [mm] at which a ring may lie."""
+"""The radii at which the line of a ring is looked for [mm]."""
 RING_RADIUS_TOLERANCE, MIN_RING_SHARE = 0.25, 0.7
-"""So near to one radius [mm] a ring lies in that share of all directions: rays cross it, and a nought is no ring."""
+"""The tolerance of a ring's radius [mm], and the minimum share of directions within it: a nought is no ring."""
 RING_GAP_DENSITY, MIN_CLOSED_SHARE = 0.4, 0.92
-"""In that share of directions a ring has at least this part of its usual density: the bowl of a 3 or 5 is open."""
+"""The density below which a ring is open, as a share of its usual one, and the minimum share of closed directions."""
 RING_OUTER_RADII = ((0.45, 0.55, 0.65), (0.75, 0.85, 0.95))
-"""How far outside a ring [mm] it is looked what meets it: of a 6, 8 or 9 the rest of the digit."""
+"""Distances outside a ring at which lines that meet it are looked for [mm]: those of a 6, 8 or 9 are digits."""
 RING_RAY_DENSITY, FAINT_RAY_DENSITY = 0.5, 0.2
-"""Shares of a ring's density that such a line has, and a ray that goes on."""
+"""The densities of a line that meets a ring, and of a ray that goes on, as shares of the ring's."""
 MAX_RAY_ANGLE, MAX_OPPOSITE_ANGLE = np.radians(14.0), np.radians(25.0)
-"""A ray keeps its direction from the one distance to the other, and goes on at the ring's other side."""
+"""The maximum turn of a ray between both distances, and between the two sides of the ring [rad]."""
 RING_DIRECTIONS = np.exp(2j * np.pi * np.arange(48) / 48)
 
 
 @dataclass(frozen=True, eq=False)
 class PointReading:
-    """Points that were found: those that are sure, then the others, each by their scores.
+    """The points that were found: the sure ones, then the others, each in the order of their scores.
 
     points : (n,) mm of paper from the view's origin
     kinds : (n,) their shapes;  scores : (n,) correlations with these
@@ -83,7 +83,7 @@ class PointReading:
 
     @property
     def sure(self) -> NDArray[np.bool_]:
-        """Flags (n,) of marks wherever they are drawn; of the others somebody knows that a mark may be there."""
+        """Flags (n,) of marks that are sure anywhere; the others count only where a mark is expected."""
         return self.scores > np.array([MIN_SCORES[kind] for kind in self.kinds])
 
 
@@ -102,9 +102,9 @@ class Pattern:
 
 
 def read_points(ink: Ink, view: PrintedView, less: float = 0.0) -> PointReading:
-    """The points in a view's room.
+    """The points that are plotted in a view's room.
 
-    less : by so much less than ``LEAST_SCORES`` a point may be like its shape
+    less : reduction of ``MIN_SCORES`` for points that are not sure
     """
     picture = ink.sharp.reduced(PIXELS_PER_MM)
     least: dict[Mark, float] = {kind: score - less for kind, score in MIN_SCORES.items()}
@@ -125,7 +125,7 @@ def read_points(ink: Ink, view: PrintedView, less: float = 0.0) -> PointReading:
 
 @dataclass(frozen=True, eq=False)
 class FoundMarks:
-    """Places that look like marks: correlation, place on the page, and pattern."""
+    """A place that looks like a mark: correlation, place on the page, and pattern."""
 
     score: float
     place: complex
@@ -133,9 +133,9 @@ class FoundMarks:
 
 
 def _summits(picture: Raster, faintest: float, view: PrintedView, least: Mapping[Mark, float]) -> Iterator[FoundMarks]:
-    """The places in the room that look more like a mark than those about, for each kind of mark.
+    """The local maxima of correlation in the room, for each kind of mark.
 
-    least : score of each kind
+    least : the minimum score of each kind
     """
     wide = np.ones((2 * round(MIN_MARK_DISTANCE * PIXELS_PER_MM) + 1,) * 2, np.uint8)
     left, bottom, right, top = view.room
@@ -149,7 +149,7 @@ def _summits(picture: Raster, faintest: float, view: PrintedView, least: Mapping
 
 
 def _is_mark(ink: Ink, picture: Raster, mark: FoundMarks) -> bool:
-    """Whether it is not print, nor lines of a construction that cross."""
+    """Whether a place is a mark, and neither print nor crossing lines of a construction."""
     place, pattern = mark.place, mark.pattern
     core = float(picture.at(place + _circles(DOT_RADII)).mean())
     darkest = max(core, float(picture.at(place + _circles(RING_RADII)).mean(1).max()))
@@ -180,7 +180,7 @@ def _round(around: NDArray[np.float32]) -> float | None:
 
 
 def _only_rays_about(picture: Raster, place: complex, radius: float) -> bool:
-    """Whether what meets a ring from outside runs straight away from it, through it or, once, up to it."""
+    """Whether all lines that meet a ring from outside are rays that run straight through it or, once, up to it."""
     ring = float(picture.at(place + _circles((radius,))).mean())
     near, far = (picture.at(place + _circles(tuple(radius + np.array(more)))).mean(0) for more in RING_OUTER_RADII)
     arms = _arms(near > RING_RAY_DENSITY * ring)
@@ -202,13 +202,13 @@ def _arms(dark: NDArray[np.bool_]) -> Points:
 
 
 def _circles(radii: tuple[float, ...]) -> Points:
-    """Places (radii, 48) on circles."""
+    """Places (radii, 48) on circles about the origin [mm]."""
     return np.array(radii)[:, None] * RING_DIRECTIONS
 
 
 @cache
 def patterns() -> tuple[Pattern, ...]:
-    """The shapes that are looked for.
+    """The patterns of all marks that are looked for.
 
     >>> sorted({pattern.kind for pattern in patterns()})
     ['cross', 'dot', 'ring']
@@ -267,7 +267,7 @@ def _correlations(picture: Raster, faintest: float) -> dict[Mark, tuple[NDArray[
 
 
 def _refined(score: NDArray[np.float32], row: int, column: int) -> tuple[float, float]:
-    """How far the summit of the correlation lies below and right of its pixel, from its neighbours."""
+    """The offsets of the maximum of correlation below and right of its pixel [px], from its neighbours."""
     if not (0 < row < score.shape[0] - 1 and 0 < column < score.shape[1] - 1):
         return 0.0, 0.0
     return _summit(score[row - 1 : row + 2, column]), _summit(score[row, column - 1 : column + 2])

@@ -1,6 +1,6 @@
-"""What a reader of photographs must know of a printed page: its tags and bars, what is printed, where is drawn.
+"""A printed page as a reader of photographs must know it: tags, bars, print, and the views for drawing.
 
-It is written down when the page is printed, since paper does not change with the program.  Lengths are mm of paper, and
+It is stored when the page is printed, since paper does not change with the program.  Lengths are mm of paper, and
 places are complex, x to the right and y up from the lower left corner of the page.
 """
 
@@ -19,18 +19,18 @@ from graphcam.words import say
 
 Points = NDArray[np.complex128]
 Edges = tuple[float, float, float, float]
-"""Left, bottom, right and top of a box."""
+"""Left, bottom, right and top of a box [mm]."""
 Ink = Literal["colour", "grey"]
-"""How the givens are printed: in a light tint, or in light grey."""
+"""The ink of the givens: a light tint, or light grey."""
 FORMAT_VERSION = 1
 
 
 @dataclass(frozen=True, eq=False)
 class PrintedView:
-    """A view on a page in which something is to be drawn.
+    """A view on a page for a drawing.
 
     origin : of the view, on the page
-    room : the box in which is drawn
+    room : the box for the drawing
     closed : whether a curve runs once round the origin, or else over the x axis from ``start`` to ``end``
     start, end : of a curve that is not closed, from the origin along x
     """
@@ -53,7 +53,7 @@ class PrintedPage:
     bars : start and end of the scale bars, across and up
     patches, patch_side : lower left corners of the squares that are filled with the ink of the givens
     ink : of the givens
-    givens : the light lines, as polylines
+    givens : the printed light lines, as polylines
     black : boxes about what is printed in black: texts, tables, tags
     views : by name
     seam : the x at which two tiles meet; None of a page on one sheet
@@ -89,11 +89,11 @@ class PrintedPage:
 
     @staticmethod
     def from_json(text: str, path: str = "page") -> PrintedPage:
-        """A page out of its text.
+        """The page in a JSON text.
 
         Raises
         ------
-        TaskError : it is none, or of another format
+        TaskError : the text is no page, or of another format
         """
         try:
             return _page_from_data(json.loads(text))
@@ -142,7 +142,7 @@ def half(page: PrintedPage, side: Side) -> PrintedPage:
 
 
 def side_seen(numbers: NDArray[np.int64], page: PrintedPage) -> Side:
-    """The sheet of a page with a seam of which more tags are seen."""
+    """The sheet of a page with a seam of which more tags are seen, by their numbers."""
     counts = [np.isin(numbers, list(half(page, side).tags)).sum() for side in SIDE_NAMES]
     return SIDE_NAMES[int(np.argmax(counts))]
 

@@ -1,4 +1,4 @@
-"""The QR codes in a picture: their texts, also where the paper is oblique, dark or smeared."""
+"""The texts of QR codes in a picture, also where the paper is oblique, dark or smeared."""
 
 from __future__ import annotations
 
@@ -15,39 +15,39 @@ from graphcam.photo.tags import CELLS_PER_SIDE, Grey, Places, Tags
 
 Photograph = NDArray[np.uint8]
 MIN_PIXELS = 21
-"""Pixels of a picture: no code has fewer modules."""
+"""The minimum side of a picture [px]: no code has fewer modules."""
 COARSE_PIXELS = 2000
-"""Pixels along the longer side of the picture that is looked at first: most codes are read in it."""
+"""The longer side of the reduced picture that is tried first [px]; most codes are read in it."""
 PAPER_PARTS = 25
-"""The paper's brightness is that of the brightest place near, within so many parts of the picture's shorter side."""
+"""The shorter side of a picture over the distance within which the brightest place shows bare paper."""
 MAX_PIXELS = 4000
-"""Pixels along the longer side of a picture that is made even."""
+"""The maximum longer side of a picture that is evened [px]."""
 CELL_PIXELS = 8.0
-"""Pixels of an evened picture in a cell of a tag: a cell of a code is half as wide or less."""
+"""The side of a tag's cell in an evened picture [px]: a cell of a code is at most half as wide."""
 DEBLURRING_SETTINGS = ((1.0, 0.03), (1.0, 0.1), (1.5, 0.03), (1.5, 0.01), (2.0, 0.03), (2.0, 0.01))
-"""Parts of the blur that are taken back, as far places are blurred more; and how strong the noise is taken to be."""
+"""Settings of deblurring: the part of the blur that is removed, and the noise that is assumed."""
 LIKELY_PLACES = 4
-"""Places that look like a code by their many edges, at which the blur is taken back."""
+"""The number of places with many edges, as a code has, that are deblurred."""
 WINDOW_CELLS, MARGIN_CELLS = 10.0, 16.0
-"""Cells of a tag over which edges are counted, and from such a place to the sides of what is looked at."""
+"""The window in which edges are counted, and the half side of a part that is tried [cells of a tag]."""
 ENLARGEMENT = 1.5
-"""The factor by which a code is enlarged to be looked at once more."""
+"""The factor by which a code is enlarged for another try."""
 DEFAULT_BLUR_WIDTHS = (1.5, 3.0)
-"""Widths of the blur [px] for which pictures are sharpened if nobody knows it."""
+"""The widths of blur for which pictures are sharpened where none was measured [px]."""
 EDGE_DEVIATIONS = 1.683
-"""Standard deviations of a blur between a fifth and four fifths of the light of an edge."""
+"""The width of a blurred edge between a fifth and four fifths of its light, in standard deviations."""
 MIN_CORNER_SCALE = 0.3
-"""How large the corner of a picture that is farthest away may be, as a part of its middle."""
+"""The minimum scale at the farthest corner of a picture, as a part of that in its middle."""
 MIN_TAGS = 3
-"""Tags that tell how oblique the paper is."""
+"""The minimum number of tags for the perspective of the paper."""
 SHARPENING = 2.0
-"""The part of what a blur takes away by which a picture is sharpened."""
+"""The multiple of the difference to the blurred picture that sharpening adds."""
 
 
 def codes_in(pixels: Photograph, tags: Tags | None = None) -> list[str]:
-    """The texts of the QR codes in a picture (h, w, 3) or (h, w), each once; none if none is read.
+    """The texts of the QR codes in a picture (h, w, 3) or (h, w), each once.
 
-    tags : the page's, if they have been found; they help where the paper is oblique
+    tags : those of the page, if they have been found; they help where the paper is oblique
     """
     grey = pixels if pixels.ndim == 2 else np.asarray(cv2.cvtColor(pixels, cv2.COLOR_BGR2GRAY), np.uint8)
     if min(grey.shape) < MIN_PIXELS:
@@ -61,7 +61,7 @@ def codes_in(pixels: Photograph, tags: Tags | None = None) -> list[str]:
 
 
 def _tries(grey: Grey, tags: Tags | None) -> Iterator[Grey]:
-    """The picture in several ways, those first that cost least."""
+    """Versions of the picture for the reader of codes, the cheapest first."""
     shrink = COARSE_PIXELS / max(grey.shape)
     if shrink < 1:
         yield _enlarged(grey, shrink)
@@ -88,7 +88,7 @@ def _enlarged(grey: Grey, factor: float) -> Grey:
 
 
 def _even(grey: Grey) -> Grey:
-    """The picture without shadows: paper is white everywhere."""
+    """The picture without shadows, its paper white everywhere."""
     small = cv2.resize(grey, None, fx=0.125, fy=0.125, interpolation=cv2.INTER_AREA)
     size = max(3, min(small.shape) // PAPER_PARTS | 1)
     paper = cv2.blur(cv2.dilate(small, np.ones((size, size), np.uint8)), (size, size))
@@ -103,7 +103,7 @@ def _sharpened(grey: Grey, width: float) -> Grey:
 
 
 def _likely_parts(upright: UprightPicture) -> Iterator[Grey]:
-    """Parts of a picture where there are many edges in both directions, as a code has."""
+    """Parts of a picture with many edges in both directions, as a code has."""
     picture, cell = upright.picture, upright.cell
     size = (round(WINDOW_CELLS * cell), round(WINDOW_CELLS * cell))
     across, down = (cv2.Sobel(picture, cv2.CV_32F, *way) for way in ((1, 0), (0, 1)))
@@ -123,7 +123,7 @@ def _window_slices(row: float, column: float, reach: int) -> tuple[slice, slice]
 
 
 def _unblurred(grey: Grey, blur: float) -> Iterator[Grey]:
-    """The light before a Gaussian blur of so many pixels, as Wiener guesses it."""
+    """Versions of a picture before a Gaussian blur [px], by Wiener's filter."""
     rows, columns = (cv2.getOptimalDFTSize(length) for length in grey.shape)
     height, width = grey.shape
     # Beyond the picture it is as at its edges, which otherwise would shine into it.
@@ -142,7 +142,7 @@ class UprightPicture:
     """A picture as if seen from straight above.
 
     blur : standard deviation [px] in its middle
-    tags : (n,) their middles;  cell : of them [px]
+    tags : (n,) their middles;  cell : the side of their cells [px]
     """
 
     picture: Grey
@@ -152,7 +152,7 @@ class UprightPicture:
 
 
 def _upright_picture(grey: Grey, tags: Tags) -> UprightPicture | None:
-    """The picture as if seen from straight above, as the tags tell; None if they do not."""
+    """The picture as if seen from straight above, by its tags; None if these do not determine it."""
     level = _level(grey, tags)
     if level is None:
         return None
@@ -181,7 +181,7 @@ def _upright_picture(grey: Grey, tags: Tags) -> UprightPicture | None:
 
 
 def _level(grey: Grey, tags: Tags) -> NDArray[np.float64] | None:
-    """What takes the perspective (3, 3) from a picture: as printed, all tags are squares of one size.
+    """The matrix (3, 3) that removes the perspective, by which all tags get one size; None if there is none.
 
     Seen obliquely, areas shrink with the third power of the distance, whose inverse is linear in the picture.
     """

@@ -1,4 +1,4 @@
-"""A picture of a part of the page, what it holds at places of the page, and the lines in it by their directions.
+"""Pictures of a part of the page: values at places, and lines by their directions.
 
 The filters for lines are those of the textbook (second derivative of a Gauss curve across, long along), with the flanks
 drawn apart, so that a stroke of a soft pencil is not taken for its own surroundings.
@@ -18,15 +18,15 @@ from numpy.typing import NDArray
 from graphcam.photo.printed_page import Edges, Points
 
 MAX_COLUMNS = 20_000
-"""Places that OpenCV looks up in one row; it takes no more than 32767."""
+"""The maximum number of places that OpenCV looks up in one row; it takes no more than 32767."""
 
 
 @dataclass(frozen=True, eq=False)
 class Raster:
     """Values (rows, columns) over a part of the page, the first row at its top.
 
-    left, top : edges of the first pixel, mm of page
-    per_mm : pixels
+    left, top : edges of the first pixel [mm of page]
+    per_mm : pixels per mm
 
     >>> raster = Raster(np.array([[1, 2], [3, 4]], np.float32), 10.0, 20.0, 1.0)
     >>> raster.at(np.array([10.5 + 19.5j, 11 + 19j, 99 + 0j])).tolist()
@@ -40,22 +40,22 @@ class Raster:
 
     @property
     def box(self) -> Edges:
-        """Left, bottom, right and top of what it shows, mm of page."""
+        """Left, bottom, right and top of the part [mm of page]."""
         rows, columns = self.values.shape[:2]
         return (self.left, self.top - rows / self.per_mm, self.left + columns / self.per_mm, self.top)
 
     def pixels(self, points: Points) -> NDArray[np.float32]:
-        """Columns and rows (..., 2) of places on the page (...); whole numbers are the middles of pixels."""
+        """Columns and rows (..., 2) of places (...) on the page; whole numbers are the middles of pixels."""
         x = (points.real - self.left) * self.per_mm - 0.5
         y = (self.top - points.imag) * self.per_mm - 0.5
         return np.stack([x, y], -1).astype(np.float32)
 
     def places(self, columns: NDArray[Any], rows: NDArray[Any]) -> Points:
-        """Places on the page (...) of columns and rows (...)."""
+        """Places (...) on the page of columns and rows (...)."""
         return self.left + (columns + 0.5) / self.per_mm + 1j * (self.top - (rows + 0.5) / self.per_mm)
 
     def at(self, points: Points, nearest: bool = False) -> NDArray[np.float32]:
-        """The values at places on the page (...): between the pixels, or those of the nearest; nought outside."""
+        """Values (...) at places (...) on the page, interpolated or of the nearest pixel; zero outside."""
         looked_up = np.atleast_1d(self.pixels(np.asarray(points)).reshape(-1, 2))
         how = cv2.INTER_NEAREST if nearest else cv2.INTER_LINEAR
         pieces = [
@@ -65,7 +65,7 @@ class Raster:
         return np.concatenate(pieces).reshape(np.shape(points)).astype(np.float32)
 
     def with_values(self, values: NDArray[Any]) -> Raster:
-        """Other values (rows, columns) over the same part."""
+        """A raster with other values (rows, columns) over the same part."""
         return Raster(values, self.left, self.top, self.per_mm)
 
     def reduced(self, per_mm: float) -> Raster:
@@ -79,23 +79,23 @@ class Raster:
 
 
 PIXELS_PER_MM = 5.0
-"""Pixels of the picture in which ridges are looked for: a pencil line is two wide."""
+"""The resolution of the picture in which ridges are looked for [px/mm]: a pencil line is two pixels wide."""
 DIRECTION_COUNT = 24
-"""Directions of the filters; their neighbours lie 7.5 degrees apart, a third of what one filter lets through."""
+"""The number of directions of the filters, 7.5 degrees apart, a third of what one filter lets through."""
 ALONG_DEVIATION = 1.1
-"""Deviation of the Gauss curve along a line [mm]: shorter than the pieces between the stations of a drawing."""
+"""The standard deviation of the filter along a line [mm]: less than the pieces between stations of a drawing."""
 ACROSS_DEVIATION = 0.22
-"""Deviation across a line [mm]: a pencil's stroke as a telephone shows it."""
+"""The standard deviation across a line [mm]: that of a pencil's stroke as a telephone shows it."""
 FLANK_DISTANCE = 1.0
-"""Distance of the flanks from the middle [mm]: outside the softest stroke, inside a second one at 2 mm."""
+"""The distance of the flanks from the middle [mm]: outside the softest stroke, inside a second one at 2 mm."""
 FLANK_DEVIATION = 0.25
-"""Deviation of the flanks [mm]."""
+"""The standard deviation of the flanks [mm]."""
 FILTER_HALF_SIDE = 2.4
 """Half the side of a filter [mm], two deviations along."""
 
 
 def ridges(picture: Raster) -> Iterator[tuple[float, Raster]]:
-    """For each direction [rad from x, 0 to pi] how much more ink lies everywhere on a line than beside it.
+    """Each direction [rad from x, 0 to pi] with a raster of how much more ink lies on such a line than beside it.
 
     >>> blank = Raster(np.ones((60, 60), np.float32), 0.0, 12.0, PIXELS_PER_MM)
     >>> round(max(float(np.abs(answer.values).max()) for _, answer in ridges(blank)), 5)
@@ -106,7 +106,7 @@ def ridges(picture: Raster) -> Iterator[tuple[float, Raster]]:
 
 
 def spread(answers: NDArray[np.float32]) -> float:
-    """The standard deviation of noise, from the median, which lines do not disturb.
+    """The standard deviation of noise, from the median, which lines hardly change.
 
     >>> spread(np.array([-1, 0, 1, 0, 50], np.float32))
     1.4826
@@ -115,7 +115,7 @@ def spread(answers: NDArray[np.float32]) -> float:
 
 
 def _filter(angle: float) -> NDArray[np.float32]:
-    """Weights (n, n) of one direction: they sum to nought, and a straight wide stroke answers with its density."""
+    """Weights (n, n) of one direction: their sum is zero, and a straight wide stroke answers with its density."""
     side = (
         np.arange(-round(FILTER_HALF_SIDE * PIXELS_PER_MM), round(FILTER_HALF_SIDE * PIXELS_PER_MM) + 1) / PIXELS_PER_MM
     )

@@ -1,4 +1,4 @@
-"""A part of the paper as if seen from straight above: even, in millimetres, in light instead of a picture's numbers."""
+"""A part of the paper as if seen from straight above: even, in millimetres, in linear light."""
 
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ Places = NDArray[np.complex128]
 Photograph = NDArray[np.uint8]
 Light = NDArray[np.float32]
 PIXELS_PER_MM = 8.0
-"""Pixels a mm: a pencil line is three or four wide."""
+"""The default resolution [px/mm]: a pencil line is three or four pixels wide."""
 LOOKUP_SPACING = 8.0
-"""mm between the places that are looked up; a lens bends no faster."""
+"""The spacing of the places that are looked up [mm]; a lens bends no faster."""
 FOLD_LOOKUP_SPACING = 1.0
-"""mm between them if the paper is folded, as no smooth curve follows the fold."""
+"""The spacing on folded paper [mm], as no smooth curve follows the fold."""
 
 
 @dataclass(frozen=True, eq=False)
 class EvenPicture:
-    """A part of the paper, even.
+    """A part of the paper, rectified.
 
-    linear : (rows, columns, 3) red, green, blue in parts of all light; rows go down
+    linear : (rows, columns, 3) red, green, blue as shares of full light; rows go down
     box : of the paper [mm], from edge to edge of the outermost pixels
-    per_mm : pixels a mm
+    per_mm : pixels per mm
     """
 
     linear: Light
@@ -50,12 +50,12 @@ class EvenPicture:
         return np.asarray(moved.conj() + complex(left, top), complex)
 
     def at(self, points: Places | complex) -> Light:
-        """The light (..., 3) at points of the paper (...) [mm]; outside of the box that at its edge."""
+        """The light (..., 3) at points of the paper (...) [mm]; outside of the box that of its edge."""
         return sampled(self.linear, self.pixels(points))
 
 
 def rectify(picture: Photograph, registration: Registration, box: Edges, per_mm: float = PIXELS_PER_MM) -> EvenPicture:
-    """A box of the paper [mm] out of a picture (h, w, 3), blue, green, red as OpenCV has it.
+    """The rectified box of the paper [mm] of a picture (h, w, 3), blue, green, red as OpenCV has it.
 
     What lies outside of the picture looks like its edge.
     """
@@ -68,7 +68,7 @@ def rectify(picture: Photograph, registration: Registration, box: Edges, per_mm:
 
 
 def lookup_maps(registration: Registration, box: Edges, per_mm: float) -> tuple[Light, Light]:
-    """The column and the row (rows, columns) of the picture that the pixels of a box [mm] are taken from."""
+    """Columns and rows (rows, columns) of the picture for the pixels of a box [mm]."""
     left, bottom, right, top = box
     columns, rows = round((right - left) * per_mm), round((top - bottom) * per_mm)
     smooth = registration.kind != "fold"
@@ -97,7 +97,7 @@ def sampled(image: Light, places: Places) -> Light:
 def _enlarging(
     start: float, count: int, per_mm: float, step: float, degree: int
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Places (n,) [mm] about every step, and what makes values (count,) at the centres of pixels of those there."""
+    """Places (n,) [mm] about every step, and weights that interpolate values (count,) at the centres of pixels."""
     length = count / per_mm
     coarse = np.linspace(start, start + length, max(degree + 1, round(length / step) + 1))
     fine = start + (np.arange(count) + 0.5) / per_mm

@@ -1,4 +1,4 @@
-"""Where the paper is in a picture: from the tags, by the simplest surface that they lie on."""
+"""The place of the paper in a picture: from the tags, by the simplest surface that fits them."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ from graphcam.words import say
 
 Places = NDArray[np.complex128]
 MAX_CORNER_ERROR = 0.7
-"""Pixels by which the corners may miss on the average."""
+"""The maximum mean error of the corners [px]."""
 OTHER_PAGE_ERROR = 15.0
-"""Pixels by which they miss if they are another page's."""
+"""The mean error of the corners [px] above which they belong to another page."""
 DOUBT_DEVIATIONS = 2.0
-"""Standard deviations that the doubt is."""
+"""The doubt in standard deviations."""
 MAX_BLUR = 0.7
-"""mm of paper over which an edge may be smeared: twice as wide as a pencil line."""
+"""The maximum blur of an edge [mm of paper]: twice the width of a pencil line."""
 MAX_DOUBT = 0.5
-"""mm by which what is read may be misplaced, as far as the tags tell."""
+"""The maximum error of places by the tags [mm]."""
 DOUBT_GRID = 7
-"""Points of a view each way for which the doubt is looked at."""
+"""The number of points of a view in either direction at which the doubt is computed."""
 CORNER_DIRECTIONS = np.array([-1 - 1j, 1 - 1j, 1 + 1j, -1 + 1j])
-"""Directions from the middle of a tag to its corners, in their order."""
+"""Directions (4,) from the middle of a tag to its corners, in their order."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +48,7 @@ class Registration:
     residual : by how much the tags' corners miss [px], root of the mean square
     tags, expected : how many tags were used, and how many there are on the paper
     doubt : by how much the worst place of the views may be misplaced [mm], as far as the tags tell
-    blur : how widely an edge is smeared [mm], None if nobody has measured
+    blur : width of an edge [mm], None if it was not measured
     growth : by how much the black squares' edges lie outside of their places [mm]
     """
 
@@ -121,11 +121,11 @@ def _check_tag_count(mine: int, seen: int, expected: int) -> None:
 
 
 def _blur(tags: Tags, page: PrintedPage) -> float | None:
-    """How widely edges are smeared [mm] in the worse of the two directions.
+    """The width of blurred edges [mm] in the worse of the two directions; None if it was not measured.
 
     Raises
     ------
-    PhotographError : too widely to place a line
+    PhotographError : edges are too wide to place a line
     """
     if tags.widths is None:
         return None
@@ -196,7 +196,7 @@ def _grid(room: Edges) -> Places:
 
 
 def _doubt(laid: LaidSurface, points: Places) -> float:
-    """How far points (n,) may be misplaced [mm], the worst of them: the spread that the corners' misses leave."""
+    """The maximum error of points (n,) [mm], by the spread that the corners' misses leave."""
     parameters, project = laid.fit.parameters[:-1], laid.surface.project
     count = len(parameters)
     step = 1e-5

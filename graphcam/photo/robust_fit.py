@@ -1,4 +1,4 @@
-"""Least squares from many starts at once: Levenberg and Marquardt's way, with strays that weigh little."""
+"""Least squares from many starts at once, by Levenberg and Marquardt's method with little weight for outliers."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from numpy.typing import NDArray
 
 Numbers = NDArray[np.float64]
 STRAY_MISS = 3.0
-"""Misses from about here on, in parts of what is expected, weigh less."""
+"""The miss, as a multiple of the expected one, from about which on misses weigh less."""
 PARAMETER_STEP = 1e-6
-"""The step of a parameter for the slope of a miss; parameters are to be of the order of 1."""
+"""The step of a parameter for the slope of a miss; parameters are of the order of 1."""
 CONVERGED_SHARE = 1e-7
-"""A fit ends when its sum falls by less than this part of it."""
+"""The relative decrease of the sum below which a fit ends."""
 
 
 @dataclass(frozen=True, eq=False)
 class Prior:
-    """What is known of parameters (m,) before: their values, and how far they may be off; infinite where nothing is."""
+    """The prior of parameters (m,): their values and standard deviations, infinite where nothing is known."""
 
     values: Numbers
     spread: Numbers
 
     def misses(self, parameters: Numbers) -> Numbers:
-        """The misses of parameters (..., m), in parts of their spread."""
+        """The misses (..., m) of parameters (..., m), as multiples of their deviations."""
         return (parameters - self.values) / self.spread
 
 
@@ -34,7 +34,7 @@ class FittedParameters:
     """The best of several fits.
 
     parameters : (m,)
-    loss : half the sum of squares, strays lessened
+    loss : half the sum of squares, those of outliers reduced
     covariance : (m, m) of the parameters, if misses are as large as expected
     """
 
@@ -46,8 +46,8 @@ class FittedParameters:
 def best_fit(misses: Callable[[Numbers], Numbers], prior: Prior, starts: Numbers, rounds: int) -> FittedParameters:
     """The best fit from starts (b, m).
 
-    misses : of parameters (..., m), as (..., n) in parts of what is expected
-    rounds : at most
+    misses : of parameters (..., m), as (..., n) multiples of what is expected
+    rounds : maximum number of rounds
     """
     parameters = np.array(starts, float)
     damping = np.full(len(parameters), 1e-3)

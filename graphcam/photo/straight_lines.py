@@ -20,41 +20,41 @@ from graphcam.photo.raster import DIRECTION_COUNT, PIXELS_PER_MM, Raster, ridges
 from graphcam.words import say
 
 MIN_SIGNAL_TO_NOISE = 7.0
-"""Standard deviations of noise that a piece of a line passes."""
+"""The minimum strength of a piece of a line, in standard deviations of noise."""
 MIN_DENSITY = 0.03
-"""Density of the faintest line."""
+"""The density of the faintest line."""
 MIN_LINE_LENGTH = 20.0
-"""Shortest line [mm]; shorter ones have no direction to speak of."""
+"""The minimum length of a line [mm]; shorter ones have no reliable direction."""
 MAX_GAP = 4.0
-"""A gap that a line may have [mm]; beyond it another begins."""
+"""The maximum gap in a line [mm]; beyond it another begins."""
 MIN_COVER = 0.6
-"""Share of its length on which a line is drawn, to be one."""
+"""The minimum share of its length on which a line is drawn."""
 MIN_CROSSING_COVER = 0.7
-"""The share of its length on which a line is drawn, for a crossing to be taken from it."""
+"""The minimum share of its length on which a line is drawn, for a crossing to be taken from it."""
 MIN_CROSSING_ANGLE = 20.0
-"""Degrees at which lines cross at least; at less a pencil's width moves the crossing by half a mm."""
+"""The minimum angle of a crossing [degrees]; at less a pencil's width moves it by half a mm."""
 VOTING_DEGREES = 6
-"""Degrees about a piece's own direction for which it votes."""
+"""The range about a piece's own direction for which it votes [degrees]."""
 VOTING_BIN = 0.5
-"""mm in which votes for the distance from the middle are counted."""
+"""The width of the bins for votes on the distance from the middle [mm]."""
 MAX_PIECE_ANGLE = 14.0
-"""Degrees by which the direction of a piece may differ from its line's."""
+"""The maximum angle between a piece and its line [degrees]."""
 FITTING_HALF_WIDTHS = (0.8, 0.5, 0.4, 0.4)
-"""Half the widths [mm] within which pieces belong to a line, while it is fitted."""
+"""Half the widths of the strips whose pieces belong to a line, in the rounds of its fit [mm]."""
 MAX_SAG = 0.3
-"""How far [mm] a line may bulge in its middle; more is an arc."""
+"""The maximum sag of a line in its middle [mm]; more is an arc."""
 MAX_LINES = 80
-"""Lines looked for; a construction of 24 stations has a third of these."""
+"""The maximum number of lines; a construction of 24 stations has a third of these."""
 MIN_PIECES = 20
-"""Pieces of a line."""
+"""The minimum number of pieces of a line."""
 PROFILE_HALF_WIDTHS = (0.7, 0.4)
-"""Half the profiles across a line [mm], by which it is placed and placed again: the second holds no neighbour."""
+"""Half the widths of the profiles by which a line is placed first and again [mm]; the second holds no neighbour."""
 LINE_STEP = 0.5
-"""Along a line, by which it is looked at [mm]."""
+"""The step along a line between its profiles [mm]."""
 STRENGTH_SHARE, STRENGTH_PERCENTILE = 0.3, 80
-"""A line is drawn where it has this share of this percentile of its strength."""
+"""The minimum strength where a line is drawn, as a share of this percentile of its strength."""
 OUTLIER_DISTANCE = 0.1
-"""The distance in mm from which on a place counts less for its line: a digit, another line."""
+"""The distance of a place from its line above which it weighs less [mm]: a digit, another line."""
 
 
 @dataclass(frozen=True)
@@ -67,13 +67,13 @@ class Segment:
 
     @property
     def length(self) -> float:
-        """The distance between the ends, mm."""
+        """The distance between the ends [mm]."""
         return abs(self.end - self.start)
 
 
 @dataclass(frozen=True, eq=False)
 class Pieces:
-    """Pieces of ridges, one a pixel: places (n,) on the page, and directions (n,) [rad]."""
+    """Pieces of ridges, one per pixel: places (n,) on the page, and directions (n,) [rad]."""
 
     places: Points
     directions: NDArray[np.float64]
@@ -100,7 +100,7 @@ def crossing(one: Segment, other: Segment) -> complex:
 
     Raises
     ------
-    PhotographError : they cross at less than ``LEAST_ANGLE``, or one of them is drawn in pieces
+    PhotographError : they cross at less than ``MIN_CROSSING_ANGLE``, or one of them is drawn in pieces
 
     >>> crossing(Segment(-2 + 0j, 2 + 0j, 1.0), Segment(1 - 1j, 1 + 1j, 1.0))
     (1+0j)
@@ -181,7 +181,7 @@ def _votes(pieces: Pieces, middle: complex) -> tuple[NDArray[np.int64], int]:
 def _fitted_line(
     pieces: Pieces, free: NDArray[np.bool_], middle: complex, angle: float, offset: float
 ) -> tuple[float, float, NDArray[np.float64], NDArray[np.bool_]] | None:
-    """Direction, offset from the middle, where its pieces lie along it (m,) and which are used up (n,); or no line."""
+    """Direction and offset of a line, places (m,) of its pieces along it, and flags (n,) of pieces used up; or None."""
     from_middle = pieces.places - middle
     for width in FITTING_HALF_WIDTHS:
         turned = from_middle * np.exp(-1j * angle)
@@ -215,7 +215,7 @@ def _similar_directions(directions: NDArray[np.float64], angle: float, degrees: 
 
 
 def _placed_line(sharp: Raster, start: complex, end: complex) -> Segment | None:
-    """The line on the page again, from the middles of its stroke; None if it is an arc, or hardly a stroke."""
+    """The line placed by the middles of its stroke; None if it is an arc, or hardly a stroke."""
     line: Segment | None = Segment(start, end, 0.0)
     for reach in PROFILE_HALF_WIDTHS:
         line = None if line is None else _through_middles(sharp, line, reach)

@@ -1,4 +1,4 @@
-"""The square tags along the edges of a printed page: AprilTag 36h11, of which only the first numbers are needed.
+"""The square tags along the edges of a printed page: the first ones of the family AprilTag 36h11.
 
 A tag is 8 x 8 cells: a black border of one cell about 6 x 6 cells that say its number.  About it the paper is white.
 """
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 CELLS_PER_SIDE = 8
 """The number of cells of a tag in either direction, its border included."""
 TAG_COUNT = 48
-"""Tags that are known, numbered from 0."""
+"""The number of known tags, which are numbered from 0."""
 _INNER_CELLS = CELLS_PER_SIDE - 2
 _TAG_CODES = (
     *(0x21A146BAB, 0x92D18FE9B, 0x7089014BB, 0x193979E27, 0x44153D3D7, 0x35CD5B8CF),
@@ -21,11 +21,11 @@ _TAG_CODES = (
     *(0xF7A066836, 0x2DD0AFDF6, 0x3B9CB60B1, 0xAD6A1CAF9, 0x93B62EFB5, 0xBB210D93D),
     *(0xDEE55094B, 0xA0CD1479B, 0x2A23ABB27, 0x4F67F4B5F, 0x58A815818, 0x743427D64),
 )
-"""The white cells inside the border, row by row from the upper left, the first in the highest of 36 bits."""
+"""The white cells inside the border by tag: row by row from the upper left, the first in the highest of 36 bits."""
 
 
 def dark_cells(number: int) -> NDArray[np.bool_]:
-    """Flags (8, 8) of the black cells of a tag, the rows from above.
+    """Flags (8, 8) of the black cells of a tag, the top row first.
 
     Raises
     ------

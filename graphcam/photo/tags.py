@@ -1,4 +1,4 @@
-"""The square tags along the edges of a page: which ones are in a picture, and where their corners are.
+"""The square tags of a page in a picture: their numbers, and the places of their corners.
 
 Places in a picture are complex: columns to the right, rows down, and whole numbers at the centres of pixels.
 """
@@ -16,32 +16,32 @@ from graphcam.photo.pictures import LINEAR_LIGHT
 from graphcam.photo.tag_family import CELLS_PER_SIDE, TAG_COUNT, dark_cells
 
 Places = NDArray[np.complex128]
-"""Places of a picture, in pixels."""
+"""Places in a picture [px]."""
 Grey = NDArray[np.uint8]
 SEARCH_PIXELS = 2000
-"""Pixels along the longer side of the picture in which tags are looked for; corners are then found in all of it."""
+"""The longer side of the picture in which tags are looked for [px]; corners are then found at full size."""
 MIN_CIRCUMFERENCE = 0.02
-"""The circumference of a tag, as a share of the picture's longer side: 10 pixels a side."""
+"""The minimum circumference of a tag, as a share of the picture's longer side: 10 pixels a side."""
 MAX_SQUARES = 400
-"""The maximum number of squares that may be tags; the largest are looked at."""
+"""The maximum number of squares that are examined, the largest first."""
 MAX_WRONG_CELLS = 3
-"""Cells of a tag; any two tags differ in eleven at least."""
+"""The maximum number of wrong cells of a tag; any two tags differ in at least eleven."""
 EDGE_FRACTIONS = np.linspace(0.08, 0.92, 49)
-"""Fractions of an edge at which it is looked at: not where another one is near."""
+"""The fractions of an edge (49,) at which it is examined, away from the neighbouring edges."""
 EDGE_REACH = 0.7
-"""Cells to both sides of an edge that are looked at: the rim is one wide, and so is the white around it."""
+"""The distance to both sides of an edge that is examined [cells]: the rim is one wide, and so is the white."""
 MIN_EDGE_SAMPLES = 24
-"""Across an edge at least, so that a small tag is looked at in small steps; two a pixel otherwise."""
+"""The minimum number of samples across an edge; otherwise there are two per pixel."""
 REFINEMENT_ROUNDS = 3
-"""The later ones start from better corners."""
+"""The number of rounds that refine the corners."""
 EDGE_LEVELS = np.array([0.2, 0.5, 0.8])
-"""Parts of the way from black to white: the edge is at the middle one, its width is between the others."""
+"""Light levels from black (0) to white (1): the edge is at the middle one, its width is between the others."""
 _UNIT_SQUARE = np.array([[0, 1], [1, 1], [1, 0], [0, 0]], np.float32)
-"""The corners of a square as those of a tag go round, rows down."""
+"""The corners of a unit square in the order of a tag's, rows down."""
 MIN_CONTRAST = 0.08
-"""The minimum contrast of white over black, in parts of all light."""
+"""The minimum contrast of white over black, as a share of full light."""
 MIN_VISIBLE_SHARE = 0.6
-"""The part of an edge that must be seen: a finger may hide the rest."""
+"""The minimum part of an edge that is seen: a finger may hide the rest."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,8 +50,8 @@ class Tags:
 
     numbers : (n,) of the tags
     corners : (n, 4) of the black squares: those at the lower left, lower right, upper right, upper left on the paper
-    widths : (n, 4) of their edges in pixels, below, right, above, left: over so much the light goes from a fifth of
-        the way between black and white to four fifths; None if nobody has measured
+    widths : (n, 4) of their edges [px], below, right, above, left, in which the light goes from a fifth of
+        the way between black and white to four fifths; None if they were not measured
     """
 
     numbers: NDArray[np.int64]
@@ -68,7 +68,7 @@ class Tags:
 
 
 def find_tags(grey: Grey) -> Tags:
-    """The tags in a picture (h, w), each number once: of a number that is there twice nobody knows which is meant."""
+    """The tags in a picture (h, w); a number that is there twice is ambiguous, and left out."""
     found: dict[int, list[tuple[Places, NDArray[np.float64]]]] = {}
     for square in _squares(grey):
         sharp = _sharpened_corners(grey, square)
@@ -90,7 +90,7 @@ def find_tags(grey: Grey) -> Tags:
 
 
 def _squares(grey: Grey) -> Places:
-    """Black squares (n, 4), and others: their corners against the clock on the paper, from any of them on."""
+    """Candidates (n, 4) for black squares: their corners anticlockwise on the paper, from any of them on."""
     shrink = max(1.0, max(grey.shape) / SEARCH_PIXELS)
     small = cv2.resize(grey, None, fx=1 / shrink, fy=1 / shrink, interpolation=cv2.INTER_AREA) if shrink > 1 else grey
     tags, _, others = _detector().detectMarkers(small)
@@ -115,13 +115,13 @@ def _detector() -> cv2.aruco.ArucoDetector:
 
 @cache
 def _family() -> NDArray[np.float64]:
-    """The cells (n, 4, 64) of every tag, white 1 and black -1, turned by none to three quarters."""
+    """The cells (n, 4, 64) of every tag, white 1 and black -1, in its four orientations."""
     cells = [np.where(dark_cells(number), -1.0, 1.0) for number in range(TAG_COUNT)]
     return np.array([[np.rot90(tag, turns).ravel() for turns in range(4)] for tag in cells])
 
 
 def _read_tag(grey: Grey, corners: Places) -> tuple[int, int] | None:
-    """The number of the tag within corners (4,), and by how many places they must be rolled; None if it is none."""
+    """The number of the tag within corners (4,), and the shift that puts these in order; None if it is none."""
     middles = (np.arange(CELLS_PER_SIDE) + 0.5) / CELLS_PER_SIDE
     right, down = np.meshgrid(middles, middles)
     ends = np.stack([corners.real, corners.imag], -1).astype(np.float32)
@@ -139,7 +139,7 @@ def _read_tag(grey: Grey, corners: Places) -> tuple[int, int] | None:
 
 
 def _sharpened_corners(grey: Grey, corners: Places) -> tuple[Places, NDArray[np.float64]] | None:
-    """The corners (4,) where the lines through the black square's edges meet, and the widths (4,) of the edges."""
+    """The corners (4,) where lines along the black square's edges meet, and the widths (4,) of the edges [px]."""
     widths = np.zeros(4)
     for _ in range(REFINEMENT_ROUNDS):
         edges = _edges(grey, corners)
@@ -154,7 +154,7 @@ def _sharpened_corners(grey: Grey, corners: Places) -> tuple[Places, NDArray[np.
 
 
 def _edges(grey: Grey, corners: Places) -> tuple[Places, Places, NDArray[np.float64]] | None:
-    """Two points (4,) each of the lines through the four edges, and their widths (4,); None if too little is seen."""
+    """Two points (4,) of the line along each edge, and the widths (4,) of the edges; None if too little is seen."""
     following = np.roll(corners, -1)
     sides = following - corners
     lengths = np.abs(sides)
@@ -181,7 +181,7 @@ def _edges(grey: Grey, corners: Places) -> tuple[Places, Places, NDArray[np.floa
 
 
 def _sampled(grey: Grey, places: Places) -> NDArray[np.float64] | None:
-    """The light at places of the picture, between four pixels each; None if one is outside."""
+    """The light at places of the picture, interpolated; None if one is outside."""
     columns, rows = np.floor(places.real).astype(int), np.floor(places.imag).astype(int)
     height, width = grey.shape
     if columns.min() < 0 or rows.min() < 0 or columns.max() > width - 2 or rows.max() > height - 2:
@@ -195,7 +195,7 @@ def _sampled(grey: Grey, places: Places) -> NDArray[np.float64] | None:
 def _crossings(
     parts: NDArray[np.float64], across: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Where profiles (..., k) pass each level for the last time before they are white, and whether they do so."""
+    """Where profiles (..., k) last pass each level before they are white, and whether they do so."""
     places, crossed = [], []
     for level in EDGE_LEVELS:
         above = parts >= level
@@ -211,7 +211,7 @@ def _crossings(
 
 
 def _line(offsets: NDArray[np.float64], seen: NDArray[np.bool_]) -> tuple[float, float]:
-    """The offsets at both ends of the straight line through those that are seen, in which strays weigh little."""
+    """Offsets at both ends of the straight line through the seen ones, in which outliers weigh little."""
     along, found = EDGE_FRACTIONS[seen] - 0.5, offsets[seen]
     weights = np.ones_like(found)
     middle = slope = 0.0
@@ -226,7 +226,7 @@ def _line(offsets: NDArray[np.float64], seen: NDArray[np.bool_]) -> tuple[float,
 
 
 def _meeting(start: Places, end: Places, other_start: Places, other_end: Places) -> Places:
-    """The crossing of lines through two points each."""
+    """The crossings of lines through two points each."""
     way, other = end - start, other_end - other_start
     turned = (other_start - start) * other.conj()
     return start + way * turned.imag / (way * other.conj()).imag

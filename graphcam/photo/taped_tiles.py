@@ -1,6 +1,6 @@
 """A page on two sheets of A4, taped together at a seam and photographed one after the other.
 
-Tape never holds them where they were meant to be.  So each photograph is to show the tags beyond the seam too, which
+Tape never holds them exactly in place.  So each photograph is to show the tags beyond the seam too, which
 tell how the other sheet lies.
 """
 
@@ -24,24 +24,24 @@ from graphcam.words import say
 Places = NDArray[np.complex128]
 Photograph = NDArray[np.uint8]
 MIN_NEIGHBOUR_TAGS = 2
-"""Tags beyond the seam that place the other sheet: one alone tells its turn badly."""
+"""The minimum number of tags beyond the seam that place the other sheet: one alone tells its turn badly."""
 MAX_TAG_ERROR = 0.5
-"""mm by which these tags may be off, root of the mean square."""
+"""The maximum error of these tags, root of the mean square [mm]."""
 MAX_SLIP = 8.0
-"""mm by which tape may hold a sheet elsewhere; if it is more, another sheet lies there."""
+"""The maximum shift of a sheet by the tape [mm]; with more, another sheet lies there."""
 SEAM_NEIGHBOURHOOD = 45.0
-"""mm from the seam within which tags are near it."""
+"""The distance from the seam within which tags are near it [mm]."""
 BLENDING_WIDTH = 2.0
-"""mm to both sides of the seam over which one picture goes over into the other."""
+"""The distance to both sides of the seam over which the pictures are blended [mm]."""
 COMPARISON_WIDTH = 10.0
-"""mm to both sides of the seam in which both pictures' light is compared."""
+"""The distance to both sides of the seam in which the light of both pictures is compared [mm]."""
 
 
 @dataclass(frozen=True, eq=False)
 class Tile:
-    """One sheet in a photograph of it.
+    """One sheet in a photograph.
 
-    tags : all that are seen in the picture, the other sheet's too
+    tags : all tags in the picture, the other sheet's too
     """
 
     picture: Photograph
@@ -51,7 +51,7 @@ class Tile:
 
 @dataclass(frozen=True, eq=False)
 class MovedSurface:
-    """A surface of a sheet that lies elsewhere on the paper than it was meant to: turned, then shifted [mm]."""
+    """A surface of a sheet that is turned, then shifted [mm], on the paper."""
 
     surface: Surface
     turn: complex
@@ -77,7 +77,7 @@ def registered_tiles(
 
     Raises
     ------
-    PhotographError : it shows neither
+    PhotographError : it shows neither sheet whole
     """
     rows, columns = picture.shape[:2]
     found: dict[Side, Tile] = {}
@@ -95,11 +95,11 @@ def registered_tiles(
 
 
 def joined_tiles(tiles: Mapping[Side, Tile], page: PrintedPage, anchor: Side = "left") -> dict[Side, Tile]:
-    """Both sheets in the millimetres of one of them, the anchor: where they lie, not where they were meant to.
+    """Both sheets in the coordinates of one of them, the anchor, as they really lie.
 
     Raises
     ------
-    PhotographError : one is missing, or the pictures do not tell how they lie
+    PhotographError : one is missing, or the pictures do not show how they lie
     """
     missing = [side for side in SIDE_NAMES if side not in tiles]
     if missing:
@@ -132,7 +132,7 @@ def joined_tiles(tiles: Mapping[Side, Tile], page: PrintedPage, anchor: Side = "
 def rectify_tiles(
     tiles: Mapping[Side, Tile], page: PrintedPage, box: Edges, per_mm: float = PIXELS_PER_MM
 ) -> EvenPicture:
-    """A box of a joined page [mm] out of both pictures; over a few mm about the seam one goes over into the other."""
+    """A box of a joined page [mm] out of both pictures, which are blended over a few mm about the seam."""
     seam = page.seam or 0.0
     left, _, right, _ = box
     if right <= seam - BLENDING_WIDTH:
@@ -150,7 +150,7 @@ def rectify_tiles(
 
 
 def _neighbours(tile: Tile, sheet: PrintedPage, seam: float) -> tuple[Places, Places]:
-    """Corners (n, 4) of another sheet's tags that a picture shows: where they were meant to be, and where they are."""
+    """Corners (n, 4) of the other sheet's tags in a picture: their intended places, and their real ones."""
     seen = tile.tags.selected(np.isin(tile.tags.numbers, list(sheet.tags)))
     corners: Places = np.array([sheet.tags[number] for number in seen.numbers.tolist()], np.complex128)
     meant = corners[:, None] + sheet.tag_side / 2 * (1 + 1j + CORNER_DIRECTIONS)
@@ -160,7 +160,7 @@ def _neighbours(tile: Tile, sheet: PrintedPage, seam: float) -> tuple[Places, Pl
 
 
 def _rigid(sources: Places, targets: Places) -> tuple[complex, complex]:
-    """The turn and the shift that bring sources nearest to targets."""
+    """The turn and the shift that bring ``sources`` nearest to ``targets``."""
     start, end = complex(np.mean(sources)), complex(np.mean(targets))
     along = complex(np.vdot(sources - start, targets - end))
     turn = along / abs(along)

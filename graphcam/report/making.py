@@ -27,8 +27,7 @@ VARIANCE_CAPTION = say("Most of the variance of ${symbol}$, {part:.0f} %, is due
 
 
 def errors_of_making(solution: Solution) -> list[Block]:
-    """The chapter on bands of the motion, the most important tolerance, and how a sample of solved mechanisms agrees.
-    """
+    """The chapter on the bands of the motion, the most important tolerance, and a sample of solved mechanisms."""
     design = solution.tolerances
     assert design is not None
     if design.undercut:

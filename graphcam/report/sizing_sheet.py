@@ -138,7 +138,7 @@ def sizing_sheet(
     paper : "A1" to "A4"; frame : "gost" or "iso"; orientation : "landscape" or "portrait"
     language : such as "en"
     front : cams of :func:`~graphcam.mechanism.sizing.pareto_front`, drawn in a chart of their own
-    adopted : the cam of round sizes, shown beside the best;  title : of the table
+    adopted : the cam of round sizes, shown beside the best;  title : of the table;  block : the title block
 
     Raises
     ------

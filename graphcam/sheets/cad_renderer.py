@@ -1,4 +1,4 @@
-"""DXF with what a CAD program can go on working with: true dimensions, a title block with attributes, viewports.
+"""DXF with entities that a CAD program can edit: true dimensions, a title block with attributes, viewports.
 
 The sheet is the same as in :mod:`graphcam.sheets.dxf_renderer`, and drawn by it; but the lines of a dimension are a
 DIMENSION, the frame with its title block is a block whose entries are ATTRIBs, and every page has a layout in paper
@@ -20,13 +20,13 @@ from graphcam.sheets.model import Angle, Drawing, Group, Length, Text
 from graphcam.subscripts import parts
 
 DIMENSION_STYLE = "GRAPHCAM"
-"""The name of the style of dimensions."""
+"""The name of the dimension style."""
 ARROW_HEAD_LENGTH = 3.5
-"""Length of the heads of arrows, mm."""
+"""The length of arrow heads [mm]."""
 
 
 def write_cad(drawing: Drawing, path: str | os.PathLike[str]) -> None:
-    """All pages of a drawing, side by side in the model space, each with a layout in paper space that shows it 1:1."""
+    """Write all pages of a drawing, side by side in model space, each with a layout in paper space at 1:1."""
     with dxf.repeatable():
         document = dxf.sheet_document(drawing)
         lengths = {
@@ -75,12 +75,12 @@ def _draw_group(document: Document, group: Group, prefix: str, left: float) -> N
 
 
 def _measurable(measured: Length | Angle) -> bool:
-    """Whether a DIMENSION can measure it: an angle between two lines is less than half a turn."""
+    """Whether a DIMENSION can measure it: of angles, only those between two lines of less than half a turn."""
     return isinstance(measured, Length) or measured.end - measured.start < math.pi
 
 
 def _draw_frame(document: Document, group: Group, prefix: str, left: float) -> None:
-    """The frame as a block; what the task's title says are attributes of it, which can be edited."""
+    """Draw the frame as a block; the entries of the task's title are its attributes, which can be edited."""
     block = document.blocks.new(f"{prefix}FRAME")
     entries: dict[str, str] = {}
     for entity in group.entities:
@@ -113,7 +113,7 @@ def _add_angle(space: Modelspace, text: Text, measured: Angle, on: str, left: fl
 
 
 def _lettering(text: Text, on: str, left: float) -> dict[str, Any]:
-    """What a dimension says and where, in the middle of the letters of a centred text; its style and its layer."""
+    """The attributes of a dimension: text, middle of the text, style and layer."""
     middle = xy(text.at + cmath.rect(text.height / 2, text.angle + math.pi / 2) + left)
     letters = "".join(f"\\S^ {part};" if index else part for part, index in parts(text.text))
     said = {"text": letters, "location": middle, "text_rotation": math.degrees(text.angle)}

@@ -41,9 +41,9 @@ from graphcam.sheets.text_measures import letters_of, start_of
 from graphcam.sheets.typefaces import is_chinese
 
 PAGE_GAP = 40.0
-"""Several pages stand side by side, so far apart, mm."""
+"""The gap between pages side by side [mm]."""
 TEXT_STYLE = "lc_opengost-br"
-"""LibreCAD takes the name of the text style for its font; this one of its fonts has Cyrillic, Greek and primes."""
+"""The name of the text style, by which LibreCAD chooses the font: this one has Cyrillic, Greek and primes."""
 CHINESE_TEXT_STYLE = "unicode"
 """The text style of LibreCAD's font with Chinese; other programs are told of FangSong, as GB/T 14691 has it."""
 LINETYPES: dict[tuple[float, ...], tuple[str, str]] = {
@@ -51,20 +51,20 @@ LINETYPES: dict[tuple[float, ...], tuple[str, str]] = {
     DASHED: ("DASHED", "Dashed __ __ __"),
 }
 POINT_STYLE, POINT_SIZE = 34, 3.0
-"""A POINT is shown as a cross in a circle, so many mm wide."""
+"""The display of a POINT as a cross in a circle, and its size [mm]."""
 COLOUR_NUMBERS = {GREY: 8, ACCENT: 1, CYAN_TINT: 4, GREY_TINT: 9}
 """Numbers of the AutoCAD palette; 7 is black on paper and white on a screen."""
 DrawGroup = Callable[[Document, Group, str, float], None]
-"""Draws a group; takes what stands before the names of its layers, and how far to the right it is moved, mm."""
+"""Draws a group in a document; takes the prefix of its layers' names, and its shift to the right [mm]."""
 
 
 def write_dxf(
     drawing: Drawing, path: str | os.PathLike[str], origins: Mapping[str, str] | None = None, layers: Sequence[str] = ()
 ) -> None:
-    """All pages of a drawing, side by side in the model space of one file.
+    """Write all pages of a drawing, side by side in the model space of one file.
 
     origins : names of views by that of the layer on which a POINT marks the view's origin
-    layers : names of empty layers to be drawn on
+    layers : names of additional empty layers
     """
     with repeatable():
         document = sheet_document(drawing)
@@ -91,7 +91,7 @@ def write_spline(
     layer: str,
     told: Mapping[str, str],
 ) -> None:
-    """One clamped B-spline in a file of its own, 1 unit = 1 mm.
+    """Write one clamped B-spline into a file, 1 unit = 1 mm.
 
     control : (m, 2) [mm];  knots : (m + p + 1,) of one of the degree p
     told : properties of the drawing, which CAD programs show beside it
@@ -111,7 +111,7 @@ def write_spline(
 
 @contextmanager
 def repeatable() -> Generator[None]:
-    """No dates and no random identifiers, so that the same drawing makes the same file."""
+    """Suppress dates and random identifiers, so that the same drawing makes the same file."""
     former = options.write_fixed_meta_data_for_testing
     options.write_fixed_meta_data_for_testing = True
     try:
@@ -121,7 +121,7 @@ def repeatable() -> Generator[None]:
 
 
 def save(document: Document, path: str | os.PathLike[str]) -> None:
-    """Write a document, its classes in one order: ezdxf itself takes them from a set, in the order of their hashes."""
+    """Write a document with its classes sorted: ezdxf itself takes them from a set, in the order of their hashes."""
     for name in sorted(document.entitydb.dxf_types_in_use()):
         document.classes.add_class(name)
     document.saveas(path)
@@ -135,7 +135,7 @@ def _empty_document() -> Document:
 
 
 def sheet_document(drawing: Drawing) -> Document:
-    """A document with the size, line types and letters of a drawing, and nothing drawn."""
+    """An empty document with the size, line types and letters of a drawing."""
     document = _empty_document()
     document.header["$LTSCALE"] = 1.0
     document.header["$LWDISPLAY"] = 1
@@ -159,7 +159,7 @@ def sheet_document(drawing: Drawing) -> Document:
 
 
 def draw_pages(document: Document, drawing: Drawing, draw_group: DrawGroup) -> None:
-    """Every group of every page, the pages side by side."""
+    """Draw every group of every page, the pages side by side."""
     for number, (left, page) in enumerate(side_by_side(drawing), 1):
         for group in page.groups:
             prefix = f"p{number}-" if len(drawing.pages) > 1 else ""
@@ -167,7 +167,7 @@ def draw_pages(document: Document, drawing: Drawing, draw_group: DrawGroup) -> N
 
 
 def side_by_side(drawing: Drawing) -> Generator[tuple[float, Page]]:
-    """The pages, each with how far to the right it stands [mm]."""
+    """The pages, each with its shift to the right [mm]."""
     left = 0.0
     for page in drawing.pages:
         yield left, page
@@ -175,19 +175,19 @@ def side_by_side(drawing: Drawing) -> Generator[tuple[float, Page]]:
 
 
 def _set_extents(document: Document, low: tuple[float, float, float], high: tuple[float, float, float]) -> None:
-    """Where the drawing lies.  ezdxf puts the model space's into the header, but for places that are the origin."""
+    """Set the extents of the drawing.  ezdxf puts those of the model space into the header, if not the origin."""
     document.modelspace().reset_extents(low, high)
     document.header["$EXTMIN"], document.header["$EXTMAX"] = low, high
 
 
 def draw_group(document: Document, group: Group, prefix: str, left: float) -> None:
-    """Every entity of a group on the layer of its role, moved ``left`` mm to the right."""
+    """Draw every entity of a group on the layer of its role, moved ``left`` mm to the right."""
     for entity in group.entities:
         draw(document.modelspace(), entity, layer(document, group, prefix, entity.role), left)
 
 
 def layer(document: Document, group: Group, prefix: str, role: str) -> str:
-    """The name of the layer of a group and role; it is made if it is not there yet."""
+    """The name of the layer of a group and role, which is added if need be."""
     # A name of a layer may hold letters, digits, hyphens and underscores in every program.
     name = prefix + re.sub(r"[^\w-]+", "-", f"{group.name}-{role}")
     if name not in document.layers:
@@ -198,7 +198,7 @@ def layer(document: Document, group: Group, prefix: str, role: str) -> str:
 
 
 def draw(space: BaseLayout, entity: Entity, layer: str, left: float = 0.0) -> None:
-    """One entity of the drawing, moved ``left`` mm to the right, as what CAD programs know."""
+    """Draw one entity as entities of DXF, moved ``left`` mm to the right."""
     on = {"layer": layer}
     match entity:
         case Strokes(starts=starts, ends=ends):
@@ -224,9 +224,9 @@ def draw(space: BaseLayout, entity: Entity, layer: str, left: float = 0.0) -> No
 
 
 def _add_text(space: BaseLayout, text: Text, layer: str, left: float) -> None:
-    """A text in its pieces, each fitted between the places where it begins and ends by our face.
+    """Add a text in pieces, each fitted between the places where it begins and ends in our font.
 
-    In a program that has another its letters would else run into what stands behind.  A single letter is not fitted.
+    Otherwise its letters could overlap what stands behind, in a program with another font.  A single letter is not fitted.
     """
     begin, turn = start_of(text), cmath.rect(1.0, text.angle)
     for piece in letters_of(text.text, text.height):
@@ -244,7 +244,7 @@ def _add_text(space: BaseLayout, text: Text, layer: str, left: float) -> None:
 
 
 def set_text(made: DXFText, text: Text, layer: str, left: float = 0.0) -> None:
-    """Give a text of the document its layer, letters and place."""
+    """Set layer, letters and place of a text of the document."""
     _set_style(made, layer, text.height, text.angle)
     made.set_placement(xy(text.at + left), align=TextEntityAlignment[text.align.upper()])
 
@@ -263,7 +263,7 @@ def _add_spline(
 
 
 def xy(point: complex) -> tuple[float, float]:
-    """The coordinates of a point."""
+    """The coordinates (x, y) of a point."""
     return point.real, point.imag
 
 

@@ -12,7 +12,7 @@ ORIENTATIONS = ("landscape", "portrait")
 UPRIGHT_FORMAT = ("A4", "gost")
 """Format and frame of GOST 2.301, which uses sheets A4 upright only, the title block along the short side."""
 FRAME_MARGINS = {"gost": (20.0, 5.0, 5.0, 5.0), "iso": (20.0, 10.0, 10.0, 10.0)}
-"""Between the edge of the paper and the frame, mm: left, bottom, right, top."""
+"""The margins between the edge of the paper and the frame [mm]: left, bottom, right, top."""
 
 
 @dataclass(frozen=True)
@@ -29,11 +29,11 @@ class Format:
     """A sheet of paper with its frame.
 
     name : "A1" to "A4";  frame : "gost" or "iso"
-    orientation : "landscape" or "portrait"; None lies, but A4 of GOST stands
+    orientation : "landscape" or "portrait"; None is landscape, but portrait for A4 of GOST
 
     Raises
     ------
-    DesignError : there is no such format, frame or orientation, or the frame is not used so
+    DesignError : there is no such format, frame or orientation, or the frame's standard excludes it
 
     >>> Format("A3", "iso").content
     Box(left=20.0, bottom=10.0, right=410.0, top=287.0)
@@ -57,18 +57,18 @@ class Format:
 
     @property
     def size(self) -> tuple[float, float]:
-        """Width and height of the paper, mm."""
+        """Width and height of the paper [mm]."""
         width, height = SHEET_SIZES[self.name]
         return (height, width) if self.is_upright else (width, height)
 
     @property
     def is_upright(self) -> bool:
-        """Whether the sheet stands on its short side."""
+        """Whether the sheet is in portrait format."""
         return self.orientation == "portrait" or self._is_upright_only
 
     @property
     def description(self) -> Words:
-        """What a message calls the sheet.
+        """Format and orientation, as a message names them.
 
         >>> str(Format("A3", "iso").said), str(Format("A4", "gost").said)
         ('A3 landscape', 'A4 portrait')
@@ -81,7 +81,7 @@ class Format:
 
     @property
     def content(self) -> Box:
-        """The inside of the frame."""
+        """The box inside the frame."""
         (width, height), (left, bottom, right, top) = self.size, FRAME_MARGINS[self.frame]
         return Box(left, bottom, width - right, height - top)
 

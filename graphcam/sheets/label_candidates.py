@@ -1,4 +1,4 @@
-"""A text that still looks for its place: where it could stand, and how well."""
+"""A text without a place yet: where it could stand, and the costs of these places."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from graphcam.sheets.text_measures import extent
 
 Floats = NDArray[np.float64]
 LABEL_GAPS = np.array([1.2, 1.8, 2.5, 3.4, 4.6, 6.5, 9.0, 12.0, 16.0, 21.0, 27.0, 35.0])
-"""Distances between a point and its label that are tried, mm."""
+"""The distances between a point and its label that are tried [mm]."""
 MIN_LEADER_LENGTH = 6.0
-"""The distance from which on a thin line leads from the label to its point, mm."""
+"""The distance from which on a leader joins the label and its point [mm]."""
 TEXT_GAP = 1.0
-"""The gap between a dimension line and its text above it, mm."""
+"""The gap between a dimension line and its text above it [mm]."""
 LEADER_TEXT_GAP = 2.0
-"""The gap between a dimension line and a text on a leader from it, mm."""
+"""The gap between a dimension line and a text on a leader from it [mm]."""
 TEXT_FRACTIONS = np.array([0.5, 0.42, 0.58, 0.3, 0.7, 0.18, 0.82])
 """The fractions of a dimension line at which its text may stand, the middle first."""
 LABEL_DIRECTIONS: Points = np.exp(1j * np.radians(np.arange(0.0, 360.0, 22.5)))
@@ -34,11 +34,11 @@ class LabelText:
 
     centres : (k,) of the text's box
     angles : (k,) of its base line, rad
-    cost : (k,) what each place costs, in lines crossed (see :mod:`graphcam.sheets.labels`)
+    cost : (k,) costs of the places, in lines crossed (see :mod:`graphcam.sheets.labels`)
     anchors : (k,) where a leader ends; NaN where there is none
     bound : whether the text belongs to a line, not to a point: such texts choose first
-    of : the dimension that it is the text of
-    source : what it names
+    of : the dimension to which the text belongs
+    source : the act that it names
     """
 
     text: str
@@ -53,7 +53,7 @@ class LabelText:
 
     @property
     def size(self) -> complex:
-        """Width and height of the text's box, as x + iy."""
+        """Width and height of the text's box, as x + iy [mm]."""
         return _size(self.text, self.height)
 
     def set_at(self, k: int) -> Text:
@@ -64,7 +64,7 @@ class LabelText:
         return Text(complex(base), self.text, self.height, "center", angle, of=self.of, source=self.source)
 
     def on_line(self, centres: Points, angle: float, cost: Floats, dearer: float) -> LabelText:
-        """The text of a line, with places on it before these, which cost so much more."""
+        """The text with places on a line before its own places, which then cost ``dearer`` more."""
         return replace(
             self,
             centres=np.concatenate([centres, self.centres]),
@@ -76,7 +76,7 @@ class LabelText:
 
 
 def unit(vector: complex) -> complex:
-    """The direction of a vector; 1 of none.
+    """The unit vector of a vector; 1 for the zero vector.
 
     >>> unit(5j), unit(0j)
     (1j, (1+0j))
@@ -90,7 +90,7 @@ def _size(text: str, height: float) -> complex:
 
 
 def label_around(anchor: complex, text: str, height: float, towards: complex) -> LabelText:
-    """Level places around a point, first near it in the direction ``towards``."""
+    """A text with level places around a point, first near it in the direction ``towards``."""
     half, near = _size(text, height) / 2, _compass(unit(towards))
     side = near.side.real * half.real + 1j * (near.side.imag * half.imag)
     centres, anchors = anchor + near.ways + side, np.where(near.far, anchor, complex("nan"))
@@ -99,10 +99,10 @@ def label_around(anchor: complex, text: str, height: float, towards: complex) ->
 
 @dataclass(frozen=True, eq=False)
 class _Compass:
-    """Places of a text about a point, the best first; each (k,).
+    """The places (k,) of a text about a point, the best first.
 
-    ways : from the point to the text's box
-    side : where the box is touched, from its middle to its side in halves of its width and height
+    ways : vectors from the point to the text's box
+    side : the side of the box that is nearest to the point, from its middle in halves of width and height
     far : whether a leader is needed
     """
 
@@ -130,7 +130,7 @@ def _compass(favourite: complex) -> _Compass:
 
 
 def outside(centre: complex, radius: float, start: float, end: float, text: str, height: float) -> LabelText:
-    """Level places along an arc: beyond its middle, then elsewhere along it, then inside; far away with a leader."""
+    """A text with level places along an arc: beyond its middle, elsewhere along it, inside; far away with a leader."""
     half = _size(text, height) / 2
     shares = np.array([0.5, 0.42, 0.58, 0.34, 0.66, 0.25, 0.75])
     rays: Points = np.exp(1j * (start + shares * (end - start)))
@@ -142,7 +142,7 @@ def outside(centre: complex, radius: float, start: float, end: float, text: str,
 
 
 def label_along(start: complex, end: complex, text: str, height: float) -> LabelText:
-    """Places along a dimension line, readable from below or from the right, above the line before below it."""
+    """A text with places along a dimension line, readable from below or from the right, first above the line."""
     direction = unit(end - start)
     # A base line that runs to the left would stand on its head; one that runs straight up is read from the right.
     if direction.real < -1e-9 or (abs(direction.real) <= 1e-9 and direction.imag < 0):
@@ -155,7 +155,7 @@ def label_along(start: complex, end: complex, text: str, height: float) -> Label
 
 
 def label_over(start: complex, end: complex, text: str, height: float) -> LabelText:
-    """Places for a text that is longer than its dimension line: over its middle, under it, else on a leader from there.
+    """A text longer than its dimension line, with places over its middle, under it, or on a leader from there.
 
     Beside the line the text would read as that of the next dimension in a chain.
     """

@@ -1,4 +1,4 @@
-"""Finding every text a place off the lines and off the other texts.
+"""The places of texts, off the lines and off one another.
 
 The page is a raster; each cell knows what a letter in it would cost.  A text takes the place at which the sum over its
 cells, and what the place itself costs, is least.
@@ -32,9 +32,9 @@ from graphcam.sheets.sampling import box_around, box_of, corners, linework, piec
 from graphcam.sheets.styles import BOLD, MEDIUM, STYLES_BY_ROLE, THIN
 
 CELL_SIDE = 0.5
-"""Side of a cell of the raster, mm."""
+"""The side of a cell of the raster [mm]."""
 TEXT_MARGIN = 0.45
-"""Free margin around a text, mm."""
+"""The free margin around a text [mm]."""
 TEXT_COST, BOLD_LINE_COST, MEASURE_COST, MEDIUM_LINE_COST, THIN_LINE_COST, HATCH_COST = (
     2000.0,
     200.0,
@@ -43,23 +43,23 @@ TEXT_COST, BOLD_LINE_COST, MEASURE_COST, MEDIUM_LINE_COST, THIN_LINE_COST, HATCH
     2.0,
     0.4,
 )
-"""Cost of a cell with another text in it, a bold line, a dimension, leader or axis, or a lighter line."""
+"""Costs of a cell with another text, a bold line, a dimension, leader or axis, lighter lines, or hatching."""
 ROLE_COSTS: Mapping[str, float] = {Role.HATCH: HATCH_COST, Role.DIMENSION: MEASURE_COST, Role.SCALE: MEASURE_COST}
-"""Of roles that cost more or less than the width of their lines says."""
+"""Costs by role, where they do not follow from the width of its lines."""
 HATCHING_MARGIN = 0.8
-"""Free margin in the hatching around a text, mm."""
+"""The free margin in the hatching around a text [mm]."""
 FIRST_PLACES = 24
-"""So many places of a text are looked at before the further ones."""
+"""The number of places of a text that are tried before the others."""
 LEADER_FRACTIONS = np.linspace(0.1, 0.95, 60)
-"""Fractions of a leader at which it is looked at what it crosses."""
+"""The fractions of a leader at which its cost is taken."""
 
 
 PARTED_ROLES = Role.CONSTRUCTION, Role.AXIS, Role.HIDDEN, Role.DIMENSION
-"""The roles of lines that are parted; of dimensions only the leaders."""
+"""The roles of lines that may be parted; of dimensions only the leaders."""
 TEXT_GAP = 0.6
-"""Between a text and the ends of the line that it parts, mm."""
+"""The gap between a text and the ends of the line that it parts [mm]."""
 ARC_STEP = 0.05
-"""An arc is followed in steps of this length to find where it runs into a text, mm."""
+"""The step along an arc in search of the places where it meets a text [mm]."""
 
 
 def parted_steps(steps: Sequence[Sequence[Entity]]) -> list[list[Entity]]:
@@ -84,7 +84,7 @@ def _can_be_parted(entity: Entity) -> bool:
 
 
 def _crossed(thin: Sequence[Entity], texts: Sequence[Points]) -> Iterator[tuple[int, list[Points]]]:
-    """The lines that run through texts, by their identity, and the boxes of those texts."""
+    """The lines that run through texts, by their ``id``, each with the boxes of those texts."""
     starts, ends = linework(thin)
     owner = np.repeat(np.arange(len(thin)), [len(pieces(entity)[0]) for entity in thin])
     left, right = np.minimum(starts.real, ends.real), np.maximum(starts.real, ends.real)
@@ -103,7 +103,7 @@ def _crossed(thin: Sequence[Entity], texts: Sequence[Points]) -> Iterator[tuple[
 
 
 def _parts(entity: Entity, boxes: Sequence[Points]) -> list[Entity]:
-    """The entity without what stands in boxes."""
+    """The pieces of the entity outside the boxes."""
     match entity:
         case Stroke() if boxes:
             return [_lines_outside(_segments(entity), boxes)]
@@ -141,7 +141,7 @@ def _lines_outside(lines: Strokes, boxes: Sequence[Points]) -> Strokes:
 
 
 def _bows_of(circles: Circles, boxes: Sequence[Points]) -> Iterator[Entity]:
-    """The circles that stay whole, and arcs of the others."""
+    """The circles that stay whole, and the arcs that are left of the others."""
     whole: list[int] = []
     source, count = circles.source, len(circles.centres)
     for k, centre in enumerate(circles.centres.tolist()):
@@ -159,7 +159,7 @@ def _bows_of(circles: Circles, boxes: Sequence[Points]) -> Iterator[Entity]:
 
 
 def _open(arc: ArcEntity, boxes: Sequence[Points]) -> list[tuple[float, float]]:
-    """The parts of an arc outside boxes, from where to where [rad]."""
+    """The parts of an arc outside the boxes, as start and end [rad]."""
     count = max(2, math.ceil((arc.end - arc.start) * arc.radius / ARC_STEP))
     ways = np.linspace(arc.start, arc.end, count + 1)
     free = np.ones(len(ways), dtype=bool)
@@ -171,7 +171,7 @@ def _open(arc: ArcEntity, boxes: Sequence[Points]) -> list[tuple[float, float]]:
 
 
 def _visible_directions(ways: Floats, box: Points) -> NDArray[np.bool_]:
-    """In which directions from the origin a text's box, or what is so near to it, may be seen."""
+    """Flags (n,) of directions from the origin in which a text's box with its margin may lie."""
     middle = complex(box.mean())
     reach = float(np.abs(box - middle).max()) + 2 * TEXT_GAP
     if abs(middle) <= reach:
@@ -181,7 +181,7 @@ def _visible_directions(ways: Floats, box: Points) -> NDArray[np.bool_]:
 
 
 def _inside(points: Points, box: Points) -> NDArray[np.bool_]:
-    """Which points stand in a text's box or so near to it."""
+    """Flags (n,) of points in a text's box with its margin."""
     turn = cmath.exp(-1j * cmath.phase(complex(box[1] - box[0])))
     at, level = points * turn, box * turn
     across = (level.real.min() - TEXT_GAP < at.real) & (at.real < level.real.max() + TEXT_GAP)
@@ -189,7 +189,7 @@ def _inside(points: Points, box: Points) -> NDArray[np.bool_]:
 
 
 class Occupancy:
-    """What a letter would cost in each cell of a page, mm from the lower left corner of ``inside``.
+    """The cost of a letter in each cell of a page, in mm from the lower left corner of ``inside``.
 
     >>> paper = Occupancy(Box(0, 0, 20, 10))
     >>> paper.take(np.array([5 + 5j]), 7.0)
@@ -205,21 +205,21 @@ class Occupancy:
         self.cells[1:-1, 1:-1] = 0.0
 
     def _cell_numbers(self, x: NDArray[np.floating[Any]], y: NDArray[np.floating[Any]]) -> NDArray[np.intp]:
-        """The numbers of the cells, row after row, that places lie in; those outside lie in the ring."""
+        """The numbers of the cells, row after row, of places; those of places outside are in a ring around."""
         (rows, columns), corner = self.cells.shape, self.corner
         return _cell_numbers(y - corner.imag, rows) * columns + _cell_numbers(x - corner.real, columns)
 
     def take(self, points: Points, cost: float) -> None:
-        """Occupy the cells of the points, unless they cost more already."""
+        """Set the cost of the points' cells, unless it is higher already."""
         cells, where = self.cells.reshape(-1), self._cell_numbers(points.real, points.imag)
         cells[where] = np.maximum(cells[where], cost)
 
     def cost(self, points: Points) -> Floats:
-        """What letters in the cells of points (..., n) cost together, (...)."""
+        """The summed costs (...) of letters in the cells of points (..., n)."""
         return self._cost(self._cell_numbers(points.real, points.imag))
 
     def cost_level(self, x: Floats, y: Floats) -> Floats:
-        """What letters in all cells of columns at x (k, n) and rows at y (k, m) cost together, (k,)."""
+        """The summed costs (k,) of letters in all cells of columns at x (k, n) and rows at y (k, m)."""
         where = self._cell_numbers(x[:, None, :], y[:, :, None])
         return self._cost(where.reshape(len(where), -1))
 
@@ -258,12 +258,12 @@ def _grid(corner: complex, along: complex, up: complex) -> Points:
 
 @lru_cache(maxsize=1024)
 def _shares(length: float) -> Floats:
-    """The fractions of a length, from 0 to 1, at which points stand in every cell."""
+    """Fractions (n,) of a length, from 0 to 1, which lie in every cell along it."""
     return np.linspace(0.0, 1.0, math.ceil(length / CELL_SIDE) + 1)
 
 
 def chosen_places(writings: Sequence[LabelText], drawn: Iterable[Entity], inside: Box) -> list[int]:
-    """The place that every label takes, kept off what is drawn and inside a box.
+    """The index of the place of every label, kept off what is drawn and inside a box.
 
     Texts of dimensions choose first: they belong to their lines.
     """
@@ -277,7 +277,7 @@ def chosen_places(writings: Sequence[LabelText], drawn: Iterable[Entity], inside
 
 
 def _choose(writing: LabelText, paper: Occupancy) -> int:
-    """The cheapest place.  The near ones are tried first: most texts need no other."""
+    """The index of the cheapest place.  The near ones are tried first: most texts need no other."""
     best, least = 0, math.inf
     for start, end in ((0, FIRST_PLACES), (FIRST_PLACES, len(writing.centres))):
         part = start + np.flatnonzero(writing.cost[start:end] < least)
@@ -326,7 +326,7 @@ def placed_label(writing: LabelText, k: int) -> list[Entity]:
 
 
 def lettered(steps: Sequence[Drawn], beside: Iterable[Entity], inside: Box) -> list[list[Entity]]:
-    """The entities of every step with its texts, which keep off all steps and what else stands ``beside`` them.
+    """The entities of every step with its texts, kept off all steps and what else stands ``beside`` them.
 
     A thin line is parted where a text found no place off it.
 
@@ -337,7 +337,7 @@ def lettered(steps: Sequence[Drawn], beside: Iterable[Entity], inside: Box) -> l
 
 
 def places_of(steps: Sequence[Drawn], beside: Iterable[Entity], inside: Box) -> list[int]:
-    """The places that the texts of all steps take, one step's after the other's."""
+    """The indices of the places of the texts of all steps, one step's after the other's."""
     lines = [*beside, *(entity for entities, _ in steps for entity in entities)]
     return chosen_places([writing for _, writings in steps for writing in writings], lines, inside)
 
@@ -360,7 +360,7 @@ def shading_parted(steps: Sequence[Sequence[Entity]]) -> list[tuple[Entity, ...]
 
 
 def interrupted(entity: Entity, texts: Iterable[Text]) -> Entity:
-    """Separate lines without the parts that run through texts; other entities as they are.
+    """The entity; if it is separate lines, without the parts that run through texts.
 
     >>> line = Strokes(np.array([-10 + 1j]), np.array([20 + 1j]), Role.HATCH)
     >>> len(interrupted(line, [Text(0j, "A", 3.5)]).starts)
@@ -385,21 +385,21 @@ def interrupted(entity: Entity, texts: Iterable[Text]) -> Entity:
 
 
 MAX_HOP = 9.0
-"""A label that would move farther at once is left out until the hand is lifted [mm]."""
+"""The maximum move of a label at once [mm]; one that would move farther is hidden until the change is finished."""
 TURN_COST = 10.0
-"""What a turn of 1 rad counts beside a way on the paper [mm]."""
+"""The cost of a turn by 1 rad, as a distance on the paper [mm]."""
 
 
 @dataclass(frozen=True)
 class LabelPlace:
-    """Where a label stands: the middle of its box [mm], and the direction of its base line [rad]."""
+    """The place of a label: the middle of its box [mm], and the direction of its base line [rad]."""
 
     centre: complex
     angle: float
 
 
 def nearest_place(writing: LabelText, former: LabelPlace) -> int | None:
-    """The place of a text that is nearest to its former one; None if even that is too far away.
+    """The index of a text's place that is nearest to its former one; None if even that is too far away.
 
     >>> from graphcam.sheets.label_candidates import label_around
     >>> label = label_around(0j, "A", 3.5, 1j)
@@ -414,7 +414,7 @@ def nearest_place(writing: LabelText, former: LabelPlace) -> int | None:
 
 
 def held_places(names: Sequence[str], steps: Sequence[Drawn], former: Mapping[str, LabelPlace]) -> list[int | None]:
-    """The places that the texts of all steps keep; None for those that are new, and for those that would hop.
+    """The indices of the places that texts keep; None for new texts, and for those that would hop.
 
     names : of the texts of all steps, one step's after the other's
     """
@@ -428,7 +428,7 @@ def held_places(names: Sequence[str], steps: Sequence[Drawn], former: Mapping[st
 def label_places(
     names: Sequence[str], steps: Sequence[Drawn], places: Sequence[int | None], former: Mapping[str, LabelPlace]
 ) -> dict[str, LabelPlace]:
-    """Where the texts stand now, by name; one that was left out keeps its former place, so that it may come back."""
+    """The present places of texts, by name; one that was left out keeps its former place, so that it may come back."""
     writings = (writing for _, of_one in steps for writing in of_one)
     return dict(former) | {
         name: LabelPlace(complex(writing.centres[k]), float(writing.angles[k]))

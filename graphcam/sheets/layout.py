@@ -1,4 +1,4 @@
-"""The sheet: every view, table and note finds its place on a page, and every label in its view.
+"""The layout of sheets: places of every view, table and note on a page, and of every label in its view.
 
 Diagrams that share an axis stand exactly one under the other or side by side.  A1 takes everything on one page; on the
 smaller formats, and where there is too much, further pages follow.  Everything is drawn at the scale that it says: what
@@ -32,11 +32,11 @@ from graphcam.words import Tell
 NOTES_WIDTH = 180.0
 """The maximum width of the notes, mm."""
 HEADING_HEIGHT = 12.0
-"""The height of the title of a view, mm."""
+"""The height of the title of a view [mm]."""
 FRAME_GAP = 2.0
 """The gap between a label and the frame, mm."""
 FURNITURE_HEIGHT = 30.0
-"""What gauge, marks and margins take of a sheet's height above its title block, mm."""
+"""The height of gauge, marks and margins of a sheet above its title block [mm]."""
 
 
 Numbered = tuple[tuple[int, str, Step], ...]
@@ -45,10 +45,10 @@ Numbered = tuple[tuple[int, str, Step], ...]
 
 @dataclass(frozen=True, eq=False)
 class SheetPart:
-    """What stands together on sheets of its own.
+    """Steps, tables and notes that stand together on sheets of their own.
 
     steps : each with the number that stays with it in every part
-    notes : sentences that are numbered on the sheet
+    notes : sentences, to be numbered on the sheet
     numbers : of steps within the task, such as "3.2", by the number that stays with them
     """
 
@@ -64,7 +64,7 @@ class SheetPart:
         return replace(self, steps=steps, tables=tables, notes=notes)
 
     def group_name(self, number: int, construction: str) -> str:
-        """The name of the group of a step: its number on the sheet, the construction, its number within the task."""
+        """The name of a step's group: its number on the sheet, the construction, its number within the task."""
         return f"step-{number:02d} {construction} {self.numbers.get(number, '')}".rstrip()
 
 
@@ -83,7 +83,7 @@ def compose(
     steps : (name of the construction, step), in order
     paper : "A1" to "A4"; frame : "gost" or "iso"; orientation : "landscape" or "portrait"; None as the frame's standard
         has it
-    tell : says all texts in the language of the sheets
+    tell : translates all texts into the language of the sheets
 
     Each page has a group "frame", perhaps "tables" and "titles", and one for every step drawn on it, "step-03 name".
 
@@ -103,7 +103,7 @@ def compose_parts(
 
     upto : number of the last step that is drawn; of the later ones only what is given is drawn, and neither answers in
         tables nor notes.  None for a finished sheet.
-    tell : says all texts in the language of the sheets
+    tell : translates all texts into the language of the sheets
     """
     parts = [part.translated(tell) for part in parts]
     laid_out = [(part, leaf) for part in parts for leaf in _filled_pages(sheet, part)]
@@ -115,7 +115,7 @@ def compose_parts(
 
 
 def _with_scale(title: TitleBlock, leaf: OpenPage, tell: Tell) -> TitleBlock:
-    """The title block of a page: where the task names no scale, with that of its main view, else of the largest other.
+    """The title block of a page; a scale that the task leaves open is that of its main view, or of the largest other.
 
     Views at other scales carry them in their titles.
     """
@@ -181,7 +181,7 @@ def _blocks(sheet: Format, part: SheetPart, height: float) -> list[Block]:
 
 @dataclass(frozen=True, eq=False)
 class StepPart:
-    """What a step draws at once, and from which step on it is shown: what is given from the start."""
+    """The marks that a step draws at once, and the step from which on they are shown: givens from the start."""
 
     step: int
     since: int
@@ -189,7 +189,7 @@ class StepPart:
 
 
 def _pieces(part: SheetPart, leaf: OpenPage) -> Iterator[StepPart]:
-    """What the steps of a part draw on a page."""
+    """The parts of all steps on a page."""
     for number, _, step in part.steps:
         if step.view.name in leaf.views:
             panel, origin = leaf.views[step.view.name]
@@ -199,7 +199,7 @@ def _pieces(part: SheetPart, leaf: OpenPage) -> Iterator[StepPart]:
 
 
 def _page(sheet: Format, leaf: OpenPage, part: SheetPart, empty: Group, upto: float) -> Page:
-    """Draw all that a page holds; the labels when every line of the finished page stands."""
+    """The page with all that it holds up to a step; labels are placed as on the finished page."""
     pieces = list(_pieces(part, leaf))
     finished = [*empty.entities, *_tables(leaf, math.inf), *_titles(leaf, part, math.inf)]
     inside = sheet.content.grown(-FRAME_GAP)

@@ -1,4 +1,4 @@
-"""From marks to entities: dimensions, arrows, angles and hatching become lines, arcs, triangles and texts."""
+"""Marks as entities: dimensions, arrows, angles and hatching become lines, arcs, triangles and texts."""
 
 import cmath
 import math
@@ -18,51 +18,51 @@ from graphcam.sheets.text_measures import extent
 from graphcam.words import Tell
 
 DOT_RADIUS = 0.75
-"""Radius of the small open circle that marks a plotted point, mm."""
+"""The radius of the small open circle that marks a plotted point [mm]."""
 MIN_SMOOTH_POINTS = 40
-"""A closed bold line through at least so many points is drawn as a smooth curve: nobody draws such a polygon."""
+"""The minimum number of points of a closed bold line that is drawn as a smooth curve: nobody draws such a polygon."""
 SAME_POINT = 1e-6
-"""Points so close together are one, mm."""
+"""The maximum distance of points that count as one [mm]."""
 EXTENSION_GAP, EXTENSION_OVERRUN = 1.0, 2.0
-"""Extension lines begin so far from what they measure and run so far beyond the dimension line, mm."""
+"""The gap between an extension line and what it measures, and its overrun over the dimension line [mm]."""
 MIN_INNER_HEADS, TAIL_LENGTH = 9.0, 6.0
-"""A shorter dimension line has its heads outside, on tails of this length, mm."""
+"""The length of a dimension line below which its heads are outside, and the length of their tails [mm]."""
 MIN_DISTANCE = 6.0
-"""A dimension line comes no nearer to what it measures when it is shown reduced, mm."""
+"""The minimum distance of a dimension line from what it measures, when the view is shown reduced [mm]."""
 HATCHING_SPACING = 3.0
-"""Between the lines of hatching, mm."""
+"""The distance of hatching lines [mm]."""
 MAX_HATCHING_LINES = 2000
-"""Of a hatching: more than the largest sheet holds; what is larger than any sheet gets wider ones."""
+"""The maximum number of lines of a hatching, more than the largest sheet holds; beyond it they are wider apart."""
 
 
 @dataclass(frozen=True)
 class Placement:
-    """Where a view stands: its origin on the page, and the factor by which it is shown reduced."""
+    """The place of a view: its origin on the page, and the factor by which it is shown reduced."""
 
     origin: complex
     factor: float = 1.0
 
     def __call__(self, points: Points) -> Points:
-        """Points of the view on the page."""
+        """Points on the page of points of the view [mm]."""
         return self.origin + self.factor * np.asarray(points, dtype=np.complex128)
 
     def point(self, at: complex) -> complex:
-        """One point of the view on the page."""
+        """The point on the page of a point of the view [mm]."""
         return self.origin + self.factor * complex(at)
 
 
 Drawn = tuple[list[Entity], list[LabelText]]
-"""Entities, and the texts that still have to find their place."""
+"""Entities, and texts without a place yet."""
 
 
 def expand(step_marks: Iterable[marks.Mark], place: Placement, letters: Lettering, tell: Tell = str) -> Drawn:
-    """The entities of marks, and the texts, as ``tell`` says them, that still have to find their place."""
+    """The entities of marks, and their texts, translated by ``tell``, without a place yet."""
     drawn = [_sourced(mark, *_expanded(mark, place, letters, tell)) for mark in step_marks]
     return [e for entities, _ in drawn for e in entities], [writing for _, writings in drawn for writing in writings]
 
 
 def _sourced(mark: marks.Mark, entities: list[Entity], writings: list[LabelText]) -> Drawn:
-    """The entities with what the mark shows, where it is not known in more detail."""
+    """The entities and texts with the mark's source, where they have none of their own."""
     if mark.of is None:
         return entities, writings
     source = Source(mark.of, mark.index)
@@ -73,7 +73,7 @@ def _sourced(mark: marks.Mark, entities: list[Entity], writings: list[LabelText]
 
 
 def _source_of_pieces(mark: marks.Line | marks.Segments, kept: NDArray[np.bool_]) -> Source | None:
-    """What a mark shows, of some of its pieces alone."""
+    """The source of some pieces of a mark."""
     if mark.of is None:
         return None
     return Source(mark.of, None if mark.index is None else mark.index[kept])
@@ -134,7 +134,7 @@ def head(tip: complex, direction: complex, role: str) -> ArrowHeads:
 
 
 def arrow(start: complex, end: complex, role: str) -> list[Entity]:
-    """A line with a head at its end; without length it is nothing."""
+    """A line with a head at its end; nothing if it has no length."""
     way = end - start
     if way == 0 or not cmath.isfinite(way):
         return []
@@ -152,7 +152,7 @@ def _arc(mark: marks.Arc, place: Placement) -> list[Entity]:
 
 
 def _arc_head(centre: complex, radius: float, at: float, end: str, role: str) -> ArrowHeads:
-    """A head at the direction ``at`` of an arc.  It lies on the chord, so that it does not leave the arc."""
+    """A head at the direction ``at`` of an arc, along the chord, so that it does not leave the arc."""
     sense = 1 if end == "end" else -1
     half = min(1.0, _head_length(role) / (2 * radius))
     return head(centre + cmath.rect(radius, at), sense * 1j * cmath.rect(1.0, at - sense * half), role)
@@ -197,7 +197,7 @@ def _angle(mark: marks.AngleMark, place: Placement, text: str, height: float) ->
 
 
 def hatch(boundary: Points, spacing: float = HATCHING_SPACING) -> Strokes:
-    """Lines at 45 degrees inside a polygon (n,), which may have notches.
+    """Hatching lines at 45 degrees inside a polygon (n,), which may have notches.
 
     Every line runs inside from an odd crossing of the outline to the next one.
 

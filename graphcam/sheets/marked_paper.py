@@ -1,4 +1,4 @@
-"""Pages that are made to be photographed: where tags, bars, patches and captions stand along the edges of each paper.
+"""Pages to be photographed: places of tags, bars, patches and captions along the edges of each paper.
 
 All of these stand in strips along the edges, and leave the middle free.  Nothing stands so near to the edge that common
 printers cannot print it; the white about a tag is part of the strip.
@@ -21,22 +21,22 @@ from graphcam.sheets.sampling import box_of
 from graphcam.sheets.styles import CODE_ROLE
 
 PATCH_SIDE = 7.0
-"""The side of a patch that is filled with the ink of the givens, mm."""
+"""The side of a patch filled with the ink of the givens [mm]."""
 BAR_ROOM = 5.5
-"""What a bar takes beside a strip, mm."""
+"""The room of a bar beside a strip [mm]."""
 STRIP_GAP = 1.0
-"""The gap between a strip and the line of a bar, mm."""
+"""The gap between a strip and the line of a bar [mm]."""
 MAX_ROOM = 420.0
-"""The side of a room for a drawing about its centre, mm, however large the paper: no compass draws a larger circle."""
+"""The maximum side of a room for a drawing about its centre [mm]: no compass draws a larger circle."""
 TITLE_ROOM = 5.0
-"""The room beside or above a view for its title, mm."""
+"""The room beside or above a view for its title [mm]."""
 CODE_COLUMN_WIDTH = 24.0
-"""The width of a column left of the views of the left tile, for a code of its own, mm."""
+"""The width of a column left of the views of the left tile, for its code [mm]."""
 
 
 @dataclass(frozen=True)
 class MarkedPaper:
-    """A paper with its marks.
+    """A paper with its marks [mm].
 
     width, height : mm
     edge : between the edge of the paper and the tags
@@ -65,34 +65,34 @@ class MarkedPaper:
 
     @property
     def quiet_zone(self) -> float:
-        """The white about a tag: a cell of it."""
+        """The width of the white about a tag [mm]: that of a cell."""
         return self.side / CELLS_PER_SIDE
 
     @property
     def strip(self) -> float:
-        """The width of the strips along the edges."""
+        """The width of the strips along the edges [mm]."""
         return self.edge + self.side + self.quiet_zone
 
     @property
     def is_upright(self) -> bool:
-        """Whether it stands on its short side."""
+        """Whether it is in portrait format."""
         return self.height > self.width
 
     @property
     def box(self) -> Box:
-        """The paper."""
+        """The box of the paper."""
         return Box(0.0, 0.0, self.width, self.height)
 
     @cached_property
     def free_box(self) -> Box:
-        """What the marks leave free."""
+        """The box that the marks leave free."""
         beside = 0.0 if self.up_in_strip else BAR_ROOM
         left = self.strip + beside + (CODE_COLUMN_WIDTH if self.seam else 0.0)
         return Box(left, self.strip + BAR_ROOM, self.width - self.strip, self.height - self.strip)
 
     @property
     def square(self) -> float:
-        """The side of the square room for a drawing about its centre, with room for a title above it, mm."""
+        """The side of the square room for a drawing about its centre, with room for a title above it [mm]."""
         return min(self.free_box.width, self.free_box.height - TITLE_ROOM, MAX_ROOM)
 
     @cached_property
@@ -112,16 +112,16 @@ class MarkedPaper:
         return (complex(x, low), complex(x + wide, low)), (complex(left, y), complex(left, y + high))
 
     def gaps_below(self) -> list[Box]:
-        """The places between the tags along the bottom."""
+        """The boxes between the tags along the bottom."""
         return [Box(low, self.edge, high, self.edge + self.side) for low, high in self._intervals(self.across)]
 
     def gaps_above(self) -> list[Box]:
-        """The places between the tags along the top."""
+        """The boxes between the tags along the top."""
         top = self.height - self.edge
         return [Box(low, top - self.side, high, top) for low, high in self._intervals(self.across)]
 
     def gaps_beside(self, left: float) -> list[Box]:
-        """The places between the tags along a side whose tags have that ``left`` edge, from below."""
+        """The boxes between the tags along a side whose tags have that ``left`` edge, from below."""
         ends = self.edge, *self.up, self.height - self.edge - self.side
         return [Box(left, low, left + self.side, high) for low, high in self._intervals(ends)]
 
@@ -130,7 +130,7 @@ class MarkedPaper:
 
     @property
     def patches(self) -> tuple[complex, ...]:
-        """Lower left corners of the patches: along the bottom, and on the right above."""
+        """The lower left corners of the patches: along the bottom, and on the right above."""
         below = [self.gaps_below()[k] for k in self.patch_gaps]
         beside = self.gaps_beside(self.width - self.edge - self.side)[-1]
         half = PATCH_SIDE * (1 + 1j) / 2
@@ -138,7 +138,7 @@ class MarkedPaper:
 
     @property
     def bar_captions(self) -> tuple[Box, Box]:
-        """The captions of what the bars measure: under the one across, and beside the one up."""
+        """The boxes for the captions of the bars: under the one across, and beside the one up."""
         beside = self.gaps_beside(self.edge)
         return self.gaps_below()[0], beside[1] if self.up_in_strip else beside[0]
 
@@ -182,9 +182,9 @@ MARKED_PAPERS = {
 
 
 BAR_STROKE_SPACING = 10.0
-"""From one stroke of a bar to the next, mm."""
+"""The distance between strokes of a bar [mm]."""
 BAR_STROKE_LENGTH, BAR_END_LENGTH = 1.5, 3.0
-"""Lengths of the strokes of a bar, mm: of all, and of those at its ends."""
+"""The lengths of the strokes of a bar, and of those at its ends [mm]."""
 
 
 def cells(dark: NDArray[np.bool_], corner: complex, cell: float) -> Polygons:
@@ -220,11 +220,11 @@ def bar(start: complex, end: complex) -> list[Entity]:
 
 
 LINE_REACH = 0.5
-"""What a line may reach beyond its middle, mm."""
+"""The maximum reach of a line beyond its middle [mm]."""
 
 
 def in_tiles(drawing: Drawing, seam: float) -> Drawing:
-    """Every page as two, left and right of the seam; a page shows what of its entities lies on it."""
+    """The drawing with two pages for each, left and right of the seam, with the entities that reach into each."""
     pages: list[Page] = []
     for page in drawing.pages:
         for left, right in ((0.0, seam), (seam, page.width)):
@@ -234,7 +234,7 @@ def in_tiles(drawing: Drawing, seam: float) -> Drawing:
 
 def _tile(page: Page, part: Box) -> Page:
     def seen(entity: Entity) -> bool:
-        """Whether any of it lies on the part."""
+        """Whether any of an entity lies on the part."""
         box = box_of([entity])
         return box is not None and box.grown(LINE_REACH).meets(part)
 

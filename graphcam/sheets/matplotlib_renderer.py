@@ -1,4 +1,4 @@
-"""PDF, SVG and PNG, true to scale, by matplotlib.
+"""PDF, SVG and PNG true to scale, by matplotlib.
 
 The figure is the page; nothing is fitted or cropped.  Every group of the drawing is drawn by one artist, which opens a
 group of the renderer (a ``<g>`` of the SVG) and joins all lines of one role into one path.
@@ -56,7 +56,7 @@ from graphcam.sheets.typefaces import FALLBACK_FAMILY, FONT_FAMILY, cubic, font_
 
 MM_PER_INCH = 25.4
 POINTS_PER_MM = 72 / MM_PER_INCH
-"""Points to a millimetre."""
+"""The number of points in a millimetre."""
 PAPER_COLOUR = (1.0, 1.0, 1.0, 1.0)
 _RC_SETTINGS: dict[Any, Any] = {
     "pdf.fonttype": 42,
@@ -67,7 +67,7 @@ _RC_SETTINGS: dict[Any, Any] = {
 
 
 def write_pdf(drawing: Drawing, path: str | os.PathLike[str] | IO[bytes]) -> None:
-    """All pages of a drawing in one PDF, 1 mm of the drawing 1 mm of paper."""
+    """Write all pages of a drawing into one PDF, 1 mm of the drawing 1 mm of paper."""
     about = {"Title": drawing.title, "Creator": "graphcam", "CreationDate": None}
     with mpl.rc_context(_RC_SETTINGS), PdfPages(path, metadata=about) as pdf:
         for page in drawing.pages:
@@ -75,12 +75,12 @@ def write_pdf(drawing: Drawing, path: str | os.PathLike[str] | IO[bytes]) -> Non
 
 
 def write_svg(page: Page, path: str | os.PathLike[str]) -> None:
-    """One page as an SVG file, see :func:`svg`."""
+    """Write one page as an SVG file, see :func:`svg`."""
     File(path).write_text(svg(page), encoding="utf-8", newline="\n")
 
 
 def svg(page: Page) -> str:
-    """One page as SVG: its size in mm, a ``<g id="step-03">`` for each group, texts as texts with their letters."""
+    """The text of a page as SVG: its size in mm, a ``<g id="step-03">`` for each group, texts with their letters."""
     text = StringIO()
     with mpl.rc_context(_RC_SETTINGS):
         _figure(page).savefig(text, format="svg", metadata={"Date": None, "Creator": "graphcam"})
@@ -92,7 +92,7 @@ def svg(page: Page) -> str:
 
 
 def write_png(page: Page, path: str | os.PathLike[str] | IO[bytes], dpi: float = 100) -> None:
-    """One page as a picture of ``dpi`` dots an inch, into a file by its name or open for writing."""
+    """Write one page as a picture of ``dpi`` dots an inch, into a file by its name or open for writing."""
     with mpl.rc_context(_RC_SETTINGS):
         figure = _figure(page)
         figure.dpi = dpi
@@ -119,7 +119,7 @@ def draw_on(axes: Axes, page: Page, origin: complex = 0j, factor: float = 1.0) -
 
 
 def _figure(page: Page, *, embeds_cubic: bool = True) -> Figure:
-    """The page as a figure, for a kind of file that has a place for typefaces of every kind or not."""
+    """The page as a figure; ``embeds_cubic`` tells whether the kind of file can embed typefaces of every kind."""
     figure = Figure(figsize=(page.width / MM_PER_INCH, page.height / MM_PER_INCH))
     for group in page.groups:
         to_device = Affine2D().scale(1 / MM_PER_INCH) + figure.dpi_scale_trans
@@ -128,9 +128,9 @@ def _figure(page: Page, *, embeds_cubic: bool = True) -> Figure:
 
 
 class _GroupArtist(Artist):
-    """Draws the entities of one group, in their order.
+    """An artist that draws the entities of one group, in their order.
 
-    to_device : from mm of the page
+    to_device : the transform from mm of the page
     embeds_cubic : whether letters of cubic outlines are drawn as text
     """
 
@@ -151,7 +151,7 @@ class _GroupArtist(Artist):
 
     @property
     def _times(self) -> float:
-        """What a millimetre of the page measures on the figure [mm]."""
+        """The length of a millimetre of the page on the figure [mm]."""
         figure = self.get_figure(root=True)
         if self.axes is None or figure is None:
             return 1.0
@@ -159,7 +159,7 @@ class _GroupArtist(Artist):
         return math.hypot(*(unit - origin)) * MM_PER_INCH / figure.dpi
 
     def _context(self, renderer: RendererBase, colour: str, width: float) -> GraphicsContextBase:
-        """A graphics context for lines of a width [mm of the page]."""
+        """The graphics context for lines of a width [mm of the page]."""
         context = renderer.new_gc()
         context.set_foreground(colour)
         context.set_linewidth(self._times * width * POINTS_PER_MM)
@@ -196,7 +196,7 @@ class _GroupArtist(Artist):
 
 
 def _set_pieces(text: Text) -> Iterator[tuple[Letters, complex]]:
-    """The pieces of a text, each with the left end of its base line, which the renderers place."""
+    """The pieces of a text, each with the left end of its base line."""
     begin, turn = start_of(text), cmath.rect(1.0, text.angle)
     for piece in letters_of(text.text, text.height):
         yield piece, text.at + (begin + piece.start) * turn
@@ -205,7 +205,7 @@ def _set_pieces(text: Text) -> Iterator[tuple[Letters, complex]]:
 def _draw_outlines(
     renderer: RendererBase, context: GraphicsContextBase, piece: Letters, font: FontProperties, place: Affine2D
 ) -> None:
-    """Letters as filled outlines: matplotlib would embed them in a PDF as what they are not."""
+    """Draw letters as filled outlines, for fonts that matplotlib would embed in a PDF as the wrong type."""
     context.set_linewidth(0.0)
     letters = TextPath((0, 0), piece.text, prop=font)
     renderer.draw_path(context, letters, place, context.get_rgb())
@@ -220,7 +220,7 @@ def _font(face: File, height: float) -> FontProperties:
 # PDF, SVG and PNG of a page are drawn one after another from the same paths.
 @lru_cache(maxsize=256)
 def _path_runs(group: Group) -> list[tuple[str, str, Path | list[Text]]]:
-    """The runs of a group, the lines of each as one path."""
+    """The runs of a group: kind, role, and one path for all lines of a run, or its texts."""
     found: list[tuple[str, str, Path | list[Text]]] = []
     for kind, role, run in group.runs():
         if kind == "text":
@@ -260,13 +260,13 @@ def _xy(points: Points) -> Any:
 
 PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 METRES_AN_INCH = 0.0254
-"""m"""
+"""The length of an inch [m]."""
 COMPRESSION_LEVEL = 1
-"""How hard is compressed: lines on white get hardly smaller by more."""
+"""The level of compression; lines on white get hardly smaller by a higher one."""
 
 
 def png_of(pixels: NDArray[np.uint8], dpi: float) -> bytes:
-    """The file of a picture (rows, columns, 4) of red, green, blue and opacity, with so many dots an inch.
+    """The bytes of a PNG file of pixels (rows, columns, 4), red, green, blue and opacity, with ``dpi`` dots an inch.
 
     >>> white = png_of(np.full((2, 3, 4), 255, dtype=np.uint8), 100.0)
     >>> white[:4], int.from_bytes(white[16:20]), int.from_bytes(white[20:24])

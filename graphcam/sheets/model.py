@@ -17,7 +17,7 @@ from graphcam.drafting.marks import Origin, Places, Points
 
 @dataclass(frozen=True)
 class Box:
-    """An upright rectangle, mm.
+    """An upright rectangle [mm].
 
     >>> Box(0, 0, 30, 20).grown(1).width
     32
@@ -30,17 +30,17 @@ class Box:
 
     @property
     def width(self) -> float:
-        """From left to right, mm."""
+        """The distance from left to right [mm]."""
         return self.right - self.left
 
     @property
     def height(self) -> float:
-        """From bottom to top, mm."""
+        """The distance from bottom to top [mm]."""
         return self.top - self.bottom
 
     @property
     def area(self) -> float:
-        """mm²"""
+        """The area of the box [mm²]."""
         return self.width * self.height
 
     @property
@@ -99,17 +99,17 @@ def bounding_box(boxes: Iterable[Box]) -> Box:
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """What an entity is a picture of: an act, and which of its places; of a polyline one for each corner."""
+    """The act that an entity shows, and which of its places; of a polyline one for each corner."""
 
     of: Origin
     index: Places | None = None
 
     def by_piece(self, count: int) -> bool:
-        """Whether it has a place for each of so many pieces."""
+        """Whether the source has a place for each of ``count`` pieces."""
         return self.index is not None and len(self.index) == count
 
     def part(self, which: Places | list[int] | slice, count: int) -> Source:
-        """The source of some of ``count`` pieces, by their numbers, where each has its place; else the same."""
+        """The source of some of ``count`` pieces, by their numbers, if it has a place for each; else the same."""
         return replace(self, index=self.index[which]) if self.index is not None and self.by_piece(count) else self
 
 
@@ -181,7 +181,7 @@ class ArrowHeads(Polygons):
 
 @dataclass(frozen=True, eq=False)
 class Length:
-    """What a dimension measures: from ``start`` to ``end``, its line through ``foot``; the ``lines`` that draw it."""
+    """The length that a dimension measures: from ``start`` to ``end``, its line through ``foot``, by ``lines``."""
 
     start: complex
     end: complex
@@ -191,7 +191,7 @@ class Length:
 
 @dataclass(frozen=True, eq=False)
 class Angle:
-    """An angle that is measured: between two directions [rad] at ``centre``, and the ``lines`` that draw it."""
+    """The angle between two directions [rad] at ``centre`` that a dimension measures, drawn by ``lines``."""
 
     centre: complex
     radius: float
@@ -207,11 +207,11 @@ class Text:
     height : of a capital letter, mm
     align : "left", "center" or "right"
     angle : of the base line, rad
-    of : the dimension that it is the text of
-    field : of the title block, that it is the entry of: a name such as "author"
-    view : that it is the title of
+    of : the dimension to which the text belongs
+    field : of the title block, whose entry it is: a name such as "author"
+    view : the view whose title it is
 
-    What an entity shows is its ``source``; a frame and a table have none.
+    The ``source`` is the act that it shows; texts of a frame and a table have none.
     """
 
     at: complex
@@ -249,7 +249,7 @@ class Group:
         return self.name.split(" ", 1)[0]
 
     def runs(self) -> Iterator[tuple[str, str, list[Entity]]]:
-        """Neighbours of one kind ("line", "filled", "opaque" or "text") and role, which one path can draw."""
+        """Runs of neighbours of one kind ("line", "filled", "opaque" or "text") and role, which one path can draw."""
         for (kind, role), run in groupby(self.entities, key=lambda entity: (kind_of(entity), entity.role)):
             yield kind, role, list(run)
 
@@ -272,7 +272,7 @@ class Page:
     """A sheet of paper, ``width`` x ``height`` mm, and its groups, the later ones over the earlier.
 
     frame : the box that the drawing must not leave
-    origins : where the origins of its views lie, by the view's name
+    origins : the origins of its views on the page, by the view's name
     """
 
     width: float
@@ -291,7 +291,7 @@ class Drawing:
 
     @property
     def texts(self) -> list[Text]:
-        """All its texts."""
+        """The texts of all pages."""
         entities = (entity for page in self.pages for group in page.groups for entity in group.entities)
         return [entity for entity in entities if isinstance(entity, Text)]
 
@@ -314,7 +314,7 @@ def moved_entity(entity: Entity, by: complex) -> Entity:
 
 
 def by_place(entity: Entity) -> Iterator[tuple[int | None, Entity]]:
-    """The pieces of an entity, each with its place of the act, or None where it belongs to all.
+    """The pieces of an entity, each with its place in the act, or None for a piece that belongs to all.
 
     >>> from graphcam.drafting.acts import Act, Kind
     >>> from graphcam.sheets.model import Source

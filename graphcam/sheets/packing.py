@@ -1,4 +1,4 @@
-"""Finding room on a page for things that may not overlap."""
+"""A packer of boxes that may not overlap on a page."""
 
 import math
 from collections.abc import Callable, Iterable, Sequence
@@ -13,13 +13,13 @@ from graphcam.sheets.model import Box
 
 Grid = NDArray[np.float64]
 Preference = Callable[[Grid, Grid], Grid]
-"""Cost of putting the lower left corner of the whole at x, y, in cells; the least is taken."""
+"""The cost of the whole with its lower left corner at x, y (in cells); the place with the least cost is taken."""
 MESH = 2.0
-"""The mesh of the grid on which room is sought, mm."""
+"""The mesh of the grid on which room is sought [mm]."""
 BATCH_PAIRS = 20_000
-"""The number of pairs of a place and a box that are looked at together."""
+"""The number of pairs of a place and a box that are checked together."""
 EDGE_TOLERANCE = 1e-6
-"""A box that ends on a line of the grid does not touch the cells beyond it."""
+"""The part of a cell by which a box may pass a line of the grid without touching the cells beyond it."""
 
 
 class Room:
@@ -42,7 +42,7 @@ class Room:
             self.take(box)
 
     def copy(self, by: complex = 0j) -> Self:
-        """A copy of the room moved ``by`` x + iy, to be taken in another way."""
+        """A copy of the room, moved ``by`` x + iy, that can be filled differently."""
         other = copy(self)
         other.full, other.corner = self.full.copy(), self.corner + by
         return other
@@ -62,7 +62,7 @@ class Room:
             self._summed = min(self._summed, bottom)
 
     def take_points(self, points: Points, margin: float) -> None:
-        """Occupy the cells of points, and all cells in the squares that reach ``margin`` mm beyond them."""
+        """Occupy the cells of points, and all cells in squares that reach ``margin`` mm beyond them."""
         cells = np.floor((points - self.corner).view(np.float64).reshape(-1, 2) / MESH).astype(int)
         rows, columns = self.full.shape
         inside = np.all((cells >= 0) & (cells < (columns, rows)), axis=1)
@@ -78,7 +78,7 @@ class Room:
 
     @property
     def _counts(self) -> NDArray[np.int32]:
-        """How many cells are full to the left of and below each point of the grid: four of these tell if a box is free.
+        """Counts of full cells to the left of and below each point of the grid: four of these tell if a box is free.
 
         They are counted when they are asked for, and again above the lowest row in which something has been taken.
         """
@@ -93,7 +93,7 @@ class Room:
         return self._sums
 
     def find(self, boxes: Sequence[Box], preference: Preference) -> complex | None:
-        """The move of the boxes, as one rigid body, by which all lie in free room; None if there is no room."""
+        """The move x + iy of the boxes, as one rigid body, into free room; None if there is no room."""
         cells = np.array([self._cells(box) for box in boxes])
         least, most = cells[:, :2].min(axis=0), cells[:, 2:].max(axis=0)
         # Moves, in cells, that keep everything inside.
@@ -145,11 +145,11 @@ def least_weighted(across: float, up: float) -> Preference:
 
 
 prefer_top_left, prefer_top_right = least_weighted(10, -1), least_weighted(-1, -10)
-"""Preferences: at the left, then high; high, then at the right."""
+"""Preferences for a place at the left, then high; and high, then at the right."""
 prefer_bottom_left, prefer_bottom_right = least_weighted(1, 10), least_weighted(-3, 1)
-"""Preferences: low, then at the left; at the right, then low."""
+"""Preferences for a low place, then at the left; and at the right, then low."""
 prefer_high = least_weighted(1, -10)
-"""The preference: high, then at the left."""
+"""The preference for a high place, then at the left."""
 
 
 def at_left(x: Grid, y: Grid) -> Grid:
@@ -158,7 +158,7 @@ def at_left(x: Grid, y: Grid) -> Grid:
 
 
 def top(x: Grid, y: Grid) -> Grid:
-    """High, in the middle of the width."""
+    """The preference for a high place in the middle of the width."""
     return abs(x - x.mean()) - 10 * y
 
 

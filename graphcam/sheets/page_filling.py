@@ -1,4 +1,4 @@
-"""Filling pages: which views stand together, and which views and tables stand on which page, and where.
+"""Pages filled with views and tables: which of them stand together, on which page, and where.
 
 Many ways are tried, and the best is taken: on few pages, all but the last well used, in the order of the work.
 """
@@ -30,22 +30,22 @@ from graphcam.sheets.view_panels import Panel, clusters, shares, stand, with_low
 from graphcam.words import say
 
 MIN_FILLED_SHARE = 0.57
-"""Of every page but the last at least so much is to be used, and of the last if it can be."""
+"""The minimum filled share of every page but the last, and if possible of the last."""
 PAIRS_PER_PAGE = 12
-"""So many pairs of views in another order than that of the work are as bad as one more page."""
+"""The number of pairs of views out of the order of the work that weighs as much as one more page."""
 MAX_CHOICES = 8
-"""So many ways to part views that share axes are tried at most."""
+"""The maximum number of ways to part views that share axes that are tried together."""
 
 
 DIAGRAM_GAPS = (24.0, 12.0, 6.0, 2.0, -2.0)
-"""Gaps between diagrams that stand together, mm: the widest is taken that needs no further page."""
+"""The gaps between diagrams that stand together [mm]; the widest that needs no further page is taken."""
 ONE_PAGE = ("A1",)
 """Formats on which diagrams that share an axis are parted only where a page cannot take them."""
 MAX_PARTINGS = 4
 """The maximum number of ways to part views that share axes that are tried."""
 
 Runs = list[list[Panel]]
-"""Views that stand together, several times."""
+"""Groups of views, each of which stands together."""
 
 
 class TooLargeError(DesignError):
@@ -53,11 +53,11 @@ class TooLargeError(DesignError):
 
 
 def partings(sheet: Format, group: Sequence[Panel]) -> list[Runs]:
-    """The ways to part views that share axes, so that those of each part fit a page together; few parts first.
+    """The ways to part views that share axes into groups that each fit a page, those with few groups first.
 
     Raises
     ------
-    TooLargeError : a view does not fit on a page of its own: nothing is drawn at another scale than it says
+    TooLargeError : a view does not fit on a page of its own at its scale
     """
     for panel in group:
         if not fits_on_sheet(sheet, [panel], DIAGRAM_GAPS[-1]):
@@ -66,7 +66,7 @@ def partings(sheet: Format, group: Sequence[Panel]) -> list[Runs]:
 
 
 def with_lower_views(sheet: Format, run: Sequence[Panel]) -> list[Panel]:
-    """Views that stand together, what belongs under the lowest of a column with them, where a page has room for it."""
+    """The views, with what belongs under the lowest of a column, where a page has room for it."""
     whole = with_lowest(run)
     return whole if fits_on_sheet(sheet, whole, DIAGRAM_GAPS[-1]) else list(run)
 
@@ -81,7 +81,7 @@ def _too_large(sheet: Format, panel: Panel) -> TooLargeError:
 
 
 def _columns_kept(sheet: Format, group: Sequence[Panel]) -> list[Runs]:
-    """All views together, and those that stand one under the other."""
+    """Two partings: all views together, and those that stand one under the other together."""
     columns: dict[str, list[Panel]] = {}
     for panel in group:
         columns.setdefault(panel.view.across, []).append(panel)
@@ -100,7 +100,7 @@ def _partings(sheet: Format, group: Sequence[Panel]) -> list[Runs]:
 
 
 def _runs_with(sheet: Format, runs: Runs, panel: Panel) -> Iterator[Runs]:
-    """The panel with a part that it shares an axis with, the last first, or alone.
+    """Partings in which the panel joins a part that it shares an axis with, the last first, or stands alone.
 
     No diagram of a column is passed over: it stands under the one before it, or the column goes on elsewhere.
     """
@@ -118,13 +118,13 @@ def _runs_with(sheet: Format, runs: Runs, panel: Panel) -> Iterator[Runs]:
 
 @dataclass(frozen=True, eq=False)
 class Way:
-    """One way to fill pages.
+    """One way to fill pages with views.
 
     runs : the views that stand together, in the order in which they are put on pages
-    preference : where they would rather stand; None for each where a draughtsman would have it
+    preference : the preferred place; None is for each view the place that a draughtsman would choose
     onward : whether a page that has been left is not returned to
     closely : whether views may stand in the corners of one another's boxes, beyond their outlines
-    pages : the way is of use with so many pages at most
+    pages : the maximum number of pages with which the way is of use
     bare : what belongs under the lowest view of a column is left out, which is of use if that saves a page
     """
 
@@ -138,7 +138,7 @@ class Way:
 
 @dataclass(frozen=True, eq=False)
 class BlockSetting:
-    """One way to set tables and notes: in which letters and order, and whether each on the emptiest page."""
+    """One way to set tables and notes: their letters and order, and whether each goes on the emptiest page."""
 
     blocks: Sequence[Block]
     emptiest: bool
@@ -146,9 +146,9 @@ class BlockSetting:
 
 @dataclass(frozen=True, eq=False)
 class FilledPages:
-    """Pages that are filled in a way.
+    """Pages that were filled in one way.
 
-    merit : how well, the most important first, the least is the best: how many pages but the last are not well used,
+    merit : numbers to be minimal, the most important first: how many pages but the last are not well used,
         the number of pages, to which pairs of views in another order than that of the work add, and what all pages lack
     """
 
@@ -159,7 +159,7 @@ class FilledPages:
 
 
 def fill(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequence[Block]]) -> list[OpenPage]:
-    """Put all views and blocks on as few pages as they need, in the middle of what is free of each.
+    """The fewest pages with all views and blocks, in the middle of what is free of each.
 
     views : in the order of the work, which the pages follow
     ways_of_blocks : the same tables and notes in letters of different heights and in different orders, the best first
@@ -211,7 +211,7 @@ def _page_limit(way: Way, best: FilledPages | None) -> float:
 
 
 def min_pages(sheet: Format, views: Sequence[Panel]) -> int:
-    """As many pages as the boxes of views take if they fill them; fewer are not looked for."""
+    """The number of pages that the boxes of views take if they fill them completely, a lower bound."""
     room = sheet.content.area - kept_area(sheet)
     return max(1, math.ceil(sum(panel.box.area for panel in views) / room))
 
@@ -226,7 +226,7 @@ def _ways(sheet: Format, views: Sequence[Panel]) -> Iterator[Way]:
 
 
 def _ways_of(sheet: Format, views: Sequence[Panel], parted: Sequence[Runs]) -> Iterator[Way]:
-    """Ways to put views on pages that are parted in one of several ways."""
+    """Ways to put views on pages, for several partings."""
     rank = {panel.view.name: k for k, panel in enumerate(views)}
     by_work = [sorted(runs, key=lambda run: min(rank[panel.view.name] for panel in run)) for runs in parted]
     # The small ones find room between the large ones.
@@ -244,11 +244,11 @@ def _ways_of(sheet: Format, views: Sequence[Panel], parted: Sequence[Runs]) -> I
 
 
 def _in_order(leaves: Sequence[OpenPage], views: Sequence[Panel]) -> list[OpenPage]:
-    """The pages in the order of the work: that with the first view, then as their views follow in the mean."""
+    """The pages in the order of the work: the one with the first view, then by the mean rank of their views."""
     rank = {panel.view.name: k for k, panel in enumerate(views)}
 
     def place(leaf: OpenPage) -> float:
-        """Where a page stands: the mean rank of its views; the first view comes first, a page without views last."""
+        """The rank of a page: the mean of its views; first with the first view, last without views."""
         ranks = [rank[name] for name in leaf.views]
         if not ranks:
             return math.inf
@@ -258,14 +258,14 @@ def _in_order(leaves: Sequence[OpenPage], views: Sequence[Panel]) -> list[OpenPa
 
 
 def _disorder(leaves: Sequence[OpenPage], views: Sequence[Panel]) -> float:
-    """Pairs of views on pages in another order than that of the work, in pages which they are as bad as."""
+    """The number of pairs of views on pages out of the order of the work, weighed in pages."""
     rank = {panel.view.name: k for k, panel in enumerate(views)}
     pages = [[rank[name] for name in leaf.views] for leaf in leaves]
     return sum(a > b for one, other in combinations(pages, 2) for a, b in product(one, other)) / PAIRS_PER_PAGE
 
 
 def _with_views(sheet: Format, views: Sequence[Panel], way: Way, gap: float, most: float) -> list[OpenPage] | None:
-    """Put views on as many pages as it takes, in the order of the work; None if these are more than ``most``."""
+    """Pages with the views, in the order of the work; None if these are more than ``most``."""
     leaves: list[OpenPage] = []
     alone = (run[0] for run in way.runs if len(run) == 1)
     largest = max(alone, key=lambda panel: panel.box.area, default=None)
@@ -289,7 +289,7 @@ def _with_views(sheet: Format, views: Sequence[Panel], way: Way, gap: float, mos
 def _with_blocks(
     sheet: Format, views: Sequence[Panel], viewed: Sequence[OpenPage], way: Way, setting: BlockSetting, most: float
 ) -> FilledPages | None:
-    """Put blocks on the same pages, and on further ones if it takes them; None if these are more than ``most``."""
+    """The same pages with the blocks, and further ones if need be; None if these are more than ``most``."""
     leaves = [leaf.copy() for leaf in viewed]
     for block in setting.blocks:
         allowed = sorted(leaves, key=lambda leaf: leaf.used) if setting.emptiest else leaves
@@ -305,7 +305,7 @@ def _with_blocks(
 
 @dataclass(frozen=True, eq=False)
 class Place:
-    """A place on a page, which may have been begun for it: by how much to move there what it was found for."""
+    """A place on a page, which may be new: the page, and the move of the boxes there."""
 
     leaf: OpenPage
     by: complex
@@ -315,7 +315,7 @@ class Place:
 def _place(
     sheet: Format, leaves: Sequence[OpenPage], find: Callable[[OpenPage], complex | None], more: bool
 ) -> Place | None:
-    """A place on the first page that has one, else on a new page; None if no ``more`` may be begun."""
+    """A place on the first page that has one, else on a new page; None if no ``more`` pages may be begun."""
     for leaf in leaves:
         if (by := find(leaf)) is not None:
             return Place(leaf, by, begun=False)
@@ -329,7 +329,7 @@ def _place(
 
 
 def _merit(leaves: Sequence[OpenPage], views: Sequence[Panel]) -> tuple[float, ...]:
-    """How well pages are filled, as :class:`FilledPages` says."""
+    """The merit of pages, as in :class:`FilledPages`."""
     used = [leaf.used for leaf in leaves]
     sparse = sum(share < MIN_FILLED_SHARE for share in used[:-1])
     lack = sum(max(0.0, MIN_FILLED_SHARE - share) for share in used) if len(leaves) > 1 else 0.0
@@ -337,7 +337,7 @@ def _merit(leaves: Sequence[OpenPage], views: Sequence[Panel]) -> tuple[float, .
 
 
 def _standing_run(sheet: Format, panels: Sequence[Panel], gap: float, way: Way) -> ViewRun:
-    """Views together with a gap between them; with the widest that they have room for, if that is less."""
+    """The views together with a gap between them, or with the widest gap for which there is room."""
     gap = next(
         narrow
         for narrow in DIAGRAM_GAPS
@@ -347,7 +347,7 @@ def _standing_run(sheet: Format, panels: Sequence[Panel], gap: float, way: Way) 
 
 
 def _preferred(sheet: Format, panels: Sequence[Panel], largest: Panel | None) -> Preference:
-    """Where views would rather stand: diagrams at the upper left, the largest drawing where it leaves most room."""
+    """The preference of views: diagrams at the upper left, the largest drawing where it leaves most room."""
     if len(panels) > 1:
         return prefer_top_left
     if panels[0] is not largest:

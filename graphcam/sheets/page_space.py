@@ -1,4 +1,4 @@
-"""Pages while they are being filled: their free room, and the empty parts of diagrams, where tables may stand."""
+"""Pages during filling: their free room, and the empty parts of diagrams, where tables may stand."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from graphcam.sheets.tables import Block
 from graphcam.sheets.view_panels import LABEL_MARGIN, Panel, are_disjoint, shares, stand
 
 FRAME_MARGIN = 4.0
-"""Free margin along the frame, mm; the air about a view is a part of it."""
+"""The free margin along the frame [mm]; the air about a view is a part of it."""
 BOX_MARGIN = FRAME_MARGIN - LABEL_MARGIN
-"""What is left of it beside boxes that have air of their own, mm."""
+"""The free margin along the frame of boxes with air of their own [mm]."""
 
 
 @cache
 def free_rooms(sheet: Format) -> tuple[tuple[float, float], ...]:
-    """Widths and heights [mm] of the largest boxes that a page takes beside what it bears itself, the widest first.
+    """Widths and heights [mm] of the largest boxes of views, with their air, on an empty page, the widest first.
 
     The boxes are those of views, with their air.
 
@@ -37,7 +37,7 @@ def free_rooms(sheet: Format) -> tuple[tuple[float, float], ...]:
 
 
 def _highest(inside: Box, left: float, right: float, kept: Sequence[Box]) -> float:
-    """The height of the largest free part of a strip between two uprights."""
+    """The height of the largest free part of a strip between two verticals [mm]."""
     across = sorted((box for box in kept if box.left < right and left < box.right), key=lambda box: box.bottom)
     level, highest = inside.bottom, 0.0
     for box in across:
@@ -50,7 +50,7 @@ class ViewRun:
     """Views that stand together on a page, at their origins.
 
     gap : between them, mm; half of it is kept free about them where it is more than their air
-    closely : whether others may stand in the corners of their boxes, beyond their outlines
+    closely : whether others may stand within their boxes, in corners beyond their outlines
     """
 
     views: Sequence[Panel]
@@ -69,9 +69,9 @@ class ViewRun:
 
 @dataclass(eq=False)
 class EmptyPart:
-    """The empty parts of a diagram, which are found when a table is to stand in them.
+    """The empty parts of a diagram, which are found only when a table is to stand in them.
 
-    seen : how many of the boxes on the page it knows, at first those that were there before it
+    seen : the number of boxes on the page that it knows, at first those placed before it
     """
 
     panel: Panel
@@ -93,7 +93,7 @@ class EmptyPart:
 
 @dataclass(eq=False)
 class OpenPage:
-    """A page while it is being filled.
+    """A page during filling.
 
     taken : the boxes of all that stands on it, with the air about it
     """
@@ -106,7 +106,7 @@ class OpenPage:
     blocks: list[tuple[Block, complex]] = field(default_factory=list[tuple[Block, complex]])
 
     def copy(self) -> OpenPage:
-        """A copy of the page, to be filled in another way."""
+        """A copy of the page that can be filled differently."""
         parts = [replace(part, found=part.found and part.found.copy()) for part in self.parts]
         return OpenPage(self.sheet, self.room.copy(), parts, list(self.taken), dict(self.views), list(self.blocks))
 
@@ -149,7 +149,7 @@ class OpenPage:
 
     @property
     def used(self) -> float:
-        """The part of the frame's inside that views with their titles, tables and what every sheet has cover."""
+        """The share of the frame's inside that views, tables and the sheet's own fields cover."""
         views = [panel.box.moved(origin) for panel, origin in self.views.values()]
         blocks = [block.box.moved(at) for block, at in self.blocks]
         area = kept_area(self.sheet) + sum(box.area for box in (*views, *blocks))
@@ -180,7 +180,7 @@ def _blank_room(sheet: Format) -> Room:
 
 @cache
 def kept_area(sheet: Format) -> float:
-    """The area of the boxes inside the frame that every sheet needs, mm²."""
+    """The area of the boxes inside the frame that every sheet needs [mm²]."""
     return sum(box.area for box in taken_boxes(sheet, 0.0))
 
 

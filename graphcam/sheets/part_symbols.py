@@ -24,13 +24,13 @@ SYMBOL_ROLE = Role.DIMENSION
 LEG_ANGLE = math.radians(60)
 """The angle of the legs of the roughness symbol to the surface."""
 SHORT_LEG_HEIGHT, LONG_LEG_HEIGHT = 1.4, 3.0
-"""Heights of its legs, in heights of the letters."""
+"""Heights of the legs of the roughness symbol, in heights of the letters."""
 LETTER_GAP = 0.6
-"""The gap between a line and the letters over or under it, mm."""
+"""The gap between a line and the letters over or under it [mm]."""
 TRIANGLE_HALF_SIDE = 0.577
-"""Half the side of a datum's triangle, whose sides are equal, in its heights: tan 30°."""
+"""Half the side of a datum's equilateral triangle, in its heights: tan 30°."""
 COMPARTMENT_SIZE = 2.0
-"""Height of a tolerance frame, and width of its first compartment, in heights of the letters."""
+"""The height of a tolerance frame, and the width of its first compartment, in heights of the letters."""
 LINE_PROFILE_TOLERANCE, PERPENDICULARITY_TOLERANCE = "profile of a line", "perpendicular"
 
 
@@ -42,7 +42,7 @@ class PartSymbol:
     box: Box
 
     def drawn(self, corner: complex) -> list[Entity]:
-        """The symbol with the lower left corner of its box there."""
+        """The entities with the lower left corner of the symbol's box at ``corner``."""
         return [moved_entity(entity, corner) for entity in self.entities]
 
 
@@ -53,7 +53,7 @@ def segments(*ends: tuple[complex, complex], role: str = SYMBOL_ROLE) -> Strokes
 
 
 def roughness(text: str, height: float) -> PartSymbol:
-    """Material is removed, with the roughness written under the symbol's bar; it stands on the bottom of its box.
+    """The symbol for removed material, with the roughness under its bar; it stands on the bottom of its box.
 
     >>> symbol = roughness("Ra 0.8", 2.5)
     >>> symbol.box.height, len(symbol.entities)
@@ -102,7 +102,7 @@ def tolerance_frame(kind: str, value: str, datum: str, height: float) -> PartSym
 
 
 def _characteristic(kind: str, middle: complex, height: float) -> list[Entity]:
-    """The symbol of what is tolerated, in the middle of its compartment."""
+    """The sign of a geometrical characteristic, in the middle of its compartment."""
     half = 0.55 * height
     if kind == LINE_PROFILE_TOLERANCE:
         return [ArcEntity(middle - 0.5j * half, half, 0.0, math.pi, SYMBOL_ROLE)]
@@ -128,7 +128,7 @@ def datum_triangle(at: complex, away: complex, height: float) -> ArrowHeads:
 
 
 def nearest_place(box: Box, to: complex) -> complex:
-    """The place of a box that is nearest to another."""
+    """The point of a box that is nearest to another point."""
     return complex(np.clip(to.real, box.left, box.right), np.clip(to.imag, box.bottom, box.top))
 
 

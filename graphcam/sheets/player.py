@@ -1,4 +1,4 @@
-"""The step player: one page of HTML that shows a drawing step by step, and lets a mechanism turn, without a network.
+"""The step player: one page of HTML, without a network, that shows a drawing step by step and a turning mechanism.
 
 The page holds the sheets as SVG with one group for each step, the words and readings of the steps, and what turns; the
 templates stand in ``data/player``.
@@ -93,15 +93,15 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
     "motion": say("motion"),
     "noscript": say("JavaScript is off: only the finished sheet is shown."),
 }
-"""What the page itself says."""
+"""The captions of the page itself, by name."""
 INDENT_PATTERN = re.compile(r"\n\s+(?=<)")
-"""What stands before an element that begins a line of the template: nothing is seen of it."""
+"""The invisible space before an element that begins a line of the template."""
 IDLE_PATTERN = re.compile(r'(?P<text>"(?:[^"\\]|\\.)*")|(?<=\d)\.0(?=[,\]}])')
-"""Texts, which stay as they are, and the idle digits of whole numbers."""
+"""Texts, which stay as they are, and the needless ".0" of whole numbers."""
 SCRIPT_FILES = ("gestures.js", "camera.js", "board.js", "lights.js", "player.js")
-"""What shows the steps; later ones use the functions of earlier ones."""
+"""The scripts of the steps; later ones use the functions of earlier ones."""
 STEP_MARGIN = 8.0
-"""The margin around what a step shows when it is looked at closely [mm]."""
+"""The margin around a step in the close view [mm]."""
 
 
 Pieces = list[list[Any]]
@@ -110,7 +110,7 @@ Pieces = list[list[Any]]
 
 @dataclass(frozen=True)
 class RowText:
-    """One value of a reading of many, as it is shown; ``lit`` are the pieces that it was read off."""
+    """One value of a reading of many, for the page; ``lit`` are the pieces from which it is read."""
 
     place: str
     paper: str
@@ -120,9 +120,9 @@ class RowText:
 
 @dataclass(frozen=True)
 class ReadingText:
-    """A reading as it is shown: how it came about, and the value; of many values a table.
+    """A reading for the page: its derivation, and the value; of many values a table.
 
-    lit : the pieces of the drawing that it was read off
+    lit : the pieces of the drawing from which it is read
     name : of the reading in its construction
     """
 
@@ -136,12 +136,12 @@ class ReadingText:
 
 @dataclass(frozen=True)
 class PartText:
-    """A part of a step as it is shown.
+    """A part of a step for the page.
 
-    caption : what is done; of a step that has no parts it is empty
-    tools : the instruments, with what they are set to
-    draws, lit : the pieces that it draws, and those from which they are found
-    moves : all that is done, in order, with what is not seen
+    caption : the instruction; empty in a step without parts
+    tools : the instruments, with their settings
+    draws, lit : the pieces that it draws, and those from which these are found
+    moves : all its acts in order, also invisible ones
     views : names of the views that show what is drawn or lit, that of the step first
     """
 
@@ -155,12 +155,12 @@ class PartText:
 
 @dataclass(frozen=True)
 class RunText:
-    """A run of like parts as it is shown: told once, with a table of its places.
+    """A run of like parts for the page: one instruction, with a table of its places.
 
     first : the place of its first part among all parts
-    head : what the names of all its places begin with, such as "Station"
-    rows : of every place the rest of its name, and what is set there, if that is not everywhere the same
-    tools : the instruments that are used at every place alike
+    head : the common beginning of the names of its places, such as "Station"
+    rows : of every place the rest of its name, and its setting, if that is not everywhere the same
+    tools : the instruments that every place needs
     """
 
     caption: str
@@ -171,25 +171,25 @@ class RunText:
 
     @property
     def widest(self) -> int:
-        """The letters of its longest row."""
+        """The number of letters of its longest row."""
         return max(len(name) + len(setting) for name, setting in self.rows)
 
     @property
     def settings(self) -> bool:
-        """Whether anything is set at its places."""
+        """Whether any of its places has a setting."""
         return any(setting for _, setting in self.rows)
 
 
 @dataclass(frozen=True)
 class Slide:
-    """What is said of a step; ``chapter`` is the title of its construction, ``view`` the name of its drawing.
+    """The texts of a step; ``chapter`` is the title of its construction, ``view`` the name of its drawing.
 
-    caption : what is done, if no parts tell it
-    why : what is said of the construction before its first step
+    caption : the instruction, if it has no parts
+    why : the reason of the construction, before its first step
     number : of the step within the task, such as "3.2";  reason : for the step
-    parts : at least one;  runs : of those that are alike
+    parts : at least one;  runs : runs of like parts
     reads : the numbers of the acts by which something is read, by the reading's name
-    finds : the views whose scales are known from this step on, and how their titles tell them
+    finds : the views whose scales are known from this step on, with the text in their titles
     """
 
     chapter: str
@@ -207,7 +207,7 @@ class Slide:
 
     @property
     def listed(self) -> list[tuple[int, PartText | None, RunText | None]]:
-        """What is told one after another: the place of a part and the part, or that of the first and a run."""
+        """The parts and runs in order: the place of a part with the part, or of a run's first part with the run."""
         runs = {run.first: run for run in self.runs}
         inside = {run.first + k for run in self.runs for k in range(len(run.rows))}
         every = enumerate(self.parts if len(self.parts) > 1 else ())
@@ -216,11 +216,11 @@ class Slide:
 
 @dataclass(frozen=True)
 class Acts:
-    """The acts of a drawing as plain data, for who would draw it again.
+    """The acts of a drawing as plain data, from which it can be drawn again.
 
     record : of all acts
-    numbers : of the acts that the drawing shows
-    in_parts : of those that are drawn part by part
+    numbers : numbers of the acts that the drawing shows
+    in_parts : numbers of the acts that are drawn part by part
     """
 
     record: WrittenActs = field(default_factory=WrittenActs)
@@ -244,17 +244,17 @@ def player(
     language: str,
     acts: Acts = NO_ACTS,
 ) -> str:
-    """The page.
+    """The player's page of HTML.
 
     slides : one for each step of the drawing, in order
-    acts : what the drawing shows, by the numbers that the slides' parts have it
-    mechanism : what turns, see ``data/player/mechanism.js``; None for a drawing that nothing turns in
-    words : what the page itself says, by the names of :data:`PAGE_CAPTIONS`
+    acts : the acts of the drawing, with the numbers that the slides' parts use
+    mechanism : data of ``data/player/mechanism.js``; None without a mechanism
+    words : the texts of the page itself, by the names of :data:`PAGE_CAPTIONS`
     """
     from markupsafe import Markup
 
     def whole(name: str) -> Markup:
-        """A file of the page, as it is."""
+        """The text of a file of the page."""
         return Markup((files("graphcam") / "data" / "player" / name).read_text(encoding="utf-8"))
 
     steps, views = _places(drawing, slides)
@@ -282,7 +282,7 @@ def player(
 
 @cache
 def _template() -> Template:
-    """The page's template, which is compiled once."""
+    """The page's template, compiled once."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     loader = PackageLoader("graphcam", "data/player")
@@ -294,7 +294,7 @@ def _template() -> Template:
 
 
 def _json(data: object) -> str:
-    """Plain data without idle spaces and digits; no text of a drawing may end the script that holds it.
+    """Plain data as JSON without needless spaces and digits; no text in it can end the script that holds it.
 
     >>> print(_json({"a": [1.0, -20.5, 30.0], "b": "[1.0]</script>"}))
     {"a":[1,-20.5,30],"b":"[1.0]\\u003c/script>"}
@@ -304,14 +304,14 @@ def _json(data: object) -> str:
 
 
 def _indexed(text: str) -> Markup:
-    """A text with its indices set lower."""
+    """The HTML of a text, its indices set lower."""
     from markupsafe import Markup, escape
 
     return Markup(in_html(str(escape(text))))
 
 
 Finds = Mapping[str, tuple[str, int]]
-"""Of views whose scales are found by drawing: how the title tells it, and which step finds it."""
+"""By view whose scale is found by drawing: the text in its title, and the step that finds it."""
 
 
 def _page(page: Page, acts: Acts, finds: Finds) -> dict[str, Any]:
@@ -326,9 +326,9 @@ def _page(page: Page, acts: Acts, finds: Finds) -> dict[str, Any]:
 
 
 def _by_view(group: Group, finds: Finds) -> list[tuple[str, int | None, Group]]:
-    """The titles of several views as a group each, so that each can appear with its view; other groups as they are.
+    """The groups, titles of several views as a group each, so that each can appear with its view.
 
-    What a title tells of a scale that is found by drawing is a group of its own, with the step that finds it.
+    A scale in a title that is found by drawing is a group of its own, with the step that finds it.
     """
     titles: dict[tuple[str, int | None], list[Entity]] = {}
     for text in group.entities:
@@ -340,7 +340,7 @@ def _by_view(group: Group, finds: Finds) -> list[tuple[str, int | None, Group]]:
 
 
 def _places(drawing: Drawing, slides: Sequence[Slide]) -> tuple[list[dict[str, Any]], dict[str, dict[str, Any]]]:
-    """The group and the parts of each step, and where it stands; for each view its page and the box there.
+    """The group, the parts and the box of each step; for each view its page and the box there.
 
     A box is x, y from the upper left corner, width and height [mm].
     """
@@ -361,7 +361,7 @@ def _places(drawing: Drawing, slides: Sequence[Slide]) -> tuple[list[dict[str, A
 
 
 def _box_of_view(page: Page, view: str, keys: Set[str]) -> list[float]:
-    """The box about what the steps of those keys draw, and about the title of their view."""
+    """The box about the drawing of the steps with those keys, and about the title of their view."""
     shown = [
         box_of(e for e in group.entities if group.key in keys or (isinstance(e, Text) and e.view == view))
         for group in page.groups

@@ -32,14 +32,14 @@ from graphcam.sheets.text_measures import letters_of, points_size
 MM_PER_POINT = 25.4 / 72
 ANCHOR_CLASSES = {"left": "", "center": " middle", "right": " end"}
 IDLE_DIGITS_PATTERN = re.compile(r"\.00|(?<=\.\d)0")
-"""The idle digits of a number with two decimals."""
+"""The needless digits of a number with two decimals."""
 UPRIGHT_PATTERN = re.compile(r"M([-\d.]+) ([-\d.]+)L\1 ([-\d.]+)(?=M|$)")
 LEVEL_PATTERN = re.compile(r"M([-\d.]+) ([-\d.]+)L([-\d.]+) \2(?=M|$)")
-"""A single stroke along an axis of the page, of which one number says where it ends."""
+"""A single horizontal stroke, of which one number tells where it ends."""
 
 
 Numbers = Callable[[Source], tuple[int | None, bool]]
-"""The number on the page of the act that an entity shows, None without one, and whether it is drawn in parts."""
+"""The number of the act that an entity shows (None without one), and whether it is drawn in parts."""
 
 
 def _unnumbered(_: Source) -> tuple[None, bool]:
@@ -47,7 +47,7 @@ def _unnumbered(_: Source) -> tuple[None, bool]:
 
 
 def group_svg(group: Group, height: float, numbers: Numbers = _unnumbered) -> str:
-    """The elements of a group on a page of that height [mm]; 1 unit is 1 mm, y points down.
+    """The elements of a group as SVG on a page of ``height`` mm; 1 unit is 1 mm, y points down.
 
     >>> import numpy as np
     >>> print(group_svg(Group("step-01 a", (Strokes(np.array([0, 5j]), np.array([10, 10 + 5j]), "axis"),)), 297.0))
@@ -59,7 +59,7 @@ def group_svg(group: Group, height: float, numbers: Numbers = _unnumbered) -> st
 
 
 def _in_pieces(entity: Entity, numbers: Numbers) -> Iterator[tuple[str, Entity]]:
-    """An entity, or its pieces that belong to different places of its act; each with the attributes that say so."""
+    """An entity, or its pieces by the places of its act, each with the attributes for act and place."""
     number, in_parts = numbers(entity.source) if entity.source else (None, False)
     if number is None:
         yield "", entity
@@ -69,7 +69,7 @@ def _in_pieces(entity: Entity, numbers: Numbers) -> Iterator[tuple[str, Entity]]
 
 
 def roles_css() -> str:
-    """The width, the line type and the ink in print of every role, as variables of its class."""
+    """The CSS variables of every role's class: width, line type and ink in print."""
     # Roles of a drawing in progress have two words: the style sheet knows what is former and what current.
     return "\n".join(_role_css(role, style) for role, style in STYLES_BY_ROLE.items() if " " not in role)
 
@@ -95,7 +95,7 @@ def _text(text: Text, where: str, height: float) -> str:
 
 
 def _letters(text: Text) -> str:
-    """A text as it is, its indices smaller and set lower."""
+    """The SVG of a text, its indices smaller and set lower."""
     written, lowered = "", 0.0
     for piece in letters_of(text.text, text.height):
         drop = -piece.start.imag
@@ -107,7 +107,7 @@ def _letters(text: Text) -> str:
 
 
 def _size(height: float) -> str:
-    """The size of letters, in mm of the page."""
+    """The attribute for the size of letters [mm of the page]."""
     return f"{points_size(height) * MM_PER_POINT:.3f}"
 
 
@@ -144,17 +144,17 @@ def _arc(arc: ArcEntity, height: float) -> str:
 
 
 def _numbers(template: str, points: Points, height: float) -> str:
-    """A template with the coordinates of points: lengths to 0.01 mm, y down, without idle digits."""
+    """A template with the coordinates of points filled in, to 0.01 mm, y down, without needless digits."""
     flat = np.ravel(points)
     written = template % tuple(np.column_stack([flat.real, height - flat.imag]).ravel().tolist())
     return _without_idle(written)
 
 
 def _number(mm: float) -> str:
-    """A length to 0.01 mm, without idle digits."""
+    """The text of a length to 0.01 mm, without needless digits."""
     return _without_idle(f"{mm:.2f}")
 
 
 def _without_idle(numbers: str) -> str:
-    """Numbers of two decimals without the digits and signs that say nothing."""
+    """The numbers without needless digits and signs."""
     return IDLE_DIGITS_PATTERN.sub("", numbers.replace("-0.00", "0.00"))

@@ -5,13 +5,13 @@ import segno
 from numpy.typing import NDArray
 
 CORRECTION_LEVEL = "m"
-"""The level of error correction: what 15 % of damage leaves readable."""
+"""The level of error correction, at which 15 % of damage may be repaired."""
 MIN_CODE_SIDE = 18.0
-"""The minimum side of a code, mm, without the white about it."""
+"""The minimum side of a code, without the white about it [mm]."""
 MIN_MODULE, MIN_TILE_MODULE = 0.75, 0.6
-"""The minimum module, mm: in a photograph of 5 megapixels of a whole sheet of A3 four pixels; half a sheet has more."""
+"""The minimum module [mm] on a sheet (4 pixels in a photograph of A3 with 5 megapixels), and on a tile."""
 QUIET_MODULES = 4
-"""Modules that stay white about a code."""
+"""The width of the white about a code [modules]."""
 
 
 def modules(text: str) -> NDArray[np.bool_]:
@@ -25,7 +25,7 @@ def modules(text: str) -> NDArray[np.bool_]:
 
 
 def module_size(count: int, finest: float = MIN_MODULE) -> float:
-    """The side of a module in mm, of a code with so many in a row.
+    """The side of a module [mm] of a code with ``count`` in a row.
 
     >>> round(module_size(21), 3), module_size(33), module_size(33, MIN_TILE_MODULE)
     (0.857, 0.75, 0.6)

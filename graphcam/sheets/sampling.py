@@ -1,4 +1,4 @@
-"""Entities as points close to one another, and as straight pieces: what label placing and its check look at."""
+"""Entities as dense points and as straight pieces, for placing labels and checking them."""
 
 import cmath
 import math
@@ -14,9 +14,9 @@ from graphcam.sheets.text_measures import extent, start_of
 
 Floats = NDArray[np.float64]
 FLATNESS = 0.02
-"""A curve is replaced by chords that stay so close to it, mm."""
+"""The maximum distance of a curve from the chords that replace it [mm]."""
 DIRECTION_COUNT = 72
-"""The number of directions in which the outermost points are looked for: of a circle they miss 0.1 % of its radius."""
+"""The number of directions of outermost points: of a circle they miss 0.1 % of its radius."""
 
 
 def pieces(entity: Entity) -> tuple[Points, Points]:
@@ -42,7 +42,7 @@ def pieces(entity: Entity) -> tuple[Points, Points]:
 
 
 def linework(entities: Iterable[Entity]) -> tuple[Points, Points]:
-    """Starts and ends (n,) of the straight pieces of all entities.
+    """Starts and ends (n,) of the straight pieces of all entities together.
 
     >>> side = Strokes(np.array([0j]), np.array([4 + 0j]), "curve")
     >>> starts, ends = linework([side, side])
@@ -55,7 +55,7 @@ def linework(entities: Iterable[Entity]) -> tuple[Points, Points]:
 
 
 def outermost(points: Points) -> Points:
-    """Corners of the convex hull of points, counter-clockwise: those farthest out in each of ``DIRECTIONS``.
+    """Corners of the convex hull, counter-clockwise: the points farthest out in each of ``DIRECTION_COUNT`` directions.
 
     >>> outermost(np.array([0j, 2, 1 + 0.5j, 2 + 1j, 1j])).tolist()
     [(2+1j), 1j, 0j, (2+0j)]
@@ -75,7 +75,7 @@ def _bow(radius: float, start: float, end: float) -> Points:
 
 
 def sampled(starts: Points, ends: Points, spacing: float) -> Points:
-    """Points on straight pieces, at most ``spacing`` apart, both ends included.
+    """Dense points (m,) on straight pieces, at most ``spacing`` apart, both ends included.
 
     >>> sampled(np.array([0j]), np.array([1 + 0j]), 0.5).tolist()
     [0j, (0.5+0j), (1+0j)]
@@ -99,7 +99,7 @@ def corners(text: Text) -> Points:
 
 
 def spans_in_box(starts: Points, ends: Points, box: Points, margin: float) -> tuple[Floats, Floats]:
-    """The parts of lines (n,), from 0 at the start to 1 at the end, in a text's box (4 corners) with a margin.
+    """Parts (n,) of lines, from 0 at the start to 1 at the end, within a text's box (4 corners) and a margin.
 
     A line has no part in it where the first number is not less than the second.
 
@@ -121,12 +121,12 @@ def spans_in_box(starts: Points, ends: Points, box: Points, margin: float) -> tu
 
 
 def box_of(entities: Iterable[Entity]) -> Box | None:
-    """The box around entities; None if there is nothing to see."""
+    """The box around entities; None if none is visible."""
     return box_of_lines(*linework(entities))
 
 
 def box_of_lines(starts: Points, ends: Points) -> Box | None:
-    """The box around straight pieces; None if there is nothing to see."""
+    """The box around straight pieces; None if there are none."""
     points = np.concatenate([starts, ends])
     points = points[np.isfinite(points)]
     return box_around(points) if len(points) else None

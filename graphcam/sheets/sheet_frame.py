@@ -17,23 +17,23 @@ from graphcam.sheets.text_measures import LETTER_HEIGHTS, broken_lines, width, w
 from graphcam.words import Caption, Tell, say
 
 GAUGE_LENGTH = 100.0
-"""mm"""
+"""The length of the gauge [mm]."""
 
 
 CAPTION_HEIGHT, NARROW_CAPTION_HEIGHT = 2.5, 1.8
-"""Heights of the captions of fields, and of narrow ones, mm: the least of them stands in no other place of a sheet."""
+"""Letter heights of the captions of fields, and of narrow ones [mm]; the smaller is used nowhere else."""
 LINE_SPACING, TIGHT_LINE_SPACING = 1.5, 1.35
-"""The distance of base lines of an entry, in heights of its letters; and that in the smallest letters."""
+"""The distance of base lines of an entry, in heights of its letters, and that in the smallest letters."""
 BLOCK_SIZES = {"gost": (185.0, 55.0), "iso": (180.0, 36.0)}
-"""Width and height of the block of each frame, mm."""
+"""Width and height of the title block of each frame [mm]."""
 
 
 @dataclass(frozen=True)
 class TitleBlock:
-    """What is written into the title block; what is empty stays empty.
+    """The entries of the title block; empty ones stay empty.
 
     scale : None is the scale of what is drawn on the sheet
-    remark : stands below the frame
+    remark : text below the frame
     """
 
     name: str = ""
@@ -50,19 +50,19 @@ class TitleBlock:
 
 
 Ruling = tuple[float, float, float, float]
-"""A ruled line x1, y1, x2, y2, mm from the lower left corner of the block."""
+"""A ruled line x1, y1, x2, y2 [mm] from the lower left corner of the block."""
 Form = tuple[list[Ruling], list[Ruling], list[Text]]
 """Bold lines, thin lines and texts of a block without its outline."""
 
 
 def rules(corner: complex, lines: list[Ruling], role: str) -> Strokes:
-    """Ruled lines of a block with its lower left ``corner``."""
+    """The ruled lines of a block with its lower left ``corner``, as an entity."""
     ends = np.array(lines, dtype=np.float64)
     return Strokes(corner + ends[:, 0] + 1j * ends[:, 1], corner + ends[:, 2] + 1j * ends[:, 3], role)
 
 
 def outline(wide: float, high: float) -> list[Ruling]:
-    """The four sides of a block."""
+    """The four sides of a block as ruled lines."""
     return [(0, 0, wide, 0), (wide, 0, wide, high), (wide, high, 0, high), (0, high, 0, 0)]
 
 
@@ -78,7 +78,7 @@ def fitted_text(text: str, field: Ruling, height: float, align: str = "center", 
 
     Raises
     ------
-    DesignError : ``what`` it is is too long even in the smallest letters
+    DesignError : the text, which the message calls ``what``, is too long even in the smallest letters
     """
     left, bottom, right, top = field
     lines, height = _set(text, field, height) or _refused(text, field, height, what)
@@ -117,7 +117,7 @@ def _refused(text: str, field: Ruling, height: float, what: str) -> NoReturn:
 
 
 def entry(title: TitleBlock, name: str, field: Ruling, height: float, align: str = "center") -> list[Text]:
-    """What a title says under a name, in a field; the texts know the name."""
+    """The texts of a title's entry ``name`` in a field, with that name."""
     key = "document" if name == "number" else name
     said = getattr(title, name) or ""
     return [replace(text, field=name) for text in fitted_text(said, field, height, align, f"title.{key}")]
@@ -209,12 +209,12 @@ def gauge(at: complex, tell: Tell = str) -> list[Entity]:
 
 
 def gauge_box(at: complex) -> Box:
-    """The room that the gauge takes."""
+    """The box of the gauge."""
     return Box(at.real - 4, at.imag - 2, at.real + GAUGE_LENGTH + 5, at.imag + 8)
 
 
 def title_box(paper: Format) -> Box:
-    """The room of the title block, in the lower right corner of the frame."""
+    """The box of the title block, in the lower right corner of the frame."""
     wide, high = BLOCK_SIZES[paper.frame]
     inside = paper.content
     return Box(inside.right - wide, inside.bottom, inside.right, inside.bottom + high)
@@ -228,12 +228,12 @@ def _gauge_at(paper: Format) -> complex:
 
 
 def _remark_at(paper: Format) -> complex:
-    """Where a remark begins: in the margin below the frame, and below the fields of ISO 5457."""
+    """The place of a remark: in the margin below the frame, and below the fields of ISO 5457."""
     return paper.content.corner - (3.75j if paper.frame == "gost" else 8.75j)
 
 
 def taken_boxes(paper: Format, border: float) -> list[Box]:
-    """The boxes inside the frame that the sheet itself needs, with a border around them."""
+    """The boxes inside the frame that the sheet itself needs, with a margin ``border`` around them."""
     boxes = [title_box(paper).grown(border), gauge_box(_gauge_at(paper)).grown(border)]
     if paper.frame == "gost":
         return [*boxes, _number_box(paper).grown(border)]
@@ -241,7 +241,7 @@ def taken_boxes(paper: Format, border: float) -> list[Box]:
 
 
 def frame(paper: Format, title: TitleBlock, sheet: int, sheets: int, tell: Tell = str) -> Group:
-    """All that a sheet carries before anything is drawn on it."""
+    """The group of all that a sheet carries before anything is drawn on it."""
     entities: list[Entity] = [Stroke(np.array(paper.content.corners), "frame", closed=True)]
     entities += _binding_column(paper, title, tell) if paper.frame == "gost" else _references(paper)
     entities += title_block(paper.frame, title_box(paper).corner, title, sheet, sheets, tell)
@@ -251,12 +251,12 @@ def frame(paper: Format, title: TitleBlock, sheet: int, sheets: int, tell: Tell 
 
 
 def _has_upright_number(paper: Format) -> bool:
-    """Whether the number of field 26 stands on end: on standing sheets larger than A4, which are filed lying."""
+    """Whether the number of field 26 is turned: on portrait sheets larger than A4, which are filed in landscape."""
     return paper.is_upright and paper.name != "A4"
 
 
 def _number_box(paper: Format) -> Box:
-    """Field 26 of GOST 2.104: in the corner that is the upper left one when the sheet lies on its long side."""
+    """Field 26 of GOST 2.104, in the corner that is the upper left one when the sheet lies on its long side."""
     inside = paper.content
     if _has_upright_number(paper):
         return Box(inside.right - 14, inside.top - 70, inside.right, inside.top)
@@ -285,7 +285,7 @@ def _turned_texts(texts: Iterable[Text], start: complex, turn: complex) -> list[
 
 
 def _references(paper: Format) -> list[Entity]:
-    """ISO 5457: centring marks, and a border of 5 mm with fields of 50 mm counted from them."""
+    """The entities of ISO 5457: centring marks, and a border of 5 mm with fields of 50 mm counted from them."""
     inside, (width, height) = paper.content, paper.size
     border = np.array(inside.grown(5).corners)
     entities: list[Entity] = [Stroke(border, "ruling", closed=True), Strokes(*_centring(paper), "frame")]
@@ -314,6 +314,6 @@ def _centring(paper: Format) -> tuple[Points, Points]:
 
 
 def _fields(centre: float, low: float, high: float) -> list[float]:
-    """Ends of fields of 50 mm counted from the centre; what is left over goes to the last one at each end."""
+    """The ends of fields of 50 mm counted from the centre; the last one at each end takes the rest."""
     inner = [centre + 50.0 * k for k in range(-10, 11) if low + 25 < centre + 50.0 * k < high - 25]
     return [low, *inner, high]

@@ -8,14 +8,14 @@ from numpy.typing import NDArray
 from graphcam.drafting.marks import Points
 
 CORNER_ANGLE = np.radians(20.0)
-"""The angle by which a polygon of dense points turns at least where the curve has a corner."""
+"""The minimum turn of a polygon of dense points at a corner of the curve [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
 class SmoothCurve:
     """A closed curve through points (n,), piece k from point k to the next.
 
-    chords : (n,) length of each piece's chord, its span of the parameter
+    chords : (n,) length of each piece's chord, which is its span of the parameter
     leaving, arriving : (n,) derivative at the start and at the end of each piece
     corner : (n,) whether the curve has a corner at the point
     """
@@ -69,7 +69,7 @@ def bezier(points: Points) -> Points:
 
 
 def clamped_spline(points: Points) -> tuple[Points, list[float]]:
-    """The curve as one clamped cubic B-spline: control points (m,) and knots (m + 4).
+    """The curve as one clamped cubic B-spline: control points (m,) and knots (m + 4,).
 
     Where the pieces share a derivative their common end is no control point, and its knot is double.
     """

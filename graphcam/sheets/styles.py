@@ -1,4 +1,4 @@
-"""How lines look: widths and types by ISO 128 and GOST 2.303, one style for each role."""
+"""The looks of lines: widths and types by ISO 128 and GOST 2.303, one style for each role."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from graphcam.drafting.marks import Role
 
 BOLD, MEDIUM, THIN = 0.7, 0.35, 0.18
-"""Widths of lines, mm: two steps of the standard series apart, so that a print keeps the hierarchy."""
+"""Widths of lines [mm], two steps of the standard series apart, so that a print keeps the hierarchy."""
 SOLID: tuple[float, ...] = ()
 DASHED = (3.0, 1.2)
 CENTER = (9.0, 1.4, 1.0, 1.4)
-"""Line types: dash, gap, dash, gap... in mm of paper."""
+"""Line types: dash, gap, dash, gap... [mm of paper]."""
 BLACK, GREY, ACCENT = "#000000", "#5a5a5a", "#b3201c"
-"""Ink: results and curves, construction lines, limits.  All of them are dark enough to print in black and white."""
+"""Ink of results and curves, of construction lines, and of limits, all dark enough for a print in black and white."""
 
 
 @dataclass(frozen=True)
@@ -41,15 +41,15 @@ _FINISHED_STYLES: dict[str, Style] = {
     "text": Style(THIN),
 }
 CYAN_TINT, GREY_TINT = "#a6e3fa", "#b3b3b3"
-"""Ink of what is drawn over by hand and photographed: tints of 35 % and 30 %, lighter than any pencil."""
+"""Tints of 35 % and 30 % for what is drawn over by hand and photographed, lighter than any pencil."""
 LIGHT_ROLES: Mapping[str, str] = {"colour": "light colour", "grey": "light grey"}
-"""The role of what a printer of colours, or of black alone, prints so."""
+"""The roles of light lines, by how they are printed: in colours, or in black alone."""
 CODE_ROLE = "printed code"
 """The role of the cells of tags and codes."""
 FADED_COLOUR, CURRENT_COLOUR = "#9b9b9b", "#0b57a4"
-"""Ink of a drawing in progress: what stood before the current step, and what the step adds."""
+"""Ink of a drawing in progress: of earlier steps, and of the current step."""
 FORMER_STEP_ROLE, CURRENT_STEP_ROLE, CURRENT_PART_ROLE = "former", "current", "part"
-"""What a part of a step adds is bold, as it is shown small."""
+"""The stages of a drawing in progress; the lines of a current part are bold, since it is shown small."""
 
 
 def in_progress(role: str, stage: str) -> str:
@@ -82,7 +82,7 @@ STYLES_BY_ROLE: dict[str, Style] = {
     **{in_progress(role, CURRENT_STEP_ROLE): _current(style) for role, style in _FINISHED_STYLES.items()},
     **{in_progress(role, CURRENT_PART_ROLE): _bold(_current(style)) for role, style in _FINISHED_STYLES.items()},
 }
-"""The style of each role of ink, and of what the sheet itself adds; all of them also for a drawing in progress.
+"""The style of each role of ink and of the sheet's own roles; all of them also for a drawing in progress.
 
 The names of the sheet's own roles have one word, those that only some sheets have two.
 """

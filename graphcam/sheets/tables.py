@@ -1,4 +1,4 @@
-"""Ruled tables and notes."""
+"""Ruled tables and notes, as blocks of entities."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ from graphcam.sheets.text_measures import broken_lines, width, words_of, wrap
 from graphcam.words import Tell, Words
 
 ROW_HEIGHT = 2.2
-"""Height of a row, in heights of its letters."""
+"""The height of a row, in heights of its letters."""
 LINE_SPACING = 1.5
 """The distance from line to line in a header, in heights of its letters."""
 CELL_MARGIN = 1.5
-"""The margins left and right of the text in a cell, in heights of its letters, both together."""
+"""The sum of the margins left and right of the text in a cell, in heights of its letters."""
 WIDTH_ROUNDING = 1e-6
-"""A text that is wider than its column by less fits it: the column was made for it, mm."""
+"""The excess of a text over its column that is a rounding error [mm]."""
 MAX_NAME_WIDTH = 40.0
-"""A name that is longer, in heights of its letters, is broken into lines: a question, not what a quantity is called."""
+"""The width, in heights of its letters, above which a name is broken into lines: it is a question, not a name."""
 
 
 @dataclass(frozen=True)
 class Table:
     """A table: its title, the header's texts and rows of as many.
 
-    answers : row and column of the cells that a worksheet leaves empty, to be filled in
+    answers : row and column of the cells that a worksheet leaves empty
     """
 
     title: Words
@@ -44,7 +44,7 @@ class Table:
 
 @dataclass(frozen=True, eq=False)
 class Block:
-    """Something ready to be put on a page as a whole: entities, answers among them, and the box that they need."""
+    """A table or notes, placed as a whole: entities, answers among them, and the box that they need."""
 
     entities: tuple[Entity, ...]
     answers: tuple[Entity, ...]
@@ -72,7 +72,7 @@ def table_blocks(
 
 
 def _by_columns(table: Table, height: float, room: float) -> list[Table]:
-    """The table, or parts of it that all have its first column."""
+    """The table, or parts of it by columns, all with its first column."""
     least = [column.least for column in _columns(table, height)]
     kept = 1
     while kept < len(least) and sum(least[: kept + 1]) <= room:
@@ -86,7 +86,7 @@ def _by_columns(table: Table, height: float, room: float) -> list[Table]:
 
 
 def _by_rows(table: Table, letters: tuple[float, float], room: float, tall: float) -> list[Table]:
-    """The table, or parts of it that all have its header; ``letters`` are their height and that of a row."""
+    """The table, or parts of it by rows, all with its header; ``letters`` are their height and that of a row."""
     count, (height, row_height) = len(table.rows), letters
     if count < 2 or table_block(table, height, room, row_height=row_height).box.height <= tall:
         return [table]
@@ -104,7 +104,7 @@ def _part(table: Table, columns: Sequence[int] | None = None, rows: Sequence[int
 
 @dataclass(frozen=True)
 class _Column:
-    """A column's texts, the header's first; how wide it would be, and how wide it must be for its words [mm]."""
+    """The texts of a column, the header's first; its natural width, and its minimum width for its words [mm]."""
 
     cells: tuple[str, ...]
     wanted: float
@@ -127,7 +127,7 @@ def _columns(table: Table, height: float) -> list[_Column]:
 
 
 def _widths(columns: Sequence[_Column], room: float) -> list[float]:
-    """The columns' widths: as they would be, else narrower, so that together they take the room."""
+    """The columns' widths [mm]: the natural ones, or narrower ones that together fill the room."""
     wanted, least = sum(column.wanted for column in columns), sum(column.least for column in columns)
     if wanted <= room:
         return [column.wanted for column in columns]

@@ -16,21 +16,21 @@ from graphcam.sheets.typefaces import MISSING_CHARACTER, capital, face_of, glyph
 from graphcam.subscripts import parts
 
 LETTER_HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0)
-"""Of capital letters by ISO 3098 and GOST 2.304, mm."""
+"""The series of heights of capital letters by ISO 3098 and GOST 2.304 [mm]."""
 WIDTH_ROUNDING = 1e-6
-"""Two widths that differ by less may be the same [mm]."""
+"""The difference of two widths below which they may be the same [mm]."""
 OPENING_SIGNS, CLOSING_SIGNS = "（《“‘「『【〔", "，。、；：？！）》”’」』】〕％"
-"""Signs of Chinese that stand at no end of a line, and at no start."""
+"""Chinese signs that stand at no end of a line, and those at no start."""
 INDEX_DROP = 0.5
-"""An index stands so much lower than its letter, in heights of the index."""
+"""The drop of an index below its letter, in heights of the index."""
 
 
 @dataclass(frozen=True)
 class Letters:
-    """What of a text has one face and one height.
+    """A piece of a text, in one face and one height.
 
     height : of capital letters, mm
-    start : where its base line begins, from the text's [mm]
+    start : the start of its base line, from that of the text [mm]
     width : mm
     index : whether it is set lower
     """
@@ -44,7 +44,7 @@ class Letters:
 
     @property
     def ink(self) -> tuple[str, complex, complex]:
-        """The letters without blanks around them, and the ends of the part of the base line that they stand on."""
+        """The letters without blanks around them, and the ends of their part of the base line."""
         bare = self.text.strip() or self.text
         before = self.text[: self.text.index(bare)]
         wide = [self.height * sum(glyph(letter).advance for letter in part) for part in (before, bare)]
@@ -53,7 +53,7 @@ class Letters:
 
 
 def points_size(height: float) -> float:
-    """The size in points at which capitals are ``height`` mm high.
+    """The font size [points] at which capitals are ``height`` mm high.
 
     >>> round(points_size(3.5), 3)
     13.456
@@ -125,7 +125,7 @@ def width(text: str, height: float) -> float:
 
 
 def start_of(text: Text) -> float:
-    """Where a text begins along its base line, from its place [mm], by its alignment.
+    """The start of a text along its base line, from its place [mm], by its alignment.
 
     >>> start_of(Text(8j, "H", 3.5)), start_of(Text(8j, "H", 3.5, "right")) == -width("H", 3.5)
     (0.0, True)
@@ -158,7 +158,7 @@ def wrap(text: str, height: float, room: float) -> list[str]:
 
 
 def words_of(text: str) -> Iterator[tuple[str, str]]:
-    """What a text may be broken between: its words, each behind a space, and Chinese characters with their signs.
+    """The pieces between which a text may be broken: words, each with the space before it, and Chinese characters.
 
     >>> list(words_of("to scale"))
     [(' ', 'to'), (' ', 'scale')]
@@ -173,7 +173,7 @@ def words_of(text: str) -> Iterator[tuple[str, str]]:
 
 
 def _characters_of(word: str) -> Iterator[str]:
-    """A word between whose Chinese characters a line may end; a sign stays with what it closes or opens."""
+    """The pieces of a word between whose Chinese characters a line may end; signs stay with their characters."""
     start = 0
     for k in range(1, len(word)):
         before, after = word[k - 1], word[k]
@@ -214,7 +214,7 @@ def _parts(begun: str, word: str, height: float, room: float) -> Iterator[str]:
 
 
 def _break_position(word: str, height: float, room: float) -> int:
-    """After how many letters a word is broken: behind a sign such as a hyphen if one stands late enough."""
+    """The number of letters before the break of a word: behind a sign such as a hyphen if one stands late enough."""
     last = 1
     while last < len(word) and width(word[: last + 1] + "-" * _hyphenated(word, last + 1), height) <= room:
         last += 1
@@ -223,5 +223,5 @@ def _break_position(word: str, height: float, room: float) -> int:
 
 
 def _hyphenated(word: str, cut: int) -> bool:
-    """Whether a hyphen is written where a word is broken; none in Chinese or Japanese, and none behind a sign."""
+    """Whether the break of a word gets a hyphen; in Chinese or Japanese, and behind a sign, it gets none."""
     return cut < len(word) and word[cut - 1 : cut + 1].isalpha() and word[cut - 1].lower() != word[cut - 1].upper()

@@ -1,4 +1,4 @@
-"""Typefaces: osifont, which is lettered by ISO 3098, and for what it lacks DejaVu Sans, then the machine's own.
+"""Typefaces: osifont, lettered by ISO 3098; for characters that it lacks DejaVu Sans, then the machine's own.
 
 Each character has one face, by which it is measured and drawn.  The first two are measured by a table, so that only
 what they lack, and drawing in them, needs Matplotlib.
@@ -24,26 +24,26 @@ if TYPE_CHECKING:
     from matplotlib.ft2font import FT2Font
 
 FONT_FAMILY = "osifont"
-"""The family of the letters, by the name that drawings have for it."""
+"""The name of the letters' family in drawings."""
 FALLBACK_FAMILY = "DejaVu Sans"
-"""The family that comes nearest to osifont where that is not installed."""
+"""The family most like osifont, where that is not installed."""
 MISSING_CHARACTER = "□"
 """The sign that stands for a character that no face has."""
 ALPHABET = "".join(map(chr, (*range(0x20, 0x7F), *range(0xA0, 0x100), *range(0x391, 0x3CA), *range(0x400, 0x460))))
-"""What nearly every sheet is lettered with, in any language that the program speaks."""
+"""The characters of nearly every sheet, in any language of the program."""
 UPRIGHT_STYLES = "regular", "medium", "book", "roman"
-"""How files are named that hold neither bold nor slanted letters."""
+"""Words in the names of files with letters that are neither bold nor slanted."""
 
 
 GLYPHS_FILE = "glyphs.json"
-"""Beside the letters; ``tests/sheets/measured_glyphs.py`` writes it."""
+"""The table's file beside the letters; ``tests/sheets/measured_glyphs.py`` writes it."""
 
 
 @dataclass(frozen=True)
 class Glyph:
-    """Advance, depth below and height above the base line, in heights of the family's capitals.
+    """A character's advance, depth below and height above the base line, in heights of the family's capitals.
 
-    left, right : what stays blank of the advance at either side
+    left, right : the blank parts of the advance at either side
     """
 
     advance: float
@@ -54,7 +54,7 @@ class Glyph:
 
 
 class Design(NamedTuple):
-    """A character as its face was designed, in the units of the face.
+    """A character's design in the units of its face: advance and box.
 
     left, bottom, right, top : of its box
     """
@@ -79,7 +79,7 @@ class Design(NamedTuple):
 class GlyphTable:
     """The designs of the characters of osifont, and of those that DejaVu Sans has besides.
 
-    ems : units of an em, alike in both faces
+    ems : units per em, alike in both faces
     capital : height of the first face's capitals in the same units
     """
 
@@ -88,13 +88,13 @@ class GlyphTable:
     faces: tuple[dict[str, Design], ...]
 
     def face(self, character: str) -> int | None:
-        """Which face has a character; None where neither has it."""
+        """The index of the face that has a character; None where neither has it."""
         return next((number for number, designs in enumerate(self.faces) if character in designs), None)
 
 
 @cache
 def glyph_table() -> GlyphTable:
-    """The table.
+    """The table of the designs of characters.
 
     >>> table = glyph_table()
     >>> table.faces[0]["H"].top == table.capital, table.face("H"), table.face("√"), table.face("漢")
@@ -106,13 +106,13 @@ def glyph_table() -> GlyphTable:
 
 
 def lettering_file() -> Path:
-    """The file of osifont."""
+    """The path of the file of osifont."""
     return Path(str(files("graphcam") / "data" / "fonts" / "osifont.ttf"))
 
 
 @cache
 def shipped() -> tuple[Path, ...]:
-    """The faces that every machine has; the second comes with Matplotlib, which is looked for and not loaded."""
+    """The files of the faces that every machine has; the second comes with Matplotlib, which is not loaded for it."""
     found = find_spec("matplotlib")
     beside = Path(found.origin).parent if found and found.origin else Path()
     return lettering_file(), beside / "mpl-data" / "fonts" / "ttf" / "DejaVuSans.ttf"
@@ -120,13 +120,13 @@ def shipped() -> tuple[Path, ...]:
 
 @cache
 def opens_fonts() -> bool:
-    """Whether there is Matplotlib, which opens fonts."""
+    """Whether Matplotlib, which opens fonts, is installed."""
     return find_spec("matplotlib") is not None
 
 
 @cache
 def font(face: Path) -> FT2Font:
-    """A face, open."""
+    """A face, opened."""
     from matplotlib.ft2font import FT2Font
 
     return FT2Font(str(face))
@@ -134,7 +134,7 @@ def font(face: Path) -> FT2Font:
 
 @cache
 def face_of(character: str) -> Path | None:
-    """The face that has the character; None where no face of the machine has it.
+    """The file of the face that has the character; None where no face of the machine has it.
 
     >>> face_of("μ").name, face_of("√").name, face_of(chr(0xE000 + 77))
     ('osifont.ttf', 'DejaVuSans.ttf', None)
@@ -147,7 +147,7 @@ def face_of(character: str) -> Path | None:
 
 
 def is_chinese(character: str) -> bool:
-    """Whether it is an ideograph of Chinese or Japanese, or a sign as wide as one.
+    """Whether a character is an ideograph of Chinese or Japanese, or a sign as wide as one.
 
     >>> [is_chinese(character) for character in "凸（φ"]
     [True, True, False]
@@ -156,7 +156,7 @@ def is_chinese(character: str) -> bool:
 
 
 def _face_with(character: str) -> Path | None:
-    """The first of the machine's own faces that has a character; nobody draws those for private use alike."""
+    """The machine's first face with a character; characters for private use have none."""
     if not (opens_fonts() and character.isprintable()):
         return None
     return next((face for face in installed() if ord(character) in _characters(face)), None)
@@ -164,7 +164,7 @@ def _face_with(character: str) -> Path | None:
 
 @cache
 def installed() -> tuple[Path, ...]:
-    """The machine's own faces, upright ones first, always in the same order."""
+    """The files of the machine's own faces, upright ones first, always in the same order."""
     from matplotlib.font_manager import findSystemFonts
 
     found = {Path(name) for name in findSystemFonts()}
@@ -180,7 +180,7 @@ def _is_upright(face: Path) -> bool:
 
 @cache
 def _characters(face: Path) -> frozenset[int]:
-    """What a face has, if it is one whose letters can be drawn at any size."""
+    """The code points of a face; none if its letters cannot be drawn at any size."""
     try:
         opened = font(face)
     except (OSError, RuntimeError):
@@ -190,7 +190,7 @@ def _characters(face: Path) -> frozenset[int]:
 
 @cache
 def cubic(face: Path) -> bool:
-    """Whether the outlines of a face are cubic, not quadratic as those of TrueType."""
+    """Whether the outlines of a face are cubic, not quadratic as in TrueType."""
     try:
         with face.open("rb") as file:
             start = file.read(16)
@@ -204,7 +204,7 @@ def cubic(face: Path) -> bool:
 
 @cache
 def glyph(character: str) -> Glyph:
-    """The measures of a character in its face; a box stands for one that has none."""
+    """The measures of a character in its face; those of a box for one without a face."""
     table = glyph_table()
     number, face = table.face(character), None
     if number is None or is_chinese(character):
@@ -220,7 +220,7 @@ def _machine_glyph(face: Path, character: str) -> Glyph:
 
 
 def design(face: Path, character: str) -> Design:
-    """A character as it stands in the file of a face."""
+    """The design of a character, read from the file of a face."""
     from matplotlib.ft2font import LoadFlags
 
     opened = font(face)
@@ -229,7 +229,7 @@ def design(face: Path, character: str) -> Design:
 
 
 def capital() -> float:
-    """The height of the family's capitals, in ems, which are alike in all faces."""
+    """The height of the family's capitals, in ems, alike in all faces."""
     return glyph_table().capital / glyph_table().ems
 
 
@@ -243,7 +243,7 @@ def missing_characters(texts: Iterable[str]) -> str:
 
 
 def font_faces(texts: Iterable[str]) -> str:
-    """Rules of CSS by which a page carries the letters of these texts with it, under the name of the family."""
+    """The CSS rules with which a page carries the letters of these texts, under the family's name."""
     needed = sorted(set("".join(texts)))
     by_face: dict[Path, str] = {lettering_file(): ALPHABET}
     for character in needed:
@@ -264,7 +264,7 @@ def _rules(by_face: dict[Path, str]) -> Iterator[str]:
 # The pages of a drawing and its step player have nearly always the same letters.
 @lru_cache(maxsize=32)
 def _woff(face: Path, characters: str) -> str:
-    """A face with these characters alone: base64 of a WOFF."""
+    """A face with these characters alone, as a WOFF in base64."""
     from fontTools import subset
 
     # Widths are measured without kerning and ligatures.

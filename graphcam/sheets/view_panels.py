@@ -1,4 +1,4 @@
-"""Views as panels: what is drawn in them, the box that they need, and how those that share an axis stand together."""
+"""Views as panels: their entities, the box that they need, and how those that share an axis stand together."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -17,24 +17,24 @@ from graphcam.sheets.sampling import box_around, box_of_lines, linework, outermo
 from graphcam.sheets.text_measures import width, wrap
 
 LABEL_MARGIN = 3.0
-"""Free margin around what is drawn in a view, where labels find room, mm."""
+"""The free margin around the drawing of a view, for labels [mm]."""
 STRIP_COUNT = 12
 """The number of boxes that cover the outline of a view."""
 TITLE_GAP = 1.5
-"""The gap between a title and the lines below it, mm."""
+"""The gap between a title and the lines below it [mm]."""
 BLANK_FIELD = "_____"
-"""A field in which a number is to be written."""
+"""The blank in which a number is to be written."""
 LINE_SPACING = 1.7
 """The distance from base line to base line, in heights of the letters."""
 
 
 @dataclass(frozen=True, eq=False)
 class Panel:
-    """A view with everything that is drawn in it; boxes are about the view's origin.
+    """A view with everything that is drawn in it; its boxes are about the view's origin.
 
-    factor : by which a screen shows it smaller than it is drawn; on paper it is 1
-    under : what it has besides where no view of the same column stands below
-    lowest : whether it stands so
+    factor : the reduction on a screen; on paper it is 1
+    under : marks that it has only where no view of the same column stands below
+    lowest : whether no view of the same column stands below
     """
 
     view: View
@@ -46,12 +46,12 @@ class Panel:
 
     @property
     def base(self) -> tuple[Mark, ...]:
-        """What the panel shows because it is the lowest of its column."""
+        """The marks that the panel has because it is the lowest of its column."""
         return self.under if self.lowest else ()
 
     @cached_property
     def as_lowest(self) -> "Panel":
-        """The panel as it is where no view of its column stands below."""
+        """The panel as the lowest of its column."""
         return replace(self, lowest=True) if self.under else self
 
     @cached_property
@@ -65,7 +65,7 @@ class Panel:
 
     @cached_property
     def points(self) -> Points:
-        """Points 1 mm apart on all that is drawn."""
+        """Points (n,), 1 mm apart, on all that is drawn."""
         return sampled(*self._lines, 1.0)
 
     @cached_property
@@ -93,7 +93,7 @@ class Panel:
 
     @cached_property
     def title_box(self) -> Box:
-        """The room of the title, over the left end of the drawing, as low as its lines leave room."""
+        """The box of the title, over the left end of the drawing, as low as its lines leave room."""
         content = self.content
         wide = max(text.at.real + width(text.text, text.height) for text in self.heading) + LABEL_MARGIN
         high = max(text.at.imag + (LINE_SPACING - 0.2) * text.height for text in self.heading)
@@ -126,13 +126,13 @@ class Panel:
 
     @cached_property
     def hollow(self) -> Room:
-        """The empty parts of the drawing, where something with air of its own may stand; it is looked into."""
+        """The empty parts of the drawing, where something with air of its own may stand; read only."""
         room = Room(self.content, [self.title_box])
         room.take_points(self.points, LABEL_MARGIN)
         return room
 
     def title(self, origin: complex, *, answered: bool = True) -> list[Entity]:
-        """The title's texts on the page, with what is only found by drawing or a blank to write it in."""
+        """The title's texts on the page, with the scale that is found by drawing or a blank to write it in."""
         corner, answer = origin + self.title_box.corner, str(self.view.answer or "")
         texts = [replace(text, at=corner + text.at, view=self.view.name) for text in self.heading if text.text]
         if answered or not answer:
@@ -141,13 +141,13 @@ class Panel:
 
 
 def _in_bands(points: Points, levels: Iterable[float]) -> list[list[Box]]:
-    """The box of the points between every two levels, or none."""
+    """The boxes of the points between each two levels; none for a band without points."""
     bands = (points[(points.imag >= low - 0.1) & (points.imag <= high + 0.1)] for low, high in pairwise(levels))
     return [[box_around(band)] if len(band) else [] for band in bands]
 
 
 def _in_lines(note: str, height: float, room: float) -> list[str]:
-    """A note in lines no wider than ``room`` mm, broken at its commas where that does."""
+    """The lines of a note, no wider than ``room`` mm, broken at its commas where that is enough."""
     lines: list[str] = []
     for part in note.split(", "):
         if lines and width(f"{lines[-1]}, {part}", height) <= room:
@@ -158,7 +158,7 @@ def _in_lines(note: str, height: float, room: float) -> list[str]:
 
 
 def panels(steps: Iterable[Step], letters: Lettering) -> list[Panel]:
-    """The views of steps in the order of their first step; of several titles of one view the last counts."""
+    """The views of steps as panels, in the order of their first step; of several titles of one view the last counts."""
     views: dict[str, View] = {}
     marks: dict[str, list[Mark]] = {}
     under: dict[str, tuple[Mark, ...]] = {}
@@ -170,13 +170,13 @@ def panels(steps: Iterable[Step], letters: Lettering) -> list[Panel]:
 
 
 def with_lowest(group: Sequence[Panel]) -> list[Panel]:
-    """Views that stand together, the last of each column as the lowest."""
+    """The views with the last of each column as the lowest."""
     last = {panel.view.across: panel for panel in group}
     return [panel.as_lowest if panel is last[panel.view.across] else panel for panel in group]
 
 
 def clusters(views: Sequence[Panel]) -> list[list[Panel]]:
-    """Panels that share an axis, directly or through others, together."""
+    """Groups of panels that share an axis, directly or through others."""
     found: list[list[Panel]] = []
     for panel in views:
         sharing = [cluster for cluster in found if shares(panel, cluster)]
@@ -190,7 +190,7 @@ def shares(panel: Panel, others: Iterable[Panel]) -> bool:
 
 
 def stand(group: Sequence[Panel], gap: float) -> list[complex]:
-    """Origins of panels, the first at 0: what shares ``across`` one under the other, what shares ``up`` side by side.
+    """Origins of panels, the first at 0: those that share ``across`` one under the other, ``up`` side by side.
 
     >>> from graphcam.drafting.ink import say
     >>> from graphcam.drafting.marks import Line, Role
