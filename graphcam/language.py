@@ -107,7 +107,6 @@ def _entries(text: str) -> Iterator[Entry]:
 
 
 def _unescaped(quoted: str) -> str:
-    """The text of a quoted string, its escapes resolved."""
     return _ESCAPE_PATTERN.sub(lambda sign: _ESCAPE_VALUES.get(sign[1], sign[1]), quoted) if "\\" in quoted else quoted
 
 

@@ -185,7 +185,6 @@ class Stage:
 
 
 def _is_row(step: Step, place: int) -> bool:
-    """Whether a place of a step belongs to a run."""
     inside = [bool(part.rows) for part in step.parts for _ in part.rows or (part,)]
     return inside[place]
 

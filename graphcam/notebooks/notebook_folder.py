@@ -170,7 +170,6 @@ def _chapter(number: int, name: str, solution: AnySolution) -> list[NotebookNode
 
 
 def _asked_quantities(solution: AnySolution) -> list[str]:
-    """The names of the quantities that a reader of the drawing is asked for."""
     asked = ("max_v", "minimum_prime_radius", "max_pressure_angle_rise_deg", "min_pitch_curvature_radius", "lift")
     quantities = solution.comparison.quantities
     return [name for name in asked if name in quantities and quantities[name].drawn == quantities[name].drawn]

@@ -84,7 +84,6 @@ def best_way(rewards: Rewards, wraps: bool) -> BestWay:
 
 
 def _best_way(rewards: Rewards, stations: NDArray[np.int64]) -> BestWay:
-    """The best way through the stations in this order."""
     _, states, slopes = rewards.shape
     value = np.zeros((slopes, states), np.float32)
     blocks = np.split(stations, np.arange(BLOCK_STATIONS, stations.size, BLOCK_STATIONS))

@@ -49,7 +49,6 @@ __all__ = ["Photograph", "UnopenedFile", "pictures_in"]
 
 
 POINTS_PER_INCH = 72.0
-"""The number of points in an inch."""
 RENDERING_DPI = 300.0
 """The resolution at which a page that is more than one picture is drawn."""
 MIN_COVERED_SHARE = 0.9

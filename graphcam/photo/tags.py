@@ -226,7 +226,6 @@ def _line(offsets: NDArray[np.float64], seen: NDArray[np.bool_]) -> tuple[float,
 
 
 def _meeting(start: Places, end: Places, other_start: Places, other_end: Places) -> Places:
-    """The crossings of lines through two points each."""
     way, other = end - start, other_end - other_start
     turned = (other_start - start) * other.conj()
     return start + way * turned.imag / (way * other.conj()).imag

@@ -83,7 +83,6 @@ def _curves(motion: PhasedMotion) -> tuple[Floats, Floats]:
 
 
 def _name_phases(diagram: Axes, motion: PhasedMotion) -> None:
-    """Write the name of every phase over the diagram."""
     for kind, start, end in motion.timing:
         wide = np.degrees(end - start)
         if wide >= MIN_UPRIGHT_NAME_ANGLE:

@@ -29,13 +29,11 @@ if TYPE_CHECKING:
     from graphcam.workshop.part_contents import PartContents
 
 DXF_KINDS = "plain", "cad"
-"""The kinds of DXF files."""
 FONT_PACKAGE = "fonts-noto-cjk"
 """A package of fonts with more characters than any other, for the advice."""
 MAX_NAMED_CHARACTERS = 12
 """The maximum number of missing characters that a warning names; a sheet in Chinese has hundreds."""
 SHEET_KINDS = "pdf", "svg", "png", "dxf"
-"""The kinds of files that show the sheet."""
 SOLUTION_FILE = "solution.json"
 """The name of the file that lists all others."""
 PART_KINDS = "pdf", "svg", "dxf"
@@ -134,7 +132,6 @@ def write(
 
 
 def _wanted_kinds(files: Collection[str] | None, *, finished: bool, working_drawing: bool) -> list[str]:
-    """The kinds of files to write: those asked for, or the default ones."""
     usual = (*DEFAULT_KINDS, *CUTTING_KINDS) if working_drawing else DEFAULT_KINDS
     # What is not a sheet holds answers.
     return [kind for kind in (usual if files is None else files) if finished or kind in SHEET_KINDS]

@@ -34,7 +34,6 @@ SIZE_CAPTIONS: Mapping[str, Caption] = {
 """Captions of the sizes, by their names in :class:`~graphcam.mechanism.sizing_limits.SizingProblem`."""
 SMALLEST_CAM_TITLE, LEAST_STRESS_TITLE = say("The smallest cam"), say("The cam under the minimum stress")
 TITLES_BY_OBJECTIVE = {"size": SMALLEST_CAM_TITLE, "stress": LEAST_STRESS_TITLE}
-"""Titles of the table, by the objective."""
 FRONT_TITLE = say("Radius against stress")
 
 

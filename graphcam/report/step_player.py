@@ -79,7 +79,6 @@ def _instrument(piece: ActPlaces) -> Caption | None:
 
 
 def _is_straight(act: Act) -> bool:
-    """Whether each piece of a faired curve is straight."""
     points = act.takes["points"].shown
     ways = [points[piece] - points[piece][0] for piece in act.takes["pieces"] if points[piece].size]
     off = [np.abs(cross(unit(way[-1]), way)).max() for way in ways if abs(way[-1]) > NEGLIGIBLE_SIZE]
@@ -143,7 +142,6 @@ def _source(length: object, amount: float) -> Caption | None:
 
 
 def _protractor_setting(instrument: Caption, degrees: Floats) -> Caption | None:
-    """A protractor with the angle of its setting."""
     # A protractor has no angles below zero.
     low, high = (float(np.round(bound(np.abs(degrees)), 2)) for bound in (np.fmin.reduce, np.fmax.reduce))
     if high < NEGLIGIBLE_SIZE:
@@ -251,7 +249,6 @@ def _head(names: Sequence[str]) -> str:
 
 
 def _of_all(parts: Iterable[PartText]) -> tuple[str, ...]:
-    """The instruments that every part uses."""
     first, *others = (part.tools for part in parts)
     return tuple(tool for tool in first if all(tool in tools for tools in others))
 

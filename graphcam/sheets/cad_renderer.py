@@ -20,7 +20,6 @@ from graphcam.sheets.model import Angle, Drawing, Group, Length, Text
 from graphcam.subscripts import parts
 
 DIMENSION_STYLE = "GRAPHCAM"
-"""The name of the dimension style."""
 ARROW_HEAD_LENGTH = 3.5
 """The length of arrow heads [mm]."""
 

@@ -226,7 +226,7 @@ def draw(space: BaseLayout, entity: Entity, layer: str, left: float = 0.0) -> No
 def _add_text(space: BaseLayout, text: Text, layer: str, left: float) -> None:
     """Add a text in pieces, each fitted between the places where it begins and ends in our font.
 
-    Otherwise its letters could overlap what stands behind, in a program with another font.  A single letter is not fitted.
+    In a program with another font its letters could otherwise overlap others.  A single letter is not fitted.
     """
     begin, turn = start_of(text), cmath.rect(1.0, text.angle)
     for piece in letters_of(text.text, text.height):

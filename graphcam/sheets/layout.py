@@ -158,7 +158,6 @@ def fewest_pages(sheet: Format, part: SheetPart) -> int:
 
 
 def _filled_pages(sheet: Format, part: SheetPart) -> list[OpenPage]:
-    """The pages of a part."""
     views = panels((step for _, _, step in part.steps), sheet.lettering)
     heights = sorted({sheet.lettering.label, sheet.lettering.small}, reverse=True)
     ways: list[list[Block]] = []

@@ -73,7 +73,6 @@ def _sourced(mark: marks.Mark, entities: list[Entity], writings: list[LabelText]
 
 
 def _source_of_pieces(mark: marks.Line | marks.Segments, kept: NDArray[np.bool_]) -> Source | None:
-    """The source of some pieces of a mark."""
     if mark.of is None:
         return None
     return Source(mark.of, None if mark.index is None else mark.index[kept])

@@ -56,7 +56,6 @@ from graphcam.sheets.typefaces import FALLBACK_FAMILY, FONT_FAMILY, cubic, font_
 
 MM_PER_INCH = 25.4
 POINTS_PER_MM = 72 / MM_PER_INCH
-"""The number of points in a millimetre."""
 PAPER_COLOUR = (1.0, 1.0, 1.0, 1.0)
 _RC_SETTINGS: dict[Any, Any] = {
     "pdf.fonttype": 42,

@@ -178,7 +178,6 @@ def fill(sheet: Format, views: Sequence[Panel], ways_of_blocks: Sequence[Sequenc
 
 
 def _best_filling(sheet: Format, views: Sequence[Panel], settings: Sequence[BlockSetting]) -> FilledPages:
-    """The best of all ways, with the narrowest gaps."""
     best: FilledPages | None = None
     goal = 0, min_pages(sheet, views), 0
     for way in _ways(sheet, views):
@@ -226,7 +225,6 @@ def _ways(sheet: Format, views: Sequence[Panel]) -> Iterator[Way]:
 
 
 def _ways_of(sheet: Format, views: Sequence[Panel], parted: Sequence[Runs]) -> Iterator[Way]:
-    """Ways to put views on pages, for several partings."""
     rank = {panel.view.name: k for k, panel in enumerate(views)}
     by_work = [sorted(runs, key=lambda run: min(rank[panel.view.name] for panel in run)) for runs in parted]
     # The small ones find room between the large ones.
@@ -329,7 +327,6 @@ def _place(
 
 
 def _merit(leaves: Sequence[OpenPage], views: Sequence[Panel]) -> tuple[float, ...]:
-    """The merit of pages, as in :class:`FilledPages`."""
     used = [leaf.used for leaf in leaves]
     sparse = sum(share < MIN_FILLED_SHARE for share in used[:-1])
     lack = sum(max(0.0, MIN_FILLED_SHARE - share) for share in used) if len(leaves) > 1 else 0.0

@@ -282,7 +282,6 @@ def player(
 
 @cache
 def _template() -> Template:
-    """The page's template, compiled once."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     loader = PackageLoader("graphcam", "data/player")
@@ -304,7 +303,6 @@ def _json(data: object) -> str:
 
 
 def _indexed(text: str) -> Markup:
-    """The HTML of a text, its indices set lower."""
     from markupsafe import Markup, escape
 
     return Markup(in_html(str(escape(text))))

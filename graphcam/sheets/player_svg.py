@@ -95,7 +95,6 @@ def _text(text: Text, where: str, height: float) -> str:
 
 
 def _letters(text: Text) -> str:
-    """The SVG of a text, its indices smaller and set lower."""
     written, lowered = "", 0.0
     for piece in letters_of(text.text, text.height):
         drop = -piece.start.imag
@@ -107,7 +106,6 @@ def _letters(text: Text) -> str:
 
 
 def _size(height: float) -> str:
-    """The attribute for the size of letters [mm of the page]."""
     return f"{points_size(height) * MM_PER_POINT:.3f}"
 
 
@@ -156,5 +154,4 @@ def _number(mm: float) -> str:
 
 
 def _without_idle(numbers: str) -> str:
-    """The numbers without needless digits and signs."""
     return IDLE_DIGITS_PATTERN.sub("", numbers.replace("-0.00", "0.00"))

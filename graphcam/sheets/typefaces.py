@@ -215,7 +215,6 @@ def glyph(character: str) -> Glyph:
 
 
 def _machine_glyph(face: Path, character: str) -> Glyph:
-    """The measures of a character in a face of the machine."""
     return design(face, character).glyph(font(face).units_per_EM * capital())
 
 

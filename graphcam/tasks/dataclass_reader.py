@@ -132,7 +132,6 @@ def _dataclass_reader(kind: type) -> Reader:
 
 
 def _reader(hint: Any) -> Reader:
-    """The reader of a value by a type hint."""
     origin, parts = get_origin(hint), get_args(hint)
     if origin is Annotated:
         marks = [type(mark) for mark in parts[1:]]
@@ -232,7 +231,6 @@ def _closest_faults(found: list[list[Fault]], place: Place) -> list[Fault]:
 
 
 def _kind_reader(classes: tuple[type, ...]) -> Reader:
-    """The reader of a table as the class that its key ``kind`` names."""
     tags = {kind: get_args(get_type_hints(kind)["kind"])[0] for kind in classes}
     readers: dict[Any, Reader] = {tag: _dataclass_reader(kind) for kind, tag in tags.items()}
 
@@ -259,7 +257,6 @@ def _keys_reader(classes: tuple[type, ...]) -> Reader:
 
 
 def _list_reader(hint: Any) -> Reader:
-    """The reader of a list of any length."""
     reader = _reader(hint)
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
@@ -272,7 +269,6 @@ def _list_reader(hint: Any) -> Reader:
 
 
 def _tuple_reader(hints: tuple[Any, ...]) -> Reader:
-    """The reader of a list of fixed length."""
     readers = [_reader(hint) for hint in hints]
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
@@ -293,7 +289,6 @@ def _tuple_reader(hints: tuple[Any, ...]) -> Reader:
 
 
 def _mapping_reader(hint: Any) -> Reader:
-    """The reader of a table with keys of the file's own."""
     reader = _reader(hint)
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:

@@ -347,7 +347,6 @@ class Task:
             raise DesignError("spring.inertia", getattr(self.spring, "inertia", None), left_out, remedy)
 
     def _check_limits(self) -> None:
-        """Refuse limits that the follower does not have."""
         for key, reason in self.follower.without.items():
             left_out = say("left out for a follower of kind {kind}", kind=self.follower.kind)
             if (value := getattr(self.limits, key)) is not None:

@@ -291,7 +291,6 @@ def checked_table(
 
 
 def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault) -> TaskError:
-    """The error for a fault, in the words of the file."""
     place, value = _look_up(data, fault.place)
     match fault:
         case Misfit(table, error):

@@ -43,7 +43,6 @@ def key_remedy(key: str, value: Any, known: Iterable[str], data: Mapping[str, An
 
 
 def _radius_remedy(key: str, value: Any, follower: Any) -> Words:
-    """The remedy that gives the prime radius from the radius of the base circle."""
     said: Mapping[str, Any] = follower if isinstance(follower, dict) else {}
     roller = 0 if said.get("kind") == "flat-faced" else said.get("roller_radius")
     radius = say("graphcam takes the prime radius, of the pitch curve: prime_radius = {key}", key=key)

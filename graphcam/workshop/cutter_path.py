@@ -119,7 +119,6 @@ def _concatenated(parts: list[Samples]) -> Samples:
 
 
 def _rotated_to_farthest(pieces: list[Samples]) -> list[Samples]:
-    """The pieces in an order that begins at the sample farthest from the axis."""
     k = int(np.argmax([np.abs(points).max() for points, _ in pieces]))
     points, tangents = pieces[k]
     j = int(np.argmax(np.abs(points)))

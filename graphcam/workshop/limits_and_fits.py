@@ -87,7 +87,6 @@ _KEY_SECTIONS = (
 MIN_SHAFT, MAX_SHAFT = 6.0, 500.0
 """The range of diameters for which the standards have keys: over the first, up to the second [mm]."""
 STANDARD_NAMES = {"din6885": "DIN 6885-1", "gost23360": say("GOST 23360-78")}
-"""The names on drawings of the standards of a task file."""
 
 
 @dataclass(frozen=True)

@@ -121,7 +121,6 @@ GENERAL_TOLERANCES = {
 MAX_PHASES = 8
 """The maximum number of phases that the table of data names."""
 PHASE_NAMES = {"rise": say("rise"), "dwell": say("dwell"), "return": say("return")}
-"""The names of the kinds of phases."""
 
 
 def requirements(
@@ -183,7 +182,6 @@ def _cutter(part: CamPart) -> list[Caption]:
 
 
 def _contact_caption(solution: AnySolution) -> Caption:
-    """The note on the roller, knife edge or face for which the profile is made."""
     if not isinstance(solution, ArcsSolution) and not solution.cam.kinematics.takes_roller:
         return say("The profile works with a flat-faced follower.")
     roller = solution.motion.roller_radius if isinstance(solution, ArcsSolution) else solution.cam.roller_radius
@@ -229,7 +227,6 @@ def _lift(solution: AnySolution) -> Words:
 
 
 def _sizes(solution: AnySolution) -> list[tuple[Words, Words]]:
-    """Names and values of the prime radius and the follower's sizes."""
     if isinstance(solution, ArcsSolution):
         motion = solution.motion
         return [(say("prime radius r₀"), _mm(motion.prime_radius)), (say("roller radius"), _mm(motion.roller_radius))]

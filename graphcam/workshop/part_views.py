@@ -268,7 +268,6 @@ def heights(shown: ShownPart) -> tuple[float, float, float, float]:
 
 
 def _cut_edges(shown: ShownPart) -> list[Mark]:
-    """All visible edges of the section."""
     part, k = shown.part, shown.scale
     low, high, seen_low, seen_high = heights(shown)
     w, end, c = k * part.width, k * part.length, k * part.chamfer

@@ -100,7 +100,6 @@ def _nearness(wanted: complex) -> Preference:
 
 
 def _callouts(contents: PartContents, layout: PartLayout) -> list[Callout]:
-    """The callouts of the profile, of the side and of the bore."""
     shown, table, tell = layout.shown, contents.part.table, contents.tell
     height = layout.sheet.lettering.label
     value, datum = (
@@ -153,7 +152,6 @@ def _side(shown: ShownPart, way: int) -> Points:
 
 
 def _bore_face(shown: ShownPart) -> Points:
-    """Places on the upper left of the bore."""
     ways: Points = np.exp(1j * np.linspace(2.4, 3.0, 30))
     return shown.bore_scale * shown.part.bore / 2 * ways
 
