@@ -141,7 +141,7 @@ def fan():
 def fan_steps(drawn):
     pole, ends, rays = (drawn.acts[name] for name in ("pole", "ends", "rays"))
     given = (pole.dots(),)
-    marks = (*given, rays.ways(Role.CONSTRUCTION), ends.line(Role.CURVE), pole.label("P"))
+    marks = (*given, rays.segments(Role.CONSTRUCTION), ends.line(Role.CURVE), pole.label("P"))
     one = say("Join P to the point {k}.")
     parts = tuple(Part(one.with_values(k=k + 1), (rays[k], ends[k])) for k in range(6))
     why = say("Because this is a toy.")
