@@ -329,7 +329,9 @@ class _Telling:
         """What is seen of what is read, all or at some places."""
         if read.act is None:
             return []
-        return self._pieces(self.board.visible([ActPlaces(read.act, places) if places else all_places(read.act)]))
+        return self._pieces(
+            self.board.visible_pieces([ActPlaces(read.act, places) if places else all_places(read.act)])
+        )
 
     def _line(self, row: ReadingRow, read: Reading, place: int) -> RowText:
         """One value of many: where, on paper, value."""
