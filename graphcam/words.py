@@ -37,7 +37,7 @@ class Caption:
     def with_values(self, **values: Any) -> Caption:
         """The caption with these values besides those that it has.
 
-        >>> str(say("The ray is {length:.1f} mm long.").where(length=3.14))
+        >>> str(say("The ray is {length:.1f} mm long.").with_values(length=3.14))
         'The ray is 3.1 mm long.'
         """
         return Caption(self.template, {**self.values, **values}, self.context, self.plural, self.count)

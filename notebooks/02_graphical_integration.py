@@ -27,9 +27,9 @@ import graphcam as gc
 from graphcam.constructions.differentiation import differentiation
 from graphcam.notebooks import (
     Question,
-    changed_task,
+    changed,
     chart,
-    comparison_table,
+    compared,
     picture_of,
     show_steps,
     table,
@@ -142,8 +142,8 @@ scale_a.check(your_mu_a)
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-smooth = changed_task(task, {"motion.phases": tuple(
-    changed_task(p, {"law": "cycloidal"}) if p.kind != "dwell" else p for p in task.motion.phases)})
+smooth = changed(task, {"motion.phases": tuple(
+    changed(p, {"law": "cycloidal"}) if p.kind != "dwell" else p for p in task.motion.phases)})
 gc.studio(smooth, view="velocity", stills={
     **{f"parts of each phase: {parts}": {"drawing.divisions": parts} for parts in (4, 24)},
     **{f"pole distance H₁, mm: {pole}": {"drawing.poles": [pole, 40]} for pole in (30, 60)},
@@ -192,7 +192,7 @@ picture_of(figure, "Velocity and acceleration found by differentiating a displac
 # ## Drawn and exact
 
 # %%
-comparison_table(solution, "max_v", "max_a")
+compared(solution, "max_v", "max_a")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(float(integration.readings["s"].scale) - 0.6) < 1e-9
@@ -207,7 +207,7 @@ assert abs(float(s.paper[rise].max()) - 50.0) < 1e-9
 # %%
 errors = {}
 for parts in (6, 12, 24, 48):
-    finer = gc.solve(changed_task(smooth, {"drawing.divisions": parts}))
+    finer = gc.solve(changed(smooth, {"drawing.divisions": parts}))
     stations = finer.comparison
     errors[parts] = float(np.abs(stations.drawn_stations["s"] - stations.exact_stations.values[0]).max()) / 30
 table(("parts n", "maximum error of s, % of the lift", "π/(6n²), %"),

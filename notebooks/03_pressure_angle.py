@@ -26,7 +26,7 @@ from math import atan, degrees
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, Slider, chart, comparison_table, picture_of, show_steps, sliders, table
+from graphcam.notebooks import Question, Slider, chart, compared, explore, picture_of, show_steps, table
 
 # %% [markdown]
 # ## Background
@@ -127,7 +127,7 @@ def angles(offset, rotation):
                       "with lines at plus and minus 30 degrees.", "Pressure angle over a revolution, limits of 30°")
 
 
-sliders(
+explore(
     angles,
     offset=Slider("offset e, mm", (-20, -15, -10, -5, 0, 5, 10, 15, 20), 0, (-15, 15)),
     rotation=Slider("rotation", ("ccw", "cw"), "ccw"),
@@ -178,7 +178,7 @@ reverse.check(your_alpha_clockwise)
 # ## Drawn and exact
 
 # %%
-comparison_table(solution, "max_pressure_angle_rise_deg", "max_pressure_angle_return_deg")
+compared(solution, "max_pressure_angle_rise_deg", "max_pressure_angle_return_deg")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 rise = solution.comparison.quantities["max_pressure_angle_rise_deg"]

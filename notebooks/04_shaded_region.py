@@ -29,9 +29,9 @@ import numpy as np
 import graphcam as gc
 from graphcam.notebooks import (
     Question,
-    changed_task,
+    changed,
     chart,
-    comparison_table,
+    compared,
     picture_of,
     show_steps,
     table,
@@ -78,7 +78,7 @@ from graphcam.notebooks import (
 # on the return. The cam turns clockwise; the follower's offset is to be found.
 
 # %%
-task = changed_task(gc.builtin_task(), {
+task = changed(gc.builtin_task(), {
     "follower.offset": None,
     "limits.pressure_angle_rise": 30.0,
     "limits.pressure_angle_return": 50.0,
@@ -241,7 +241,7 @@ assert abs(exceeded(centre)) < 0.05
 # enough. Measure the distance from the start of the lift to the new centre.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-eased = gc.solve(changed_task(task, {"limits.pressure_angle_rise": 35.0})).drawn["minimum_radius"].readings
+eased = gc.solve(changed(task, {"limits.pressure_angle_rise": 35.0})).drawn["minimum_radius"].readings
 before, r0 = region.readings["prime_radius"], eased["prime_radius"]
 distance = Question(
     float(r0.paper), 1.5, "mm of paper", "the choice of the centre, step 4.5",
@@ -250,7 +250,7 @@ distance = Question(
 )
 prime_radius = Question.of(r0, "step 4.5 and the scale μₛ")
 central = Question.of(
-    gc.solve(changed_task(task, {"follower.offset": 0.0})).drawn["minimum_radius"].readings["prime_radius"],
+    gc.solve(changed(task, {"follower.offset": 0.0})).drawn["minimum_radius"].readings["prime_radius"],
     "the table of the three cases: where does the line of motion enter the region?",
     {"that is the radius at the best offset": float(before.value)},
 )
@@ -318,7 +318,7 @@ gc.studio(task, view="combined", stills={
 # for the minimum $r_0$, with the closed formulas of the law. The maxima are the intercepts of our tangents.
 
 # %%
-comparison_table(solution, "minimum_prime_radius", "minimum_offset")
+compared(solution, "minimum_prime_radius", "minimum_offset")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 exact = gc.minimum_radius(

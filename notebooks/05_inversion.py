@@ -26,7 +26,7 @@ from math import degrees
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, changed_task, show_steps, table
+from graphcam.notebooks import Question, changed, show_steps, table
 
 # %% [markdown]
 # ## Background: stop the cam
@@ -148,7 +148,7 @@ sense.check(your_sense)
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-with_roller = changed_task(gc.builtin_task(), {"cam.prime_radius": 44.0, "follower.roller_radius": 10.0})
+with_roller = changed(gc.builtin_task(), {"cam.prime_radius": 44.0, "follower.roller_radius": 10.0})
 gc.studio(with_roller, view="profile", stills={
     **{f"prime radius, mm: {radius}": {"cam.prime_radius": radius} for radius in (30, 60)},
     "offset, mm: 10": {"follower.offset": 10},

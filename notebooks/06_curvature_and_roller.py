@@ -25,7 +25,7 @@ from math import degrees
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, changed_task, comparison_table, show_steps, table
+from graphcam.notebooks import Question, changed, compared, show_steps, table
 
 # %% [markdown]
 # ## Background
@@ -111,10 +111,10 @@ roller.check(your_roller)
 # contact points of its neighbours.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-small = changed_task(task, {
+small = changed(task, {
     "cam.prime_radius": 30.0,
     "follower.roller_radius": 8.0,
-    "motion.phases": tuple(changed_task(p, {"law": "cycloidal"}) if p.kind != "dwell" else p for p in task.motion.phases),
+    "motion.phases": tuple(changed(p, {"law": "cycloidal"}) if p.kind != "dwell" else p for p in task.motion.phases),
 })
 gc.studio(small, view="profile", stills={
     f"roller radius, mm: {radius}": {"follower.roller_radius": radius} for radius in (8, 24)})
@@ -123,20 +123,20 @@ gc.studio(small, view="profile", stills={
 # The exact result for the roller of 24 mm, and the largest roller that avoids the cusps:
 
 # %%
-cam = gc.solve(changed_task(small, {"follower.roller_radius": 24.0})).cam
+cam = gc.solve(changed(small, {"follower.roller_radius": 24.0})).cam
 lost = cam.undercuts()[0]
 print(f"cusps at {degrees(lost.cusps[0]):.1f}° and {degrees(lost.cusps[1]):.1f}°, "
       f"largest roller {gc.largest_roller(cam):.2f} mm")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(gc.largest_roller(cam) - 18.798) < 0.001
-assert not gc.solve(changed_task(small, {"follower.roller_radius": 18.0})).cam.undercuts()
+assert not gc.solve(changed(small, {"follower.roller_radius": 18.0})).cam.undercuts()
 
 # %% [markdown]
 # ## Drawn and exact
 
 # %%
-comparison_table(solution, "min_pitch_curvature_radius", "roller_radius")
+compared(solution, "min_pitch_curvature_radius", "roller_radius")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 rho = solution.comparison.quantities["min_pitch_curvature_radius"]

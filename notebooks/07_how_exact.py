@@ -28,13 +28,13 @@ import graphcam as gc
 from graphcam.notebooks import (
     Question,
     Slider,
-    changed_task,
+    changed,
     chart,
-    comparison_table,
+    compared,
     drawing,
     error_budget,
+    explore,
     picture_of,
-    sliders,
     table,
 )
 
@@ -58,8 +58,8 @@ from graphcam.notebooks import (
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 task = gc.builtin_task()
-smooth = changed_task(task, {"motion.phases": tuple(
-    changed_task(p, {"law": "cycloidal"}) if p.kind != "dwell" else p for p in task.motion.phases)})
+smooth = changed(task, {"motion.phases": tuple(
+    changed(p, {"law": "cycloidal"}) if p.kind != "dwell" else p for p in task.motion.phases)})
 
 
 def with_pencil(sigma, seed):
@@ -67,7 +67,7 @@ def with_pencil(sigma, seed):
     return drawing(gc.solve(smooth, hand).drawn["minimum_radius"])
 
 
-sliders(
+explore(
     with_pencil,
     sigma=Slider("pencil, mm", (0.0, 0.1, 0.2, 0.5, 1.0), 0.5),
     seed=Slider("student", (1, 2, 3, 4, 5, 6), 1, (1, 2, 3, 4)),
@@ -81,7 +81,7 @@ sliders(
 # %%
 rows = []
 for parts in (4, 6, 8, 12, 16, 24, 48):
-    finer = changed_task(smooth, {"drawing.divisions": parts})
+    finer = changed(smooth, {"drawing.divisions": parts})
     perfect = gc.solve(finer)
     exact = perfect.comparison.exact_stations.values[0]
     method = np.abs(perfect.drawn["integration"].readings["s"].value - exact).max()
@@ -185,7 +185,7 @@ table(("", "minimum radius, mm", "time, ms"), [("drawn, 12 parts", float(drawn),
                                              ("exact", exact.prime_radius, 1000 * (end - middle))])
 
 # %%
-comparison_table(gc.solve(smooth), "max_v", "minimum_prime_radius", "min_pitch_curvature_radius")
+compared(gc.solve(smooth), "max_v", "minimum_prime_radius", "min_pitch_curvature_radius")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(float(drawn) - exact.prime_radius) < 0.5

@@ -23,7 +23,7 @@
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, comparison_table, show_steps, table
+from graphcam.notebooks import Question, compared, show_steps, table
 
 # %% [markdown]
 # ## Background
@@ -122,7 +122,7 @@ gc.studio(task, view="acceleration", stills={
 # ## Drawn and exact
 
 # %%
-comparison_table(solution, "lift", "F_x", "F_y", "rho3", "a_G_before", "a_G_after", "a_F_before", "a_F_after")
+compared(solution, "lift", "F_x", "F_y", "rho3", "a_G_before", "a_G_after", "a_F_before", "a_F_after")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(float(solution.drawn["three_arcs"].readings["F_x"].value) - 46.834) < 0.001

@@ -25,7 +25,7 @@ from math import cos, degrees, radians, sin
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, Slider, changed_task, chart, picture_of, show_steps, sliders, table
+from graphcam.notebooks import Question, Slider, changed, chart, explore, picture_of, show_steps, table
 from graphcam.tasks.task import SpringTable
 
 # %% [markdown]
@@ -51,7 +51,7 @@ from graphcam.tasks.task import SpringTable
 # The coursework task at 300 rpm, with a mass of 0.5 kg and a spring of 3 N/mm.
 
 # %%
-task = changed_task(gc.builtin_task(), {"speed_rpm": 300.0, "spring": SpringTable(mass=0.5, stiffness=3.0)})
+task = changed(gc.builtin_task(), {"speed_rpm": 300.0, "spring": SpringTable(mass=0.5, stiffness=3.0)})
 solution = gc.solve(task)
 design = solution.spring
 omega = 300 * 2 * np.pi / 60
@@ -140,7 +140,7 @@ def contact(speed, preload):
                       "Contact force; contact is lost where it is filled")
 
 
-sliders(
+explore(
     contact,
     speed=Slider("speed, rpm", (100, 200, 300, 400, 500, 600), 300, (300, 600)),
     preload=Slider("preload, N", (0, 9, 30, 60, 120, 180), 9, (180,)),
@@ -160,7 +160,7 @@ sliders(
 # the normal resolves it into $N$ and the friction $T = \mu N$.
 
 # %%
-rubbing = gc.solve(changed_task(task, {"spring": SpringTable(mass=0.5, stiffness=3.0, preload=30.0, friction=0.15)}))
+rubbing = gc.solve(changed(task, {"spring": SpringTable(mass=0.5, stiffness=3.0, preload=30.0, friction=0.15)}))
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 show_steps(rubbing.spring.force_plan, within=rubbing)

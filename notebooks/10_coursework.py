@@ -24,8 +24,8 @@
 import graphcam as gc
 from graphcam.notebooks import (
     Question,
-    changed_task,
-    comparison_table,
+    changed,
+    compared,
     picture_of_page,
     show_steps,
     table,
@@ -85,8 +85,8 @@ show_steps(solution.drawn["working_profile"], 1, 4, 5, within=solution)
 # radius will you find? (Think before you draw: notebook 3.) The rule is $\min(0.7\,\rho,\ 0.4\,r_0)$; which radius is adopted, and which roller?
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-mirrored = gc.solve(changed_task(task, {"follower.offset": 10.0, "rotation": "ccw"}))
-wrong_side = gc.solve(changed_task(task, {"follower.offset": 10.0}))
+mirrored = gc.solve(changed(task, {"follower.offset": 10.0, "rotation": "ccw"}))
+wrong_side = gc.solve(changed(task, {"follower.offset": 10.0}))
 least = Question.of(
     mirrored.drawn["minimum_radius"].readings["prime_radius"], "notebook 3: rotation and offset enter only as their product",
     {"the offset lies on the favourable side of this cam": float(wrong_side.drawn["minimum_radius"].value("prime_radius"))},
@@ -127,7 +127,7 @@ gc.studio(task, view="profile", stills={
 # ## Drawn and exact
 
 # %%
-comparison_table(solution)
+compared(solution)
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert solution.cam.prime_radius == 44

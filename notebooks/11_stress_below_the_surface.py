@@ -25,7 +25,7 @@ from math import degrees, inf, pi, sqrt
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, Slider, changed_task, chart, picture_of, show_steps, sliders, table
+from graphcam.notebooks import Question, Slider, changed, chart, explore, picture_of, show_steps, table
 from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.spring_tables import SpringTable
 
@@ -129,7 +129,7 @@ picture_of(fields(meshes[1]), "Two maps of the stress about the contact, roller 
 # follower of 2 kg on a cam with a preload of 1500 N, at 300 rpm:
 
 # %%
-task = changed_task(gc.builtin_task(), {
+task = changed(gc.builtin_task(), {
     "speed_rpm": 300.0, "spring": SpringTable(mass=2, stiffness=20, preload=1500),
     "material": MaterialTable(width=15, permitted_stress=1000),
 })
@@ -192,7 +192,7 @@ def below(radius):
                       f"Below the middle; peak pressure {found.hertz.peak_pressure:.0f} MPa, half-width {found.hertz.half_width:.3f} mm")
 
 
-sliders(below, radius=Slider("profile radius, mm", (30.0, 60.0, inf, -60.0, -30.0), 30.0, (30.0, -30.0)))
+explore(below, radius=Slider("profile radius, mm", (30.0, 60.0, inf, -60.0, -30.0), 30.0, (30.0, -30.0)))
 
 # %% [markdown]
 # ## Drawn and exact

@@ -86,7 +86,7 @@ def write_front(space: Space, out: str, front: Columns | None) -> None:
         else:
             # Readers of data sets pass over what begins so.
             name = f"_front{ending}"
-            with SharedFolder.open_folder(out).whole(name) as file:
+            with SharedFolder.open_folder(out).open_for_writing(name) as file:
                 file.write(text.encode())
             echo(f"{out.rstrip('/')}/{name}: {translated(what)}")
 

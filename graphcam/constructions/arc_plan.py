@@ -280,7 +280,7 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
         said = say(
             "{centre}E = {centre}K = {ck:.2f} mm, {n_at}, OM = {om:.2f} mm {way}, × {mu:g}: a = {a:.3f} mm/rad²"
         ).with_values(n_at=n_at.with_values(**named), **named)
-        return said.where(ck=ck[j], om=om[j], mu=mu, way=way, a=a)
+        return said.with_values(ck=ck[j], om=om[j], mu=mu, way=way, a=a)
 
     named = [j for j in range(stations.u.size) if not np.isnan(om[j])]
     marks: tuple[Mark, ...] = (

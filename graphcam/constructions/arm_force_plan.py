@@ -223,7 +223,7 @@ def _line_of_force(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
         "In the arm positions lay the set squares along the line from A to D of station {name}. Carry it to the "
         "head of Q and draw the line of the contact force F there; it makes α = {alpha:.1f}° with Q."
     ).with_values(name=plain.station_name(plan), alpha=abs(plain.alpha_at(plan)))
-    marks = plain.leaning(normal, plain.exceeded_lines(float(plan.first("normal"))), plain.alpha_at(plan), up)
+    marks = plain.leaning(normal, plain.beyond(float(plan.first("normal"))), plain.alpha_at(plan), up)
     why = say("The contact normal passes through the centre of relative rotation, and A D is parallel to it.")
     return Step(say("The line of the contact force"), (Part(said, (normal,)),), view, marks, why=why)
 

@@ -193,7 +193,7 @@ def velocities_step(drawn: ArmPositions) -> Step:
         for curve, piece in zip(curves, pieces, strict=True)
     )
     smooth = say("Join the ends D by smooth curves with the French curve, from jump to jump of the acceleration.")
-    laid = run(said.where(length=setting(tips.first[[k]])), STATION, names, tips, settings=laid_off)
+    laid = run(said.with_values(length=setting(tips.first[[k]])), STATION, names, tips, settings=laid_off)
     marks = (
         *(tips.segments_from(ends, Role.CURVE), *(curve.line(Role.RESULT) for curve in curves)),
         *numbers(tips, stations, tips.shown, shown=clear_numbers(tips.shown, stations, ends.shown)),

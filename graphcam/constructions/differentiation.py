@@ -344,7 +344,7 @@ def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
         "ordinate at each, 1 mm = {mu:.4g} {unit}: station {name} lies {x:.2f} mm from the origin, and its "
         "ordinate is {y:.2f} mm. Join the ends by a smooth curve with the French curve."
     ).with_values(name=k, x=stations.shown[k].real, y=s.shown[k].imag, unit=unit(mu_s.unit), mu=mu_s.per_mm)
-    told = [plotted_at, said.where(degrees=math.degrees(c.givens.mu_phi.per_mm))]
+    told = [plotted_at, said.with_values(degrees=math.degrees(c.givens.mu_phi.per_mm))]
     if c.givens.turn:
         told.append(say("After the last station the next turn begins with station 0."))
     rows, curve, crosses = _shown_rows(c), _curve(c, "s"), ()

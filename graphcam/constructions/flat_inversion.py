@@ -208,7 +208,7 @@ def _contacts(inverted: profile_view.Inverted) -> Step:
         "Joined over φ by a smooth curve, as the velocities are, these lengths reach {left_mm:.2f} mm to the left and "
         "{right_mm:.2f} mm to the right: times {mu_l:g} the half-widths of the face, {left:.2f} mm and {right:.2f} mm."
     ).with_values(mu_l=mu_l, **widths, **{f"{side}_mm": width / mu_l for side, width in widths.items()})
-    said = said.where(**_on_profile(inverted, "v"))
+    said = said.with_values(**_on_profile(inverted, "v"))
     parts = run(said, STATION, station_names(_stations(inverted)), pitch, settings=laid_off), Part(widest)
     why = say("The cam's point ds/dφ beside the ray moves along the ray just as fast as the face: they touch there.")
     reads = ("face_left", "face_right", "contact", *profile_view.CURVE_READINGS)

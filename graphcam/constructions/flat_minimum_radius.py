@@ -228,7 +228,7 @@ def _displacement_step(region: FlatRegion) -> Step:
         "horizontally with the dividers, in the scale of s: times μₐ/μₛ = {mu_a:.5g}/{mu_s:.5g} = {factor:.4f}, to the "
         "right where it is positive. Station {name}: {there}. Number the ends."
     ).with_values(name=named[worked], there=_station(region, worked), factor=_factor(region))
-    said = said.where(**{f"mu_{name}": integrated.readings[name].per_mm for name in "as"})
+    said = said.with_values(**{f"mu_{name}": integrated.readings[name].per_mm for name in "as"})
     rows = tuple(Row(STATION.with_values(name=named[k]), _station(region, k), draws) for k, draws in enumerate(ends))
     why = say("The radius of curvature is ρ = r₀ + s + a, and lengths in one scale can be added on the paper.")
     title, marks = say("Displacement over acceleration"), (*axes, *marks)

@@ -291,7 +291,7 @@ def load_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
         "At μF = {mu:g} N/mm set the dividers to {size:.1f}/{mu:g} = {paper:.1f} mm, and lay Q off from its tail "
         "straight {way}."
     ).with_values(name=name, s=s, a=a, load=load, terms=told, mu=mu, size=abs(load), paper=abs(load) / mu)
-    said = said.where(way=say("down") if load > 0 else say("up"))
+    said = said.with_values(way=say("down") if load > 0 else say("up"))
     why = say("Inertia, spring and preload act along the motion: this force is known in magnitude and direction.")
     return loaded(plan, view, said, -side_of(plan) + 0j, why)
 

@@ -449,7 +449,7 @@ def _all_stations_step(measured: Construction[PressureAngleGivens], shown: int) 
     ).with_values(
         side=side_caption(-sigma), shown=names[shown], angle=alpha[shown], greatest=alpha[most], name=names[most]
     )
-    said = said.where(transmission=90 - abs(alpha[most]))
+    said = said.with_values(transmission=90 - abs(alpha[most]))
     joined = run(said, say("Ray {name}"), names, rays, settings=lambda k: say("{alpha:z.2f}°", alpha=alpha[k]))
     why = say("The ray from A to an end is parallel to the normal at its station, as DA is.")
     title, reads = say("The pressure angle at every station"), ("alpha", "transmission")

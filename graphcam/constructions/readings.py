@@ -74,7 +74,7 @@ def rows(construction: Construction, step: Step) -> list[ReadingRow]:
     >>> import graphcam as gc
     >>> region = gc.solve(gc.builtin_task()).drawn["minimum_radius"]
     >>> for row in rows(region, region.steps()[-1]):
-    ...     print(row.title, "=", row.said())
+    ...     print(row.title, "=", row.caption())
     prime radius r₀ = 72.13 mm × 0.6 mm/mm = 43.28 mm
     offset e = -16.67 mm × 0.6 mm/mm = -10 mm
     distance s₀ = 70.18 mm × 0.6 mm/mm = 42.109 mm

@@ -194,7 +194,7 @@ class FollowedBoard:
             (source for act, source in found if "times" not in act.takes or source.act in self.visible), tried
         )
 
-    def visible(self, pieces: Iterable[ActPlaces]) -> Iterator[ActPlaces]:
+    def visible_pieces(self, pieces: Iterable[ActPlaces]) -> Iterator[ActPlaces]:
         """What can be seen of pieces; of what is only thought, that which it was found from."""
         return self._visible(pieces, {})
 

@@ -134,7 +134,7 @@ class Step(Plottable):
         """The same step with every text as ``tell`` says it.
 
         >>> step = Step(say("Pole"), (), View("v", say("v"), "phi", "v"), (Label(0j, say("H")),))
-        >>> step.told(lambda words: str(words).upper()).marks[0].text
+        >>> step.translated(lambda words: str(words).upper()).marks[0].text
         'H'
         """
         # What is given stands among the marks too, and is the same object there.

@@ -57,7 +57,7 @@ class Candidate:
     def formula_caption(self) -> Caption:
         """The term as a formula.
 
-        >>> [str(term.said) for term in roller_rule("min(0.7 rho, 0.4 r0, rho - 4)")]
+        >>> [str(term.formula_caption) for term in roller_rule("min(0.7 rho, 0.4 r0, rho - 4)")]
         ['0.7 ρ', '0.4 r₀', 'ρ − 4 mm']
         """
         if self.margin:

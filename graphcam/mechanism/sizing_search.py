@@ -92,7 +92,7 @@ def exchange(
         steps = (abs(x - y) for x, y in zip(problem.values(before), problem.values(sizes), strict=True))
         if not chosen.any() or all(step <= SAME_SIZE * before.radius for step in steps):
             break
-        watched.places = watched.places.joined(worst.where(chosen))
+        watched.places = watched.places.joined(worst.selected(chosen))
     return sizes
 
 

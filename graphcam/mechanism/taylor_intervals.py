@@ -33,7 +33,7 @@ class Taylor(NDArrayOperatorsMixin):
 
     >>> x = Taylor(np.array([0.5]), np.array([2.0]), np.array([1.0]), np.array([0.0]), np.array([0.0]))
     >>> square = x * x  # over [1.5, 2.5]
-    >>> square.value.item(), square.slope.item(), square.bend.item(), square.off.item()
+    >>> square.value.item(), square.slope.item(), square.bend.item(), square.half_range.item()
     (4.0, 4.0, 2.0, 2.25)
     """
 
@@ -112,7 +112,7 @@ def _divide(f: Taylor | Constant, g: Taylor | Constant) -> Taylor:
     least = _lower_bound(np.abs(g.value), g.half_range)
     slope = left.slope / g.value
     bend = (left.bend - 2 * slope * g.slope) / g.value
-    off = left.off / least
+    off = left.half_range / least
     slope_off = (left.slope_off + np.abs(slope) * g.half_range + off * (np.abs(g.slope) + g.slope_off)) / least
     spread = left.spread + 2 * _times(slope, slope_off, g.slope, g.slope_off)
     spread = (spread + off * (np.abs(g.bend) + g.spread) + np.abs(bend) * g.half_range) / least

@@ -1,9 +1,9 @@
 """Notebooks: what a step-by-step notebook shows, and how one is written, executed and turned into pages.
 
 In a notebook: :func:`~graphcam.notebooks.construction_stages.show_steps` and
-:func:`~graphcam.notebooks.construction_stages.drawing`, :func:`~graphcam.notebooks.shown_tables.comparison_table`,
+:func:`~graphcam.notebooks.construction_stages.drawing`, :func:`~graphcam.notebooks.shown_tables.compared`,
 :func:`~graphcam.notebooks.construction_stages.chart`, :class:`~graphcam.notebooks.question.Question`,
-:func:`~graphcam.notebooks.sliders.explore` and :func:`~graphcam.notebooks.sliders.changed_task`.
+:func:`~graphcam.notebooks.explore.explore` and :func:`~graphcam.notebooks.explore.changed`.
 
 The drawings are those of :mod:`graphcam.sheets`: the same marks, the same renderer.
 """
@@ -17,17 +17,17 @@ from graphcam.notebooks.construction_stages import (
     player,
     show_steps,
 )
+from graphcam.notebooks.explore import Slider, changed, explore
 from graphcam.notebooks.question import Question
-from graphcam.notebooks.shown_tables import comparison_table, error_budget, table
-from graphcam.notebooks.sliders import Slider, changed_task, explore
+from graphcam.notebooks.shown_tables import compared, error_budget, table
 
 __all__ = [
     "Picture",
     "Question",
     "Slider",
-    "changed_task",
+    "changed",
     "chart",
-    "comparison_table",
+    "compared",
     "drawing",
     "error_budget",
     "explore",

@@ -76,7 +76,7 @@ CLOSING_QUESTIONS = say(
 )
 SETUP_CODE = f"""\
 import graphcam as gc
-from graphcam.notebooks import Question, Slider, changed_task, comparison_table, drawing, sliders, player, show_steps
+from graphcam.notebooks import Question, Slider, changed, compared, drawing, explore, player, show_steps
 
 task = gc.load_task("{TASK_FILE}")
 solution = gc.solve(task)

@@ -34,11 +34,11 @@ def _cell(cell: object, digits: int) -> str:
     return str(cell) if isinstance(cell, str | int) else str(number(float(cell), digits))  # pyright: ignore[reportArgumentType]
 
 
-def comparison_table(solution: AnySolution, *names: str) -> Markdown:
+def compared(solution: AnySolution, *names: str) -> Markdown:
     """The table of drawn and exact values, of quantities named as in ``solution.json``; without names of all.
 
     >>> import graphcam as gc
-    >>> print(comparison_table(gc.solve(gc.builtin_task()), "max_v").data.splitlines()[2].split("|")[1:4])
+    >>> print(compared(gc.solve(gc.builtin_task()), "max_v").data.splitlines()[2].split("|")[1:4])
     [' maximum v, mm/rad ', ' 57.296 ', ' 57.296 ']
     """
     from IPython.display import Markdown

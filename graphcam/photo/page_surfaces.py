@@ -60,7 +60,7 @@ DIFFERENCE_STEP = 0.02
 """The step for the slope of the map there [mm]."""
 
 
-PLACE_UNIT = 200.0
+HOMOGRAPHY_UNIT = 200.0
 """mm that count as one in a homography, so that its numbers are alike."""
 LENS_DEVIATIONS = (0.08, 0.03)
 """Standard deviations of a lens's k1 and k2, at half the picture's longer side from its centre."""
@@ -107,7 +107,7 @@ class Plane:
 
     def start(self, points: Places, found: Places) -> Numbers:
         """Parameters (12,) by which points of the paper (n,) are about where they were found."""
-        paper, picture = (points - self.frame.middle) / PLACE_UNIT, (found - self.frame.centre) / self.frame.unit
+        paper, picture = (points - self.frame.middle) / HOMOGRAPHY_UNIT, (found - self.frame.centre) / self.frame.unit
         from_paper, to_picture = (np.stack([places.real, places.imag], -1) for places in (paper, picture))
         matrix = cast("Numbers | None", cv2.findHomography(from_paper, to_picture)[0])
         if matrix is None or abs(matrix[2, 2]) < 1e-9:
@@ -116,7 +116,7 @@ class Plane:
 
     def project(self, parameters: Numbers, points: Places) -> Places:
         """Points (..., n) of the paper [mm] as places in the picture, for parameters (..., 12)."""
-        paper = (points - self.frame.middle) / PLACE_UNIT
+        paper = (points - self.frame.middle) / HOMOGRAPHY_UNIT
         a, b, c, d, e, f, g, h = np.moveaxis(parameters[..., :8], -1, 0)[..., None]
         x, y = paper.real, paper.imag
         with np.errstate(divide="ignore", invalid="ignore"):
@@ -132,7 +132,7 @@ class Plane:
         x, y = straight.real, straight.imag
         over, up, depth = (row[0] * x + row[1] * y + row[2] for row in back)
         with np.errstate(divide="ignore", invalid="ignore"):
-            return self.frame.middle + PLACE_UNIT * (over + 1j * up) / depth
+            return self.frame.middle + HOMOGRAPHY_UNIT * (over + 1j * up) / depth
 
 
 def bent(straight: Places, lens: Numbers) -> Places:

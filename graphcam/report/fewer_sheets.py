@@ -100,7 +100,7 @@ def _smaller(solution: Solution) -> list[DrawingTable]:
 def _part(contents: Contents, chain: Chain) -> SheetPart:
     """The contents of the sheets with the constructions of a chain; additional ones do not depend on its scales."""
     drawn = {name: chain.get(name, each) for name, each in contents.drawn.items()}
-    return replace(contents.as_one_part, steps=scaled_steps(drawn)).told(contents.solution.tell)
+    return replace(contents.as_one_part, steps=scaled_steps(drawn)).translated(contents.solution.tell)
 
 
 def _page_counts(drawing: DrawingTable, part: SheetPart) -> _PageCounts:

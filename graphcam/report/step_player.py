@@ -326,7 +326,9 @@ class _Telling:
         """The visible pieces from which a reading is taken, at all or some places."""
         if read.act is None:
             return []
-        return self._pieces(self.board.visible([ActPlaces(read.act, places) if places else all_places(read.act)]))
+        return self._pieces(
+            self.board.visible_pieces([ActPlaces(read.act, places) if places else all_places(read.act)])
+        )
 
     def _line(self, row: ReadingRow, read: Reading, place: int) -> RowText:
         """One value of many: its place, length on paper, and value."""

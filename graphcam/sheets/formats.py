@@ -70,7 +70,7 @@ class Format:
     def description(self) -> Words:
         """Format and orientation, as a message names them.
 
-        >>> str(Format("A3", "iso").said), str(Format("A4", "gost").said)
+        >>> str(Format("A3", "iso").description), str(Format("A4", "gost").description)
         ('A3 landscape', 'A4 portrait')
         """
         return say("{name} portrait", name=self.name) if self.is_upright else say("{name} landscape", name=self.name)

@@ -47,9 +47,9 @@ OPERATORS: Mapping[str, Callable[[float, float], bool]] = {
 class Goal:
     """A size at a path of the task, or ``phi``, compared with a number.
 
-    >>> goal_of("follower.offset >= 0").reached({"follower": {"offset": -10.0}})
+    >>> goal_of("follower.offset >= 0").is_reached({"follower": {"offset": -10.0}})
     False
-    >>> goal_of("phi >= 40").reached({}, phi=40.0)
+    >>> goal_of("phi >= 40").is_reached({}, phi=40.0)
     True
     """
 

@@ -154,7 +154,7 @@ class StudioWidget(anywidget.AnyWidget):
         if not self._stills:
             return self._still_picture({}).html
         pictures = {says: self._still_picture(changes) for says, changes in self._stills.items()}
-        return from_above("notebooks.sliders.side_by_side")(pictures)
+        return from_above("notebooks.explore.side_by_side")(pictures)
 
     def _still_picture(self, changes: Mapping[str, Any]) -> Any:
         """A picture of the task with other values."""

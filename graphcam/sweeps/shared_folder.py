@@ -27,7 +27,7 @@ class SharedFolder:
         OutputError : it cannot be reached or made
         TaskError : there is no fsspec
 
-        >>> SharedFolder.reached("memory://results").sizes()
+        >>> SharedFolder.open_folder("memory://results").sizes()
         {}
         """
         with installed("--out", "fsspec", "parquet"):

@@ -16,7 +16,7 @@ from graphcam.drafting.ink import Part, Row, Step, View, say
 from graphcam.drafting.marks import Role
 from graphcam.drafting.meaning import Meaning
 from graphcam.notebooks.construction_stages import Stage, drawing, show_steps, stages
-from graphcam.notebooks.sliders import changed_task
+from graphcam.notebooks.explore import changed
 from graphcam.plots.step_board import board_of
 from graphcam.report.documents import contents_of
 from graphcam.report.sheet_contents import all_constructions
@@ -67,7 +67,7 @@ def test_the_finished_drawing_has_the_ink_of_the_sheet(drawn):
 
 
 def test_a_step_of_words_has_no_drawing():
-    knife_edge = gc.solve(changed_task(gc.builtin_task(), {"follower.roller_radius": 0.0}))
+    knife_edge = gc.solve(changed(gc.builtin_task(), {"follower.roller_radius": 0.0}))
     (words,) = stages(knife_edge.drawn["roller"])
     assert words.picture is None
     assert "<img" not in words.html
@@ -141,7 +141,7 @@ def fan():
 def fan_steps(drawn):
     pole, ends, rays = (drawn.acts[name] for name in ("pole", "ends", "rays"))
     given = (pole.dots(),)
-    marks = (*given, rays.ways(Role.CONSTRUCTION), ends.line(Role.CURVE), pole.label("P"))
+    marks = (*given, rays.segments(Role.CONSTRUCTION), ends.line(Role.CURVE), pole.label("P"))
     one = say("Join P to the point {k}.")
     parts = tuple(Part(one.with_values(k=k + 1), (rays[k], ends[k])) for k in range(6))
     why = say("Because this is a toy.")

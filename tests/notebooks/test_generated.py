@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 import graphcam as gc
 from graphcam.cli import app
 from graphcam.cli.shared import INPUT_ERROR_STATUS
-from graphcam.notebooks import changed_task, notebook_execution
+from graphcam.notebooks import changed, notebook_execution
 from graphcam.notebooks.notebook_execution import execute
 from graphcam.notebooks.notebook_folder import to_html, write_notebook
 from graphcam.tasks.task import SpringTable
@@ -25,25 +25,25 @@ from graphcam.tasks.task_writer import task_files
 
 COURSEWORK, ARM, FLAT = (gc.builtin_task(name) for name in ("coursework", "arm", "flat"))
 SMOOTH = tuple(
-    changed_task(phase, {"law": "cycloidal"}) if phase.kind != "dwell" else phase for phase in COURSEWORK.motion.phases
+    changed(phase, {"law": "cycloidal"}) if phase.kind != "dwell" else phase for phase in COURSEWORK.motion.phases
 )
 SPRING = {"speed_rpm": 300.0, "spring": SpringTable(mass=0.5, stiffness=3.0)}
 TASKS = {
     "coursework": COURSEWORK,
-    "offset left open": changed_task(COURSEWORK, {"follower.offset": None, "limits.pressure_angle_return": 50.0}),
-    "knife edge": changed_task(COURSEWORK, {"follower.roller_radius": 0.0}),
-    "undercut": changed_task(
+    "offset left open": changed(COURSEWORK, {"follower.offset": None, "limits.pressure_angle_return": 50.0}),
+    "knife edge": changed(COURSEWORK, {"follower.roller_radius": 0.0}),
+    "undercut": changed(
         COURSEWORK, {"motion.phases": SMOOTH, "cam.prime_radius": 30.0, "follower.roller_radius": 20.0}
     ),
-    "A4, few parts": changed_task(
+    "A4, few parts": changed(
         COURSEWORK,
         {"drawing.format": "A4", "drawing.ordinate": 20.0, "drawing.poles": (12.0, 12.0), "drawing.divisions": 5},
     ),
-    "spring": changed_task(COURSEWORK, SPRING),
+    "spring": changed(COURSEWORK, SPRING),
     "arm": ARM,
-    "arm, distance left open": changed_task(ARM, {"follower.distance": None, "cam.prime_radius": None}),
+    "arm, distance left open": changed(ARM, {"follower.distance": None, "cam.prime_radius": None}),
     "flat": FLAT,
-    "flat with a spring": changed_task(FLAT, SPRING),
+    "flat with a spring": changed(FLAT, SPRING),
     "measured": gc.builtin_task("measured"),
     "arcs": gc.builtin_arcs_task(),
 }
@@ -74,7 +74,7 @@ def test_every_construction_has_its_chapter(name):
 def in_russian(name):
     task = TASKS[name]
     titled = replace(task, title=replace(task.title, name="Кулачок"))  # the name is the user's
-    return changed_task(titled, {"drawing.language": "ru"})
+    return changed(titled, {"drawing.language": "ru"})
 
 
 NAMES = ("graphcam", "None", "drawing.divisions", r"cam.prime\_radius")

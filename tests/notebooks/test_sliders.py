@@ -6,7 +6,7 @@ import sys
 import warnings
 
 from graphcam.notebooks.construction_stages import Picture
-from graphcam.notebooks.sliders import WIDGET_VIEW, Slider, explore
+from graphcam.notebooks.explore import WIDGET_VIEW, Slider, explore
 
 
 def draw(parts, pole):

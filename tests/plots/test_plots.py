@@ -13,7 +13,7 @@ from matplotlib.backends.backend_agg import RendererAgg
 from matplotlib.figure import Figure
 
 import graphcam as gc
-from graphcam.notebooks.sliders import changed_task
+from graphcam.notebooks.explore import changed
 
 
 @pytest.fixture(scope="module")
@@ -153,7 +153,7 @@ def test_a_step_that_is_not_there_is_refused(solution, step):
 
 
 def test_words_alone_cannot_be_plotted():
-    knife_edge = gc.solve(changed_task(gc.builtin_task(), {"follower.roller_radius": 0.0}))
+    knife_edge = gc.solve(changed(gc.builtin_task(), {"follower.roller_radius": 0.0}))
     with pytest.raises(gc.DesignError, match="see the captions of the steps"):
         knife_edge.drawn["roller"].plot()
 

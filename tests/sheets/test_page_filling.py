@@ -151,7 +151,7 @@ def test_what_a_page_has_room_for_is_known_beforehand(sheet):
         assert set(leaf.views) == {"a"}
     widest, highest = max(w for w, _ in free_rooms(sheet)), max(h for _, h in free_rooms(sheet))
     for wide, high in ((widest, 20), (50, highest)):
-        with pytest.raises(gc.DesignError, match=f"the view 'a' .* on {sheet.said}"):
+        with pytest.raises(gc.DesignError, match=f"the view 'a' .* on {sheet.description}"):
             fill(sheet, [view("a", wide, high)], [[]])
 
 

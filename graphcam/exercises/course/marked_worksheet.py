@@ -325,7 +325,7 @@ class _PageMaker:
         """A page of so many, and what a reader must know of it."""
         paper, exercise, code = self.paper, self.variant.exercise, self.code(page)
         column, who = self.column(placed, page), self.student.name or self.student.id
-        whose = [exercise.tell(said.where(who=who, page=page, pages=pages)) for said in self.owner_captions]
+        whose = [exercise.tell(said.with_values(who=who, page=page, pages=pages)) for said in self.owner_captions]
         texts = [*captions(paper, exercise.title, whose), *bar_captions(paper, exercise.tell)]
         titles = [text for each in placed for text in self.titles(each)]
         corners = [column.code_corner]

@@ -264,7 +264,7 @@ def _graded(
     hand_ins = with_paper(hand_ins, by_hand, kept.folder)
     names = _shown_names(course, assignment, hand_ins)
     store = Store.for_run(course.out, assignment)
-    with store.held():
+    with store.lock():
         store.clear_pages(course.out)
         with closing(worker_pool(course.workers, course.cluster, grade.__module__)) as pool:
             records = grade_folder(hand_ins, assignment, pool, store, kept, step)

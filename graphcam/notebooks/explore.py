@@ -114,11 +114,11 @@ def explore(draw: Callable[..., ShownPosition], **sliders: Slider) -> Exploratio
 AnyTask = TypeVar("AnyTask")
 
 
-def changed_task(task: AnyTask, values: Mapping[str, Any]) -> AnyTask:
+def changed(task: AnyTask, values: Mapping[str, Any]) -> AnyTask:
     """The task with other values, named as in its file: "drawing.divisions", "follower.offset", "rotation".
 
     >>> import graphcam as gc
-    >>> changed_task(gc.builtin_task(), {"follower.offset": 12.0, "rotation": "ccw"}).follower.offset
+    >>> changed(gc.builtin_task(), {"follower.offset": 12.0, "rotation": "ccw"}).follower.offset
     12.0
 
     Raises
