@@ -121,7 +121,6 @@ def _is_far_too_large(solution: Solution, per_mm: float) -> bool:
 
 
 def _scale_fits(solution: Solution, per_mm: float) -> bool:
-    """Whether a page has room for the profile at a scale [mm/mm]."""
     if _is_far_too_large(solution, per_mm):
         return False
     board, sheet = solution.chain.board, format_of(solution.task.drawing)

@@ -71,7 +71,6 @@ def _matters(design: ToleranceDesign) -> list[Caption]:
 
 
 def _solved(design: ToleranceDesign) -> Caption:
-    """The sentence on the width of the bands of the sample."""
     bands, rows = design.bands, list[Caption]()
     for k, told in enumerate(design.quantities):
         at = int(np.argmax(bands.sample.half_width[k]))

@@ -210,7 +210,6 @@ def _at_speed(solution: Solution) -> list[Block]:
 
 
 def _impact(solution: Solution) -> list[Block]:
-    """The paragraphs on impact: rigid, soft or none, and where."""
     motion, of_lift = solution.cam.motion, solution.chain.board.follower.unit
     if rigid := velocity_jumps(motion):
         said = warning(say("The velocity jumps: the impact is rigid."))

@@ -193,7 +193,6 @@ class _Chart:
         return values[self.region.across] + 0.0
 
     def _limits(self) -> tuple[Mark, ...]:
-        """The line of every limit with its name, and the active ends of the ranges."""
         marks: list[Mark] = []
         for name, radius in self.region.by_limit.items():
             line = self.axes.place(self.region.values, radius)[~np.isnan(radius)]

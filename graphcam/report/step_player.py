@@ -113,7 +113,6 @@ def _amounts(length: object, piece: ActPlaces) -> Floats:
 
 
 def _set_instrument(instrument: Caption, length: object, piece: ActPlaces) -> Caption | None:
-    """Dividers or a compass, with the length of their opening."""
     amounts = np.abs(_amounts(length, piece))
     low, high = float(np.fmin.reduce(amounts)), float(np.fmax.reduce(amounts))
     if not high > NEGLIGIBLE_SIZE:

@@ -176,7 +176,6 @@ def table_block(table: Table, height: float, room: float = math.inf, *, row_heig
 
 
 def _cell(lines: list[str], box: Box, height: float) -> list[Text]:
-    """Lines in the middle of a cell; in the first column they begin at the left."""
     y = (box.top + box.bottom) / 2 + (len(lines) - 1) * LINE_SPACING / 2 * height - height / 2
     x, align = ((box.left + box.right) / 2, "center") if box.left else (CELL_MARGIN / 2 * height, "left")
     return stacked_lines(lines, complex(x, y), LINE_SPACING, height, align)

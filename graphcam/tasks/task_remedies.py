@@ -200,7 +200,6 @@ def _value(line: str, place: Words) -> Told | None:
 
 
 def _is_value(word: str) -> bool:
-    """Whether a word is a number, a date or a switch as TOML writes them."""
     if word in ("true", "false") or re.fullmatch(r"\d{4}-\d\d-\d\d.*|\d\d:\d\d.*", word):
         return True
     try:

@@ -149,7 +149,6 @@ def _front_marks(shown: ShownPart) -> list[Mark]:
 
 
 def _detail_circle(shown: ShownPart) -> list[Mark]:
-    """The circle about the bore that is shown enlarged, and its letter."""
     radius = shown.scale * shown.part.keyway_top + 3.0
     at = radius * np.exp(-0.25j * math.pi)
     return [Circle(0j, radius, Role.DIMENSION), Label(complex(at), DETAIL_LETTER, 1 - 1j)]
