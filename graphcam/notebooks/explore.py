@@ -39,7 +39,7 @@ class Slider:
 
 @dataclass(frozen=True)
 class Exploration:
-    """What :func:`explore` shows: sliders in a running notebook, still pictures on a page."""
+    """The sliders of :func:`explore` in a running notebook; still pictures on a page."""
 
     draw: Callable[..., ShownPosition]
     sliders: dict[str, Slider]

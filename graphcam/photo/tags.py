@@ -195,7 +195,7 @@ def _sampled(grey: Grey, places: Places) -> NDArray[np.float64] | None:
 def _crossings(
     parts: NDArray[np.float64], across: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Where profiles (..., k) last pass each level before they are white, and whether they do so."""
+    """Places where profiles (..., k) last pass each level before they are white, and flags of whether they do so."""
     places, crossed = [], []
     for level in EDGE_LEVELS:
         above = parts >= level

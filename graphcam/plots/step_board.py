@@ -68,7 +68,7 @@ class StepBoard:
 
     @cached_property
     def _view_origins(self) -> dict[str, tuple[Panel, complex]]:
-        """By name the views and their origins [mm], the first one's at 0."""
+        """The views and their origins [mm] by name; the first origin is 0."""
         shown, factor = self._full_size, self.factor
         return _arranged(shown if factor == 1.0 else [replace(panel, factor=factor) for panel in shown])
 

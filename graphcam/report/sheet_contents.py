@@ -192,7 +192,7 @@ def steps_of(drawn: Mapping[str, Construction]) -> Numbered:
 
 
 def scales_found(drawn: Mapping[str, Construction], steps: Numbered) -> dict[str, int]:
-    """By view the running number of the step that finds its scale, for views whose scale is found by drawing."""
+    """The running number of the step that finds the scale of a view, by view, where drawing finds it."""
     # A construction may settle the scale of a view that this task has not.
     seen = {step.view.name for _, _, step in steps}
     reading_in: dict[tuple[str, str], int] = {}

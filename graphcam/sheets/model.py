@@ -255,7 +255,7 @@ class Group:
 
 
 def kind_of(entity: Entity) -> str:
-    """How an entity is painted: "line", "filled", "opaque" or "text"."""
+    """The kind of painting of an entity: "line", "filled", "opaque" or "text"."""
     match entity:
         case Text():
             return "text"

@@ -287,7 +287,7 @@ def _with_views(sheet: Format, views: Sequence[Panel], way: Way, gap: float, mos
 def _with_blocks(
     sheet: Format, views: Sequence[Panel], viewed: Sequence[OpenPage], way: Way, setting: BlockSetting, most: float
 ) -> FilledPages | None:
-    """The same pages with the blocks, and further ones if need be; None if these are more than ``most``."""
+    """Filled pages: those with views, with the blocks, and further ones if need be; None if more than ``most``."""
     leaves = [leaf.copy() for leaf in viewed]
     for block in setting.blocks:
         allowed = sorted(leaves, key=lambda leaf: leaf.used) if setting.emptiest else leaves

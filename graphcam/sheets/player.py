@@ -309,7 +309,7 @@ def _indexed(text: str) -> Markup:
 
 
 Finds = Mapping[str, tuple[str, int]]
-"""By view whose scale is found by drawing: the text in its title, and the step that finds it."""
+"""The text in its title, and the step that finds it, for every view whose scale is found by drawing."""
 
 
 def _page(page: Page, acts: Acts, finds: Finds) -> dict[str, Any]:

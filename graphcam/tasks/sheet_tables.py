@@ -82,7 +82,7 @@ class SheetTable:
         check_choice("language", self.language, languages())
 
     def on(self, format_: Format) -> Self:
-        """The same table for another format."""
+        """The table for another format."""
         return replace(self, format=format_)
 
     @property

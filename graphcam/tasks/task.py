@@ -241,7 +241,7 @@ class DrawingTable(SheetTable):
         check_positive("rounding", self.rounding, "mm")
 
     def on(self, format_: Format) -> Self:
-        """The same table for another format; ordinate, poles and scale are left open, as the given ones suit this one.
+        """The table for another format; ordinate, poles and scale are left open, as the given ones suit this one.
 
         >>> DrawingTable("A1", ordinate=50, poles=(40, 40)).on("A3").ordinate is None
         True
