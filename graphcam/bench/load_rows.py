@@ -139,7 +139,7 @@ def stepped_residual(n: float, tolerance: float) -> float:
     omega = 2 * pi * n
 
     def slope(u: float, state: Floats) -> list[float]:
-        """Of the displacement and the velocity of the mass."""
+        """The derivatives of the displacement and the velocity of the mass."""
         return [state[1], -(omega**2) * state[0] - 2 * pi * np.sin(2 * pi * u)]
 
     solved = integrate.solve_ivp(slope, (0, 1), [0.0, 0.0], "DOP853", rtol=tolerance, atol=tolerance / 1000)

@@ -44,7 +44,7 @@ INTEGRATORS: dict[str, Integrator] = {
     "cumulative_simpson": lambda x, a: cumulative_simpson(cumulative_simpson(a, x=x, initial=0), x=x, initial=0),
     "CubicSpline": lambda x, a: np.asarray(CubicSpline(x, a).antiderivative(2)(x)),
 }
-"""By the names of scipy, each integrating twice: s less its value at the start."""
+"""Double integrations by their names in scipy: s less its value at the start."""
 
 
 def integrated(motion: Motion, method: Integrator, n: int) -> list[Floats]:

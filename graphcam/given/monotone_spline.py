@@ -80,7 +80,7 @@ class LinearForms:
     factors: Floats
 
     def __call__(self, z: Floats) -> Floats:
-        """(m,) their values."""
+        """The values of the forms at z, (m,)."""
         return ordered_sum(self.factors * z[self.unknowns])
 
     def transposed(self, values: Floats, size: int) -> Floats:

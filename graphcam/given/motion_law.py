@@ -343,7 +343,6 @@ def _of_number(formula: Formula, x: float) -> _OfNumber:
     """
 
     def of_array(x: float) -> Sequence[Any]:
-        """By an array of one."""
         return [np.ravel(value)[0] for value in formula(np.array([x]))]
 
     untyped: Any = formula

@@ -83,7 +83,7 @@ class Piecewise:
     starts: Floats = field(init=False)
     """(p,) where each piece begins"""
     _formulas: tuple[Formula, ...] = field(init=False)
-    """those that differ"""
+    """The formulas that differ from one another."""
     _formula_of: NDArray[np.intp] = field(init=False)
     """(p,) the number of each piece's formula"""
     _moves: NDArray[np.bool_] = field(init=False)

@@ -80,7 +80,7 @@ class Sensitivities:
 
 
 def sensitivities(cam: Cam) -> Sensitivities:
-    """How pressure angle, curvature and motion of a cam change with its sizes.
+    """The changes of pressure angle, curvature and motion of a cam with its sizes.
 
     On a flank with the pressure angle alpha an error of the profile displaces the follower by 1/cos(alpha) times its
     size, one of the offset by tan(alpha) times its size.

@@ -180,7 +180,6 @@ def _solve(
         return float(slope @ t)
 
     def sought_slope(_: Floats) -> Floats:
-        """Its derivative."""
         return slope
 
     kept, options = {"type": "ineq", "fun": left}, {"ftol": 1e-14, "maxiter": 200}

@@ -357,7 +357,7 @@ class _PageMaker:
 
     @property
     def owner_captions(self) -> tuple[Caption, ...]:
-        """How a page says whose it is, or how either tile does."""
+        """Captions of whose page it is, or whose either tile is."""
         if self.paper.seam is None:
             return (say("{who}, page {page} of {pages}"),)
         return (

@@ -113,7 +113,7 @@ class Refusals:
         self.last: dict[RefusalReason, RefusedDraw] = {}
 
     def add(self, away: RefusedDraw) -> None:
-        """Count one more."""
+        """Count one more refused draw."""
         self.draws += 1
         self.compared += away.drawings is not None
         self.counts.update(away.reasons)

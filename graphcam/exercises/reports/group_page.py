@@ -27,7 +27,7 @@ from graphcam.words import Caption, Words, say, sequence
 
 @dataclass(frozen=True)
 class StudentRow:
-    """One student.
+    """The row of one student in the table of a group.
 
     marks : None of one who has not handed in;  of : possible
     remarks : what a teacher should look at;  link : the student's page; empty where there is none

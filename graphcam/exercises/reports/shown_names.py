@@ -18,7 +18,7 @@ from graphcam.words import say
 
 @dataclass(frozen=True)
 class ShownNames:
-    """How the pages name the students.
+    """The names by which the pages show the students.
 
     hidden : a name for each student's id; empty where the ids are shown
 
