@@ -107,7 +107,6 @@ def by_pressure_angles(motion: Motion, limit: float, n: int, start: Point) -> fl
     s, v = (np.concatenate([motion.at(k, u)[i] for k in (0, 2)]) for i in (0, 1))
 
     def room(x: Floats) -> Floats:
-        """What the limit leaves at every station."""
         alpha = np.arctan2(v - size * x[1], size * x[0] + s)
         return np.concatenate([limit - alpha, limit + alpha])
 

@@ -136,7 +136,6 @@ def acceleration_diagram(
     axis, begins = _station_ticks(hand, origin, stations, mu_phi), [span.start for span in stations.phases]
 
     def ordinates(u: Floats, phase: NDArray[np.intp], side: Side = "right") -> Floats:
-        """The given ordinates [mm of paper] at fractions ``u`` of phases."""
         return ordinate / steepness[first_rise] * motion.at(phase, u, side)[2]
 
     tops = hand.lay_off("greatest", axis[begins], UP, greatest)

@@ -212,7 +212,6 @@ def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
 
 
 def _corner_direction(plan: Construction[ArmForcePlanGivens]) -> complex:
-    """The direction from the load to the third corner."""
     across, normal = (complex(unit(plan.acts[name].first.directions)) for name in ("line of R", "line of F"))
     return across if (normal * across.conjugate()).real >= 0 else -across
 

@@ -372,7 +372,6 @@ def _sum(least: float, need: float) -> Caption:
 
 
 def _axes(curve: Points, below: float) -> tuple[Mark, ...]:
-    """The axes of s and a, that of s from ``below`` [mm]."""
     top, right = float(curve.imag.max()) + AXIS_OVERHANG, float(curve.real.max()) + AXIS_OVERHANG
     return (
         Arrow(below * UP, top * UP, Role.SCALE),

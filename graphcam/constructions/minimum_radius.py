@@ -416,7 +416,6 @@ def _height(paper: float, mu: float, s0: float) -> Caption:
 
 
 def _centre_caption(region: LeastRadius) -> Caption:
-    """A sentence on which place of the region is the cam centre."""
     offset, bound = region.givens.offset, [LINE_NAMES[line.name] for line in active(region)]
     if offset is None:
         nearest_place = say("The offset is free: A₀ is the point of the hatched region nearest to B₀, {where}.")

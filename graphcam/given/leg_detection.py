@@ -239,7 +239,6 @@ class _LevelRows:
     level: float
 
     def shifted(self, rows: int) -> _LevelRows:
-        """The level rows, so many rows on."""
         return replace(self, first=self.first + rows, last=self.last + rows)
 
 

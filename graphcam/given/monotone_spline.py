@@ -108,7 +108,7 @@ class LinearForms:
 
 
 def _sums_by_place(places: NDArray[np.intp], values: Floats, size: int) -> Floats:
-    """(size,) the sums of the values that go to the same place."""
+    """The sums (size,) of the values that go to the same place."""
     sums: Floats = np.zeros(size)
     np.add.at(sums, places.ravel(), values.ravel())
     return sums

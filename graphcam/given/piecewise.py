@@ -149,7 +149,6 @@ class Piecewise:
         out += 0.0 * x  # so that zero is +0, and NaN stays NaN even where a constant takes its place
 
     def _look_up(self, formula: Formula, number: NDArray[np.intp], t: Floats, out: Floats) -> None:
-        """Write the values at t, of one formula or at rest."""
         if self._moves.all():
             self._write_alike(formula, number, t, out)
             return

@@ -108,7 +108,6 @@ def _least_preload(motion: Motion, load: FollowerLoad) -> SpringPreload:
     """sup -(Q - w F0)/w, with w the force per preload."""
 
     def needed(places: Places) -> Floats:
-        """The preload [N] that places need."""
         weight, _ = load.leverage(places.values)
         return load.preload - load.force(places.values, motion.directions[places.phase], places.phi) / weight
 

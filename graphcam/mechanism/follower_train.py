@@ -235,7 +235,6 @@ class VibratingFollower(Plottable):
         train, nu = self.train, self.vibrations
 
         def forcing(phi: Floats) -> Floats:
-            """The forcing of y = x - share s, by the cam angle."""
             _, v, a, _ = self.motion(phi)
             return self._damped * v - train.share * a
 

@@ -137,7 +137,7 @@ class ProfileSpline:
         return f"ProfileSpline of degree {self.degree}, {size}; .knots, .control"
 
     def __call__(self, at: ArrayLike, derivative: int = 0) -> Floats:
-        """(..., 2) the points, or a derivative by the parameter, at parameters from 0 to ``knots[-1]``."""
+        """The points (..., 2), or a derivative by the parameter, at parameters from 0 to ``knots[-1]``."""
         from scipy.interpolate import BSpline
 
         return BSpline(self.knots, self.control, self.degree)(np.asarray(at, dtype=np.float64), nu=derivative)
@@ -285,7 +285,7 @@ def _best_with_points(
 
 
 def _fewest_points(stretches: list[_Stretch], smooth: list[bool]) -> int:
-    """The control points of the splines with the fewest parts."""
+    """The number of control points of the splines with the fewest parts."""
     least = sum(stretch.size(stretch.min_parts * len(stretch.spans)) for stretch in stretches)
     # Where two stretches meet smoothly the ends of both are given away, at a corner one.
     return least - sum(2 if joint else 1 for joint in smooth[:-1])

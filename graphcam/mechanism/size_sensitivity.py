@@ -75,7 +75,6 @@ class Sensitivities:
         return {name: np.array([by.value, by.slope, by.bend]) for name, by in lifted.items()}
 
     def _by_lift(self, found: dict[str, Floats]) -> dict[str, Floats]:
-        """Per lift instead of per part of it."""
         return found | {"lift": found["lift"] / self.cam.motion.lift}
 
 
@@ -165,7 +164,6 @@ def radius_sensitivity(
 def _holding_places(
     motion: Motion, kin: Kinematics, active: Sequence[str], limits: Mapping[str, float | None]
 ) -> Iterator[_HoldingPlace]:
-    """The places that hold the minimum radius."""
     for name, direction in (("rise", 1.0), ("return", -1.0)):
         if name in active:
             towards = direction * kin.leaning

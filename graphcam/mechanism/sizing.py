@@ -89,7 +89,7 @@ def _error(problem: SizingProblem, near: Sizes, names: list[str], why: Words) ->
 
 
 def _limit_values(problem: SizingProblem, near: Sizes, name: str) -> tuple[Caption, Caption]:
-    """What the cam has of a limit, and what is permitted."""
+    """The cam's value of a limit, and the permitted one, as captions."""
     limits = problem.limits
     if name in (RISE_LIMIT, RETURN_LIMIT):
         permitted = limits.rise if name == RISE_LIMIT else limits.return_ or math.inf

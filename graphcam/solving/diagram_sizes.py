@@ -57,7 +57,7 @@ class DiagramRoom:
 
 @dataclass(frozen=True, eq=False)
 class DrawnHeights:
-    """How high the diagrams of a motion come out, by the ordinate of the first rise and the poles [mm of paper].
+    """The heights of a motion's diagrams [mm of paper], by the ordinate of the first rise and the poles.
 
     >>> from math import pi
     >>> import graphcam as gc
@@ -168,13 +168,12 @@ def over_the_turn(motion: Motion) -> tuple[Floats, Floats, Floats]:
 
 
 def _places(motion: Motion) -> tuple[NDArray[np.intp], Floats]:
-    """Phases and fractions of them."""
+    """The phases, and fractions of them, at which the heights are taken."""
     phase, u = np.meshgrid(np.arange(len(motion.phases)), np.linspace(0.0, 1.0, PHASE_SAMPLES), indexing="ij")
     return phase.ravel(), u.ravel()
 
 
 def _height(values: Floats) -> float:
-    """The height of a whole diagram, with its axis."""
     return float(max(0.0, values.max()) - min(0.0, values.min()))
 
 

@@ -279,7 +279,6 @@ class _PageMaker:
     ink: Ink
 
     def code(self, page: int) -> str:
-        """The text of a page's code."""
         exercise = self.variant.exercise
         said = SheetCode(exercise.name, exercise.version, self.student.id, self.variant.draw, page)
         return said.text(self.secret)
@@ -297,7 +296,6 @@ class _PageMaker:
 
     @property
     def lettering(self) -> Lettering:
-        """The heights of letters on this paper."""
         drawing = self.variant.task.drawing
         return Format(drawing.format, drawing.frame, drawing.orientation).lettering
 
