@@ -133,6 +133,7 @@ def dwells_step(drawn: ArmPositions, limits: Limits, hatched: Points) -> Step:
 
 
 def highest_arm(drawn: ArmPositions) -> str:
+    """The name of the highest arm: CB with its station."""
     integrated = drawn.givens.integrated
     return station_names(integrated.givens.stations)[int(np.argmax(integrated.first("s")))]
 

@@ -296,6 +296,7 @@ def load_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
 
 
 def station_name(plan: Construction) -> str:
+    """The name of the station for which a plan is drawn."""
     return station_names(plan.givens.measured.givens.integrated.givens.stations)[plan.givens.station]
 
 

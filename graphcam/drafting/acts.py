@@ -46,6 +46,7 @@ class Kind(StrEnum):
     instrument: str
 
     def __new__(cls, act: str, instrument: str) -> Kind:
+        """A kind of act, with its instrument."""
         kind = str.__new__(cls, act)
         kind._value_, kind.instrument = act, instrument
         return kind
