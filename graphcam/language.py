@@ -70,7 +70,7 @@ def read_catalog(text: str) -> Catalog:
     r"""The catalog in the text of a ``.po`` file; what is marked as fuzzy is left out, as the tools of gettext do.
 
     >>> catalog = read_catalog('msgctxt "of a cam"\nmsgid "rise"\nmsgstr "Anstieg"\n')
-    >>> catalog.say("rise", "of a cam"), catalog.say("rise")
+    >>> catalog.translation("rise", "of a cam"), catalog.translation("rise")
     ('Anstieg', 'rise')
     """
     told: dict[tuple[str, str], tuple[str, ...]] = {}

@@ -63,9 +63,9 @@ class DrawnHeights:
     >>> import graphcam as gc
     >>> slow, steep = gc.Return(30, 4 * pi / 3, "3-4-5"), gc.Return(30, pi / 4, "3-4-5")
     >>> room, page = DiagramRoom(2.0, a=90.0, v=75.0, s=40.0), DiagramRoom(2.0, a=162.0, v=162.0, s=162.0)
-    >>> DrawnHeights(gc.Motion([gc.Rise(30, 2 * pi / 3, "3-4-5"), slow]), 2.0).chosen(room, page)
+    >>> DrawnHeights(gc.Motion([gc.Rise(30, 2 * pi / 3, "3-4-5"), slow]), 2.0).choose(room, page)
     (40.0, (20.0, 40.0))
-    >>> DrawnHeights(gc.Motion([gc.Rise(30, 7 * pi / 4, "3-4-5"), steep]), 2.0).chosen(room, page)
+    >>> DrawnHeights(gc.Motion([gc.Rise(30, 7 * pi / 4, "3-4-5"), steep]), 2.0).choose(room, page)
     (1.5, (12.0, 15.0))
     """
 

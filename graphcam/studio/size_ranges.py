@@ -30,7 +30,7 @@ MIN_PHASE_ANGLE = 1.0
 class SizeRange(NamedTuple):
     """The least and the greatest value of a size, and the steps between.
 
-    >>> SizeRange(-10.0, 10.0, 0.5).kept(3.26), SizeRange(-10.0, 10.0, 0.5).kept(12.0)
+    >>> SizeRange(-10.0, 10.0, 0.5).nearest_step(3.26), SizeRange(-10.0, 10.0, 0.5).nearest_step(12.0)
     (3.5, 10.0)
     """
 

@@ -22,7 +22,7 @@ class ShownNames:
 
     hidden : a name for each student's id; empty where the ids are shown
 
-    >>> ShownNames({"s1": "k7f2qd"}).of("s1"), ShownNames().of("s1")
+    >>> ShownNames({"s1": "k7f2qd"}).name_of("s1"), ShownNames().name_of("s1")
     ('k7f2qd', 's1')
     """
 
