@@ -47,7 +47,7 @@ class BenchFollower:
 
     @property
     def cam(self) -> Cam:
-        """The exact cam."""
+        """The exact cam of the follower."""
         follower = self.board.follower.built(self.sizes.place, self.sizes.roller_radius)
         return Cam(self.board.motion, follower, self.sizes.prime_radius, self.board.rotation)
 

@@ -55,7 +55,7 @@ COLUMNS = (
     *("section", "subject", "law", "quantity", "n", "error", "error_unit", "ratio", "ratio_unit", "remark"),
     *("goal", "goal_met"),
 )
-"""Of the long table of numbers."""
+"""The columns of the long table of numbers."""
 FIGURE_NAMES = ("bench-parts", "bench-time", "bench-pencil")
 FILE_NAMES = (
     "bench.md",
@@ -113,7 +113,7 @@ class Report:
 
 
 def measure(effort: Effort, progress: Callable[[Words], None]) -> Report:
-    """Measure everything."""
+    """The report of all that is measured."""
     pair, records = effort.pair, dict[str, tuple[Any, ...]]()
     for section in REPORT_SECTIONS:
         progress(section.title)

@@ -27,8 +27,7 @@ FITTED_PARTS = (12, 24, 48, 96)
 EXACT_ERROR_LIMIT = 1e-12
 """A relative error below this is rounding: the construction is exact."""
 SEARCH_ROUNDS, SEARCH_SAMPLES, SEARCH_NARROWING = 6, 41, 10.0
-"""Of the nested search for the nearest place of the profile: it ends within 1e-7 rad, which moves a distance across the
-profile by 1e-14 of a radius."""
+"""The nested search for the nearest place of the profile ends within 1e-7 rad, 1e-14 of a radius across the profile."""
 
 
 @dataclass(frozen=True)

@@ -40,7 +40,7 @@ SWEPT_CASES = (
     *(("translating", law) for law in ("3-4-5", "cycloidal", "modified-trapezoidal")),
     ("arm", "3-4-5"),
 )
-"""Followers and laws."""
+"""The swept cases, each a follower with a law."""
 RIVAL_STATIONS = 360
 RIVAL_RUNS = 40
 LAW_GOALS = (
@@ -237,7 +237,6 @@ def _three_points(timer: Timer) -> Iterator[BenchRow]:
     cam, at, steps = scene("translating", "3-4-5").cam, 0.6, 0.1 / 2 ** np.arange(8)
 
     def curvature(share: float) -> Floats:
-        """By the circle through three points [1/mm]."""
         return 1 / circumradius(*(cam.pitch_curve(at + turned) for turned in (-share * steps, 0 * steps, steps)))
 
     for name, goal, share in (("equal", "2.00 ± 0.05", 1.0), ("unequal", "1.00 ± 0.05", 2.0)):

@@ -139,7 +139,6 @@ def stepped_residual(n: float, tolerance: float) -> float:
     omega = 2 * pi * n
 
     def slope(u: float, state: Floats) -> list[float]:
-        """Of the displacement and the velocity of the mass."""
         return [state[1], -(omega**2) * state[0] - 2 * pi * np.sin(2 * pi * u)]
 
     solved = integrate.solve_ivp(slope, (0, 1), [0.0, 0.0], "DOP853", rtol=tolerance, atol=tolerance / 1000)
@@ -157,7 +156,6 @@ def _spectrum_rows(unit: Unit, timer: Timer) -> Iterator[BenchRow]:
     some = ratios[::12]
 
     def stepped(tolerance: float) -> list[float]:
-        """The residuals by the integrator."""
         return [stepped_residual(n, tolerance) for n in some]
 
     for tolerance in INTEGRATOR_TOLERANCES:

@@ -60,7 +60,6 @@ def least_radius(where: BenchFollower) -> float:
             angle = mp.mpf(where.board.motion.phases[k].angle)
 
             def rising(u: Any, angle: Any = angle) -> Any:
-                """How high the tangent at u meets the axis, of the lift."""
                 return mp.diff(lift, u) / angle - slope * lift(u)
 
             # The tangent touches where the acceleration still pushes, between the start and the middle.
@@ -76,7 +75,6 @@ def conditioned(points: Sequence[MotionPoint], phi: Floats) -> Floats:
         conditions = [(point.angle, k, value) for point in points for k, value in point.given.items()]
 
         def powers(angle: float, k: int) -> Any:
-            """The k-th derivatives of the powers there."""
             at = mp.mpf(angle)
             return [mp.ff(power, k) * at ** max(power - k, 0) for power in range(len(conditions))]
 

@@ -44,7 +44,7 @@ INTEGRATORS: dict[str, Integrator] = {
     "cumulative_simpson": lambda x, a: cumulative_simpson(cumulative_simpson(a, x=x, initial=0), x=x, initial=0),
     "CubicSpline": lambda x, a: np.asarray(CubicSpline(x, a).antiderivative(2)(x)),
 }
-"""By the names of scipy, each integrating twice: s less its value at the start."""
+"""Double integrations by their names in scipy: s less its value at the start."""
 
 
 def integrated(motion: Motion, method: Integrator, n: int) -> list[Floats]:
@@ -107,7 +107,6 @@ def by_pressure_angles(motion: Motion, limit: float, n: int, start: Point) -> fl
     s, v = (np.concatenate([motion.at(k, u)[i] for k in (0, 2)]) for i in (0, 1))
 
     def room(x: Floats) -> Floats:
-        """What the limit leaves at every station."""
         alpha = np.arctan2(v - size * x[1], size * x[0] + s)
         return np.concatenate([limit - alpha, limit + alpha])
 

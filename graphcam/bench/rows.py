@@ -25,7 +25,7 @@ Line = Mapping[str, str | int | float | None]
 
 @dataclass(frozen=True)
 class BenchRow:
-    """One measured figure.
+    """One measured figure with its goal.
 
     ratio : in ``unit``, or how many times faster
     goal : what it should keep to, "<= 0.7", ">= 10" or "2.00 ± 0.05"; the time itself where a unit of time follows, as
@@ -112,7 +112,7 @@ class Effort:
 
     @cached_property
     def timer(self) -> Timer:
-        """What measures times."""
+        """The timer of this effort."""
         return Timer(self.budget, self.least_runs)
 
     @cached_property
@@ -149,7 +149,7 @@ def _texts_of_rows(rows: Sequence[BenchRow], _: float) -> Iterator[list[str]]:
 
 
 def _line_of_row(r: BenchRow) -> Iterator[Line]:
-    """Of what was measured, these alone have a goal."""
+    """The line of a measured figure in the long table, with its goal."""
     found = {"error": r.error_eps, "error_unit": "eps", "ratio": r.ratio, "ratio_unit": r.unit}
     yield {"subject": r.name, "quantity": r.what, **found, "goal": r.goal, "goal_met": _told(r.goal_met)}
 

@@ -52,11 +52,9 @@ def methods(effort: Effort) -> Iterator[Method]:
     displacement, radius, profile = "displacement", "minimum prime radius", "profile"
 
     def sampled(question: str, name: str, kind: str, work: Work, error: Callable[[int], float]) -> Method:
-        """A method in all numbers of its kind."""
         return _timed_method(effort, Method(question, name, "sampled", sizes[kind]), work, error)
 
     def drawn(question: str, kind: str, where: BenchFollower, construction: str, reading: str) -> Method:
-        """A construction, drawn anew with all that it starts from."""
         method, error = Method(question, "graphical", "graphical", sizes[kind]), partial(error_of, where, construction)
         return _timed_method(
             effort, method, lambda n: where.chain(n)[construction], lambda n: error(reading, where.chain(n))
@@ -78,7 +76,6 @@ def methods(effort: Effort) -> Iterator[Method]:
     ):
 
         def found(n: int, solve: Callable[[rivals.Lines, rivals.Point], float] = solve) -> float:
-            """The minimum radius of n lines [mm]."""
             return solve(rivals.translating_lines(free_motion, PERMITTED_ANGLE, n), INNER_POINT)
 
         yield sampled(radius, name, kind, found, lambda n, found=found: abs(found(n) / least - 1))

@@ -58,7 +58,7 @@ class ElementStresses:
 
     @property
     def von_mises(self) -> Floats:
-        """(n,) MPa."""
+        """The equivalent stress after von Mises (n,) [MPa]."""
         a, b, c = self.across - self.along, self.along - self.out, self.out - self.across
         return np.sqrt((a * a + b * b + c * c) / 2 + 3 * self.shear**2)
 

@@ -185,7 +185,6 @@ def _quantity(
     exact: Mapping[str, float],
     proved: Mapping[str, float],
 ) -> Quantity:
-    """The drawn value beside the exact one."""
     counterpart = said.exact or said.name
     if counterpart not in exact:
         raise DesignError(say("exact counterpart"), counterpart, say("one of {names}", names=", ".join(exact)))

@@ -53,13 +53,13 @@ def _scale_of_angle(diagram: AccelerationDiagram) -> Values:
 
 
 def _ordinate_values(diagram: AccelerationDiagram) -> Values:
-    """Those that follow from the one that is chosen, by the numbers of their phases."""
+    """The formula's values for every ordinate that follows from the chosen one, phase by phase."""
     stations, greatest = diagram.givens.stations, diagram.first("greatest").tolist()
     phases, index = moving_phases(diagram.givens.motion, stations), stations.phase[stations.last].tolist()
     first = next(k for k, phase in enumerate(phases) if phase.direction > 0)
 
     def terms(k: int, of: str) -> dict[str, Any]:
-        """What the lift of a phase is proportional to."""
+        """The values that the lift of phase ``k`` is proportional to; ``of`` ends their names."""
         phase = phases[k]
         law = {f"C{of}": phase.normalised.peak_acceleration, f"h{of}": phase.lift}
         return {**law, f"k{of}": index[k] + 1, f"angle{of}": float(np.degrees(phase.angle)), f"y{of}": greatest[k]}
@@ -136,7 +136,6 @@ def acceleration_diagram(
     axis, begins = _station_ticks(hand, origin, stations, mu_phi), [span.start for span in stations.phases]
 
     def ordinates(u: Floats, phase: NDArray[np.intp], side: Side = "right") -> Floats:
-        """The given ordinates at fractions of phases."""
         return ordinate / steepness[first_rise] * motion.at(phase, u, side)[2]
 
     tops = hand.lay_off("greatest", axis[begins], UP, greatest)
@@ -180,7 +179,7 @@ def moving_phases(motion: Motion, stations: Stations) -> list[MovingPhase]:
 
 
 def equal_parts(stations: Stations) -> Caption:
-    """Which parts are equal to one another."""
+    """A sentence on which parts are equal to one another."""
     if stations.stretches == stations.pieces:
         return say("equal between jumps of the acceleration")
     return say("equal between jumps and corners of the acceleration")
@@ -217,7 +216,7 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
 
 
 def _by_their_laws(laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> tuple[Part, ...]:
-    """What the curves are drawn by: laws that textbooks give, or the ordinates of a smoothed table."""
+    """The parts that tell how the curves are drawn: by a textbook's law, or by the ordinates of a smoothed table."""
     named = [say("{phase} {law}", phase=law.title, law=law_name(law.phase.normalised)) for law in laws]
     told = say(
         "Over each moving phase draw the acceleration by its law: {laws}. Ordinates above the axis are positive; "
@@ -232,7 +231,7 @@ def _by_their_laws(laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> tu
 
 
 def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
-    """The axes, for ordinates of these ``heights`` [mm]."""
+    """The step that draws the axes, for ordinates of these ``heights`` [mm]."""
     motion, mu_phi, stations = diagram.givens.motion, diagram.givens.mu_phi, diagram.givens.stations
     omega = diagram.givens.omega
     turn, ends = diagram.acts["turn"], phase_ends(motion, mu_phi)
@@ -287,7 +286,7 @@ class _LawOverPhase:
     ends: tuple[float, float]
 
     def branches(self) -> Iterator[tuple[Floats, Floats]]:
-        """Between jumps and corners: places on the axis and ordinates [mm], of a straight branch its ends alone."""
+        """Places on the axis and ordinates [mm] between jumps and corners; of a straight branch its ends alone."""
         law = self.phase.normalised
         for first, last in pairwise((0.0, *sorted((*law.jumps, *law.corners)), 1.0)):
             u = np.linspace(first, last, 97)
@@ -303,7 +302,7 @@ class _LawOverPhase:
         return hand.lay_off(f"law {k}", feet, UP, np.concatenate([[0.0], *y, [0.0]]))
 
     def told(self) -> Caption:
-        """The ordinates that the curve is drawn through."""
+        """A sentence with the ordinates that the curve is drawn through."""
         branches = list(self.branches())
         curved = any(x.size > 2 for x, _ in branches)
         branches = [(x, y) if x.size == 2 else (x[::PLOTTED_STEP], y[::PLOTTED_STEP]) for x, y in branches]
@@ -315,7 +314,7 @@ class _LawOverPhase:
         return said.with_values(phase=self.title, places=sequence(places), tool=FRENCH_CURVE if curved else RULER)
 
     def reckoned(self, first: _LawOverPhase) -> Caption:
-        """How the largest ordinate follows from the chosen one; what both phases have alike is left out."""
+        """How the maximum ordinate follows from the chosen one, less the factors that are equal in both phases."""
         ours, theirs = self.phase, first.phase
         c, c1 = ours.normalised.peak_acceleration, theirs.normalised.peak_acceleration
         factors = [
@@ -409,7 +408,7 @@ def _dimension(diagram: AccelerationDiagram, k: int, law: _LawOverPhase, curve: 
 
 
 PLOTTED_STEP = 8
-"""Of the 97 points of a branch of a law every eighth is told."""
+"""Every eighth of the 97 points of a branch of a law is told."""
 SAME_LENGTH = 5e-3
 """Lengths [mm] that differ by less are told as one."""
 SAME_ORDINATE = 1e-6

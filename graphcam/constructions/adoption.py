@@ -20,7 +20,7 @@ SAME_RADIUS = 1e-4
 
 
 def multiple(count: int, step: float) -> float:
-    """So many steps [mm].
+    """So many steps [mm], without the rounding error of a product.
 
     >>> 7 * 0.1, multiple(7, 0.1)
     (0.7000000000000001, 0.7)
@@ -30,7 +30,7 @@ def multiple(count: int, step: float) -> float:
 
 
 def usual_rounding(radius: float) -> float:
-    """To multiples of what sizes are rounded where nothing is said: the largest power of ten below r0/10, at most 1 mm.
+    """The step [mm] that sizes are rounded to where none is given: the largest power of ten below r0/10, at most 1.
 
     >>> usual_rounding(43.28), usual_rounding(4.3)
     (1.0, 0.1)
@@ -39,7 +39,7 @@ def usual_rounding(radius: float) -> float:
 
 
 def steps_up(value: float, step: float) -> int:
-    """How many steps reach a value: a multiple that was read is not raised.
+    """The number of steps that reach a value: a multiple that was read is not raised.
 
     >>> steps_up(43.28, 1.0), steps_up(44 + 1e-12, 1.0)
     (44, 44)
@@ -48,7 +48,7 @@ def steps_up(value: float, step: float) -> int:
 
 
 def lies_in(stretches: Floats, place: float, step: float) -> bool:
-    """Whether one of the stretches (k, 2) holds the place, but for rounding of the arithmetic."""
+    """Whether a place lies in one of the stretches (k, 2), but for rounding of the arithmetic."""
     low, high = stretches.T
     return bool(np.any((low <= place + ROUNDING_SLACK * step) & (place - ROUNDING_SLACK * step <= high)))
 
@@ -94,13 +94,13 @@ class Adoption:
 
 
 def nothing_adopted() -> Adoption | None:
-    """Of what is drawn for itself, with sizes that are only tried."""
+    """None: what is drawn on its own, with sizes that are only tried, adopts nothing."""
     return None
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ToldByChain:
-    """What lies on the board only where a construction is drawn as one of a chain.
+    """What a construction knows only where it is drawn as one of a chain.
 
     adopted : tells how the sizes came about that are taken in the end; None where they are not known
     paper : for views of its own
@@ -111,7 +111,7 @@ class ToldByChain:
 
 
 def adoption_step(adopted: Adoption, symbol: str, mu: float, view: View) -> Step:
-    """The decision as a step of its own, before anything is drawn with what it adopts.
+    """The step that adopts the sizes, before anything is drawn with them.
 
     symbol : of the place;  mu : mm of the machine to a millimetre of paper of the view
     """
@@ -128,7 +128,7 @@ def adoption_step(adopted: Adoption, symbol: str, mu: float, view: View) -> Step
 
 
 def _of_the_radius(adopted: Adoption, symbol: str) -> list[Caption]:
-    """What is adopted, against the least radius that was found; where the rounded place changes that, against its own.
+    """Sentences on the adopted radius, against the minimum that was found, or read again at the rounded place.
 
     >>> [str(said) for said in _of_the_radius(Adoption(44.0, -10.0, 43.2804, None, False, 1.0), "e")]
     ['Round the minimum radius, 43.28 mm, up to r₀ = 44 mm.']
@@ -148,7 +148,7 @@ def _of_the_radius(adopted: Adoption, symbol: str) -> list[Caption]:
 
 
 def _against(adopted: Adoption, least: float) -> Caption:
-    """What is adopted, against a least permitted radius.
+    """A sentence on the adopted radius, against a minimum permitted one [mm].
 
     >>> str(_against(Adoption(61.0, 150.0, 32.81, None, True, 1.0), 32.81))
     'The task gives r₀ = 61 mm, which is larger than the minimum permitted radius, 32.81 mm.'

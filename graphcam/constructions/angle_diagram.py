@@ -84,7 +84,7 @@ def angle_diagram(
 
 
 def inside(plotted: Construction[AngleDiagramGivens], phase: str) -> Drawn | None:
-    """The maximum inside the rises or the returns where the farthest point is at an end of one, on the other side.
+    """The extreme inside the rises or the returns, where the farthest point lies at an end of one, on the other side.
 
     So it is with a large offset: the angle in the dwell is the larger one, and a maximum of the other sign lies inside.
     None where the farthest point is the only one of interest.
@@ -127,7 +127,6 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
     ).with_values(scale=np.degrees(plotted.givens.mu_alpha.per_mm), name=names[k], alpha=degrees[k], y=heights[k])
 
     def mm(k: int) -> Words:
-        """The angle of a station, how long it is on the paper, and to which side of the axis."""
         said = say("{alpha:z.2f}°, {y:.2f} mm upward") if degrees[k] >= 0 else say("{alpha:.2f}°, {y:.2f} mm downward")
         return said.with_values(alpha=degrees[k], y=abs(heights[k]))
 

@@ -23,7 +23,7 @@ CENTRES_ROOM = complex(40.0, 50.0)
 
 @dataclass(frozen=True)
 class ArcBoard:
-    """The task, and the draughtsman's choices.
+    """What lies on the board of a cam of three arcs: the task, and the draughtsman's choices.
 
     dwell : angle [rad] for which the outer circle holds the follower up
     roller_radius : mm
@@ -72,12 +72,12 @@ class ArcChain(Drawings):
 
     @cached_property
     def stations(self) -> ArcStations:
-        """The parts of the arcs."""
+        """The ends of the parts into which the arcs are divided."""
         return divide_arcs(self.board.divisions)
 
     @DrawnOnce
     def three_arcs(self) -> Construction:
-        """Centres and points of touching."""
+        """The centres of the arcs and their points of contact."""
         board = self.board
         return three_arcs(board.given, board.dwell, board.mu_l, self.pencil, board.paper)
 
@@ -89,12 +89,12 @@ class ArcChain(Drawings):
 
     @DrawnOnce
     def arc_diagrams(self) -> Construction:
-        """The same over the cam angle, and the greatest values."""
+        """Lift, velocity, acceleration and pressure angle over the cam angle, and their maxima."""
         return arc_diagrams(self.arc_roller, self.board.mu_phi, self.pencil, self.board.heights)
 
     @property
     def spans(self) -> tuple[slice, ...]:
-        """The stations of each arc among all stations."""
+        """The slice of each arc among all stations."""
         return self.stations.spans
 
     def redrawn(self, refine: int = 1, pencil: Pencil | None = None) -> ArcChain:

@@ -114,13 +114,13 @@ def arc_diagrams(
 
 
 def _over_the_turn(dwell: float, turn: float, edges: Floats) -> Floats:
-    """Where the arcs, the ``dwell`` and the turn begin and end, (..., 9), from the rise's ``edges`` (..., 4)."""
+    """Where the arcs, the ``dwell`` and the turn begin and end, (..., 9), from the ``edges`` (..., 4) of the rise."""
     down = 2 * edges[..., -1:] + dwell - edges[..., ::-1]
     return np.concatenate([edges, down, np.full_like(down[..., :1], turn)], axis=-1)
 
 
 def _scale(rolled: RollerOnArcs, name: str, height: float) -> Scale:
-    """The scale of a diagram that should not be higher, by what is read in the first sample."""
+    """The scale at which a diagram is at most ``height`` mm high, by the readings of the first sample."""
     values: Floats = np.nan_to_num(rolled.value(name))
     low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
     # On the return the velocity goes as far down as it went up.
@@ -224,7 +224,6 @@ def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
     values = {"degree": float(np.degrees(mu_phi.per_mm)), "mu": per_mm, "paper": paper, "value": paper * per_mm}
 
     def laid_off(k: int) -> Words:
-        """What is laid off at a station, to which side if they differ, and where on the axis."""
         place, x = dots.shown[k], round(float(feet.shown[k].real), 2)
         if np.isnan(place):
             return say("nothing was read, so nothing is plotted at {x:g} mm", x=x)
@@ -250,7 +249,7 @@ def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
 def _maximum(
     plotted: Construction[ArcDiagramsGivens], hand: Hand, name: str, values: Mapping[str, Any]
 ) -> tuple[list[Mark], Part]:
-    """The place where a level line touches the curve farthest from the axis."""
+    """The marks and the part of the place where a level line touches the curve farthest from the axis."""
     tops = plotted.acts[f"{name}_tops"].first
     top = hand.take("top", tops, which=int(np.argmax(np.abs(tops.shown.imag))))
     side, read = np.sign(top.place.imag), plotted.readings[f"max_{name}"].act
@@ -264,14 +263,14 @@ def _maximum(
 
 
 def _per_mm(plotted: Construction[ArcDiagramsGivens], name: str) -> float:
-    """The scale of a diagram, of that of the pressure angle in degrees."""
+    """The scale of a diagram [unit/mm], in degrees for the pressure angle."""
     if name == "alpha":
         return math.degrees(plotted.givens.mu_phi.per_mm)
     return plotted.readings["lift" if name == "s" else f"max_{name}"].per_mm
 
 
 def _lengths(plotted: Construction[ArcDiagramsGivens], name: str) -> list[Words]:
-    """What is laid off at each station, and where it comes from."""
+    """The lengths laid off at the stations, each with its origin."""
     dots, degrees = plotted.acts[name].first, np.degrees(plotted.givens.rolled.first(name)).tolist()
     if name != "alpha":
         return [telling.setting(dots[k]) for k in range(dots.shown.size)]
@@ -291,7 +290,7 @@ def _edges(ends: Drawn, limits: Drawn) -> Part:
 
 
 def _along_the_curve(plotted: Construction[ArcDiagramsGivens], name: str, curve: Drawn, middle: float) -> list[Part]:
-    """The curve over the rise, the dwells and the return."""
+    """The parts that draw the curve over the rise, the dwells and the return."""
     arcs, ends = plotted.givens.rolled.givens.arcs, plotted.acts["ends"].shown.real
     n = (curve.shown.size - 4) // 2
     held = Part(say("Upper dwell: a horizontal line, drawn with the T-square."), (curve[n : n + 2],))
@@ -305,7 +304,7 @@ def _along_the_curve(plotted: Construction[ArcDiagramsGivens], name: str, curve:
 
 
 def _names(plotted: Construction[ArcDiagramsGivens], dots: Drawn) -> list[Mark]:
-    """The names of the plotted stations: of an arc on which they stand too close together those of its ends."""
+    """The names of the plotted stations; where those of an arc stand too close together, only those of its ends."""
     stations, found = plotted.givens.rolled.givens.stations, dict[str, complex]()
     marks: list[Mark] = []
     for span in stations.spans:
@@ -334,7 +333,7 @@ def _whole_turn(plotted: Construction[ArcDiagramsGivens], hand: Hand, name: str)
 
 
 def _phases(ends: Drawn, mu_phi: Scale, height: float) -> list[Mark]:
-    """The angles of rise, dwells and return; the last one takes up what rounding the others leaves of the turn."""
+    """The angles of rise, dwells and return; the last one takes what rounding the others leaves of the turn."""
     bounds = ends.shown[[0, 3, 4, 7, 8]] + UP * height
     angles = np.degrees(np.diff(bounds.real) * mu_phi.per_mm).round(2)
     angles[-1] = 360 - angles[:-1].sum()

@@ -39,7 +39,7 @@ SAME_RADIUS = 1e-6
 
 
 def _centres_apart(arcs: ArcOutline) -> Values:
-    """The radius that is found, and how far its centre lies from C1."""
+    """The formula's values: the radius that is found, and how far its centre lies from C1 [mm]."""
     c1, c3 = (complex(arcs.first(name)) for name in ("C1", "C3"))
     if not np.isnan(c3):
         apart = abs(c3 - c1) * arcs.givens.mu_l.per_mm
@@ -88,7 +88,7 @@ MEANING = Meaning(
 
 
 def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil, paper: Paper = UNLIMITED) -> ArcOutline:
-    """Find the centres and the points of touching of both roots.
+    """Find the centres of the arcs and the points of contact, for both roots.
 
     dwell : angle [rad] for which the outer circle holds the follower up
     mu_l : drawing scale [mm/mm]
@@ -132,7 +132,7 @@ def three_arcs(given: ThreeArcs, dwell: float, mu_l: Scale, pencil: Pencil, pape
 
 
 def _plotted(hand: Hand, o: Drawn, given: ThreeArcs, mu_l: Scale) -> dict[str, Drawn]:
-    """The given points: laid off across, and up from there."""
+    """The given points by name, laid off across and then up or down."""
     # A and D are found again, where the dwells' circles touch.
     places = {f"given_{p}" if p in "AD" else p: at for p, at in vars(given).items() if at is not None and p != "rho1"}
     x, y = np.array([*places.values()]).T / mu_l.per_mm
@@ -141,7 +141,7 @@ def _plotted(hand: Hand, o: Drawn, given: ThreeArcs, mu_l: Scale) -> dict[str, D
 
 
 def _touching(hand: Hand, name: str, centres: Drawn, about_c1: Drawn, rho3: Setting) -> Drawn:
-    """F: of the two places where the line of centres meets the circle about C1 the one on the circle about C3."""
+    """F: the meeting of the line of centres with the circle about C1 that lies on the circle about C3."""
     ends = hand.cross(f"{name}ends", hand.take(f"{name}both ways", centres.turned(-1), centres), about_c1)
     off = np.abs(np.abs(ends.points - (centres.points + centres.directions)[..., None]) - rho3.amount[..., None])
     return hand.take(f"{name}F", ends, which=np.argmin(off, axis=-1)[..., None])[0]
@@ -151,7 +151,7 @@ def _touching(hand: Hand, name: str, centres: Drawn, about_c1: Drawn, rho3: Sett
 
 
 def unreadable(title: Caption, said: Caption, view: View) -> Step:
-    """A step that cannot be drawn, for lines cross at less than a degree."""
+    """The step in place of one that cannot be drawn, for lines cross at less than a degree."""
     why = say("Lines that cross at less than a degree have no point of intersection that can be read.")
     return Step(title, (Part(said),), view, (), why=why)
 
@@ -167,7 +167,7 @@ PLOT_CAPTION = say("{name} = {told}: from O lay off {way}.")
 
 
 def _plot(arcs: ArcOutline, name: str, point: Point) -> Move:
-    """A given point, laid off across and then up or down."""
+    """The move that lays a given point off, across and then up or down."""
     at, across, up = complex(*point) / arcs.givens.mu_l.per_mm, say("{mm:.2f} mm to the right"), say("{mm:.2f} mm up")
     if at.real < 0:
         across = say("{mm:.2f} mm to the left")
@@ -262,7 +262,7 @@ LAID_OFF = say("Set the dividers to {step:.2f} mm, ρ₁, and lay it off on the 
 
 
 def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
-    """The centre of the third arc and F, of the one root or the ``other_``."""
+    """The steps that find the centre of the third arc and F, for one root or the ``other_``."""
     p, c3, f = (f"{name}{point}" for point in ("P", "C3", "F"))
     role, mu_l, acts = Role.HIDDEN if name else Role.CONSTRUCTION, arcs.givens.mu_l.per_mm, arcs.acts
     chord, radius = abs(acts[p].place - acts["C1"].place), abs(acts[c3].place - acts["G"].place)
@@ -335,7 +335,6 @@ def _profile(arcs: ArcOutline) -> Step:
         middle = say("There is no upper dwell, so the return is mirrored in the line OD itself.")
 
     def of_arc(said: Caption, arc: str, centre: str, name: str) -> Caption:
-        """The caption with the sizes of an arc."""
         return said.with_values(arc=arc, centre=centre, name=name, rho=radii[name], paper=radii[name] / mu_l)
 
     said = [
@@ -370,13 +369,13 @@ def _primed(name: str) -> str:
 
 
 def _named(arcs: ArcOutline, name: str, away: complex = 0j) -> Label:
-    """The name of a point, on the side that is ``away`` from a place."""
+    """The label of a point, on the side ``away`` from a place."""
     way = arcs.acts[name].place - away
     return arcs.acts[name].label(_primed(name), way / abs(way) if abs(way) > SAME_RADIUS else 1 + 1j)
 
 
 def _line(arcs: ArcOutline, name: str, *ends: complex | str, role: Role = Role.CONSTRUCTION) -> Line:
-    """The part of a line between those two of its points that lie farthest apart."""
+    """A line between those two of its points that lie farthest apart."""
     places = [arcs.acts[end].place if isinstance(end, str) else end for end in ends]
     pair = max(combinations(places, 2), key=lambda pair: abs(pair[0] - pair[1]))
     return Line(np.array(pair), role).left_by(arcs.acts[name])
@@ -400,7 +399,7 @@ def _xy(name: str) -> tuple[str, str]:
 
 
 def _orders(arcs: ArcOutline, name: str) -> Caption:
-    """What is read off the two lines of centres."""
+    """A caption with the order of the points on the two lines of centres."""
     first, second = _order(arcs, f"{name}F", "C1", f"{name}C3"), _order(arcs, "G", f"{name}C3", "C2")
     built = (first, second) == (["F", "C1", "C3"], ["G", "C3", "C2"])
     can, cannot = say("the arcs touch internally, and the cam can be made"), say("such a cam cannot be made")
@@ -409,6 +408,6 @@ def _orders(arcs: ArcOutline, name: str) -> Caption:
 
 
 def _order(arcs: ArcOutline, *names: str) -> list[str]:
-    """The names of points of a line in their order, the first before the last."""
+    """The names of the points of a line, in their order along it, the first one before the last."""
     places = np.array([arcs.acts[name].place for name in names])
     return [_primed(names[k]) for k in np.argsort(dot(places[-1] - places[0], places))]

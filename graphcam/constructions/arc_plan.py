@@ -40,13 +40,13 @@ def shown_station(stations: ArcStations) -> int:
 
 
 def worked_station(stations: ArcStations, values: Floats) -> int:
-    """The station that is told in full: that of the plan, or the first one at which there is a value."""
+    """The station that is told in full: that of the plan, or the first at which there is a value."""
     at = shown_station(stations)
     return at if np.isfinite(values[at]) else int(np.argmax(np.isfinite(values)))
 
 
 def plans(rolled: RollerOnArcs, ends: Iterable[str]) -> list[Step]:
-    """The plan at one station move by move, then that of every station.
+    """The steps that draw the plan at one station move by move, then at every station.
 
     ends : the readings of the acceleration where arcs begin and end
     """
@@ -71,7 +71,7 @@ def _plan(rolled: RollerOnArcs) -> list[Step]:
 
 
 def _at_scale(station: str, scale: VelocityScale) -> View:
-    """The view of the plan at a station; its title says its scales."""
+    """The view of the plan at a station, with its scales in the title."""
     title = say("v and a at station {name}, {ratio}, μᵥ = {mu:.4g} ({per_v})/mm, μₐ = {mu_a:.4g} ({per_a})/mm")
     scales = {"ratio": ratio_text(scale.mu_l.per_mm), "mu": scale.mu.per_mm, "per_v": unit_named(scale.mu.unit)}
     scales |= {"mu_a": scale.acceleration.per_mm, "per_a": unit_named(scale.acceleration.unit)}
@@ -90,7 +90,7 @@ PLACE_NAMES = ("B", "C", "K", "right", "beyond", "N", "M")
 
 
 def _crank_drive(hand: Hand, rolled: RollerOnArcs, at: int, times: complex) -> None:
-    """O, B and C of a station in another view, and the plans drawn from them."""
+    """Draw O, B and C of a station in another view, and the plans from them."""
     o = hand.enlarged("O", rolled.acts["O"].first, rolled.acts["O"].first, times)
     b, c = (hand.enlarged(name, rolled.acts[name].first[at], rolled.acts["O"].first, times) for name in "BC")
     follower, rod = hand.join("follower", o, b), hand.join("rod", b, c)
@@ -216,14 +216,13 @@ UNREADABLE = say("nothing can be read: a line crosses another at less than a deg
 
 
 def _velocities(rolled: RollerOnArcs) -> Step:
-    """K of every station, in the drawing of the roller itself."""
+    """The step that finds K of every station, in the drawing of the roller itself."""
     stations, mu = rolled.givens.stations, rolled.givens.arcs.givens.mu_l.per_mm
     rods, across, k = (rolled.acts[name].first for name in ("rods", "across", "K"))
     paper, alpha = np.abs(k.shown), np.degrees(rolled.first("alpha"))
     at = worked_station(stations, paper)
 
     def told(j: int) -> Caption:
-        """What is read at a station."""
         if np.isnan(paper[j]):
             return UNREADABLE
         if paper[j] <= NEGLIGIBLE_SIZE:
@@ -254,7 +253,7 @@ def _velocities(rolled: RollerOnArcs) -> Step:
 
 
 def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
-    """N and M of every station, in a view of their own, for M may lie far out."""
+    """The step that finds N and M of every station, in a view of their own, for M may lie far out."""
     stations, mu = rolled.givens.stations, rolled.givens.arcs.givens.mu_l.per_mm
     hand, o = showing(rolled), rolled.acts["O"].first
     places: Points = np.concatenate([[0j], *(rolled.first(name) for name in "BNM")])
@@ -271,7 +270,6 @@ def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
     )
 
     def told(j: int) -> Caption:
-        """What is drawn and read at a station."""
         if np.isnan(om[j]):
             return UNREADABLE
         n_at = say("{centre}N = {cn:.2f} mm") if cn[j] > NEGLIGIBLE_SIZE else say("N in {centre}")

@@ -31,11 +31,11 @@ class ThreeArcsGivens:
 
 ArcOutline = Construction[ThreeArcsGivens]
 SENSE_NAMES = {1: say("clockwise"), -1: say("anticlockwise")}
-"""In which the follower is turned about a cam of that :func:`sense_sign`."""
+"""The sense in which the follower is turned about a cam, by its :func:`sense_sign`."""
 
 
 def sense_sign(arcs: ArcOutline) -> int:
-    """sigma of the first sample: +1 where the way from A to D is clockwise, so that the cam turns counter-clockwise."""
+    """The sign sigma of the first sample: +1 where A to D is clockwise, so that the cam turns counter-clockwise."""
     return -1 if float(cross(arcs.first("A"), arcs.first("D"))) > 0 else 1
 
 
@@ -46,7 +46,7 @@ def middle_of_dwell(arcs: ArcOutline) -> Drawn:
 
 
 def mirror_line(arcs: ArcOutline) -> Caption:
-    """What that line is called where something is mirrored in it."""
+    """The name of the line in which the rise is mirrored."""
     if not arcs.givens.dwell:
         return say_in("mirrored in", "the line OD")
     return say_in("mirrored in", "the middle line of the dwell")
@@ -119,12 +119,12 @@ class ArcStations:
 
     @cached_property
     def names(self) -> list[str]:
-        """0, 1, 2 ... through the rise; where two arcs meet, the first one's end and the second one's start are one."""
+        """The names 0, 1, 2 ... through the rise; one for the end of an arc and the start of the next."""
         return [str(k - arc) for k, arc in enumerate(self.arc.tolist())]
 
     @cached_property
     def places(self) -> dict[str, list[int]]:
-        """Which of the stations are of one name.
+        """The stations that bear each name, by the name.
 
         >>> list(divide_arcs(1).places.items())
         [('0', [0]), ('1', [1, 2]), ('2', [3, 4]), ('3', [5])]
@@ -133,7 +133,7 @@ class ArcStations:
 
     @cached_property
     def titles(self) -> list[Words]:
-        """The names of all stations, with their arc where one name has two."""
+        """The names of all stations, with their arc where two stations bear one name."""
         titles: list[Words] = []
         for name, arc in zip(self.names, self.arc.tolist(), strict=True):
             both = len(self.places[name]) > 1

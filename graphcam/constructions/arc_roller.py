@@ -52,7 +52,7 @@ ENDS = {
 
 
 def _worked(rolled: RollerOnArcs) -> Values:
-    """The station of the plan: its lengths in the drawing of the roller, and what they stand for."""
+    """The formula's values at the station of the plan: lengths in the roller's drawing, and what they stand for."""
     k, mu = shown_station(rolled.givens.stations), rolled.givens.arcs.givens.mu_l.per_mm
     b, c, k_, m, n = (complex(rolled.first(name)[k]) for name in "BCKMN")
     if not np.isnan(m):
@@ -189,12 +189,12 @@ def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pe
 
 
 def _with_leading_zero(*angles: Floats) -> Floats:
-    """Angles in a row, (..., k + 1), after one of zero."""
+    """Angles in a row after one of zero, (..., k + 1)."""
     return np.stack([np.zeros_like(angles[0]), *angles], axis=-1)
 
 
 def _stations_between(stations: ArcStations, edges: Floats) -> Floats:
-    """The stations between the ``edges`` (..., 4) of the arcs."""
+    """The cam angles of the stations between the ``edges`` (..., 4) of the arcs."""
     start, end = edges[..., stations.arc], edges[..., stations.arc + 1]
     return start + (end - start) * stations.u
 

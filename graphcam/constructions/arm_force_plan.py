@@ -45,7 +45,7 @@ class ArmForcePlanGivens:
 
 
 def _in_equilibrium(plan: Construction[ArmForcePlanGivens]) -> Values:
-    """The torque and the pressure angle at the station, where the triangle closes."""
+    """The formula's values, where the triangle closes: torque, pressure angle and forces at the station."""
     load, alpha = float(plan.value("load")), math.radians(abs(plain.alpha_at(plan)))
     arm = plan.givens.measured.givens.arm
     if not math.isnan(float(plan.first("normal"))):
@@ -167,7 +167,7 @@ def _draw(plan: Construction[ArmForcePlanGivens]) -> list[Step]:
 
 
 def _terms(plan: Construction[ArmForcePlanGivens]) -> list[tuple[Caption, float]]:
-    """What the torque consists of, term by term [N mm]."""
+    """The terms that make up the torque [N mm], each with its name."""
     givens, load = plan.givens.measured.givens, plan.givens.load
     integrated, k = givens.integrated, plan.givens.station
     s, v, a = (np.array(float(integrated.value(name)[k])) for name in ("s", "v", "a"))
@@ -212,7 +212,6 @@ def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
 
 
 def _corner_direction(plan: Construction[ArmForcePlanGivens]) -> complex:
-    """The direction from the load to the third corner."""
     across, normal = (complex(unit(plan.acts[name].first.directions)) for name in ("line of R", "line of F"))
     return across if (normal * across.conjugate()).real >= 0 else -across
 
@@ -244,7 +243,7 @@ def _line_of_reaction(plan: Construction[ArmForcePlanGivens], view: View) -> Ste
 
 
 def _not_pressed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
-    """The last step where there is no third corner."""
+    """The last step where the load does not press, so that there is no third corner."""
     said = say("The two lines do not meet where the cam could push: the load does not press the arm onto the cam.")
     return plain.not_closed(view, said)
 

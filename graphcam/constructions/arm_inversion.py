@@ -34,7 +34,7 @@ ArmInverted = Construction[ArmInversionGivens]
 
 
 def _worked(inverted: ArmInverted) -> Values:
-    """The polar radius at the station that the captions work."""
+    """The formula's values: the polar radius at the worked station."""
     givens, stations = inverted.givens, inverted.givens.integrated.givens.stations
     k, arm, c = profile_view.worked_station(stations), givens.arm, givens.distance
     s, psi0 = float(givens.integrated.value("s")[k]), float(np.angle(-cam_centre(arm, c, givens.prime_radius)))
@@ -166,7 +166,6 @@ def _turned_arms_step(inverted: ArmInverted) -> Step:
     chords = 2 * inverted.givens.mu_l.paper(inverted.givens.arm) * np.sin(np.abs(np.radians(s * factor)) / 2)
 
     def turn(n: int) -> Words:
-        """By how much the arm is turned at a station, as an angle and as a chord."""
         angle = turning_angle(s[n], factor)
         return (
             say("{angle}, a chord of {chord:.2f} mm", angle=angle, chord=chords[n])

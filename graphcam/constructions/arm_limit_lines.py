@@ -30,14 +30,14 @@ CORNER_DISTANCE = 1.0
 
 @dataclass(frozen=True)
 class _AtLimit:
-    """Lines at a limit to the arm's normal: to which side (1 towards the pivot), and at what angle [rad]."""
+    """Lines at a limit [rad] to the arm's normal, and their side of it: 1 towards the pivot."""
 
     side: int
     limit: float
 
     @property
     def caption_values(self) -> dict[str, Words]:
-        """How they are turned from the normal that points down, and on which side of them A must lie."""
+        """Captions of the turn from the normal that points down, and of the side of the lines that A must lie on."""
         turn, kept = say("anticlockwise, towards C"), say_in("a side of a line", "away from C")
         if self.side < 0:
             turn, kept = say("clockwise, away from C"), say_in("a side of a line", "towards C")
@@ -45,20 +45,19 @@ class _AtLimit:
 
 
 def _lines_downwards(lines: Drawn, hatched: Points) -> Segments:
-    """The lines at a limit as far as they matter: from the ends down along the region."""
+    """The lines at a limit, from the ends D down along the region that they bound."""
     down = _down(lines)
     ends = [touch + way * bounding_length(touch, way, hatched) for touch, way in zip(lines.shown, down, strict=True)]
     return Segments(lines.shown, np.array(ends), Role.CONSTRUCTION).left_by(lines)
 
 
 def _down(lines: Drawn) -> Points:
-    """The directions of lines, downwards."""
     along = unit(np.atleast_1d(lines.first.directions))
     return np.where(along.imag < 0, along, -along)
 
 
 def bounding_length(touch: complex, way: complex, hatched: Points) -> float:
-    """How far a line is drawn from a touch: as far as it bounds the region of these corners [mm].
+    """The length of a line from its touch, as far as it bounds the region of these corners [mm].
 
     >>> square = np.array([0j, 20 + 0j, 20 - 60j, -60j])
     >>> bounding_length(20 + 1j, -1j, square), bounding_length(30 + 1j, -1j, square)
@@ -69,7 +68,7 @@ def bounding_length(touch: complex, way: complex, hatched: Points) -> float:
 
 
 def family_step(drawn: ArmPositions, name: str, direction: int, limit: float, hatched: Points) -> Step:
-    """The lines at the limit of all arms of one direction of motion, down to the region ``hatched``."""
+    """The step that draws the lines at the limit of all arms of one direction, down to the region ``hatched``."""
     integrated, tips, lines = drawn.givens.integrated, drawn.acts["tips"], drawn.acts[f"limits: {name}"]
     so = _AtLimit(direction * sense(drawn.givens.rotation), limit)
     at, k = np.flatnonzero(directions(drawn.givens) == direction).tolist(), example(integrated, tips, direction)
@@ -110,7 +109,7 @@ def _normal(drawn: ArmPositions, station: int, line: Drawn, so: _AtLimit) -> tup
 
 
 def dwells_step(drawn: ArmPositions, limits: Limits, hatched: Points) -> Step:
-    """The lines at the limits where the arm dwells, down to the region ``hatched``."""
+    """The step that draws the lines at the limits where the arm dwells, down to the region ``hatched``."""
     sigma, top = sense(drawn.givens.rotation), highest_arm(drawn)
     families = {"rest": _AtLimit(-sigma, limits.rise)}
     if limits.return_ is not None:
@@ -134,13 +133,13 @@ def dwells_step(drawn: ArmPositions, limits: Limits, hatched: Points) -> Step:
 
 
 def highest_arm(drawn: ArmPositions) -> str:
-    """The name of the highest arm."""
+    """The name of the highest arm: CB with its station."""
     integrated = drawn.givens.integrated
     return station_names(integrated.givens.stations)[int(np.argmax(integrated.first("s")))]
 
 
 def reach_step(drawn: ArmPositions) -> Step:
-    """The lines of the lowest and of the highest arm, which the cam centre lies below."""
+    """The step that draws the lines of the lowest and of the highest arm: the cam centre lies below both."""
     lines, top = drawn.acts["limits: reach"], highest_arm(drawn)
     out = lines.shown - ARM_OVERHANG_FACTOR * abs(drawn.acts["start"].place) * unit(lines.first.directions)
     produced = Segments(lines.shown, out, Role.CONSTRUCTION).left_by(lines)

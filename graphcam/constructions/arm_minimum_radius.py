@@ -80,7 +80,7 @@ ArmRegion = Construction[ArmLeastRadiusGivens]
 
 
 def _triangle(region: ArmRegion) -> Values:
-    """The triangle of A0, B0 and the pivot, where a cam centre is found."""
+    """The formula's values: the triangle of A0, B0 and the pivot, where a cam centre is found."""
     centre, arm = complex(region.first("centre")) * region.givens.mu_l.per_mm, region.givens.arm
     if not np.isnan(centre):
         c, psi0 = abs(centre), float(np.angle(-centre))
@@ -89,7 +89,7 @@ def _triangle(region: ArmRegion) -> Values:
 
 
 def _worst(region: ArmRegion) -> Values:
-    """Of every family of lines the position in which the angle comes nearest to its limit, or beyond."""
+    """The formula's values for every family of lines: the position in which the angle comes nearest to its limit."""
     integrated, limits, sigma = region.givens.integrated, region.givens.limits, sense(region.givens.rotation)
     s, v = (integrated.value(name) for name in "sv")
     moving, names = directions(region.givens), station_names(integrated.givens.stations)
@@ -195,11 +195,9 @@ def _boundaries(hand: Hand, drawn: Mapping[str, Drawn], givens: ArmLeastRadiusGi
     limits, sigma, moving = givens.limits, sense(givens.rotation), directions(givens)
 
     def at_limit(name: str, ends: Drawn, arms: Drawn, limit: float, side: int) -> Drawn:
-        """The lines at the limit to the normals of arms."""
         return hand.protractor(f"limits: {name}", ends, arms.turned(UP), side * limit).turned(side)
 
     def family(name: str, direction: int, limit: float, side: int) -> Drawn:
-        """The lines at the limit of all arms of one direction of motion, faired between the positions."""
         at = np.flatnonzero(moving == direction)
         lines = at_limit(name, drawn["tips"][at], drawn["arms"][at], limit, side)
         pieces = pieces_of(motion, stations, direction)
@@ -318,7 +316,7 @@ def _draw(region: ArmRegion) -> list[Step]:
 
 
 def _enlarged(region: ArmRegion) -> list[Step]:
-    """The surroundings of the cam centre, where they are small and one is adopted."""
+    """The step that enlarges the surroundings of the cam centre, where they are small and one is adopted; else none."""
     adopted = region.givens.adopted()
     scale = adopted and detail_scale(adopted.prime_radius, region.givens.mu_l, region.givens.paper.ratios)
     if scale is None:
@@ -328,13 +326,12 @@ def _enlarged(region: ArmRegion) -> list[Step]:
 
 
 def _shown_boundaries(region: ArmRegion) -> list[Boundary]:
-    """The boundaries of the first sample."""
     lines = region.acts["lines"].first
     return [Boundary("", *line) for line in zip(lines.points, _inward_directions(lines), strict=True)]
 
 
 def _adopted(region: ArmRegion) -> list[complex]:
-    """The cam centre that is taken in the end, where one is."""
+    """The adopted cam centre where there is one, else nothing."""
     adopted, arm, mu = region.givens.adopted(), region.givens.arm, region.givens.mu_l.per_mm
     if adopted is None:
         return []
@@ -359,7 +356,7 @@ def _shaded(region: ArmRegion, picture: RegionPicture, hatched: Points) -> Step:
 
 
 def _bound_by(region: ArmRegion) -> list[tuple[int, str, int]]:
-    """The lines that bind, each once: its place among them, its family, and its number in that, from the end."""
+    """The lines that bind, each once: its place among them, its family, and its number from the end of the family."""
     which = np.asarray(region.acts["lines that bind"].act.takes["which"])
     families = [name for name in BOUND_CAPTIONS if f"limits: {name}" in region.acts]
     ends = np.cumsum([region.acts.get(name, region.acts[f"limits: {name}"]).shown.size for name in families])
@@ -382,7 +379,7 @@ def _binding_marks(region: ArmRegion, hatched: Points) -> tuple[Mark, ...]:
 
 
 def _binding_captions(region: ArmRegion) -> list[tuple[int, Caption]]:
-    """Of every line that binds its place among them, and what it limits."""
+    """The place of every line that binds among all of them, and a caption of what it limits."""
     bind, integrated, tips = region.acts["lines that bind"], region.givens.integrated, region.acts["tips"].shown
     named = list[tuple[int, Caption]]()
     for n, family, k in _bound_by(region):
@@ -399,7 +396,7 @@ def _dwell_line_starts(region: ArmRegion) -> tuple[str, str]:
 
 
 def centre_caption(region: ArmRegion) -> Caption:
-    """Where in the region the cam centre is found, and on which lines: two at a corner, else one."""
+    """A sentence on where in the region the cam centre is found, and on which lines: two at a corner, else one."""
     found = dict[tuple[str, str], Caption]()
     for _, family, k in _bound_by(region):
         place = _dwell_line_starts(region)[k] if family in DWELL_ACTS else ""

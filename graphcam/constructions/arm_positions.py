@@ -60,7 +60,7 @@ def arm_positions(
 
 
 def cam_centre(arm: float, distance: float, prime_radius: float, *, flat: bool = False) -> complex:
-    """The cam centre [mm] from the pivot, the arm at rest on its left; NaN where the three lengths close no triangle.
+    """The cam centre [mm] from the pivot, the arm at rest on the left; NaN where the three lengths close no triangle.
 
     flat : to take the nearest place, where they close none
     """
@@ -68,7 +68,7 @@ def cam_centre(arm: float, distance: float, prime_radius: float, *, flat: bool =
 
 
 def directions(givens: ArmGivens) -> NDArray[np.intp]:
-    """At each station 1 on a rise, -1 on a return."""
+    """The direction of the lift at the stations (n,): 1 on a rise, -1 on a return."""
     motion, stations = givens.integrated.givens.motion, givens.integrated.givens.stations
     return np.array([motion.phases[k].direction for k in stations.phase])
 
@@ -84,13 +84,13 @@ SAME_POSITION = 1.0
 
 
 def example(integrated: Integrated, places: Drawn, direction: int = 1) -> int:
-    """The station that is worked as an example: of those that are named the fastest of the rises, or the returns."""
+    """The worked station: of those that are named, the fastest of the rises or of the returns."""
     v, named = direction * integrated.first("v"), numbered_stations(places.shown, integrated.givens.stations)
     return int(np.argmax(np.where(np.isin(np.arange(v.size), named), v, v / 2)))
 
 
 def arc_through(circle: Drawn, places: Points, beyond: float = ARC_OVERHANG) -> Arc:
-    """The part of one circle that places lie on, drawn a little beyond them [rad]."""
+    """The part of a circle on which places lie, drawn a little beyond them [rad]."""
     ways = places - circle.place
     turns = np.angle(ways[0]) + np.angle(ways / ways[0])
     radius, role = float(np.asarray(circle.first.radius).item()), Role.CONSTRUCTION
@@ -98,18 +98,18 @@ def arc_through(circle: Drawn, places: Points, beyond: float = ARC_OVERHANG) -> 
 
 
 def stroke(line: Drawn, length: float) -> Line:
-    """So much of one line, from its place on [mm]."""
+    """A line from its place on, ``length`` mm long."""
     ends = line.place + np.array([0, length]) * complex(unit(line.first.directions))
     return Line(ends, Role.CONSTRUCTION).left_by(line)
 
 
 def along_the_arm(way: float) -> Caption:
-    """In which sense something is laid off along the arm from its end: outward where it is positive."""
+    """The sense along the arm from its end in which something is laid off: outward where it is positive."""
     return say("away from C") if way > 0 else say("towards C")
 
 
 def positions_step(drawn: ArmPositions) -> Step:
-    """The arm in all its positions, its displacements set off as angles."""
+    """The step that draws the arm in all its positions, its displacements set off as angles."""
     integrated, mu_l, acts = drawn.givens.integrated, drawn.givens.mu_l, drawn.acts
     pivot, start, ends, arms, arc = (acts[name] for name in ("pivot", "start", "ends", "arms", "arc of the arm"))
     level = acts["arm at rest"]
@@ -132,7 +132,6 @@ def positions_step(drawn: ArmPositions) -> Step:
         said = sequence([said, by_dividers], " ")
 
     def swung(n: int) -> Words:
-        """By how much the arm is turned at a station, and of a small angle how long its chord is."""
         angle, chord = turning_angle(s[n], factor), abs(ends.shown[n] - start.place)
         return say("{angle}, {chord:.2f} mm along the arc", angle=angle, chord=chord) if small[n] else angle
 
@@ -155,14 +154,14 @@ def positions_step(drawn: ArmPositions) -> Step:
 
 
 def turning_angle(paper: float, factor: float) -> Words:
-    """By which angle [degrees] an arm is turned for an ordinate of the displacement [mm of paper]."""
+    """The angle [degrees] that an arm is turned by for an ordinate of the displacement [mm of paper]."""
     if abs(paper * factor) < NEGLIGIBLE_SIZE:
         return "0°"
     return say("{paper:.2f} mm × {factor:.5g}°/mm = {angle:.2f}°", paper=paper, factor=factor, angle=paper * factor)
 
 
 def _first_at_place(ends: Drawn, start: Drawn, stations: Stations) -> NDArray[np.bool_]:
-    """At which stations the arm lies neither on CB₀ nor where one lies in an earlier phase: its number has room."""
+    """The stations (n,) whose arm lies neither on CB₀ nor where an earlier phase has one: their numbers have room."""
     near = np.abs(np.subtract.outer(ends.shown, ends.shown)) < SAME_POSITION
     earlier = np.less.outer(stations.moving, stations.moving).T
     named = np.logical_or.reduce(near & earlier, axis=1) | (np.abs(ends.shown - start.place) < SAME_POSITION)
@@ -170,7 +169,7 @@ def _first_at_place(ends: Drawn, start: Drawn, stations: Stations) -> NDArray[np
 
 
 def velocities_step(drawn: ArmPositions) -> Step:
-    """The velocity of the arm's end laid off along it in all positions, and the curves through the ends D."""
+    """The step that lays the velocity off along the arm in all positions, with the curves through the ends D."""
     integrated, sigma = drawn.givens.integrated, sense(drawn.givens.rotation)
     ends, tips = drawn.acts["ends"], drawn.acts["tips"]
     stations, v, k = integrated.givens.stations, integrated.first("v"), example(integrated, tips)
@@ -182,7 +181,6 @@ def velocities_step(drawn: ArmPositions) -> Step:
     ).with_values(arm=arm, mu=mu, factor=arm * mu, rise=along_the_arm(sigma), back=along_the_arm(-sigma), name=names[k])
 
     def laid_off(n: int) -> Words:
-        """How long the velocity is at a station, and in which sense it lies along the arm."""
         length = setting(tips.first[[n]])
         return length if length == "0" else say("{length} {side}", length=length, side=along_the_arm(sigma * v[n]))
 
@@ -233,7 +231,7 @@ def region_enlarged(
     bind: Sequence[tuple[Drawn, Caption]],
     adopted: Sequence[complex],
 ) -> Step:
-    """The region about the cam centre found.
+    """The step that enlarges the region about the cam centre found.
 
     lines : all that bound it;  bind : those on which the cam centre lies, with their names
     adopted : the cam centre that is taken in the end, on the arm positions: the region is hatched as far as there
@@ -272,7 +270,7 @@ def region_enlarged(
 
 
 def adopted_enlarged(measured: Construction[Any], scale: Scale, label: Caption) -> Step:
-    """The adopted cam centre in the same drawing."""
+    """The step that marks the adopted cam centre in the enlarged region."""
     hand, start, centre = showing(measured), measured.acts["start"].first, measured.acts["centre"].first
     a = hand.enlarged("A", centre, start, measured.givens.mu_l.per_mm / scale.per_mm)
     said = say("Mark A in the enlarged drawing too, {paper:.1f} mm from B₀.", paper=abs(a.place))

@@ -63,7 +63,7 @@ class ArmPressureAngleGivens(MeasuredGivens):
 
     @property
     def path_per_lift(self) -> float:
-        """The arm's end moves by the arm's length for a radian."""
+        """The path of the arm's end for a radian of lift [mm]: the arm's length."""
         return self.arm
 
 
@@ -71,7 +71,7 @@ ArmAngles = Construction[ArmPressureAngleGivens]
 
 
 def _at_start(measured: ArmAngles) -> Values:
-    """The triangle of the adopted sizes."""
+    """The formula's values: the triangle of the adopted sizes."""
     arm, c, r0 = measured.givens.arm, measured.givens.distance, measured.givens.prime_radius
     yield {"l": arm, "c": c, "r0": r0, "psi0": math.degrees(np.angle(-cam_centre(arm, c, r0)))}
 
@@ -235,24 +235,24 @@ def _centre_caption(givens: ArmPressureAngleGivens) -> Caption:
 
 
 def _enlarged(measured: ArmAngles) -> list[Step]:
-    """The adopted cam centre beside the one found, where both are shown enlarged."""
+    """The step that marks the adopted cam centre beside the one found, where both are enlarged; else none."""
     givens = measured.givens
     scale = givens.adopted() and detail_scale(givens.prime_radius, givens.mu_l, givens.paper.ratios)
     return [adopted_enlarged(measured, scale, _centre_caption(givens))] if scale else []
 
 
 def _carried(drawn: Construction, name: str, factor: float = 1.0) -> Setting:
-    """A reading as it is shown, times a factor."""
+    """The setting that carries a reading over as it is shown, times a factor."""
     return Setting(drawn.first(name) * factor, reading=drawn.readings[name], factor=factor)
 
 
 def _clockwise(psi0: Floats, s: Floats) -> Floats:
-    """The angles from CA to the arm, counter-clockwise."""
+    """The turns [rad] from CA to the arm, which lies clockwise of it: negative."""
     return -(psi0 + s)
 
 
 def _plan(measured: ArmAngles, k: int, scale: Scale) -> Hand:
-    """The mechanism at a station with the line of centres level, and the velocity plan beside it."""
+    """The hand that draws the mechanism at a station, its line of centres level, with the velocity plan beside it."""
     hand, givens, sigma = showing(measured), measured.givens, sense(measured.givens.rotation)
     arm, (s, v) = givens.arm / scale.per_mm, (givens.integrated.readings[name].per_mm for name in "sv")
     a = hand.given("A", 0j)

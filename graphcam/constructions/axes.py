@@ -38,17 +38,17 @@ class OverStations(Protocol):
 
     @property
     def motion(self) -> Motion:
-        """The phases."""
+        """The motion whose phases were divided."""
         ...
 
     @property
     def stations(self) -> Stations:
-        """Their parts."""
+        """The ends of the parts of the phases."""
         ...
 
 
 def sense_caption(rotation: Rotation) -> Caption:
-    """A sense of rotation in words.
+    """The word for a sense of rotation.
 
     >>> str(sense_caption("cw"))
     'clockwise'
@@ -111,13 +111,13 @@ def joined_runs(runs: Iterable[Sequence[str]]) -> str:
 
 
 def part_titles(drawn: Construction[OverStations]) -> list[Caption]:
-    """The parts of the moving phases, each named as the station at which it ends."""
+    """The titles of the parts of the moving phases, by the station at which each ends."""
     names, stations = station_names(drawn.givens.stations), drawn.givens.stations
     return [say("part {name}", name=names[k + 1]) for k in stations.left]
 
 
 def phase_names(drawn: Construction[OverStations]) -> list[Caption]:
-    """The moving phases, with the symbols of their angles."""
+    """The names of the moving phases, with the symbols of their angles."""
     stations = drawn.givens.stations
     return [phase_title(drawn.givens.motion, int(stations.phase[span.start])) for span in stations.phases]
 
@@ -142,7 +142,7 @@ PHASES = {
 
 @dataclass(frozen=True)
 class PhaseNumber:
-    """How a phase is counted, as subscripts: among all phases, and among those of its kind if there are several."""
+    """The number of a phase as subscripts: among all phases, and among those of its kind if there are several."""
 
     index: str
     again: str
@@ -187,7 +187,7 @@ def phase_angle(motion: Motion, k: int) -> Caption:
 
 
 def phase_kind(motion: Motion, k: int) -> str:
-    """The kind of phase ``k``, of a dwell with where it rests.
+    """The kind of phase ``k``, a dwell with its level.
 
     >>> import graphcam as gc
     >>> phase_kind(gc.Motion([gc.Rise(30, 2.0), gc.Return(30, 2.0), gc.Dwell(FULL_TURN - 4.0)]), 2)
@@ -212,7 +212,7 @@ def reach(heights: Floats) -> tuple[float, float]:
 
 
 def ordinate(symbol: str, lift_unit: str) -> Caption:
-    """What an ordinate axis is called, with its unit; ``lift_unit`` is that of s, of which an angle is in degrees.
+    """The title of an ordinate axis, with its unit; ``lift_unit`` is that of s, of which an angle is in degrees.
 
     >>> str(ordinate("a", "mm")), str(ordinate("α", "mm")), str(ordinate("s", "rad"))
     ('a, mm/rad²', 'α, °', 's, °')
@@ -261,7 +261,7 @@ DEGREE_STEPS = 10, 30, 60, 90
 
 
 def every_degrees(mu_phi: Scale) -> tuple[int, int]:
-    """Every so many degrees of the cam angle there is room for a stroke, and for a number.
+    """The steps in degrees of the cam angle for which a stroke, and a number, find room.
 
     >>> every_degrees(Scale(math.radians(1), "rad")), every_degrees(Scale(math.radians(4), "rad"))
     ((10, 30), (10, 60))
@@ -314,7 +314,7 @@ def phases_below(motion: Motion, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
 
 
 def numbered_stations(points: Points, stations: Stations) -> list[int]:
-    """Which stations are named: of each phase both ends, and every k-th between, so that the names find room.
+    """The stations that are named: both ends of each phase, and every k-th between, so that the names find room.
 
     >>> from math import pi
     >>> import graphcam as gc
@@ -347,7 +347,7 @@ def numbers(
 
 
 def clear_numbers(points: Points, stations: Stations, beside: Points) -> NDArray[np.bool_]:
-    """At which stations a number has room where points crowd: off others of its phase that bear one, and ``beside``.
+    """The stations (n,) whose number has room among crowded points: off others of the phase, and off ``beside``.
 
     The ends of a phase come first, then what follows from its beginning.
 
@@ -383,12 +383,12 @@ def height_names(heights: Drawn, names: Sequence[str]) -> tuple[Mark, ...]:
 
 
 def pieces_of(motion: Motion, stations: Stations, direction: int) -> list[slice]:
-    """The pieces of the rises (1) or of the returns (-1)."""
+    """The smooth pieces of the rises (1) or of the returns (-1), as slices of the stations."""
     return [p for p in stations.pieces if motion.phases[int(stations.phase[p.start])].direction == direction]
 
 
 def first_at_height(heights: Floats) -> NDArray[np.intp]:
-    """For each of heights (..., n) the number of the first that is as high: what falls on it is not drawn again.
+    """The number of the first of heights (..., n) that is as high as each: what falls on it is not drawn again.
 
     >>> first_at_height(np.array([3.0, 1.0, 3.0, -2.0, 1.0])).tolist()
     [0, 1, 0, 3, 1]

@@ -27,7 +27,7 @@ Values = tuple[Floats, Floats, Floats]
 
 @dataclass(frozen=True)
 class FollowerSize:
-    """A size of a follower: its key in files, what it is called, and its value [mm], None where it does not apply."""
+    """A size of a follower: its key in files, its title, and its value [mm], None where it does not apply."""
 
     name: str
     title: Caption
@@ -43,7 +43,7 @@ class DrawnFollower(ABC):
     """What the place is called, and the reading of the least radius that proposes it."""
     place_title: Caption = say("offset")
     unit = "mm"
-    """Of the lift: "mm", or "rad" for an arm."""
+    """The unit of the lift: "mm", or "rad" for an arm."""
     divides_at_corners = False
     """Whether a corner of the acceleration must fall on a division, for the extremes may lie in it."""
     constructions: tuple[str, ...] = (
@@ -54,11 +54,11 @@ class DrawnFollower(ABC):
 
     @property
     def conditions(self) -> dict[str, float | None]:
-        """What the exact least radius is asked for besides the pressure angles, by the names of its arguments."""
+        """The conditions of the exact minimum radius besides the pressure angles, by the names of its arguments."""
         return {}
 
     def sizes(self, place: float | None, roller_radius: float | None) -> list[FollowerSize]:
-        """Its sizes, in order, with these for what may be left open."""
+        """The follower's sizes, in order, with these for what may be left open."""
         rollers = FollowerSize("roller_radius", say("roller radius"), roller_radius)
         return [FollowerSize(self.place_name, self.place_title, place), rollers]
 
@@ -90,7 +90,7 @@ class DrawnFollower(ABC):
     def force_plan(
         self, drawn: Mapping[str, Construction], load: FollowerLoads, pencil: Pencil, friction: float = 0.0
     ) -> Construction | None:
-        """The force plan under a spring's load with friction at the cam, where one is drawn of it."""
+        """The force plan under a load, with friction at the cam; None where the follower has none."""
         return None
 
     @abstractmethod
@@ -99,7 +99,7 @@ class DrawnFollower(ABC):
 
     @abstractmethod
     def must_exceed(self, place: float) -> float:
-        """What the prime radius must be greater than for the mechanism to close at all [mm]."""
+        """The bound [mm] above which the prime radius must lie for the mechanism to close at all."""
 
     @abstractmethod
     def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
@@ -113,7 +113,7 @@ class DrawnFollower(ABC):
         return 0j
 
     def with_positions_at(self, scale: float) -> Self:
-        """The same with its positions drawn at a scale [mm/mm], where they have one of their own."""
+        """The follower with its positions drawn at a scale [mm/mm], where they have one of their own."""
         return self
 
     @abstractmethod
@@ -126,10 +126,10 @@ class DrawnFollower(ABC):
 
     @abstractmethod
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
-        """What the cam moves, and the sizes that the task gives, in sentences."""
+        """Sentences on what the cam moves, and on the sizes that the task gives."""
 
     def limited(self, limits: Limits) -> Caption:
-        """What the design must keep to, in a sentence."""
+        """A sentence on what the design must keep to."""
         if limits.return_ is None:
             return FORCE_CLOSED.with_values(rise=degrees(limits.rise))
         return FORM_CLOSED.with_values(rise=degrees(limits.rise), back=degrees(limits.return_))
@@ -143,13 +143,13 @@ FORM_CLOSED = say("The pressure angle is to be at most {rise} on a rise and {bac
 
 
 def roller_given(roller_radius: float | None) -> list[Caption]:
-    """The radius of a roller in a sentence, where the task gives it."""
+    """A sentence on the radius of a roller [mm], where the task gives it; else none."""
     return [say("The roller radius is r = {radius:g} mm.", radius=roller_radius)] if roller_radius else []
 
 
 @dataclass(frozen=True, eq=False)
 class Board:
-    """The task, and the draughtsman's choices.
+    """What lies on the board of a cam: the task, and the draughtsman's choices.
 
     prime_radius, roller_radius : mm, or None where the task leaves them to be found
     ordinate, poles : mm of paper; mu_phi : rad/mm, for the pressure angle's axis too
@@ -181,7 +181,7 @@ class Board:
 
     @cached_property
     def stations(self) -> Stations:
-        """The phases, divided."""
+        """The ends of the parts into which the phases are divided."""
         # No chord of the acceleration may run across a corner, where the jerk jumps.
         at_corners = self.follower.divides_at_corners or self.jerk_pole is not None
         return divide(self.motion, self.divisions, self.refine, at_corners=at_corners)

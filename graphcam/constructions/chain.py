@@ -76,7 +76,7 @@ class Chain(Drawings):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the follower's constructions, of the jerk if asked for, of a measured motion, and of those added."""
+        """The names of the follower's constructions, and of those asked for, for a measured motion, and added."""
         measured = ("differentiation",) if isinstance(self.board.motion, MeasuredMotion) else ()
         drawn = list(self.board.follower.constructions)
         if self.board.jerk_pole is not None:
@@ -90,7 +90,7 @@ class Chain(Drawings):
 
     @DrawnOnce
     def acceleration(self) -> Construction:
-        """The acceleration diagram."""
+        """The acceleration over the cam angle, in a scale that is not yet known."""
         board, unit = self.board, self.board.follower.unit
         given = board.motion, board.stations, board.ordinate, board.mu_phi, unit
         return acceleration_diagram(*given, self.pencil, omega=board.omega)
@@ -103,7 +103,7 @@ class Chain(Drawings):
 
     @DrawnOnce
     def jerk(self) -> Construction:
-        """The jerk by differentiation of the acceleration diagram, where it is asked for."""
+        """The jerk by graphical differentiation of the acceleration diagram, where it is asked for."""
         return jerk(self.integration, self.board.jerk_pole or self.board.poles[0], self.pencil)
 
     @DrawnOnce
@@ -122,14 +122,14 @@ class Chain(Drawings):
 
     @DrawnOnce
     def minimum_radius(self) -> Construction:
-        """The least prime radius, and where the follower stands."""
+        """The minimum prime radius, and the place of the follower."""
         drawn = self._least_radius(self.board.follower.place)
         # Asked for only where the steps are told: the region is drawn as far as the cam centre that is adopted.
         return replace(drawn, givens=replace(drawn.givens, adopted=self.adopted_if_any, paper=self.board.paper))
 
     @DrawnOnce
     def pressure_angle(self) -> Construction:
-        """The pressure angle at every station of the adopted cam."""
+        """The pressure angles at the stations of the adopted cam."""
         follower, rotation = self.board.follower, self.board.rotation
         drawn = follower.pressure_angle(self.integration, rotation, self.prime_radius, self.place, self.pencil)
         # Asked for only where the steps are told: the region of a given cam need not be drawn for its angles.
@@ -139,7 +139,7 @@ class Chain(Drawings):
 
     @DrawnOnce
     def angle_diagram(self) -> Construction:
-        """The pressure angle over the cam angle."""
+        """The pressure angle over the cam angle, and its maxima."""
         return angle_diagram(self.pressure_angle, self.board.mu_phi, self.board.limits, self.pencil)
 
     @DrawnOnce
@@ -152,17 +152,17 @@ class Chain(Drawings):
 
     @DrawnOnce
     def curvature(self) -> Construction:
-        """The least radius of curvature of the pitch curve."""
+        """The minimum radius of curvature of the pitch curve."""
         return self.board.follower.curvature(self, self.pencil)
 
     @DrawnOnce
     def roller(self) -> Construction:
-        """What the rule proposes for the roller."""
+        """The roller radius that the rule proposes."""
         return roller_radius(self.curvature, self.board.roller_rule, self.board.roller_radius, self.pencil)
 
     @DrawnOnce
     def working_profile(self) -> Construction:
-        """The profile that the roller runs on."""
+        """The profile on which the roller runs."""
         # Where the task gives the roller nothing is rounded; a flat face has neither a roller nor a pressure angle.
         rolled = self.roller if self.board.roller_radius is None and "roller" in self.names else None
         measured = self.pressure_angle if "pressure_angle" in self.names else None
@@ -172,7 +172,7 @@ class Chain(Drawings):
 
     @property
     def perfect(self) -> Chain:
-        """The same drawing by a hand without error."""
+        """The same drawing without drawing errors."""
         if self.pencil.perfect and self.pencil.samples is None and not self.done:
             return self
         if PERFECT_PENCIL not in self._by_others:
@@ -180,11 +180,11 @@ class Chain(Drawings):
         return self._by_others[PERFECT_PENCIL]
 
     def by(self, pencil: Pencil) -> Chain:
-        """The same task, with the same decisions, drawn by another hand."""
+        """The same task with the same decisions, drawn with another pencil."""
         return self._deciding_alike(replace(self, pencil=pencil, done={}))
 
     def redrawn(self, refine: int = 1, pencil: Pencil | None = None) -> Chain:
-        """The same cam, every part divided in ``refine``, drawn by another hand; by default one without error."""
+        """The same cam, every part divided in ``refine``, drawn with another pencil; by default without errors."""
         board = self.board if refine == 1 else replace(self.board, refine=refine * self.board.refine)
         return replace(self, board=board, pencil=pencil or Pencil(), decided=self.sizes, done={})
 
@@ -207,24 +207,24 @@ class Chain(Drawings):
 
     @property
     def spans(self) -> tuple[slice, ...]:
-        """The stations of each moving phase among all stations."""
+        """The slice of each moving phase among all stations."""
         return self.board.stations.phases
 
     @property
     def rounding(self) -> float:
-        """Sizes are adopted in multiples of this [mm]."""
+        """The step [mm] of which adopted sizes are multiples."""
         if self.board.rounding is not None:
             return self.board.rounding
         return usual_rounding(self.board.prime_radius or self._proposal("prime_radius"))
 
     @cached_property
     def place(self) -> float:
-        """The adopted offset or centre distance: as given, else a round number near the one found."""
+        """The adopted offset or centre distance [mm]: as given, else a round number near the one found."""
         return self.decided.place if self.decided else self.perfect._adopted[1]
 
     @cached_property
     def prime_radius(self) -> float:
-        """The adopted prime radius: as given, else the next round number above the least one at the adopted place."""
+        """The adopted prime radius [mm]: as given, else a round number above the minimum at the adopted place."""
         return self.decided.prime_radius if self.decided else self.perfect._adopted[0]
 
     @property
@@ -236,7 +236,7 @@ class Chain(Drawings):
         return all(math.isclose(size, round(size / self.rounding) * self.rounding, rel_tol=1e-9) for size in open_)
 
     def adopted(self) -> Adoption:
-        """How the prime radius and the place came about."""
+        """How the prime radius and the place came about, with the minimum that was read."""
         board, region = self.board, self.perfect.minimum_radius
         found = None if board.follower.place is not None else float(region.value(board.follower.place_name))
         least, given = float(region.value("prime_radius")), board.prime_radius is not None
@@ -246,7 +246,7 @@ class Chain(Drawings):
         return Adoption(self.prime_radius, self.place, there, found, given, self.rounding, proposed=least)
 
     def adopted_if_any(self) -> Adoption | None:
-        """The same; None where what the region leaves open cannot be read off it."""
+        """How the prime radius and the place came about; None where the region cannot be read."""
         try:
             return self.adopted()
         except DesignError:
@@ -254,7 +254,7 @@ class Chain(Drawings):
 
     @cached_property
     def _adopted(self) -> tuple[float, float]:
-        """Prime radius and place: round numbers that go with one another on the region, where it has any."""
+        """Prime radius and place [mm]: round numbers that go with one another on the region, where it has any."""
         radius, place = self.board.prime_radius, self.board.follower.place
         if radius is not None and place is not None:
             return radius, place
@@ -264,7 +264,7 @@ class Chain(Drawings):
         return (radius, place) if together else self._next_round_sizes() or (radius, place)
 
     def _rounded_place(self) -> float:
-        """The round number nearest to the place found that some radius goes with."""
+        """The place [mm]: the round number nearest to the one found at which some radius is permitted."""
         found = self._proposal(self.board.follower.place_name) / self.rounding
         nearest = round(found)
         # The region of an arm may end at the distance found: then the circle about the pivot just inside misses it.
@@ -274,7 +274,7 @@ class Chain(Drawings):
         return next((place for place, radius in zip(rounded, least, strict=True) if not math.isnan(radius)), rounded[0])
 
     def _rounded_radius(self, place: float) -> float:
-        """The next round number above the least radius at a place."""
+        """The next round number [mm] above the minimum radius at a place."""
         given = self.board.follower.place is not None
         least = self.perfect.minimum_radius if given else self.perfect._least_radius(place)
         radius = multiple(steps_up(self._readable(least, "prime_radius"), self.rounding), self.rounding)
@@ -283,7 +283,7 @@ class Chain(Drawings):
         return max(radius, multiple(math.floor(stretched + ROUNDING_SLACK) + 1, self.rounding))
 
     def _next_round_sizes(self) -> tuple[float, float] | None:
-        """The next larger round radius that a round place goes with, or else less round ones; None if none is left.
+        """The next larger round radius with a round place, else with less round numbers [mm]; None if there is none.
 
         The places that an arm may have at one radius, and the radii at one distance, may lie closer to one another than
         the rounding.
@@ -305,7 +305,7 @@ class Chain(Drawings):
 
     @cached_property
     def roller_radius(self) -> float:
-        """The adopted roller radius: as given, else the next round number below what the rule proposes."""
+        """The adopted roller radius [mm]: as given, else the next round number below what the rule proposes."""
         if self.decided:
             return self.decided.roller_radius
         if self.board.roller_radius is not None:

@@ -44,7 +44,7 @@ WORKED_SHARE = 1 / 3
 
 
 def side_caption(x: float) -> Caption:
-    """To which side something lies, to the right if ``x`` is positive.
+    """The side on which something lies, the right if ``x`` is positive.
 
     >>> str(side_caption(-2.0))
     'to the left'
@@ -53,14 +53,14 @@ def side_caption(x: float) -> Caption:
 
 
 def worked_station(integrated: Integrated) -> int:
-    """The station that is told in full: of the first rise, with a length to lay off."""
+    """The station that is told in full: one of the first rise, with a length to lay off."""
     stations, v = integrated.givens.stations, integrated.first("v")
     first = stations.moving == stations.moving[pieces_of(integrated.givens.motion, stations, 1)[0].start]
     return int(np.argmin(np.where(first & (v > np.max(v) / 10), np.abs(stations.u - WORKED_SHARE), np.inf)))
 
 
 def displacement_step(region: Construction[Any], bottom: float) -> Step:
-    """The displacements up the line of motion, and at each the velocity."""
+    """The step that lays the displacements off up the line of motion, and at each the velocity."""
     integrated, heights, ends = region.givens.integrated, region.acts["displacements"], region.acts["ends"]
     stations, start, x = integrated.givens.stations, region.acts["start of the lift"].first, ends.shown.real
     s = integrated.first("s")
@@ -82,7 +82,6 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
     base = say("Draw the line of motion vertical with a set square and mark B₀ on it, where the lift starts.")
 
     def set_off(k: int) -> Caption:
-        """How high a station's mark lies, and how long v is there, and to which side."""
         up = say("at B₀") if abs(s[k]) < NEGLIGIBLE_SIZE else say("{s:.2f} mm up", s=s[k])
         at = ends.first[[k]]
         v_there = (
@@ -102,7 +101,7 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
 
 
 def _laying_off(region: Construction[Any]) -> Caption:
-    """All stations in a few sentences, and one of them in full."""
+    """Sentences on how all stations are laid off, and one of them in full."""
     integrated, ends, sigma = region.givens.integrated, region.acts["ends"], sense(region.givens.rotation)
     k, longest = worked_station(integrated), float(np.abs(ends.shown.real).max())
     said = [
@@ -125,7 +124,7 @@ def _laying_off(region: Construction[Any]) -> Caption:
 
 
 def joined_up(region: Construction[Any]) -> Step:
-    """The curves through the ends, from jump to jump of the acceleration."""
+    """The step that draws the curves through the ends, from jump to jump of the acceleration."""
     hand, ends, stations = showing(region), region.acts["ends"], region.givens.integrated.givens.stations
     names, pieces = station_names(stations), stations.pieces
     curves = [hand.fair("curve", ends.first, [piece]) for piece in pieces]
@@ -148,7 +147,7 @@ def joined_up(region: Construction[Any]) -> Step:
 
 
 def offset_caption(offset: float, mu: float) -> Caption:
-    """How the upright is found that the cam centre lies on at an offset [mm], at ``mu`` mm to a millimetre of paper."""
+    """How the upright of the cam centre at an offset [mm] is found, at ``mu`` mm to a millimetre of paper."""
     said = say(
         "With e = {e:g} mm the follower moves {size:g} mm {side} of the cam centre, so draw a vertical "
         "{size:g}/{mu:.5g} = {paper:.2f} mm {other} of B₀."

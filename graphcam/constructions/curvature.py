@@ -41,7 +41,7 @@ from graphcam.words import Words, sequence
 
 @dataclass(frozen=True, eq=False)
 class CurvatureGivens:
-    """The pitch curve, and in which samples it turns a corner."""
+    """The pitch curve, and the samples ([samples]) in which it turns a corner."""
 
     inverted: Inverted
     corner: NDArray[np.bool_]
@@ -74,7 +74,7 @@ def _three_points(_: object) -> tuple[Words, ...]:
 
 
 def _radius_values(curved: Curved) -> Values:
-    """What OB measures, where a bend is readable."""
+    """The formula's values: OB and the radius that it measures, where one is readable."""
     rho, mu = float(curved.value("rho")), curved.readings["rho"].per_mm
     if math.isfinite(rho):
         yield {"mu": mu, "ob": rho / mu, "rho": rho}
@@ -104,7 +104,7 @@ MEANING = Meaning(
 
 
 def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
-    """Find the sharpest convex place among three neighbouring points of a smooth piece, and the arcs of the rests.
+    """Find the sharpest convex place among three neighbouring points of a smooth piece, and the arcs of the dwells.
 
     Readings: besides ``rho`` and ``phi`` the ``rho_candidates`` (..., 2), of moving phases and of rests, infinite
     where nothing is convex.  NaN where no bend is readable, and of the moving phases and of rho where the curve turns a
@@ -153,7 +153,7 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
 
 
 def _dwell_arcs(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> tuple[Drawn, Drawn]:
-    """Three points on the arc of each rest, and the places of all points on the axis of the cam angle."""
+    """Three points on the arc of each dwell, and the places of all points on the axis of the cam angle."""
     integrated = inverted.givens.integrated.givens
     resting = dwell_arcs(integrated.motion, integrated.stations)
     last = np.array([after for after, _ in resting], dtype=np.intp)
@@ -171,7 +171,7 @@ def _dwell_arcs(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> 
 MAX_DETAIL_RADIUS = 70.0
 """The detail is enlarged to the largest standard scale at which the radius of curvature is not longer [mm]."""
 CAREFUL_ERROR = 0.15
-"""By so much a careful hand misses a point [mm]."""
+"""The error of a point in a careful drawing [mm]."""
 ONLY_RESTS = say(
     "In the moving phases the curvature cannot be read, because there are too few points between the jumps of "
     "the acceleration; only the dwells are compared. Use more parts."
@@ -196,7 +196,7 @@ class Detail:
 
 
 def detail_of(curved: Curved) -> Detail | None:
-    """The detail, or None where no bend is readable."""
+    """The detail, or None where no radius is readable."""
     if np.isnan(curved.first("centre")):
         return None
     triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], showing(curved)
@@ -254,7 +254,7 @@ def _copied(detail: Detail) -> Caption:
 
 
 def _missed(curved: Curved) -> list[Caption]:
-    """What so short chords may miss by, and what chords twice as wide would read; nothing of the arc of a rest.
+    """Sentences on the error of so short chords, and on what chords twice as wide read; none in the arc of a dwell.
 
     A hand that misses every point by sigma scatters rho by the root of six times sigma rho/h^2, on chords h: nine
     hands of ten read it within four times sigma rho/h^2.
@@ -350,7 +350,7 @@ def _on_profile(curved: Curved) -> Step:
 
 
 def _unreadable(curved: Curved) -> Caption:
-    """Why there is no radius."""
+    """A sentence on why there is no radius."""
     if np.ravel(curved.givens.corner)[0]:
         return say(
             "The curvature cannot be read: next to a dwell the curve turns by more than 45° within one part, so "
@@ -360,7 +360,7 @@ def _unreadable(curved: Curved) -> Caption:
 
 
 def _chosen_places(curved: Curved) -> list[int]:
-    """Which three places were taken: numbers of stations, then of places of the rests."""
+    """The three places that were taken: numbers of stations, then of places of the dwells."""
     return np.atleast_2d(curved.acts["triple"].act.takes["which"])[0].tolist()
 
 
@@ -379,7 +379,7 @@ def _place(curved: Curved) -> Caption:
 
 
 def _neighbours_named(curved: Curved) -> tuple[str, str]:
-    """What the places beside the middle one are called; in a rest nothing."""
+    """The names of the places beside the middle one; empty in a dwell."""
     names, (i, _, j) = station_names(curved.givens.inverted.givens.integrated.givens.stations), _chosen_places(curved)
     return (names[i], names[j]) if j < len(names) else ("", "")
 
@@ -389,10 +389,7 @@ Bisected = tuple[list[Mark], tuple[Drawn, ...]]
 
 
 def _bisectors(curved: Curved, detail: Detail) -> tuple[list[Bisected], list[float]]:
-    """Of each chord the line from beyond its middle to O, with the arcs of the compass, and what they are of.
-
-    Also what the compass is set to for each [mm].
-    """
+    """The bisector of each chord with the arcs of the compass, as marks with their acts, and the settings [mm]."""
     hand, triple = detail.hand, detail.triple
     best = int(np.ravel(curved.acts["centre"].act.takes["which"])[0])
     origin, found, settings = curved.acts["triple"].first[1], list[Bisected](), list[float]()
@@ -414,7 +411,7 @@ def _bisectors(curved: Curved, detail: Detail) -> tuple[list[Bisected], list[flo
 
 
 def _radius(curved: Curved, detail: Detail) -> tuple[tuple[Mark, ...], Drawn, Drawn]:
-    """The radius of curvature, from the centre to the middle place, and a little of its circle; with both acts."""
+    """The marks of the radius of curvature and of a little of its circle; with the acts of both."""
     hand, triple, hub = detail.hand, detail.triple, detail.hub
     ob, read = hand.join("OB", hub, triple[1]), curved.readings["rho"]
     circle = hand.circle("circle of curvature", hub, distance_between(hub, triple[1]))

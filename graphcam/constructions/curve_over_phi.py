@@ -35,7 +35,7 @@ _DWELL_CAPTION = say("In the dwells draw it horizontally with the T-square.")
 def curve_over_phi(
     givens: TurnGivens, hand: Hand, name: str, curve: Drawn, met: Caption
 ) -> tuple[tuple[Line, ...], tuple[Part, ...]]:
-    """The lines of the curve of that ``name``, and how they are drawn: piece by piece, then in the dwells.
+    """The lines of the curve of that ``name``, and the parts that draw them: piece by piece, then in the dwells.
 
     met : what happens at station {first} in a phase, where the acceleration jumps and one piece meets the next
     """

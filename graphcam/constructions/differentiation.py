@@ -80,7 +80,7 @@ class DifferentiationGivens:
 
 
 def _cam_angles(at: str, drawn: Construction[DifferentiationGivens]) -> list[Caption]:
-    """Where a derivative is found: between stations."""
+    """Captions of the cam angles to which the values of a derivative belong."""
     return [say("φ = {phi:.4g}°", phi=phi) for phi in np.degrees(drawn.value(at))]
 
 
@@ -212,7 +212,7 @@ def _check(x: Floats, s: Floats, turn: float | None) -> None:
 
 
 def _extended_curve(hand: Hand, turn: float | None, curve: Drawn) -> Drawn:
-    """The places of a curve; of a cyclic diagram in the turn before, in its own and in the one after."""
+    """The places of a curve; for a cyclic diagram in the turn before, its own and the one after."""
     if turn is None:
         return curve
     name, origin = curve.act.name, hand.given("origin")
@@ -259,7 +259,7 @@ def _directions(turn: float | None, points: Points) -> Points:
 
 
 def _greatest_ordinate(hand: Hand, curve: Drawn, going_on: Drawn) -> Setting:
-    """The greatest ordinate up or down, where the faired curve turns; of a cyclic diagram over its ends too."""
+    """The maximum ordinate up or down, where the faired curve turns; for a cyclic diagram over its ends too."""
     name, count, ends = curve.act.name, curve.points.shape[-1], list[Setting]()
     for side, word in ((UP, "highest"), (-UP, "lowest")):
         # Of a cyclic diagram begun on the other side, so that the farthest ordinate has neighbours on both.
@@ -278,7 +278,7 @@ READABLE_ANGLE = 0.05
 
 @dataclass(frozen=True, eq=False)
 class _Pass:
-    """One differentiation as it is drawn: which one, and what it makes of what."""
+    """One differentiation as it is drawn: its number, and from which curve to which."""
 
     c: Construction[DifferentiationGivens]
     number: int
@@ -286,7 +286,7 @@ class _Pass:
     target: str
 
     def drawn(self, name: str) -> Drawn:
-        """What an act of this pass left, in the first sample."""
+        """The places that an act of this pass left, in the first sample."""
         return self.c.acts[f"{name} {self.number}"].first
 
     @property
@@ -296,11 +296,10 @@ class _Pass:
 
     @property
     def names(self) -> list[str]:
-        """The numbers of the slopes."""
         return [f"{self.first_slope_number + k}" for k in range(self.drawn("slopes").shown.size)]
 
     def slope(self, k: int) -> Caption:
-        """How a chord or a tangent runs."""
+        """A caption of how a chord or a tangent runs."""
         way = complex(self.drawn("slopes").directions[k])
         if self.first_slope_number:
             return run_of_chord(way)
@@ -310,11 +309,11 @@ class _Pass:
         return say("rises at {angle:.1f}°", angle=angle) if angle > 0 else say("falls at {angle:.1f}°", angle=-angle)
 
     def height(self, k: int) -> Caption:
-        """Where a ray ends on the vertical axis."""
+        """A caption of where a ray ends on the vertical axis."""
         return raised(float(self.drawn("heights").shown[k].imag), say("at the origin"))
 
     def told(self, *sentences: Caption) -> Caption:
-        """Sentences with what is said of the pass, and of the steepest slope, which is worked for all."""
+        """Sentences with the values of the pass, and of the steepest slope, which is worked for all."""
         k, names = int(np.argmax(np.abs(self.drawn("heights").shown.imag))), self.names
         values = {"source": self.source, "target": self.target, "index": f"{self.number}".translate(SUBSCRIPTS)}
         values |= {"name": names[k], "count": len(names), "pole": self.c.givens.poles[self.number - 1]}
@@ -466,7 +465,7 @@ def _view(c: Construction[DifferentiationGivens], symbol: str) -> View:
 
 
 def _curve(c: Construction[DifferentiationGivens], name: str) -> Drawn:
-    """The faired curve; of a cyclic diagram over the ends of the turn."""
+    """The faired curve; for a cyclic diagram over the ends of the turn."""
     hand, turn = showing(c), c.givens.turn
     line = hand.fair(f"curve of {name}", _extended_curve(hand, turn, c.acts[name].first), [slice(None)])
     drawn = slice(None) if turn is None else (line.points.real >= 0) & (line.points.real <= turn)
@@ -474,7 +473,7 @@ def _curve(c: Construction[DifferentiationGivens], name: str) -> Drawn:
 
 
 def _end(c: Construction[DifferentiationGivens]) -> float:
-    """Where the diagrams end [mm of paper]."""
+    """The end of the diagrams on the axis of the cam angle [mm of paper]."""
     return float(c.givens.x[-1]) if c.givens.turn is None else c.givens.turn
 
 

@@ -57,7 +57,7 @@ class Drawings(Plottable, Mapping[str, Construction]):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of the constructions, in order."""
+        """The names of all constructions, in the order in which they are drawn."""
         return (*self.own, *self.further)
 
     def __getitem__(self, name: str) -> Construction:
@@ -76,13 +76,13 @@ class Drawings(Plottable, Mapping[str, Construction]):
         return in_lines(f"{type(self).__name__} of {len(self)} constructions", wrap(", ".join(self), MAX_WIDTH), last)
 
     def drawn(self, name: str) -> Construction:
-        """A construction of the chain, or one that stands beside it."""
+        """The construction of that name, which is drawn if it does not lie on the board yet."""
         if name not in self.lying:
             self.lying[name] = {**self.own, **self.further}[name](self)
         return self.lying[name]
 
     def adding(self, meaning: Meaning, draw: Draw) -> Self:
-        """The same chain with one more construction: what it says of itself, and what draws it from the chain.
+        """The chain with one more construction: what it tells of itself, and what draws it from the chain.
 
         >>> import graphcam as gc
         >>> from graphcam.constructions.kinematic_diagram import MEANING, scheme

@@ -30,7 +30,7 @@ MAX_ARM_ON_PAPER = 130.0
 START_OVERHANG = 0.3
 """So much is drawn beyond B₀ where the arm is not produced, in lengths of the arm."""
 SKETCH_PIVOT, SKETCH_ARM_OFFSET, SKETCH_SWING = 42 + 0j, 2.0, 0.2
-"""In the kinematic diagram: the pivot, B beside A [mm], and how far the arm is seen to swing [rad]."""
+"""The sizes of the kinematic diagram: the pivot, B beside A [mm], and how far the arm is seen to swing [rad]."""
 ROLLER_DATA = say(
     "The cam turns {rotation} about A and swings an arm about the pivot C; the roller on it turns about B."
 )
@@ -54,56 +54,56 @@ class DrawnOscillating(DrawnFollower):
     unit = Oscillating.lift_unit
 
     def sizes(self, place: float | None, roller_radius: float | None) -> list[FollowerSize]:
-        """The arm's own length, and those of all followers."""
+        """The arm's length, and the sizes of all followers."""
         return [FollowerSize("arm", say("arm"), self.arm), *super().sizes(place, roller_radius)]
 
     def with_positions_at(self, scale: float) -> Self:
-        """The same with the arm positions at that scale."""
+        """The follower with the arm positions at that scale [mm/mm]."""
         return replace(self, mu_l=Scale(scale, "mm"))
 
     def least_radius(
         self, integrated: Construction, rotation: Rotation, limits: Limits, place: float | None, pencil: Pencil
     ) -> Construction:
-        """From the arm positions."""
+        """The minimum prime radius and the distance of the pivot, from the arm positions."""
         return arm_least_radius(integrated, rotation, limits, self.arm, place, self.mu_l, pencil)
 
     def pressure_angle(
         self, integrated: Construction, rotation: Rotation, prime_radius: float, place: float, pencil: Pencil
     ) -> Construction:
-        """From the velocity plan, along the arm."""
+        """The pressure angles, from the velocity plan and along the arm."""
         return arm_pressure_angle(integrated, rotation, prime_radius, self.arm, place, self.mu_l, pencil)
 
     def inversion(
         self, integrated: Construction, rotation: Rotation, r0: float, place: float, mu_l: Scale, pencil: Pencil
     ) -> Construction:
-        """About the pivots on their circle."""
+        """The pitch curve, from the pivots on their circle."""
         return arm_inversion(integrated, rotation, r0, self.arm, place, mu_l, pencil)
 
     def force_plan(
         self, drawn: Mapping[str, Construction], load: FollowerLoads, pencil: Pencil, friction: float = 0.0
     ) -> Construction | None:
-        """At the station of the velocity plan; none with friction, which acts at the rim of a roller beside the pin."""
+        """The force plan without friction; None with it, as it acts at the rim of a roller beside the pin."""
         assert isinstance(load, ArmLoad)
         return None if friction else arm_force_plan(drawn["pressure_angle"], load, pencil)
 
     def places(self, region: Construction, prime_radius: float) -> Floats:
-        """The distances at which no line of the region cuts the cam centre off."""
+        """The pivot distances (k, 2) [mm] at which no line of the region cuts the cam centre off."""
         return permitted_distances(region, prime_radius)
 
     def must_exceed(self, place: float) -> float:
-        """The arm must reach the prime circle from its pivot."""
+        """The bound [mm] above which the arm reaches the prime circle from its pivot."""
         return abs(place - self.arm)
 
     def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
-        """The pivot circle, or the pitch curve with a roller on it where that is larger."""
+        """The radius [mm] of the pivot circle, or of the pitch curve with a roller on it where that is larger."""
         return max(place, prime_radius + self.arm * motion.lift + roller_radius)
 
     def built(self, place: float | None, roller_radius: float) -> Oscillating:
-        """The follower with these sizes."""
+        """The oscillating follower with these sizes."""
         return Oscillating(self.arm, place, roller_radius)
 
     def scheme(self, rotation: Rotation, roller_radius: float | None) -> tuple[Mark, ...]:
-        """Cam, roller, arm and pivot."""
+        """The kinematic diagram: cam, roller, arm and pivot."""
         b = low_point(SKETCH_ARM_OFFSET, roller_radius)
         arm = b - SKETCH_PIVOT
         swing = cmath.phase(arm) - np.array([1.5 * SKETCH_SWING, 0.5 * SKETCH_SWING])
@@ -119,7 +119,7 @@ class DrawnOscillating(DrawnFollower):
         )
 
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
-        """Arm, pivot and roller."""
+        """Sentences on the arm, the pivot and the roller."""
         return [
             (KNIFE_EDGE_DATA if roller_radius == 0 else ROLLER_DATA).with_values(rotation=sense_caption(rotation)),
             say("The arm is l = {arm:g} mm long.", arm=self.arm),
@@ -131,7 +131,7 @@ class DrawnOscillating(DrawnFollower):
 def positions_extent(
     arm: float, values: Values, rotation: Rotation, limits: Limits, centres: Iterable[tuple[float, float]]
 ) -> complex:
-    """About how wide + i high the positions of an arm [mm] are [mm].
+    """The approximate width + i height [mm] of the positions of an arm [mm].
 
     values : over the turn;  centres : prime radii and distances of the cam centres that are found in them [mm]
     """

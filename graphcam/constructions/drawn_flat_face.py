@@ -20,9 +20,9 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Motion
 
 STEM_LENGTH, GUIDE_HEIGHT, FACE_HALF_LENGTH = 34.0, 12.0, 17.0
-"""In the kinematic diagram: length of the stem, height of its guide above the face, and half the face [mm]."""
+"""The sizes of the kinematic diagram: stem, height of its guide above the face, and half the face [mm]."""
 TURN_SAMPLES = 361
-"""Of a turn, to see how far aside a profile is touched."""
+"""Samples of a turn, to see how far aside a profile is touched."""
 FLAT_FACE_DATA = say(
     "The cam turns {rotation} about A and moves a flat-faced follower; its line of motion meets the face in B."
 )
@@ -42,63 +42,63 @@ class DrawnFlatFaced(DrawnFollower):
 
     @property
     def conditions(self) -> dict[str, float | None]:
-        """What the exact least radius is asked for."""
+        """The condition of the exact minimum radius: the permitted radius of curvature."""
         return {"curvature": self.least_curvature}
 
     def sizes(self, place: float | None, roller_radius: float | None) -> list[FollowerSize]:
-        """None apply."""
+        """The sizes of all followers, of which none applies."""
         return super().sizes(None, None)
 
     def least_radius(
         self, integrated: Construction, rotation: Rotation, limits: Limits, place: float | None, pencil: Pencil
     ) -> Construction:
-        """From the displacement over the acceleration; a pressure angle there is none."""
+        """The minimum prime radius, from the displacement over the acceleration."""
         return flat_least_radius(integrated, self.least_curvature, pencil)
 
     def inversion(
         self, integrated: Construction, rotation: Rotation, r0: float, place: float, mu_l: Scale, pencil: Pencil
     ) -> Construction:
-        """As the envelope of perpendiculars."""
+        """The profile, as the envelope of the face's positions."""
         return flat_inversion(integrated, rotation, r0, mu_l, pencil)
 
     def curvature(self, drawn: Mapping[str, Construction], pencil: Pencil) -> Construction:
-        """From the displacement over the acceleration."""
+        """The minimum radius of curvature, from the displacement over the acceleration."""
         return flat_curvature(drawn["minimum_radius"], drawn["inversion"].givens.prime_radius, pencil)
 
     def places(self, region: Construction, prime_radius: float) -> Floats:
-        """The face is symmetrical about its stem."""
+        """The one place 0, as the face is symmetrical about its stem."""
         return np.zeros((1, 2))
 
     def must_exceed(self, place: float) -> float:
-        """Any prime radius closes the mechanism."""
+        """The bound 0: any prime radius closes the mechanism."""
         return 0.0
 
     def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
-        """The profile reaches a little beyond the highest position of the face, where it is touched aside."""
+        """The reach [mm], a little beyond the highest position of the face or the farthest contact point."""
         s, v, _, _ = motion(np.linspace(0.0, FULL_TURN, TURN_SAMPLES))
         return max(1.2 * (prime_radius + motion.lift), float(np.hypot(prime_radius + s, v).max()))
 
     def extent(self, values: Values, limits: Limits, rotation: Rotation, prime_radius: float | None) -> complex:
-        """The displacement over the acceleration, and the prime radius below it."""
+        """The width + i height of the displacement over the acceleration, with the prime radius below it."""
         s, _, a = values
         radius = max(self.least_curvature + max(-float((s + a).min()), 0.0), prime_radius or 0.0)
         return complex(float(np.ptp(a)), float(s.max()) + radius)
 
     def built(self, place: float | None, roller_radius: float) -> FlatFaced:
-        """The follower, which has no sizes."""
+        """The flat-faced follower, which has no sizes."""
         return FlatFaced()
 
     def scheme(self, rotation: Rotation, roller_radius: float | None) -> tuple[Mark, ...]:
-        """Cam, face, stem and guide."""
+        """The kinematic diagram: cam, face, stem and guide."""
         b = BASE_RADIUS * UP
         face = Line(b + np.array([-FACE_HALF_LENGTH, FACE_HALF_LENGTH]), Role.CURVE)
         return *plain_cam(b, sense(rotation)), face, Label(b, "B"), *guided_stem(b, STEM_LENGTH, GUIDE_HEIGHT)
 
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
-        """The face."""
+        """A sentence on the face."""
         return [FLAT_FACE_DATA.with_values(rotation=sense_caption(rotation))]
 
     def limited(self, limits: Limits) -> Caption:
-        """A face asks for a convex profile; a pressure angle there is none."""
+        """A sentence on the permitted radius of curvature, for under a face there is no pressure angle."""
         least = self.least_curvature
         return say("The profile is to have a radius of curvature of at least {least:g} mm.", least=least)

@@ -24,7 +24,7 @@ from graphcam.given.motion import Motion
 from graphcam.given.spring_load import SpringLoad
 
 STEM_LENGTH, GUIDE_HEIGHT, SKETCH_OFFSET = 30.0, 9.0, 8.0
-"""In the kinematic diagram: length of the stem, height of its guide above the roller, and an offset [mm]."""
+"""The sizes of the kinematic diagram: length of the stem, height of its guide above the roller, and an offset [mm]."""
 ROLLER_DATA = say("The cam turns {rotation} about A and moves a translating follower; its roller turns about B.")
 KNIFE_EDGE_DATA = say("The cam turns {rotation} about A and moves a translating follower; its knife edge is B.")
 CENTRAL_REMARK = say("The line of motion passes through A.")
@@ -40,49 +40,49 @@ class DrawnTranslating(DrawnFollower):
 
     @property
     def conditions(self) -> dict[str, float | None]:
-        """The exact least radius is asked for at the offset, if it is given."""
+        """The condition of the exact minimum radius: the offset, if it is given."""
         return {"offset": self.place}
 
     def least_radius(
         self, integrated: Construction, rotation: Rotation, limits: Limits, place: float | None, pencil: Pencil
     ) -> Construction:
-        """From the combined diagram."""
+        """The minimum prime radius and the offset, from the combined diagram."""
         return least_radius(integrated, rotation, limits, place, pencil)
 
     def pressure_angle(
         self, integrated: Construction, rotation: Rotation, prime_radius: float, place: float, pencil: Pencil
     ) -> Construction:
-        """From the velocity plan."""
+        """The pressure angles, from the velocity plan."""
         return pressure_angle(integrated, rotation, prime_radius, place, pencil)
 
     def inversion(
         self, integrated: Construction, rotation: Rotation, r0: float, place: float, mu_l: Scale, pencil: Pencil
     ) -> Construction:
-        """On tangents of the offset circle."""
+        """The pitch curve, from tangents of the offset circle."""
         return inversion(integrated, rotation, r0, place, mu_l, pencil)
 
     def force_plan(
         self, drawn: Mapping[str, Construction], load: FollowerLoads, pencil: Pencil, friction: float = 0.0
     ) -> Construction:
-        """At the station of the velocity plan."""
+        """The force plan, with friction at the cam if there is any."""
         assert isinstance(load, SpringLoad)
         measured = drawn["pressure_angle"]
         return friction_plan(measured, load, pencil, friction) if friction else force_plan(measured, load, pencil)
 
     def places(self, region: Construction, prime_radius: float) -> Floats:
-        """All offsets at which the line of motion cuts the prime circle: a larger radius keeps the limits at each."""
+        """The offsets [mm] at which the line of motion cuts the prime circle; the limits are satisfied at each."""
         return np.array([[-prime_radius, prime_radius]])
 
     def must_exceed(self, place: float) -> float:
-        """The follower's line must cross the prime circle."""
+        """The bound [mm] above which the line of motion cuts the prime circle."""
         return abs(place)
 
     def reach(self, prime_radius: float, place: float, motion: Motion, roller_radius: float) -> float:
-        """The pitch curve's greatest radius, and a roller on it."""
+        """The maximum radius of the pitch curve and the radius of a roller on it [mm]."""
         return prime_radius + motion.lift + roller_radius
 
     def extent(self, values: Values, limits: Limits, rotation: Rotation, prime_radius: float | None) -> complex:
-        """The velocities over the displacement, and the lines of the region down to the lowest of the marked places."""
+        """The width + i height of the combined diagram, with the lines of the region down to the lowest place."""
         s, v, _ = values
         rise, offset = math.tan(limits.rise), sense(rotation) * (self.place or 0.0)
         # Where the lines meet zero lift, from the line of motion to the side of the rise's velocities.
@@ -102,11 +102,11 @@ class DrawnTranslating(DrawnFollower):
         return complex(max(beside) - min(beside), float(s.max()) + max(down))
 
     def built(self, place: float | None, roller_radius: float) -> Translating:
-        """The follower with these sizes; an open offset is 0 in it."""
+        """The translating follower with these sizes; an open offset is 0 in it."""
         return Translating(place or 0.0, roller_radius)
 
     def scheme(self, rotation: Rotation, roller_radius: float | None) -> tuple[Mark, ...]:
-        """Cam, roller, stem and guide."""
+        """The kinematic diagram: cam, roller, stem and guide."""
         # An offset that is to be found is drawn on the favourable side.
         side = sense(rotation) if self.place is None else float(np.sign(self.place))
         b = low_point(SKETCH_OFFSET * side, roller_radius)
@@ -118,7 +118,7 @@ class DrawnTranslating(DrawnFollower):
         )
 
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
-        """Line of motion and roller."""
+        """Sentences on the line of motion and the roller."""
         moved = (KNIFE_EDGE_DATA if roller_radius == 0 else ROLLER_DATA).with_values(rotation=sense_caption(rotation))
         if self.place is None:
             return [moved, *roller_given(roller_radius)]

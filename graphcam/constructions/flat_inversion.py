@@ -36,7 +36,7 @@ EXTREMES = {
 
 
 def _worked_values(inverted: profile_view.Inverted) -> Values:
-    """The polar radius at the station that the captions work."""
+    """The formula's values: the polar radius at the worked station."""
     givens, stations, r0 = inverted.givens, inverted.givens.integrated.givens.stations, inverted.givens.prime_radius
     k = profile_view.worked_station(stations)
     s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
@@ -44,7 +44,7 @@ def _worked_values(inverted: profile_view.Inverted) -> Values:
 
 
 def _widths(inverted: profile_view.Inverted) -> Values:
-    """What the face needs on either side, and in all."""
+    """The formula's values: the width of the face on either side, and in all [mm]."""
     left, right = (float(inverted.value(f"face_{side}")) for side in ("left", "right"))
     left_of, right_of = EXTREMES[sense(inverted.givens.rotation)]
     yield {"left": left, "right": right, "width": left + right, "left_of": left_of, "right_of": right_of}
@@ -140,7 +140,7 @@ def _stations(inverted: profile_view.Inverted) -> Stations:
 
 
 def _on_profile(inverted: profile_view.Inverted, name: str) -> dict[str, float | str]:
-    """What captions say of ordinates on their way to the profile, and the name of the worked station."""
+    """The caption's values for ordinates on their way to the profile, with the name of the worked station."""
     mu, mu_l = inverted.givens.integrated.readings[name].per_mm, inverted.givens.mu_l.per_mm
     stations = _stations(inverted)
     at = station_names(stations)[profile_view.worked_station(stations)]
@@ -194,7 +194,6 @@ def _contacts(inverted: profile_view.Inverted) -> Step:
     sigma = sense(inverted.givens.rotation)
 
     def laid_off(k: int) -> Words:
-        """What is laid off at a station, and to which side."""
         length, side = setting(pitch[k]), _side(v[k] * sigma)
         return say("{length} {side}", length=length, side=side) if isinstance(length, Caption) else length
 

@@ -65,20 +65,20 @@ FlatCurved = Construction[FlatCurvatureGivens]
 
 
 def _sharpest(region: FlatRegion, r0: float) -> dict[str, Any]:
-    """The least sum of displacement and acceleration, with a radius to which it is added."""
+    """The formula's values: the minimum sum of displacement and acceleration, with a radius to which it is added."""
     least = -float(region.value("need"))
     return {"rho": region.givens.least_curvature, "sum": abs(least), "sign": "-" if least < 0 else "+", "r0": r0}
 
 
 def _enough_radius(region: FlatRegion) -> Values:
-    """The least prime radius; not positive where any will do."""
+    """The formula's values: the minimum prime radius; not positive where any is permitted."""
     r0 = region.givens.least_curvature + float(region.value("need"))
     values = _sharpest(region, r0)
     yield {**values, "sign": "+" if values["sign"] == "-" else "-"}
 
 
 def _least_bend(curved: FlatCurved) -> Values:
-    """The least radius of curvature at the adopted prime radius."""
+    """The formula's values: the minimum radius of curvature at the adopted prime radius."""
     r0 = curved.givens.prime_radius
     yield {**_sharpest(curved.givens.region, r0), "least": r0 - float(curved.givens.region.value("need"))}
 
@@ -170,12 +170,12 @@ def _jumps(integrated: Integrated) -> NDArray[np.intp]:
 
 
 def _sufficient_radius(least: Floats, need: Floats) -> Floats:
-    """The radius; where s + a is never negative any will do that the permitted curvature itself needs."""
+    """The minimum prime radius; where s + a is never negative, what the permitted curvature itself needs."""
     return np.maximum(least + need, 0.0)
 
 
 def _smooth(integrated: Integrated) -> list[slice]:
-    """The pieces of the curve that are faired, and then the rests, each for itself."""
+    """The pieces of the curve that are faired, and then the dwells, each by itself."""
     ends = np.cumsum([stretch.stop - stretch.start for stretch in integrated.givens.stations.stretches]).tolist()
     ends += [ends[-1] + k + 1 for k in range(_dwell_stations(integrated).size)]
     return [slice(start, end) for start, end in pairwise([0, *ends])]
@@ -236,18 +236,18 @@ def _displacement_step(region: FlatRegion) -> Step:
 
 
 def _outward(ends: Drawn) -> Points:
-    """On which side of the axis numbers stand."""
+    """The side of the axis on which numbers stand, as directions."""
     return np.where(ends.shown.real < 0, -RIGHT, RIGHT)
 
 
 def _factor(region: FlatRegion) -> float:
-    """An acceleration in the scale of s is so many times its ordinate."""
+    """The ratio of the scales of a and s, by which an ordinate of a is drawn in the scale of s."""
     readings = region.givens.integrated.readings
     return readings["a"].per_mm / readings["s"].per_mm
 
 
 def _station(region: FlatRegion, k: int) -> Caption:
-    """What is marked and laid off at a station: where the acceleration jumps, on both sides."""
+    """A caption of what is marked and laid off at a station: where the acceleration jumps, on both sides."""
     s, a, before = (float(region.givens.integrated.first(name)[k]) for name in ("s", "a", "a_before"))
     said = say("{height}, from there {after}")
     if k in _jumps(region.givens.integrated):
@@ -264,7 +264,7 @@ def _height_caption(y: float) -> Caption:
 
 
 def _level(a: float, region: FlatRegion) -> Caption:
-    """How an ordinate of the acceleration [mm of paper] is laid off."""
+    """A caption of how an ordinate of the acceleration [mm of paper] is laid off."""
     factor = _factor(region)
     if abs(a) < NEGLIGIBLE_SIZE:
         return say("nothing")
@@ -298,7 +298,7 @@ def _curve_step(region: FlatRegion) -> Step:
 
 
 def _touched(region: FlatRegion) -> Step:
-    """The tangent at 45 degrees, and where it meets the axis of s."""
+    """The step that draws the tangent at 45 degrees, to where it meets the axis of s."""
     line, zero, need = region.acts["touch"].first, region.acts["zero"].first, float(region.value("need")) + 0.0
     slide = say(
         "Hold a set square at 45° so that its edge falls to the right, and slide it in from the lower left until the "
@@ -364,7 +364,7 @@ def _radius_step(region: FlatRegion) -> Step:
 
 
 def _sum(least: float, need: float) -> Caption:
-    """The permitted radius and the greatest -(s + a) [mm]."""
+    """The permitted radius and the maximum of -(s + a) [mm], as a sum."""
     if abs(need) < NEGLIGIBLE_SIZE / 10:
         return say("ρ")
     plus, minus = say("{least:g} + {need:.3f}"), say("{least:g} − {need:.3f}")
@@ -372,7 +372,6 @@ def _sum(least: float, need: float) -> Caption:
 
 
 def _axes(curve: Points, below: float) -> tuple[Mark, ...]:
-    """The axes of s and a, that of s from ``below`` [mm]."""
     top, right = float(curve.imag.max()) + AXIS_OVERHANG, float(curve.real.max()) + AXIS_OVERHANG
     return (
         Arrow(below * UP, top * UP, Role.SCALE),

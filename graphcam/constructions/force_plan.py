@@ -43,7 +43,7 @@ LOAD_LENGTH = 50.0
 BASE = 30.0
 """The length of the bearings is drawn as this, to find the inclination of the reaction [mm]."""
 MIN_LOAD_SHARE = 0.1
-"""Of the greatest load on the rises: under less the triangle would show nothing but the errors of the drawn a and s."""
+"""The minimum share of the maximum load on the rises: less would show the errors of the drawn a and s alone."""
 ROUND_NUMBERS = (1.0, 2.0, 2.5, 5.0, 10.0)
 """Round scales are these times a power of ten."""
 
@@ -63,7 +63,7 @@ CONTACT_FORCE = Symbol("F", say("the contact force"), "N")
 
 
 def _in_equilibrium(plan: Construction[ForcePlanGivens]) -> Values:
-    """The load and the pressure angle at the station, where the triangle closes and the guide is without friction."""
+    """The formula's values, where the triangle closes under a guide without friction: load, pressure angle, forces."""
     load, alpha = float(plan.value("load")), math.radians(abs(alpha_at(plan)))
     if not (plan.givens.guide or math.isnan(float(plan.first("normal")))):
         forces = {"load": load, "normal": load / math.cos(alpha), "reaction": load * math.tan(alpha)}
@@ -147,7 +147,7 @@ def force_plan(
 def load_laid_off(
     hand: Hand, measured: MeasuredAngles, load: SpringLoad, k: int, mu_force: Scale | None
 ) -> tuple[Scale, Drawn, Setting]:
-    """The load of a stem at a station, straight down from its tail: its scale, its head, and how the normal is turned.
+    """The load of a stem, laid off straight down from its tail: its scale, its head, and the turn to the normal.
 
     mu_force : N/mm; None for a round one
     """
@@ -163,23 +163,23 @@ def load_laid_off(
 
 
 def at_station(hand: Hand, reading: Reading, k: int) -> Setting:
-    """The machine value of a reading at one station."""
+    """The machine value of a reading at one station, as a setting."""
     return calculated(itemgetter((..., k)), hand.carry(reading, np.asarray(reading.scale)))
 
 
 def read_at(hand: Hand, measured: Construction, k: int, *names: str) -> list[Setting]:
-    """Displacement and derivatives at one station, by their names."""
+    """The machine values at one station of displacement and derivatives, by their names."""
     return [at_station(hand, measured.givens.integrated.readings[name], k) for name in names]
 
 
 def direction_at(measured: Construction, k: int) -> int:
-    """1 at a station on a rise, -1 on a return."""
+    """The direction of the lift at a station: 1 on a rise, -1 on a return."""
     integrated = measured.givens.integrated.givens
     return integrated.motion.phases[integrated.stations.phase[k]].direction
 
 
 def third_corner(hand: Hand, foot: Drawn, line: Drawn, across: Drawn, presses: NDArray[np.bool_]) -> Drawn:
-    """Where the line of the contact force from the foot meets that of the reaction; nowhere if no force can push so.
+    """The meeting of the contact force's line from the foot with the reaction's; NaN where no force can push so.
 
     presses : whether the load does; beyond the jamming angle the lines meet on the other side of the foot
     """
@@ -194,7 +194,7 @@ def force_at(load: SpringLoad, direction: int, phi: Floats | float, s: Floats, v
 
 
 def _incline(guide: Guide, direction: int, s: Floats) -> Floats:
-    """Over the base the part mu (l + 2 b)/l of it: what the bearings hold back, with the roller s mm up."""
+    """The part mu (l + 2 b)/l of the base: what the bearings hold back, with the roller s mm up."""
     return direction * BASE * guide.friction * (guide.length + 2 * (guide.overhang - s)) / guide.length
 
 
@@ -236,7 +236,7 @@ def _draw(plan: Construction[ForcePlanGivens]) -> list[Step]:
 
 
 def plan_steps(plan: Construction, *draws: Callable[[Any, View], Step]) -> list[Step]:
-    """The steps of a plan in their view: the last but one where the triangle does not close, the last where it does."""
+    """The steps of a plan in their view, the last but one where the triangle does not close, else the last."""
     view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=plan.givens.mu_force.per_mm))
     *first, not_closed, closed = draws
     last = not_closed if math.isnan(float(plan.first("normal"))) else closed
@@ -244,17 +244,16 @@ def plan_steps(plan: Construction, *draws: Callable[[Any, View], Step]) -> list[
 
 
 def side_of(plan: Construction[ForcePlanGivens]) -> float:
-    """On which side of the load the triangle lies: -1 for the left, 1 for the right."""
+    """The side of the load on which the triangle lies: -1 for the left, 1 for the right."""
     return -1.0 if plan.acts["line of F"].first.directions.real < 0 else 1.0
 
 
 def towards(side: float) -> Caption:
-    """A side in words."""
+    """The word for a side: the left below zero."""
     return say("to the left") if side < 0 else say("to the right")
 
 
 def _values(plan: Construction[ForcePlanGivens], *names: str) -> list[float]:
-    """The drawn displacement and its derivatives at the station."""
     integrated = plan.givens.measured.givens.integrated
     return [float(integrated.value(name)[plan.givens.station]) for name in names]
 
@@ -265,7 +264,7 @@ def alpha_at(plan: Construction) -> float:
 
 
 def _terms(plan: Construction[ForcePlanGivens]) -> list[tuple[Caption, float]]:
-    """What the load consists of, term by term [N]."""
+    """The terms that make up the load [N], each with its name."""
     load, values = plan.givens.load, [np.array(value) for value in _values(plan, "s", "v", "a")]
     none = replace(load, mass=0.0, stiffness=0.0, preload=0.0, friction=0.0, load=0.0)
     alone = (
@@ -281,7 +280,7 @@ def _terms(plan: Construction[ForcePlanGivens]) -> list[tuple[Caption, float]]:
 
 
 def load_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
-    """The load, straight down from its tail."""
+    """The step that lays the load off, straight down from its tail."""
     name, mu = station_name(plan), plan.givens.mu_force.per_mm
     terms, (s, a) = _terms(plan), _values(plan, "s", "a")
     load = sum(force for _, force in terms)
@@ -297,12 +296,12 @@ def load_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
 
 
 def station_name(plan: Construction) -> str:
-    """The station of a plan."""
+    """The name of the station for which a plan is drawn."""
     return station_names(plan.givens.measured.givens.integrated.givens.stations)[plan.givens.station]
 
 
 def loaded(plan: Construction, view: View, said: Caption, beside: complex, why: Caption) -> Step:
-    """The load as an arrow from its tail, its name on the side ``beside``."""
+    """The step that draws the load as an arrow from its tail, with its name on the side ``beside``."""
     foot = plan.acts["foot"].first
     marks = (
         foot.arrow(0j, Role.CURVE),
@@ -314,12 +313,12 @@ def loaded(plan: Construction, view: View, said: Caption, beside: complex, why: 
 
 
 def beyond(length: float) -> float:
-    """How long a line is drawn that ends after ``length`` [mm]; NaN where it meets nothing."""
+    """The length at which a line is drawn that ends after ``length`` [mm]; NaN where it meets nothing."""
     return 2 * LOAD_LENGTH if math.isnan(length) else length + LINE_OVERHANG
 
 
 def leaning(line: Drawn, reach: float, alpha: float, up: complex = UP) -> tuple[Mark, ...]:
-    """A line of a length through the head of the load, and the angle [degrees] that it makes with ``up`` there."""
+    """A line through the head of the load, and the angle [degrees] that it makes with ``up`` there, as marks."""
     radius, foot, way = 0.4 * min(reach, LOAD_LENGTH), line.place, complex(unit_along(line.directions))
     start, named = cmath.phase(up), say("α = {alpha:.1f}°", alpha=alpha)
     return (
@@ -341,7 +340,7 @@ def _line_of_force(plan: Construction[ForcePlanGivens], view: View) -> Step:
 
 
 def reaction_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
-    """The line of the reaction through the tail of the load."""
+    """The step that draws the line of the reaction through the tail of the load."""
     line, guide, side = plan.acts["line of R"].first, plan.givens.guide, side_of(plan)
     title, end = say("The line of the guide's reaction"), BASE * side + 0j
     if guide is not None:
@@ -373,13 +372,13 @@ def reaction_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
 
 
 def not_closed(view: View, said: Caption) -> Step:
-    """The last step where there is no third corner, and what that means."""
+    """The last step where there is no third corner, with what that means."""
     why = say("A cam can only push: F must point from the head of Q towards the crossing.")
     return Step(say("The triangle does not close"), (Part(said),), view, (), why=why)
 
 
 def jammed_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
-    """The last step where there is no third corner."""
+    """The last step where the guide jams, so that there is no third corner."""
     said = say(
         "The two lines do not meet where the cam could push: at this pressure angle the follower jams in its "
         "guide, or the load does not press it onto the cam."
@@ -397,7 +396,7 @@ REACTION_CAPTION = say(
 def triangle_step(
     plan: Construction, view: View, moves: Sequence[Move], marks: tuple[Mark, ...], *last: Caption
 ) -> Step:
-    """The closed triangle of forces, and what is measured on it.
+    """The step of the closed triangle of forces, with what is measured on it.
 
     moves, last : what is done, and what is said at the end; with the readings in their places, on paper ``{name_mm}``
     marks : besides the two forces that are found

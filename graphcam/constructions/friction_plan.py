@@ -48,7 +48,7 @@ class FrictionPlanGivens(plain.ForcePlanGivens):
 
 
 def _in_equilibrium(plan: Construction[FrictionPlanGivens]) -> Values:
-    """The load, the pressure angle and the friction at the station, where the triangle closes."""
+    """The formula's values, where the triangle closes: load, pressure angle, friction and forces at the station."""
     load, alpha, mu = float(plan.value("load")), math.radians(plain.alpha_at(plan)), plan.givens.mu
     if not math.isnan(float(plan.first("normal"))):
         normal = load / (math.cos(alpha) - mu * math.sin(alpha))

@@ -65,7 +65,7 @@ def graduated(
 
 
 def divisions(farthest: float, per_mm: float) -> tuple[float, int]:
-    """The round step between numbers up to a height [mm of paper], and into how many parts strokes divide it.
+    """The round step between numbers up to a height [mm of paper], and the number of parts that strokes make of it.
 
     >>> divisions(50.0, 0.6), divisions(50.0, 1.231)
     ((10.0, 5), (20.0, 4))
@@ -78,7 +78,7 @@ def divisions(farthest: float, per_mm: float) -> tuple[float, int]:
 
 
 def round_up(least: float, leads: Sequence[float]) -> tuple[float, float]:
-    """The least of the leads times a power of ten that is not less than a value, and its lead.
+    """The smallest of the leads times a power of ten that is not less than a value, and its lead.
 
     >>> round_up(0.3, (1, 2, 5, 10))
     (0.5, 5)
@@ -100,7 +100,7 @@ SYMBOLS = "vaj"
 
 
 def time_scale(mu_phi: Scale, omega: float) -> Scale:
-    """Seconds for a millimetre of the axis, at an angular velocity [rad/s].
+    """The scale of the time [s/mm] along the axis of the cam angle, at an angular velocity [rad/s].
 
     >>> round(time_scale(Scale(math.radians(1), "rad"), 2 * math.pi).per_mm * 360, 12)
     1.0
@@ -153,7 +153,7 @@ DEGREES_LINE_LENGTH = 11.0
 
 
 def time_axis_caption(mu_phi: Scale, omega: float) -> Caption:
-    """How the axis of the cam angle becomes one of time."""
+    """A sentence on how the axis of the cam angle becomes one of time."""
     return say(
         "At ω = {omega:.5g} rad/s one revolution takes T = 2π/ω = {turn:.4g} s, so the same axis is one of time: μₜ = "
         "μᵩ/ω = {mu:.4g} s/mm."
@@ -164,7 +164,7 @@ _FACTORS = say("ω"), say("ω²"), say("ω³")
 
 
 def time_scale_caption(per_mm: float, symbol: str, omega: float, lift_unit: str) -> Caption:
-    """The scale of v, a or j in metres and seconds, beside that per radian of the cam."""
+    """A sentence on the scale of v, a or j in metres and seconds, beside that per radian of the cam."""
     at = scale_at_speed(per_mm, symbol, omega, lift_unit)
     said = say("Over time a millimetre is {mu:.5g}·{factor} = {value:.4g} {unit}: the graduation farther to the right.")
     factor = _FACTORS[SYMBOLS.index(symbol)]
@@ -198,7 +198,7 @@ HEIGHT_DECIMALS = 3
 
 
 def every_kth(places: Points) -> int:
-    """Every how many of places in a row have room for a number.
+    """The smallest k for which the numbers of every k-th of places in a row find room.
 
     >>> every_kth(5 * np.arange(24) + 0j)
     3
@@ -218,13 +218,13 @@ def row_numbers(places: Drawn, first: int, towards: Points) -> tuple[Label, ...]
 
 
 def falling_together(heights: Drawn) -> list[NDArray[np.intp]]:
-    """Which of heights on an axis fall on one another, from the lowest to the highest."""
+    """The groups of heights on an axis that fall on one another, from the lowest to the highest, by their numbers."""
     levels, of = np.unique(np.round(heights.shown.imag, HEIGHT_DECIMALS), return_inverse=True)
     return [np.flatnonzero(of == level) for level in range(levels.size)]
 
 
 def ray_numbers(heights: Drawn, first: int, groups: Sequence[NDArray[np.intp]], every: int) -> Iterator[Label]:
-    """The numbers of rays where they end, as far as there is room: a ray has those of all that fall on it.
+    """The numbers of rays at their ends, as far as there is room: a ray bears those of all that fall on it.
 
     first : the number of the first ray;  groups : as :func:`falling_together` finds them
     every : so many-th are numbered elsewhere: rays of other numbers have none
@@ -238,7 +238,7 @@ def ray_numbers(heights: Drawn, first: int, groups: Sequence[NDArray[np.intp]], 
 
 
 def ranges(numbers: NDArray[np.intp]) -> str:
-    """Growing numbers; of three or more that follow one another the first and the last.
+    """Growing numbers as text; of three or more that follow one another the first and the last.
 
     >>> ranges(np.array([3, 4, 5, 9, 11, 12]))
     '3-5, 9, 11, 12'
@@ -248,7 +248,7 @@ def ranges(numbers: NDArray[np.intp]) -> str:
 
 
 def raised(mm: float, nothing: Caption) -> Caption:
-    """How far up or down a place lies; ``nothing`` where it does neither.
+    """A caption of how far up or down a place lies; ``nothing`` where it does neither.
 
     >>> str(raised(-1.5, say("at the origin"))), str(raised(0.001, say("at the origin")))
     ('1.50 mm down', 'at the origin')
@@ -259,7 +259,7 @@ def raised(mm: float, nothing: Caption) -> Caption:
 
 
 def run_of_chord(way: complex) -> Caption:
-    """How far across and how far up or down a chord runs.
+    """A caption of how far across and how far up or down a chord runs.
 
     >>> str(run_of_chord(7.5 + 2j))
     '7.50 mm across, 2.00 mm up'

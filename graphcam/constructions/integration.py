@@ -61,7 +61,7 @@ NEGLIGIBLE_DISPLACEMENT = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class IntegrationGivens(TurnGivens):
-    """What lies on the board of the diagram, the diagram itself, and the distances of the two poles [mm of paper].
+    """The acceleration diagram with what lies on its board, and the distances of the two poles [mm of paper].
 
     lowest : whether no diagram follows below that of s, so that the phases' angles stand there
     """
@@ -75,7 +75,7 @@ Integrated = Construction[IntegrationGivens]
 
 
 def _of_the_lift(drawn: Integrated) -> Values:
-    """The scale of s, from the known lift."""
+    """The formula's values: the scale of s, from the known lift."""
     read, lift = drawn.readings["s"], drawn.givens.motion.lift
     yield {"lift": lift, "paper": lift / read.per_mm, "mu_s": read.per_mm, "of_s": per_mm(read.unit)}
 
@@ -198,7 +198,7 @@ def integration(
 def _integrated(
     hand: Hand, givens: IntegrationGivens, index: int, ordinates: Drawn | Setting, uprights: Drawn, origin: Drawn
 ) -> tuple[Drawn, Drawn]:
-    """The middle ordinates carried to the vertical axis, and the chords parallel to the rays to them from the pole."""
+    """The middle ordinates carried to the vertical axis, and the chords parallel to the rays from the pole to them."""
     stations, target = givens.stations, "vs"[index - 1]
     pole = hand.lay_off(f"P{index}", hand.given("origin"), -RIGHT, givens.poles[index - 1])
     heights = hand.project(f"heights for {target}", ordinates, origin)
@@ -216,7 +216,7 @@ def _above_base(givens: IntegrationGivens, polygons: Floats) -> Floats:
 
 
 def _stacked_polygons(givens: IntegrationGivens, part: int, polygons: Floats) -> Floats:
-    """Set each phase's polygon (..., m) on the end of the one before, and share out what is left after the turn.
+    """Each phase's polygon (..., m) set on the end of the one before, less what is left after the turn.
 
     part : 0 for how much each station rises by that, 1 for the heights as shared out, both above the lowest rest, 2
         for the closing error (...)
@@ -235,7 +235,7 @@ def _stacked_polygons(givens: IntegrationGivens, part: int, polygons: Floats) ->
 
 
 def _measurable(top: Floats, full: Floats, pencil: Pencil) -> Floats:
-    """The greatest displacement on paper, NaN in a sample where nothing has risen above the axis.
+    """The maximum displacement on paper, NaN in a sample where nothing has risen above the axis.
 
     full : what the greatest ordinate would give over the whole phase [mm of paper]
     """
@@ -248,7 +248,7 @@ def _measurable(top: Floats, full: Floats, pencil: Pencil) -> Floats:
 
 
 def _top(motion: Motion, stations: Stations) -> int:
-    """The station at the end of the phase that reaches the known greatest displacement."""
+    """The station at the end of the phase that reaches the known maximum displacement."""
     reached = motion.levels[stations.phase[stations.last] + 1]
     return int(stations.last[np.argmax(reached)])
 
@@ -263,7 +263,7 @@ def _draw(c: Integrated) -> list[Step]:
 
 @dataclass(frozen=True)
 class _Integrating:
-    """What tells one integration from the other on the paper."""
+    """The views, symbols and sentences in which one integration differs from the other."""
 
     index: int
     source: View
@@ -276,7 +276,6 @@ class _Integrating:
 
     @property
     def subscript(self) -> str:
-        """Of its pole."""
         return f"{self.index}".translate(SUBSCRIPTS)
 
 
@@ -303,7 +302,7 @@ _INTEGRATIONS = (
 
 
 def _draw_rays(c: Integrated, run: _Integrating) -> Step:
-    """The pole, and of all rays each that falls on no other."""
+    """The step that draws the pole, and of all rays each that falls on no other."""
     stations, distance, (source, target) = c.givens.stations, c.givens.poles[run.index - 1], run.symbols
     pole, levelled, rays = (c.acts[name] for name in (f"P{run.index}", f"heights for {target}", f"rays of {target}"))
     height, farthest = levelled.shown.imag, c.first(f"{source}_projected").real
@@ -387,7 +386,7 @@ def _outward_directions(y: Floats, stations: Stations) -> Points:
 
 
 def _chord_rows(c: Integrated, run: _Integrating, phase: int) -> Iterator[Row]:
-    """The chords of a phase, one after another; of s first where they start."""
+    """The rows of the chords of a phase, one after another; for s with the start of the first."""
     stations, polygon = c.givens.stations, c.acts[f"{run.symbols[1]}_chords"]
     span, y, names = stations.phases[phase], polygon.shown.imag, station_names(stations)
     if run.index == 2:
@@ -412,7 +411,7 @@ _CHORD_CAPTIONS = say("is horizontal"), say("climbs {rise:.2f} mm"), say("falls 
 
 
 def _ordinates(c: Integrated, run: _Integrating) -> Iterator[Part]:
-    """The ordinates of each phase at the ends of its chords, moved by what is left at its end."""
+    """The parts that draw the ordinates of each phase at the ends of its chords, less what is left at its end."""
     stations, names = c.givens.stations, station_names(c.givens.stations)
     polygon, curve = (c.acts[f"{run.symbols[1]}_{name}"] for name in ("chords", "curve"))
     fastest = np.abs(c.acts["v_curve"].shown.imag)

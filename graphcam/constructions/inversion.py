@@ -33,7 +33,7 @@ OffsetInverted = Construction[InversionGivens]
 
 
 def _worked(inverted: OffsetInverted) -> Values:
-    """The polar radius at the station that the captions work."""
+    """The formula's values: the polar radius at the worked station."""
     givens, stations = inverted.givens, inverted.givens.integrated.givens.stations
     k, e, r0 = profile_view.worked_station(stations), abs(givens.offset), givens.prime_radius
     s0, s = math.sqrt(r0**2 - e**2), float(givens.integrated.value("s")[k])
@@ -105,7 +105,7 @@ def _draw(inverted: OffsetInverted) -> list[Step]:
 
 
 def _side(inverted: OffsetInverted) -> Caption:
-    """At which end of the offset circle's level diameter the follower stands."""
+    """The end of the offset circle's level diameter at which the follower stands, as a caption."""
     if inverted.givens.offset < 0:
         return say_in("end of a level diameter", "left")
     return say_in("end of a level diameter", "right")
@@ -142,7 +142,7 @@ def _circles(inverted: OffsetInverted) -> Step:
 
 
 def _first_line(inverted: OffsetInverted) -> Caption:
-    """What the follower's line at the start of the turn is called: a motion may begin with a dwell."""
+    """The name of the follower's line at the start of the turn: a motion may begin with a dwell."""
     if inverted.givens.integrated.givens.stations.phi[0]:
         return say("the follower's line at the start of the turn")
     return say("line 0")
@@ -193,7 +193,6 @@ def _displacement_step(inverted: OffsetInverted) -> Step:
     lengths = _lengths(inverted)
 
     def laid_off(k: int) -> Words:
-        """What is laid off at one station, and to which side where they differ."""
         if not lengths[k]:
             return say("s is zero, so the point lies on the prime circle")
         return say("{length} inward", length=setting(pitch.first[k])) if lengths[k] < 0 else setting(pitch.first[k])
@@ -209,7 +208,7 @@ def _displacement_step(inverted: OffsetInverted) -> Step:
 
 
 def _lengths(inverted: OffsetInverted) -> Floats:
-    """What is laid off at the stations [mm of paper]; nothing where it is less than can be set."""
+    """The lengths laid off at the stations [mm of paper]; 0 where they are less than can be set."""
     s = inverted.givens.integrated.readings["s"]
     lengths = inverted.givens.integrated.first("s") * s.per_mm / inverted.givens.mu_l.per_mm
     return np.where(np.abs(lengths) < NEGLIGIBLE_SIZE, 0.0, lengths)

@@ -122,13 +122,13 @@ def jerk(integrated: Integrated, pole: float, pencil: Pencil) -> DrawnJerk:
 
 
 def _own_parts(stations: Stations) -> list[np.ndarray]:
-    """The parts of every stretch between jumps and corners of the acceleration."""
+    """The numbers of the parts in every stretch between jumps and corners of the acceleration."""
     left = stations.left
     return [np.flatnonzero((left >= s.start) & (left < s.stop - 1)) for s in stations.stretches]
 
 
 def curve_pieces(stations: Stations) -> list[slice]:
-    """The smooth pieces of the curve: of every stretch its start, the middles of its parts, and its end."""
+    """The smooth pieces of the curve: the start of every stretch, the middles of its parts, and its end."""
     sizes = [parts.size + 2 for parts in _own_parts(stations)]
     stops = np.cumsum(sizes).tolist()
     return [slice(stop - size, stop) for size, stop in zip(sizes, stops, strict=True)]
@@ -164,7 +164,7 @@ def _draw(c: DrawnJerk) -> list[Step]:
 
 
 def _steepest(c: DrawnJerk) -> int:
-    """The part that is worked in full."""
+    """The number of the part that is worked in full."""
     return int(np.argmax(np.abs(c.acts["heights"].first.shown.imag)))
 
 
@@ -181,7 +181,7 @@ def _chords(c: DrawnJerk) -> Step:
 
 
 def _heights(c: DrawnJerk) -> Floats:
-    """The heights that the diagram reaches, its arrows among them [mm of paper]."""
+    """The heights [mm of paper] to which the diagram and its arrows reach."""
     low, high = reach(c.acts["curve"].first.shown.imag)
     jumps = [jump.size for jump in acceleration_jumps(c.givens.integrated.givens.motion)]
     up, down = any(size > 0 for size in jumps), any(size < 0 for size in jumps)
@@ -244,7 +244,7 @@ def _curve_step(c: DrawnJerk) -> Step:
 
 
 def _arrows(c: DrawnJerk) -> list[Mark]:
-    """An arrow with the sign of infinity where the acceleration jumps; what does at 0 does at the end of the turn."""
+    """Arrows with the sign of infinity where the acceleration jumps; a jump at 0 is shown at the end of the turn."""
     givens, (low, high) = c.givens.integrated.givens, _heights(c).tolist()
     marks = list[Mark]()
     for jump in acceleration_jumps(givens.motion):

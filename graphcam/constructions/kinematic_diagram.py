@@ -17,7 +17,7 @@ from graphcam.words import joined, sequence
 
 @dataclass(frozen=True, eq=False)
 class SchemeGivens:
-    """The task, and the draughtsman's choices."""
+    """What lies on the board before the first line."""
 
     board: Board
 
@@ -34,7 +34,7 @@ REASON = say("Everything that follows is drawn from these data and uses the poin
 
 
 def scheme(board: Board, pencil: Pencil) -> Construction[SchemeGivens]:
-    """Cam, follower and frame, and the data of the task."""
+    """Draw cam, follower and frame, with the data of the task."""
     return Construction(MEANING, SchemeGivens(board), pencil, {}, {}, _draw)
 
 
@@ -47,7 +47,7 @@ def _draw(drawn: Construction[SchemeGivens]) -> list[Step]:
 
 
 def data_sentences(board: Board) -> list[Caption]:
-    """What the task gives and asks for, in sentences."""
+    """Sentences on what the task gives and asks for."""
     follower, r0 = board.follower, board.prime_radius
     phases = sequence([_phase(board.motion, k, follower.unit) for k in range(len(board.motion.phases))], "; ")
     return [
@@ -76,7 +76,7 @@ SYMBOLS = {
 
 
 def _open_sizes(board: Board) -> list[Words]:
-    """What the task leaves open of the sizes that the cam and its follower have, and the profile."""
+    """The names of the sizes that the task leaves open, and of the profile."""
     follower = board.follower
     has = [size.name for size in follower.sizes(0.0, 0.0) if size.value is not None]
     given = {size.name: size.value for size in follower.sizes(follower.place, board.roller_radius)}

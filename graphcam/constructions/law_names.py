@@ -20,7 +20,7 @@ LAW_TITLES: Mapping[str, Caption] = {
 
 
 def law_name(law: Law) -> Words:
-    """The name of a law.
+    """The name of a law, as captions give it.
 
     >>> import graphcam as gc
     >>> str(law_name(gc.law("cosine"))), str(law_name(gc.law("3-4-5")))

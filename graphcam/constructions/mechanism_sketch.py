@@ -13,7 +13,7 @@ from graphcam.drafting.ink import Words, say
 from graphcam.drafting.marks import Arc, Arrow, Circle, Dimension, Dots, Label, Line, Mark, Points, Role, Segments
 
 BASE_RADIUS, NOSE_RADIUS, NOSE_DISTANCE = 12.0, 5.0, 16.0
-"""Of the plain cam: radius of its base circle and of its nose, and how far the nose's centre lies from A [mm]."""
+"""The plain cam: radius of its base circle and of its nose, and the distance of the nose's centre from A [mm]."""
 NOSE_ANGLE = math.radians(120)
 """The follower stands low; so far the cam turns until the nose has come under it [rad]."""
 ROLLER_RADIUS = 5.0
@@ -51,7 +51,7 @@ def plain_cam(towards: complex, sigma: int) -> tuple[Mark, ...]:
 
 
 def bearing(at: complex, name: str, towards: complex = 1 + 1j) -> tuple[Mark, ...]:
-    """A shaft or a hinge in the frame."""
+    """The marks of a shaft or a hinge in the frame, with its name."""
     ground = at + np.arange(-3, 3.1, 1.5) - 5j
     return (
         Circle(at, 1.2, Role.CURVE),
@@ -81,7 +81,7 @@ def edge(b: complex, roller_radius: float | None, towards: complex) -> tuple[Mar
 
 
 def size(symbol: str, length: float | None) -> Words:
-    """The symbol of a size, with its length [mm] if that is given.
+    """The symbol of a size, with its length [mm] where that is given.
 
     >>> str(size("r", 12.0)), str(size("r", None))
     ('r = 12', 'r')
@@ -90,7 +90,7 @@ def size(symbol: str, length: float | None) -> Words:
 
 
 def guided_stem(b: complex, stem: float, guide: float) -> tuple[Mark, ...]:
-    """Stem, line of motion, guide and sense of the lift of a follower whose trace point, or middle of the face, is B.
+    """Stem, line of motion, guide and sense of the lift; the trace point, or the middle of the face, is B.
 
     stem : its length;  guide : its height above B [mm]
 
@@ -110,7 +110,7 @@ def guided_stem(b: complex, stem: float, guide: float) -> tuple[Mark, ...]:
 
 
 def offset_marks(across: float, offset: float | None) -> tuple[Mark, ...]:
-    """The upright through A, and how far the line of motion passes beside it; none where it goes through A."""
+    """The upright through A, and the offset of the line of motion from it; none where the line goes through A."""
     if across == 0:
         return ()
     below, text = LINE_BOTTOM * UP, size("e", None if offset is None else abs(offset))

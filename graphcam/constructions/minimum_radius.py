@@ -65,7 +65,7 @@ LeastRadius = Construction[LeastRadiusGivens]
 
 
 def _touched(side: str, drawn: LeastRadius) -> Values:
-    """Where the tangent of the rise or of the return touches, and what the cam centre must keep to."""
+    """The formula's values: where the tangent of the rise or of the return touches, and its bound for the centre."""
     limits = drawn.givens.limits
     angle = limits.rise if side == "rise" else limits.return_
     if side in drawn.points and angle is not None:
@@ -80,7 +80,7 @@ def _rests(drawn: LeastRadius) -> Values:
 
 
 def _radius(drawn: LeastRadius) -> Values:
-    """What the place of the cam centre measures, where one is found."""
+    """The formula's values: the place of the cam centre and the radius, where one is found."""
     s0, e = (float(drawn.value(name)) for name in ("s0", "offset"))
     if not math.isnan(s0):
         yield {"s0": s0, "e": abs(e), "r0": math.hypot(s0, e)}
@@ -174,7 +174,6 @@ def _bounds(hand: Hand, givens: LeastRadiusGivens, ends: Drawn, start: Drawn) ->
     sigma, limits, integrated = sense(givens.rotation), givens.limits, givens.integrated
 
     def touching(name: str, direction: int, limit: float, side: int) -> Drawn:
-        """The tangent at a limit to the curve of the rises (1) or of the returns (-1)."""
         along = hand.protractor(f"direction of {name}", start, -side * UP, side * limit)
         pieces = pieces_of(integrated.givens.motion, integrated.givens.stations, direction)
         return hand.tangent(name, ends, pieces, along.turned(-UP))
@@ -193,7 +192,6 @@ def active(region: LeastRadius) -> list[Boundary]:
 
 
 def _shown_boundaries(region: LeastRadius) -> list[Boundary]:
-    """The boundaries of the first sample."""
     return [boundary(region.acts[name].first) for name in LINE_LABELS if name in region.acts]
 
 
@@ -206,7 +204,7 @@ HIGHEST_ANGLE_PLACE, LOWEST_ANGLE_PLACE = 0.12, 0.85
 LINE_LABELS = {"rise": say("rise"), "return": say("return"), "rest": say_in("a line of the region", "dwell")}
 """The lines that bound the region, by what they limit."""
 LINE_NAMES = {"rise": say("the rise line"), "return": say("the return line"), "rest": say("the dwell line")}
-"""The same inside a sentence."""
+"""The names of the boundaries inside a sentence."""
 LIMIT_NAMES = {
     "rise": say_in("a limit", "on the rise"),
     "return": say_in("a limit", "on the return"),
@@ -245,7 +243,7 @@ def _draw(region: LeastRadius) -> list[Step]:
 
 
 def _adopted(region: LeastRadius) -> list[complex]:
-    """The cam centre that is taken in the end, where one is."""
+    """The adopted cam centre where there is one, else nothing."""
     adopted, mu = region.givens.adopted(), region.readings["prime_radius"].per_mm
     if adopted is None:
         return []
@@ -271,7 +269,7 @@ def _touching(region: LeastRadius, picture: RegionPicture) -> Step:
 def _limit_line(
     region: LeastRadius, hand: Hand, line: Boundary, picture: RegionPicture
 ) -> tuple[Part, tuple[Mark, ...]]:
-    """The boundary from a little above its touch down to the edge of the picture, with its angle to the vertical."""
+    """A boundary from a little above its touch down to the picture's edge, with its angle to the vertical."""
     drawn = region.acts[line.name].first
     direction = region.acts.get(f"direction of {line.name}")
     limit = drawn if direction is None else direction.first
@@ -323,7 +321,7 @@ def _touch(region: LeastRadius, name: str, touch: complex) -> Caption:
 
 
 def _at_zero_lift(region: LeastRadius) -> Caption:
-    """How far from the line of motion the rise's boundary meets zero lift."""
+    """A sentence on how far from the line of motion the rise's boundary meets zero lift."""
     place = region.acts["rise at zero lift"].place
     if np.isnan(place):
         return say("The rise line meets the horizontal through B₀ at too flat an angle to be read.")
@@ -360,7 +358,7 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
 
 
 def _outside(lines: list[Boundary], place: complex) -> complex:
-    """The direction out of the region at a place on its lines."""
+    """The direction out of the region at a place on its boundaries."""
     return -sum((complex(line.inward) for line in binding(lines, place)), 0j) or 1 - 1j
 
 
@@ -411,14 +409,13 @@ def _result(region: LeastRadius) -> Step:
 
 
 def _height(paper: float, mu: float, s0: float) -> Caption:
-    """How far below the start of the lift the cam centre lies."""
+    """A sentence on how far below the start of the lift the cam centre lies."""
     if paper < NEGLIGIBLE_SIZE:
         return say("s₀ = 0, because it lies level with B₀")
     return say("{paper:.2f} mm × {mu:.5g} = {s0:.3f} mm = s₀ below B₀", paper=paper, mu=mu, s0=s0)
 
 
 def _centre_caption(region: LeastRadius) -> Caption:
-    """Which place of the region is the cam centre."""
     offset, bound = region.givens.offset, [LINE_NAMES[line.name] for line in active(region)]
     if offset is None:
         nearest_place = say("The offset is free: A₀ is the point of the hatched region nearest to B₀, {where}.")
@@ -437,14 +434,14 @@ def _limit(line: Boundary, limits: Limits) -> Caption:
 
 
 def _alternatives(region: LeastRadius) -> dict[str, Drawn]:
-    """Other places that textbooks take: the apex, the foot on the rise's tangent, the central follower's centre."""
+    """Places that some textbooks take: the apex, the foot on the rise's tangent, the central follower's centre."""
     acts = region.acts
     places = {"foot": acts["foot on rise"], "apex": acts.get("rise and return"), "central": acts["central"][0]}
     return {name: place for name, place in places.items() if place is not None and np.isfinite(place.place)}
 
 
 def _centre_lines(region: LeastRadius, level: Drawn) -> tuple[Mark, ...]:
-    """The follower's line seen from the cam centre, and how far the line of motion lies from it and B₀ above it."""
+    """The follower's line seen from the cam centre, with the distances of the line of motion and of B₀ from it."""
     centre, offset = region.acts["centre"].place, region.givens.offset
     if abs(centre.real) < ON_THE_LINE:
         return ()

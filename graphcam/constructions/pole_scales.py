@@ -10,7 +10,7 @@ from graphcam.drafting.scale import unit
 
 
 class PoleTerms(NamedTuple):
-    """What a scale is reckoned from: that of the other diagram, that of the cam angle [rad/mm], H [mm of paper]."""
+    """The terms of a scale: the other diagram's scale, that of the cam angle [rad/mm], and H [mm of paper]."""
 
     mu: float
     mu_phi: float
@@ -27,7 +27,7 @@ GREATEST = (
     r", \qquad <name>_{\max} = \mu_<name>\,y_<name>",
     r", \qquad <name>_{\max} = <mu:.5g> \cdot <paper:.2f> = <value:.5g>\ \text{<unit>}",
 )
-"""In general, and with the numbers."""
+"""The end of the formula for the maximum value: in general, and with the numbers."""
 SYMBOLS: Mapping[str, tuple[Symbol, ...]] = {
     "v": (
         Symbol(r"\mu_v", say("the scale of the velocity"), "(lift/rad)/mm"),
@@ -45,7 +45,7 @@ SYMBOLS: Mapping[str, tuple[Symbol, ...]] = {
 
 
 def pole_formula(name: str, source: str, pole: int, terms: Terms, *, greatest: bool = True) -> Formula:
-    """The scale of a diagram through that of another, which was integrated from it or which it was derived from.
+    """The formula for the scale of a diagram from that of another, its derivative or its integral.
 
     name : of the reading that is drawn in that scale
     greatest : whether the greatest value follows, the reading ``max_`` of that name

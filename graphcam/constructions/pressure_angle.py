@@ -50,7 +50,7 @@ from graphcam.words import sequence
 
 @dataclass(frozen=True, eq=False)
 class MeasuredGivens(ToldByChain):
-    """A follower's velocity and displacement, and where the cam centre lies [mm]; what every pressure angle needs.
+    """What every pressure angle needs: velocity and displacement of a follower, and the cam centre's place [mm].
 
     omega : of the cam [rad/s], where the task gives a speed
     station : whose plan is asked for, None for the one that shows most
@@ -64,7 +64,7 @@ class MeasuredGivens(ToldByChain):
 
     @property
     def path_per_lift(self) -> float:
-        """So many mm the follower moves along its path for a unit of lift: 1, or of an arm its length."""
+        """The path of the follower [mm] for a unit of lift: 1, or of an arm its length."""
         return 1.0
 
 
@@ -88,7 +88,7 @@ ANGLE_MEANINGS = {
 
 
 def _centre_height(measured: Construction[PressureAngleGivens]) -> Values:
-    """Where the cam centre lies at the adopted sizes."""
+    """The formula's values: the place of the cam centre at the adopted sizes."""
     r0, e = measured.givens.prime_radius, abs(measured.givens.offset)
     yield {"r0": r0, "e": e, "s0": math.sqrt(r0**2 - e**2)}
 
@@ -198,13 +198,13 @@ def _steepest(measured: MeasuredAngles) -> int:
 
 
 def _is_flat(measured: MeasuredAngles) -> bool:
-    """Whether the plan would be nearly a line where the angle is greatest."""
+    """Whether the plan would be nearly a line where the angle is largest."""
     givens, v = measured.givens, measured.givens.integrated.value("v")[_steepest(measured)]
     return bool(givens.path_per_lift * v < FLAT_PLAN_SHARE * givens.prime_radius)
 
 
 def moving_up(measured: MeasuredAngles) -> NDArray[np.bool_]:
-    """At which stations the follower rises at some speed."""
+    """The stations (n,) at which the follower rises at some speed, as a mask."""
     integrated = measured.givens.integrated
     motion, stations, v = integrated.givens.motion, integrated.givens.stations, integrated.value("v")
     rising = np.array([motion.phases[k].direction > 0 for k in stations.phase])
@@ -240,7 +240,7 @@ def plan_scale(measured: Construction[PressureAngleGivens], k: int, d: complex) 
 
 @dataclass(frozen=True, eq=False)
 class _PlanStation:
-    """The station at which the plan is drawn, and its scales."""
+    """The station at which the plan is drawn, with its scales."""
 
     measured: Construction[PressureAngleGivens]
     station: int
@@ -249,37 +249,33 @@ class _PlanStation:
 
     @property
     def mu(self) -> float:
-        """So many mm, or mm/rad, go to a millimetre of paper."""
+        """The scale of the plan's lengths [mm, or mm/rad, to a mm of paper]."""
         return self.scales.mu_l.per_mm
 
     @property
     def view(self) -> View:
-        """The mechanism, and the plan beside it."""
         return self.scales.view(self.name)
 
     @property
     def acts(self) -> Mapping[str, Drawn]:
-        """What is drawn there."""
         return self.hand.acts
 
     @property
     def name(self) -> str:
-        """Of the station."""
         return station_names(self.measured.givens.integrated.givens.stations)[self.station]
 
     @property
     def sigma(self) -> int:
-        """1 for a cam that turns counter-clockwise."""
+        """The sign of the rotation: 1 for a cam that turns counter-clockwise."""
         return sense(self.measured.givens.rotation)
 
 
 def _plan(measured: Construction[PressureAngleGivens], k: int, times: float) -> Hand:
-    """The triangle of the mechanism at a station, enlarged about the cam centre A, and the plan beside it."""
+    """The hand that draws the mechanism's triangle at a station, enlarged about A, with the plan beside it."""
     hand, sigma, centre = showing(measured), sense(measured.givens.rotation), measured.acts["centre"].first
     low, high = measured.acts["displacements"].first[k], measured.acts["ends"].first[k]
 
     def enlarged(length: Setting) -> Setting:
-        """A length of the combined diagram in this view."""
         return calculated(partial(np.multiply, times), length)
 
     a = hand.given("A")

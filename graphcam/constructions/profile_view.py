@@ -88,13 +88,13 @@ WORKED_STATION = 4
 
 
 def worked_station(stations: Stations) -> int:
-    """The station that a caption works out for all: the fourth, or the last of a phase of fewer parts."""
+    """The station that a caption works for all: the fourth, or the last of a phase of fewer parts."""
     first = stations.phases[0]
     return min(first.start + WORKED_STATION, first.stop - 1)
 
 
 def position_words(inverted: Inverted) -> dict[str, Words]:
-    """What a caption says of the inverted positions.
+    """The caption's values for the inverted positions.
 
     rotation, against : how the cam turns, and how the follower goes round it
     angles : of the phases;  steps : from station to station in each moving phase
@@ -113,7 +113,7 @@ def position_words(inverted: Inverted) -> dict[str, Words]:
 
 
 def _step_of(motion: Motion, stations: Stations, span: slice) -> Caption:
-    """By how much one goes on from station to station in a moving phase: its stretches may be divided differently."""
+    """A caption of the angles from station to station in a moving phase: its stretches may be divided differently."""
     steps = np.diff(stations.phi[span])
     new = np.append(True, ~np.isclose(np.diff(steps), 0.0))
     symbol = phase_symbol(motion, int(stations.phase[span.start]))
@@ -126,12 +126,12 @@ def _turn(angle: float) -> Caption:
 
 
 def turn_of(inverted: Inverted, station: int) -> Caption:
-    """By how much the follower has gone round at a station, from the start of the turn."""
+    """A caption of how far the follower has gone round at a station, from the start of the turn."""
     return _turn(float(inverted.givens.integrated.givens.stations.phi[station]))
 
 
 def against(inverted: Inverted) -> Caption:
-    """The sense in which the follower goes round the cam that stands still."""
+    """The word for the sense in which the follower goes round the cam that stands still."""
     return sense_caption("ccw" if inverted.givens.rotation == "cw" else "cw")
 
 
@@ -147,7 +147,7 @@ class PiecewiseCurve:
     rests: bool
 
     def told(self, said: Caption, *more: Caption) -> Part:
-        """The run of its pieces: how they are said to be drawn between the dwells, the arcs, and what more there is."""
+        """The part that draws the pieces: ``said`` of those between the dwells, then their arcs, then ``more``."""
         arcs = (say("In the dwells swing arcs about A with the compass."),) if self.rests else ()
         return Part(sequence([said, *arcs, *more], " "), rows=self.rows)
 
@@ -194,7 +194,7 @@ def _pieces(name: str, inverted: Inverted, points: Drawn) -> list[tuple[int, Dra
 
 
 def _piece_row(inverted: Inverted, k: int, piece: Drawn, drawn: Drawn) -> Row:
-    """With which instrument a piece of a closed curve is drawn, from which station to which."""
+    """The row of a piece of a closed curve: from which station to which it is drawn, and with which instrument."""
     motion, stations = inverted.givens.integrated.givens.motion, inverted.givens.integrated.givens.stations
     phase = phase_title(motion, k)
     if piece.act.kind is Kind.FAIR:
@@ -241,7 +241,7 @@ def rotation_arrow(direction: float, sigma: int, radius: float) -> Arc:
 
 
 def start_of_turn(inverted: Inverted) -> complex:
-    """Where the turn begins on the prime circle: a start of the lift, turned back; above the centre if none is read."""
+    """The place on the prime circle where the turn begins: a start of the lift, turned back; else above the centre."""
     turn = sense(inverted.givens.rotation) * inverted.givens.integrated.givens.stations.phi
     back = turned_direction(inverted.acts["starts"].shown, turn)
     return complex(np.append(back[~np.isnan(back)], UP)[0])
@@ -267,13 +267,13 @@ def phase_angles(inverted: Inverted, start: complex) -> tuple[list[Mark], Part]:
 
 
 def _outer_radius(inverted: Inverted) -> float:
-    """Where the arcs of the phase angles are drawn: outside the prime circle and the pitch curve [mm of paper]."""
+    """The radius of the arcs of the phase angles: outside the prime circle and the pitch curve [mm of paper]."""
     prime = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm
     return float(np.fmax.reduce(np.abs(inverted.first("pitch")), initial=prime)) + PHASE_ARC_OFFSET
 
 
 def ground(inverted: Inverted) -> tuple[Mark, ...]:
-    """Cam centre, centre lines and the sense of the rotation."""
+    """Cam centre, centre lines and the sense of the rotation, as marks."""
     prime, sigma = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm, sense(inverted.givens.rotation)
     reach = (_outer_radius(inverted) + PHASE_ARC_OFFSET) * np.array([-1, 1])
     return (
@@ -296,7 +296,7 @@ def prime_step(
     why: Caption = PRIME_WHY,
     parts: tuple[Part, ...] = (),
 ) -> Step:
-    """Cam centre and prime circle, with its radius towards ``start``, other circles, and what is drawn on them.
+    """The step that draws cam centre and prime circle, its radius towards ``start``, and what is drawn on them.
 
     parts : what is drawn after the prime circle
     """
@@ -323,7 +323,7 @@ def pitch_steps(
     said: Caption = PITCH_SAID,
     why: Caption = PITCH_WHY,
 ) -> list[Step]:
-    """The points of the pitch curve, or of the profile under a flat face, and the curve through them.
+    """The steps that find the points of the pitch curve, or of a profile under a flat face, and join them.
 
     laid_off : how the points are found, with its reason and its parts
     said : how the curve is drawn between the dwells

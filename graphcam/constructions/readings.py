@@ -20,7 +20,7 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class ReadingRow:
-    """One reading of a step in the first sample, as it is written down: angles in degrees.
+    """One reading of a step in the first sample, as it is written down; angles are in degrees.
 
     paper : what was measured, () or (m,) [mm, or degrees of an angle that was measured itself]
     mu : what a millimetre stands for [``unit``/mm], None where what was measured is itself the value
@@ -42,7 +42,7 @@ class ReadingRow:
 
     @property
     def extremes(self) -> list[tuple[Caption, int]]:
-        """Of several values what is told first, and at which place: the least, the greatest, or of both signs both."""
+        """The extremes that are told of several values, each with its place: minimum, maximum, or one of each sign."""
         least = say("minimum"), int(np.nanargmin(self.value))
         greatest = say("maximum"), int(np.nanargmax(self.value))
         if self.judged == "least" or self.value[greatest[1]] < 0:
@@ -50,12 +50,12 @@ class ReadingRow:
         return [greatest] if self.value[least[1]] >= 0 else [least, greatest]
 
     def extreme_caption(self, what: Caption, place: int) -> Caption:
-        """An extreme and where it is, such as "minimum (station 4)"."""
+        """An extreme with its place, such as "minimum (station 4)"."""
         name = self.places[place]
         return say("{what} ({place})", what=what, place=say("station {name}", name=name) if self.stations else name)
 
     def caption(self, place: int | None = None) -> Caption:
-        """The reading in one line: of an array that at a ``place``."""
+        """The reading in one line, of an array the value at a ``place``."""
         at = () if place is None else (place,)
         paper, value = float(self.paper[at]), float(self.value[at])
         if self.mu is None:
@@ -109,7 +109,7 @@ def _row(construction: Construction, name: str) -> ReadingRow:
 
 
 def _stations(construction: Construction) -> tuple[str, ...]:
-    """The names of the stations that lie on the board of a construction, or of those that it started from."""
+    """The names of the stations that lie on a construction's board, or on that of those it started from."""
     for given in vars(construction.givens).values():
         if isinstance(given, Construction):
             if names := _stations(given):

@@ -61,7 +61,7 @@ class Boundary:
 
 
 def boundary(line: Drawn) -> Boundary:
-    """What a line that was drawn bounds, by its name: places to the right of its direction are permitted."""
+    """The boundary that a drawn line makes, by its name: places to the right of its direction are permitted."""
     return Boundary(line.act.name, line.points, -UP * line.directions)
 
 
@@ -188,12 +188,12 @@ class RegionPicture:
 
     @property
     def corners(self) -> list[complex]:
-        """Anticlockwise from the lower left one."""
+        """The corners [mm], anticlockwise from the lower left one."""
         low, high = self.bottom * UP, self.top * UP
         return [self.left + low, self.right + low, self.right + high, self.left + high]
 
     def permitted(self, lines: Sequence[Boundary]) -> Points:
-        """The corners of what every boundary permits of it.
+        """The corners of the part of the picture that every boundary permits.
 
         >>> picture = RegionPicture(-9.0, 9.0, -4.0, 0.0)
         >>> below = Boundary("below", np.asarray(-1j), np.asarray(-1j))
@@ -203,7 +203,7 @@ class RegionPicture:
         return permitted_part(lines, self.corners)
 
     def end(self, line: Boundary, others: Sequence[Boundary]) -> complex:
-        """Where a boundary is drawn to, down from its touch: the picture's edge, if it bounds the region there.
+        """The end of a boundary below its touch: on the picture's edge, if it bounds the region there.
 
         Else it ends a little below where it crosses the last of the other boundaries.
 
@@ -251,7 +251,7 @@ STATION_NEARNESS = 0.05
 
 
 def touched(integrated: Integrated, plotted: Points, place: complex, direction: int) -> list[str]:
-    """The name of the station that a curve is touched at, or the names of those between which it is.
+    """The name of the station at which a curve is touched, or the names of those on both sides.
 
     plotted : (n,) the curve's points at the stations;  direction : 1 for the curve of the rises, -1 of the returns
 

@@ -38,7 +38,7 @@ def _terms(rolled: Construction[RollerGivens]) -> list[Caption]:
 
 
 def _by_rule(rolled: Construction[RollerGivens]) -> Values:
-    """The terms of the rule and what each proposes, where the task does not give the radius."""
+    """The formula's values: the rule's terms and the radius by each, where the task does not give the radius."""
     if rolled.givens.given is None:
         radii = [say("{radius:.2f}", radius=r) for r in rolled.value("candidates").tolist() if np.isfinite(r)]
         terms = sequence([_in_tex(term) for term in rolled.givens.rule], r";\ ")
@@ -77,7 +77,7 @@ MEANING = Meaning(
 
 
 def roller_radius(curved: Curved, rule: tuple[Candidate, ...], given: float | None, pencil: Pencil) -> Rolled:
-    """What the rule proposes from the least radius of curvature and the prime radius; the smallest is taken.
+    """The roller radius that the rule proposes from the minimum radius of curvature and the prime radius: the smallest.
 
     given : the roller radius [mm] where the task gives one, which is then taken, or None
     """
@@ -100,12 +100,12 @@ def roller_radius(curved: Curved, rule: tuple[Candidate, ...], given: float | No
 
 
 def _proposed(rule: tuple[Candidate, ...], mu_l: float, rho: Floats, prime_radius: Floats) -> Floats:
-    """What each term of the rule makes of the two radii, all on paper: (..., k)."""
+    """The radius by each term of the rule, (..., k), all on paper."""
     return np.stack([t.factor * (rho if t.of == "rho" else prime_radius) - t.margin / mu_l for t in rule], axis=-1)
 
 
 def _finite(radii: Floats) -> Floats:
-    """Nothing in place of what is infinite."""
+    """The radii, 0 in place of what is infinite."""
     return np.where(np.isinf(radii), 0.0, radii)
 
 
@@ -149,7 +149,7 @@ def _proposal(term: Candidate, radius: float) -> Caption:
 
 
 def _beside_rho(radius: float, rho: float) -> Caption:
-    """What a roller leaves of the least radius of curvature."""
+    """A sentence on what a roller leaves of the minimum radius of curvature."""
     if radius < rho:
         return say("It leaves ρ − r = {left:.2f} mm at B.", left=rho - radius)
     return say("It is not smaller than ρ = {rho:.2f} mm: the profile is undercut at B.", rho=rho)
@@ -158,7 +158,7 @@ def _beside_rho(radius: float, rho: float) -> Caption:
 def laid_off_on_ob(
     rolled: Rolled, names: Sequence[Words], radii: Floats
 ) -> tuple[View, tuple[Mark, ...], tuple[Part, ...]]:
-    """Radii [mm of the machine] laid off from B towards the centre of curvature, where that is known, and the view."""
+    """The view, marks and parts of radii [mm] laid off from B towards the centre of curvature, where it is known."""
     detail = detail_of(rolled.givens.curved)
     if detail is None:
         return PROFILE, (), ()

@@ -22,7 +22,7 @@ Triples = NDArray[np.intp]
 
 
 def neighbours(inverted: Inverted) -> Triples:
-    """Every station with its neighbours, never across a jump of the acceleration.
+    """The numbers of every station and its neighbours (..., k, 3), never across a jump of the acceleration.
 
     Where the bisectors cross at less than a degree the second neighbours are taken in place of the first, or the
     fourth, and so on: with very many parts the chords between neighbours hardly bend.
@@ -47,7 +47,7 @@ NO_ACCELERATION = 1e-9
 
 
 def dwell_arcs(motion: Motion, stations: Stations) -> list[tuple[int, Floats]]:
-    """After which station the follower rests, and how far round three places of its arc lie [rad].
+    """The station before every dwell, and the angles [rad] of three places of its arc from there.
 
     Where two moving phases meet and the acceleration of either vanishes, it rests for an instant.
     """
@@ -66,7 +66,7 @@ def dwell_arcs(motion: Motion, stations: Stations) -> list[tuple[int, Floats]]:
 
 
 def _vanishes(motion: Motion, phases: NDArray[np.intp], u: float) -> NDArray[np.bool_]:
-    """Of which phases the given acceleration is zero at the end u; of a dwell too."""
+    """Whether the acceleration of phases is zero at the end u; true for a dwell."""
     ends = [motion.phases[k] for k in phases]
     greatest = [
         p.normalised.peak_acceleration * p.lift / p.angle**2 if isinstance(p, MovingPhase) else 0.0 for p in ends
@@ -75,7 +75,7 @@ def _vanishes(motion: Motion, phases: NDArray[np.intp], u: float) -> NDArray[np.
 
 
 def points_at(points: Points, at: Triples) -> Points:
-    """The three points each (..., k, 3) of points (..., m)."""
+    """The three points each of a choice, (..., k, 3), of points (..., m)."""
     return np.take_along_axis(points[..., None, :], at, -1)
 
 
@@ -91,7 +91,7 @@ def centres_of(inverted: Inverted, triples: Points) -> Points:
 
 
 def sharpest_of(inverted: Inverted, points: Points, triples: Triples) -> tuple[NDArray[np.intp], Floats]:
-    """(..., 3) which of the triples of points (..., m) looks bent most, and the radius on paper.
+    """The triple (..., 3) of points (..., m) with the smallest convex radius, and that radius on paper.
 
     The radius is infinite where no bend is convex, NaN where none can be read.
     """

@@ -13,7 +13,7 @@ from graphcam.given.stations import Stations
 
 @dataclass(frozen=True, eq=False)
 class TurnGivens:
-    """What lies on the board.
+    """What lies on the board of a diagram over the cam angle.
 
     ordinate : greatest of the first rise in the acceleration diagram [mm of paper]
     mu_phi : scale of the cam angle [rad/mm];  unit : of the lift
@@ -29,7 +29,7 @@ class TurnGivens:
 
     @property
     def end(self) -> float:
-        """Where the turn ends on the axis of the cam angle [mm of paper]."""
+        """The end of the turn on the axis of the cam angle [mm of paper]."""
         return float(phase_ends(self.motion, self.mu_phi)[-1])
 
     def axes(self, symbol: str, heights: Floats) -> tuple[Mark, ...]:
@@ -37,13 +37,13 @@ class TurnGivens:
         return phi_axes(self.motion, self.mu_phi, heights, ordinate(symbol, self.unit))
 
     def degrees_under(self, heights: Floats) -> tuple[Mark, ...]:
-        """What stands under a diagram that is the lowest on its page: degrees, and times where there is a speed."""
+        """The numbers under a diagram that is the lowest on its page: degrees, and times where there is a speed."""
         low = reach(heights)[0]
         times = times_below(self.end, self.mu_phi, low, self.omega, phases=False)
         return (*degrees_below(self.end, self.mu_phi, low), *times)
 
     def phases_under(self, heights: Floats) -> tuple[Mark, ...]:
-        """What stands under the lowest diagram of all: degrees, the angles of the phases, and times."""
+        """The numbers under the lowest diagram of all: degrees, the angles of the phases, and times."""
         low = reach(heights)[0]
         phases = phases_below(self.motion, self.mu_phi, low)
         return (*phases, *times_below(self.end, self.mu_phi, low, self.omega))

@@ -16,7 +16,7 @@ SPEED_CAPTION = say("{symbol} = {speed:.3g} {unit}")
 
 @dataclass(frozen=True)
 class VelocityScale:
-    """What a millimetre of the plan stands for.
+    """The scales of a velocity plan.
 
     mu_l : mm of the mechanism, or mm/rad of a velocity divided by ω, to a millimetre of paper
     omega : of the cam [rad/s], None where no speed is given
@@ -27,7 +27,7 @@ class VelocityScale:
 
     @property
     def mu(self) -> Scale:
-        """The scale of the velocities [(m/s)/mm], or of what they are when divided by ω [(mm/rad)/mm].
+        """The scale of the velocities [(m/s)/mm], or of their quotients by ω [(mm/rad)/mm].
 
         >>> VelocityScale(Scale(0.5, "mm"), 20.0).mu
         Scale(per_mm=0.01, unit='m/s')
@@ -38,7 +38,7 @@ class VelocityScale:
 
     @property
     def acceleration(self) -> Scale:
-        """The scale of accelerations that are drawn with them [(m/s²)/mm], or when divided by ω² [(mm/rad²)/mm]."""
+        """The scale of accelerations drawn with them [(m/s²)/mm], or of their quotients by ω² [(mm/rad²)/mm]."""
         if self.omega is None:
             return Scale(self.mu_l.per_mm, "mm/rad²")
         return Scale(self.mu_l.per_mm * self.omega**2 / MM_PER_M, "m/s²")
@@ -51,7 +51,7 @@ class VelocityScale:
         return replace(PLAN, title=said, mu_l=self.mu_l.per_mm)
 
     def side_caption(self, symbol: str, side: complex) -> Words:
-        """The name of a side [mm of paper], where a speed is given with the speed."""
+        """The name of a side [mm of paper], with its speed where one is given."""
         if self.omega is None:
             return symbol
         return SPEED_CAPTION.with_values(symbol=symbol, speed=self.mu.value(abs(side)), unit=unit(self.mu.unit))
@@ -86,6 +86,6 @@ def velocity_plan(pole: Drawn, v1: Drawn, v2: Drawn, v21: Drawn, scale: Velocity
 
 
 def _outward_direction(start: complex, end: complex, opposite: complex) -> complex:
-    """Square to a side of a triangle, away from the opposite corner."""
+    """The direction square to a side of a triangle, away from the opposite corner."""
     across = UP * (end - start)
     return across if dot(across, opposite - start) < 0 else -across

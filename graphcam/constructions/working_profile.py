@@ -67,7 +67,7 @@ def working_profile(
     rolled: Rolled | None = None,
     measured: Construction | None = None,
 ) -> Profile:
-    """From each pitch point the roller's radius [mm] towards the cam, square to the circle through its neighbours.
+    """Lay the roller's radius [mm] off from each pitch point towards the cam, square to the pitch curve there.
 
     rolled, measured : what the rule proposed, and the pressure angles, for the steps to compare with
 
@@ -93,7 +93,7 @@ def working_profile(
 
 
 def low_dwells(inverted: Inverted) -> list[tuple[int, int, int]]:
-    """The lower dwells: the number of each among all phases, and the stations at which its arc begins and ends."""
+    """The lower dwells: the number of each among all phases, and the stations at the ends of its arc."""
     motion, phase = inverted.givens.integrated.givens.motion, inverted.givens.integrated.givens.stations.phase
     found: list[tuple[int, int, int]] = []
     for k in range(len(motion.phases)):
@@ -120,7 +120,7 @@ def _measure_dwells(hand: Hand, inverted: Inverted, touch: Drawn) -> None:
 
 
 def _beyond_a_half_turn(given: Floats, measured: Floats) -> Floats:
-    """The angles as a protractor tells them, or what they leave of the turn, whichever is the arc's."""
+    """The angles [rad] as a protractor reads them, or the rest of the turn, whichever is the arc's."""
     return measured + FULL_TURN * np.round((given - measured) / FULL_TURN)
 
 
@@ -145,7 +145,7 @@ def _tangents(stations: Stations, sigma: int, pitch: Points) -> Points:
 
 
 def _covered(touch: Points, pitch: Points, radius: float) -> NDArray[np.bool_]:
-    """Which touch points lie nearer than ``radius`` to the centre of another roller circle.
+    """The touch points (..., m) that lie nearer than ``radius`` to the centre of another roller circle, as a mask.
 
     Of the centres that follow one another a whole run lies too far from most points, so few are looked at singly.
     """
@@ -259,7 +259,7 @@ def _undercut(lost: Sequence[str]) -> Caption:
 
 
 def _angles(profile: Profile) -> Step:
-    """The pressure angles that the finished profile shows, beside those that were found without it."""
+    """The step of the pressure angles that the finished profile shows, beside those found without it."""
     marks, rows = list[Mark](), list[Row]()
     measured, apart = profile.givens.measured, 0.0
     for found in _normals(profile):
@@ -297,7 +297,7 @@ DWELL_ARC_SHARE = 0.82
 
 
 def _arcs_of_dwells(profile: Profile) -> Iterator[Step]:
-    """The angles of the arcs of the lower dwells, on which the profile does no work."""
+    """The step of the angles of the arcs of the lower dwells, on which the profile does no work."""
     inverted, measured = profile.givens.inverted, profile.acts.get("radii to the start of the dwells")
     if measured is None:
         return
@@ -345,7 +345,7 @@ class ShownAngle:
 
 
 def _normals(profile: Profile) -> Iterator[ShownAngle]:
-    """The profile's normal and the follower's line where they enclose the greatest angle in each moving phase.
+    """The profile's normal and the follower's line, where the angle between them is largest in each moving phase.
 
     None where the whole phase is covered.
     """

@@ -45,7 +45,7 @@ class WrittenActs:
     _numbers: dict[Act, int] = field(default_factory=dict[Act, int])
 
     def number(self, act: Act) -> int:
-        """The number of an act, which is written down with all that it stands on."""
+        """The number of an act, which is written down first with all that it stands on."""
         if act not in self._numbers:
             self._numbers[act] = len(self.rows)
             row: dict[str, Plain] = {"kind": str(act.kind), "construction": act.construction, "name": act.name}
@@ -54,7 +54,7 @@ class WrittenActs:
         return self._numbers[act]
 
     def piece(self, piece: ActPlaces) -> list[Plain]:
-        """Some places of an act: its number and theirs, None for all of them."""
+        """A piece as plain data: the number of its act and those of its places, None for all of them."""
         return [self.number(piece.act), None if len(piece.at) == piece.act.size else list(piece.at)]
 
     def _source_data(self, act: Act, key: str, value: Any) -> Plain:

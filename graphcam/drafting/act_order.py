@@ -20,24 +20,24 @@ from graphcam.drafting.marks import Mark, Places
 
 @dataclass(frozen=True)
 class ActPlaces:
-    """Some of the places that an act leaves, or of the values that are read, by their numbers from 0."""
+    """Some of the places that an act leaves, or of the values that it reads, by their numbers from 0."""
 
     act: Act
     at: tuple[int, ...]
 
 
 def pieces_of(drawn: Iterable[Drawn]) -> list[ActPlaces]:
-    """The same as pieces."""
+    """What was drawn as pieces: of each its act, and the numbers of its places there."""
     return [_piece(each.act, each.index) for each in drawn]
 
 
 def all_places(act: Act) -> ActPlaces:
-    """All that an act leaves."""
+    """The piece of all places that an act leaves."""
     return ActPlaces(act, tuple(range(act.size)))
 
 
 def sources(piece: ActPlaces, *, scales: bool = True) -> Iterator[ActPlaces]:
-    """What a piece is found from, of what its act takes: at the same places, or all of what has places of its own.
+    """The pieces that a piece is found from: what its act takes at the same places, or all of what has other places.
 
     scales : whether that counts as well in whose scale a machine value is laid off
 
@@ -62,14 +62,14 @@ def sources(piece: ActPlaces, *, scales: bool = True) -> Iterator[ActPlaces]:
 
 
 def _curved(takes: Mapping[str, Any]) -> dict[str, Any]:
-    """What a curve takes: of the points those of its pieces."""
+    """What a curve takes, its points cut to those of its pieces."""
     points = takes["points"]
     kept = np.concatenate([np.arange(points.index.size)[piece] for piece in takes["pieces"]])
     return {**takes, "points": points[kept]}
 
 
 def _operands(value: Any, size: int, at: tuple[int, ...], scales: bool) -> Iterator[ActPlaces]:
-    """What one thing that an act takes comes from: an act of so many places, done at some."""
+    """The pieces that one operand of an act gives to places ``at``, of the act's ``size`` places."""
     match value:
         case Drawn():
             yield _piece(value.act, _matching(value.index, size, at))
@@ -89,12 +89,12 @@ def _operands(value: Any, size: int, at: tuple[int, ...], scales: bool) -> Itera
 
 
 def _matching(index: Places, size: int, at: tuple[int, ...]) -> Places:
-    """Of an operand's places those that belong to places ``at`` of an act of that ``size``."""
+    """The places of an operand that belong to places ``at`` of an act of that ``size``."""
     return index[list(at)] if index.size == size else index
 
 
 def _source_places(piece: ActPlaces) -> Iterator[ActPlaces]:
-    """Of places taken in a row, or by their number, those that were chosen."""
+    """The places that a piece of chosen ones was chosen from."""
     drawn, which = piece.act.takes["of"], piece.act.takes["which"]
     row = [(each.act, k) for each in drawn for k in each.index.tolist()]
     if which is not None:
@@ -106,7 +106,7 @@ def _source_places(piece: ActPlaces) -> Iterator[ActPlaces]:
 
 
 def _gathered(places: Iterable[tuple[Act, int]]) -> Iterator[ActPlaces]:
-    """Single places as pieces, one for each act."""
+    """Pieces that hold single places, one for each act."""
     found: dict[Act, list[int]] = {}
     for act, place in places:
         found.setdefault(act, []).append(place)
@@ -114,7 +114,7 @@ def _gathered(places: Iterable[tuple[Act, int]]) -> Iterator[ActPlaces]:
 
 
 def _in_chains(piece: ActPlaces) -> Iterator[ActPlaces]:
-    """Of chords set end to end: the line that each is parallel to, the uprights, and the chords before it."""
+    """What chords set end to end stand on: their lines, the uprights, and the chords before them."""
     lines, cuts, chains = (piece.act.takes[name] for name in ("lines", "cuts", "chains"))
     yield _piece(cuts.act, cuts.index[list(piece.at)])
     for k in piece.at:
@@ -154,7 +154,7 @@ class FollowedBoard:
     lies: dict[Act, set[int]] = field(default_factory=dict[Act, set[int]])
 
     def followed(self, step: Step, readings: Iterable[Reading] = ()) -> list[Moves]:
-        """The parts of a step as moves; a step that has none is one.  What it reads is read at its end."""
+        """The parts of a step as moves, or the step as one; what it reads is read at the end of the last."""
         shown = _all_shown(step)
         parts = [pieces_of(part.draws) for part in step.places] or [[]]
         found: list[Moves] = []
@@ -169,13 +169,13 @@ class FollowedBoard:
         return found
 
     def pass_step(self, step: Step, readings: Iterable[Reading] = ()) -> None:
-        """A step of which nothing is told: afterwards all that it draws and reads lies on the board."""
+        """Put all that a step draws and reads on the board, where nothing is told of it."""
         drawn = [piece for part in step.places for piece in pieces_of(part.draws)]
         for _ in self._needed_places([*drawn, *_all_shown(step), *_all_read(readings)]):
             pass
 
     def _needed_places(self, pieces: Iterable[ActPlaces]) -> Iterator[ActPlaces]:
-        """What must be done for pieces, in order: what they are found from before themselves."""
+        """What must be drawn for pieces, in order: what they are found from before themselves."""
         for piece in pieces:
             if new := _remaining_places(piece, self.lies.setdefault(piece.act, set())):
                 self.lies[piece.act].update(new.at)
@@ -183,7 +183,7 @@ class FollowedBoard:
                 yield new
 
     def visible_sources(self, pieces: Iterable[ActPlaces]) -> Iterator[ActPlaces]:
-        """What can be seen of what pieces were found from, the pieces themselves left out."""
+        """The visible places that pieces were found from, the pieces themselves left out."""
         own = list(pieces)
         tried: dict[Act, set[int]] = {}
         for piece in own:
@@ -195,7 +195,7 @@ class FollowedBoard:
         )
 
     def visible_pieces(self, pieces: Iterable[ActPlaces]) -> Iterator[ActPlaces]:
-        """What can be seen of pieces; of what is only thought, that which it was found from."""
+        """The visible places of pieces; of what is only thought, those that it was found from."""
         return self._visible(pieces, {})
 
     def _visible(self, pieces: Iterable[ActPlaces], tried: dict[Act, set[int]]) -> Iterator[ActPlaces]:

@@ -23,7 +23,7 @@ Index = int | slice | list[int] | NDArray[np.integer[Any]] | NDArray[np.bool_]
 
 
 class Kind(StrEnum):
-    """What is done, and with which instrument."""
+    """What is done, such as "lay off", and with which instrument."""
 
     GIVEN = "given", ""  # lies on the board before the first line, or is found in a drawing made before
     DIVIDE = "divide", "dividers"  # equal parts
@@ -107,23 +107,23 @@ class Drawn:
     turn: complex = 1
 
     def __getitem__(self, at: Index) -> Drawn:
-        """The part of it at some stations, or at one."""
+        """The part at some stations, or at one."""
         parts = [None if each is None else each[..., at] for each in (self.points, self.along, self.radius)]
         return Drawn(self.act, *parts, sampled=self.sampled, whole=self, at=at)  # pyright: ignore[reportArgumentType]
 
     def turned(self, turn: complex) -> Drawn:
-        """The same lines, taken in another sense (-1) or as seen square to them (1j, -1j)."""
+        """The same lines with their directions reversed (-1), or as seen square to them (1j, -1j)."""
         return Drawn(self.act, self.points, self.directions * turn, None, self.sampled, self, None, turn)
 
     @property
     def directions(self) -> Points:
-        """The directions of lines."""
+        """The directions of lines (...), of any length; an error for places and circles."""
         assert self.along is not None
         return self.along
 
     @property
     def first(self) -> Drawn:
-        """The same in the first sample, which is the one that is shown."""
+        """What is drawn in the first sample, the one that is shown; without an axis of samples."""
         if not self.sampled:
             return self
         parts = [None if each is None else each[0] for each in (self.points, self.along, self.radius)]
@@ -132,12 +132,12 @@ class Drawn:
 
     @property
     def root(self) -> Drawn:
-        """All that the act left."""
+        """All that the act left, of which this may be a part."""
         return self if self.whole is None else self.whole.root
 
     @property
     def index(self) -> Places:
-        """Which of the places that its act left these are, in a row."""
+        """The numbers of these places among all that the act left, in a row (n,)."""
         if self.whole is None:
             return np.arange(self.shown.size)
         index = self.whole.index
@@ -147,20 +147,20 @@ class Drawn:
 
     @property
     def shown(self) -> Points:
-        """The places in the first sample, in a row."""
+        """The places in the first sample, in a row (n,) [mm of paper]."""
         return np.atleast_1d(self.first.points)
 
     @property
     def place(self) -> complex:
-        """The one place in the first sample."""
+        """The one place in the first sample [mm of paper]."""
         return complex(self.shown.item())
 
     def dots(self, role: Role = Role.CURVE) -> Dots:
-        """The places, plotted."""
+        """The places as plotted points."""
         return Dots(self.shown, role).left_by(self)
 
     def line(self, role: Role, *, closed: bool = False) -> Line:
-        """The places joined one after another."""
+        """A line through the places, one after another; ``closed`` joins the last to the first."""
         return Line(self.shown, role, closed).left_by(self)
 
     def segments_from(self, start: Drawn | Points | complex, role: Role) -> Segments:
@@ -170,28 +170,28 @@ class Drawn:
         return Segments(np.broadcast_to(begin, ends.shape), ends, role).left_by(self)
 
     def segments(self, role: Role) -> Segments:
-        """Of lines that join places: from each to the other."""
+        """The joins of pairs of places, as segments from each to the other."""
         first = self.first
         return Segments(self.shown, self.shown + np.atleast_1d(first.directions), role).left_by(self)
 
     def way(self, role: Role) -> Line:
-        """Of the line that joins two places: from one to the other."""
+        """The join of two places, as a line from one to the other."""
         ends = self.place + np.array([0j, complex(self.first.directions)])
         return Line(ends, role, False).left_by(self)
 
     def line_from(self, start: Drawn | complex, role: Role) -> Line:
-        """The line to the one place."""
+        """The line from ``start`` to the one place."""
         ends = np.array([start.place if isinstance(start, Drawn) else start, self.place])
         return Line(ends, role, False).left_by(self)
 
     def arrow(self, start: Drawn | complex, role: Role) -> Arrow:
-        """An arrow to the place."""
+        """An arrow from ``start`` to the one place."""
         return Arrow(start.place if isinstance(start, Drawn) else start, self.place, role).left_by(self)
 
     def drawn_circle(self, role: Role) -> Circle:
-        """The circle."""
+        """The one circle as a mark."""
         return Circle(self.place, float(np.asarray(self.first.radius).item()), role).left_by(self)
 
     def label(self, text: Words, towards: complex = 1 + 1j, *, small: bool = False) -> Label:
-        """The name of the place."""
+        """A name or a number beside the one place, first in the direction ``towards``."""
         return Label(self.place, text, towards, small).left_by(self)

@@ -56,7 +56,7 @@ def farthest_in(points: Points, pieces: Sequence[slice], direction: Points | com
 
 
 def _ends(pieces: Sequence[slice], count: int) -> NDArray[np.intp]:
-    """(2, k) the first and the last place of each of k pieces of so many points."""
+    """The first and the last place of each of k pieces of ``count`` points, (2, k)."""
     ends = np.array([piece.indices(count)[:2] for piece in pieces], dtype=np.intp)
     return (ends - (0, 1)).T
 

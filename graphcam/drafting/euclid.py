@@ -24,7 +24,7 @@ RIGHT = 1 + 0j
 
 
 def unit(direction: Points) -> Points:
-    """The direction with the length one; NaN for no direction.
+    """The direction at length one; NaN for no direction.
 
     >>> complex(unit(np.array(0 - 4j)))
     -1j
@@ -55,7 +55,7 @@ def division_points(a: Points | complex, b: Points | complex, parts: int) -> Poi
 
 
 def climb_along(direction: Points, width: Floats) -> Floats:
-    """How far a parallel to a direction climbs over a width across.
+    """How far a line along a direction climbs over a width across [mm].
 
     >>> float(climb_along(np.asarray(40 + 20j), np.asarray(10.0)))
     5.0

@@ -39,7 +39,7 @@ def distance_between(start: Drawn, end: Drawn, along: Drawn | complex | None = N
 
 
 def calculated(formula: Callable[..., Floats], *given: Setting) -> Setting:
-    """What a formula makes, in the head, of lengths or angles that were read or are taken up."""
+    """What a formula makes, in the head, of lengths or angles that were read or taken up."""
     amount = formula(*(each.amount for each in given))
     return Setting(amount, formula=formula, given=given, sampled=any(each.sampled for each in given))
 
@@ -112,7 +112,7 @@ class Hand:
         return self._record_act(Kind.GIVEN, ": ".join(place), takes, construction.points[name], along)
 
     def take(self, name: str, *drawn: Drawn, which: Index | None = None) -> Drawn:
-        """What one goes on with of what lies there: all of them in a row, or in each sample those of the index."""
+        """Some of what lies there, to go on with: all of it in a row, or in each sample the places of the index."""
         if len(drawn) == 1 and which is None:
             points, along = drawn[0].points, drawn[0].along
         else:
@@ -128,7 +128,7 @@ class Hand:
         return np.concatenate([part if part.ndim > own else part[..., None] for part in parts], axis=-1)
 
     def enlarged(self, name: str, drawn: Drawn, origin: Drawn, times: complex, to: complex = 0j) -> Drawn:
-        """The same in another view: about an origin, times a number that enlarges and turns, moved ``to``."""
+        """What is drawn, as another view shows it: about an origin, scaled and turned by ``times``, moved ``to``."""
         points, about = _aligned(_places(drawn), _places(origin))
         takes = {"of": drawn, "origin": origin, "times": times, "to": to}
         along = None if drawn.along is None else drawn.along * times
@@ -136,7 +136,7 @@ class Hand:
         return self._record_act(Kind.ENLARGE, name, takes, to + (points - about) * times, along, radius)
 
     def mirrored(self, name: str, drawn: Drawn, axis: Drawn) -> Drawn:
-        """The same places, lines or circles on the other side of a line."""
+        """Places, lines or circles reflected in a line."""
         points, start, way = _aligned(_places(drawn), _places(axis), _way(axis))
         twice = euclid.unit(way) ** 2
         along = None if drawn.along is None else np.conj(drawn.along) * twice
@@ -144,7 +144,7 @@ class Hand:
         return self._record_act(Kind.ENLARGE, name, {"of": drawn, "axis": axis}, image, along, drawn.radius)
 
     def raised(self, name: str, drawn: Drawn, by: Setting) -> Drawn:
-        """The same places, each so much higher: on an axis that was found only later."""
+        """Places raised by a length each, on an axis that was found only later."""
         points, height = _aligned(_places(drawn), _amount(by))
         return self._record_act(Kind.ENLARGE, name, {"of": drawn, "by": by}, points + euclid.UP * height)
 
@@ -177,11 +177,11 @@ class Hand:
         return self._through(Kind.ERECT, name, {"feet": feet, "along": along}, feet, along, 1)
 
     def parallel(self, name: str, to: Drawn, through: Drawn) -> Drawn:
-        """Lines through places, carried by set squares: with an offset, and a small turn."""
+        """Lines through places, carried by set squares: off by an offset and a small turn."""
         return self._through(Kind.PARALLEL, name, {"to": to, "through": through}, through, to, 1)
 
     def perpendicular(self, name: str, to: Drawn, through: Drawn) -> Drawn:
-        """Lines through places square to others, to the left of their directions."""
+        """Lines through places, perpendicular to others on the left of their directions."""
         return self._through(Kind.PERPENDICULAR, name, {"to": to, "through": through}, through, to, euclid.UP)
 
     def _through(
@@ -195,7 +195,7 @@ class Hand:
         return self._record_act(kind, name, takes, points, along)
 
     def join(self, name: str, start: Drawn, end: Drawn) -> Drawn:
-        """The lines from places to others: as good as the places are."""
+        """The lines from places to others, with no error but that of the places."""
         a, b = np.broadcast_arrays(*_aligned(_places(start), _places(end)))
         return self._record_act(Kind.JOIN, name, {"start": start, "end": end}, a, b - a)
 
@@ -325,7 +325,7 @@ class Hand:
         return Setting(paper * by, reading=reading, factor=factor, sampled=own)
 
     def at_scale(self, value: float, reading: Reading) -> Setting:
-        """A machine value as a length on paper, in the scale of a reading."""
+        """The length on paper of a machine value, in the scale of a reading."""
         scale = np.asarray(reading.scale)
         return Setting(value / scale, reading=reading, value=value, sampled=bool(scale.ndim))
 
@@ -345,7 +345,7 @@ class Hand:
     def finished(
         self, givens: G, draw: Callable[[Construction[G]], list[Step]], points: Mapping[str, Drawn | Points]
     ) -> Construction[G]:
-        """The construction with all that was read, the acts, and the places that later ones go on from."""
+        """The construction, with all that was read, the acts, and the places that later ones go on from."""
         places = {name: left.points if isinstance(left, Drawn) else left for name, left in points.items()}
         return Construction(self.meaning, givens, self.pencil, self.readings, places, draw, self.acts)
 
@@ -363,15 +363,15 @@ class Hand:
     # --- errors ------------------------------------------------------------------------------------------------------
 
     def _with_place_errors(self, kind: Kind, what: str, points: Points, along: Points) -> Points:
-        """Places that an act of a kind leaves off along a direction of any length."""
+        """Places moved by an act's errors along a direction of any length."""
         return points + euclid.unit(along) * self._errors(kind, what, points) if self.pencil.line else points
 
     def _with_angle_errors(self, kind: Kind, angles: Floats) -> Floats:
-        """Angles as they are set or read."""
+        """Angles with the errors of setting or reading them."""
         return angles + self._errors(kind, "turn", angles) if self.pencil.protractor else angles
 
     def _errors(self, kind: Kind, what: str, like: Any) -> Floats:
-        """By how much it is off, shaped like an array; what errs not at all is drawn too, so that the rest stays."""
+        """Errors of a kind of act, shaped like an array; drawn even where they are zero, to keep the stream in step."""
         if self._stream is None:
             self._stream = self.pencil.stream(self.meaning.name)
         return self.pencil.slips(kind, what, self._stream, like.shape)
@@ -393,7 +393,7 @@ class Hand:
 
 
 def showing(construction: Construction) -> Hand:
-    """A hand for what is only shown in the steps, such as an enlarged detail: without an error of its own."""
+    """A hand without errors for what the steps only show, such as an enlarged detail."""
     return Hand(Pencil(), construction.meaning)
 
 

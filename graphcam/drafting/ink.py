@@ -63,7 +63,7 @@ class Row:
 
     @property
     def caption(self) -> Caption:
-        """The row as a line of its own."""
+        """What the place is called, with its setting, as a line by itself."""
         if not self.setting:
             return say("{name}.", name=self.name)
         return say("{name}: {setting}.", name=self.name, setting=self.setting)
@@ -108,12 +108,12 @@ class Step(Plottable):
 
     @property
     def caption(self) -> Caption:
-        """All that is said of the step."""
+        """All that the parts tell, one after another."""
         return sequence([part.caption for part in self.parts], " ")
 
     @property
     def places(self) -> tuple[Part, ...]:
-        """The parts as one goes through them: every row of a run is one."""
+        """The parts as one goes through them: each row of a run counts as one."""
         return tuple(
             place
             for part in self.parts
@@ -127,11 +127,11 @@ class Step(Plottable):
 
     @property
     def own_marks(self) -> tuple[Mark, ...]:
-        """The marks that are not given."""
+        """The marks that the step itself draws: those that are not given."""
         return tuple(mark for mark in self.marks if not any(mark is given for given in self.given))
 
     def translated(self, tell: Tell) -> Step:
-        """The same step with every text as ``tell`` says it.
+        """The step with every text as ``tell`` gives it.
 
         >>> step = Step(say("Pole"), (), View("v", say("v"), "phi", "v"), (Label(0j, say("H")),))
         >>> step.translated(lambda words: str(words).upper()).marks[0].text
@@ -199,7 +199,7 @@ class Reading:
 
 
 def _range(values: ArrayLike) -> str:
-    """A number, or the minimum and the maximum of many."""
+    """A number as text, or the minimum and the maximum of many."""
     values = np.asarray(values)
     if not values.ndim:
         return f"{values:.5g}"
@@ -208,7 +208,7 @@ def _range(values: ArrayLike) -> str:
 
 
 def reading(paper: ArrayLike, scale: float | NDArray[np.floating[Any]], unit: str) -> Reading:
-    """A :class:`Reading` of what is on the paper.
+    """A :class:`Reading` of lengths on paper [mm] or angles [rad].
 
     >>> reading(50.0, 0.6, "mm").value.item()
     30.0
@@ -255,7 +255,7 @@ class Construction(Plottable, Generic[G]):
 
     @property
     def name(self) -> str:
-        """Of the construction."""
+        """The name by which the construction is asked for, as its meaning gives it."""
         return self.meaning.name
 
     def steps(self) -> list[Step]:
@@ -272,7 +272,7 @@ class Construction(Plottable, Generic[G]):
     def plot(  # pyright: ignore[reportIncompatibleMethodOverride]
         self, step: int | None = None, axes: Axes | Figure | None = None
     ) -> Axes:
-        """Draw it, all or up to the step of that index, in colour: mm of paper from the origin of its first view.
+        """The drawing, all or up to the step of that index, in colour: mm of paper from the origin of its first view.
 
         Raises
         ------
@@ -281,11 +281,11 @@ class Construction(Plottable, Generic[G]):
         return from_above("plots.construction_drawing.plot")(self, axes, step)
 
     def first(self, name: str) -> Any:
-        """The points or the reading's paper of that name in the first sample (or the only one): what a step shows."""
+        """The points, or the lengths on paper of the reading, of that name in the first sample: what a step shows."""
         values = self.points[name] if name in self.points else self.readings[name].paper
         return values[0] if self.pencil.samples is not None else values
 
     def value(self, name: str) -> Any:
-        """The machine value of a reading in the first sample."""
+        """The machine value of the reading of that name in the first sample."""
         values = self.readings[name].value
         return values[0] if self.pencil.samples is not None else values

@@ -23,7 +23,7 @@ class Origin(Protocol):
 
     @property
     def name(self) -> str:
-        """What it is called in its construction."""
+        """The name of the act or reading in its construction."""
         ...
 
 
@@ -46,12 +46,12 @@ class LeftPlaces(Protocol):
 
     @property
     def act(self) -> Origin:
-        """That left them."""
+        """The act that left them."""
         ...
 
     @property
     def index(self) -> Places:
-        """Their numbers among all that it left."""
+        """The numbers of the places among all that the act left, (n,)."""
         ...
 
 
@@ -63,7 +63,7 @@ class Left:
     index: Places | None = field(default=None, compare=False, repr=False)
 
     def left_by(self, drawn: LeftPlaces) -> Self:
-        """The same mark, of those places; of a line or dots at one place every corner is."""
+        """The mark with the places that left it; every corner of a line or dots at one place is of that place."""
         index = drawn.index
         corners = self.points.size if isinstance(self, Line | Dots) and index.size == 1 else 1
         return replace(self, of=drawn.act, index=index.repeat(corners))
@@ -164,7 +164,7 @@ class Region(Left):
 
 
 def angle_at(place: complex, start: float, end: float, radius: float, text: Words, of: Origin | None) -> AngleMark:
-    """The smaller of the two angles between two directions [rad]; ``of`` as of every mark."""
+    """The smaller of the two angles between two directions [rad], marked at a place; ``of`` as in every mark."""
     turn = (end - start + np.pi) % (2 * np.pi) - np.pi
     first, last = sorted((start, start + turn))
     return AngleMark(place, radius, first, last, text, of=of)

@@ -85,7 +85,7 @@ def per_mm(name: str) -> Caption:
 
 
 def sharpness(radii: NDArray[np.floating[Any]]) -> NDArray[np.floating[Any]]:
-    """The curvatures of convex radii, by which the least is taken: what hardly bends changes by little there.
+    """The curvatures 1/r of radii (...), whose maximum is the smallest convex radius: flat places change them little.
 
     >>> sharpness(np.array([4.0, np.inf, 0.0])).tolist()
     [0.25, 0.0, inf]
@@ -131,7 +131,7 @@ class Converges:
 
 @dataclass(frozen=True)
 class ReadingMeaning:
-    """What a reading is, for who reads it, compares it or asks for it.
+    """What a reading is, for whoever reads, compares or asks for it.
 
     unit : of the value, in which ``lift`` stands for the unit of the lift, such as ``lift/rad``
     compared : the quantities of the results that it is, if any
@@ -151,7 +151,7 @@ class ReadingMeaning:
 
 @dataclass(frozen=True)
 class Meaning:
-    """What a construction says of itself.
+    """What a construction tells of itself: title, reason, readings and formulas.
 
     title : of its chapter
     why : the paragraph that stands before its steps
@@ -170,7 +170,7 @@ class Meaning:
     scales_found_by: str = ""
 
     def reading(self, name: str) -> ReadingMeaning:
-        """What one of its readings is.
+        """What the reading of that name is.
 
         Raises
         ------
@@ -183,5 +183,5 @@ class Meaning:
 
     @property
     def compared_readings(self) -> Iterator[tuple[str, Compared]]:
-        """The names of the readings that are compared, with what they are compared as."""
+        """The readings that are compared: the name of each, with a quantity that it is compared as."""
         return ((name, said) for name, reading in self.readings.items() for said in reading.compared)

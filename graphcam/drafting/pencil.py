@@ -71,7 +71,7 @@ class Pencil:
         return not any(self.deviation(kind, what) for kind, slips in SLIPS.items() for what in slips)
 
     def deviation(self, kind: Kind, what: str) -> float:
-        """Standard deviation of one thing that is off in an act [mm, or rad].
+        """The standard deviation of one error of an act [mm, or rad].
 
         >>> import graphcam as gc
         >>> from graphcam.drafting.acts import Kind
@@ -82,11 +82,11 @@ class Pencil:
         return slip.times * getattr(self, slip.of) if self.only is None or kind in self.only else 0.0
 
     def slips(self, kind: Kind, what: str, stream: Stream, shape: tuple[int, ...]) -> Floats:
-        """The errors of one kind in so many acts, from a construction's random numbers."""
+        """The errors of one kind in acts of that shape [mm, or rad], drawn from a construction's random numbers."""
         return self.deviation(kind, what) * stream.standard_normal(shape)
 
     def read_off(self, lengths: Floats) -> Floats:
-        """Lengths [mm] as they are read off a rule.
+        """Lengths [mm] as they are read off a rule, rounded to its divisions.
 
         >>> import graphcam as gc
         >>> gc.Pencil(division=0.5).read_off(np.array([1.2, 1.3])).tolist()
@@ -96,7 +96,7 @@ class Pencil:
         return np.round(lengths / division) * division if division else lengths
 
     def sheets(self, paper: ArrayLike) -> NDArray[Any]:
-        """The same lengths or points on every sample's sheet: shaped ([samples,] ...).
+        """Lengths or points repeated on every sample's sheet: shaped ([samples,] ...).
 
         >>> import graphcam as gc
         >>> gc.Pencil(samples=3).sheets([1.0, 2.0]).shape
@@ -106,7 +106,7 @@ class Pencil:
         return paper if self.samples is None else np.broadcast_to(paper, (self.samples, *paper.shape))
 
     def stream(self, construction: str) -> Stream:
-        """The random numbers of one construction.
+        """The stream of random numbers of one construction.
 
         They depend on the seed and the construction's name only, so that adding or omitting a construction never
         changes another.

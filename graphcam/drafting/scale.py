@@ -19,9 +19,9 @@ ISO_5455: Ratios = (
     *(100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0),
     *(1 / 2, 1 / 5, 1 / 10, 1 / 20, 1 / 50, 1 / 100, 1 / 200, 1 / 500, 1 / 1000),
 )
-"""With 100:1, by which the standard's series goes on."""
+"""The standard's scales, its series continued to 100:1."""
 STANDARD_RATIOS = {"gost": GOST_2_302, "iso": ISO_5455}
-"""By the frame of the sheet."""
+"""The standard scales, by the frame of the sheet."""
 
 
 RATIO_PATTERN = re.compile(r"(\d+(?:[.,]\d+)?)\s*[:：]\s*(\d+(?:[.,]\d+)?)")
@@ -49,7 +49,7 @@ class Scale:
         return self.per_mm * paper
 
     def paper(self, value: float) -> float:
-        """The length on paper [mm] of a machine value."""
+        """The length on paper of a machine value [mm]."""
         return value / self.per_mm
 
 
@@ -74,7 +74,7 @@ NO_HELD_SCALES: Mapping[str, float] = {}
 
 @dataclass(frozen=True)
 class Paper:
-    """What a view of its own finds on the sheet: its room [mm of paper], and the drawing scales of the standard.
+    """The room of a view on the sheet [mm of paper], and the standard drawing scales.
 
     held : scales [mm/mm] that views keep from an earlier drawing, by name, whatever would fit now
 
@@ -88,7 +88,7 @@ class Paper:
     held: Mapping[str, float] = field(default_factory=lambda: NO_HELD_SCALES, hash=False)
 
     def kept_scale(self, view: str) -> Scale | None:
-        """The scale that a view keeps, if it does."""
+        """The scale that the view of that name keeps, None if it keeps none."""
         return Scale(self.held[view], "mm") if view in self.held else None
 
     def scale(self, size: complex, beside: complex = 0j) -> Scale:
@@ -101,11 +101,11 @@ class Paper:
 
 
 UNLIMITED = Paper(math.inf, math.inf, GOST_2_302)
-"""As much paper as one likes: of what is drawn for itself, on no sheet."""
+"""Paper without bounds, for what is drawn on no sheet."""
 
 
 def coarsest(*scales: Scale) -> Scale:
-    """The scale at which things are drawn smallest."""
+    """The scale with the most machine units per millimetre, at which things are drawn smallest."""
     return max(scales, key=lambda scale: scale.per_mm)
 
 
@@ -121,7 +121,7 @@ def ratio_from_text(text: str) -> float | None:
 
 
 def ratio_text(per_mm: float) -> Caption:
-    """A drawing scale as it is written in a title block.
+    """A drawing scale as a title block gives it.
 
     >>> [str(ratio_text(per_mm)) for per_mm in (0.5, 2.5, 1.0)]
     ['2:1', '1:2.5', '1:1']
@@ -146,7 +146,7 @@ NEGLIGIBLE_SIZE = 0.005
 
 
 def unit(name: str) -> Caption:
-    """The unit of that name.
+    """The unit of that name, as a caption.
 
     >>> str(unit("mm/rad"))
     'mm/rad'

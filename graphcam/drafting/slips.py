@@ -35,7 +35,7 @@ UNIFORM_DEVIATION = 1 / math.sqrt(12)
 
 
 class Slip(NamedTuple):
-    """One thing that is off in an act: so many times one of a pencil's errors (see :class:`~graphcam.Pencil`)."""
+    """One error of an act: ``times`` one of a pencil's errors (see :class:`~graphcam.Pencil`)."""
 
     of: Literal["line", "dividers", "division", "protractor"]
     times: float = 1.0
@@ -57,4 +57,4 @@ SLIPS: Mapping[Kind, Mapping[str, Slip]] = {
     Kind.PROTRACTOR: {"turn": _ANGLE_SLIP, "across": _LINE_SLIP},
     Kind.READ: {"length": Slip("division", UNIFORM_DEVIATION), "turn": _ANGLE_SLIP},
 }
-"""Of every kind of act that errs, what is off."""
+"""The errors of every kind of act that has any."""

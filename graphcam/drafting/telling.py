@@ -19,7 +19,7 @@ STATION = say("Station {name}")
 
 
 def setting(drawn: Drawn) -> Words:
-    """To what the instrument is set at the one place of what an act left, and where that comes from.
+    """What the instrument is set to at the one place that an act left, and where that length or angle comes from.
 
     Empty where the act sets none; "0" where nothing is to be laid off.
 
@@ -46,7 +46,7 @@ def setting(drawn: Drawn) -> Words:
 
 
 def _amount(amount: object, k: int) -> float:
-    """What an instrument is set to at a place, in the first sample [mm, or rad]."""
+    """The setting of an instrument at a place, in the first sample [mm, or rad]."""
     if isinstance(amount, Setting):
         amount = amount.amount[0] if amount.sampled else amount.amount
     amounts = np.ravel(np.asarray(amount, dtype=np.float64))
@@ -54,12 +54,12 @@ def _amount(amount: object, k: int) -> float:
 
 
 def from_to(first: Words, last: Words) -> Caption:
-    """A stretch of a curve, by the names of its ends, as it stands at the beginning of a row."""
+    """A stretch of a curve by the names of its ends, at the beginning of a row."""
     return say("From {first} to {last}", first=first, last=last)
 
 
 def circle_drawn(circle: Caption, symbol: Words, radius: float, per_mm: float) -> Caption:
-    """How a circle of a size is drawn with the compass.
+    """How a circle is drawn with the compass, with its radius on the machine and on paper.
 
     circle : what is drawn, about what, as in the case that "draw" needs: "the prime circle about A"
     symbol, radius : of the machine [mm];  per_mm : drawing scale [mm/mm]
@@ -70,7 +70,7 @@ def circle_drawn(circle: Caption, symbol: Words, radius: float, per_mm: float) -
 
 
 def led_by(said: Caption, parts: Sequence[Part]) -> tuple[Part, ...]:
-    """Parts of which the first begins with what is said of all; where there are none, that alone."""
+    """Parts, the first of which begins with what is said of all; where there are none, one part that says it."""
     if not parts:
         return (Part(said),)
     return replace(parts[0], caption=sequence([said, parts[0].caption], " ")), *parts[1:]
@@ -94,7 +94,7 @@ def in_parts(
 
 
 def alike(_: int) -> Words:
-    """The setting of places of which no one differs from another."""
+    """An empty setting, for places that differ in none."""
     return ""
 
 

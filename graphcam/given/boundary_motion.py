@@ -147,7 +147,6 @@ def _legs(pieces: Sequence[ExactPiece]) -> list[tuple[Fraction, Fraction, int]]:
 
 
 def _phase(parts: Sequence[Part], leg: Sequence[ExactPiece], sign: int) -> Phase:
-    """The phase of a leg."""
     start, end = leg[0].start, leg[-1].end
     if not sign:
         return Dwell(float(end - start))

@@ -136,17 +136,14 @@ class _Part:
 
     @cached_property
     def start(self) -> Fraction:
-        """Where the part begins [rad]."""
         return self.points[0].place
 
     @cached_property
     def end(self) -> Fraction:
-        """Where the part ends [rad]."""
         return self.points[-1].place
 
     @property
     def highest_power(self) -> int:
-        """The degree of the part's polynomials."""
         return max(len(piece.p) for piece in self.pieces) - 1
 
     @property

@@ -179,7 +179,7 @@ def _double_harmonic(x: Floats):
 
 
 def _double_harmonic_end(x: Floats):
-    """1 - f at the distance x from the end is 1 - (1 - s^2)^2."""
+    """1 - f at the distance x from the end: 1 - (1 - s^2)^2."""
     s, c = sine_cosine(_PI / 2 * x)
     square, product = s * s, s * c
     return (

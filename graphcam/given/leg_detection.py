@@ -39,7 +39,7 @@ SLOW_FACTOR = 2.0
 
 
 END_POWERS, POWER_PENALTIES = np.array([2, 3, 4]), np.array([1.4, 0.0, 3.6])
-"""Of ten laws three, six and one leave their rest so; less twice the logarithm of it, beside the most usual."""
+"""The powers in which a law may leave its rest, and -2 log of their shares (3, 6, 1 of ten laws) over the largest."""
 TRIED_PLACES, SEARCH_ROUNDS = 13, 7
 """Places tried at a time, and rounds in which they close in on the best one and its neighbours."""
 MIN_EVIDENCE = 16.0
@@ -239,7 +239,6 @@ class _LevelRows:
     level: float
 
     def shifted(self, rows: int) -> _LevelRows:
-        """The level rows, so many rows on."""
         return replace(self, first=self.first + rows, last=self.last + rows)
 
 

@@ -81,7 +81,7 @@ def _max_magnitudes(pieces: Sequence[ExactPiece]) -> list[float]:
 
 @dataclass(frozen=True)
 class _Cutter:
-    """Cuts one piece."""
+    """The state of one piece while it is cut."""
 
     piece: ExactPiece
     greatest: list[float]

@@ -80,7 +80,7 @@ class LinearForms:
     factors: Floats
 
     def __call__(self, z: Floats) -> Floats:
-        """(m,) their values."""
+        """The values of the forms at z, (m,)."""
         return ordered_sum(self.factors * z[self.unknowns])
 
     def transposed(self, values: Floats, size: int) -> Floats:
@@ -108,7 +108,7 @@ class LinearForms:
 
 
 def _sums_by_place(places: NDArray[np.intp], values: Floats, size: int) -> Floats:
-    """(size,) the sums of the values that go to the same place."""
+    """The sums (size,) of the values that go to the same place."""
     sums: Floats = np.zeros(size)
     np.add.at(sums, places.ravel(), values.ravel())
     return sums

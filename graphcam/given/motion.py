@@ -400,7 +400,6 @@ def _swapped_arguments(phase: MovingPhase) -> str:
 
 
 def _in_words(phase: Phase) -> str:
-    """A phase in one line."""
     over = f"over {math.degrees(phase.angle):.6g}°"
     if isinstance(phase, Dwell):
         return f"{phase.kind} {over}"

@@ -244,7 +244,6 @@ class Law:
             low, high = u[top - 1, column], u[top + 1, column]
 
     def _parts(self) -> tuple[Floats, Floats]:
-        """The ends of the parts of the pieces."""
         ends = np.array([0.0, *self.edges, 1.0])
         places = np.linspace(ends[:-1], ends[1:], CHECKED_PARTS + 1)
         return places[:-1].T.ravel(), places[1:].T.ravel()
@@ -343,7 +342,6 @@ def _of_number(formula: Formula, x: float) -> _OfNumber:
     """
 
     def of_array(x: float) -> Sequence[Any]:
-        """By an array of one."""
         return [np.ravel(value)[0] for value in formula(np.array([x]))]
 
     untyped: Any = formula

@@ -83,7 +83,7 @@ class Piecewise:
     starts: Floats = field(init=False)
     """(p,) where each piece begins"""
     _formulas: tuple[Formula, ...] = field(init=False)
-    """those that differ"""
+    """The formulas that differ from one another."""
     _formula_of: NDArray[np.intp] = field(init=False)
     """(p,) the number of each piece's formula"""
     _moves: NDArray[np.bool_] = field(init=False)
@@ -149,7 +149,6 @@ class Piecewise:
         out += 0.0 * x  # so that zero is +0, and NaN stays NaN even where a constant takes its place
 
     def _look_up(self, formula: Formula, number: NDArray[np.intp], t: Floats, out: Floats) -> None:
-        """Write the values at t, of one formula or at rest."""
         if self._moves.all():
             self._write_alike(formula, number, t, out)
             return

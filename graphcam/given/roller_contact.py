@@ -38,5 +38,5 @@ class RollerContact:
 
     @property
     def modulus(self) -> float:
-        """E' [MPa]."""
+        """The equivalent modulus E' of cam and roller [MPa]."""
         return 1 / ((1 - self.poisson1**2) / self.young1 + (1 - self.poisson2**2) / self.young2)

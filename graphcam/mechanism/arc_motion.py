@@ -345,7 +345,6 @@ class ArcMotion(Plottable):
         """The value of maximum magnitude on the rise: at an end of an arc, or where its slope vanishes."""
 
         def slope_at(psi: Floats, arc: NDArray[np.intp]) -> Floats:
-            """The slope at places [rad] of arcs."""
             return slope(self._radius(arc, psi))
 
         arc = np.arange(3)

@@ -108,12 +108,11 @@ def _least_preload(motion: Motion, load: FollowerLoad) -> SpringPreload:
     """sup -(Q - w F0)/w, with w the force per preload."""
 
     def needed(places: Places) -> Floats:
-        """Of the preload, at places."""
         weight, _ = load.leverage(places.values)
         return load.preload - load.force(places.values, motion.directions[places.phase], places.phi) / weight
 
     def slope(places: Places) -> Floats:
-        """Of the sign of its derivative, the weight being positive."""
+        """The derivative of the preload up to a positive factor, the weight."""
         (weight, weight_slope), direction = load.leverage(places.values), motion.directions[places.phase]
         force, force_slope = load.force(places.values, direction, places.phi), load.slope(places.values, places.phi)
         return force * weight_slope - force_slope * weight

@@ -102,7 +102,7 @@ class Envelope:
         return -1j * self.kinematics.sigma * self.kinematics.normal(self.values(phi, piece)) * self._unit_vectors(phi)
 
     def velocity(self, phi: Floats | float, piece: Indices | int) -> Complexes:
-        """c' [mm/rad]."""
+        """The derivative c' of the centre by the cam angle [mm/rad]."""
         return self.speed(phi, piece) * self.tangent(phi, piece)
 
     def speed(self, phi: Floats | float, piece: Indices | int) -> Floats:
@@ -157,7 +157,7 @@ class Envelope:
 
     @property
     def prime_radius(self) -> float:
-        """r0 [mm]."""
+        """The prime radius r0 [mm]."""
         return self.kinematics.prime_radius
 
     @cached_property

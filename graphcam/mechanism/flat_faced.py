@@ -52,7 +52,7 @@ class FlatFacedKinematics(Kinematics):
         return (one, 0 * one), (0.0, 0.0)
 
     def steepness(self, values: Values) -> Floats:
-        """0."""
+        """The tangent of the pressure angle: 0 under a face."""
         return 0 * values[0]
 
     def sliding(self, values: Values, roller: float) -> tuple[Floats, Floats]:
@@ -79,7 +79,7 @@ class FlatFacedKinematics(Kinematics):
         return -(v + j)
 
     def sharpness(self, values: Values) -> Floats:
-        """-rho [mm]."""
+        """The measure of sharpness: -rho [mm]."""
         return -self.convex_radius(values)
 
     def convex_radius(self, values: Values) -> Floats:
@@ -118,7 +118,7 @@ class FlatFacedKinematics(Kinematics):
 
     @staticmethod
     def radius_of(sharpness: Floats) -> Floats:
-        """rho [mm]."""
+        """The radius of curvature rho [mm] of a sharpness."""
         return -sharpness
 
     def appearance(self, motion: Motion, values: Values) -> Appearance:

@@ -93,7 +93,7 @@ class FollowerTrain:
 
     @property
     def damper(self) -> float:
-        """c [N s/mm]."""
+        """The damping coefficient c [N s/mm]."""
         return 2 * self.damping * self.angular_frequency * self.mass / MM_PER_M
 
     def rise_ratio(self, angle: float, speed_rpm: float) -> float:
@@ -109,7 +109,7 @@ class FollowerTrain:
 
 @dataclass(frozen=True, eq=False)
 class TrainMotion:
-    """How the mass moves at cam angles; every array is shaped like them, derivatives are by the cam angle.
+    """The motion of the mass at cam angles; every array is shaped like them, derivatives are by the cam angle.
 
     phi : rad;  x, v, a : way of the mass [mm], [mm/rad], [mm/rad^2]
     deviation : x less what arrives of the lift at rest, k s/(k + c_s) [mm]
@@ -235,7 +235,6 @@ class VibratingFollower(Plottable):
         train, nu = self.train, self.vibrations
 
         def forcing(phi: Floats) -> Floats:
-            """Of y = x - share s, by the cam angle."""
             _, v, a, _ = self.motion(phi)
             return self._damped * v - train.share * a
 

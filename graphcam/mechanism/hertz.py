@@ -124,7 +124,6 @@ class ContactStress:
     contact: RollerContact
 
     def __repr__(self) -> str:
-        """The parts, and the maximum."""
         try:
             most = self.greatest()
         except DesignError as error:

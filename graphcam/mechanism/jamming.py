@@ -64,7 +64,7 @@ def jamming_margin(cam: Cam, friction: float) -> ValueAt:
     check_friction(friction)
 
     def margin(places: Places) -> Floats:
-        """Its negative: the minimum coefficient is the maximum of these."""
+        """The margin's negative: the minimum coefficient is the maximum of these."""
         return -transmission(cam, places.values, friction)[0]
 
     worst = places_maximum(cam.motion, lambda places: transmission(cam, places.values, friction)[1], margin)
@@ -106,7 +106,7 @@ def most_friction(cam: Cam) -> float:
         return (plain - rubbing) / plain
 
     def slope(places: Places) -> Floats:
-        """Of the sign of its derivative."""
+        """The derivative of the coefficient, right in sign alone."""
         (plain, plain_slope), (held, held_slope) = (transmission(cam, places.values, mu) for mu in (0.0, 1.0))
         return held * plain_slope - held_slope * plain
 

@@ -182,7 +182,7 @@ class Kinematics(ABC):
 
     @abstractmethod
     def sliding(self, values: Values, roller: float) -> tuple[Floats, Floats]:
-        """How fast the cam slides past a follower whose roller does not turn [mm/rad], and that by phi."""
+        """The velocity of the cam past a follower whose roller does not turn [mm/rad], and its derivative by phi."""
 
     def tipping(self, values: Values, friction: float, roller: float) -> tuple[Floats, Floats]:
         """The moment of a unit normal force with its friction about trace point or middle of the face, and its slope.
@@ -289,7 +289,7 @@ class RollerKinematics(Kinematics):
         return found
 
     def outwards(self, values: Values) -> tuple[Any, Any]:
-        """1/cos(alpha) and tan(alpha)."""
+        """The secant 1/cos(alpha) and the tangent of the pressure angle."""
         steep = self.steepness(values)
         return np.sqrt(1 + steep * steep), steep
 
@@ -342,7 +342,7 @@ class RollerKinematics(Kinematics):
         return bent / (squared * np.sqrt(squared)), np.subtract(bent1 * squared, 3 * bent * half)
 
     def sharpness(self, values: Values) -> Floats:
-        """kappa [1/mm]."""
+        """The measure of sharpness: the curvature kappa [1/mm]."""
         return self.curvature(values)
 
     def relative_radius(self, values: Values, roller: Any) -> tuple[Floats, Floats]:

@@ -89,7 +89,6 @@ class Side(NamedTuple):
         return found
 
     def _touches_beside(self, line: HalfPlane, k: int) -> bool:
-        """Whether a line touches beside the k-th place."""
         if line.touch is None or line.touch.side is not self:
             return False
         w = self.legs.w
@@ -328,7 +327,6 @@ class _Arc:
     distance: float
 
     def point(self, psi0: float) -> complex:
-        """R at that angle."""
         return (self.distance - self.arm) + 2j * self.distance * math.sin(psi0 / 2) * cmath.exp(0.5j * psi0)
 
     def first(self, lines: Sequence[HalfPlane]) -> NearestPoint:

@@ -58,13 +58,13 @@ KNOT_DENSITY_SAMPLES = 129
 MAX_SPACING_GROWTH = 1.0
 """How many mm the distance of two knots may grow over a mm of the profile."""
 TINY_DERIVATIVE = 1e-30
-"""In place of a derivative of zero."""
+"""A derivative of zero is replaced by this."""
 PROBE_FRACTIONS = np.arange(16) / 16
 """Where from one knot to the next the spline is fitted and measured: at the knots and in the middles it errs most."""
 GAUSS_NODES, GAUSS_WEIGHTS = (0.5 * x for x in np.polynomial.legendre.leggauss(4))
-"""Of Gauss, for the arc length from one probe to the next."""
+"""The nodes and weights of Gauss for the arc length from one probe to the next."""
 LEAST_SQUARES_CONSTANTS = {2: 124.0, 3: 720.0, 4: 4900.0, 5: 30240.0}
-"""By degree p, of least squares with even knots: the error is d h^(p+1) over this, d the derivative p + 1.
+"""Constants of least squares with even knots, by degree p: the error is d h^(p+1) over this, d the derivative p + 1.
 
 Its reciprocal is the maximum value of Bernoulli's polynomial over (p + 1)!.
 """
@@ -137,7 +137,7 @@ class ProfileSpline:
         return f"ProfileSpline of degree {self.degree}, {size}; .knots, .control"
 
     def __call__(self, at: ArrayLike, derivative: int = 0) -> Floats:
-        """(..., 2) the points, or a derivative by the parameter, at parameters from 0 to ``knots[-1]``."""
+        """The points (..., 2), or a derivative by the parameter, at parameters from 0 to ``knots[-1]``."""
         from scipy.interpolate import BSpline
 
         return BSpline(self.knots, self.control, self.degree)(np.asarray(at, dtype=np.float64), nu=derivative)
@@ -285,14 +285,14 @@ def _best_with_points(
 
 
 def _fewest_points(stretches: list[_Stretch], smooth: list[bool]) -> int:
-    """The control points of the splines with the fewest parts."""
+    """The number of control points of the splines with the fewest parts."""
     least = sum(stretch.size(stretch.min_parts * len(stretch.spans)) for stretch in stretches)
     # Where two stretches meet smoothly the ends of both are given away, at a corner one.
     return least - sum(2 if joint else 1 for joint in smooth[:-1])
 
 
 def _shared_parts(wants: Floats, fewest: NDArray[np.int64], more: int) -> NDArray[np.int64]:
-    """So many parts more than the fewest, each where it is wanted most."""
+    """The numbers of parts of the pieces: the fewest, and ``more`` in all, each given where it is wanted most."""
     counts = fewest.copy()
     for _ in range(more):
         counts[np.argmax(wants / counts)] += 1

@@ -349,7 +349,6 @@ def _primary(solved: DrivenOscillators) -> Floats:
     cell, tau = solved.places()
 
     def quantity(who: Which, cell: NDArray[np.intp], tau: Floats) -> tuple[Floats, Floats]:
-        """x'' and x''' at places of cells."""
         y, y1, g = solved.values(who, cell, tau)
         a = _acceleration(oscillator, y, y1, who)
         return a, _acceleration(oscillator, y1, g + a, who)

@@ -75,12 +75,11 @@ class Sensitivities:
         return {name: np.array([by.value, by.slope, by.bend]) for name, by in lifted.items()}
 
     def _by_lift(self, found: dict[str, Floats]) -> dict[str, Floats]:
-        """Per lift instead of per part of it."""
         return found | {"lift": found["lift"] / self.cam.motion.lift}
 
 
 def sensitivities(cam: Cam) -> Sensitivities:
-    """How pressure angle, curvature and motion of a cam change with its sizes.
+    """The changes of pressure angle, curvature and motion of a cam with its sizes.
 
     On a flank with the pressure angle alpha an error of the profile displaces the follower by 1/cos(alpha) times its
     size, one of the offset by tan(alpha) times its size.
@@ -165,7 +164,6 @@ def radius_sensitivity(
 def _holding_places(
     motion: Motion, kin: Kinematics, active: Sequence[str], limits: Mapping[str, float | None]
 ) -> Iterator[_HoldingPlace]:
-    """The places that hold the minimum radius."""
     for name, direction in (("rise", 1.0), ("return", -1.0)):
         if name in active:
             towards = direction * kin.leaning

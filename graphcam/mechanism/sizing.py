@@ -89,7 +89,7 @@ def _error(problem: SizingProblem, near: Sizes, names: list[str], why: Words) ->
 
 
 def _limit_values(problem: SizingProblem, near: Sizes, name: str) -> tuple[Caption, Caption]:
-    """What the cam has of a limit, and what is permitted."""
+    """The cam's value of a limit, and the permitted one, as captions."""
     limits = problem.limits
     if name in (RISE_LIMIT, RETURN_LIMIT):
         permitted = limits.rise if name == RISE_LIMIT else limits.return_ or math.inf
@@ -115,7 +115,7 @@ def _limit_values(problem: SizingProblem, near: Sizes, name: str) -> tuple[Capti
 
 @dataclass(frozen=True, repr=False)
 class SizedCam:
-    """The best cam.
+    """The best cam of a sizing problem, with its widths, its extremes and the limits that bind.
 
     cam : with its prime radius and roller;  offset : of its follower [mm]
     face_width : of its face [mm];  least_width : the minimum that the stress permits, whatever its range [mm]
@@ -401,7 +401,7 @@ def feasible_region(problem: SizingProblem, parts: int = 60) -> FeasibleRegion:
     width = tried if across == "face width" else problem.face_width[1]
 
     def left(radius: Floats) -> dict[str, Floats]:
-        """Of every limit with the best roller, and of all together."""
+        """The margin of every limit with the best roller, and of all together."""
         sizes = problem.sizes(radius[:, None, None], offset, roller, width)
         worst = {name: margin.min(axis=-1) for name, margin in problem.margins(places, sizes).items()}
         together = np.minimum.reduce(np.broadcast_arrays(*worst.values()))

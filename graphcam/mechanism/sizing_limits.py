@@ -186,19 +186,19 @@ def margins(limits: SizingLimits, places: TurnPlaces, sizes: Sizes, sigma: int) 
     at = Bearing.of(limits, places, sizes, sigma)
 
     def angle(permitted: float | None, direction: int) -> Floats:
-        """What is left (..., n) of a permitted pressure angle [rad] where the motion has that direction."""
+        """The margin (..., n) of a permitted pressure angle [rad] where the motion has that direction."""
         if permitted is None:
             return np.full_like(at.steepness, np.inf)
         return np.where(places.direction == direction, 1 - at.steepness / math.tan(permitted), np.inf)
 
     def roller(term: Candidate) -> Floats:
-        """What is left (..., n) of what a term of the rule permits."""
+        """The margin (..., n) of one term of the rule."""
         if term.of == "rho":
             return 1 - (sizes.roller + term.margin) * at.kappa / term.factor
         return 1 - sizes.roller / (term.factor * sizes.radius) + np.zeros_like(at.kappa)
 
     def rule(of: str) -> Floats:
-        """What is left (..., n) of all terms of a kind."""
+        """The smallest margin (..., n) of all terms of a kind."""
         terms = [term for term in (*limits.rule, NO_UNDERCUT_RULE) if term.of == of]
         return np.minimum.reduce([roller(term) for term in terms]) if terms else np.full_like(at.kappa, np.inf)
 

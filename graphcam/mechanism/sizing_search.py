@@ -155,7 +155,6 @@ def _solve(
     count, room = int(np.count_nonzero(free)), goal == "room"
 
     def sizes(t: Floats) -> Sizes:
-        """The sizes with the free ones at parts t (n,) of their ranges."""
         x = low.copy()
         x[free] += t[:count] * (high - low)[free]
         return problem.sizes(*map(float, x))
@@ -176,11 +175,9 @@ def _solve(
         bounds, slope = [(0.0, 1.0)] * count + [(None, None)], -np.eye(count + 1)[count]
 
     def sought(t: Floats) -> float:
-        """What is to be least."""
         return float(slope @ t)
 
     def sought_slope(_: Floats) -> Floats:
-        """Its derivative."""
         return slope
 
     kept, options = {"type": "ineq", "fun": left}, {"ftol": 1e-14, "maxiter": 200}

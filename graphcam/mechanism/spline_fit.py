@@ -134,5 +134,4 @@ def solve_banded(bands: Floats, right: Floats) -> Floats:
 
 
 def _sums_by_number(numbers: Indices, values: Floats, size: int) -> Floats:
-    """The values, summed up for each number."""
     return np.bincount(numbers.ravel(), values.ravel(), size).astype(np.float64)

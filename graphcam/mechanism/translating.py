@@ -24,7 +24,7 @@ class TranslatingKinematics(RollerKinematics):
 
     @classmethod
     def of(cls, sizes: Translating, prime_radius: Any, sigma: Any, lift: Any) -> Self:
-        """With the follower's offset."""
+        """The kinematics with the follower's offset."""
         return cls(sigma, prime_radius, sizes.offset)
 
     def check(self) -> None:
@@ -63,7 +63,7 @@ class TranslatingKinematics(RollerKinematics):
         return self.s0 + s, v - self.sigma * self.offset
 
     def steepest(self, lift: Any, speed: Any) -> Any:
-        """(|v| + |e|)/s0."""
+        """The bound (|v| + |e|)/s0 of the pressure angle's tangent."""
         return (speed + np.abs(self.offset)) / self.s0
 
     def bend(self, values: Values) -> tuple[Pair, Pair]:
@@ -90,7 +90,7 @@ class TranslatingKinematics(RollerKinematics):
         return height - self.s0, v, (squared + v * across - bent) / height
 
     def seen_by_sizes(self, values: Values) -> dict[str, tuple[Pair, Pair]]:
-        """Of q = s0 + s + i (v - sigma e), with s0^2 = r0^2 - e^2; g = v and h = a."""
+        """The derivatives of q = s0 + s + i (v - sigma e) by the sizes, s0^2 = r0^2 - e^2, with g = v and h = a."""
         s, v, a, _ = values
         straight: Pair = 0.0, 0.0
         by_r0: Pair = self.prime_radius / self.s0, 0.0

@@ -260,7 +260,6 @@ def _sides_that_cross(points: Complexes, arc: Indices) -> tuple[Indices, Indices
 
 
 def _ends_on_both_sides(points: Complexes, i: Indices, j: Indices) -> NDArray[np.bool_]:
-    """Whether the ends of the sides j lie on both sides of the sides i."""
     side = points[i + 1] - points[i]
     return (cross(side, points[j] - points[i]) >= 0) != (cross(side, points[j + 1] - points[i]) >= 0)
 

@@ -215,7 +215,6 @@ def _named_sizes(chain: Chain, radius: float, place: float) -> Words:
 
 
 def _key(name: str, value: float) -> Caption:
-    """A key of the task file with its value."""
     return say("{key} = {value:g}", key=name, value=value)
 
 

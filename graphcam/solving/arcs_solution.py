@@ -51,7 +51,7 @@ class ArcsSolution(ShownSolution):
 
     @property
     def cam(self) -> ThreeArcCam:
-        """The sound root."""
+        """The cam of the sound root."""
         return self.roots[0]
 
     @property
@@ -61,7 +61,7 @@ class ArcsSolution(ShownSolution):
 
     @cached_property
     def comparison(self) -> ArcsComparison:
-        """Drawn against exact."""
+        """The comparison of the drawn quantities with the exact ones."""
         return ArcsComparison(self.chain, self.cam, self.motion)
 
     @property
@@ -162,7 +162,7 @@ def solve_arcs(
 
 
 def _extent(roots: Sequence[ThreeArcCam], outer: float) -> complex:
-    """How wide + i high a circle about the cam centre and the centres of the arcs of all roots are [mm]."""
+    """The width + i height [mm] of a circle about the cam centre and of the arcs' centres of all roots."""
     centres = np.array([getattr(root, name) for root in roots for name in ("C1", "C2", "C3")])
     centres = centres[np.isfinite(centres).all(axis=1)]
     low, high = np.minimum(centres.min(axis=0), -outer), np.maximum(centres.max(axis=0), outer)

@@ -57,15 +57,15 @@ class DiagramRoom:
 
 @dataclass(frozen=True, eq=False)
 class DrawnHeights:
-    """How high the diagrams of a motion come out, by the ordinate of the first rise and the poles [mm of paper].
+    """The heights of a motion's diagrams [mm of paper], by the ordinate of the first rise and the poles.
 
     >>> from math import pi
     >>> import graphcam as gc
     >>> slow, steep = gc.Return(30, 4 * pi / 3, "3-4-5"), gc.Return(30, pi / 4, "3-4-5")
     >>> room, page = DiagramRoom(2.0, a=90.0, v=75.0, s=40.0), DiagramRoom(2.0, a=162.0, v=162.0, s=162.0)
-    >>> DrawnHeights(gc.Motion([gc.Rise(30, 2 * pi / 3, "3-4-5"), slow]), 2.0).chosen(room, page)
+    >>> DrawnHeights(gc.Motion([gc.Rise(30, 2 * pi / 3, "3-4-5"), slow]), 2.0).choose(room, page)
     (40.0, (20.0, 40.0))
-    >>> DrawnHeights(gc.Motion([gc.Rise(30, 7 * pi / 4, "3-4-5"), steep]), 2.0).chosen(room, page)
+    >>> DrawnHeights(gc.Motion([gc.Rise(30, 7 * pi / 4, "3-4-5"), steep]), 2.0).choose(room, page)
     (1.5, (12.0, 15.0))
     """
 
@@ -168,13 +168,12 @@ def over_the_turn(motion: Motion) -> tuple[Floats, Floats, Floats]:
 
 
 def _places(motion: Motion) -> tuple[NDArray[np.intp], Floats]:
-    """Phases and fractions of them."""
+    """The phases, and fractions of them, at which the heights are taken."""
     phase, u = np.meshgrid(np.arange(len(motion.phases)), np.linspace(0.0, 1.0, PHASE_SAMPLES), indexing="ij")
     return phase.ravel(), u.ravel()
 
 
 def _height(values: Floats) -> float:
-    """The height of a whole diagram, with its axis."""
     return float(max(0.0, values.max()) - min(0.0, values.min()))
 
 

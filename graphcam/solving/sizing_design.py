@@ -208,7 +208,7 @@ def _smallest(problem: SizingProblem, radius: float, offset: float, roller: floa
 
 
 def _problem(task: Task, table: SizingTable) -> SizingProblem:
-    """What a task asks for."""
+    """The sizing problem that a task asks for."""
     follower, material, spring, speed = task.follower, task.material, task.spring, task.speed_rpm
     assert isinstance(spring, SpringTable)
     assert material is not None

@@ -35,7 +35,7 @@ from graphcam.words import Tell, say
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Solution(ShownSolution):
-    """A solved task.
+    """A solved task: its drawing and its exact cam.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class Solution(ShownSolution):
 
     @cached_property
     def comparison(self) -> Comparison:
-        """Drawn against exact."""
+        """The comparison of the drawn quantities with the exact ones."""
         return Comparison(self.chain, self.cam)
 
     @cached_property

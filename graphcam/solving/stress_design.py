@@ -179,7 +179,6 @@ class StressDesign:
 
     @property
     def _caption(self) -> Caption:
-        """What is said of the diagram."""
         limit = self.material.permitted_stress
         if limit is None:
             return STRESS_CAPTION
@@ -221,7 +220,6 @@ class StressDesign:
         return Table(say("Contact stress"), (say("quantity"), say("value"), ""), rows, found)
 
     def _results(self) -> Iterator[Row]:
-        """The rows of what was found."""
         if self.max_stress is None or (at := self.contact) is None:
             yield say("maximum stress"), say("none"), NO_STRESS_REASONS[str(self.no_stress_reason)]
             return
@@ -261,7 +259,6 @@ def _stretches_above(curve: TurnCurve, limit: float) -> Iterator[tuple[float, fl
     last = curve.phi.size - 1
 
     def crossing(before: int, after: int) -> float:
-        """Where the curve crosses the limit between two of its points; beside them there is none."""
         if not (before >= 0 and after <= last):
             return float(curve.phi[min(max(before, 0), last)])
         share = over[before] / (over[before] - over[after])

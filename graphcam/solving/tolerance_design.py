@@ -108,7 +108,7 @@ class ToleranceDesign:
 
     @property
     def quantities(self) -> tuple[QuantityUnits, QuantityUnits, QuantityUnits]:
-        """How s, v and a are told."""
+        """The names and units in which s, v and a are told."""
         return QUANTITIES_BY_UNIT[self.chain.board.follower.unit]
 
     @property

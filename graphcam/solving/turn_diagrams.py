@@ -146,7 +146,6 @@ def plain_place(found: ValueAt, unit: str) -> dict[str, float | str]:
 
 
 def _number_stretches(points: np.ndarray) -> list[np.ndarray]:
-    """The stretches of points that are numbers, of two at least."""
     known = np.flatnonzero(np.isfinite(points))
     runs = np.split(known, np.flatnonzero(np.diff(known) > 1) + 1)
     return [points[run] for run in runs if run.size > 1]

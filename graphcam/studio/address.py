@@ -115,7 +115,6 @@ def _no_address(address: str) -> DesignError:
 
 
 def _unpacked(address: str) -> dict[str, Any]:
-    """The table in an address."""
     if not address.startswith(VERSION_PREFIX) or len(address) > MAX_LENGTH:
         raise _no_address(address)
     packed = address.removeprefix(VERSION_PREFIX)

@@ -39,7 +39,6 @@ def angle_foretold(chain: Chain) -> Prediction:
     answer = centre + cmath.rect(radius, math.pi / 2 + sigma * greatest)
 
     def judged(guess: complex) -> JudgedGuess:
-        """Of a ray to there."""
         lean = sigma * (cmath.phase(guess - centre) - math.pi / 2)
         difference = math.degrees(lean - greatest)
         paper = abs(complex(ends[k]) - centre) * abs(lean - greatest)
@@ -55,7 +54,6 @@ def angle_foretold(chain: Chain) -> Prediction:
 
 
 def _rising_stations(chain: Chain) -> NDArray[np.bool_]:
-    """Flags of the stations at which the follower rises."""
     return np.array([chain.board.motion.phases[k].direction > 0 for k in chain.board.stations.phase])
 
 
@@ -77,7 +75,6 @@ def _by_degrees(difference: float, lean: float, paper: float) -> Caption:
 
 
 def _outermost(chain: Chain, k: int) -> Caption:
-    """The outermost ray, and what it is made of."""
     measured = chain.pressure_angle
     end = complex(measured.acts["ends"].first.shown[k]) - complex(measured.first("centre"))
     said = say(
@@ -104,7 +101,6 @@ def steepest_foretold(chain: Chain) -> Prediction:
         return complex(x, float(np.interp(x, curve.real[rising], curve.imag[rising])))
 
     def judged(guess: complex) -> JudgedGuess:
-        """Of a place over that cam angle."""
         difference, paper = (guess.real - top.real) * per_mm, abs(guess.real - top.real)
         beside = {ANGLE.name: (guess.real + 0j, top.real + 0j)}
         said, why = _by_phi(difference, guess.real * per_mm, paper), _where_steep(chain, guess.real, curve, rising)

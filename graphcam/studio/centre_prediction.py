@@ -43,7 +43,6 @@ def centre_foretold(chain: Chain) -> Prediction:
     mu = region.readings["prime_radius"].per_mm
 
     def judged(guess: complex) -> JudgedGuess:
-        """Of a cam centre there."""
         radius = abs(guess - origin) * mu
         difference = radius - abs(answer - origin) * mu
         near = abs(guess - answer) <= PENCIL_LINE
@@ -101,7 +100,6 @@ def _way(chain: Chain, answer: complex, origin: complex) -> tuple[Points, bool]:
 
 
 def _line_downwards(length: float) -> Points:
-    """A line down from the origin."""
     return np.linspace(0.0, -length, 6) * np.complex128(UP)
 
 

@@ -85,7 +85,7 @@ def drawn_view(
     tell: Tell,
     held: HeldView | None,
 ) -> DrawnView:
-    """Draw a view.
+    """The view that is asked for, drawn from the steps.
 
     constructions : those that draw in it, and those that settle its scale
     paper : the lettering of the sheet

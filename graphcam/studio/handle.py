@@ -145,7 +145,7 @@ def snapped(
 
 
 def phi_axis(phi: float, screen: str = "x") -> HandleAxis:
-    """The cam angle."""
+    """The axis of a handle that sets the cam angle [degrees]."""
     return HandleAxis("phi", say("Cam angle φ"), "°", phi, TURN_RANGE, screen)
 
 
@@ -204,7 +204,6 @@ def point_on_curve(view: str, places: str, solution: Solution, state: HandleStat
     ends = np.asarray(solution.chain["pressure_angle"].first(places))
 
     def drag(to: complex, fine: bool) -> Changes:
-        """The cam angle of the nearest station."""
         return {"phi": in_degrees(stations.phi[nearest_station(ends, to)])}
 
     at = over_stations(stations, math.radians(state.phi), ends)

@@ -106,7 +106,6 @@ def dragged_within(
 
 
 def _handle(solution: AnySolution, drag: Mapping[str, Any], state: HandleState) -> Handle:
-    """The handle that is dragged."""
     name = str(drag.get("handle"))
     for handle in _of_view(solution, name.split("/")[0], state):
         if handle.id == name and math.isfinite(abs(handle.at)):
@@ -115,7 +114,7 @@ def _handle(solution: AnySolution, drag: Mapping[str, Any], state: HandleState) 
 
 
 def _place(to: Any) -> complex:
-    """A place of the page, y upwards."""
+    """A place of the page as a complex number, y upwards."""
     try:
         x, y = (float(coordinate) for coordinate in to)
     except (TypeError, ValueError):
@@ -194,8 +193,6 @@ VIEW_HANDLES: dict[str, tuple[str, Callable[[Solution, HandleState], Iterator[Ha
 
 
 def _cam_handle(state: HandleState) -> Handle:
-    """The cam itself, which the page turns."""
-
     def drag(to: complex, fine: bool) -> Changes:
         """The page knows how far it was turned."""
         return {}

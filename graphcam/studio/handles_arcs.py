@@ -48,7 +48,6 @@ def points(solution: ArcsSolution) -> Iterator[Handle]:
         freed = dict.fromkeys(must_agree(solution.task.arcs, name))
 
         def drag(to: complex, fine: bool, name: str = name, freed: Changes = freed) -> Changes:
-            """Both coordinates."""
             room = rooms[f"arcs.{name}[0]"]
             return {f"arcs.{name}": [snapped(x * mu, room, fine=fine) for x in (to.real, to.imag)], **freed}
 
@@ -70,7 +69,6 @@ def first_arc(solution: ArcsSolution) -> Iterator[Handle]:
     freed = dict.fromkeys(must_agree(given, "rho1"))
 
     def drag(to: complex, fine: bool) -> Changes:
-        """The radius."""
         return {"arcs.rho1": snapped(((to - end) * towards.conjugate()).real * mu, room, fine=fine), **freed}
 
     axis = HandleAxis("arcs.rho1", RHO_NAME, "mm", given.rho1, room, "x", {"first": freed, "sign": -1})
@@ -87,7 +85,6 @@ def roller(solution: ArcsSolution, state: HandleState) -> Iterator[Handle]:
     out, base = start / abs(start), abs(start) - radius / mu
 
     def drag(to: complex, fine: bool) -> Changes:
-        """The cam angle of the nearest station."""
         return {"phi": in_degrees(phi[nearest_station(places, to)])}
 
     def widened(to: complex, fine: bool) -> Changes:

@@ -103,11 +103,10 @@ def of_region(solution: Solution, state: HandleState) -> Iterator[Handle]:
 
 
 def _cam_centre(solution: Solution) -> Iterator[Handle]:
-    """Centre distance and prime radius in one."""
+    """The handle that sets centre distance and prime radius in one."""
     free, chain = places_of(solution), solution.chain
 
     def drag(to: complex, fine: bool) -> Changes:
-        """Both sizes."""
         distance, radius = free.sizes(to, fine=fine)
         return {"follower.distance": distance, "cam.prime_radius": radius}
 
@@ -127,7 +126,6 @@ def _arm_at_rest(solution: Solution) -> Iterator[Handle]:
     room = arms(solution)
 
     def drag(to: complex, fine: bool) -> Changes:
-        """The arm's length."""
         return {"follower.arm": snapped(-to.real * mu, room, fine=fine), **_fixed_sizes(solution)}
 
     axis = HandleAxis("follower.arm", ARM, "mm", arm, room, "x", {"sign": -1})
@@ -164,7 +162,6 @@ def _pivot(solution: Solution) -> Iterator[Handle]:
     room = third_side(arm, chain.prime_radius, step_for(lift_of(solution)))
 
     def drag(to: complex, fine: bool) -> Changes:
-        """The centre distance; the prime radius stays."""
         distance = snapped(to.real * mu, room, fine=fine)
         return {"follower.distance": distance, "cam.prime_radius": chain.prime_radius}
 

@@ -34,7 +34,6 @@ def borders(solution: Solution, view: str) -> Iterator[Handle]:
         total, start = first.angle + second.angle, ends[k] * degrees
 
         def drag(to: complex, fine: bool, start: float = start, total: float = total, paths: tuple[str, ...] = paths):
-            """The angles of both phases."""
             angle = border_angle(to.real * degrees, start, total, fine=fine)
             return {paths[0]: angle, paths[1]: round(total - angle, 9)}
 
@@ -66,7 +65,6 @@ def ordinate(solution: Solution) -> Iterator[Handle]:
     room = ranges(solution)["drawing.ordinate"]
 
     def drag(to: complex, fine: bool) -> Changes:
-        """The ordinate as high as the hand is."""
         return {"drawing.ordinate": snapped(to.imag, room, fine=fine)}
 
     axis = HandleAxis(
@@ -116,7 +114,6 @@ def limits(solution: Solution) -> Iterator[Handle]:
         at = complex(math.degrees(motion.starts[k]) / mu, side * given / per_mm)
 
         def drag(to: complex, fine: bool, side: int = side, room: SizeRange = room, path: str = path) -> Changes:
-            """The angle as far from the axis as the hand is."""
             return {path: snapped(side * to.imag * per_mm, room, fine=fine)}
 
         reached = abs(math.degrees(float(chain["angle_diagram"].value(f"max_{way}"))))
@@ -133,14 +130,13 @@ def cursor(solution: Solution | ArcsSolution, view: str, state: HandleState) -> 
     height = curve_height(solution, view, math.radians(state.phi))
 
     def drag(to: complex, fine: bool) -> Changes:
-        """The cam angle under the hand."""
         return {"phi": snapped(to.real * degrees, phi_axis(0.0).range, fine=fine)}
 
     yield Handle(view, "phi", CURSOR_NAME, complex(state.phi / degrees, height), "x", (phi_axis(state.phi),), drag)
 
 
 def curve_height(solution: Solution | ArcsSolution, view: str, phi: float) -> float:
-    """How high a curve stands over the axis at a cam angle [rad], from its stations [mm of paper]."""
+    """The height [mm of paper] of a curve over the axis at a cam angle [rad], from its stations."""
     if isinstance(solution, ArcsSolution):
         drawn = solution.chain["arc_diagrams"].first(READING_NAMES.get(view, "alpha"))
         # Only the rise is drawn.

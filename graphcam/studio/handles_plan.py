@@ -24,7 +24,6 @@ def station(solution: Solution) -> Iterator[Handle]:
     places = _ends(solution, shown)
 
     def drag(to: complex, fine: bool) -> Changes:
-        """The number of the station."""
         return {"station": int(possible[nearest_station(places[possible], to)])}
 
     room = SizeRange(float(possible[0]), float(possible[-1]), 1.0)

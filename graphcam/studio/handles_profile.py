@@ -72,7 +72,6 @@ def offset_circle(solution: Solution) -> Iterator[Handle]:
     mu, offset, room = scale_of(solution), solution.chain.place, ranges(solution)["follower.offset"]
 
     def drag(to: complex, fine: bool) -> Changes:
-        """The offset, with its sign."""
         return {"follower.offset": snapped(to.real * mu, room, fine=fine)}
 
     axis = HandleAxis("follower.offset", say("Offset e"), "mm", offset, room, "x")
@@ -114,7 +113,6 @@ def pitch_point(solution: Solution, state: HandleState) -> Iterator[Handle]:
     pitch = solution.chain["inversion"].first("pitch")
 
     def drag(to: complex, fine: bool) -> Changes:
-        """The cam angle of the nearest station."""
         return {"phi": in_degrees(stations.phi[nearest_station(pitch, to)])}
 
     at = pitch_at(solution, math.radians(state.phi))

@@ -114,7 +114,6 @@ def cam_centre(solution: Solution) -> Iterator[Handle]:
     offset, radius = chain.place, chain.prime_radius
 
     def drag(to: complex, fine: bool) -> Changes:
-        """Both sizes."""
         e, r0 = free.sizes(to, fine=fine)
         return {"follower.offset": e, "cam.prime_radius": r0}
 
@@ -200,7 +199,6 @@ def flat_point(solution: Solution, state: HandleState) -> Iterator[Handle]:
     after, before = (integrated.first("s") * UP + times * integrated.first(name) for name in ("a", "a_before"))
 
     def drag(to: complex, fine: bool) -> Changes:
-        """The cam angle of the nearest station."""
         count = stations.phi.size
         return {"phi": in_degrees(stations.phi[nearest_station([*after, *before], to) % count])}
 

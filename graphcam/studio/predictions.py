@@ -173,7 +173,6 @@ def _plain_step(shown: ShownStep, tell: Tell) -> dict[str, str]:
 
 
 def _judged(asked: Prediction, guess: complex, tell: Tell) -> dict[str, Any]:
-    """What is said of a guess."""
     place = asked.on_the_way(guess)
     found: JudgedGuess = asked.judge(place)
     finite = abs(found.machine) < MAX_DISTANCE

@@ -84,7 +84,6 @@ def _is_used(path: PurePosixPath) -> bool:
 
 
 def _of_wheel(content: bytes) -> Iterator[tuple[str, bytes]]:
-    """The files of a wheel."""
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
         for name in archive.namelist():
             if not name.endswith("/"):
@@ -166,7 +165,6 @@ def _contents(folder: Path) -> Iterator[tuple[str, bytes]]:
 
 
 def _packed(package: Path) -> Iterator[tuple[str, bytes]]:
-    """The files that matter of one package."""
     with tarfile.open(package) as archive:
         for member in archive:
             name = member.name.rpartition("/")[2]
@@ -185,7 +183,6 @@ def _own_sums(found: Mapping[str, bytes]) -> dict[str, str]:
 
 
 def _check(folder: Path, name: str, content: bytes, known: set[str | None]) -> None:
-    """Check that a file is one that is known."""
     found = hashlib.sha256(content).hexdigest()
     if found not in known:
         trusted = sorted(each for each in known if each)

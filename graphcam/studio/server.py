@@ -268,12 +268,10 @@ class _Handler(BaseHTTPRequestHandler):
         self.rfile = io.BufferedReader(self._stream)
 
     def handle_one_request(self) -> None:
-        """Read a request and answer it."""
         self._stream.until = time.monotonic() + REQUEST_SECONDS
         super().handle_one_request()
 
     def do_GET(self) -> None:
-        """Answer a request, or refuse it."""
         try:
             self._answer()
         except RefusedError as error:
@@ -315,7 +313,6 @@ class _Handler(BaseHTTPRequestHandler):
         return {}
 
     def _request(self) -> Mapping[str, Any]:
-        """The request in the body."""
         self.server.gatekeeper.check_token(self.headers)
         check_json(self.headers)
         try:
@@ -327,7 +324,6 @@ class _Handler(BaseHTTPRequestHandler):
         return request
 
     def _body(self) -> bytes:
-        """The body, all of it."""
         length = body_length(self.headers)
         try:
             body = self.rfile.read(length)

@@ -36,7 +36,6 @@ def sharpest_foretold(solution: Solution) -> Prediction:
     places = way[sharp] if sharp.size else way[[np.argmin(np.abs(phi - at))]]
 
     def judged(guess: complex) -> JudgedGuess:
-        """Of a place on the curve."""
         answer = complex(places[np.argmin(np.abs(places - guess))])
         here = int(np.argmin(np.abs(way - nearest_on_polyline(way, guess))))
         paper, difference = abs(guess - answer), float(radii[here]) - least

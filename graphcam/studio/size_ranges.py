@@ -30,7 +30,7 @@ MIN_PHASE_ANGLE = 1.0
 class SizeRange(NamedTuple):
     """The least and the greatest value of a size, and the steps between.
 
-    >>> SizeRange(-10.0, 10.0, 0.5).kept(3.26), SizeRange(-10.0, 10.0, 0.5).kept(12.0)
+    >>> SizeRange(-10.0, 10.0, 0.5).nearest_step(3.26), SizeRange(-10.0, 10.0, 0.5).nearest_step(12.0)
     (3.5, 10.0)
     """
 
@@ -150,7 +150,7 @@ def _usual_range(value: float) -> SizeRange:
 
 
 def _of_spring(solution: Solution, spring: SpringTable | ArmSpringTable) -> dict[str, SizeRange]:
-    """What presses the follower on the cam."""
+    """The ranges of what presses the follower on the cam."""
     preload = spring.preload if spring.preload is not None else _preload(solution)
     found = {
         "spring.stiffness": _usual_range(spring.stiffness),
@@ -251,7 +251,7 @@ def _of_limits(task: Task) -> dict[str, SizeRange]:
 
 
 def _of_drawing(solution: Solution) -> dict[str, SizeRange]:
-    """The choices of the draughtsman."""
+    """The ranges of the draughtsman's choices."""
     board = solution.chain.board
     most = round_up(1.25 * board.ordinate)
     step = min(1.0, step_for(most))

@@ -221,7 +221,7 @@ def _lift_unit(make: FieldMaker, solution: Solution) -> str:
 
 
 def _follower(make: FieldMaker, solution: Solution) -> Iterator[Field]:
-    """The follower, its sizes, and the prime radius."""
+    """The fields of the follower, its sizes, and the prime radius."""
     sizes, chain = sizes_of(solution.task), solution.chain
     kinds = make.choice("follower.kind", FOLLOWER, say("Kind of follower"), ())
     yield kinds | {"choices": kind_choices(solution, make.tell)}
@@ -256,7 +256,7 @@ def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:
 
 
 def _spring(make: FieldMaker, spring: SpringDesign) -> Iterator[Field]:
-    """What presses the follower on the cam."""
+    """The fields of what presses the follower on the cam."""
     load, (_, preload, stiffness) = spring.load, spring.units
     yield make.number("spring.inertia" if isinstance(load, ArmLoad) else "spring.mass")
     yield make.number("spring.stiffness") | {"unit": make.unit(stiffness)}
@@ -270,7 +270,7 @@ def _spring(make: FieldMaker, spring: SpringDesign) -> Iterator[Field]:
 
 
 def _drawing(make: FieldMaker, solution: Solution) -> Iterator[Field]:
-    """The choices of the draughtsman."""
+    """The fields of the draughtsman's choices."""
     board = solution.chain.board
     yield make.number("drawing.divisions")
     yield make.open_number("drawing.ordinate", board.ordinate)
@@ -279,7 +279,7 @@ def _drawing(make: FieldMaker, solution: Solution) -> Iterator[Field]:
 
 
 def _sheet(make: FieldMaker) -> Iterator[Field]:
-    """The hand, and what the sheet is."""
+    """The fields of the drawing error and of the sheet."""
     yield make.number("pencil")
     yield make.choice("drawing.format", DRAWING, say("Format"), [(each, each) for each in get_args(Format)])
     yield make.choice("drawing.frame", DRAWING, say("Frame"), [(each, FRAME_NAMES[each]) for each in get_args(Frame)])

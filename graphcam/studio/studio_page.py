@@ -262,7 +262,6 @@ def _shared_script(name: str) -> Markup:
 
 
 def _page_file(room: str, name: str) -> Markup:
-    """A file of a page, as it is."""
     from markupsafe import Markup
 
     return Markup((files("graphcam") / "data" / room / name).read_text(encoding="utf-8"))

@@ -45,7 +45,6 @@ def nearest_built_in(task: Task | ArcsTask) -> str:
     kind, measured = task.follower.kind, task.motion.table is not None
 
     def likeness(name: str) -> int:
-        """How much is the same."""
         other = alike[name]
         same = other == task, (other.motion.table is not None) == measured, other.follower.kind == kind
         return sum(2**k * part for k, part in enumerate(reversed(same)))

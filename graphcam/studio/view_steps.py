@@ -226,18 +226,15 @@ def steps_data(known: ViewSteps, views: Collection[str], tell: Tell) -> StepsDat
 
 
 def _part(part: PartText) -> dict[str, Any]:
-    """A part as plain data."""
     pieces = {name: _visible_pieces(getattr(part, name)) for name in ("draws", "lit", "moves")}
     return {"caption": part.caption, "tools": list(part.tools), **pieces, "views": list(part.views)}
 
 
 def _reading(construction: str, reading: ReadingText) -> dict[str, Any]:
-    """A reading as plain data."""
     table = [{**asdict(row), "lit": _visible_pieces(row.lit)} for row in reading.table]
     said = {"title": reading.title, "taken": reading.taken, "value": reading.value}
     return {"id": f"{construction}/{reading.name}", **said, "lit": _visible_pieces(reading.lit), "table": table}
 
 
 def _visible_pieces(pieces: Iterable[list[Any]]) -> Pieces:
-    """The pieces that can be seen."""
     return [piece for piece in pieces if piece[0] >= 0]

@@ -174,7 +174,7 @@ def sweep_answer(data: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _places(data: Mapping[str, Any], room: SizeRange, solution: AnySolution) -> list[float]:
-    """The values of the size."""
+    """The values that the size takes."""
     first = number(data, "from", room.least, -MAX_SIZE, MAX_SIZE)
     last = number(data, "to", room.most, -MAX_SIZE, MAX_SIZE)
     count = optional_whole_number(data, "count", DEFAULT_DESIGNS, 2, MAX_DESIGNS) or DEFAULT_DESIGNS

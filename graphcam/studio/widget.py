@@ -178,5 +178,4 @@ class StudioWidget(anywidget.AnyWidget):
             self.task = changed_task(self._start, self.changes)
 
     def _answer_request(self, _: Any, letter: Any, __: Any) -> None:
-        """Answer a request of the page."""
         self.send({"frame": letter.get("frame"), "id": letter.get("id"), "response": answer(letter.get("request", {}))})

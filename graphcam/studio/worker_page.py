@@ -154,7 +154,7 @@ def write_site(folder: Path, pyodide: Path, task: Task | ArcsTask, language: str
 
 
 def _build(contents: dict[str, bytes]) -> str:
-    """The sum of some files."""
+    """The check sum of some files, as a name."""
     total = hashlib.sha256()
     for name, content in contents.items():
         total.update(f"{name} {len(content)}\n".encode() + content)

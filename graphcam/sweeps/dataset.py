@@ -94,7 +94,6 @@ def _csv(path: Path, draft: Path) -> Generator[Write]:
         writer = csv.writer(file)
 
         def write(columns: Columns) -> None:
-            """Add the rows of some designs, after the names of the columns if they are the first."""
             if file.tell() == 0:
                 writer.writerow(columns)
             writer.writerows(zip(*(map(_cell, column.tolist()) for column in columns.values()), strict=True))

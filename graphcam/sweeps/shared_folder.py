@@ -41,7 +41,6 @@ class SharedFolder:
         return SharedFolder(system.unstrip_protocol(path))
 
     def _file_system(self) -> tuple[Any, str]:
-        """The file system, and the folder's path in it."""
         from fsspec.core import url_to_fs
 
         system, path = url_to_fs(self.url)

@@ -67,7 +67,6 @@ class SoughtForce(SoughtQuantity):
         return replace(self, direction=0).reading((level, still, still, still))
 
     def _load(self, values: Values) -> tuple[Floats, Floats]:
-        """The load, and its slope by phi."""
         load = self.swept.load_for(self.kin)
         return load.force(values, self.direction), load.slope(values)
 
@@ -97,7 +96,7 @@ class GreatestNormal(SoughtForce):
     """The normal force [N]."""
 
     def reading(self, values: Values) -> Floats:
-        """N."""
+        """The normal force N [N]."""
         return self._normal(values)
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:
@@ -110,7 +109,7 @@ class LeastNormal(GreatestNormal):
     """The negative normal force [N], which is greatest where the force is least."""
 
     def reading(self, values: Values) -> Floats:
-        """-N."""
+        """The negative normal force -N [N]."""
         return -self._normal(values)
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:

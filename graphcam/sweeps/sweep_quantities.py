@@ -75,7 +75,7 @@ class SoughtBand(SoughtQuantity):
         return type(self)(self.kin.part(which), self.swept)
 
     def reading(self, values: Values) -> Floats:
-        """The half-width."""
+        """The half-width of the band."""
         return position_band(self.kin, self.swept.errors, self.swept.band_half_width, values)
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:
@@ -90,7 +90,7 @@ class Steepness(SoughtQuantity):
     signed = True
 
     def reading(self, values: Values) -> Floats:
-        """tan(alpha)."""
+        """The tangent of the pressure angle."""
         return self.kin.steepness(values)
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:
@@ -170,7 +170,6 @@ class Chunk:
 
     @property
     def _dwells(self) -> tuple[tuple[Floats, Floats], ...]:
-        """The displacements and the angles of the dwells."""
         return (self._lift, self.designs.column("dwell_angle")), (0 * self._lift, self.designs.low_dwell)
 
     @cached_property

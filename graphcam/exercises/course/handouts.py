@@ -137,7 +137,7 @@ def origins(variant: Variant) -> dict[str, str]:
     >>> from graphcam.exercises.definition.exercise_file import find_exercise
     >>> from graphcam.exercises.definition.variant import drawn
     >>> origins(drawn(find_exercise("inversion-translating"), "Anna", b"secret", 0))
-    {'ORIGIN_LAYER': 'profile'}
+    {'ORIGIN': 'profile'}
     """
     chain = board_chain(variant.task)
     drawn = [asked for asked in variant.exercise.answers if asked.kind != "number"]

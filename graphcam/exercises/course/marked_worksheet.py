@@ -279,7 +279,6 @@ class _PageMaker:
     ink: Ink
 
     def code(self, page: int) -> str:
-        """The text of a page's code."""
         exercise = self.variant.exercise
         said = SheetCode(exercise.name, exercise.version, self.student.id, self.variant.draw, page)
         return said.text(self.secret)
@@ -297,7 +296,6 @@ class _PageMaker:
 
     @property
     def lettering(self) -> Lettering:
-        """The heights of letters on this paper."""
         drawing = self.variant.task.drawing
         return Format(drawing.format, drawing.frame, drawing.orientation).lettering
 
@@ -357,7 +355,7 @@ class _PageMaker:
 
     @property
     def owner_captions(self) -> tuple[Caption, ...]:
-        """How a page says whose it is, or how either tile does."""
+        """Captions of whose page it is, or whose either tile is."""
         if self.paper.seam is None:
             return (say("{who}, page {page} of {pages}"),)
         return (

@@ -86,7 +86,6 @@ def captions(paper: MarkedPaper, title: str, whose: Sequence[str]) -> list[Text]
     gaps = paper.gaps_above()
 
     def written(height: float) -> list[Text]:
-        """All of it in letters that are no higher."""
         fields = [
             (k, text)
             for pair, who in zip(paper.captions, whose, strict=True)

@@ -249,7 +249,7 @@ def ids_from(path: str | Path) -> Caption:
 
 
 def _students(rows: list[tuple[int, list[str]]]) -> list[tuple[int, Student]]:
-    """The students, each with the number of its line."""
+    """The students of the rows, each with the number of its line."""
     columns = roster_columns([row for _, row in rows])
     listed = [(line, row) for line, row in rows[bool(columns.heading) :] if len(row) > columns.id]
     return [

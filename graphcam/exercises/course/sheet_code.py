@@ -38,7 +38,7 @@ class SheetCode:
     page: int
 
     def text(self, secret: bytes) -> str:
-        """The code, signed.
+        """The text of the code, signed with the secret.
 
         >>> SheetCode("inversion-arm", 3, "Anna M", 0, 1).text(b"secret")
         'GC1/inversion-arm/3/Anna%20M/0/1/e10609d7'

@@ -27,7 +27,7 @@ MARKED_REACH: Mapping[str, tuple[Mapping[Diagram, tuple[float, float]], float]] 
     "A3": ({"acceleration": (-43.0, 43.0), "velocity": (-44.0, 44.0), "displacement": (0.0, 64.0)}, 45.0),
     "A4": ({"acceleration": (-38.0, 38.0), "velocity": (-42.0, 42.0), "displacement": (0.0, 42.0)}, 30.0),
 }
-"""By format how far the axes reach and how far they begin before the zero, on worksheets that are made to be
+"""The reach of the axes by format, and how far they begin before the zero, on worksheets that are made to be
 photographed: so that the three diagrams stand on one page, one under the other, as parallels are carried over [mm]."""
 CURVE_CLEARANCE = 2.0
 """The gap between a curve that is read off a photograph and the end of its room, mm."""

@@ -37,7 +37,6 @@ def catalogued(said: Caption, takes: str = "") -> Callable[[M], M]:
     """Enter a function into the catalogue."""
 
     def entered(mistake: M) -> M:
-        """Under its own name."""
         CATALOGUE[mistake.__name__.replace("_", "-")] = CatalogueEntry(said, mistake, takes)
         return mistake
 

@@ -31,7 +31,6 @@ def wrong_law(law: str) -> Change:
         raise DesignError("law", law, say("one of the known laws"), nearest(law, LAWS, LAW_SYNONYMS))
 
     def by_law(phase: Phase) -> Phase:
-        """The phase by that law; a dwell has none."""
         return phase if isinstance(phase, Dwell) else type(phase)(phase.lift, phase.angle, law)
 
     return lambda chain: _with_phases(chain, [by_law(phase) for phase in chain.board.motion.phases])
@@ -129,7 +128,6 @@ def pole_forgotten(name: str) -> Change:
     """The scales of v and a without the pole distances in the construction of that name."""
 
     def forgotten(chain: Chain) -> Chain:
-        """The chain with those scales."""
         first, second = chain.board.poles if name == "differentiation" else chain.board.poles[::-1]
         return _wrong_scales(chain, name, (1 / first, 1 / second))
 
@@ -156,7 +154,6 @@ def scale_forgotten(place: str) -> Change:
     name, _, reading = place.partition(".")
 
     def forgotten(chain: Chain) -> Chain:
-        """The chain that goes on from the millimetres themselves."""
         construction = construction_of(chain, name)
         return chain.continued_from(rescaled(construction, reading, np.ones_like(construction.readings[reading].scale)))
 
@@ -191,7 +188,6 @@ def poles_swapped(name: str) -> Change:
     """The diagrams of the construction of that name drawn with each other's pole, and read with the scales given."""
 
     def swapped(chain: Chain) -> Chain:
-        """The chain with those diagrams."""
         drawn = construction_of(redrawn(chain, replace(chain.board, poles=chain.board.poles[::-1])), name)
         for reading in ("v", "a"):
             given = np.asarray(construction_of(chain, name).readings[reading].scale)
@@ -209,7 +205,6 @@ def station_too_late(name: str) -> Change:
     """The ordinate of the next station at every station, in the diagrams of the construction of that name."""
 
     def late(chain: Chain) -> Chain:
-        """The chain that goes on from those ordinates."""
         drawn = construction_of(chain, name)
         read = ("s", "v") if name == "integration" else ("rise", "v")
         for reading in read:

@@ -16,7 +16,7 @@ def format_of(paper: str) -> str:
 
 
 def orientation_of(paper: str) -> str:
-    """How the paper lies: A4 stands, so that the diagrams have room one under the other.
+    """The orientation of a sheet: A4 stands, so that the diagrams have room one under the other.
 
     >>> orientation_of("A4"), orientation_of("A3-tiles")
     ('portrait', 'landscape')

@@ -62,7 +62,7 @@ class MarksPolicy:
         """The part of all marks that is left with one of these mistakes, the benefit of the doubt given.
 
         >>> policy = MarksPolicy(caps={"offset-sign": 0.5})
-        >>> policy.most(["offset-sign"]), policy.most(["offset-sign", "base-circle"]), policy.most([])
+        >>> policy.max_share(["offset-sign"]), policy.max_share(["offset-sign", "base-circle"]), policy.max_share([])
         (0.5, 1.0, 1.0)
         """
         return max((self.caps.get(name, 1.0) for name in mistakes), default=1.0)

@@ -73,7 +73,7 @@ def _filled_template(node: Any, parameters: Mapping[str, Value], path: str) -> A
 
 @dataclass(frozen=True)
 class Variant:
-    """One student's exercise.
+    """One student's exercise, with the parameters that were drawn.
 
     draw : how often the parameters were drawn until every mistake could be told
     """

@@ -59,7 +59,7 @@ def write_question(folder: Path, exercise: Exercise, issued: Sequence[IssuedVari
 
 
 def _info(exercise: Exercise) -> dict[str, Any]:
-    """The question's metadata.
+    """The metadata of the question.
 
     A student keeps one variant, which is drawn on paper once; and its key is not shown, as others have the same.
     """

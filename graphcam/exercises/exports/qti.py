@@ -109,7 +109,6 @@ def _mark(item: Element, processing: Element, exercise: Exercise, issued: Issued
 
 
 def _add_feedback(item: Element, branch: Element, text: str) -> None:
-    """Show a feedback where the branch is taken."""
     identifier = f"F{len(item.findall('modalFeedback')) + 1}"
     shown = SubElement(SubElement(branch, "setOutcomeValue", identifier="FEEDBACK"), "multiple")
     SubElement(shown, "variable", identifier="FEEDBACK")

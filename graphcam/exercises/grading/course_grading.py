@@ -52,7 +52,7 @@ from graphcam.workers import BATCH_SIZE, WorkerPool, results, worker_pool
 Records = list[dict[str, Any]]
 """Records as JSON takes them, in the order of the students' names."""
 Finished = dict[str, tuple[str, dict[str, Any]]]
-"""By the name of a folder the digest of the hand-in and its record."""
+"""The digest of a submission and its record, by the name of its folder."""
 CRASHED_REMARK = say("grading this submission failed; mark it by hand")
 
 

@@ -187,7 +187,6 @@ def _seconds(seconds: float) -> Generator[None]:
         return
 
     def late(_: int, __: FrameType | None) -> None:
-        """The time is up."""
         raise LateError(seconds)
 
     if not hasattr(signal, "setitimer"):
@@ -209,7 +208,6 @@ def _time_limit_by_thread(seconds: float, late: Callable[[int, FrameType | None]
     until, over = time.process_time() + seconds, threading.Event()
 
     def watch() -> None:
-        """Interrupt the main thread when the time is up."""
         while not over.wait(CHECK_INTERVAL):
             if time.process_time() > until:
                 _thread.interrupt_main(signal.SIGTERM)

@@ -16,7 +16,7 @@ BY_HAND = say("{student}: the total given by hand is not in the grade book, whic
 ENTERED_FILE = "gradebook.json"
 """The teacher's file of what was entered into grade books."""
 Entered = dict[str, dict[str, list[Any]]]
-"""By student and answer the score and the comment that were entered last."""
+"""The score and the comment that were entered last, by student and answer."""
 NOTEBOOK_NAME = "answers"
 """Name of the notebook without its ending: as graphcam reads it."""
 

@@ -98,7 +98,7 @@ def _lines(path: Path, known: Recognition) -> Iterator[_Line]:
 
 
 def _override(line: _Line, possible: Mapping[str, float], *, absent: bool) -> Override:
-    """One line.
+    """The override in one line of the file.
 
     possible : marks by the answer's name;  absent : the student has not handed in
     """

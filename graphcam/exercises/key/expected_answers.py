@@ -206,7 +206,7 @@ def stored(expected: Expected) -> list[Any]:
 
 
 def from_stored(said: list[Any]) -> Expected:
-    """What :func:`stored` wrote.
+    """The expected answer in the form that :func:`stored` wrote.
 
     >>> stored(from_stored([[[0.0, 1.0]], [0.5], []]))
     [[[0.0, 1.0]], [0.5], []]

@@ -73,7 +73,7 @@ class Dependence:
 
     @staticmethod
     def from_json(text: str) -> Dependence:
-        """What :meth:`to_json` wrote."""
+        """The dependence in the text that :meth:`to_json` wrote."""
         said = json.loads(text)
         effects = {name: Effect(c, w, tuple(values)) for name, (c, w, values) in said["effects"].items()}
         return Dependence(effects, said["together"])

@@ -113,7 +113,7 @@ class Refusals:
         self.last: dict[RefusalReason, RefusedDraw] = {}
 
     def add(self, away: RefusedDraw) -> None:
-        """Count one more."""
+        """Count one more refused draw."""
         self.draws += 1
         self.compared += away.drawings is not None
         self.counts.update(away.reasons)
@@ -211,10 +211,10 @@ def _differing_part(mine: Reading, theirs: Reading) -> str:
 
 
 def of_pairs(pairs: Iterable[tuple[str, str]]) -> tuple[RefusalReason, ...]:
-    """Each of these pairs as a reason.
+    """The reasons for refusing a draw, from pairs of works that look alike.
 
     >>> of_pairs([("careful", "offset-sign")])
-    (Reason(kind='alike', first='offset-sign', second='careful'),)
+    (RefusalReason(kind='alike', first='offset-sign', second='careful'),)
     """
     return tuple(RefusalReason("alike", *((b, a) if a == CAREFUL_WORK else (a, b))) for a, b in pairs)
 

@@ -21,7 +21,7 @@ TRIAL_SPREAD = 0.4
 
 
 def dependences(exercise: Exercise, chain: Chain, keys: list[Expected], bound: float) -> dict[str, Dependence]:
-    """How every numeric answer depends on the numeric ones before it; answers that depend on none are left out.
+    """The dependence of every numeric answer on those before it; answers that depend on none are left out.
 
     chain : the right drawing
     """

@@ -78,7 +78,7 @@ def _readable_answer(asked: AskedAnswer, answers: Answers) -> Given | None:
 
 
 class _Explanation(NamedTuple):
-    """How well a mistake fits.
+    """The fit of one mistake to the answers.
 
     badness : minus twice the logarithm of the probability, each answer being anywhere if it is far off
     like : the places of the wrong answers that look like what the mistake brings
@@ -126,7 +126,7 @@ def _explains_most(fit: _Explanation, compared: Sequence[ComparedAnswer]) -> boo
 
 
 def _explanations(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], other: float) -> dict[str, _Explanation]:
-    """How well every mistake fits; one that the numbers make hopeless is left out where something is drawn."""
+    """The fit of every mistake; one that the numbers make hopeless is left out where something is drawn."""
     bound, hypotheses = answer_key.bound, answer_key.hypotheses
     numbers = [(each.place, each.given, each.key) for each in compared if isinstance(each.given, float)]
     wrong = frozenset(each.place for each in compared if each.wrong)
@@ -143,7 +143,7 @@ def _explanations(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], oth
 def _numbers_fit(
     values: Hypothesis, numbers: Sequence[tuple[int, float, Expected]], wrong: frozenset[int], bound: float
 ) -> _Explanation:
-    """How well a mistake fits the numbers: of each its place, itself, and its key."""
+    """The fit of a mistake to the numbers, each given with its place and its key."""
     badness = 0.0
     like: list[int] = []
     similar: list[int] = []

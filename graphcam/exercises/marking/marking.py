@@ -77,7 +77,7 @@ SMALL_KEY_TOLERANCES = 8.0
 
 
 def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: str = "L0") -> Record:
-    """Mark one submission.
+    """The record of one submission, marked.
 
     An answer is right within the tolerance of the key.  Else it earns its marks as follow-through where it lies within
     the tolerance of what follows from the student's own earlier answers, or where the diagnosed mistake was made in an

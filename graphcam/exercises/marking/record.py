@@ -14,7 +14,7 @@ Outcome = Literal["right", "follow-through", "partial", "wrong", "missing", "unr
 
 @dataclass(frozen=True)
 class MarkedAnswer:
-    """One answer.
+    """One answer with its marks and its deviation from the key.
 
     given : the number as given, or a list of points [x, y] in mm of paper; None where there is none
     marks, of : earned and possible
@@ -48,7 +48,7 @@ class Diagnosis:
 
 @dataclass(frozen=True)
 class Record:
-    """One submission, marked.
+    """One submission with its marks, its diagnosis and the feedback.
 
     version, draw, parameters : of the variant
     total, of : marks earned and possible

@@ -154,11 +154,9 @@ class _Tally:
     named: Counter[str] = field(default_factory=Counter[str])
 
     def mark(self, exercise: Exercise, answer_key: AnswerKey, chain: Chain) -> None:
-        """Mark all that these hands drew."""
         self.mark_answers(exercise, answer_key, answers_of(exercise, chain), chain.pencil.samples or 0)
 
     def mark_answers(self, exercise: Exercise, answer_key: AnswerKey, drawn: Drawn, hands: int) -> None:
-        """Mark the answers of so many hands."""
         given = (submission(exercise, drawn, row) for row in range(hands))
         records = [mark(exercise, answer_key, answers) for answers in given]
         self.hands += len(records)
@@ -168,7 +166,6 @@ class _Tally:
         self.named.update(_name_of(record.diagnosis, answer_key, self.made) for record in records)
 
     def add(self, other: _Tally) -> None:
-        """Add what was counted elsewhere."""
         self.hands += other.hands
         self.accepted += other.accepted
         self.wrong += other.wrong
@@ -199,7 +196,6 @@ class _VariantTally:
 
     @staticmethod
     def of(exercise: Exercise) -> _VariantTally:
-        """An empty tally of the exercise."""
         populations = {name: _Tally() for name in HANDS}
         wrong = {name: _Tally(name) for name in exercise.misconceptions}
         return _VariantTally(_Tally(), populations, wrong, _Tally(), _Tally())

@@ -341,7 +341,7 @@ class _Judge:
 
 
 def _settled_drawing(judge: _Judge, read: ReadAnswer, correction: Correction | None) -> SettledAnswer:
-    """What becomes of a drawn answer."""
+    """The mark of a drawn answer after its correction, if there is one."""
     asked = judge.asked
     points, refused = judge.judged(read)
     as_read = judge.answer_from(points, UNIT_STRETCH) if points is not None and not refused else None

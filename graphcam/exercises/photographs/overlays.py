@@ -95,7 +95,7 @@ class _Board:
 
     @property
     def per_mm(self) -> float:
-        """Pixels of the canvas to a mm of paper."""
+        """The pixels of the canvas to a mm of paper."""
         return self.canvas.shape[1] / (self.box[2] - self.box[0])
 
     def pixels(self, points: NDArray[np.complexfloating[Any, Any]]) -> NDArray[np.int32]:
@@ -106,11 +106,9 @@ class _Board:
         return np.round(places * 2**FRACTION_BITS).astype(np.int32)
 
     def line(self, points: NDArray[np.complexfloating[Any, Any]], colour: tuple[int, int, int]) -> None:
-        """A line through points."""
         cv2.polylines(self.canvas, [self.pixels(points)], False, colour, 1, cv2.LINE_AA, FRACTION_BITS)
 
     def rings(self, points: Points, radius: float, colour: tuple[int, int, int]) -> None:
-        """A ring about each point."""
         size = round(radius * self.per_mm * 2**FRACTION_BITS)
         for x, y in self.pixels(points).tolist():
             cv2.circle(self.canvas, (x, y), size, colour, 1, cv2.LINE_AA, FRACTION_BITS)

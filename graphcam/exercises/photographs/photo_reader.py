@@ -146,7 +146,7 @@ def _read_page(
 def _answers_on_page(
     exercise: Exercise, page: PrintedPage, code: SheetCode, secret: bytes
 ) -> dict[str, list[AskedAnswer]]:
-    """The answers that are drawn on a page, by the view."""
+    """The answers that are drawn on a page, by their view."""
     chain = board_chain(drawn(exercise, code.student, secret, code.draw).task)
     found: dict[str, list[AskedAnswer]] = {}
     for asked in exercise.answers:

@@ -71,11 +71,9 @@ class SeenPage:
         """A page on two sheets that are joined."""
 
         def rectified(box: Edges, per_mm: float) -> EvenPicture:
-            """A box out of the photographs of both sheets."""
             return rectify_tiles(tiles, page, box, per_mm)
 
         def registered(place: complex) -> Registration:
-            """The sheet on which a place is."""
             return tiles["left" if place.real < (page.seam or 0.0) else "right"].registration
 
         return SeenPage(page, rectified, registered)

@@ -176,7 +176,6 @@ def _bars(photo: ReadPhoto, kept: KeptPhotographs) -> list[tuple[str, float, str
 
 
 def _shown_indices(count: int) -> NDArray[np.intp]:
-    """The indices of all points, or of so many as are shown."""
     return np.unique(np.linspace(0, count - 1, min(count, MAX_CURVE_POINTS)).astype(np.intp))
 
 

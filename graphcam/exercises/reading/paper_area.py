@@ -90,7 +90,7 @@ it should be, counted from the drawing's own zero; mark the origin of the paper 
         """Whether the drawing is none of what is known where it lies, and is one of them elsewhere.
 
         >>> area = PaperArea("points", (Expected(np.array([0j, 30 + 40j]), 1.0),))
-        >>> area.moved(np.array([8 + 0j, 38 + 40j])), area.moved(np.array([1 + 0j, 31 + 40j]))
+        >>> area.is_moved(np.array([8 + 0j, 38 + 40j])), area.is_moved(np.array([1 + 0j, 31 + 40j]))
         (True, False)
         """
         if self.kind == "curve":

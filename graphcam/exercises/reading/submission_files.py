@@ -177,7 +177,7 @@ def _bad_lines(asked: list[AskedAnswer], given: Mapping[str, list[Any]]) -> list
 
 
 def _drawn_answer(asked: AskedAnswer, drawing: CadDrawing, room: PaperArea | None) -> tuple[Given, list[Caption]]:
-    """What is drawn, and sentences on it."""
+    """The drawn answer in a drawing, and sentences on it."""
     points = drawing.points(asked.layer) if asked.kind == "points" else drawing.curve(asked.layer)
     if room is None:
         return points, []

@@ -27,7 +27,7 @@ from graphcam.words import Caption, Words, say, sequence
 
 @dataclass(frozen=True)
 class StudentRow:
-    """One student.
+    """The row of one student in the table of a group.
 
     marks : None of one who has not handed in;  of : possible
     remarks : what a teacher should look at;  link : the student's page; empty where there is none
@@ -315,7 +315,6 @@ class _Drawings:
     farthest: list[HandedInDrawing] = field(default_factory=list[HandedInDrawing])
 
     def add(self, drawing: HandedInDrawing) -> None:
-        """Compare one with its key."""
         self.off.append(deviations_along(drawing.key.expected, points_of(drawing.answer), drawing.kind))
         self.tolerances.append(drawing.key.tolerance)
         # Of two that are equally far off the former stays the first.
@@ -323,7 +322,7 @@ class _Drawings:
         self.farthest = ranked[:SHOWN_PICTURES]
 
     def bundle(self) -> Bundle:
-        """The drawings all in one picture."""
+        """The drawings, all in one picture."""
         return bundle(self.off, median(self.tolerances))
 
     def pictures(self) -> list[tuple[HandedInDrawing, CurvePicture]]:

@@ -52,7 +52,7 @@ def earned_parts(records: Sequence[dict[str, Any]]) -> Floats:
 
 
 def cronbach_alpha(marks: Floats) -> float:
-    """How well the answers (students, answers) measure one thing; NaN of fewer than two, or where no total differs.
+    """Cronbach's alpha of marks (students, answers): 1 where all measure one thing; NaN for one answer or equal totals.
 
     >>> round(cronbach_alpha(np.array([[1.0, 1], [2, 2], [3, 3]])), 6)
     1.0

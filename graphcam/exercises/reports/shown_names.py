@@ -18,11 +18,11 @@ from graphcam.words import say
 
 @dataclass(frozen=True)
 class ShownNames:
-    """How the pages name the students.
+    """The names by which the pages show the students.
 
     hidden : a name for each student's id; empty where the ids are shown
 
-    >>> ShownNames({"s1": "k7f2qd"}).of("s1"), ShownNames().of("s1")
+    >>> ShownNames({"s1": "k7f2qd"}).name_of("s1"), ShownNames().name_of("s1")
     ('k7f2qd', 's1')
     """
 

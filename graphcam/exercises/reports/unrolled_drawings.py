@@ -125,7 +125,6 @@ def bundle(deviations: Sequence[Floats], tolerance: float) -> Bundle:
     unit = PICTURE_HEIGHT / (2 * most)
 
     def drawn(line: Floats) -> list[str]:
-        """The places of the line."""
         # What is far outside is cut off anyway, and would only make long numbers.
         y = PICTURE_HEIGHT / 2 - unit * np.clip(line, -3 * most, 3 * most)
         return [f"{x:.0f},{each:.1f}" for x, each in zip(np.linspace(0, PICTURE_WIDTH, CURVE_PLACES), y, strict=True)]

@@ -39,7 +39,6 @@ def main() -> None:
     shown: list[dict[str, Any]] = []
 
     def hand_out(values: dict[str, Any]) -> None:
-        """Keep values, and write them to the pipe as a line of JSON."""
         shown.append(values)
         os.write(order["pipe"], json.dumps(values, default=plain_values).encode() + b"\n")
 
@@ -87,7 +86,6 @@ def offer_display(namespace: dict[str, Any], hand_out: Callable[[dict[str, Any]]
     """What a notebook calls ``display``, also under the name by which IPython has it."""
 
     def display(*values: Any, raw: bool = False, **_: Any) -> None:
-        """Hand out the answers among what a cell shows."""
         for value in values:
             bundle = value if raw else bundle_of(value)
             if isinstance(bundle, dict) and isinstance(bundle.get(ANSWER_MIME_TYPE), dict):

@@ -74,7 +74,7 @@ PIPE_CLOSE_SECONDS = 0.3
 
 @dataclass(frozen=True)
 class RunEnd:
-    """How a run ended.
+    """The end of a run: its answers, its text and its exit status.
 
     handed_out : what came through the pipe for the answers, cut at its limit
     text : the last of what was written to standard output and error

@@ -43,7 +43,6 @@ def run_cells(level: Level, cells: list[str], names: list[str], limits: Resource
     with scratch_folder(_user() or None) as folder:
 
         def order(pipe: int) -> bytes:
-            """What the other process is to run, as JSON; it answers through the pipe."""
             ran = {"cells": cells, "names": names, "limits": resources, "user": _user(), "path": path, "pipe": pipe}
             kept_out = {"keyring": new_keyring(), "refused": refusals().hex()}
             return json.dumps(ran | kept_out).encode()
