@@ -186,7 +186,7 @@ class ErrorBudget:
         """What makes a reading scatter; NaN where no hand can read it, or it does not scatter."""
         off = np.ma.masked_invalid([self._deviations(by, construction, reading) for by in self.hands.values()])
         off = np.ma.array(off.data, mask=np.broadcast_to(off.mask.any(axis=0), off.shape))  # in any of its drawings
-        variances, rest = off.var(axis=1).fill(0.0), (off[0] - off[1:].sum(axis=0)).var(axis=0).fill(0.0)
+        variances, rest = off.var(axis=1).filled(0.0), (off[0] - off[1:].sum(axis=0)).var(axis=0).filled(0.0)
         most = int(np.argmax(variances[0]))
         kinds, left = variances[1:, most], rest[most]
         with np.errstate(invalid="ignore"):
