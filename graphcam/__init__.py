@@ -41,8 +41,8 @@ def __getattr__(name: str) -> object:
     except AttributeError as error:
         if name.startswith("_") or name in __all__:
             raise
-        from graphcam.errors import nearest
+        from graphcam.errors import nearest_word_remedy
 
-        near = nearest(name, __all__)
+        near = nearest_word_remedy(name, __all__)
         told = f"; {near}" if str(near).endswith("?") else ""
         raise AttributeError(f"graphcam has no name {name!r}{told}", name=name) from error

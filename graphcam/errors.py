@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from graphcam.words import Caption, Message, Words, either, message, say, sequence
+from graphcam.words import Caption, Message, Words, message, or_list, say, sequence
 
 CHECK_THE_NAME = say("check the name")
 FILE = say("file")
@@ -45,10 +45,10 @@ class GraphcamError(Exception):
         return str(self.caption)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (type(self), self.args, self.__dict__)
+        return _unpickled_error, (type(self), self.args, self.__dict__)
 
 
-def _again(kind: type[GraphcamError], given: tuple[Any, ...], kept: dict[str, Any]) -> GraphcamError:
+def _unpickled_error(kind: type[GraphcamError], given: tuple[Any, ...], kept: dict[str, Any]) -> GraphcamError:
     """The error of a pickle, rebuilt in another process from its arguments and attributes."""
     error = kind.__new__(kind, *given)
     error.__dict__ |= kept
@@ -171,7 +171,7 @@ def installed(option: str, library: str, extra: str) -> Generator[None]:
         raise TaskError(option, library, missing, say("installed"), install_advice(extra)) from None
 
 
-def unreadable(
+def unreadable_error(
     path: str | Path, what: Words, expected: Words, error: OSError | ValueError, remedy: Words = CHECK_THE_NAME
 ) -> TaskError:
     """The error of a file that cannot be read: it is missing, a folder, or what the system says.
@@ -180,9 +180,9 @@ def unreadable(
     expected : what it must be: "a CSV file"
     remedy : for a missing file, in place of "check the name"
 
-    >>> print(unreadable("no.csv", "the roster", "a CSV file", FileNotFoundError()))
+    >>> print(unreadable_error("no.csv", "the roster", "a CSV file", FileNotFoundError()))
     there is no file no.csv; check the name
-    >>> print(unreadable("a.csv", "the roster", "a CSV file", PermissionError(13, "Permission denied")))
+    >>> print(unreadable_error("a.csv", "the roster", "a CSV file", PermissionError(13, "Permission denied")))
     a.csv: the roster is not readable (Permission denied), but must be a CSV file; check its permissions
     """
     if isinstance(error, FileNotFoundError):
@@ -215,7 +215,7 @@ def check_kind(
     names = [kind.__name__ for kind in (kinds if isinstance(kinds, tuple) else (kinds,))]
     a = "an" if names[0][0] in "AEIO" else "a"
     found = say("of the kind {name}", name=type(value).__name__)
-    raise DesignError(quantity, found, limit or say("{a} {names}", a=a, names=either(names)), remedy)
+    raise DesignError(quantity, found, limit or say("{a} {names}", a=a, names=or_list(names)), remedy)
 
 
 def check_number(
@@ -280,28 +280,28 @@ def suggestion(word: str, known: Iterable[str], called: Mapping[str, Iterable[st
     return say("did you mean '{close}'?", close=close[0]) if close else ""
 
 
-def among(
+def choice_limit(
     word: object, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None
 ) -> tuple[Caption, Words]:
     """Limit and remedy for a word that is not among the known ones; ``called`` as in :func:`suggestion`.
 
-    >>> print(DesignError("law", "cicloidal", *among("cicloidal", ["cosine", "cycloidal"])))
+    >>> print(DesignError("law", "cicloidal", *choice_limit("cicloidal", ["cosine", "cycloidal"])))
     law is 'cicloidal', but must be one of cosine, cycloidal; did you mean 'cycloidal'?
     """
     known = list(known)
     return say("one of {names}", names=", ".join(known)), suggestion(str(word), known, called)
 
 
-def nearest(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> Words:
+def nearest_word_remedy(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> Words:
     """The remedy for a mistyped word: the known word that is meant, or all; ``called`` as in :func:`suggestion`.
 
     Where the limit lists them already, :func:`suggestion` alone is enough.
 
-    >>> str(nearest("cicloidal", ["cosine", "cycloidal"]))
+    >>> str(nearest_word_remedy("cicloidal", ["cosine", "cycloidal"]))
     "did you mean 'cycloidal'?"
-    >>> str(nearest("xyz", ["cosine", "cycloidal"]))
+    >>> str(nearest_word_remedy("xyz", ["cosine", "cycloidal"]))
     'known are cosine, cycloidal'
-    >>> str(nearest("roller", ["offset", "roller_radius", "roller_rule"]))
+    >>> str(nearest_word_remedy("roller", ["offset", "roller_radius", "roller_rule"]))
     "did you mean 'roller_radius'?"
     """
     known = list(known)

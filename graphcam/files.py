@@ -34,7 +34,7 @@ REMEDIES: Mapping[int | None, Words] = {
 """The remedy for an error of the system, by its ``errno``."""
 DEFAULT_REMEDY = say("choose another place")
 """The remedy for any other error of the system."""
-THERE = say("it already exists"), say("choose another name, or remove that file first")
+EXISTING_FILE_FAULT = say("it already exists"), say("choose another name, or remove that file first")
 """Fault and remedy for a new file that exists already."""
 NO_FORMER_FILES: Mapping[str, str] = MappingProxyType({})
 
@@ -221,7 +221,7 @@ def check_new(path: str | Path) -> None:
     OutputError : the file is there already, or its folder is not
     """
     if os.path.lexists(path):
-        raise OutputError(path, *THERE)
+        raise OutputError(path, *EXISTING_FILE_FAULT)
     if not Path(path).parent.is_dir():
         raise OutputError(path, say("its folder does not exist"), say("make the folder first"))
 
@@ -240,7 +240,7 @@ def write_new(path: str | Path, text: str) -> None:
             file.flush()
             on_error.pop_all()
     except FileExistsError as error:
-        raise OutputError(path, *THERE) from error
+        raise OutputError(path, *EXISTING_FILE_FAULT) from error
     except (OSError, ValueError) as error:
         raise _output_error(path, error) from error
 

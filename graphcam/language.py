@@ -15,7 +15,7 @@ from numbers import Real
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import DesignError, among
+from graphcam.errors import DesignError, choice_limit
 from graphcam.words import Caption, Message, Words, message, say, say_in
 
 MINUS_SIGN = "−"
@@ -24,7 +24,7 @@ SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻"
 """The digits and the minus of exponents."""
 DECIMAL_SIGN = say_in("decimal sign", ".")
 """The decimal sign, which a catalog translates as it does every text."""
-SENTENCE = "{what} is {shown}, but must be {allowed}"
+ERROR_TEMPLATE = "{what} is {shown}, but must be {allowed}"
 """The template of an error's sentence; a language whose catalog has it can tell messages."""
 UNREVIEWED_NOTE = say("This translation has not yet been read by a native speaker.")
 
@@ -141,7 +141,7 @@ class Language:
     @cached_property
     def has_messages(self) -> bool:
         """Whether the command line has messages in this language: English, or the catalog translates them."""
-        return self.name == ENGLISH.name or ("", SENTENCE) in self.catalog.told
+        return self.name == ENGLISH.name or ("", ERROR_TEMPLATE) in self.catalog.told
 
     def text(self, words: Words) -> str:
         """The translated text; a message that the catalog has only in part stays English as a whole."""
@@ -227,5 +227,5 @@ def language(name: str) -> Language:
     if name == ENGLISH.name:
         return ENGLISH
     if name not in languages():
-        raise DesignError("language", name, *among(name, languages()))
+        raise DesignError("language", name, *choice_limit(name, languages()))
     return Language(name, read_catalog((_folder() / f"{name}.po").read_text(encoding="utf-8")))

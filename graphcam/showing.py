@@ -23,20 +23,20 @@ MAX_LINES, MAX_WIDTH = 8, 100
 """The maximum number of lines of a value's text, and of letters in a line."""
 
 
-def from_above(function: str) -> Callable[..., Any]:
+def higher_function(function: str) -> Callable[..., Any]:
     """The function of a higher room, by its path such as "report.output_folder.write".
 
-    >>> from_above("plots.cam_outline.plot").__name__
+    >>> higher_function("plots.cam_outline.plot").__name__
     'plot'
     """
     module, _, name = function.rpartition(".")
     return getattr(import_module(f"graphcam.{module}"), name)
 
 
-def in_lines(first: str, rows: Iterable[str], last: str) -> str:
+def value_text(first: str, rows: Iterable[str], last: str) -> str:
     """The text of a value: its name, as many rows of sizes as fit, and its methods.
 
-    >>> in_lines("Cam", ["radius 20 mm"], ".plot()")
+    >>> value_text("Cam", ["radius 20 mm"], ".plot()")
     'Cam\\n  radius 20 mm\\n.plot()'
     """
     rows, room = list(rows), MAX_LINES - 2
@@ -45,7 +45,7 @@ def in_lines(first: str, rows: Iterable[str], last: str) -> str:
     return "\n".join([first, *(f"  {row}" for row in rows), last])
 
 
-def by_parts(self: Any) -> str:
+def parts_text(self: Any) -> str:
     """The text of a dataclass whose fields are such values: the first line of each.
 
     >>> import graphcam as gc
@@ -76,10 +76,10 @@ class Plottable:
         >>> [diagram.get_ylabel() for diagram in motion.plot().child_axes]
         ['lift s', 'v = ds/dφ', 'a = dv/dφ', 'j = da/dφ']
         """
-        return from_above(f"plots.{self._drawn_in}")(self, axes)
+        return higher_function(f"plots.{self._drawn_in}")(self, axes)
 
     def _repr_svg_(self) -> str | None:
         try:
-            return from_above("plots.figures.svg_of")(self)
+            return higher_function("plots.figures.svg_of")(self)
         except DesignError:
             return None

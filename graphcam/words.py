@@ -97,33 +97,33 @@ def message(words: Words) -> Message:
     >>> str(message(say("at most {most:g} mm", most=-0.5)))
     'at most -0.5 mm'
     """
-    caption = bare(words) if isinstance(words, str) else words
+    caption = bare_caption(words) if isinstance(words, str) else words
     return Message(caption.template, caption.values, caption.context, caption.plural, caption.count)
 
 
-def bare(text: str) -> Caption:
+def bare_caption(text: str) -> Caption:
     """A caption of what somebody wrote, which a message shows without quotes.
 
-    >>> str(bare("[a, b]"))
+    >>> str(bare_caption("[a, b]"))
     '[a, b]'
     """
     return Caption("{text}", {"text": text})
 
 
-def either(items: Sequence[Words]) -> Words:
+def or_list(items: Sequence[Words]) -> Words:
     """Texts joined as alternatives, with "or" before the last.
 
-    >>> str(either(["a", "b", "c"])), str(either(["a"]))
+    >>> str(or_list(["a", "b", "c"])), str(or_list(["a"]))
     ('a, b or c', 'a')
     """
     *first, last = items
     return say("{first} or {last}", first=sequence(first), last=last) if first else last
 
 
-def chained(items: Sequence[Words]) -> Words:
+def and_chain(items: Sequence[Words]) -> Words:
     """Texts joined with "and" between each two.
 
-    >>> str(chained(["a", "b", "c"])), str(chained(["a"]))
+    >>> str(and_chain(["a", "b", "c"])), str(and_chain(["a"]))
     ('a and b and c', 'a')
     """
     first, *others = items
@@ -132,10 +132,10 @@ def chained(items: Sequence[Words]) -> Words:
     return first
 
 
-def joined(items: Sequence[Words]) -> Words:
+def and_list(items: Sequence[Words]) -> Words:
     """Texts joined as a list, with commas and "and" before the last.
 
-    >>> str(joined(["a", "b", "c"])), str(joined(["a"])), str(joined([]))
+    >>> str(and_list(["a", "b", "c"])), str(and_list(["a"])), str(and_list([]))
     ('a, b and c', 'a', '')
     """
     *first, last = items or [""]

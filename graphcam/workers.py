@@ -98,7 +98,7 @@ def worker_pool(workers: int, address: str, *preloaded: str) -> WorkerPool:
 
 @contextmanager
 def executor_of(workers: int, address: str = "") -> Generator[Executor | None]:
-    """An executor for :func:`in_order`: of processes, or of the dask scheduler at an address that is not empty.
+    """An executor for :func:`ordered_results`: of processes, or of the dask scheduler at an address that is not empty.
 
     None for a single worker, whose jobs are done here.
 
@@ -114,7 +114,7 @@ def executor_of(workers: int, address: str = "") -> Generator[Executor | None]:
         yield executor
 
 
-def in_order(
+def ordered_results(
     executor: Executor | None, function: Callable[[J], R], jobs: Iterable[J], ahead: int = JOBS_AHEAD
 ) -> Iterator[R]:
     """The results of the function in the order of the jobs, which are taken only as they are needed.
@@ -123,7 +123,7 @@ def in_order(
 
     ahead : jobs that are under way at a time; so many results may lie in memory
 
-    >>> list(in_order(None, abs, [-1, 2]))
+    >>> list(ordered_results(None, abs, [-1, 2]))
     [1, 2]
     """
     if executor is None:

@@ -19,7 +19,7 @@ from graphcam.cli.command_language import Voice, language_of_machine
 from graphcam.errors import DesignError, GraphcamError, MissingFileError, TaskError, suggestion
 from graphcam.files import OutputError
 from graphcam.language import ENGLISH, Language, language, languages, read_catalog
-from graphcam.words import bare, either, say
+from graphcam.words import bare_caption, or_list, say
 
 PACKAGE = Path(graphcam.__file__).parent
 RUSSIAN = language("ru")
@@ -78,7 +78,7 @@ def test_a_message_is_told_with_what_stands_in_it():
 
 def test_the_names_of_fields_and_what_a_user_wrote_stay():
     # "rotation" is a caption as well.
-    error = DesignError("rotation", "rise", either(["'ccw'", "'cw'"]))
+    error = DesignError("rotation", "rise", or_list(["'ccw'", "'cw'"]))
     assert told(error) == "rotation: 'rise', а должно быть: 'ccw' или 'cw'"
 
 
@@ -111,7 +111,7 @@ def test_half_a_message_is_told_by_no_language():
         (say("not installed"), "не установлено"),
         (say("{degrees:g} degrees", degrees=30), "30 градусов"),
         (say("not readable ({why})", why="Permission denied"), "не читается (Permission denied)"),
-        (bare("[a, b]"), "[a, b]"),
+        (bare_caption("[a, b]"), "[a, b]"),
     ],
 )
 def test_what_is_said_of_a_value_is_told_too(words, said):

@@ -13,8 +13,8 @@ import pytest
 import typer
 
 import graphcam
-from graphcam.cli.shared import INPUT_ERROR_STATUS, one_message
-from graphcam.errors import DesignError, GraphcamError, MissingFileError, TaskError, unreadable
+from graphcam.cli.shared import INPUT_ERROR_STATUS, input_errors
+from graphcam.errors import DesignError, GraphcamError, MissingFileError, TaskError, unreadable_error
 from graphcam.exercises.course.course_folder import CourseThereError
 from graphcam.exercises.key.mistake_separation import MistakeError
 from graphcam.exercises.running.isolation_levels import Level
@@ -154,13 +154,13 @@ def test_programs_read_the_pieces_of_an_error_in_english():
 )
 def test_a_file_that_cannot_be_read_is_told_in_one_shape(error, message, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert str(unreadable("a.csv", "the roster", "a CSV file", error)) == message
+    assert str(unreadable_error("a.csv", "the roster", "a CSV file", error)) == message
 
 
 @pytest.mark.parametrize("system", [IsADirectoryError(21, "Is a directory"), PermissionError(13, "Permission denied")])
 def test_a_folder_in_place_of_a_file_is_told_as_one(system, tmp_path):
     """Windows calls it a matter of permissions."""
-    told = str(unreadable(tmp_path, "the roster", "a CSV file", system))
+    told = str(unreadable_error(tmp_path, "the roster", "a CSV file", system))
     assert told == f"{tmp_path}: the roster is a folder, but must be a CSV file; name the file in it"
 
 
@@ -171,7 +171,7 @@ def test_a_missing_file_is_told_alike_by_another_process():
 
 
 def test_an_error_of_the_system_that_nobody_told_is_one_line_without_its_number(capsys):
-    with pytest.raises(typer.Exit) as ended, one_message():
+    with pytest.raises(typer.Exit) as ended, input_errors():
         raise FileNotFoundError(2, "No such file or directory", "lost.json")
     assert ended.value.exit_code == INPUT_ERROR_STATUS
     assert capsys.readouterr().err == "graphcam: lost.json: No such file or directory\n"

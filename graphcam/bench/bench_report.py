@@ -21,7 +21,7 @@ from graphcam.bench.sweep_curve import CURVE_SECTION, DESIGN_COUNTS as SWEPT
 from graphcam.bench.tradeoff import METHODS
 from graphcam.bench.waiting_rows import DRAWING, STUDIO_SECTION, WAITING_SECTION
 from graphcam.files import whole_folder
-from graphcam.report.output_folder import unheard
+from graphcam.report.output_folder import ignore_progress
 from graphcam.words import Words, say
 
 ROWS = (EXACT_SECTION, LOADS_SECTION, BOUNDS_SECTION, MEASURED_SECTION, WAITING_SECTION, STUDIO_SECTION, CURVE_SECTION)
@@ -121,7 +121,7 @@ def measure(effort: Effort, progress: Callable[[Words], None]) -> Report:
     return Report(pair, records, bands(effort.hands))
 
 
-def bench(effort: Effort, directory: Path | str, progress: Callable[[Words], None] = unheard) -> Report:
+def bench(effort: Effort, directory: Path | str, progress: Callable[[Words], None] = ignore_progress) -> Report:
     """Measure drawn, sampled and exact side by side, and write tables, JSON and figures into a folder: all, or none.
 
     Raises

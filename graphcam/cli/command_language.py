@@ -88,7 +88,7 @@ def translated(words: Words | GraphcamError) -> str:
 _helped: dict[str, Caption] = {}
 
 
-def helped(caption: Caption) -> str:
+def help_text_of(caption: Caption) -> str:
     """A help text with its values put in, registered so that it can be translated when the help is shown."""
     _helped[str(caption)] = caption
     return str(caption)

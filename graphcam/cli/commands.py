@@ -15,9 +15,9 @@ from graphcam.cli.shared import (
     TaskFile,
     echo,
     errors_name,
-    named,
+    input_errors,
+    nonempty_path,
     nonempty_place,
-    one_message,
     print_table,
     progress_bar,
     progress_lines,
@@ -31,7 +31,7 @@ from graphcam.words import say
 def notebook(
     task: TaskFile = None,
     out: Annotated[
-        Path, Option(parser=named, metavar="DIR", help="Folder for the notebook and its task.")
+        Path, Option(parser=nonempty_path, metavar="DIR", help="Folder for the notebook and its task.")
     ] = DEFAULT_FOLDER / "notebook",
     run: Annotated[bool, Option("--execute", help="Execute it, so that it contains its figures.")] = False,
     html: Annotated[bool, Option("--html", help="Execute it and make a web page of it in one file.")] = False,
@@ -53,7 +53,7 @@ def notebook(
     To execute it you need the extra "notebooks": in the folder of graphcam's source, pip install ".\\[notebooks]"
     """
     voice().choose(language)
-    with one_message():
+    with input_errors():
         given = read_task(task)
         if language is not None:
             given = replace(given, drawing=replace(given.drawing, language=language))
@@ -70,7 +70,7 @@ def bench(
         bool, Option("--quick", help="Fewer and shorter measurements: about 40 s of processor time.")
     ] = False,
     out: Annotated[
-        Path, Option(parser=named, metavar="DIR", help="Folder for the report and its figures.")
+        Path, Option(parser=nonempty_path, metavar="DIR", help="Folder for the report and its figures.")
     ] = DEFAULT_FOLDER / "bench",
 ) -> None:
     """Report speed against error of drawn, sampled and exact methods and of the usual alternatives.
@@ -83,7 +83,7 @@ def bench(
     """
     from graphcam.bench import bench_report as bench
 
-    with one_message():
+    with input_errors():
         report = bench.bench(bench.QUICK_EFFORT if quick else bench.FULL_EFFORT, out, progress_lines(quiet=False))
     for section, head, rows in report.tables():
         if section.brief:
@@ -92,7 +92,9 @@ def bench(
 
 
 def sweep(
-    space: Annotated[Path, Argument(parser=named, metavar="SPACE.toml", help="File with the values of every size.")],
+    space: Annotated[
+        Path, Argument(parser=nonempty_path, metavar="SPACE.toml", help="File with the values of every size.")
+    ],
     out: Annotated[
         str,
         Option(
@@ -128,7 +130,7 @@ def sweep(
     from graphcam.sweeps.design_space import load_space
     from graphcam.workers import executor_of, worker_pool
 
-    with one_message(), progress_bar(say("designs")) as step:
+    with input_errors(), progress_bar(say("designs")) as step:
         designs = load_space(space)
         if is_file(out):
             if cluster:
@@ -142,14 +144,16 @@ def sweep(
         print_table((say("quantity"), say("minimum"), say("maximum")), found.rows())
         echo(say("{out}: {found}", out=str(out), found=found.caption))
     print_sweep(designs, found)
-    with one_message():
+    with input_errors():
         write_front(designs, out, found.front)
 
 
 def init(
     file: Annotated[
         Path,
-        Argument(parser=named, metavar="FILE", help="Name of the task file to write; the file must not exist yet."),
+        Argument(
+            parser=nonempty_path, metavar="FILE", help="Name of the task file to write; the file must not exist yet."
+        ),
     ],
     space: Annotated[bool, Option("--sweep", help="Write a file for 'graphcam sweep' instead.")] = False,
 ) -> None:
@@ -162,7 +166,7 @@ def init(
     graphcam init space.toml --sweep
     """
     source, use, more = ("space.toml", "sweep", " --out results.csv") if space else ("commented.toml", "solve", "")
-    with one_message():
+    with input_errors():
         write_new(file, resources.files("graphcam").joinpath("data", source).read_text(encoding="utf-8"))
     command = f"graphcam {use} {quoted(file)}{more}"
     echo(say("{file} is written; use it with: {command}", file=str(file), command=command))

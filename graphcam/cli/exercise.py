@@ -16,8 +16,8 @@ from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     echo,
     echo_line,
-    named,
-    one_message,
+    input_errors,
+    nonempty_path,
     print_table,
     progress_bar,
     progress_lines,
@@ -33,7 +33,9 @@ if TYPE_CHECKING:
 
 SecretFile = Annotated[
     Path | None,
-    Option(parser=named, metavar="F", help="The course's secret, if it is not in the course's folder 'teacher'."),
+    Option(
+        parser=nonempty_path, metavar="F", help="The course's secret, if it is not in the course's folder 'teacher'."
+    ),
 ]
 exercise = typer.Typer(
     name="exercise", no_args_is_help=True, help="Exercises that grade themselves: variants, marking, reports."
@@ -47,7 +49,7 @@ SECRET = b"simulation"
 Name = Annotated[str, Argument(metavar="NAME", help="Name of an exercise, or its file NAME.toml.")]
 
 
-def _keep(secret: Path) -> Caption:
+def _secret_advice(secret: Path) -> Caption:
     """The sentence that tells where a new secret is, and that it must be kept."""
     advice = say("Keep the folder 'teacher' safe and to yourself: without it nothing can be graded.")
     return say("{file} is new: the course's secret. {advice}", file=str(secret), advice=advice)
@@ -59,7 +61,7 @@ def list_exercises() -> None:
     from graphcam.exercises.definition.exercise_file import find_exercise, library
 
     rows: list[list[str]] = []
-    with one_message():
+    with input_errors():
         for name in library():
             found = find_exercise(name, voice().language.name)
             counts = (len(found.answers), f"{found.marks:g}", len(found.misconceptions))
@@ -70,7 +72,7 @@ def list_exercises() -> None:
 @exercise.command("copy")
 def copy_exercise(
     name: Annotated[str, Argument(metavar="NAME", help="Name of an exercise that 'graphcam exercise list' names.")],
-    file: Annotated[Path, Argument(parser=named, metavar="FILE.toml", help="A new file.")],
+    file: Annotated[Path, Argument(parser=nonempty_path, metavar="FILE.toml", help="A new file.")],
 ) -> None:
     """Write the file of an exercise, as a start for one of your own.
 
@@ -81,7 +83,7 @@ def copy_exercise(
     from graphcam.exercises.definition.exercise_file import exercise_path
     from graphcam.files import write_new
 
-    with one_message():
+    with input_errors():
         if file.suffix != ".toml":
             raise TaskError(str(file), say("the file"), say("none of TOML"), say("called NAME.toml"))
         write_new(file, exercise_path(name).read_text(encoding="utf-8"))
@@ -94,7 +96,9 @@ def simulate(
     variants: Annotated[int, Option(min=1, metavar="N", help="Number of variants.")] = 5,
     hands: Annotated[int, Option(min=1, metavar="N", help="Students per variant and mistake.")] = 400,
     as_json: Annotated[bool, Option("--json", help="Print only the figures, as JSON.")] = False,
-    out: Annotated[Path | None, Option(parser=named, metavar="FILE", help="Write the JSON into a new file.")] = None,
+    out: Annotated[
+        Path | None, Option(parser=nonempty_path, metavar="FILE", help="Write the JSON into a new file.")
+    ] = None,
     workers: Annotated[
         int, Option(min=1, metavar="N", help="Number of processes; the figures do not depend on it.")
     ] = 1,
@@ -116,7 +120,7 @@ def simulate(
     from graphcam.files import check_new, write_new
 
     progress = progress_lines(quiet=as_json)
-    with one_message():
+    with input_errors():
         if out:
             check_new(out)
 
@@ -165,14 +169,18 @@ def make(
     name: Name,
     roster: Annotated[
         Path,
-        Option(parser=named, metavar="CSV", help="The students: ids in the column 'id', or else in the first column."),
+        Option(
+            parser=nonempty_path,
+            metavar="CSV",
+            help="The students: ids in the column 'id', or else in the first column.",
+        ),
     ],
-    out: Annotated[Path, Option(parser=named, metavar="DIR", help="Folder for the handouts.")] = DEFAULT_FOLDER
+    out: Annotated[Path, Option(parser=nonempty_path, metavar="DIR", help="Folder for the handouts.")] = DEFAULT_FOLDER
     / "exercise",
     secret_file: Annotated[
         Path | None,
         Option(
-            parser=named,
+            parser=nonempty_path,
             metavar="F",
             help="An earlier course's secret; by default a new one is made.",
         ),
@@ -228,7 +236,7 @@ def make(
         """Print what is odd about the course on standard error, beside its output."""
         typer.echo(translated(line), err=True)
 
-    with one_message():
+    with input_errors():
         if studio:
             check_url(studio)
         chosen = usual_paper(name) if not paper else "" if paper == UNMARKED_OPTION else paper
@@ -258,7 +266,7 @@ def make(
     )
     echo(told)
     if secret_file is None:
-        echo(_keep(out / TEACHER_FOLDER / SECRET_FILE))
+        echo(_secret_advice(out / TEACHER_FOLDER / SECRET_FILE))
     else:
         echo(say("{file} is a copy of {given}", file=str(out / TEACHER_FOLDER / SECRET_FILE), given=str(secret_file)))
 
@@ -267,21 +275,29 @@ def make(
 def read(
     photographs: Annotated[
         list[Path] | None,
-        Argument(parser=named, metavar="[PHOTO]...", help="JPEG, PNG, HEIC, TIFF, PDF scans, or folders of them."),
+        Argument(
+            parser=nonempty_path, metavar="[PHOTO]...", help="JPEG, PNG, HEIC, TIFF, PDF scans, or folders of them."
+        ),
     ] = None,
     *,
-    course: Annotated[Path, Option(parser=named, metavar="DIR", help="The course, as 'exercise make' wrote it.")],
+    course: Annotated[
+        Path, Option(parser=nonempty_path, metavar="DIR", help="The course, as 'exercise make' wrote it.")
+    ],
     secret_file: SecretFile = None,
     out: Annotated[
-        Path | None, Option(parser=named, metavar="DIR", help="Folder for the readings, instead of DIR/photos.")
+        Path | None, Option(parser=nonempty_path, metavar="DIR", help="Folder for the readings, instead of DIR/photos.")
     ] = None,
     review: Annotated[
         Path | None,
-        Option(parser=named, metavar="FILE.html", help="Write the page on which you check and correct the readings."),
+        Option(
+            parser=nonempty_path,
+            metavar="FILE.html",
+            help="Write the page on which you check and correct the readings.",
+        ),
     ] = None,
     corrections: Annotated[
         Path | None,
-        Option(parser=named, metavar="FILE", help="File that this page exported; it is kept for later runs."),
+        Option(parser=nonempty_path, metavar="FILE", help="File that this page exported; it is kept for later runs."),
     ] = None,
     workers: Annotated[
         int, Option(min=1, metavar="N", help="Number of processes; the default is one for each core.")
@@ -302,7 +318,7 @@ def read(
     """
     from graphcam.exercises.photographs.course_photographs import ReadingOrder, read_course, summary
 
-    with one_message(), progress_bar(say("photographs")) as step:
+    with input_errors(), progress_bar(say("photographs")) as step:
         order = ReadingOrder(photographs or [], course, secret_file, out, review, corrections, workers)
         lines = list(summary(read_course(order, step)))
     for line in lines:
@@ -312,12 +328,15 @@ def read(
 @exercise.command()
 def grade(
     folder: Annotated[
-        Path, Argument(parser=named, metavar="DIR", help="Folder with a folder for each student, or a zip file.")
+        Path,
+        Argument(parser=nonempty_path, metavar="DIR", help="Folder with a folder for each student, or a zip file."),
     ],
     out: Annotated[
         Path,
         Option(
-            parser=named, metavar="CSV", help="File for the grades; reports of the same name are written beside it."
+            parser=nonempty_path,
+            metavar="CSV",
+            help="File for the grades; reports of the same name are written beside it.",
         ),
     ],
     secret_file: SecretFile = None,
@@ -329,7 +348,8 @@ def grade(
     ] = os.cpu_count() or 1,
     cluster: Cluster = "",
     feedback: Annotated[
-        Path | None, Option(parser=named, metavar="DIR", help="Folder for the feedback pages, one for each student.")
+        Path | None,
+        Option(parser=nonempty_path, metavar="DIR", help="Folder for the feedback pages, one for each student."),
     ] = None,
     gradebook: Annotated[
         str, Option(metavar="URL", help="Also enter the scores into this database, such as sqlite:///gradebook.db.")
@@ -339,11 +359,15 @@ def grade(
     ] = False,
     roster: Annotated[
         Path | None,
-        Option(parser=named, metavar="CSV", help="The students, instead of the roster the course was made for."),
+        Option(
+            parser=nonempty_path, metavar="CSV", help="The students, instead of the roster the course was made for."
+        ),
     ] = None,
     overrides: Annotated[
         Path | None,
-        Option(parser=named, metavar="CSV", help="Marks by hand, instead of overrides.csv in the teacher's folder."),
+        Option(
+            parser=nonempty_path, metavar="CSV", help="Marks by hand, instead of overrides.csv in the teacher's folder."
+        ),
     ] = None,
     follow_through: Annotated[
         float | None,
@@ -389,7 +413,7 @@ def grade(
     options = dict(locals())
     from graphcam.exercises.grading.course_grading import Course, grade_course
 
-    with one_message(), progress_bar(say("submissions")) as step:
+    with input_errors(), progress_bar(say("submissions")) as step:
         said = grade_course(Course(**options), step)
     for line in said:
         echo_line(line)
@@ -401,17 +425,19 @@ def export(
     target: Annotated[LearningSystem, Option("--format", help="The system for which to export.")],
     count: Annotated[int, Option(min=1, max=1000, metavar="N", help="Number of variants.")] = 1,
     roster: Annotated[
-        Path | None, Option(parser=named, metavar="CSV", help="The students: one variant for each, instead of --count.")
+        Path | None,
+        Option(parser=nonempty_path, metavar="CSV", help="The students: one variant for each, instead of --count."),
     ] = None,
     secret_file: Annotated[
         Path | None,
-        Option(parser=named, metavar="F", help="An earlier course's secret; by default a new one is made."),
+        Option(parser=nonempty_path, metavar="F", help="An earlier course's secret; by default a new one is made."),
     ] = None,
     language: Annotated[
         str, Option(metavar="|".join(languages()), help="Language of everything that students read.")
     ] = "en",
-    out: Annotated[Path, Option(parser=named, metavar="DIR", help="A new folder for the export.")] = DEFAULT_FOLDER
-    / "export",
+    out: Annotated[
+        Path, Option(parser=nonempty_path, metavar="DIR", help="A new folder for the export.")
+    ] = DEFAULT_FOLDER / "export",
     hand: Hand = "",
 ) -> None:
     """Export variants of an exercise for Moodle, Canvas, PrairieLearn, nbgrader, Gradescope or QTI 2.1.
@@ -435,7 +461,7 @@ def export(
     from graphcam.exercises.exports.export import export as write
 
     voice().adopt_language(language)
-    with one_message(), progress_bar(say("variants")) as step:
+    with input_errors(), progress_bar(say("variants")) as step:
         secret = read_secret(secret_file) if secret_file else None
         students = [Student(f"variant-{k:0{len(str(count))}d}") for k in range(1, count + 1)]
         if roster:
@@ -445,7 +471,7 @@ def export(
     where = {"name": name, "target": str(target), "out": str(out)}
     echo(say("{variants} of {name} for {target} in {out}", variants=variants, **where))
     if secret_file is None:
-        echo(_keep(out / TEACHER_FOLDER / SECRET_FILE))
+        echo(_secret_advice(out / TEACHER_FOLDER / SECRET_FILE))
 
 
 @exercise.command()
@@ -470,7 +496,7 @@ def speed(
 
     progress, timer = progress_lines(quiet=False), Timer(budget=0.5)
     rows: list[list[str]] = []
-    with one_message():
+    with input_errors():
         for name in names or library():
             progress(name)
             found, course = marking_speed(find_exercise(name), timer), course_speed(name)

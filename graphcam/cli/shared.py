@@ -45,7 +45,7 @@ def nonempty_place(place: str) -> str:
     return place
 
 
-def named(path: str | Path) -> Path:
+def nonempty_path(path: str | Path) -> Path:
     """The path, if it is not empty."""
     return Path(nonempty_place(str(path)))
 
@@ -72,12 +72,14 @@ def echo_line(words: Words) -> None:
 
 TaskFile = Annotated[
     Path | None,
-    typer.Argument(parser=named, metavar="TASK.toml", help="Task file; the default is the built-in coursework task."),
+    typer.Argument(
+        parser=nonempty_path, metavar="TASK.toml", help="Task file; the default is the built-in coursework task."
+    ),
 ]
 
 
 @contextmanager
-def one_message() -> Generator[None]:
+def input_errors() -> Generator[None]:
     """Let wrong input end the command with one message and status 2."""
     try:
         yield
@@ -267,10 +269,10 @@ def file_kind(name: str) -> str:
     return stem if stem in FILE_DESCRIPTIONS else ""
 
 
-def grouped(names: Iterable[str]) -> list[tuple[Caption | str, list[str]]]:
+def files_by_kind(names: Iterable[str]) -> list[tuple[Caption | str, list[str]]]:
     """Descriptions with the files of each kind, in the order of ``FILE_DESCRIPTIONS``; pages by their numbers.
 
-    >>> for what, names in grouped(["solution.json", "sheet-10.svg", "sheet-2.svg", "sheet.svg"]):
+    >>> for what, names in files_by_kind(["solution.json", "sheet-10.svg", "sheet-2.svg", "sheet.svg"]):
     ...     print(what, names)
     the sheet, true to scale ['sheet.svg', 'sheet-2.svg', 'sheet-10.svg']
     all of it, for programs ['solution.json']
@@ -290,7 +292,7 @@ def print_files(folder: Path, names: Sequence[str]) -> None:
     console = Console(highlight=False, markup=False, emoji=False, soft_wrap=True)
     count = translated(say_many("{count} file", "{count} files", len(names)))
     console.print(Text.assemble("\n", linked_text(folder, str(folder)), f": {count}"))
-    for what, found in grouped(names):
+    for what, found in files_by_kind(names):
         links = Text(", ").join(linked_text(folder / name, name) for name in found)
         console.print(Text.assemble("  ", links, f": {translated(what)}" if what else ""))
     first = [

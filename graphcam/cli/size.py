@@ -11,13 +11,13 @@ import typer
 from typer import Argument, Option
 
 import graphcam
-from graphcam.cli.command_language import helped, translated, voice
+from graphcam.cli.command_language import help_text_of, translated, voice
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     echo,
     errors_name,
-    named,
-    one_message,
+    input_errors,
+    nonempty_path,
     print_table,
     progress_lines,
     read_task,
@@ -30,10 +30,12 @@ if TYPE_CHECKING:
     from graphcam.solving.sizing_design import Sizing
 
 SIZE_FOLDER = DEFAULT_FOLDER / "size"
-OUT_HELP = helped(say("Folder for the files; the default is {folder}.", folder=str(SIZE_FOLDER)))
+OUT_HELP = help_text_of(say("Folder for the files; the default is {folder}.", folder=str(SIZE_FOLDER)))
 JSON_HELP = "Print only the result, as JSON; write files only with --out."
 BEST_HELP = "size: the smallest cam; stress: the cam with the minimum contact stress.  The default is that of the task."
-LANGUAGE_HELP = helped(say("Language of the chart, instead of the task's: {names}.", names=", ".join(languages())))
+LANGUAGE_HELP = help_text_of(
+    say("Language of the chart, instead of the task's: {names}.", names=", ".join(languages()))
+)
 
 
 class Objective(StrEnum):
@@ -46,9 +48,11 @@ class Objective(StrEnum):
 def size(
     task: Annotated[
         Path | None,
-        Argument(parser=named, metavar="TASK.toml", help="Task file with a table \\[sizing]; by default an example."),
+        Argument(
+            parser=nonempty_path, metavar="TASK.toml", help="Task file with a table \\[sizing]; by default an example."
+        ),
     ] = None,
-    out: Annotated[Path | None, Option(parser=named, metavar="DIR", help=OUT_HELP)] = None,
+    out: Annotated[Path | None, Option(parser=nonempty_path, metavar="DIR", help=OUT_HELP)] = None,
     as_json: Annotated[bool, Option("--json", help=JSON_HELP)] = False,
     objective: Annotated[Objective | None, Option(help=BEST_HELP)] = None,
     language: Annotated[str | None, Option(metavar="NAME", help=LANGUAGE_HELP)] = None,
@@ -70,7 +74,7 @@ def size(
     voice().choose(language)
     progress = progress_lines(quiet=as_json)
     folder = SIZE_FOLDER if out is None and not as_json else out
-    with one_message(), short_warnings():
+    with input_errors(), short_warnings():
         given = read_task(task, "sizing")
         progress(say("searching the ranges"))
         with errors_name(task):

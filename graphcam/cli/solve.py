@@ -14,15 +14,15 @@ import typer
 from typer import Option
 
 import graphcam
-from graphcam.cli.command_language import helped, translated, voice
+from graphcam.cli.command_language import help_text_of, translated, voice
 from graphcam.cli.shared import (
     DEFAULT_FOLDER,
     TaskFile,
     echo,
     errors_name,
     file_kind,
-    named,
-    one_message,
+    input_errors,
+    nonempty_path,
     print_files,
     print_table,
     progress_lines,
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 LARGE_FORMATS = ("A1", "A2")
 """Formats that are too large for one construction."""
-OUT_HELP = helped(say("Folder for the files; the default is {folder}.", folder=str(DEFAULT_FOLDER)))
+OUT_HELP = help_text_of(say("Folder for the files; the default is {folder}.", folder=str(DEFAULT_FOLDER)))
 JSON_HELP = "Print only the solution, as JSON; write files only with --out."
 OWN_SHEETS_HELP = "Each construction on sheets of its own; A3 if the task has A1 or A2."
 BLANK_HELP = "A blank sheet to draw on, without answers: axes, divisions, and the data of the task."
@@ -49,7 +49,9 @@ PENCIL_HELP = "Standard deviation, in mm, of random errors in lines, divider set
 DXF_HELP = "plain: for any CAD program; cad: with true dimensions and attributes."
 # Brackets are markup here.
 PART_HELP = r"Also the cam's working drawing, a solid and G-code for the workshop, from the task's table \[part]."
-LANGUAGE_HELP = helped(say("Language of sheet and note, instead of the task's: {names}.", names=", ".join(languages())))
+LANGUAGE_HELP = help_text_of(
+    say("Language of sheet and note, instead of the task's: {names}.", names=", ".join(languages()))
+)
 
 
 GIVEN_LABEL, FOUND_LABEL, MINIMUM_LABEL = say("given"), say("found"), say("minimum")
@@ -105,7 +107,7 @@ def _size_caption(name: Words, value: float, of: Words, where: Words) -> Caption
 
 def solve(
     task: TaskFile = None,
-    out: Annotated[Path | None, Option(parser=named, metavar="DIR", help=OUT_HELP)] = None,
+    out: Annotated[Path | None, Option(parser=nonempty_path, metavar="DIR", help=OUT_HELP)] = None,
     as_json: Annotated[bool, Option("--json", help=JSON_HELP)] = False,
     pencil: Annotated[float | None, Option(metavar="SIGMA_MM", help=PENCIL_HELP)] = None,
     divisions: Annotated[
@@ -146,7 +148,7 @@ def solve(
     voice().choose(language)
     progress = progress_lines(quiet=as_json)
     folder = DEFAULT_FOLDER if out is None and not as_json else out
-    with one_message(), short_warnings(), _collecting_later():
+    with input_errors(), short_warnings(), _garbage_collector_off():
         last = _last_step(upto, worksheet=worksheet)
         given = _read_task(task, divisions, language, small=per_construction)
         # Loads the renderers: only when the input has been found right.
@@ -179,7 +181,7 @@ def solve(
 
 
 @contextmanager
-def _collecting_later() -> Generator[None]:
+def _garbage_collector_off() -> Generator[None]:
     """Switch the garbage collector off, since nearly nothing that is loaded and drawn becomes garbage meanwhile."""
     gc.disable()
     try:

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from typer import Option
 
-from graphcam.cli.command_language import helped, voice
-from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, echo, named, one_message, read_task, short_warnings
+from graphcam.cli.command_language import help_text_of, voice
+from graphcam.cli.shared import DEFAULT_FOLDER, TaskFile, echo, input_errors, nonempty_path, read_task, short_warnings
 from graphcam.errors import DesignError
 from graphcam.language import languages
 from graphcam.words import say
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
     from graphcam.tasks.arcs_task import ArcsTask
     from graphcam.tasks.task import Task
 
-OUT_HELP = helped(
+OUT_HELP = help_text_of(
     say("Folder for the files that the page writes; the default is {folder}.", folder=str(DEFAULT_FOLDER))
 )
-LANGUAGE_HELP = helped(
+LANGUAGE_HELP = help_text_of(
     say("Language of the page and of what it writes, instead of the task's: {names}.", names=", ".join(languages()))
 )
 HTML_HELP = "Write the studio as one file that needs no server, and exit."
@@ -35,12 +35,12 @@ ENDING_NOTE = say("It ends with its last tab, or with Ctrl-C.")
 
 def studio(
     task: TaskFile = None,
-    out: Annotated[Path, Option(parser=named, metavar="DIR", help=OUT_HELP)] = DEFAULT_FOLDER,
+    out: Annotated[Path, Option(parser=nonempty_path, metavar="DIR", help=OUT_HELP)] = DEFAULT_FOLDER,
     language: Annotated[str | None, Option(metavar="NAME", help=LANGUAGE_HELP)] = None,
     browser: Annotated[bool, Option("--browser/--no-browser", help="Open the page in the browser.")] = True,
-    html: Annotated[Path | None, Option(parser=named, metavar="FILE", help=HTML_HELP)] = None,
-    site: Annotated[Path | None, Option(parser=named, metavar="DIR", help=SITE_HELP)] = None,
-    pyodide: Annotated[Path | None, Option(parser=named, metavar="DIR", help=PYODIDE_HELP)] = None,
+    html: Annotated[Path | None, Option(parser=nonempty_path, metavar="FILE", help=HTML_HELP)] = None,
+    site: Annotated[Path | None, Option(parser=nonempty_path, metavar="DIR", help=SITE_HELP)] = None,
+    pyodide: Annotated[Path | None, Option(parser=nonempty_path, metavar="DIR", help=PYODIDE_HELP)] = None,
 ) -> None:
     """Open the studio: change a size, and see the construction and the exact values follow.
 
@@ -60,13 +60,13 @@ def studio(
     graphcam studio --site public/studio --pyodide pyodide   (a folder for a web server)
     """
     voice().choose(language)
-    with one_message(), short_warnings():
+    with input_errors(), short_warnings():
         _check(html, site, pyodide)
         given = _read_task(task, language)
         if pyodide is None:
             _serve(given, out, browser=browser)
         else:
-            echo(say("{file} is written", file=str(_written(given, html, site, pyodide))))
+            echo(say("{file} is written", file=str(_write_page(given, html, site, pyodide))))
 
 
 def _check(html: Path | None, site: Path | None, pyodide: Path | None) -> None:
@@ -89,7 +89,7 @@ def _read_task(path: Path | None, spoken: str | None) -> Task | ArcsTask:
     return replace(task, drawing=replace(task.drawing, language=spoken))
 
 
-def _written(task: Task | ArcsTask, html: Path | None, site: Path | None, pyodide: Path) -> Path:
+def _write_page(task: Task | ArcsTask, html: Path | None, site: Path | None, pyodide: Path) -> Path:
     """Write the studio that needs no server; returns the file or folder."""
     from graphcam.studio.worker_page import write_one_file, write_site
 

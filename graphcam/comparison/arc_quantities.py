@@ -15,7 +15,7 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.arc_motion import ArcMotion
 from graphcam.mechanism.kinematics import Values
 from graphcam.mechanism.three_arc_cam import ThreeArcCam
-from graphcam.showing import by_parts
+from graphcam.showing import parts_text
 
 POINT_NAMES = ("C1", "C2", "C3", "F")
 JOINT_READINGS = ("a_A", "a_G_before", "a_G_after", "a_F_before", "a_F_after", "a_D")
@@ -29,7 +29,7 @@ class ArcsComparison:
     drawn: ArcChain
     cam: ThreeArcCam
     motion: ArcMotion
-    __repr__ = by_parts
+    __repr__ = parts_text
 
     @cached_property
     def bounds(self) -> Bounds:

@@ -30,7 +30,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.slips import SLIPS
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
-from graphcam.showing import by_parts
+from graphcam.showing import parts_text
 
 REFINEMENTS = (2, 3, 5)
 """The numbers of parts into which every part is divided for the redrawings."""
@@ -69,7 +69,7 @@ class Bounds:
     """The bounds of the readings of one drawing, with its own pencil, at the sizes that were adopted."""
 
     drawn: Redrawable
-    __repr__ = by_parts
+    __repr__ = parts_text
 
     @cached_property
     def perfect(self) -> Redrawable:
@@ -167,7 +167,7 @@ class ErrorBudget:
 
     drawn: Redrawable
     pencil: Pencil
-    __repr__ = by_parts
+    __repr__ = parts_text
 
     @cached_property
     def perfect(self) -> Redrawable:

@@ -13,14 +13,14 @@ from graphcam.comparison.double_integration import proved_bounds
 from graphcam.comparison.phase_speeds import PhaseAtSpeed, at_speed
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction
-from graphcam.drafting.meaning import Compared
+from graphcam.drafting.meaning import ComparedReading
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam, CamPoints
 from graphcam.mechanism.flat_faced import face_width
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.turn_extremes import max_acceleration, max_jerk, max_velocity
-from graphcam.showing import by_parts
+from graphcam.showing import parts_text
 from graphcam.words import Caption, say, sequence
 
 
@@ -66,7 +66,7 @@ class Comparison:
 
     drawn: Chain
     cam: Cam
-    __repr__ = by_parts
+    __repr__ = parts_text
 
     @cached_property
     def exact_least_radius(self) -> tuple[float, float]:
@@ -180,7 +180,7 @@ def quantities_of(
 def _quantity(
     construction: Construction,
     reading: str,
-    said: Compared,
+    said: ComparedReading,
     bounds: Bounds,
     exact: Mapping[str, float],
     proved: Mapping[str, float],

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from graphcam.constructions.axes import (
     degrees,
     joined_parts,
-    numbers,
+    number_labels,
     part_titles,
     phase_ends,
     phase_names,
@@ -32,18 +32,18 @@ from graphcam.constructions.turn_board import TurnGivens
 from graphcam.constructions.views import ACCELERATION
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, distance_between, showing
+from graphcam.drafting.hand import Hand, distance_between, errorless_hand
 from graphcam.drafting.ink import Construction, Part, Step, say
 from graphcam.drafting.marks import Dimension, Role, Segments
 from graphcam.drafting.meaning import LIFT, MU_PHI, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.drafting.telling import FRENCH_CURVE, RULER, led_by
+from graphcam.drafting.telling import FRENCH_CURVE, RULER, introduced_parts
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion, MovingPhase
 from graphcam.given.spline_law import MEASURED_LAW
 from graphcam.given.stations import Stations
-from graphcam.words import Caption, joined, sequence
+from graphcam.words import Caption, and_list, sequence
 
 AccelerationDiagram = Construction[TurnGivens]
 
@@ -204,7 +204,7 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
         strict=True,
     )
     laws = [_LawOverPhase(*each) for each in moving]
-    curves = [law.drawn(showing(diagram), k) for k, law in enumerate(laws)]
+    curves = [law.drawn(errorless_hand(diagram), k) for k, law in enumerate(laws)]
     lines = tuple(curve.line(Role.RESULT) for curve in curves)
     shape = say("The maximum ordinate of a phase is known now, and all others are in proportion to it.")
     return [
@@ -227,7 +227,7 @@ def _by_their_laws(laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> tu
             "The motion is a table, which has no law: its acceleration is that of the smoothed table, as under "
             "“{section}”. Ordinates above the axis are positive."
         ).with_values(section=say("Velocity and acceleration by differentiation"))
-    return led_by(told, [Part(law.told(), (curve,)) for law, curve in zip(laws, curves, strict=True)])
+    return introduced_parts(told, [Part(law.told(), (curve,)) for law, curve in zip(laws, curves, strict=True)])
 
 
 def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
@@ -272,7 +272,7 @@ def _ordinates(diagram: AccelerationDiagram, laws: Sequence[_LawOverPhase], curv
         "The lift of a phase is proportional to y·φ²/C, so the displacement returns to the axis only if the "
         "ordinates are in this ratio."
     )
-    title, parts = say("Ordinates of the phases"), (first, *led_by(others, reckoned))
+    title, parts = say("Ordinates of the phases"), (first, *introduced_parts(others, reckoned))
     return Step(title, parts, ACCELERATION, marks, ("greatest",), why=why)
 
 
@@ -338,7 +338,7 @@ def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
         middles.dots(Role.CONSTRUCTION),
         Segments(x - UP, x + UP, Role.SCALE).left_by(axis),
         # On the side of the axis where no ordinates stand.
-        *numbers(axis, stations, np.where(diagram.first("before") + diagram.first("stations") < 0, UP, -UP)),
+        *number_labels(axis, stations, np.where(diagram.first("before") + diagram.first("stations") < 0, UP, -UP)),
     )
     why = say(
         "A part's area is its width times its middle ordinate, exactly where the acceleration is a straight line, and "
@@ -348,7 +348,9 @@ def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
         "Divide the moving phases into parts, {equal}, and number the cuts; each part has the number of the cut at its "
         "end."
     ).with_values(equal=equal_parts(stations))
-    parts = led_by(divided, [part for k in range(len(stations.phases)) for part in _divided_phase(diagram, k)])
+    parts = introduced_parts(
+        divided, [part for k in range(len(stations.phases)) for part in _divided_phase(diagram, k)]
+    )
     return Step(say("Middle ordinates"), parts, ACCELERATION, marks, ("middles",), given=marks, why=why)
 
 
@@ -372,7 +374,7 @@ def _divided_phase(diagram: AccelerationDiagram, k: int) -> Iterator[Part]:
     ]
     title, names = phase_title(motion, int(stations.phase[span.start])), station_names(stations)[span]
     divided = say("Over {phase} divide {cuts} with the dividers; number the cuts {first} to {last}.")
-    values = {"phase": title, "cuts": joined(cut), "first": names[0], "last": names[-1]}
+    values = {"phase": title, "cuts": and_list(cut), "first": names[0], "last": names[-1]}
     yield Part(divided.with_values(**values), (diagram.acts["axis"].first[span],))
     heights: list[list[int]] = []
     for part in range(own.start, own.stop):

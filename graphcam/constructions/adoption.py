@@ -99,7 +99,7 @@ def nothing_adopted() -> Adoption | None:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class ToldByChain:
+class ChainSettings:
     """What a construction knows only where it is drawn as one of a chain.
 
     adopted : tells how the sizes came about that are taken in the end; None where they are not known

@@ -4,20 +4,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.axes import numbers, pieces_of, station_names
+from graphcam.constructions.axes import number_labels, pieces_of, station_names
 from graphcam.constructions.curve_over_phi import curve_over_phi
-from graphcam.constructions.graduation import graduated
+from graphcam.constructions.graduation import graduation_marks
 from graphcam.constructions.pressure_angle import MeasuredAngles
 from graphcam.constructions.views import ANGLE
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP
-from graphcam.drafting.hand import Hand, distance_between, showing
+from graphcam.drafting.hand import Hand, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Step, Words, say
 from graphcam.drafting.marks import Mark, Role
-from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import ComparedReading, Meaning, ReadingConvergence, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
-from graphcam.drafting.telling import STATION, led_by, run
+from graphcam.drafting.telling import STATION, introduced_parts, run
 from graphcam.given.follower import Limits
 
 
@@ -39,14 +39,18 @@ MEANING = Meaning(
             say("maximum α on the rise"),
             "max α",
             "rad",
-            (Compared("max_pressure_angle_rise_deg", say("pressure angle, rise"), sides="rise_candidates"),),
-            Converges("maximum angle, rise", "max_pressure_angle_rise"),
+            (ComparedReading("max_pressure_angle_rise_deg", say("pressure angle, rise"), sides="rise_candidates"),),
+            ReadingConvergence("maximum angle, rise", "max_pressure_angle_rise"),
         ),
         "max_return": ReadingMeaning(
             say("maximum α on the return"),
             "max α",
             "rad",
-            (Compared("max_pressure_angle_return_deg", say("pressure angle, return"), sides="return_candidates"),),
+            (
+                ComparedReading(
+                    "max_pressure_angle_return_deg", say("pressure angle, return"), sides="return_candidates"
+                ),
+            ),
         ),
     },
     scales={"angle": "max_rise"},
@@ -83,7 +87,7 @@ def angle_diagram(
     return hand.finished(AngleDiagramGivens(measured, mu_alpha, limits), _draw, {"curve": curve, **places})
 
 
-def inside(plotted: Construction[AngleDiagramGivens], phase: str) -> Drawn | None:
+def inner_maximum(plotted: Construction[AngleDiagramGivens], phase: str) -> Drawn | None:
     """The extreme inside the rises or the returns, where the farthest point lies at an end of one, on the other side.
 
     So it is with a large offset: the angle in the dwell is the larger one, and a maximum of the other sign lies inside.
@@ -113,12 +117,12 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
     axis, heights = plotted.acts["acceleration: axis"].first, curve.shown.imag
     axes = (
         *givens.axes("α", heights),
-        *graduated(heights, float(np.degrees(plotted.givens.mu_alpha.per_mm))),
+        *graduation_marks(heights, float(np.degrees(plotted.givens.mu_alpha.per_mm))),
         *givens.phases_under(heights),
-        *numbers(axis, stations, np.where(heights < 0, UP, -UP)),
+        *number_labels(axis, stations, np.where(heights < 0, UP, -UP)),
     )
     met = say("at {first}, where the acceleration jumps, it has a corner")
-    lines, faired = curve_over_phi(givens, showing(plotted), "α", curve, met)
+    lines, faired = curve_over_phi(givens, errorless_hand(plotted), "α", curve, met)
     degrees, names = np.degrees(plotted.givens.measured.first("alpha")), station_names(stations)
     k = min(4, len(names) - 1)
     said = say(
@@ -145,7 +149,7 @@ def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
         marks += [top.dots(Role.LIMIT), top.label(say("{alpha:.1f}°", alpha=alpha), _away_from_axis(top))]
         compared = _NO_LIMIT if limit is None else _limit_remark(abs(alpha), limit, plotted.givens.mu_alpha)
         parts.append(Part(said.with_values(y=top.place.imag, alpha=alpha, compared=compared), (top,)))
-        if other := inside(plotted, name.removeprefix("max_")):
+        if other := inner_maximum(plotted, name.removeprefix("max_")):
             beside = float(np.degrees(plotted.givens.mu_alpha.per_mm)) * other.place.imag
             inner_marks += [
                 other.dots(Role.LIMIT),
@@ -160,7 +164,7 @@ def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
         "If the angle between force and motion is too large, the follower may jam; so it is compared with the limit."
     )
     title, reads = say("The maximum pressure angles"), ("max_rise", "max_return")
-    return Step(title, (*led_by(found, parts), *inner_parts), ANGLE, (*marks, *inner_marks), reads, why=why)
+    return Step(title, (*introduced_parts(found, parts), *inner_parts), ANGLE, (*marks, *inner_marks), reads, why=why)
 
 
 def _away_from_axis(top: Drawn) -> complex:

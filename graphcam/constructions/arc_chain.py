@@ -14,7 +14,7 @@ from graphcam.constructions.arc_roller import arc_roller
 from graphcam.constructions.drawings import Drawings, DrawnOnce
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import UNLIMITED, Paper, Scale, coarsest, standard_scale
+from graphcam.drafting.scale import UNLIMITED, Paper, Scale, coarsest_scale, standard_scale
 from graphcam.given.three_arcs import ThreeArcs
 
 CENTRES_ROOM = complex(40.0, 50.0)
@@ -57,7 +57,7 @@ class ArcBoard:
         outer = math.hypot(*self.given.D) + 2 * self.roller_radius
         below = outer if self.given.C2 is None else max(outer, math.hypot(*self.given.C2))
         usual = standard_scale(outer + below, min(self.paper.width, self.paper.height), self.paper.ratios)
-        return coarsest(usual, self.page.scale(self.extent, CENTRES_ROOM))
+        return coarsest_scale(usual, self.page.scale(self.extent, CENTRES_ROOM))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

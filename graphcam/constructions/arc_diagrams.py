@@ -9,19 +9,26 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.constructions.arc_outline import unreadable
+from graphcam.constructions.arc_outline import unreadable_step
 from graphcam.constructions.arc_plan import worked_station
 from graphcam.constructions.arc_profile import RollerOnArcs
-from graphcam.constructions.axes import NUMBER_ROOM, PHASES_OFFSET, axes_over_phi, degrees_below, ordinate, reach
-from graphcam.constructions.graduation import graduated
+from graphcam.constructions.axes import (
+    NUMBER_ROOM,
+    PHASES_OFFSET,
+    axes_over_phi,
+    degrees_below,
+    height_range,
+    ordinate_title,
+)
+from graphcam.constructions.graduation import graduation_marks
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, calculated, distance_between, showing
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Construction, Part, Step, View, Words, say
 from graphcam.drafting.marks import Dimension, Label, Mark, Role, Segments
-from graphcam.drafting.meaning import Compared, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import ComparedReading, Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import GOST_2_302, NEGLIGIBLE_SIZE, Scale, standard_scale
 from graphcam.given.laws import Floats
@@ -56,18 +63,26 @@ MEANING = Meaning(
     {
         "lift": ReadingMeaning(say("lift h"), "h", "mm"),
         "max_v": ReadingMeaning(
-            say("maximum v"), "max v", "mm/rad", (Compared("max_v", candidates="v_candidates", ranks=(np.positive,)),)
+            say("maximum v"),
+            "max v",
+            "mm/rad",
+            (ComparedReading("max_v", candidates="v_candidates", ranks=(np.positive,)),),
         ),
         "max_a": ReadingMeaning(
-            say("maximum a"), "max a", "mm/rad²", (Compared("max_a", candidates="a_candidates", ranks=(np.positive,)),)
+            say("maximum a"),
+            "max a",
+            "mm/rad²",
+            (ComparedReading("max_a", candidates="a_candidates", ranks=(np.positive,)),),
         ),
         "max_alpha": ReadingMeaning(
             say("maximum α"),
             "max α",
             "rad",
             (
-                Compared("max_pressure_angle_rise_deg", say("maximum α, rise"), "alpha_candidates", (np.positive,)),
-                Compared(
+                ComparedReading(
+                    "max_pressure_angle_rise_deg", say("maximum α, rise"), "alpha_candidates", (np.positive,)
+                ),
+                ComparedReading(
                     "max_pressure_angle_return_deg",
                     say("maximum α, return"),
                     "alpha_candidates",
@@ -95,7 +110,7 @@ def arc_diagrams(
     hand, stations, turn = Hand(pencil, MEANING), rolled.givens.stations, rolled.readings["edges"]
     o = hand.given("O")
     over = partial(_over_the_turn, rolled.givens.arcs.givens.dwell / mu_phi.per_mm, FULL_TURN / mu_phi.per_mm)
-    ends = hand.lay_off("ends", o, RIGHT, calculated(over, hand.carry(turn, 1 / mu_phi.per_mm)))
+    ends = hand.lay_off("ends", o, RIGHT, calculated_setting(over, hand.carry(turn, 1 / mu_phi.per_mm)))
     feet = hand.divide("stations", ends[stations.arc], ends[stations.arc + 1], stations.u)
     points: dict[str, Drawn] = {}
     for name in VIEWS:
@@ -107,8 +122,8 @@ def arc_diagrams(
             continue
         sides = [hand.tangent(f"{name} {end}", points[name], stations.spans, way) for end, way in ENDS.items()]
         points[f"{name}_tops"] = hand.take(f"{name}_tops", *sides)
-        greatest = calculated(np.abs, distance_between(o, points[f"{name}_tops"], UP))
-        hand.read(f"max_{name}", calculated(partial(np.max, axis=-1), greatest), scale)
+        greatest = calculated_setting(np.abs, distance_between(o, points[f"{name}_tops"], UP))
+        hand.read(f"max_{name}", calculated_setting(partial(np.max, axis=-1), greatest), scale)
         hand.read(f"{name}_candidates", greatest, scale, source.unit)
     return hand.finished(ArcDiagramsGivens(rolled, mu_phi, heights), _draw, points)
 
@@ -197,17 +212,17 @@ REASONS = {
 def _draw(plotted: Construction[ArcDiagramsGivens]) -> list[Step]:
     if np.isnan(plotted.givens.rolled.first("phi")).any():
         said = say("Without a path of the roller there is nothing to plot.")
-        return [unreadable(say("No diagrams"), said, DISPLACEMENT)]
+        return [unreadable_step(say("No diagrams"), said, DISPLACEMENT)]
     return [_diagram(plotted, name) for name in VIEWS]
 
 
 def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
-    hand, mu_phi, ends = showing(plotted), plotted.givens.mu_phi, plotted.acts["ends"].first
+    hand, mu_phi, ends = errorless_hand(plotted), plotted.givens.mu_phi, plotted.acts["ends"].first
     curve, dots, feet = _whole_turn(plotted, hand, name), plotted.acts[name].first, plotted.acts["stations"].first
-    low, high = reach(curve.shown.imag)
+    low, high = height_range(curve.shown.imag)
     end, per_mm = float(ends.shown[-1].real), _per_mm(plotted, name)
-    axes = axes_over_phi(end, mu_phi, curve.shown.imag, ordinate(SYMBOLS[name], "mm"))
-    axes += graduated(curve.shown.imag, per_mm)
+    axes = axes_over_phi(end, mu_phi, curve.shown.imag, ordinate_title(SYMBOLS[name], "mm"))
+    axes += graduation_marks(curve.shown.imag, per_mm)
     below = degrees_below(end, mu_phi, low)
     axes += below if name == "alpha" else ()
     limits = hand.erect("limits", ends[1:])

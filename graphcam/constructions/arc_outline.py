@@ -23,13 +23,13 @@ from graphcam.drafting.euclid import RIGHT, UP, unit
 from graphcam.drafting.hand import BISECTION_SHARE, Hand, distance_between
 from graphcam.drafting.ink import Caption, Part, Step, View, say
 from graphcam.drafting.marks import Dimension, Label, Line, Mark, Role
-from graphcam.drafting.meaning import Compared, Formula, Meaning, ReadingMeaning, Symbol, Values
+from graphcam.drafting.meaning import ComparedReading, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import UNLIMITED, Paper, Scale, ratio_text
-from graphcam.drafting.telling import Move, in_parts
+from graphcam.drafting.telling import Move, move_parts
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.plane_vectors import dot
-from graphcam.words import joined, sequence
+from graphcam.words import and_list, sequence
 
 ARCS = View("arcs", say("Three arcs"), across="arcs x", up="arcs y", scale=say("Three arcs, {ratio}"), main=True)
 AXIS_OVERHANG = 6.0
@@ -58,13 +58,13 @@ MEANING = Meaning(
         "outer": ReadingMeaning(say("radius of the outer circle"), "OD", "mm"),
         **{
             f"{point}_{axis}": ReadingMeaning(
-                sequence([point, axis]), f"{point} {axis}", "mm", (Compared(f"{point}_{axis}"),)
+                sequence([point, axis]), f"{point} {axis}", "mm", (ComparedReading(f"{point}_{axis}"),)
             )
             for point in ("C1", "C2", "C3", "F")
             for axis in "xy"
         },
-        "rho2": ReadingMeaning(say("radius ρ₂"), "ρ₂", "mm", (Compared("rho2", say("ρ₂")),)),
-        "rho3": ReadingMeaning(say("radius ρ₃"), "ρ₃", "mm", (Compared("rho3", say("ρ₃")),)),
+        "rho2": ReadingMeaning(say("radius ρ₂"), "ρ₂", "mm", (ComparedReading("rho2", say("ρ₂")),)),
+        "rho3": ReadingMeaning(say("radius ρ₃"), "ρ₃", "mm", (ComparedReading("rho3", say("ρ₃")),)),
         **{
             f"other_{point}_{axis}": ReadingMeaning(sequence([f"{point}′", axis]), f"{point}′ {axis}", "mm")
             for point in ("C3", "F")
@@ -150,7 +150,7 @@ def _touching(hand: Hand, name: str, centres: Drawn, about_c1: Drawn, rho3: Sett
 # --- the steps -------------------------------------------------------------------------------------------------------
 
 
-def unreadable(title: Caption, said: Caption, view: View) -> Step:
+def unreadable_step(title: Caption, said: Caption, view: View) -> Step:
     """The step in place of one that cannot be drawn, for lines cross at less than a degree."""
     why = say("Lines that cross at less than a degree have no point of intersection that can be read.")
     return Step(title, (Part(said),), view, (), why=why)
@@ -176,14 +176,14 @@ def _plot(arcs: ArcOutline, name: str, point: Point) -> Move:
     ways = [way.with_values(mm=mm) for way, mm in ((across, abs(at.real)), (up, abs(at.imag))) if mm > SAME_RADIUS]
     told = say("({x:g}, {y:g}) mm", x=point[0], y=point[1])
     drawn = arcs.acts[f"given_{name}" if name in "AD" else name]
-    return PLOT_CAPTION.with_values(name=name, told=told, way=joined(ways)), drawn
+    return PLOT_CAPTION.with_values(name=name, told=told, way=and_list(ways)), drawn
 
 
 def _data(arcs: ArcOutline) -> Step:
     given, mu_l, o = arcs.givens.given, arcs.givens.mu_l.per_mm, arcs.acts["O"]
     axes = say("Draw two axes through the cam centre O, and plot at {ratio}: every length times {times:g}.")
     moves = [_plot(arcs, name, at) for name in "ADG" if (at := getattr(given, name)) is not None]
-    parts = in_parts(moves, {"ratio": ratio_text(mu_l), "times": 1 / mu_l}, [axes])
+    parts = move_parts(moves, {"ratio": ratio_text(mu_l), "times": 1 / mu_l}, [axes])
     reach = np.array([-1, 1]) * (abs(complex(*given.D)) / mu_l + AXIS_OVERHANG)
     plotted: tuple[Mark, ...] = (
         *(Line(reach + 0j, Role.AXIS), Line(UP * reach, Role.AXIS), o.dots(), o.label("O", -1 - 1j)),
@@ -216,7 +216,7 @@ def _first_centre(arcs: ArcOutline) -> Step:
         outer.drawn_circle(Role.CONSTRUCTION),
     )
     why = say("The outer circle and the arc about C1 touch in D, so O, C1 and D lie on one line.")
-    parts = in_parts(moves, values)
+    parts = move_parts(moves, values)
     return Step(say("The first centre"), parts, ARCS, marks, (*_xy("C1"), "outer"), why=why)
 
 
@@ -225,7 +225,7 @@ def _second_centre(arcs: ArcOutline) -> Step:
     a, c2, g, about = (acts[name] for name in ("A", "C2", "G", "circle about C2"))
     if np.isnan(a.place):
         said = say("The bisector of AG meets the line OA at less than a degree: C2 cannot be read.")
-        return unreadable(say("The second centre"), said, ARCS)
+        return unreadable_step(say("The second centre"), said, ARCS)
     radius = abs(g.place - c2.place)
     values = {"rho2": radius * mu_l, "radius": radius, "mu": mu_l, "base": abs(a.place), "at": _at(arcs, "C2")}
     if given.C2 is None:
@@ -254,7 +254,7 @@ def _second_centre(arcs: ArcOutline) -> Step:
         *(*bisector, c2.dots(), a.dots(), _named(arcs, "C2"), *((_named(arcs, "A"),) if given.A is None else ())),
     )
     why = say("The arc touches the base circle in A, so O lies on the line C2 A, and C2 is as far from A as from G.")
-    reads, parts = (*_xy("C2"), "rho2", "base"), in_parts(moves, values)
+    reads, parts = (*_xy("C2"), "rho2", "base"), move_parts(moves, values)
     return Step(say("The second centre"), parts, ARCS, marks, reads, why=why)
 
 
@@ -273,7 +273,7 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
     if np.isnan(arcs.first(c3)):
         parallel = say("The bisector of C1 P{prime} is almost parallel to the line: C3{prime} cannot be read.")
         said = sequence([each.with_values(**values) for each in (LAID_OFF, parallel)], " ")
-        return [unreadable(title, said, ARCS)]
+        return [unreadable_step(title, said, ARCS)]
     to_c3 = [
         (LAID_OFF, acts["G C2"], acts[p]),
         (say("Join C1 and P{prime} with the ruler."), acts[f"C1 {p}"]),
@@ -304,11 +304,11 @@ def _third_arc(arcs: ArcOutline, name: str) -> list[Step]:
             "Laid off the other way, ρ₁ leads to a second centre as far from P′ as from C1, so that there are two "
             "roots."
         )
-        parts = in_parts([*to_c3, *to_f], values, last=[orders])
+        parts = move_parts([*to_c3, *to_f], values, last=[orders])
         return [Step(title, parts, ARCS, (*centre, *line), (*_xy(c3), *_xy(f)), why=why)]
     why = say("C3 lies on the line G C2, and as C3 P and C3 C1 both are ρ₃ − ρ₁, on the bisector of C1 P.")
     touch = say("The arcs about C3 and C1 touch in F, so C3, C1 and F lie on one line.")
-    first, last = in_parts(to_c3, values), in_parts(to_f, values, last=[orders])
+    first, last = move_parts(to_c3, values), move_parts(to_f, values, last=[orders])
     return [
         Step(title, first, ARCS, centre, (*_xy("C3"), "rho3"), why=why),
         Step(say("The point of contact"), last, ARCS, line, _xy("F"), why=touch),

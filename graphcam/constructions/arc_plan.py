@@ -8,17 +8,24 @@ from dataclasses import replace
 
 import numpy as np
 
-from graphcam.constructions.arc_outline import unreadable
+from graphcam.constructions.arc_outline import unreadable_step
 from graphcam.constructions.arc_profile import ARCS, CENTRES, ROLLER, ArcStations, RollerOnArcs, sense_sign
 from graphcam.constructions.velocity_plan import VelocityScale
 from graphcam.constructions.views import at_scale
 from graphcam.drafting import telling
 from graphcam.drafting.euclid import UP, unit
-from graphcam.drafting.hand import Hand, distance_between, showing
+from graphcam.drafting.hand import Hand, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Part, Row, Step, View, say
 from graphcam.drafting.marks import Label, Line, Mark, Points, Role, Segments
-from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Scale, coarsest, ratio_text, standard_scale, unit as unit_named
-from graphcam.drafting.telling import Move, in_parts
+from graphcam.drafting.scale import (
+    NEGLIGIBLE_SIZE,
+    Scale,
+    coarsest_scale,
+    ratio_text,
+    standard_scale,
+    unit as unit_named,
+)
+from graphcam.drafting.telling import Move, move_parts
 from graphcam.given.laws import Floats
 
 PLAN = View("plan", say("Velocity and acceleration"), across="plan", up="plan")
@@ -63,9 +70,9 @@ def _plan(rolled: RollerOnArcs) -> list[Step]:
     places: Points = np.array([0j, *(rolled.first(name)[at] for name in PLACE_NAMES)]) * upright
     if np.isnan(places).any():
         said = say("At station {name} a line cannot be read: it crosses another at less than a degree.", name=station)
-        return [unreadable(say("Velocity and acceleration"), said, PLAN)]
+        return [unreadable_step(say("Velocity and acceleration"), said, PLAN)]
     scale = _scale(rolled, places, PLAN)
-    hand, velocities = showing(rolled), VelocityScale(scale, rolled.givens.omega)
+    hand, velocities = errorless_hand(rolled), VelocityScale(scale, rolled.givens.omega)
     _crank_drive(hand, rolled, at, upright * mu_l / scale.per_mm)
     return [_velocity(hand, rolled, at, velocities), _acceleration(hand, rolled, at, velocities)]
 
@@ -83,7 +90,7 @@ def _scale(rolled: RollerOnArcs, places: Points, view: View) -> Scale:
     arcs = rolled.givens.arcs.givens
     size = arcs.mu_l.per_mm * complex(np.ptp(places.real), np.ptp(places.imag))
     usual = standard_scale(max(size.real, size.imag), MAX_PLAN_SIZE, arcs.paper.ratios)
-    return arcs.paper.kept_scale(view.name) or coarsest(usual, arcs.paper.scale(size, PLAN_MARGINS))
+    return arcs.paper.kept_scale(view.name) or coarsest_scale(usual, arcs.paper.scale(size, PLAN_MARGINS))
 
 
 PLACE_NAMES = ("B", "C", "K", "right", "beyond", "N", "M")
@@ -158,7 +165,7 @@ def _velocity(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScale) -
         *(acts[name].label(text, towards) for name, text, towards in names),
         *speed,
     )
-    parts = in_parts(moves, values, [opening])
+    parts = move_parts(moves, values, [opening])
     why = say(
         "While the roller runs on one arc, O{centre} is a crank and {centre}B a rod, and OK is ds/dφ, as in every "
         "velocity plan.",
@@ -200,7 +207,7 @@ def _acceleration(hand: Hand, rolled: RollerOnArcs, at: int, scale: VelocityScal
         *(acts["E"].label("E", side + 0j), acts["N′"].label("N′", -side + 0j)),
         *(acts["N"].label("N", side + 0j), acts["M"].label("M", -side + 0j)),
     )
-    parts = in_parts(moves, values)
+    parts = move_parts(moves, values)
     why = say(
         "In a right triangle the height squared is the product of the parts of the base, so {centre}N is "
         "{centre}K²/{centre}B, the rod's normal acceleration.",
@@ -255,7 +262,7 @@ def _velocities(rolled: RollerOnArcs) -> Step:
 def _accelerations(rolled: RollerOnArcs, ends: Iterable[str]) -> Step:
     """The step that finds N and M of every station, in a view of their own, for M may lie far out."""
     stations, mu = rolled.givens.stations, rolled.givens.arcs.givens.mu_l.per_mm
-    hand, o = showing(rolled), rolled.acts["O"].first
+    hand, o = errorless_hand(rolled), rolled.acts["O"].first
     places: Points = np.concatenate([[0j], *(rolled.first(name) for name in "BNM")])
     known = places[~np.isnan(places)]
     scale = _scale(rolled, known, ACCELERATIONS)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.hand import showing
+from graphcam.drafting.hand import errorless_hand
 from graphcam.drafting.ink import Caption, Construction, View, Words, say
 from graphcam.drafting.marks import Arc, Points, Role
 from graphcam.drafting.scale import Paper, Scale
@@ -42,7 +42,7 @@ def sense_sign(arcs: ArcOutline) -> int:
 def middle_of_dwell(arcs: ArcOutline) -> Drawn:
     """The line through the middle of the upper dwell: beyond it lies the mirror image of the rise, the return."""
     turn = -sense_sign(arcs) * arcs.givens.dwell / 2
-    return showing(arcs).protractor("middle of the dwell", arcs.acts["O"].first, arcs.first("D"), turn)
+    return errorless_hand(arcs).protractor("middle of the dwell", arcs.acts["O"].first, arcs.first("D"), turn)
 
 
 def mirror_line(arcs: ArcOutline) -> Caption:
@@ -63,7 +63,7 @@ def outline(
 
     The three arcs of the rise, the upper dwell if there is one, the return from the top down, the lower dwell.
     """
-    hand = showing(arcs)
+    hand = errorless_hand(arcs)
     image = hand.mirrored("joints of the return", hand.given("joints", joints), axis).points
     rise: list[tuple[Arc, Drawn]] = []
     back: list[tuple[Arc, Drawn]] = []

@@ -11,7 +11,7 @@ from functools import partial
 
 import numpy as np
 
-from graphcam.constructions.arc_outline import unreadable
+from graphcam.constructions.arc_outline import unreadable_step
 from graphcam.constructions.arc_plan import UNREADABLE, plans, shown_station, worked_station
 from graphcam.constructions.arc_profile import (
     ARCS,
@@ -31,14 +31,14 @@ from graphcam.constructions.arc_profile import (
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP, unit
-from graphcam.drafting.hand import Hand, calculated, distance_between, showing
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Label, Line, Mark, Role, Segments
-from graphcam.drafting.meaning import A, Compared, Formula, Meaning, ReadingMeaning, Symbol, V, Values
+from graphcam.drafting.meaning import A, ComparedReading, Formula, Meaning, ReadingMeaning, Symbol, V, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE, unit as unit_named
 from graphcam.given.laws import Floats
-from graphcam.words import joined
+from graphcam.words import and_list
 
 ENDS = {
     "a_A": say("a in {point}", point="A"),
@@ -106,16 +106,19 @@ MEANING = Meaning(
         "x": ReadingMeaning(say("x"), "x", "mm"),
         "y": ReadingMeaning(say("y"), "y", "mm"),
         "rho": ReadingMeaning(
-            say("minimum radius of curvature ρ"), "ρ", "mm", (Compared("min_pitch_curvature_radius", say("minimum ρ")),)
+            say("minimum radius of curvature ρ"),
+            "ρ",
+            "mm",
+            (ComparedReading("min_pitch_curvature_radius", say("minimum ρ")),),
         ),
         "roller_radius": ReadingMeaning(
-            say("roller radius r"), "r", "mm", (Compared("roller_radius", say("roller radius")),)
+            say("roller radius r"), "r", "mm", (ComparedReading("roller_radius", say("roller radius")),)
         ),
-        "lift": ReadingMeaning(say("lift h"), "h", "mm", (Compared("lift", say("lift")),)),
-        "prime_radius": ReadingMeaning(say("prime radius r₀"), "r₀", "mm", (Compared("prime_radius"),)),
+        "lift": ReadingMeaning(say("lift h"), "h", "mm", (ComparedReading("lift", say("lift")),)),
+        "prime_radius": ReadingMeaning(say("prime radius r₀"), "r₀", "mm", (ComparedReading("prime_radius"),)),
         **{
             name: ReadingMeaning(
-                title, f"φ({point})", "rad", (Compared(f"phi_{point}_deg", say("φ at {point}", point=point)),)
+                title, f"φ({point})", "rad", (ComparedReading(f"phi_{point}_deg", say("φ at {point}", point=point)),)
             )
             for name, point, title in (
                 ("phi_G", "G", say("φ at G")),
@@ -123,7 +126,7 @@ MEANING = Meaning(
                 ("rise", "D", say("angle of the rise")),
             )
         },
-        **{name: ReadingMeaning(title, "a", "mm/rad²", (Compared(name),)) for name, title in ENDS.items()},
+        **{name: ReadingMeaning(title, "a", "mm/rad²", (ComparedReading(name),)) for name, title in ENDS.items()},
     },
     FORMULAS,
     scales={"roller": "x"},
@@ -150,9 +153,9 @@ def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pe
     to_joints = hand.join("to the joints", o, trace)
     joints = {"phi_G": to_joints[1], "phi_F": to_joints[2], "rise": to_joints[3]}
     edges = [hand.angle(name, to_joints[0], to_joint, -sigma) for name, to_joint in joints.items()]
-    measured = calculated(_with_leading_zero, *(hand.carry(edge) for edge in edges))
-    phi = calculated(partial(_stations_between, stations), measured)
-    rays = hand.protractor("rays", o, to_joints[0], calculated(partial(np.multiply, -sigma), phi))
+    measured = calculated_setting(_with_leading_zero, *(hand.carry(edge) for edge in edges))
+    phi = calculated_setting(partial(_stations_between, stations), measured)
+    rays = hand.protractor("rays", o, to_joints[0], calculated_setting(partial(np.multiply, -sigma), phi))
     # Each arc passes through the joint at which it begins, the last one ends on the outer circle.
     centres, on = hand.take("centres of the arcs", c2, c3, c1), trace[[0, 1, 3]]
     paths = hand.circle("arcs of the roller's centre", centres, distance_between(centres, on))
@@ -168,7 +171,7 @@ def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pe
     n = hand.lay_off("N", c, outward, distance_between(c, beyond))
     m = hand.cross("M", hand.perpendicular("perpendiculars in N", outward, n), rays)
     prime_radius = distance_between(o, trace[0])
-    hand.read("s", calculated(np.subtract, distance_between(o, b), distance_between(o, trace[[0]])), mu_l)
+    hand.read("s", calculated_setting(np.subtract, distance_between(o, b), distance_between(o, trace[[0]])), mu_l)
     hand.read("v", distance_between(o, k, across.turned(-sigma)), mu_l)
     hand.read("a", distance_between(m, o, rays), mu_l)
     hand.angle("alpha", rays, outward, sigma)
@@ -176,10 +179,10 @@ def arc_roller(arcs: ArcOutline, roller_radius: float, stations: ArcStations, pe
     for name, along in (("x", RIGHT), ("y", UP)):
         hand.read(name, distance_between(o, b, along), mu_l)
     hand.read("edges", measured, 1.0, "rad", rounded=False)
-    hand.read("lift", calculated(np.subtract, distance_between(o, b[-1]), prime_radius), mu_l)
+    hand.read("lift", calculated_setting(np.subtract, distance_between(o, b[-1]), prime_radius), mu_l)
     hand.read("prime_radius", prime_radius, mu_l)
     hand.read("roller_radius", distance_between(touch[3], trace[3]), mu_l)
-    hand.read("rho", calculated(np.minimum, distance_between(c1, trace[3]), prime_radius), mu_l)
+    hand.read("rho", calculated_setting(np.minimum, distance_between(c1, trace[3]), prime_radius), mu_l)
     ends = [at for span in stations.spans for at in (span.start, span.stop - 1)]
     for name, at in zip(ENDS, ends, strict=True):
         hand.read(name, distance_between(m[at], o, rays[at]), mu_l)
@@ -207,11 +210,11 @@ RAY_OVERHANG = 7.0
 
 def _draw(rolled: RollerOnArcs) -> list[Step]:
     if np.isnan(rolled.first("trace")).any():
-        missing = joined([name for name in ("C1", "C2", "C3") if np.isnan(rolled.givens.arcs.first(name))])
+        missing = and_list([name for name in ("C1", "C2", "C3") if np.isnan(rolled.givens.arcs.first(name))])
         said = say(
             "Not every arc has a centre that can be read ({missing}), so the roller has no path.", missing=missing
         )
-        return [unreadable(say("The arcs of the roller's centre"), said, ROLLER)]
+        return [unreadable_step(say("The arcs of the roller's centre"), said, ROLLER)]
     return [_paths(rolled), _joints(rolled), _stations(rolled), *plans(rolled, ENDS)]
 
 
@@ -314,7 +317,7 @@ def _stations(rolled: RollerOnArcs) -> Step:
     arcs, stations, b, rays = rolled.givens.arcs, rolled.givens.stations, rolled.acts["B"], rolled.acts["rays"].first
     reach, ray = float(np.abs(rolled.first("trace")[-1])) + RAY_OVERHANG, rolled.first("ray")
     ends, mu_l = rays.shown + reach * ray, arcs.givens.mu_l.per_mm
-    hand, axis = showing(rolled), middle_of_dwell(arcs)
+    hand, axis = errorless_hand(rolled), middle_of_dwell(arcs)
     returning, feet = hand.mirrored("B on the return", b.first, axis), hand.cross("feet", rays, _prime(rolled))
     rollers = _rollers(rolled, hand)
     phi, s = np.degrees(rolled.first("phi")), rolled.first("s")

@@ -22,7 +22,7 @@ import numpy as np
 from graphcam.constructions import force_plan as plain
 from graphcam.constructions.arm_pressure_angle import ArmAngles
 from graphcam.drafting.euclid import unit
-from graphcam.drafting.hand import Hand, calculated, distance_between
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Label, Line, Mark, Role
 from graphcam.drafting.meaning import ALPHA, ARM, Formula, Meaning, ReadingMeaning, Symbol, Values
@@ -103,7 +103,7 @@ def arm_force_plan(
     givens, direction = measured.givens, plain.direction_at(measured, k)
     phi, psi0 = float(givens.integrated.givens.stations.phi[k]), hand.carry(measured.readings["psi0"])
     reduced = partial(_reduced, load, givens.arm, givens.distance, direction, phi)
-    force = calculated(reduced, *plain.read_at(hand, measured, k, "s", "v", "a"), psi0)
+    force = calculated_setting(reduced, *plain.station_settings(hand, measured, k, "s", "v", "a"), psi0)
     mu = mu_force or plain.round_scale(float(np.median(np.abs(force.amount))))
 
     # Of the arm positions: the arm C B, and A D.
@@ -112,7 +112,7 @@ def arm_force_plan(
     ray = hand.join("AD", centre, hand.earlier_places(measured, "tips")[k])
     origin = hand.given("origin")
     down = hand.perpendicular("line of Q", arm, origin)
-    foot = hand.lay_off("foot", origin, down, calculated(partial(np.multiply, 1 / mu.per_mm), force))
+    foot = hand.lay_off("foot", origin, down, calculated_setting(partial(np.multiply, 1 / mu.per_mm), force))
     normal = hand.parallel("line of F", ray, foot)
     along_arm = hand.parallel("line of R", arm, origin)
     corner = plain.third_corner(hand, foot, normal, along_arm, dot(foot.points, down.directions) > 0)
@@ -122,7 +122,7 @@ def arm_force_plan(
         "load": distance_between(origin, foot, down),
         "normal": distance_between(foot, corner),
         "along": distance_between(corner, foot, down),
-        "side": calculated(np.abs, distance_between(foot, corner, arm)),
+        "side": calculated_setting(np.abs, distance_between(foot, corner, arm)),
         "reaction": distance_between(origin, corner),
     }
     for name, length in lengths.items():
@@ -153,7 +153,7 @@ def _plan_station(measured: ArmAngles, load: ArmLoad) -> int:
     givens, integrated = measured.givens, measured.givens.integrated
     s, v, a = (integrated.value(name) for name in ("s", "v", "a"))
     phi, psi0 = integrated.givens.stations.phi, float(measured.first("psi0"))
-    return plain.where_it_presses(measured, _reduced(load, givens.arm, givens.distance, 1, phi, s, v, a, psi0))
+    return plain.pressed_station(measured, _reduced(load, givens.arm, givens.distance, 1, phi, s, v, a, psi0))
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -208,7 +208,7 @@ def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
         "set the dividers to {paper:.1f} mm, and lay Q off from its tail square to the arm of this station, {way}."
     )
     why = say("A torque about the pivot has the same effect as a force at the arm's end, square to the arm.")
-    return plain.loaded(plan, view, said.with_values(**values), -_corner_direction(plan), why)
+    return plain.load_arrow_step(plan, view, said.with_values(**values), -_corner_direction(plan), why)
 
 
 def _corner_direction(plan: Construction[ArmForcePlanGivens]) -> complex:
@@ -222,7 +222,7 @@ def _line_of_force(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
         "In the arm positions lay the set squares along the line from A to D of station {name}. Carry it to the "
         "head of Q and draw the line of the contact force F there; it makes α = {alpha:.1f}° with Q."
     ).with_values(name=plain.station_name(plan), alpha=abs(plain.alpha_at(plan)))
-    marks = plain.leaning(normal, plain.beyond(float(plan.first("normal"))), plain.alpha_at(plan), up)
+    marks = plain.leaning_line(normal, plain.line_length(float(plan.first("normal"))), plain.alpha_at(plan), up)
     why = say("The contact normal passes through the centre of relative rotation, and A D is parallel to it.")
     return Step(say("The line of the contact force"), (Part(said, (normal,)),), view, marks, why=why)
 
@@ -245,7 +245,7 @@ def _line_of_reaction(plan: Construction[ArmForcePlanGivens], view: View) -> Ste
 def _not_pressed(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     """The last step where the load does not press, so that there is no third corner."""
     said = say("The two lines do not meet where the cam could push: the load does not press the arm onto the cam.")
-    return plain.not_closed(view, said)
+    return plain.open_triangle_step(view, said)
 
 
 def _triangle_step(plan: Construction[ArmForcePlanGivens], view: View) -> Step:

@@ -6,18 +6,18 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.constructions import profile_view
-from graphcam.constructions.arm_positions import arc_through, cam_centre, example, turning_angle
-from graphcam.constructions.axes import numbers, station_names
+from graphcam.constructions.arm_positions import arc_through, cam_centre, example_station, turning_angle
+from graphcam.constructions.axes import number_labels, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.euclid import RIGHT, UP, circles_meet, unit
+from graphcam.drafting.euclid import RIGHT, UP, circle_crossing, unit
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import Construction, Part, Step, Words, say
 from graphcam.drafting.marks import Role
 from graphcam.drafting.meaning import ARM, DISTANCE, PSI0, RADIUS, Formula, Meaning, S, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Scale
-from graphcam.drafting.telling import STATION, alike, circle_drawn, run
+from graphcam.drafting.telling import STATION, circle_caption, no_setting, run
 from graphcam.given.follower import Rotation
 from graphcam.words import say_in
 
@@ -88,7 +88,7 @@ def arm_inversion(
     arcs = hand.circle("arcs of the arm", pivots, arm / mu_l.per_mm)
     # To the left of the way from the cam centre to the pivot: above the line of centres.
     # Where a triangle has these sides, circles that miss one another by a hand's errors are taken to touch.
-    closes = bool(np.isfinite(circles_meet(np.asarray(0j), prime_radius, np.asarray(distance + 0j), arm)))
+    closes = bool(np.isfinite(circle_crossing(np.asarray(0j), prime_radius, np.asarray(distance + 0j), arm)))
     starts = hand.cross("starts", prime, arcs, flat=closes)
     swung = hand.protractor("swung", pivots, hand.join("arms at rest", pivots, starts), hand.carry(s, -s.scale))
     pitch = hand.cross("pitch", swung, arcs)
@@ -117,7 +117,7 @@ def _draw(inverted: ArmInverted) -> list[Step]:
 def _circles(inverted: ArmInverted) -> Step:
     mu_l, c = inverted.givens.mu_l.per_mm, inverted.givens.distance
     start, circle = profile_view.start_of_turn(inverted), inverted.acts["pivot circle"]
-    pivots = circle_drawn(say_in("drawn", "the circle of the pivot about A"), "c", c, mu_l)
+    pivots = circle_caption(say_in("drawn", "the circle of the pivot about A"), "c", c, mu_l)
     title, circles = say("Prime circle and pivot circle"), (circle.drawn_circle(Role.CONSTRUCTION),)
     why = say("The pivot stays at the centre distance from A, and the lift starts at the prime circle.")
     return profile_view.prime_step(inverted, title, start, circles, why=why, parts=(Part(pivots, (circle,)),))
@@ -134,7 +134,7 @@ def _pivots(inverted: ArmInverted) -> Step:
     first = pivots.first[0]
     marks = (
         *(pivots.dots(Role.CONSTRUCTION), first.label("C", UP * first.place)),
-        *numbers(pivots, stations, pivots.shown),
+        *number_labels(pivots, stations, pivots.shown),
     )
     why = say("The frame, seen from the cam, turns against the cam's rotation, and the pivot turns with it.")
     stepped = run(said, STATION, station_names(stations), positions, pivots)
@@ -143,7 +143,7 @@ def _pivots(inverted: ArmInverted) -> Step:
 
 def _starts(inverted: ArmInverted) -> Step:
     integrated, starts, arcs = inverted.givens.integrated, inverted.acts["starts"], inverted.acts["arcs of the arm"]
-    names, k = station_names(integrated.givens.stations), example(integrated, inverted.acts["pivots"])
+    names, k = station_names(integrated.givens.stations), example_station(integrated, inverted.acts["pivots"])
     arm, pitch = inverted.givens.mu_l.paper(inverted.givens.arm), inverted.acts["pitch"]
     said = say(
         "Set the compass to the arm, {arm:.1f} mm. From every pivot strike an arc across the prime circle, always at "
@@ -153,7 +153,7 @@ def _starts(inverted: ArmInverted) -> Step:
     found = np.stack([starts.shown, pitch.shown], axis=-1)
     drawn = [arc_through(arcs[n], found[n], ARC_OVERHANG) for n in range(len(names))]
     phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
-    struck = run(said, STATION, names, arcs, starts, settings=alike)
+    struck = run(said, STATION, names, arcs, starts, settings=no_setting)
     marks = (*drawn, starts.dots(Role.CONSTRUCTION), *phases)
     why = say("At the start of the lift the end of the arm lies on the prime circle, in every position of the frame.")
     return Step(say("Arcs of the arm"), (struck, last), PROFILE, marks, why=why)
@@ -161,7 +161,7 @@ def _starts(inverted: ArmInverted) -> Step:
 
 def _turned_arms_step(inverted: ArmInverted) -> Step:
     integrated, arms, pitch = inverted.givens.integrated, inverted.acts["arms"], inverted.acts["pitch"]
-    names, k = station_names(integrated.givens.stations), example(integrated, inverted.acts["pivots"])
+    names, k = station_names(integrated.givens.stations), example_station(integrated, inverted.acts["pivots"])
     s, factor = integrated.first("s"), np.degrees(integrated.readings["s"].per_mm)
     chords = 2 * inverted.givens.mu_l.paper(inverted.givens.arm) * np.sin(np.abs(np.radians(s * factor)) / 2)
 

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.arm_positions import ArmPositions, directions, example, stroke
+from graphcam.constructions.arm_positions import ArmPositions, example_station, lift_directions, stroke
 from graphcam.constructions.axes import degrees, station_names
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP, unit
-from graphcam.drafting.hand import showing
+from graphcam.drafting.hand import errorless_hand
 from graphcam.drafting.ink import Part, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Line, Points, Role, Segments
 from graphcam.drafting.telling import run
@@ -71,7 +71,10 @@ def family_step(drawn: ArmPositions, name: str, direction: int, limit: float, ha
     """The step that draws the lines at the limit of all arms of one direction, down to the region ``hatched``."""
     integrated, tips, lines = drawn.givens.integrated, drawn.acts["tips"], drawn.acts[f"limits: {name}"]
     so = _AtLimit(direction * sense(drawn.givens.rotation), limit)
-    at, k = np.flatnonzero(directions(drawn.givens) == direction).tolist(), example(integrated, tips, direction)
+    at, k = (
+        np.flatnonzero(lift_directions(drawn.givens) == direction).tolist(),
+        example_station(integrated, tips, direction),
+    )
     named, own = station_names(integrated.givens.stations), at.index(k)
     title, phase = say("Lines at the limit of the rise"), say("rise")
     if direction < 0:
@@ -100,7 +103,7 @@ def family_step(drawn: ArmPositions, name: str, direction: int, limit: float, ha
 
 def _normal(drawn: ArmPositions, station: int, line: Drawn, so: _AtLimit) -> tuple[Drawn, Line, AngleMark]:
     """The normal to an arm at its D, what is drawn of it, and the angle from there to the line at the limit."""
-    hand, tip, length = showing(drawn), drawn.acts["tips"].first[station], abs(drawn.acts["start"].place)
+    hand, tip, length = errorless_hand(drawn), drawn.acts["tips"].first[station], abs(drawn.acts["start"].place)
     normal = hand.perpendicular("normal to the arm", drawn.acts["arms"].first[station], tip)
     begin = float(np.angle(normal.directions))
     start, end = sorted((begin, begin + so.side * so.limit))

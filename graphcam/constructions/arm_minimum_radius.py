@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from graphcam.constructions.adoption import ToldByChain
+from graphcam.constructions.adoption import ChainSettings
 from graphcam.constructions.arm_limit_lines import bounding_length, dwells_step, family_step, highest_arm, reach_step
 from graphcam.constructions.arm_positions import (
     ArmGivens,
@@ -20,9 +20,9 @@ from graphcam.constructions.arm_positions import (
     arm_positions,
     cam_centre,
     detail_scale,
-    directions,
+    enlarged_region_step,
+    lift_directions,
     positions_step,
-    region_enlarged,
     velocities_step,
 )
 from graphcam.constructions.axes import pieces_of, station_names
@@ -34,12 +34,12 @@ from graphcam.constructions.region import (
     RegionPicture,
     nearest_for_many,
     picture_of,
-    touched,
+    touched_stations,
 )
 from graphcam.constructions.views import REGION, at_scale
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import NOWHERE, UP, circles_meet, turned_direction, unit
-from graphcam.drafting.hand import Hand, distance_between, showing
+from graphcam.drafting.euclid import NOWHERE, UP, circle_crossing, turned_direction, unit
+from graphcam.drafting.hand import Hand, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Dimension, Label, Line, Mark, Points, Region, Role
 from graphcam.drafting.meaning import (
@@ -49,7 +49,7 @@ from graphcam.drafting.meaning import (
     PSI0,
     R0,
     SIGMA,
-    Compared,
+    ComparedReading,
     Formula,
     Meaning,
     ReadingMeaning,
@@ -62,11 +62,11 @@ from graphcam.drafting.scale import Scale
 from graphcam.given.follower import Limits, Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.plane_vectors import dot
-from graphcam.words import joined, sequence
+from graphcam.words import and_list, sequence
 
 
 @dataclass(frozen=True, eq=False)
-class ArmLeastRadiusGivens(ArmGivens, ToldByChain):
+class ArmLeastRadiusGivens(ArmGivens, ChainSettings):
     """What lies on the board; see :func:`arm_least_radius`.
 
     adopted : tells which cam centre is taken in the end, where one is: the region is drawn as far as there
@@ -92,7 +92,7 @@ def _worst(region: ArmRegion) -> Values:
     """The formula's values for every family of lines: the position in which the angle comes nearest to its limit."""
     integrated, limits, sigma = region.givens.integrated, region.givens.limits, sense(region.givens.rotation)
     s, v = (integrated.value(name) for name in "sv")
-    moving, names = directions(region.givens), station_names(integrated.givens.stations)
+    moving, names = lift_directions(region.givens), station_names(integrated.givens.stations)
     at_rest = np.zeros_like(moving, bool)
     at_rest[[0, int(np.argmax(s))]] = True
     families = (
@@ -145,7 +145,7 @@ MEANING = Meaning(
     {
         "prime_radius": LEAST_RADIUS,
         "distance": ReadingMeaning(
-            say("centre distance c"), "c", "mm", (Compared("minimum_distance", say("its centre distance c")),)
+            say("centre distance c"), "c", "mm", (ComparedReading("minimum_distance", say("its centre distance c")),)
         ),
     },
     FORMULAS,
@@ -192,7 +192,7 @@ def _boundaries(hand: Hand, drawn: Mapping[str, Drawn], givens: ArmLeastRadiusGi
     where the arm rests, so there both sides are drawn; without the rest condition the arm need only reach the cam.
     """
     motion, stations = givens.integrated.givens.motion, givens.integrated.givens.stations
-    limits, sigma, moving = givens.limits, sense(givens.rotation), directions(givens)
+    limits, sigma, moving = givens.limits, sense(givens.rotation), lift_directions(givens)
 
     def at_limit(name: str, ends: Drawn, arms: Drawn, limit: float, side: int) -> Drawn:
         return hand.protractor(f"limits: {name}", ends, arms.turned(UP), side * limit).turned(side)
@@ -264,7 +264,7 @@ def permitted_distances(region: ArmRegion, prime_radius: float) -> Floats:
     cuts = cuts[cuts.imag < 0]  # the cam lies below the arm
     ends = np.unique([abs(arm - radius), *np.abs(cuts), arm + radius])
     # No boundary crosses the region, so between two neighbouring cuts all places are permitted or none.
-    centres = circles_meet(np.asarray(0j), (ends[:-1] + ends[1:]) / 2, np.asarray(start), radius)
+    centres = circle_crossing(np.asarray(0j), (ends[:-1] + ends[1:]) / 2, np.asarray(start), radius)
     permitted = (dot(inwards, centres[:, None] - touches) >= -ON_THE_LINE).all(axis=-1)
     return mu * np.stack([ends[:-1], ends[1:]], axis=-1)[permitted]
 
@@ -322,7 +322,7 @@ def _enlarged(region: ArmRegion) -> list[Step]:
     if scale is None:
         return []
     bind = [(region.acts["lines that bind"].first[n], name) for n, name in _binding_captions(region)]
-    return [region_enlarged(region, scale, _shown_boundaries(region), bind, _adopted(region))]
+    return [enlarged_region_step(region, scale, _shown_boundaries(region), bind, _adopted(region))]
 
 
 def _shown_boundaries(region: ArmRegion) -> list[Boundary]:
@@ -340,8 +340,8 @@ def _adopted(region: ArmRegion) -> list[complex]:
 
 def _shaded(region: ArmRegion, picture: RegionPicture, hatched: Points) -> Step:
     corners = picture.corners
-    edges = showing(region).given("edges of the picture", corners, np.diff([*corners, corners[0]]))
-    bounds = showing(region).take("bounds", region.acts["lines"].first, edges)
+    edges = errorless_hand(region).given("edges of the picture", corners, np.diff([*corners, corners[0]]))
+    bounds = errorless_hand(region).take("bounds", region.acts["lines"].first, edges)
     said = say(
         "Hatch the region on the permitted side of all lines; between the stations its edge is the curve that the "
         "lines touch."
@@ -384,7 +384,7 @@ def _binding_captions(region: ArmRegion) -> list[tuple[int, Caption]]:
     named = list[tuple[int, Caption]]()
     for n, family, k in _bound_by(region):
         if family in ("rise", "return"):
-            at = touched(integrated, tips, complex(bind.shown[n]), 1 if family == "rise" else -1)
+            at = touched_stations(integrated, tips, complex(bind.shown[n]), 1 if family == "rise" else -1)
         else:
             at = [_dwell_line_starts(region)[k]]
         named.append((n, BINDING_CAPTIONS[family].with_values(station="–".join(at))))
@@ -401,7 +401,7 @@ def centre_caption(region: ArmRegion) -> Caption:
     for _, family, k in _bound_by(region):
         place = _dwell_line_starts(region)[k] if family in DWELL_ACTS else ""
         found[family, place] = BOUND_CAPTIONS[family].with_values(place=place)
-    bounds = joined(list(found.values()))
+    bounds = and_list(list(found.values()))
     if region.givens.distance is not None:
         return say(
             "the point of the arc nearest to B₀ in the hatched region, where the arc meets {bounds}", bounds=bounds
@@ -426,7 +426,7 @@ def _result(region: ArmRegion, hatched: Points, *, found: bool) -> Step:
     why = say("The prime circle goes through B₀, so the nearest permitted cam centre gives the smallest cam.")
     if not found:
         return Step(title, (*parts, Part(NO_CENTRE[c is not None])), view, tuple(arcs), why=why)
-    line = showing(region).join("line of centres", acts["pivot"].first, centre.first)
+    line = errorless_hand(region).join("line of centres", acts["pivot"].first, centre.first)
     reads = ("prime_radius", "distance")
     r0, away = (float(region.value(name)) for name in reads)
     joining = say(

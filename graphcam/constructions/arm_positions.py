@@ -12,17 +12,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import clear_numbers, numbered_stations, numbers, sense_caption, station_names
+from graphcam.constructions.axes import clear_numbers, number_labels, numbered_stations, sense_caption, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.region import PICTURE_MARGIN, Boundary, RegionPicture
 from graphcam.constructions.views import CAM_CENTRE, REGION, at_scale
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import RIGHT, UP, circles_meet, unit
-from graphcam.drafting.hand import Hand, showing
+from graphcam.drafting.euclid import RIGHT, UP, circle_crossing, unit
+from graphcam.drafting.hand import Hand, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, Words, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Region, Role
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Ratios, Scale, ratio_text, standard_scale
-from graphcam.drafting.telling import STATION, from_to, run, setting
+from graphcam.drafting.telling import STATION, run, setting, stretch_caption
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.stations import Stations
 from graphcam.words import sequence
@@ -64,10 +64,10 @@ def cam_centre(arm: float, distance: float, prime_radius: float, *, flat: bool =
 
     flat : to take the nearest place, where they close none
     """
-    return complex(circles_meet(np.asarray(0j), distance, np.asarray(-arm + 0j), prime_radius, flat=flat))
+    return complex(circle_crossing(np.asarray(0j), distance, np.asarray(-arm + 0j), prime_radius, flat=flat))
 
 
-def directions(givens: ArmGivens) -> NDArray[np.intp]:
+def lift_directions(givens: ArmGivens) -> NDArray[np.intp]:
     """The direction of the lift at the stations (n,): 1 on a rise, -1 on a return."""
     motion, stations = givens.integrated.givens.motion, givens.integrated.givens.stations
     return np.array([motion.phases[k].direction for k in stations.phase])
@@ -83,7 +83,7 @@ SAME_POSITION = 1.0
 """Arms whose ends are nearer to one another bear one number [mm]."""
 
 
-def example(integrated: Integrated, places: Drawn, direction: int = 1) -> int:
+def example_station(integrated: Integrated, places: Drawn, direction: int = 1) -> int:
     """The worked station: of those that are named, the fastest of the rises or of the returns."""
     v, named = direction * integrated.first("v"), numbered_stations(places.shown, integrated.givens.stations)
     return int(np.argmax(np.where(np.isin(np.arange(v.size), named), v, v / 2)))
@@ -103,7 +103,7 @@ def stroke(line: Drawn, length: float) -> Line:
     return Line(ends, Role.CONSTRUCTION).left_by(line)
 
 
-def along_the_arm(way: float) -> Caption:
+def arm_sense_caption(way: float) -> Caption:
     """The sense along the arm from its end in which something is laid off: outward where it is positive."""
     return say("away from C") if way > 0 else say("towards C")
 
@@ -113,7 +113,7 @@ def positions_step(drawn: ArmPositions) -> Step:
     integrated, mu_l, acts = drawn.givens.integrated, drawn.givens.mu_l, drawn.acts
     pivot, start, ends, arms, arc = (acts[name] for name in ("pivot", "start", "ends", "arms", "arc of the arm"))
     level = acts["arm at rest"]
-    stations, s, k = integrated.givens.stations, integrated.first("s"), example(integrated, acts["tips"])
+    stations, s, k = integrated.givens.stations, integrated.first("s"), example_station(integrated, acts["tips"])
     factor, arm = np.degrees(integrated.readings["s"].per_mm), drawn.givens.arm / mu_l.per_mm
     names, given, turns = station_names(stations), (pivot.dots(), pivot.label("C", 1 + 0j)), s * factor
     base = say(
@@ -135,13 +135,13 @@ def positions_step(drawn: ArmPositions) -> Step:
         angle, chord = turning_angle(s[n], factor), abs(ends.shown[n] - start.place)
         return say("{angle}, {chord:.2f} mm along the arc", angle=angle, chord=chord) if small[n] else angle
 
-    towards = ends.shown * (1 - UP * directions(drawn.givens))
+    towards = ends.shown * (1 - UP * lift_directions(drawn.givens))
     marks = (
         *(*given, start.label("B₀", -UP, small=True)),
         stroke(level, abs(start.place - level.place)),
         arc_through(arc, np.append(ends.shown, start.place)),
         *(arms.segments(Role.CONSTRUCTION), ends.dots(Role.CONSTRUCTION)),
-        *numbers(ends, stations, towards, shown=_first_at_place(ends, start, stations)),
+        *number_labels(ends, stations, towards, shown=_first_at_place(ends, start, stations)),
     )
     swings = run(said, STATION, names, arms, ends, settings=swung)
     return Step(
@@ -172,29 +172,31 @@ def velocities_step(drawn: ArmPositions) -> Step:
     """The step that lays the velocity off along the arm in all positions, with the curves through the ends D."""
     integrated, sigma = drawn.givens.integrated, sense(drawn.givens.rotation)
     ends, tips = drawn.acts["ends"], drawn.acts["tips"]
-    stations, v, k = integrated.givens.stations, integrated.first("v"), example(integrated, tips)
+    stations, v, k = integrated.givens.stations, integrated.first("v"), example_station(integrated, tips)
     names, mu, arm = station_names(stations), integrated.readings["v"].per_mm, drawn.givens.mu_l.paper(drawn.givens.arm)
     said = say(
         "Multiply every ordinate of the velocity by l·μᵥ = {arm:.1f} mm × {mu:.5g}/mm = {factor:.5g} and lay it off "
         "with dividers along the arm from its end, to D: on the rise {rise}, on the return {back}. Station {name}: "
         "{length}."
-    ).with_values(arm=arm, mu=mu, factor=arm * mu, rise=along_the_arm(sigma), back=along_the_arm(-sigma), name=names[k])
+    ).with_values(
+        arm=arm, mu=mu, factor=arm * mu, rise=arm_sense_caption(sigma), back=arm_sense_caption(-sigma), name=names[k]
+    )
 
     def laid_off(n: int) -> Words:
         length = setting(tips.first[[n]])
-        return length if length == "0" else say("{length} {side}", length=length, side=along_the_arm(sigma * v[n]))
+        return length if length == "0" else say("{length} {side}", length=length, side=arm_sense_caption(sigma * v[n]))
 
-    hand, pieces = showing(drawn), stations.pieces
+    hand, pieces = errorless_hand(drawn), stations.pieces
     curves = [hand.fair(f"curve of the tips {n}", tips.first, [piece]) for n, piece in enumerate(pieces)]
     through = tuple(
-        Row(from_to(f"D{names[piece.start]}", f"D{names[piece.stop - 1]}"), "", (curve,))
+        Row(stretch_caption(f"D{names[piece.start]}", f"D{names[piece.stop - 1]}"), "", (curve,))
         for curve, piece in zip(curves, pieces, strict=True)
     )
     smooth = say("Join the ends D by smooth curves with the French curve, from jump to jump of the acceleration.")
     laid = run(said.with_values(length=setting(tips.first[[k]])), STATION, names, tips, settings=laid_off)
     marks = (
         *(tips.segments_from(ends, Role.CURVE), *(curve.line(Role.RESULT) for curve in curves)),
-        *numbers(tips, stations, tips.shown, shown=clear_numbers(tips.shown, stations, ends.shown)),
+        *number_labels(tips, stations, tips.shown, shown=clear_numbers(tips.shown, stations, ends.shown)),
     )
     why = say(
         "The end of the arm has the velocity l·ds/dφ square to the arm; turned by 90° in the sense of the cam's "
@@ -224,7 +226,7 @@ def detail_scale(prime_radius: float, mu_l: Scale, ratios: Ratios) -> Scale | No
     return scale if scale.per_mm < mu_l.per_mm else None
 
 
-def region_enlarged(
+def enlarged_region_step(
     region: ArmPositions,
     scale: Scale,
     lines: Sequence[Boundary],
@@ -236,7 +238,7 @@ def region_enlarged(
     lines : all that bound it;  bind : those on which the cam centre lies, with their names
     adopted : the cam centre that is taken in the end, on the arm positions: the region is hatched as far as there
     """
-    hand, start, centre = showing(region), region.acts["start"].first, region.acts["centre"].first[0]
+    hand, start, centre = errorless_hand(region), region.acts["start"].first, region.acts["centre"].first[0]
     times = region.givens.mu_l.per_mm / scale.per_mm
     b, a = (hand.enlarged(name, drawn, start, times) for name, drawn in (("B₀", start), ("A₀", centre)))
     shown: Points = np.array([b.place, a.place, *((place - start.place) * times for place in adopted)])
@@ -269,9 +271,9 @@ def region_enlarged(
     )
 
 
-def adopted_enlarged(measured: Construction[Any], scale: Scale, label: Caption) -> Step:
+def enlarged_centre_step(measured: Construction[Any], scale: Scale, label: Caption) -> Step:
     """The step that marks the adopted cam centre in the enlarged region."""
-    hand, start, centre = showing(measured), measured.acts["start"].first, measured.acts["centre"].first
+    hand, start, centre = errorless_hand(measured), measured.acts["start"].first, measured.acts["centre"].first
     a = hand.enlarged("A", centre, start, measured.givens.mu_l.per_mm / scale.per_mm)
     said = say("Mark A in the enlarged drawing too, {paper:.1f} mm from B₀.", paper=abs(a.place))
     return Step(

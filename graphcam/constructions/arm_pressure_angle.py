@@ -13,22 +13,22 @@ import numpy as np
 
 from graphcam.constructions.adoption import adoption_step
 from graphcam.constructions.arm_positions import (
-    adopted_enlarged,
-    along_the_arm,
     arc_through,
     arm_positions,
+    arm_sense_caption,
     cam_centre,
     detail_scale,
+    enlarged_centre_step,
     stroke,
 )
-from graphcam.constructions.axes import numbers, sense_caption, station_names
+from graphcam.constructions.axes import number_labels, sense_caption, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.pressure_angle import ANGLE_MEANINGS, MeasuredGivens, read_angles, shown_station
 from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import ARM_ANGLES, PLAN, REGION, at_scale
 from graphcam.drafting.acts import Floats, Setting
 from graphcam.drafting.euclid import RIGHT, UP, unit
-from graphcam.drafting.hand import Hand, calculated, distance_between, showing
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Points, Role, Segments, angle_at
 from graphcam.drafting.meaning import (
@@ -47,7 +47,7 @@ from graphcam.drafting.meaning import (
     Values,
 )
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
+from graphcam.drafting.scale import Scale, coarsest_scale, ratio_text, standard_scale
 from graphcam.drafting.telling import STATION, run
 from graphcam.given.follower import Rotation, sense
 from graphcam.words import sequence
@@ -190,7 +190,7 @@ def plan_scale(measured: ArmAngles, k: int) -> Scale:
     places: Points = np.array([0, b, d, pole, pole + sigma * UP * b, pole + sigma * UP * (b - d)])
     size = complex(float(np.ptp(places.real)), float(np.ptp(places.imag)))
     usual = standard_scale(givens.arm, MAX_PLAN_ARM, givens.paper.ratios)
-    return givens.paper.kept_scale(PLAN.name) or coarsest(usual, givens.paper.scale(size, PLAN_MARGINS))
+    return givens.paper.kept_scale(PLAN.name) or coarsest_scale(usual, givens.paper.scale(size, PLAN_MARGINS))
 
 
 def _centre(measured: ArmAngles) -> Step:
@@ -201,7 +201,7 @@ def _centre(measured: ArmAngles) -> Step:
         np.exp([-1j * ARC_HALF_ANGLE, 1j * ARC_HALF_ANGLE]),
     )
     arcs = [arc_through(circle, circle.place + (centre.place - circle.place) * sides) for circle in circles]
-    radius = showing(measured).join("prime radius", start.first, centre.first)
+    radius = errorless_hand(measured).join("prime radius", start.first, centre.first)
     psi0, line = float(np.degrees(measured.first("psi0"))), acts["line of centres"].first
     begin, end = (float(np.angle(way.directions)) for way in (acts["arm at rest"].first, line))
     angle = angle_at(pivot.place, begin, end, 0.3 * length(givens.arm), say("ψ₀ = {psi0:.2f}°", psi0=psi0), line.act)
@@ -238,7 +238,7 @@ def _enlarged(measured: ArmAngles) -> list[Step]:
     """The step that marks the adopted cam centre beside the one found, where both are enlarged; else none."""
     givens = measured.givens
     scale = givens.adopted() and detail_scale(givens.prime_radius, givens.mu_l, givens.paper.ratios)
-    return [adopted_enlarged(measured, scale, _centre_caption(givens))] if scale else []
+    return [enlarged_centre_step(measured, scale, _centre_caption(givens))] if scale else []
 
 
 def _carried(drawn: Construction, name: str, factor: float = 1.0) -> Setting:
@@ -253,11 +253,11 @@ def _clockwise(psi0: Floats, s: Floats) -> Floats:
 
 def _plan(measured: ArmAngles, k: int, scale: Scale) -> Hand:
     """The hand that draws the mechanism at a station, its line of centres level, with the velocity plan beside it."""
-    hand, givens, sigma = showing(measured), measured.givens, sense(measured.givens.rotation)
+    hand, givens, sigma = errorless_hand(measured), measured.givens, sense(measured.givens.rotation)
     arm, (s, v) = givens.arm / scale.per_mm, (givens.integrated.readings[name].per_mm for name in "sv")
     a = hand.given("A", 0j)
     c = hand.lay_off("C", a, RIGHT, givens.distance / scale.per_mm)
-    angle = calculated(_clockwise, _carried(measured, "psi0"), _carried(givens.integrated, "s", s))
+    angle = calculated_setting(_clockwise, _carried(measured, "psi0"), _carried(givens.integrated, "s", s))
     b = hand.lay_off("B", c, hand.protractor("arms", c, hand.join("CA", c, a), angle), arm)
     cb = hand.join("CB", c, b)
     d = hand.lay_off("D", b, cb.turned(sigma), _carried(givens.integrated, "v", arm * v))
@@ -280,7 +280,12 @@ def _mechanism(measured: ArmAngles, plan: Hand, k: int, scales: VelocityScale) -
     v, arm, ratio = float(integrated.first("v")[k]), scales.mu_l.paper(givens.arm), ratio_text(scales.mu_l.per_mm)
     factor = arm * integrated.readings["v"].per_mm
     sizes = {"ratio": ratio, "ac": c.place.real, "psi0": psi0, "s": s, "psi": psi0 + s, "arm": arm}
-    sizes |= {"v": abs(v), "factor": factor, "bd": abs(v) * factor, "side": along_the_arm(sense(givens.rotation) * v)}
+    sizes |= {
+        "v": abs(v),
+        "factor": factor,
+        "bd": abs(v) * factor,
+        "side": arm_sense_caption(sense(givens.rotation) * v),
+    }
     texts = (
         say("At {ratio} draw AC horizontally, {ac:.1f} mm long, with C on the right."),
         say(
@@ -379,7 +384,7 @@ def _all_stations_step(measured: ArmAngles, k: int) -> Step:
     ).with_values(name=names[k], alpha=alpha[k], least=90 - abs(alpha[worst]), worst=names[worst])
     tips, centre = measured.acts["tips"], measured.acts["centre"]
     places = (tips.dots(Role.CONSTRUCTION), centre.dots(Role.RESULT), centre.label("A", -UP))
-    named = numbers(tips, measured.givens.integrated.givens.stations, UP)
+    named = number_labels(tips, measured.givens.integrated.givens.stations, UP)
     every = run(said, STATION, names, normals, rays, settings=lambda n: say("{alpha:z.2f}°", alpha=alpha[n]))
     marks = (strokes, rays.segments(Role.CONSTRUCTION), *places, *named, angle)
     title, view = say("The pressure angle at every station"), at_scale(ARM_ANGLES, measured.givens.mu_l)

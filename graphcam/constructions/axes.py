@@ -206,15 +206,15 @@ def phase_ends(motion: Motion, mu_phi: Scale) -> Floats:
     return np.append(motion.starts, FULL_TURN) / mu_phi.per_mm
 
 
-def reach(heights: Floats) -> tuple[float, float]:
+def height_range(heights: Floats) -> tuple[float, float]:
     """The lowest and the highest of heights [mm of paper] and of the axis."""
     return float(np.fmin.reduce(heights, initial=0.0)), float(np.fmax.reduce(heights, initial=0.0))
 
 
-def ordinate(symbol: str, lift_unit: str) -> Caption:
+def ordinate_title(symbol: str, lift_unit: str) -> Caption:
     """The title of an ordinate axis, with its unit; ``lift_unit`` is that of s, of which an angle is in degrees.
 
-    >>> str(ordinate("a", "mm")), str(ordinate("α", "mm")), str(ordinate("s", "rad"))
+    >>> str(ordinate_title("a", "mm")), str(ordinate_title("α", "mm")), str(ordinate_title("s", "rad"))
     ('a, mm/rad²', 'α, °', 's, °')
     """
     per = {"s": "", "v": "/rad", "a": "/rad²", "j": "/rad³"}
@@ -224,7 +224,7 @@ def ordinate(symbol: str, lift_unit: str) -> Caption:
 
 def axes_over_phi(end: float, mu_phi: Scale, heights: Floats, name: Words) -> tuple[Mark, ...]:
     """The two axes of a diagram that reaches up to ``end`` and over ``heights`` [mm of paper], degrees, and names."""
-    low, high = reach(heights)
+    low, high = height_range(heights)
     right, top = complex(end + AXIS_OVERHANG), (high + AXIS_OVERHANG) * UP
     scale = say("μᵩ = {mu:.4g}°/mm", mu=math.degrees(mu_phi.per_mm))
     return (
@@ -236,14 +236,14 @@ def axes_over_phi(end: float, mu_phi: Scale, heights: Floats, name: Words) -> tu
 
 def phi_axes(motion: Motion, mu_phi: Scale, heights: Floats, name: Words) -> tuple[Mark, ...]:
     """The axes of a diagram over one turn of the motion, and thin lines where the phases end."""
-    ends, (low, high) = phase_ends(motion, mu_phi), reach(heights)
+    ends, (low, high) = phase_ends(motion, mu_phi), height_range(heights)
     across, up, *others = axes_over_phi(ends[-1], mu_phi, heights, name)
     return (across, up, Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION), *others)
 
 
 def pole_marks(pole: Drawn, distance: float, index: str, heights: Floats) -> tuple[Mark, ...]:
     """A pole to the left on the axis, its distance [mm] set down below the lowest of the rays' ``heights`` there."""
-    named, below = say("H{index} = {pole:.6g}", index=index, pole=distance), -5.0 + reach(heights)[0]
+    named, below = say("H{index} = {pole:.6g}", index=index, pole=distance), -5.0 + height_range(heights)[0]
     return (
         *(Line(np.array([pole.place, 0j]), Role.SCALE, of=pole.act), pole.dots(), pole.label(f"P{index}", -1 + 1j)),
         Dimension(pole.place, 0j, named, below, of=pole.act),
@@ -260,10 +260,10 @@ DEGREE_STEPS = 10, 30, 60, 90
 """Every so many degrees of the cam angle there may be a stroke, and from the second on a number."""
 
 
-def every_degrees(mu_phi: Scale) -> tuple[int, int]:
+def degree_steps(mu_phi: Scale) -> tuple[int, int]:
     """The steps in degrees of the cam angle for which a stroke, and a number, find room.
 
-    >>> every_degrees(Scale(math.radians(1), "rad")), every_degrees(Scale(math.radians(4), "rad"))
+    >>> degree_steps(Scale(math.radians(1), "rad")), degree_steps(Scale(math.radians(4), "rad"))
     ((10, 30), (10, 60))
     """
     tick, number = (
@@ -278,7 +278,7 @@ def degree_ticks(end: float, mu_phi: Scale) -> Segments:
 
     They are so short that the numbers of stations keep their places.
     """
-    tick, number = every_degrees(mu_phi)
+    tick, number = degree_steps(mu_phi)
     degrees = np.arange(tick, math.degrees(mu_phi.value(end)) + tick / 2, tick)
     x = np.radians(degrees) / mu_phi.per_mm
     return Segments(x + np.where(degrees % number, 0, SHORT_TICK) * UP, x - SHORT_TICK * UP, Role.SCALE)
@@ -293,7 +293,7 @@ def degrees_below(end: float, mu_phi: Scale, low: float) -> tuple[Mark, ...]:
 
     On the axis itself the numbers of the stations stand, and the curve.
     """
-    level, (tick, every) = (low - DEGREES_OFFSET) * UP, every_degrees(mu_phi)
+    level, (tick, every) = (low - DEGREES_OFFSET) * UP, degree_steps(mu_phi)
     degrees = np.arange(0, math.degrees(mu_phi.value(end)) + tick / 2, tick)
     x, lengths = np.radians(degrees) / mu_phi.per_mm + level, np.where(degrees % every, TICK, LONG_TICK)
     below = ((n, complex(at)) for n, at in zip(degrees, x - LONG_TICK * UP, strict=True) if n % every == 0)
@@ -336,7 +336,7 @@ def numbered_stations(points: Points, stations: Stations) -> list[int]:
     return found
 
 
-def numbers(
+def number_labels(
     points: Drawn, stations: Stations, towards: complex | Points, shown: NDArray[np.bool_] | bool = True
 ) -> tuple[Mark, ...]:
     """The stations' names beside their points, in one direction or in one for each, where they are ``shown``."""

@@ -142,7 +142,7 @@ FORCE_CLOSED = say(
 FORM_CLOSED = say("The pressure angle is to be at most {rise} on a rise and {back} on a return.")
 
 
-def roller_given(roller_radius: float | None) -> list[Caption]:
+def roller_sentences(roller_radius: float | None) -> list[Caption]:
     """A sentence on the radius of a roller [mm], where the task gives it; else none."""
     return [say("The roller radius is r = {radius:g} mm.", radius=roller_radius)] if roller_radius else []
 

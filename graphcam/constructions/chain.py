@@ -31,12 +31,12 @@ from graphcam.constructions.views import PROFILE
 from graphcam.constructions.working_profile import working_profile
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale, coarsest, standard_scale
+from graphcam.drafting.scale import Scale, coarsest_scale, standard_scale
 from graphcam.errors import DesignError
 from graphcam.given.follower import LIMIT_NAMES
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
-from graphcam.words import chained, say
+from graphcam.words import and_chain, say
 
 PHASE_ANGLES_ROOM = complex(58.0, 44.0)
 """What the phase angles and their texts need beside the profile, and above and below it together [mm of paper]."""
@@ -338,7 +338,7 @@ class Chain(Drawings):
         room = min(width, height)
         inner = max(min(width - PHASE_ANGLES_ROOM.real, height - PHASE_ANGLES_ROOM.imag), room / 2)
         within = board.follower.reach(r0, self.place, board.motion, 0.0)
-        return coarsest(standard_scale(2 * reach, room, ratios), standard_scale(2 * within, inner, ratios))
+        return coarsest_scale(standard_scale(2 * reach, room, ratios), standard_scale(2 * within, inner, ratios))
 
     def _least_radius(self, place: float | None) -> Construction:
         board = self.board
@@ -358,11 +358,11 @@ class Chain(Drawings):
                 way, angle = slip
                 limit = say("large enough for lines that cross at a degree or more")
                 remedy = say("{degrees:.0f} degrees? {angle:g} was given; or give {names}")
-                remedy = remedy.with_values(degrees=math.degrees(angle), angle=angle, names=chained(missing))
+                remedy = remedy.with_values(degrees=math.degrees(angle), angle=angle, names=and_chain(missing))
                 found = say("{angle:g} degrees", angle=angle)
                 raise DesignError(LIMIT_NAMES[way], found, limit, remedy)
             limit = say("a place within all limits, where lines cross at a degree or more")
-            remedy = say("give {names}, or permit larger pressure angles", names=chained(missing))
+            remedy = say("give {names}, or permit larger pressure angles", names=and_chain(missing))
             raise DesignError(say("minimum prime radius"), say("unreadable"), limit, remedy)
         if name == "prime_radius" and not value > 0:
             remedy = say("any radius keeps the limits: give cam.prime_radius, or stricter limits")

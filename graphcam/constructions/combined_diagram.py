@@ -10,16 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.constructions.axes import AXIS_OVERHANG, numbers, pieces_of, sense_caption, station_names
+from graphcam.constructions.axes import AXIS_OVERHANG, number_labels, pieces_of, sense_caption, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, showing
+from graphcam.drafting.hand import Hand, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Reading, Row, Step, say
 from graphcam.drafting.marks import Line, Role
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE
-from graphcam.drafting.telling import STATION, from_to, run, setting
+from graphcam.drafting.telling import STATION, run, setting, stretch_caption
 from graphcam.given.follower import Rotation, sense
 from graphcam.words import say_in, sequence
 
@@ -77,7 +77,7 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
         ),
         # Beside the line of motion, away from the rest line; it stands there before the numbers look for room.
         start.label("B₀", towards=sense(region.givens.rotation) - UP),
-        *numbers(ends, stations, np.where(np.abs(x) > 1, np.sign(x) + 0j, apart)),
+        *number_labels(ends, stations, np.where(np.abs(x) > 1, np.sign(x) + 0j, apart)),
     )
     base = say("Draw the line of motion vertical with a set square and mark B₀ on it, where the lift starts.")
 
@@ -123,9 +123,9 @@ def _laying_off(region: Construction[Any]) -> Caption:
     return sequence([*said, say("The longest measures {longest:.1f} mm.", longest=longest)], " ")
 
 
-def joined_up(region: Construction[Any]) -> Step:
+def curves_step(region: Construction[Any]) -> Step:
     """The step that draws the curves through the ends, from jump to jump of the acceleration."""
-    hand, ends, stations = showing(region), region.acts["ends"], region.givens.integrated.givens.stations
+    hand, ends, stations = errorless_hand(region), region.acts["ends"], region.givens.integrated.givens.stations
     names, pieces = station_names(stations), stations.pieces
     curves = [hand.fair("curve", ends.first, [piece]) for piece in pieces]
     # Two ends have no curve.
@@ -133,7 +133,7 @@ def joined_up(region: Construction[Any]) -> Step:
         say("with the ruler") if piece.stop - piece.start == 2 else say("with the French curve") for piece in pieces
     ]
     through = tuple(
-        Row(from_to(names[piece.start], names[piece.stop - 1]), tool, (curve,))
+        Row(stretch_caption(names[piece.start], names[piece.stop - 1]), tool, (curve,))
         for piece, tool, curve in zip(pieces, tools, curves, strict=True)
     )
     said = [say("Join the ends of v in their order, from jump to jump of the acceleration.")]

@@ -18,15 +18,15 @@ from graphcam.constructions.sharpest_bend import centres_of, dwell_arcs, neighbo
 from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import BISECTION_SHARE, Hand, calculated, distance_between, showing
+from graphcam.drafting.hand import BISECTION_SHARE, Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Role
 from graphcam.drafting.meaning import (
     RHO,
-    Compared,
-    Converges,
+    ComparedReading,
     Formula,
     Meaning,
+    ReadingConvergence,
     ReadingMeaning,
     Symbol,
     Values,
@@ -56,14 +56,14 @@ LEAST_CURVATURE = {
         "ρ",
         "mm",
         (
-            Compared(
+            ComparedReading(
                 "min_pitch_curvature_radius",
                 say("minimum radius of curvature ρ"),
                 "rho_candidates",
                 (np.negative, sharpness),
             ),
         ),
-        Converges("minimum radius of curvature", "min_moving_curvature_radius", of="rho_candidates"),
+        ReadingConvergence("minimum radius of curvature", "min_moving_curvature_radius", of="rho_candidates"),
     )
 }
 """The least radius of curvature, however it is found."""
@@ -148,7 +148,7 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     hand.read("rho", distance_between(triple[1], o), mu_l)
     hand.read("rho_candidates", distance_between(b, centres), mu_l, "mm")
     in_radians = partial(np.multiply, integrated.givens.mu_phi.per_mm)
-    hand.read("phi", calculated(in_radians, phi), 1.0, rounded=False)
+    hand.read("phi", calculated_setting(in_radians, phi), 1.0, rounded=False)
     return hand.finished(CurvatureGivens(inverted, corner), _draw, {"triple": triple, "centre": o})
 
 
@@ -199,7 +199,7 @@ def detail_of(curved: Curved) -> Detail | None:
     """The detail, or None where no radius is readable."""
     if np.isnan(curved.first("centre")):
         return None
-    triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], showing(curved)
+    triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], errorless_hand(curved)
     paper = curved.givens.inverted.givens.paper
     scale = paper.kept_scale(CURVATURE.name) or standard_scale(
         float(curved.value("rho")), MAX_DETAIL_RADIUS, paper.ratios
@@ -333,7 +333,7 @@ def _measured(curved: Curved, detail: Detail) -> Step:
 
 
 def _on_profile(curved: Curved) -> Step:
-    triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], showing(curved)
+    triple, o, hand = curved.acts["triple"].first, curved.acts["centre"].first[0], errorless_hand(curved)
     ob, b = hand.join("OB", o, triple[1]), triple[1]
     said = say(
         "On the profile mark O too, {paper:.1f} mm from B, square to the pitch curve on its inner side: the roller's "
@@ -399,7 +399,7 @@ def _bisectors(curved: Curved, detail: Detail) -> tuple[list[Bisected], list[flo
     for k, line in enumerate(lines):
         a, b, middle = triple[k], triple[k + 1], line.place
         ends = np.array([middle - (hub - middle) * 0.12, hub + (hub - middle) * 0.06])
-        setting = calculated(partial(np.multiply, BISECTION_SHARE), distance_between(a, b))
+        setting = calculated_setting(partial(np.multiply, BISECTION_SHARE), distance_between(a, b))
         arcs = [hand.circle(f"arcs of {line.act.name}", end, setting) for end in (a, b)]
         marks: list[Mark] = [Line(ends, Role.CONSTRUCTION).left_by(line)]
         for meeting, arc in product((hand.cross("left", *arcs), hand.cross("right", *arcs[::-1])), arcs):

@@ -10,7 +10,7 @@ from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import Caption, Part, Row, say
 from graphcam.drafting.marks import Line, Points, Role
-from graphcam.drafting.telling import FRENCH_CURVE, RULER, from_to
+from graphcam.drafting.telling import FRENCH_CURVE, RULER, stretch_caption
 from graphcam.given.motion import FULL_TURN
 from graphcam.plane_vectors import dot
 from graphcam.words import sequence
@@ -47,7 +47,7 @@ def curve_over_phi(
         tool = [RULER if by_ruler else FRENCH_CURVE] if either else []
         corner = [] if piece.start in begins else [met.with_values(first=names[piece.start])]
         faired = hand.fair(name, curve.first, [piece])
-        ends = from_to(names[piece.start], names[piece.stop - 1])
+        ends = stretch_caption(names[piece.start], names[piece.stop - 1])
         rows.append(Row(ends, sequence([*tool, *corner], "; ") if tool or corner else "", (faired,)))
         lines.append(faired.line(Role.RESULT))
     told = _ALL_STRAIGHT if all(straight) else _CURVE_WITH_JUMPS if either else _ALL_BENT

@@ -18,15 +18,15 @@ from graphcam.constructions.axes import (
     SUBSCRIPTS,
     axes_over_phi,
     degrees_below,
-    ordinate,
+    height_range,
+    ordinate_title,
     pole_marks,
-    reach,
 )
 from graphcam.constructions.graduation import (
-    every_kth,
-    falling_together,
-    graduated,
-    raised,
+    coinciding_heights,
+    graduation_marks,
+    height_caption,
+    numbering_step,
     ray_numbers,
     row_numbers,
     run_of_chord,
@@ -35,7 +35,7 @@ from graphcam.constructions.pole_scales import PoleTerms, pole_formula
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP, division_points
-from graphcam.drafting.hand import Hand, calculated, distance_between, showing
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
 from graphcam.drafting.marks import Line, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import Formula, Meaning, ReadingMeaning, Symbol
@@ -267,7 +267,7 @@ def _greatest_ordinate(hand: Hand, curve: Drawn, going_on: Drawn) -> Setting:
         places = hand.take(f"{name} about its {word}", going_on, which=begin + np.arange(count))
         top = hand.tangent(f"{word} {name}", places, [slice(None)], side)
         ends.append(distance_between(hand.acts["origin"], top, side))
-    return calculated(np.maximum, *ends)
+    return calculated_setting(np.maximum, *ends)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -310,7 +310,7 @@ class _Pass:
 
     def height(self, k: int) -> Caption:
         """A caption of where a ray ends on the vertical axis."""
-        return raised(float(self.drawn("heights").shown[k].imag), say("at the origin"))
+        return height_caption(float(self.drawn("heights").shown[k].imag), say("at the origin"))
 
     def told(self, *sentences: Caption) -> Caption:
         """Sentences with the values of the pass, and of the steepest slope, which is worked for all."""
@@ -331,7 +331,7 @@ def _draw_source(c: Construction[DifferentiationGivens]) -> Step:
     s, stations, mu_s = c.acts["s"].first, c.acts["stations"].first, c.givens.mu_s
     k = int(np.argmax(np.abs(s.shown.imag)))
     below = row_numbers(stations, 0, np.full(s.shown.shape, -UP))
-    axes = (*_axes(c, "s"), *graduated(s.shown.imag, mu_s.per_mm, lift_unit=mu_s.unit))
+    axes = (*_axes(c, "s"), *graduation_marks(s.shown.imag, mu_s.per_mm, lift_unit=mu_s.unit))
     plotted = (*axes, s.dots(Role.CONSTRUCTION), s.segments_from(stations, Role.CONSTRUCTION), *below)
     plotted_at = say_many(
         "The displacement is plotted at {count} station.",
@@ -408,14 +408,14 @@ def _traced(run: _Pass) -> Step:
 
 def _with_rays(run: _Pass) -> Step:
     c, rays, heights, derived = run.c, run.drawn("rays"), run.drawn("heights"), run.c.acts[run.target].first
-    groups, distance = falling_together(heights), c.givens.poles[run.number - 1]
+    groups, distance = coinciding_heights(heights), c.givens.poles[run.number - 1]
     kept, index = [int(group[0]) for group in groups], f"{run.number}".translate(SUBSCRIPTS)
     pole = pole_marks(c.acts[f"P{run.number}"], distance, index, heights.shown.imag)
     axes, outward = (*_axes(c, run.target), *pole), np.where(derived.shown.imag < 0, -UP, UP)
     carried = (
         Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act, index=rays.index[kept]),
         *(derived.segments_from(heights, Role.CONSTRUCTION), derived.dots(Role.CONSTRUCTION)),
-        *ray_numbers(heights, run.first_slope_number, groups, every_kth(derived.shown)),
+        *ray_numbers(heights, run.first_slope_number, groups, numbering_step(derived.shown)),
         *row_numbers(derived, run.first_slope_number, outward),
     )
     why = say(
@@ -449,7 +449,8 @@ def _curve_step(run: _Pass) -> Step:
     said = say(
         "Join the points by a smooth curve with the French curve. Its longest ordinate, {height}, is near point {name}."
     ).with_values(
-        height=raised(longest if up >= down else -longest, say("at the origin")), name=run.first_slope_number + near
+        height=height_caption(longest if up >= down else -longest, say("at the origin")),
+        name=run.first_slope_number + near,
     )
     why = say("The values of {target} are wanted between the points too, above all the maximum.")
     title, curve = run.told(say("Curve of {target}")), _curve(c, target)
@@ -466,7 +467,7 @@ def _view(c: Construction[DifferentiationGivens], symbol: str) -> View:
 
 def _curve(c: Construction[DifferentiationGivens], name: str) -> Drawn:
     """The faired curve; for a cyclic diagram over the ends of the turn."""
-    hand, turn = showing(c), c.givens.turn
+    hand, turn = errorless_hand(c), c.givens.turn
     line = hand.fair(f"curve of {name}", _extended_curve(hand, turn, c.acts[name].first), [slice(None)])
     drawn = slice(None) if turn is None else (line.points.real >= 0) & (line.points.real <= turn)
     return line[drawn]
@@ -478,13 +479,13 @@ def _end(c: Construction[DifferentiationGivens]) -> float:
 
 
 def _axes(c: Construction[DifferentiationGivens], symbol: str) -> tuple[Mark, ...]:
-    heights, name = c.acts[symbol].shown.imag, ordinate(symbol, c.givens.mu_s.unit)
+    heights, name = c.acts[symbol].shown.imag, ordinate_title(symbol, c.givens.mu_s.unit)
     return (*axes_over_phi(_end(c), c.givens.mu_phi, heights, name), *(_degrees(c, symbol) if symbol == "a" else ()))
 
 
 def _degrees(c: Construction[DifferentiationGivens], symbol: str) -> tuple[Mark, ...]:
     """The numbers of the common axis, under the diagram of a quantity."""
-    return degrees_below(_end(c), c.givens.mu_phi, reach(c.acts[symbol].shown.imag)[0])
+    return degrees_below(_end(c), c.givens.mu_phi, height_range(c.acts[symbol].shown.imag)[0])
 
 
 def _scale(run: _Pass) -> Step:
@@ -503,9 +504,9 @@ def _scale(run: _Pass) -> Step:
     values |= {"mm": float(c.first(f"max_{name}")), "value": float(c.value(f"max_{name}"))}
     why = say("A ray cuts off H times a slope on paper, where {source} and φ have their scales.")
     end, heights, read = _end(c), c.acts[name].shown.imag, c.readings[name]
-    upright = Line(end + UP * np.array(reach(heights)), Role.SCALE)
+    upright = Line(end + UP * np.array(height_range(heights)), Role.SCALE)
     marks, part = (
-        (upright, *graduated(heights, float(read.scale), end, read.act)),
+        (upright, *graduation_marks(heights, float(read.scale), end, read.act)),
         Part(run.told(said.with_values(**values))),
     )
     title, reads = run.told(say("The scale of {target}")), (f"max_{name}", name)

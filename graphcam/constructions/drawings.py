@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Self, overload
 
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.meaning import Meaning
-from graphcam.showing import MAX_WIDTH, Plottable, in_lines
+from graphcam.showing import MAX_WIDTH, Plottable, value_text
 
 Draw = Callable[[Any], Construction]
 """Draws a construction from the chain that it belongs to."""
@@ -73,7 +73,7 @@ class Drawings(Plottable, Mapping[str, Construction]):
 
     def __repr__(self) -> str:
         last = "chain[name] is a construction, drawn when it is first asked for"
-        return in_lines(f"{type(self).__name__} of {len(self)} constructions", wrap(", ".join(self), MAX_WIDTH), last)
+        return value_text(f"{type(self).__name__} of {len(self)} constructions", wrap(", ".join(self), MAX_WIDTH), last)
 
     def drawn(self, name: str) -> Construction:
         """The construction of that name, which is drawn if it does not lie on the board yet."""

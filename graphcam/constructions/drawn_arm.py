@@ -14,7 +14,7 @@ from graphcam.constructions.arm_minimum_radius import arm_least_radius, permitte
 from graphcam.constructions.arm_positions import cam_centre
 from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
 from graphcam.constructions.axes import sense_caption
-from graphcam.constructions.board import DrawnFollower, FollowerLoads, FollowerSize, Values, roller_given
+from graphcam.constructions.board import DrawnFollower, FollowerLoads, FollowerSize, Values, roller_sentences
 from graphcam.constructions.mechanism_sketch import bearing, edge, low_point, plain_cam, size
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
@@ -124,7 +124,7 @@ class DrawnOscillating(DrawnFollower):
             (KNIFE_EDGE_DATA if roller_radius == 0 else ROLLER_DATA).with_values(rotation=sense_caption(rotation)),
             say("The arm is l = {arm:g} mm long.", arm=self.arm),
             *([] if self.place is None else [say("The pivot is c = {place:g} mm from A.", place=self.place)]),
-            *roller_given(roller_radius),
+            *roller_sentences(roller_radius),
         ]
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.constructions.axes import sense_caption
-from graphcam.constructions.board import DrawnFollower, FollowerLoads, Values, roller_given
+from graphcam.constructions.board import DrawnFollower, FollowerLoads, Values, roller_sentences
 from graphcam.constructions.force_plan import force_plan
 from graphcam.constructions.friction_plan import friction_plan
 from graphcam.constructions.inversion import inversion
@@ -121,8 +121,8 @@ class DrawnTranslating(DrawnFollower):
         """Sentences on the line of motion and the roller."""
         moved = (KNIFE_EDGE_DATA if roller_radius == 0 else ROLLER_DATA).with_values(rotation=sense_caption(rotation))
         if self.place is None:
-            return [moved, *roller_given(roller_radius)]
+            return [moved, *roller_sentences(roller_radius)]
         line = (CENTRAL_REMARK if self.place == 0 else LEFT_REMARK if self.place < 0 else RIGHT_REMARK).with_values(
             offset=self.place
         )
-        return [moved, line, *roller_given(roller_radius)]
+        return [moved, line, *roller_sentences(roller_radius)]

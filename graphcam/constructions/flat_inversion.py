@@ -10,14 +10,14 @@ import numpy as np
 
 from graphcam.constructions import profile_view
 from graphcam.constructions.adoption import adoption_step
-from graphcam.constructions.axes import numbers, station_names
+from graphcam.constructions.axes import number_labels, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import UP, unit
-from graphcam.drafting.hand import Hand, calculated, distance_between
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between
 from graphcam.drafting.ink import Caption, Part, Step, Words, say
 from graphcam.drafting.marks import Role, Segments
-from graphcam.drafting.meaning import R0, RADIUS, Compared, Formula, Meaning, ReadingMeaning, S, Symbol, Values
+from graphcam.drafting.meaning import R0, RADIUS, ComparedReading, Formula, Meaning, ReadingMeaning, S, Symbol, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
 from graphcam.drafting.telling import STATION, run, setting
@@ -82,10 +82,10 @@ MEANING = Meaning(
     ),
     {
         "face_left": ReadingMeaning(
-            say("half-width of the face, left"), "bₗ", "mm", (Compared("face_left", say("face to the left")),)
+            say("half-width of the face, left"), "bₗ", "mm", (ComparedReading("face_left", say("face to the left")),)
         ),
         "face_right": ReadingMeaning(
-            say("half-width of the face, right"), "bᵣ", "mm", (Compared("face_right", say("face to the right")),)
+            say("half-width of the face, right"), "bᵣ", "mm", (ComparedReading("face_right", say("face to the right")),)
         ),
         "contact": ReadingMeaning(say("contact beside the ray"), "q", "mm"),
         **profile_view.CURVE_MEANINGS,
@@ -110,7 +110,7 @@ def flat_inversion(
     faces, aside = hand.perpendicular("faces", rays, feet), hand.carry(v, sigma * np.asarray(v.scale) / mu_l.per_mm)
     touch = hand.lay_off("pitch", feet, faces.turned(-1), aside)
     profile_view.curve_readings(hand, touch, mu_l)
-    hand.read("contact", calculated(np.copysign, distance_between(feet, touch), aside), mu_l.per_mm)
+    hand.read("contact", calculated_setting(np.copysign, distance_between(feet, touch), aside), mu_l.per_mm)
     # The contact over the cam angle, faired as any other curve, says how far it wanders.
     axis, origin = hand.earlier_places(integrated.givens.diagram, "axis"), hand.given("cam centre")
     wander = hand.lay_off("contacts", axis, UP, aside)
@@ -162,7 +162,7 @@ def _rays(inverted: profile_view.Inverted) -> Step:
     ).with_values(**profile_view.position_words(inverted))
     marks = (
         Segments(rays.shown, starts.shown, Role.CONSTRUCTION).left_by(rays),
-        *numbers(starts, _stations(inverted), -unit(starts.shown)),
+        *number_labels(starts, _stations(inverted), -unit(starts.shown)),
         *phases,
     )
     why = say("Seen from the cam, the follower goes round the other way and meets the same points of the cam.")

@@ -14,21 +14,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.adoption import ToldByChain
-from graphcam.constructions.axes import AXIS_OVERHANG, numbers, station_names
+from graphcam.constructions.adoption import ChainSettings
+from graphcam.constructions.axes import AXIS_OVERHANG, number_labels, station_names
 from graphcam.constructions.curvature import LEAST_CURVATURE
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.region import LEAST_RADIUS
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, calculated, distance_between, showing
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Arrow, Dimension, Label, Line, Mark, Points, Role
-from graphcam.drafting.meaning import R0, RHO, A, Compared, Formula, Meaning, ReadingMeaning, S, Symbol, Values
+from graphcam.drafting.meaning import R0, RHO, A, ComparedReading, Formula, Meaning, ReadingMeaning, S, Symbol, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE
-from graphcam.drafting.telling import STATION, from_to
+from graphcam.drafting.telling import STATION, stretch_caption
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell
 from graphcam.words import sequence
@@ -40,7 +40,7 @@ DOWN_LEFT = -RIGHT - UP
 
 
 @dataclass(frozen=True, eq=False)
-class FlatLeastRadiusGivens(ToldByChain):
+class FlatLeastRadiusGivens(ChainSettings):
     """The diagrams, and the least permitted radius of curvature of the profile [mm].
 
     adopted : tells which prime radius is taken in the end, where one is: the axis of s is drawn as far as there
@@ -126,7 +126,7 @@ CURVATURE_MEANING = Meaning(
     {
         "rho": replace(
             LEAST_CURVATURE["rho"],
-            compared=(Compared("min_pitch_curvature_radius", say("minimum radius of curvature ρ")),),
+            compared=(ComparedReading("min_pitch_curvature_radius", say("minimum radius of curvature ρ")),),
         )
     },
     CURVATURE_FORMULAS,
@@ -146,7 +146,7 @@ def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pe
     equal = np.asarray(a.scale) / np.asarray(s.scale)
     after = hand.lay_off("accelerations", heights, RIGHT, hand.carry(a, equal))
     jumps = _jumps(integrated)
-    nearer = calculated(itemgetter((..., jumps)), hand.carry(before, equal))
+    nearer = calculated_setting(itemgetter((..., jumps)), hand.carry(before, equal))
     near = hand.lay_off("before the jumps", heights[jumps], RIGHT, nearer)
     ends = np.arange(count)
     ends[jumps] = count + np.arange(jumps.size)
@@ -157,7 +157,7 @@ def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pe
     tangent = hand.tangent("touch", hand.take("curve and rests", curve, rests), _smooth(integrated), DOWN_LEFT)
     zero = hand.cross("zero", tangent, axis)
     need = distance_between(zero, origin, UP)
-    radius = calculated(_sufficient_radius, hand.at_scale(least_curvature, s), need)
+    radius = calculated_setting(_sufficient_radius, hand.at_scale(least_curvature, s), need)
     hand.lay_off("A", origin, -UP, hand.carry(hand.read("prime_radius", radius, s.scale)))
     hand.read("need", need, s.scale)
     givens = FlatLeastRadiusGivens(integrated, least_curvature)
@@ -196,9 +196,9 @@ def flat_curvature(region: FlatRegion, prime_radius: float, pencil: Pencil) -> F
     hand, need = Hand(pencil, CURVATURE_MEANING), region.readings["need"]
     origin, zero = hand.given("origin"), hand.earlier_places(region, "zero")
     centre = hand.lay_off("A", origin, -UP, hand.at_scale(prime_radius, need))
-    rho = calculated(np.subtract, distance_between(centre, origin, UP), hand.carry(need))
+    rho = calculated_setting(np.subtract, distance_between(centre, origin, UP), hand.carry(need))
     hand.read("rho", rho, need.scale)
-    hand.read("rho_candidates", calculated(itemgetter((..., None)), rho), need.scale, "mm")
+    hand.read("rho_candidates", calculated_setting(itemgetter((..., None)), rho), need.scale, "mm")
     return hand.finished(FlatCurvatureGivens(region, prime_radius), _draw_curvature, {"zero": zero})
 
 
@@ -217,7 +217,7 @@ def _displacement_step(region: FlatRegion) -> Step:
     if adopted := region.givens.adopted():
         lowest.append(-adopted.prime_radius / region.readings["prime_radius"].per_mm)
     axes = _axes(region.first("curve"), min(lowest) - AXIS_OVERHANG)
-    marks = [after.segments_from(heights, Role.CONSTRUCTION), *numbers(after, stations, _outward(after))]
+    marks = [after.segments_from(heights, Role.CONSTRUCTION), *number_labels(after, stations, _outward(after))]
     if jumps:
         marks.append(near.segments_from(heights[jumps], Role.CONSTRUCTION))
         marks += [near[k].label(named[jump], complex(_outward(near)[k]), small=True) for k, jump in enumerate(jumps)]
@@ -277,14 +277,14 @@ def _level(a: float, region: FlatRegion) -> Caption:
 
 
 def _curve_step(region: FlatRegion) -> Step:
-    integrated, smooth, curve = region.givens.integrated, showing(region), region.acts["curve"].first
+    integrated, smooth, curve = region.givens.integrated, errorless_hand(region), region.acts["curve"].first
     stations, rests, marks, rows = integrated.givens.stations, region.acts["rests"].first, list[Mark](), list[Row]()
     names = station_names(stations)
     for piece, stretch in zip(_smooth(integrated), stations.stretches, strict=False):
         start, end = names[stretch.start], names[stretch.stop - 1]
         line = smooth.fair(f"from {start}", curve[piece], [slice(None)])
         marks.append(line.line(Role.RESULT))
-        rows.append(Row(from_to(start, end), "", (line,)))
+        rows.append(Row(stretch_caption(start, end), "", (line,)))
     for k, last in enumerate(_dwell_stations(integrated)):
         called = say("In the dwell after {name}", name=names[last])
         rows.append(Row(called, _height_caption(rests.shown[k].imag), (rests[k],)))

@@ -25,13 +25,13 @@ from graphcam.constructions.pressure_angle import MeasuredAngles, moving_up, sho
 from graphcam.constructions.views import FORCES
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import NOWHERE, RIGHT, UP, unit as unit_along
-from graphcam.drafting.hand import Hand, calculated, distance_between, showing
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Reading, Step, View, say
 from graphcam.drafting.marks import Arrow, Dots, Label, Line, Mark, Role, angle_at
 from graphcam.drafting.meaning import ALPHA, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, unit
-from graphcam.drafting.telling import Move, in_parts
+from graphcam.drafting.telling import Move, move_parts
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
 from graphcam.given.spring_load import Guide, SpringLoad
@@ -128,14 +128,14 @@ def force_plan(
     if guide is None:
         across = hand.erect("line of R", origin, RIGHT)
     else:
-        base = hand.lay_off("base", origin, -RIGHT, calculated(partial(np.copysign, BASE), turn))
-        (s,), direction = read_at(hand, measured, k, "s"), direction_at(measured, k)
-        incline = hand.lay_off("incline", base, UP, calculated(partial(_incline, guide, direction), s))
+        base = hand.lay_off("base", origin, -RIGHT, calculated_setting(partial(np.copysign, BASE), turn))
+        (s,), direction = station_settings(hand, measured, k, "s"), direction_at(measured, k)
+        incline = hand.lay_off("incline", base, UP, calculated_setting(partial(_incline, guide, direction), s))
         across = hand.join("line of R", origin, incline)
     corner = third_corner(hand, foot, normal, across, foot.points.imag < 0)
     hand.join("F", foot, corner)
     hand.join("R", corner, origin)
-    beside = [calculated(np.abs, distance_between(origin, corner, way)) for way in (RIGHT, UP)]
+    beside = [calculated_setting(np.abs, distance_between(origin, corner, way)) for way in (RIGHT, UP)]
     contact = distance_between(foot, origin, UP), distance_between(foot, corner), distance_between(foot, corner, UP)
     for name, length in zip(MEANING.readings, [*contact, *beside, distance_between(origin, corner)], strict=True):
         hand.read(name, length, mu.per_mm)
@@ -152,24 +152,24 @@ def load_laid_off(
     mu_force : N/mm; None for a round one
     """
     phi = float(measured.givens.integrated.givens.stations.phi[k])
-    s, v, a = read_at(hand, measured, k, "s", "v", "a")
-    force = calculated(partial(force_at, load, direction_at(measured, k), phi), s, v, a)
+    s, v, a = station_settings(hand, measured, k, "s", "v", "a")
+    force = calculated_setting(partial(force_at, load, direction_at(measured, k), phi), s, v, a)
     mu = mu_force or round_scale(float(np.median(np.abs(force.amount))))
-    alpha = at_station(hand, measured.readings["alpha"], k)
-    length = calculated(partial(np.multiply, 1 / mu.per_mm), force)
+    alpha = station_setting(hand, measured.readings["alpha"], k)
+    length = calculated_setting(partial(np.multiply, 1 / mu.per_mm), force)
     # A turn by alpha in the sense of the rotation: against it the cam pushes the stem along.
-    turn = calculated(partial(np.multiply, sense(measured.givens.rotation)), alpha)
+    turn = calculated_setting(partial(np.multiply, sense(measured.givens.rotation)), alpha)
     return mu, hand.lay_off("foot", hand.given("origin"), -UP, length), turn
 
 
-def at_station(hand: Hand, reading: Reading, k: int) -> Setting:
+def station_setting(hand: Hand, reading: Reading, k: int) -> Setting:
     """The machine value of a reading at one station, as a setting."""
-    return calculated(itemgetter((..., k)), hand.carry(reading, np.asarray(reading.scale)))
+    return calculated_setting(itemgetter((..., k)), hand.carry(reading, np.asarray(reading.scale)))
 
 
-def read_at(hand: Hand, measured: Construction, k: int, *names: str) -> list[Setting]:
+def station_settings(hand: Hand, measured: Construction, k: int, *names: str) -> list[Setting]:
     """The machine values at one station of displacement and derivatives, by their names."""
-    return [at_station(hand, measured.givens.integrated.readings[name], k) for name in names]
+    return [station_setting(hand, measured.givens.integrated.readings[name], k) for name in names]
 
 
 def direction_at(measured: Construction, k: int) -> int:
@@ -205,10 +205,10 @@ def plan_station(measured: MeasuredAngles, load: SpringLoad) -> int:
     """
     integrated = measured.givens.integrated
     s, v, a = (integrated.value(name) for name in "sva")
-    return where_it_presses(measured, force_at(load, 1, integrated.givens.stations.phi, s, v, a))
+    return pressed_station(measured, force_at(load, 1, integrated.givens.stations.phi, s, v, a))
 
 
-def where_it_presses(measured: MeasuredAngles, force: Floats) -> int:
+def pressed_station(measured: MeasuredAngles, force: Floats) -> int:
     """The station of the velocity plan, or that of the greatest force [N] on the rises if hardly any is left there."""
     force, k = np.where(moving_up(measured), force, 0.0), shown_station(measured)
     return k if abs(force[k]) >= MIN_LOAD_SHARE * np.max(force) else int(np.argmax(force))
@@ -292,7 +292,7 @@ def load_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     ).with_values(name=name, s=s, a=a, load=load, terms=told, mu=mu, size=abs(load), paper=abs(load) / mu)
     said = said.with_values(way=say("down") if load > 0 else say("up"))
     why = say("Inertia, spring and preload act along the motion: this force is known in magnitude and direction.")
-    return loaded(plan, view, said, -side_of(plan) + 0j, why)
+    return load_arrow_step(plan, view, said, -side_of(plan) + 0j, why)
 
 
 def station_name(plan: Construction) -> str:
@@ -300,7 +300,7 @@ def station_name(plan: Construction) -> str:
     return station_names(plan.givens.measured.givens.integrated.givens.stations)[plan.givens.station]
 
 
-def loaded(plan: Construction, view: View, said: Caption, beside: complex, why: Caption) -> Step:
+def load_arrow_step(plan: Construction, view: View, said: Caption, beside: complex, why: Caption) -> Step:
     """The step that draws the load as an arrow from its tail, with its name on the side ``beside``."""
     foot = plan.acts["foot"].first
     marks = (
@@ -312,12 +312,12 @@ def loaded(plan: Construction, view: View, said: Caption, beside: complex, why: 
     return Step(title, (Part(said, (foot,)),), view, marks, ("load",), why=why)
 
 
-def beyond(length: float) -> float:
+def line_length(length: float) -> float:
     """The length at which a line is drawn that ends after ``length`` [mm]; NaN where it meets nothing."""
     return 2 * LOAD_LENGTH if math.isnan(length) else length + LINE_OVERHANG
 
 
-def leaning(line: Drawn, reach: float, alpha: float, up: complex = UP) -> tuple[Mark, ...]:
+def leaning_line(line: Drawn, reach: float, alpha: float, up: complex = UP) -> tuple[Mark, ...]:
     """A line through the head of the load, and the angle [degrees] that it makes with ``up`` there, as marks."""
     radius, foot, way = 0.4 * min(reach, LOAD_LENGTH), line.place, complex(unit_along(line.directions))
     start, named = cmath.phase(up), say("α = {alpha:.1f}°", alpha=alpha)
@@ -334,7 +334,7 @@ def _line_of_force(plan: Construction[ForcePlanGivens], view: View) -> Step:
         "At the head of Q set the protractor to α = {alpha:.2f}° from the vertical {side}, and draw the line of "
         "the contact force F there, parallel to the contact normal of this station."
     ).with_values(alpha=abs(alpha), side=towards(side_of(plan)))
-    marks = leaning(normal, beyond(float(plan.first("normal"))), alpha)
+    marks = leaning_line(normal, line_length(float(plan.first("normal"))), alpha)
     why = say("The cam pushes along the contact normal, which makes the pressure angle with the motion.")
     return Step(say("The line of the contact force"), (Part(said, (normal,)),), view, marks, why=why)
 
@@ -362,7 +362,7 @@ def reaction_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
         "{overhang:.2f})/{length:g} = {height:.2f} mm straight {way}."
     )
     join = say("Join the tail of Q to this point with the ruler: on this line lies the reaction R of the guide.")
-    parts = in_parts([(laid, base), (inclined, incline), (join, line)], values)
+    parts = move_parts([(laid, base), (inclined, incline), (join, line)], values)
     marks = (across, base.line_from(0j, Role.CONSTRUCTION), incline.line_from(base, Role.CONSTRUCTION))
     why = say(
         "The nearer bearing carries (l + b)/l of the side force and the farther one b/l, so friction is μ(l + 2b)/l of "
@@ -371,7 +371,7 @@ def reaction_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     return Step(title, parts, view, marks, why=why)
 
 
-def not_closed(view: View, said: Caption) -> Step:
+def open_triangle_step(view: View, said: Caption) -> Step:
     """The last step where there is no third corner, with what that means."""
     why = say("A cam can only push: F must point from the head of Q towards the crossing.")
     return Step(say("The triangle does not close"), (Part(said),), view, (), why=why)
@@ -383,7 +383,7 @@ def jammed_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
         "The two lines do not meet where the cam could push: at this pressure angle the follower jams in its "
         "guide, or the load does not press it onto the cam."
     )
-    return not_closed(view, said)
+    return open_triangle_step(view, said)
 
 
 CORNER_CAPTION = say("Mark where the two lines cross: the third corner.")
@@ -408,13 +408,13 @@ def triangle_step(
     values = {name: float(plan.value(name)) for name in plan.readings} | {"mu": plan.givens.mu_force.per_mm}
     values |= {f"{name}_mm": float(plan.first(name)) for name in plan.readings}
     reads, why = tuple(plan.readings)[1:], say("Forces in equilibrium, drawn head to tail, form a closed polygon.")
-    parts = in_parts(moves, values, last=last)
+    parts = move_parts(moves, values, last=last)
     return Step(say("The triangle of forces"), parts, view, marks, reads, why=why)
 
 
 def _triangle_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     foot, corner, force, reaction = (plan.acts[name].first for name in ("foot", "corner", "F", "R"))
-    corner, shown, side = corner[0], showing(plan), side_of(plan)
+    corner, shown, side = corner[0], errorless_hand(plan), side_of(plan)
     level = shown.project("level", corner, shown.given("line of Q", 0j, UP))
     sides = say(
         "With the T-square carry the corner horizontally to the line of Q. Along the motion F cos α measures "

@@ -26,13 +26,13 @@ from graphcam.constructions.force_plan import (
 )
 from graphcam.constructions.pressure_angle import MeasuredAngles
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, calculated, distance_between, showing
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arrow, Label, Line, Mark, Role
 from graphcam.drafting.meaning import ALPHA, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, unit
-from graphcam.drafting.telling import in_parts
+from graphcam.drafting.telling import move_parts
 from graphcam.given.follower import sense
 from graphcam.given.spring_load import SpringLoad
 
@@ -131,7 +131,7 @@ def friction_plan(
         "normal": distance_between(foot, tip),
         "contact_friction": distance_between(tip, corner),
         "along": distance_between(foot, tip, UP),
-        "side": calculated(np.abs, distance_between(foot, tip, RIGHT)),
+        "side": calculated_setting(np.abs, distance_between(foot, tip, RIGHT)),
         "reaction": distance_between(origin, corner),
     }
     for name, length in lengths.items():
@@ -156,7 +156,9 @@ def _normal(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     ).with_values(alpha=abs(alpha), side=towards(-1.0 if normal.directions.real < 0 else 1.0))
     reach = max(BASE, 2 * LOAD_LENGTH if math.isnan(length) else length) + LINE_OVERHANG
     why = say("Without friction the cam would push along the contact normal.")
-    return Step(say("The contact normal"), (Part(said, (normal,)),), view, plain.leaning(normal, reach, alpha), why=why)
+    return Step(
+        say("The contact normal"), (Part(said, (normal,)),), view, plain.leaning_line(normal, reach, alpha), why=why
+    )
 
 
 def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
@@ -168,7 +170,7 @@ def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
         "From there lay off {base:g} · μ = {base:g} · {mu:g} = {height:.2f} mm square to the normal, {side}."
     )
     join = say("Join the head of Q to this point with the ruler: on this line lies the contact force F.")
-    parts = in_parts([(laid, base), (inclined, incline), (join, line)], values)
+    parts = move_parts([(laid, base), (inclined, incline), (join, line)], values)
     along = complex(line.directions) / abs(complex(line.directions))
     reach = max(abs(complex(line.directions)), 2 * LOAD_LENGTH if math.isnan(length) else length) + LINE_OVERHANG
     run = Line(np.array([line.place, line.place + reach * along]), Role.CONSTRUCTION).left_by(line)
@@ -183,7 +185,7 @@ def _line_of_force(plan: Construction[FrictionPlanGivens], view: View) -> Step:
 def _triangle_step(plan: Construction[FrictionPlanGivens], view: View) -> Step:
     names = ("foot", "corner", "F", "R", "square", "tip of N", "N", "T")
     foot, corner, force, reaction, square, tip, normal, friction = (plan.acts[name].first for name in names)
-    corner, shown, side = corner[0], showing(plan), plain.side_of(plan)
+    corner, shown, side = corner[0], errorless_hand(plan), plain.side_of(plan)
     level = shown.project("level", tip, shown.given("line of Q", 0j, UP))
     meet = say("Mark where the line of F meets that of R: the third corner.")
     up = say("F runs from the head of Q up to this corner: {contact_mm:.1f} mm × {mu:g} = {contact:.1f} N.")

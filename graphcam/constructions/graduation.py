@@ -16,8 +16,8 @@ from graphcam.constructions.axes import (
     PHASES_OFFSET,
     TICK,
     TICKS_ROOM,
+    height_range,
     joined_runs,
-    reach,
 )
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
@@ -34,7 +34,7 @@ ROUND_STEPS = (1, 2, 5, 10)
 """Round steps within a power of ten."""
 
 
-def graduated(
+def graduation_marks(
     heights: Floats, per_mm: float, right: float | None = None, of: Origin | None = None, lift_unit: str = ""
 ) -> tuple[Mark, ...]:
     """The graduation of the ordinate axis of a diagram over ``heights`` [mm of paper], ``per_mm`` units to each.
@@ -43,10 +43,10 @@ def graduated(
     of : the reading whose scale it shows, where that is only found by drawing
     lift_unit : "rad" where the ordinates are angles, which a reader wants in degrees
 
-    >>> [str(mark.text) for mark in graduated(np.array([-12.0, 31.0]), 0.5)[1:]]
+    >>> [str(mark.text) for mark in graduation_marks(np.array([-12.0, 31.0]), 0.5)[1:]]
     ['-5', '5', '10', '15']
     """
-    low, high = reach(heights)
+    low, high = height_range(heights)
     angles = lift_unit == "rad"
     per_mm, value = (math.degrees(per_mm), say("{value:.6g}°")) if angles else (per_mm, say("{value:.6g}"))
     every, parts = divisions(max(-low, high), per_mm)
@@ -181,10 +181,10 @@ def graduated_at_speed(
 ) -> tuple[Mark, ...]:
     """The second graduation of the ordinates of v, a or j, beside the one at the ``end`` of the turn [mm of paper]."""
     at, x = scale_at_speed(per_mm, symbol, omega, lift_unit), end + SECOND_GRADUATION_OFFSET
-    low, high = reach(heights)
+    low, high = height_range(heights)
     return (
         Line(x + UP * np.array([low, high]), Role.SCALE, of=of),
-        *graduated(heights, at.per_mm, x, of),
+        *graduation_marks(heights, at.per_mm, x, of),
         Label(x + high * UP, say("{symbol}, {unit}", symbol=symbol, unit=unit(at.unit)), towards=UP, of=of),
     )
 
@@ -197,10 +197,10 @@ HEIGHT_DECIMALS = 3
 """Decimals of a millimetre: rays that end no farther apart fall on one line, and are drawn once."""
 
 
-def every_kth(places: Points) -> int:
+def numbering_step(places: Points) -> int:
     """The smallest k for which the numbers of every k-th of places in a row find room.
 
-    >>> every_kth(5 * np.arange(24) + 0j)
+    >>> numbering_step(5 * np.arange(24) + 0j)
     3
     """
     spacing = float(np.median(np.abs(np.diff(places.real))))
@@ -212,12 +212,12 @@ def row_numbers(places: Drawn, first: int, towards: Points) -> tuple[Label, ...]
 
     towards : (n,) where each number stands, seen from its place
     """
-    every = every_kth(places.shown)
+    every = numbering_step(places.shown)
     kept = [k for k in range(places.shown.size) if (first + k) % every == 0]
     return tuple(places[k].label(f"{first + k}", complex(towards[k]), small=True) for k in kept)
 
 
-def falling_together(heights: Drawn) -> list[NDArray[np.intp]]:
+def coinciding_heights(heights: Drawn) -> list[NDArray[np.intp]]:
     """The groups of heights on an axis that fall on one another, from the lowest to the highest, by their numbers."""
     levels, of = np.unique(np.round(heights.shown.imag, HEIGHT_DECIMALS), return_inverse=True)
     return [np.flatnonzero(of == level) for level in range(levels.size)]
@@ -226,7 +226,7 @@ def falling_together(heights: Drawn) -> list[NDArray[np.intp]]:
 def ray_numbers(heights: Drawn, first: int, groups: Sequence[NDArray[np.intp]], every: int) -> Iterator[Label]:
     """The numbers of rays at their ends, as far as there is room: a ray bears those of all that fall on it.
 
-    first : the number of the first ray;  groups : as :func:`falling_together` finds them
+    first : the number of the first ray;  groups : as :func:`coinciding_heights` finds them
     every : so many-th are numbered elsewhere: rays of other numbers have none
     """
     below = -math.inf
@@ -247,10 +247,10 @@ def ranges(numbers: NDArray[np.intp]) -> str:
     return joined_runs([str(number) for number in run] for run in runs)
 
 
-def raised(mm: float, nothing: Caption) -> Caption:
+def height_caption(mm: float, nothing: Caption) -> Caption:
     """A caption of how far up or down a place lies; ``nothing`` where it does neither.
 
-    >>> str(raised(-1.5, say("at the origin"))), str(raised(0.001, say("at the origin")))
+    >>> str(height_caption(-1.5, say("at the origin"))), str(height_caption(0.001, say("at the origin")))
     ('1.50 mm down', 'at the origin')
     """
     if abs(mm) < NEGLIGIBLE_SIZE:
@@ -266,4 +266,4 @@ def run_of_chord(way: complex) -> Caption:
     """
     if abs(way.imag) < NEGLIGIBLE_SIZE:
         return say("{run:.2f} mm level", run=way.real)
-    return say("{run:.2f} mm across, {climb}", run=way.real, climb=raised(way.imag, Caption("")))
+    return say("{run:.2f} mm across, {climb}", run=way.real, climb=height_caption(way.imag, Caption("")))

@@ -17,28 +17,28 @@ from graphcam.constructions.axes import (
     first_at_height,
     height_names,
     joined_parts,
-    numbers,
+    number_labels,
     phase_names,
     phase_title,
     pole_marks,
     station_names,
 )
 from graphcam.constructions.curve_over_phi import curve_over_phi
-from graphcam.constructions.graduation import graduated, graduated_at_speed, time_scale_caption
+from graphcam.constructions.graduation import graduated_at_speed, graduation_marks, time_scale_caption
 from graphcam.constructions.pole_scales import PoleTerms, pole_formula
 from graphcam.constructions.turn_board import TurnGivens
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, calculated, distance_between, showing
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, View, say
 from graphcam.drafting.marks import Dimension, Mark, Points, Role, Segments
 from graphcam.drafting.meaning import (
     LIFT,
-    Compared,
-    Converges,
+    ComparedReading,
     Formula,
     Meaning,
+    ReadingConvergence,
     ReadingMeaning,
     Symbol,
     Values,
@@ -46,7 +46,7 @@ from graphcam.drafting.meaning import (
 )
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE, unit
-from graphcam.drafting.telling import led_by
+from graphcam.drafting.telling import introduced_parts
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
@@ -120,15 +120,25 @@ MEANING = Meaning(
     ),
     {
         "s": ReadingMeaning(
-            say("displacement s"), "s", "lift", converges=Converges("displacement", "s", "at stations")
+            say("displacement s"), "s", "lift", converges=ReadingConvergence("displacement", "s", "at stations")
         ),
-        "v": ReadingMeaning(say("velocity v"), "v", "lift/rad", converges=Converges("velocity", "v", "at stations")),
+        "v": ReadingMeaning(
+            say("velocity v"), "v", "lift/rad", converges=ReadingConvergence("velocity", "v", "at stations")
+        ),
         "a": ReadingMeaning(say("acceleration a"), "a", "lift/rad²"),
         "max_v": ReadingMeaning(
-            say("maximum v"), "max v", "lift/rad", (Compared("max_v"),), Converges("maximum velocity", "max_v")
+            say("maximum v"),
+            "max v",
+            "lift/rad",
+            (ComparedReading("max_v"),),
+            ReadingConvergence("maximum velocity", "max_v"),
         ),
         "max_a": ReadingMeaning(
-            say("maximum a"), "max a", "lift/rad²", (Compared("max_a"),), Converges("maximum acceleration", "max_a")
+            say("maximum a"),
+            "max a",
+            "lift/rad²",
+            (ComparedReading("max_a"),),
+            ReadingConvergence("maximum acceleration", "max_a"),
         ),
         "closing_v": ReadingMeaning(say("closing error of v"), "Δv", "lift/rad", over=phase_names),
         "closing_s": ReadingMeaning(say("closing error of s"), "Δs", "lift"),
@@ -159,14 +169,16 @@ def integration(
     a_heights, polygons = _integrated(hand, givens, 1, hand.carry(diagram.readings["middles"]), uprights, origin)
     v_chords = hand.take("v_chords", polygons)
     v = hand.lay_off(
-        "v_curve", axis, UP, calculated(partial(_above_base, givens), distance_between(axis, v_chords, UP))
+        "v_curve", axis, UP, calculated_setting(partial(_above_base, givens), distance_between(axis, v_chords, UP))
     )
 
     # The middle ordinate is read from the curve's chord, halfway between its ends.
     halves = hand.divide("middles of v", v[left], v[left + 1], 0.5)
     v_heights, polygons = _integrated(hand, givens, 2, halves, uprights, origin)
     heights = distance_between(axis, polygons, UP)
-    raised, shared_out, closing = (calculated(partial(_stacked_polygons, givens, part), heights) for part in range(3))
+    raised, shared_out, closing = (
+        calculated_setting(partial(_stacked_polygons, givens, part), heights) for part in range(3)
+    )
     s_chords, s = hand.raised("s_chords", polygons, raised), hand.lay_off("s_curve", axis, UP, shared_out)
 
     x, top = axis.points.real, _top(motion, stations)
@@ -185,8 +197,8 @@ def integration(
         distance_between(origin, hand.tangent("highest v", v, stations.pieces, UP), UP),
         distance_between(down, origin, UP),
     )
-    hand.read("max_v", calculated(np.maximum, *ends), mu_v)
-    hand.read("max_a", calculated(partial(np.max, axis=-1), hand.carry(diagram.readings["greatest"])), mu_a)
+    hand.read("max_v", calculated_setting(np.maximum, *ends), mu_v)
+    hand.read("max_a", calculated_setting(partial(np.max, axis=-1), hand.carry(diagram.readings["greatest"])), mu_a)
     hand.read("closing_v", distance_between(axis[stations.last], v_chords[stations.last], UP), mu_v, rounded=False)
     hand.read("closing_s", closing, mu_s, rounded=False)
     projected = {"a_projected": middles.points.real + a_heights.points}
@@ -347,13 +359,16 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
     axes, under = c.givens.axes(target, heights), c.givens.degrees_under(heights)
     if run.index == 2:
         # What is near the numbers of the axis needs none of its own.
-        axes, far = (*axes, *numbers(c.acts["acceleration: axis"], stations, -UP)), np.abs(y) > AXIS_NUMBER_DISTANCE
+        axes, far = (
+            (*axes, *number_labels(c.acts["acceleration: axis"], stations, -UP)),
+            np.abs(y) > AXIS_NUMBER_DISTANCE,
+        )
         if c.givens.lowest:
             axes, under = (*axes, *c.givens.phases_under(heights)), ()
     marks = (
         *(polygon.first[span].line(Role.CONSTRUCTION) for span in stations.phases),
         curve.segments_from(curve.shown.real + 0j, Role.CONSTRUCTION),
-        *numbers(polygon, stations, _outward_directions(y, stations), far),
+        *number_labels(polygon, stations, _outward_directions(y, stations), far),
     )
     # The fourth chord is worked in full, or the first one after it that climbs.
     climbing = np.flatnonzero(np.abs(np.diff(y)[stations.left]) >= NEGLIGIBLE_SIZE)
@@ -374,7 +389,7 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
     ).with_values(source=source)
     chords = Part(said, rows=tuple(row for k in range(len(stations.phases)) for row in _chord_rows(c, run, k)))
     checks = tuple(_ordinates(c, run))
-    checks = led_by(run.closing.with_values(left=left), checks) if left > NEGLIGIBLE_SIZE else checks
+    checks = introduced_parts(run.closing.with_values(left=left), checks) if left > NEGLIGIBLE_SIZE else checks
     title = say("Chords parallel to the rays: {target}", target=target)
     return Step(title, (chords, *checks), run.target, (*axes, *marks), given=axes, why=why, under=under)
 
@@ -443,7 +458,7 @@ _RESIDUAL_CAPTIONS = (
 
 def _draw_curve(c: Integrated, run: _Integrating) -> Step:
     target = run.symbols[1]
-    lines, parts = curve_over_phi(c.givens, showing(c), target, c.acts[f"{target}_curve"], run.met)
+    lines, parts = curve_over_phi(c.givens, errorless_hand(c), target, c.acts[f"{target}_curve"], run.met)
     return Step(say("Curve of {target}", target=target), parts, run.target, lines, why=run.joined)
 
 
@@ -476,7 +491,7 @@ def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, ma
     # From the pole rays run to the axis on the left.
     heights = np.concatenate([c.first("a"), c.first("a_before")]) if name == "a" else c.acts[f"{name}_curve"].shown.imag
     lift_unit = c.readings[name].unit
-    divided = graduated(heights, mu, None if name == "s" else turn, c.readings[name].act, lift_unit)
+    divided = graduation_marks(heights, mu, None if name == "s" else turn, c.readings[name].act, lift_unit)
     if lift_unit == "rad":
         told = sequence([told, say("In degrees the scale is {mu:.5g}°/mm.", mu=np.degrees(mu))], " ")
     if c.givens.omega is not None and name != "s":

@@ -6,17 +6,17 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.constructions import profile_view
-from graphcam.constructions.axes import numbers, sense_caption, station_names
+from graphcam.constructions.axes import number_labels, sense_caption, station_names
 from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import RIGHT, UP, unit
-from graphcam.drafting.hand import Hand, showing
+from graphcam.drafting.hand import Hand, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import Line, Mark, Role, Segments
 from graphcam.drafting.meaning import OFFSET, RADIUS, S0, Formula, Meaning, S, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Scale
-from graphcam.drafting.telling import STATION, circle_drawn, run, setting
+from graphcam.drafting.telling import STATION, circle_caption, run, setting
 from graphcam.given.follower import Rotation
 from graphcam.given.laws import Floats
 from graphcam.words import Words, say_in, sequence
@@ -113,7 +113,7 @@ def _side(inverted: OffsetInverted) -> Caption:
 
 def _circles(inverted: OffsetInverted) -> Step:
     mu_l, e = inverted.givens.mu_l.per_mm, inverted.givens.offset
-    start, hand = profile_view.start_of_turn(inverted), showing(inverted)
+    start, hand = profile_view.start_of_turn(inverted), errorless_hand(inverted)
     foot = hand.lay_off("foot of the line", hand.given("cam centre"), RIGHT, e / mu_l)
     line = hand.erect("follower's line", foot)
     top = hand.cross("top of the line", line, inverted.acts["prime circle"].first)
@@ -127,7 +127,7 @@ def _circles(inverted: OffsetInverted) -> Step:
     if e:
         circle, title = inverted.acts["offset circle"], say("Prime circle and offset circle")
         further, of_arrow = profile_view.radius_arrow(inverted, circle, start * UP, "e", abs(e))
-        told = circle_drawn(say_in("drawn", "the offset circle about A"), "|e|", abs(e), mu_l)
+        told = circle_caption(say_in("drawn", "the offset circle about A"), "|e|", abs(e), mu_l)
         circles, parts = (circle.drawn_circle(Role.CONSTRUCTION),), [Part(told, (circle, *of_arrow))]
         upright = say(
             "With e = {e:g} mm draw the vertical from the {side} end of the horizontal diameter of the offset circle "
@@ -154,7 +154,7 @@ def _positions(inverted: OffsetInverted) -> Step:
     lines = Segments(motion.shown, starts.shown, Role.CONSTRUCTION).left_by(motion)
     numbered = feet if abs(e) / inverted.givens.mu_l.per_mm >= MIN_NUMBERED_RADIUS else starts
     phases, last = profile_view.phase_angles(inverted, profile_view.start_of_turn(inverted))
-    marks = (lines, *numbers(numbered, stations, -unit(numbered.shown)), *phases)
+    marks = (lines, *number_labels(numbered, stations, -unit(numbered.shown)), *phases)
     said = say(
         "The cam turns {rotation}; hold it still and turn the follower the other way, {against}. Set the protractor on "
         "A and count {against} from {line}, from station to station {steps}, so station {name} at {angle}; draw and "
@@ -170,7 +170,7 @@ def _positions(inverted: OffsetInverted) -> Step:
     why = say(
         "Only the motion relative to the cam shapes it: a frame that turns {against} about the fixed cam "
         "is the same as a cam that turns {rotation} in the frame."
-    ).with_values(rotation=sense_caption(inverted.givens.rotation), against=profile_view.against(inverted))
+    ).with_values(rotation=sense_caption(inverted.givens.rotation), against=profile_view.inversion_sense(inverted))
     title, rays = say("Inverted positions of the follower's line"), inverted.acts["inverted positions"]
     names = station_names(stations)
     turned = run((tangents if e else said).with_values(**values), STATION, names, rays, feet, starts, motion)

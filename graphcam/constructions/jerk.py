@@ -14,18 +14,18 @@ import numpy as np
 from graphcam.constructions.axes import (
     degrees,
     height_names,
+    height_range,
     joined_parts,
     part_names,
     part_titles,
     pole_marks,
-    reach,
     station_names,
 )
 from graphcam.constructions.graduation import (
-    falling_together,
-    graduated,
+    coinciding_heights,
     graduated_at_speed,
-    raised,
+    graduation_marks,
+    height_caption,
     run_of_chord,
     time_scale_caption,
 )
@@ -35,10 +35,10 @@ from graphcam.constructions.views import ACCELERATION, JERK
 from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, calculated, distance_between, showing
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import Arrow, Label, Mark, Role, Segments
-from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import ComparedReading, Meaning, ReadingConvergence, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE, unit
 from graphcam.given.impact import acceleration_jumps
@@ -84,7 +84,11 @@ MEANING = Meaning(
     {
         "j": ReadingMeaning(say("jerk j"), "j", "lift/rad³", over=_parts),
         "max_j": ReadingMeaning(
-            say("maximum j"), "max j", "lift/rad³", (Compared("max_j"),), Converges("maximum jerk", "max_j")
+            say("maximum j"),
+            "max j",
+            "lift/rad³",
+            (ComparedReading("max_j"),),
+            ReadingConvergence("maximum jerk", "max_j"),
         ),
     },
     (pole_formula("j", "a", 3, _by_pole, greatest=False),),
@@ -117,7 +121,7 @@ def jerk(integrated: Integrated, pole: float, pencil: Pencil) -> DrawnJerk:
     mu_j = np.asarray(integrated.readings["a"].scale) / (mu_phi.per_mm * pole)
     hand.read("j", distance_between(origin, found, UP), mu_j)
     hand.read("j_at", distance_between(origin, found, RIGHT), mu_phi.per_mm, "rad", rounded=False)
-    hand.read("max_j", calculated(np.maximum, *ends), mu_j)
+    hand.read("max_j", calculated_setting(np.maximum, *ends), mu_j)
     return hand.finished(JerkGivens(integrated, pole), _draw, {"j": found, "curve": curve})
 
 
@@ -182,7 +186,7 @@ def _chords(c: DrawnJerk) -> Step:
 
 def _heights(c: DrawnJerk) -> Floats:
     """The heights [mm of paper] to which the diagram and its arrows reach."""
-    low, high = reach(c.acts["curve"].first.shown.imag)
+    low, high = height_range(c.acts["curve"].first.shown.imag)
     jumps = [jump.size for jump in acceleration_jumps(c.givens.integrated.givens.motion)]
     up, down = any(size > 0 for size in jumps), any(size < 0 for size in jumps)
     return np.array(
@@ -197,7 +201,7 @@ def _with_rays(c: DrawnJerk) -> Step:
     givens, rays, heights, found = c.givens.integrated.givens, *(c.acts[n].first for n in ("rays", "heights", "j"))
     names, k, distance = part_names(givens.stations), _steepest(c), c.givens.pole
     pole = pole_marks(c.acts["P3"], distance, "₃", heights.shown.imag)
-    groups = falling_together(heights)
+    groups = coinciding_heights(heights)
     kept = [int(group[0]) for group in groups]
     axes = (*givens.axes("j", _heights(c)), *pole)
     told = [joined_parts(group.tolist(), givens.stations) for group in groups]
@@ -206,7 +210,7 @@ def _with_rays(c: DrawnJerk) -> Step:
         *(found.segments_from(heights, Role.CONSTRUCTION), found.dots(Role.CONSTRUCTION)),
         *height_names(heights[kept], told),
     )
-    ends = [raised(y, say("at the origin")) for y in heights.shown.imag.tolist()]
+    ends = [height_caption(y, say("at the origin")) for y in heights.shown.imag.tolist()]
     said = say(
         "Over a new axis mark the pole P₃, H₃ = {distance:g} mm to the left of 0. Slide the set square from each chord "
         "to P₃ and draw the ray, parallel to the chord, as far as the vertical axis; with the T-square carry the level "
@@ -219,12 +223,12 @@ def _with_rays(c: DrawnJerk) -> Step:
 
 
 def _curve_step(c: DrawnJerk) -> Step:
-    givens, curve, hand = c.givens.integrated.givens, c.acts["curve"].first, showing(c)
+    givens, curve, hand = c.givens.integrated.givens, c.acts["curve"].first, errorless_hand(c)
     names, marks, rows = station_names(givens.stations), list[Mark](), list[Row]()
     for piece, stretch in zip(curve_pieces(givens.stations), givens.stations.stretches, strict=True):
         faired = hand.fair("curve of j", curve, [piece])
         marks.append(faired.line(Role.RESULT))
-        called = telling.from_to(names[stretch.start], names[stretch.stop - 1])
+        called = telling.stretch_caption(names[stretch.start], names[stretch.stop - 1])
         rows.append(Row(called, "", (faired,)))
     said = [
         say(
@@ -267,7 +271,7 @@ def _scale(c: DrawnJerk) -> Step:
     heights, end = c.acts["curve"].first.shown.imag, givens.end
     # At the end of the turn an arrow may stand.
     end += GRADUATION_OFFSET if any(not jump.phi for jump in acceleration_jumps(givens.motion)) else 0.0
-    marks = list(graduated(heights, mu, end, read.act)) if reach(heights) != (0.0, 0.0) else []
+    marks = list(graduation_marks(heights, mu, end, read.act)) if height_range(heights) != (0.0, 0.0) else []
     if givens.omega is not None:
         told.append(time_scale_caption(mu, "j", givens.omega, givens.unit))
         marks += graduated_at_speed(heights, mu, "j", givens.omega, givens.unit, end, read.act) if marks else []

@@ -12,7 +12,7 @@ from graphcam.drafting.ink import Caption, Construction, Part, Step, Words, say
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.motion import Motion
-from graphcam.words import joined, sequence
+from graphcam.words import and_list, sequence
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +55,7 @@ def data_sentences(board: Board) -> list[Caption]:
         *([] if r0 is None else [say("The prime radius is r₀ = {radius:g} mm.", radius=r0)]),
         say("One turn of the cam: {phases}.", phases=phases),
         follower.limited(board.limits),
-        say("To be found: {sizes}.", sizes=joined(_open_sizes(board))),
+        say("To be found: {sizes}.", sizes=and_list(_open_sizes(board))),
     ]
 
 

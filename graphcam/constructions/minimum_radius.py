@@ -11,11 +11,11 @@ from functools import partial
 
 import numpy as np
 
-from graphcam.constructions.adoption import ToldByChain
+from graphcam.constructions.adoption import ChainSettings
 from graphcam.constructions.axes import degrees, pieces_of
 from graphcam.constructions.combined_diagram import (
+    curves_step,
     displacement_step,
-    joined_up,
     offset_caption,
     offset_line,
     side_caption,
@@ -27,29 +27,40 @@ from graphcam.constructions.region import (
     ON_THE_LINE,
     Boundary,
     RegionPicture,
-    binding,
+    binding_boundaries,
     boundary,
     highest_on,
     nearest_permitted,
     picture_of,
-    touched,
+    touched_stations,
 )
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, distance_between, showing
+from graphcam.drafting.hand import Hand, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Step, say
 from graphcam.drafting.marks import AngleMark, Dimension, Line, Mark, Region, Role, Segments
-from graphcam.drafting.meaning import OFFSET, R0, S0, SIGMA, Compared, Formula, Meaning, ReadingMeaning, Symbol, Values
+from graphcam.drafting.meaning import (
+    OFFSET,
+    R0,
+    S0,
+    SIGMA,
+    ComparedReading,
+    Formula,
+    Meaning,
+    ReadingMeaning,
+    Symbol,
+    Values,
+)
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE
-from graphcam.drafting.telling import led_by
+from graphcam.drafting.telling import introduced_parts
 from graphcam.given.follower import Limits, Rotation, sense
-from graphcam.words import joined, say_in, sequence
+from graphcam.words import and_list, say_in, sequence
 
 
 @dataclass(frozen=True, eq=False)
-class LeastRadiusGivens(ToldByChain):
+class LeastRadiusGivens(ChainSettings):
     """What lies on the board; see :func:`least_radius`.
 
     adopted : tells which cam centre is taken in the end, where one is: the region is drawn as far as there
@@ -134,7 +145,7 @@ MEANING = Meaning(
     ),
     {
         "prime_radius": LEAST_RADIUS,
-        "offset": ReadingMeaning(say("offset e"), "e", "mm", (Compared("minimum_offset", say("its offset e")),)),
+        "offset": ReadingMeaning(say("offset e"), "e", "mm", (ComparedReading("minimum_offset", say("its offset e")),)),
         "s0": ReadingMeaning(say("distance s₀"), "s₀", "mm"),
     },
     FORMULAS,
@@ -186,9 +197,9 @@ def _bounds(hand: Hand, givens: LeastRadiusGivens, ends: Drawn, start: Drawn) ->
     return lines
 
 
-def active(region: LeastRadius) -> list[Boundary]:
+def active_boundaries(region: LeastRadius) -> list[Boundary]:
     """The boundaries on which the cam centre lies, in the first sample."""
-    return binding(_shown_boundaries(region), complex(region.first("centre")))
+    return binding_boundaries(_shown_boundaries(region), complex(region.first("centre")))
 
 
 def _shown_boundaries(region: LeastRadius) -> list[Boundary]:
@@ -235,7 +246,7 @@ def _draw(region: LeastRadius) -> list[Step]:
     found = _unreadable() if np.isnan(centre.place) else _result(region)
     steps = (
         displacement_step(region, picture.bottom),
-        joined_up(region),
+        curves_step(region),
         _touching(region, picture),
         _shaded(region, picture),
     )
@@ -252,7 +263,7 @@ def _adopted(region: LeastRadius) -> list[complex]:
 
 
 def _touching(region: LeastRadius, picture: RegionPicture) -> Step:
-    hand, limits = showing(region), region.givens.limits
+    hand, limits = errorless_hand(region), region.givens.limits
     lines = [_limit_line(region, hand, line, picture) for line in _shown_boundaries(region)]
     parts = [part for part, _ in lines]
     if not limits.return_:
@@ -314,7 +325,7 @@ def _limit_line(
 
 def _touch(region: LeastRadius, name: str, touch: complex) -> Caption:
     direction = 1 if name == "rise" else -1
-    first, *last = touched(region.givens.integrated, region.acts["ends"].shown, touch, direction)
+    first, *last = touched_stations(region.givens.integrated, region.acts["ends"].shown, touch, direction)
     if not last:
         return say_in("a touch", "at {name}", name=first)
     return say_in("a touch", "between {first} and {last}", first=first, last=last[0])
@@ -330,7 +341,7 @@ def _at_zero_lift(region: LeastRadius) -> Caption:
 
 
 def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
-    hand, lines, others = showing(region), _shown_boundaries(region), _alternatives(region)
+    hand, lines, others = errorless_hand(region), _shown_boundaries(region), _alternatives(region)
     permitted = hand.given("permitted places", picture.permitted(lines))
     sides = [
         say(
@@ -352,14 +363,14 @@ def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
         marks.append(place.first.label(PLACE_NAMES[name], _outside(lines, place.place), small=True))
         crosses.append(Part(PLACE_CAPTIONS[name].with_values(distance=abs(place.place)), (place.first, strokes)))
     chosen = say("Thin crosses mark the points that textbooks choose.")
-    parts = Part(sequence([*sides, hatch], " "), (permitted,)), *led_by(chosen, crosses)
+    parts = Part(sequence([*sides, hatch], " "), (permitted,)), *introduced_parts(chosen, crosses)
     why = say("The cam centre must satisfy all limits at once.")
     return Step(say("The region of the cam centre"), parts, COMBINED, tuple(marks), why=why)
 
 
 def _outside(lines: list[Boundary], place: complex) -> complex:
     """The direction out of the region at a place on its boundaries."""
-    return -sum((complex(line.inward) for line in binding(lines, place)), 0j) or 1 - 1j
+    return -sum((complex(line.inward) for line in binding_boundaries(lines, place)), 0j) or 1 - 1j
 
 
 def _unreadable() -> Step:
@@ -374,7 +385,7 @@ def _unreadable() -> Step:
 
 def _result(region: LeastRadius) -> Step:
     offset, centre, start = region.givens.offset, region.acts["centre"].first, region.acts["start of the lift"].first
-    hand, mu = showing(region), region.readings["prime_radius"].per_mm
+    hand, mu = errorless_hand(region), region.readings["prime_radius"].per_mm
     reads = ("prime_radius", "offset", "s0")
     # Adding zero makes a plain zero of the negative one that a central follower's offset is read as.
     paper, values = ({name: float(get(name)) + 0.0 for name in reads} for get in (region.first, region.value))
@@ -416,14 +427,14 @@ def _height(paper: float, mu: float, s0: float) -> Caption:
 
 
 def _centre_caption(region: LeastRadius) -> Caption:
-    offset, bound = region.givens.offset, [LINE_NAMES[line.name] for line in active(region)]
+    offset, bound = region.givens.offset, [LINE_NAMES[line.name] for line in active_boundaries(region)]
     if offset is None:
         nearest_place = say("The offset is free: A₀ is the point of the hatched region nearest to B₀, {where}.")
         if len(bound) == 1:
             return nearest_place.with_values(where=say("where the perpendicular from B₀ meets {line}", line=bound[0]))
-        crossing = say("where it lies on {lines}", lines=joined(bound))
+        crossing = say("where it lies on {lines}", lines=and_list(bound))
         return nearest_place.with_values(where=crossing if bound else say("B₀ itself"))
-    on = say(", on {lines}", lines=joined(bound)) if bound else say(", level with B₀")
+    on = say(", on {lines}", lines=and_list(bound)) if bound else say(", level with B₀")
     if not offset:
         return say("With e = 0, A₀ is where the line of motion itself enters the hatched region{on}.", on=on)
     return say("A₀ is where this vertical enters the hatched region{on}.", on=on)

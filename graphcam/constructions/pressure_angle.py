@@ -14,7 +14,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.adoption import ToldByChain, adoption_step
+from graphcam.constructions.adoption import ChainSettings, adoption_step
 from graphcam.constructions.axes import sense_caption, station_names
 from graphcam.constructions.combined_diagram import offset_caption, offset_line, side_caption, velocities
 from graphcam.constructions.integration import Integrated
@@ -22,7 +22,7 @@ from graphcam.constructions.velocity_plan import VelocityScale, velocity_plan
 from graphcam.constructions.views import COMBINED, PLAN
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Direction, Hand, calculated, distance_between, showing
+from graphcam.drafting.hand import Direction, Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Arc, Line, Mark, Role, angle_at
 from graphcam.drafting.meaning import (
@@ -31,9 +31,9 @@ from graphcam.drafting.meaning import (
     R0,
     S0,
     SIGMA,
-    Converges,
     Formula,
     Meaning,
+    ReadingConvergence,
     ReadingMeaning,
     S,
     Symbol,
@@ -41,7 +41,7 @@ from graphcam.drafting.meaning import (
     Values,
 )
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.scale import Scale, coarsest, ratio_text, standard_scale
+from graphcam.drafting.scale import Scale, coarsest_scale, ratio_text, standard_scale
 from graphcam.drafting.telling import run
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.laws import Floats
@@ -49,7 +49,7 @@ from graphcam.words import sequence
 
 
 @dataclass(frozen=True, eq=False)
-class MeasuredGivens(ToldByChain):
+class MeasuredGivens(ChainSettings):
     """What every pressure angle needs: velocity and displacement of a follower, and the cam centre's place [mm].
 
     omega : of the cam [rad/s], where the task gives a speed
@@ -80,7 +80,10 @@ class PressureAngleGivens(MeasuredGivens):
 
 ANGLE_MEANINGS = {
     "alpha": ReadingMeaning(
-        say("pressure angle α"), "α", "rad", converges=Converges("pressure angle", "pressure_angle", "at stations")
+        say("pressure angle α"),
+        "α",
+        "rad",
+        converges=ReadingConvergence("pressure angle", "pressure_angle", "at stations"),
     ),
     "transmission": ReadingMeaning(say("transmission angle"), "γ", "rad", judged="least"),
 }
@@ -157,7 +160,7 @@ def pressure_angle(
 def read_angles(hand: Hand, base: Direction, rays: Drawn, sense: int = 1) -> None:
     """Measure ``alpha``, and find ``transmission``, 90 degrees - |alpha|, that some schools read instead."""
     alpha = hand.angle("alpha", base, rays, sense)
-    hand.read("transmission", calculated(_complement, hand.carry(alpha)), 1.0, rounded=False)
+    hand.read("transmission", calculated_setting(_complement, hand.carry(alpha)), 1.0, rounded=False)
 
 
 def _complement(alpha: Floats) -> Floats:
@@ -234,7 +237,7 @@ def plan_scale(measured: Construction[PressureAngleGivens], k: int, d: complex) 
     # v₁ lies across the radius: it is as wide as B lies high.
     triangle = np.ptp([0.0, d.real, v, d.real + v])
     size = complex(float(triangle) + d.imag, max(d.imag, abs(v)))
-    usual = coarsest(standard_scale(d.imag, PLAN_HEIGHT, paper.ratios), paper.scale(size, PLAN_MARGINS))
+    usual = coarsest_scale(standard_scale(d.imag, PLAN_HEIGHT, paper.ratios), paper.scale(size, PLAN_MARGINS))
     return paper.kept_scale(PLAN.name) or usual
 
 
@@ -272,11 +275,11 @@ class _PlanStation:
 
 def _plan(measured: Construction[PressureAngleGivens], k: int, times: float) -> Hand:
     """The hand that draws the mechanism's triangle at a station, enlarged about A, with the plan beside it."""
-    hand, sigma, centre = showing(measured), sense(measured.givens.rotation), measured.acts["centre"].first
+    hand, sigma, centre = errorless_hand(measured), sense(measured.givens.rotation), measured.acts["centre"].first
     low, high = measured.acts["displacements"].first[k], measured.acts["ends"].first[k]
 
     def enlarged(length: Setting) -> Setting:
-        return calculated(partial(np.multiply, times), length)
+        return calculated_setting(partial(np.multiply, times), length)
 
     a = hand.given("A")
     guide = hand.erect("guide", hand.lay_off("foot", a, RIGHT, enlarged(distance_between(centre, low, RIGHT))))

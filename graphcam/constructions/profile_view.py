@@ -6,10 +6,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphcam.constructions.adoption import ToldByChain
+from graphcam.constructions.adoption import ChainSettings
 from graphcam.constructions.axes import (
     degrees,
-    numbers,
+    number_labels,
     phase_angle,
     phase_symbol,
     phase_title,
@@ -20,12 +20,12 @@ from graphcam.constructions.integration import Integrated
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.acts import Drawn, Kind
 from graphcam.drafting.euclid import RIGHT, UP, turned_direction, unit
-from graphcam.drafting.hand import Direction, Hand, distance_between, showing
+from graphcam.drafting.hand import Direction, Hand, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Dots, Label, Line, Mark, Role, Segments
-from graphcam.drafting.meaning import Converges, ReadingMeaning
+from graphcam.drafting.meaning import ReadingConvergence, ReadingMeaning
 from graphcam.drafting.scale import Scale
-from graphcam.drafting.telling import FRENCH_CURVE, circle_drawn, from_to
+from graphcam.drafting.telling import FRENCH_CURVE, circle_caption, stretch_caption
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.stations import Stations
@@ -33,7 +33,7 @@ from graphcam.words import say_in, sequence
 
 
 @dataclass(frozen=True, eq=False)
-class InvertedGivens(ToldByChain):
+class InvertedGivens(ChainSettings):
     """What every inversion starts from: the motion, its sense, the prime circle [mm], the profile's scale [mm/mm]."""
 
     integrated: Integrated
@@ -54,7 +54,9 @@ PHASE_ARC_OFFSET = 9.0
 
 
 CURVE_MEANINGS = {
-    "x": ReadingMeaning(say("x"), "x", "mm", converges=Converges("pitch curve", "pitch_curve", "from the pitch curve")),
+    "x": ReadingMeaning(
+        say("x"), "x", "mm", converges=ReadingConvergence("pitch curve", "pitch_curve", "from the pitch curve")
+    ),
     "y": ReadingMeaning(say("y"), "y", "mm"),
     "radius": ReadingMeaning(say("polar radius"), "R", "mm"),
     "polar_angle": ReadingMeaning(say("polar angle"), "θ", "rad"),
@@ -104,7 +106,7 @@ def position_words(inverted: Inverted) -> dict[str, Words]:
     at = worked_station(stations)
     return {
         "rotation": sense_caption(inverted.givens.rotation),
-        "against": against(inverted),
+        "against": inversion_sense(inverted),
         "angles": sequence([degrees(phase.angle) for phase in motion.phases]),
         "steps": sequence([_step_of(motion, stations, span) for span in stations.phases]),
         "name": station_names(stations)[at],
@@ -130,7 +132,7 @@ def turn_of(inverted: Inverted, station: int) -> Caption:
     return _turn(float(inverted.givens.integrated.givens.stations.phi[station]))
 
 
-def against(inverted: Inverted) -> Caption:
+def inversion_sense(inverted: Inverted) -> Caption:
     """The word for the sense in which the follower goes round the cam that stands still."""
     return sense_caption("ccw" if inverted.givens.rotation == "cw" else "cw")
 
@@ -159,7 +161,7 @@ def piecewise_curve(name: str, inverted: Inverted, points: Drawn) -> PiecewiseCu
     """
     pieces = _pieces(name, inverted, points.first)
     known = np.flatnonzero(~np.isnan(np.concatenate([piece.points for _, piece in pieces])))
-    whole = showing(inverted).take(name, *(piece for _, piece in pieces), which=known)
+    whole = errorless_hand(inverted).take(name, *(piece for _, piece in pieces), which=known)
     ends = [0, *np.searchsorted(known, np.cumsum([piece.points.size for _, piece in pieces])).tolist()]
     # Where a phase has lost all its points there is no piece of it.
     left = [(k, piece, whole[a:b]) for (k, piece), (a, b) in zip(pieces, pairwise(ends), strict=True) if a < b]
@@ -169,7 +171,7 @@ def piecewise_curve(name: str, inverted: Inverted, points: Drawn) -> PiecewiseCu
 
 def _pieces(name: str, inverted: Inverted, points: Drawn) -> list[tuple[int, Drawn]]:
     """The pieces of a closed curve in order, each with the number of its phase."""
-    hand, integrated = showing(inverted), inverted.givens.integrated
+    hand, integrated = errorless_hand(inverted), inverted.givens.integrated
     motion, stations, sigma = integrated.givens.motion, integrated.givens.stations, sense(inverted.givens.rotation)
     spans = {int(stations.phase[span.start]): span for span in stations.phases}
     centre, found = hand.given("cam centre"), list[tuple[int, Drawn]]()
@@ -199,7 +201,7 @@ def _piece_row(inverted: Inverted, k: int, piece: Drawn, drawn: Drawn) -> Row:
     phase = phase_title(motion, k)
     if piece.act.kind is Kind.FAIR:
         names, at = station_names(stations), piece.act.takes["points"].index
-        return Row(sequence([from_to(names[at[0]], names[at[-1]]), phase]), FRENCH_CURVE, (drawn,))
+        return Row(sequence([stretch_caption(names[at[0]], names[at[-1]]), phase]), FRENCH_CURVE, (drawn,))
     arc = say("compass {radius:.1f} mm, an arc of {angle} about A")
     arc = arc.with_values(radius=abs(piece.shown[0]), angle=degrees(motion.phases[k].angle))
     return Row(say("In the {phase}", phase=phase), arc, (drawn,))
@@ -225,7 +227,7 @@ def radius_arrow(
     motion: Motion = inverted.givens.integrated.givens.motion
     longest = int(np.argmax([phase.angle for phase in motion.phases]))
     middle = motion.starts[longest] + motion.phases[longest].angle / 2
-    hand, sigma = showing(inverted), sense(inverted.givens.rotation)
+    hand, sigma = errorless_hand(inverted), sense(inverted.givens.rotation)
     towards = complex(turned_direction(start / abs(start), -sigma * middle))
     ray = hand.erect(f"radius {symbol}", circle.first, towards)
     tip = hand.cross(f"tip of {symbol}", ray, circle.first)
@@ -255,7 +257,7 @@ def phase_angles(inverted: Inverted, start: complex) -> tuple[list[Mark], Part]:
     motion: Motion = inverted.givens.integrated.givens.motion
     sigma, radius = sense(inverted.givens.rotation), _outer_radius(inverted)
     limits = np.angle(start) - sigma * np.append(motion.starts, FULL_TURN)
-    hand = showing(inverted)
+    hand = errorless_hand(inverted)
     rays = hand.erect("limits of the phases", hand.given("cam centre", 0j * limits[:-1]), np.exp(1j * limits[:-1]))
     of, index, ends = rays.act, rays.index, (radius + PHASE_ARC_OFFSET / 2) * rays.directions
     angles = [
@@ -272,7 +274,7 @@ def _outer_radius(inverted: Inverted) -> float:
     return float(np.fmax.reduce(np.abs(inverted.first("pitch")), initial=prime)) + PHASE_ARC_OFFSET
 
 
-def ground(inverted: Inverted) -> tuple[Mark, ...]:
+def centre_marks(inverted: Inverted) -> tuple[Mark, ...]:
     """Cam centre, centre lines and the sense of the rotation, as marks."""
     prime, sigma = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm, sense(inverted.givens.rotation)
     reach = (_outer_radius(inverted) + PHASE_ARC_OFFSET) * np.array([-1, 1])
@@ -300,11 +302,11 @@ def prime_step(
 
     parts : what is drawn after the prime circle
     """
-    centre, circle = ground(inverted), inverted.acts["prime circle"]
+    centre, circle = centre_marks(inverted), inverted.acts["prime circle"]
     arrow, of_arrow = radius_arrow(inverted, circle, start, "r₀", inverted.givens.prime_radius)
     marks = (*centre, circle.drawn_circle(Role.CONSTRUCTION), *circles, *arrow, *further)
     prime = say_in("drawn", "the prime circle about the cam centre A")
-    told = circle_drawn(prime, "r₀", inverted.givens.prime_radius, inverted.givens.mu_l.per_mm)
+    told = circle_caption(prime, "r₀", inverted.givens.prime_radius, inverted.givens.mu_l.per_mm)
     parts = (Part(told, (circle, *of_arrow)), *parts)
     return Step(title, parts, PROFILE, marks, given=centre, why=why)
 
@@ -329,7 +331,7 @@ def pitch_steps(
     said : how the curve is drawn between the dwells
     """
     pitch, stations = inverted.acts["pitch"], inverted.givens.integrated.givens.stations
-    points = (pitch.dots(Role.CONSTRUCTION), *numbers(pitch, stations, unit(pitch.shown)))
+    points = (pitch.dots(Role.CONSTRUCTION), *number_labels(pitch, stations, unit(pitch.shown)))
     curve = piecewise_curve("pitch curve", inverted, pitch)
     line = curve.whole.line(Role.CURVE, closed=True)
     return [

@@ -19,7 +19,7 @@ from graphcam.drafting.euclid import NOWHERE, UP, crossing, foot
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import say
 from graphcam.drafting.marks import Points
-from graphcam.drafting.meaning import Compared, Converges, ReadingMeaning
+from graphcam.drafting.meaning import ComparedReading, ReadingConvergence, ReadingMeaning
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE
 from graphcam.given.laws import Floats
 from graphcam.plane_vectors import dot
@@ -32,8 +32,8 @@ LEAST_RADIUS = ReadingMeaning(
     say("prime radius r₀"),
     "r₀",
     "mm",
-    (Compared("minimum_prime_radius", say("minimum radius r₀")),),
-    Converges("minimum prime radius", "minimum_prime_radius"),
+    (ComparedReading("minimum_prime_radius", say("minimum radius r₀")),),
+    ReadingConvergence("minimum prime radius", "minimum_prime_radius"),
 )
 """The least prime radius, however it is found."""
 
@@ -147,7 +147,7 @@ def _nearest_for_three_lines(touches: Points, inwards: Points, start: Points) ->
     return np.where(permitted.any(axis=-1), place, NOWHERE), _VERTEX_PAIRS[best]
 
 
-def binding(lines: Sequence[Boundary], centre: complex) -> list[Boundary]:
+def binding_boundaries(lines: Sequence[Boundary], centre: complex) -> list[Boundary]:
     """The boundaries, of one sample, on which the cam centre lies."""
     return [line for line in lines if abs(line.clearance(np.asarray(centre))) <= 1e3 * ON_THE_LINE]
 
@@ -250,7 +250,7 @@ STATION_NEARNESS = 0.05
 """A line that touches this near to a station, in parts of the way to the next one, touches at it."""
 
 
-def touched(integrated: Integrated, plotted: Points, place: complex, direction: int) -> list[str]:
+def touched_stations(integrated: Integrated, plotted: Points, place: complex, direction: int) -> list[str]:
     """The name of the station at which a curve is touched, or the names of those on both sides.
 
     plotted : (n,) the curve's points at the stations;  direction : 1 for the curve of the rises, -1 of the returns
@@ -258,7 +258,7 @@ def touched(integrated: Integrated, plotted: Points, place: complex, direction: 
     >>> import graphcam as gc
     >>> integrated = gc.solve(gc.builtin_task()).drawn["integration"]
     >>> curve = np.arange(integrated.first("s").size) + 0j
-    >>> touched(integrated, curve, 4.02 + 0j, 1), touched(integrated, curve, 4.3 + 0j, 1)
+    >>> touched_stations(integrated, curve, 4.02 + 0j, 1), touched_stations(integrated, curve, 4.3 + 0j, 1)
     (['4'], ['4', '5'])
     """
     motion, stations = integrated.givens.motion, integrated.givens.stations

@@ -9,12 +9,12 @@ import numpy as np
 from graphcam.constructions.curvature import Curved, detail_of
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, calculated, distance_between
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, Words, say
 from graphcam.drafting.marks import Mark, Role
-from graphcam.drafting.meaning import R0, RHO, Compared, Formula, Meaning, ReadingMeaning, Symbol, Values
+from graphcam.drafting.meaning import R0, RHO, ComparedReading, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.telling import led_by
+from graphcam.drafting.telling import introduced_parts
 from graphcam.given.laws import Floats
 from graphcam.given.roller_rule import Candidate
 from graphcam.words import sequence
@@ -69,7 +69,10 @@ MEANING = Meaning(
     {
         "candidates": ReadingMeaning(say("proposals"), "r", "mm", over=_terms, judged="least"),
         "roller_radius": ReadingMeaning(
-            say("roller radius r"), "r", "mm", (Compared("roller_radius", say("proposed roller radius"), "candidates"),)
+            say("roller radius r"),
+            "r",
+            "mm",
+            (ComparedReading("roller_radius", say("proposed roller radius"), "candidates"),),
         ),
     },
     FORMULAS,
@@ -85,17 +88,20 @@ def roller_radius(curved: Curved, rule: tuple[Candidate, ...], given: float | No
     mu_l, centre = inverted.givens.mu_l.per_mm, hand.given("cam centre")
     if given is None:
         prime_radius = distance_between(centre, hand.earlier_places(inverted, "starts")[0])
-        proposed = calculated(partial(_proposed, rule, mu_l), hand.carry(curved.readings["rho"]), prime_radius)
+        proposed = calculated_setting(partial(_proposed, rule, mu_l), hand.carry(curved.readings["rho"]), prime_radius)
     else:
-        proposed = calculated(np.atleast_1d, hand.at_scale(given, inverted.readings["radius"]))
+        proposed = calculated_setting(np.atleast_1d, hand.at_scale(given, inverted.readings["radius"]))
     # The compass is set to each; where nothing is convex there is nothing to set it to.
-    set_to, own = hand.lay_off("roller", centre, RIGHT, calculated(_finite, proposed)), proposed.amount.shape[-1]
+    set_to, own = (
+        hand.lay_off("roller", centre, RIGHT, calculated_setting(_finite, proposed)),
+        proposed.amount.shape[-1],
+    )
     which = np.where(np.isinf(proposed.amount), own, np.arange(own))
     laid_off = hand.take("proposals", set_to, hand.given("far away", [np.inf]), which=which)
     candidates = distance_between(centre, laid_off, RIGHT)
     hand.read("candidates", candidates, mu_l, rounded=False)
     # Where no bend is readable, rho limits nothing.
-    hand.read("roller_radius", calculated(partial(np.fmin.reduce, axis=-1), candidates), mu_l, rounded=False)
+    hand.read("roller_radius", calculated_setting(partial(np.fmin.reduce, axis=-1), candidates), mu_l, rounded=False)
     return hand.finished(RollerGivens(curved, rule, given), _draw, {})
 
 
@@ -139,7 +145,16 @@ def _draw(rolled: Rolled) -> list[Step]:
     )
     names = [term.formula_caption for term in rule] if given is None else ["r"]
     view, marks, parts = laid_off_on_ob(rolled, names, candidates)
-    return [Step(say("Roller radius"), led_by(caption, parts), view, marks, ("candidates", "roller_radius"), why=why)]
+    return [
+        Step(
+            say("Roller radius"),
+            introduced_parts(caption, parts),
+            view,
+            marks,
+            ("candidates", "roller_radius"),
+            why=why,
+        )
+    ]
 
 
 def _proposal(term: Candidate, radius: float) -> Caption:

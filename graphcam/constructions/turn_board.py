@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from graphcam.constructions.axes import degrees_below, ordinate, phase_ends, phases_below, phi_axes, reach
+from graphcam.constructions.axes import degrees_below, height_range, ordinate_title, phase_ends, phases_below, phi_axes
 from graphcam.constructions.graduation import times_below
 from graphcam.drafting.marks import Mark
 from graphcam.drafting.scale import Scale
@@ -34,16 +34,16 @@ class TurnGivens:
 
     def axes(self, symbol: str, heights: Floats) -> tuple[Mark, ...]:
         """The axes of the diagram of a quantity that reaches over ``heights`` [mm of paper]."""
-        return phi_axes(self.motion, self.mu_phi, heights, ordinate(symbol, self.unit))
+        return phi_axes(self.motion, self.mu_phi, heights, ordinate_title(symbol, self.unit))
 
     def degrees_under(self, heights: Floats) -> tuple[Mark, ...]:
         """The numbers under a diagram that is the lowest on its page: degrees, and times where there is a speed."""
-        low = reach(heights)[0]
+        low = height_range(heights)[0]
         times = times_below(self.end, self.mu_phi, low, self.omega, phases=False)
         return (*degrees_below(self.end, self.mu_phi, low), *times)
 
     def phases_under(self, heights: Floats) -> tuple[Mark, ...]:
         """The numbers under the lowest diagram of all: degrees, the angles of the phases, and times."""
-        low = reach(heights)[0]
+        low = height_range(heights)[0]
         phases = phases_below(self.motion, self.mu_phi, low)
         return (*phases, *times_below(self.end, self.mu_phi, low, self.omega))

@@ -14,12 +14,12 @@ from graphcam.constructions.roller import Rolled, laid_off_on_ob
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import UP, tangent_of_circle, unit
-from graphcam.drafting.hand import Hand, calculated, distance_between, showing
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
 from graphcam.drafting.marks import AngleMark, Line, Mark, Points, Role, Segments
-from graphcam.drafting.meaning import Converges, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import Meaning, ReadingConvergence, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
-from graphcam.drafting.telling import STATION, alike, circle_drawn, led_by, run
+from graphcam.drafting.telling import STATION, circle_caption, introduced_parts, no_setting, run
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
@@ -54,7 +54,10 @@ MEANING = Meaning(
     say("The profile is the curve that touches the follower in all its positions: the inner envelope."),
     {
         "radius": ReadingMeaning(
-            say("polar radius"), "R", "mm", converges=Converges("working profile", "profile", "from the profile")
+            say("polar radius"),
+            "R",
+            "mm",
+            converges=ReadingConvergence("working profile", "profile", "from the profile"),
         )
     },
 )
@@ -115,7 +118,7 @@ def _measure_dwells(hand: Hand, inverted: Inverted, touch: Drawn) -> None:
     )
     angles = hand.angle("angles of the radii", first, last, -sense(inverted.givens.rotation))
     given = np.array([motion.phases[k].angle for k in numbers])
-    found = calculated(partial(_beyond_a_half_turn, given), hand.carry(angles))
+    found = calculated_setting(partial(_beyond_a_half_turn, given), hand.carry(angles))
     hand.read("low_dwells", found, 1.0, "rad", rounded=False)
 
 
@@ -188,7 +191,7 @@ def _rounding_step(profile: Profile, rolled: Rolled) -> Step:
     why = say("Rollers are made in round sizes, and a larger one would violate the rule.")
     view, marks, parts = laid_off_on_ob(rolled, ["r"], np.array([adopted]))
     said = said.with_values(proposed=proposed, adopted=adopted)
-    return Step(say("Roller radius rounded"), led_by(said, parts), view, marks, why=why)
+    return Step(say("Roller radius rounded"), introduced_parts(said, parts), view, marks, why=why)
 
 
 def _names(profile: Profile) -> list[str]:
@@ -199,9 +202,9 @@ def _circles(profile: Profile) -> Step:
     roller, mu_l = profile.givens.roller_radius, profile.givens.inverted.givens.mu_l.per_mm
     circles, names = profile.acts["roller circles"].first, _names(profile)
     each = say_in("drawn", "the circle of the roller about every point of the pitch curve, from {first} to {last}")
-    said = circle_drawn(each.with_values(first=names[0], last=names[-1]), "r", roller, mu_l)
+    said = circle_caption(each.with_values(first=names[0], last=names[-1]), "r", roller, mu_l)
     why = say("The roller's centre runs on the pitch curve: these circles are positions of the roller.")
-    part = run(said, say("Circle {name}"), names, circles, settings=alike)
+    part = run(said, say("Circle {name}"), names, circles, settings=no_setting)
     marks = tuple(circles[k].drawn_circle(Role.CONSTRUCTION) for k in range(len(names)))
     return Step(say("Roller circles"), (part,), PROFILE, marks, why=why)
 
@@ -217,7 +220,7 @@ def _touched(profile: Profile) -> Step:
     why = say("A circle touches the profile where the common normal of profile and pitch curve cuts it.")
     # Where two neighbours lie in one place, the curve has no direction that could be seen.
     seen = np.flatnonzero(~np.isnan(found.points))
-    part = run(said, say("Contact point {name}"), [names[k] for k in seen], found[seen], settings=alike)
+    part = run(said, say("Contact point {name}"), [names[k] for k in seen], found[seen], settings=no_setting)
     return Step(say("Contact points"), (part,), PROFILE, (found[seen].dots(Role.CONSTRUCTION),), why=why)
 
 
@@ -349,7 +352,7 @@ def _normals(profile: Profile) -> Iterator[ShownAngle]:
 
     None where the whole phase is covered.
     """
-    hand, inverted = showing(profile), profile.givens.inverted
+    hand, inverted = errorless_hand(profile), profile.givens.inverted
     motion, pitch, touch = inverted.acts["motion"].first, inverted.acts["pitch"].first, profile.acts["touch"].first
     normals = hand.join("normals", touch, pitch)
     alpha = hand.angle("pressure angles", motion, normals)

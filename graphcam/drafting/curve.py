@@ -24,17 +24,17 @@ def farthest_point(points: Points, direction: Points | complex) -> Points:
     3j
     """
     points = np.asarray(points)
-    return farthest_in(points, [slice(0, points.shape[-1])], direction)
+    return farthest_on_pieces(points, [slice(0, points.shape[-1])], direction)
 
 
-def farthest_in(points: Points, pieces: Sequence[slice], direction: Points | complex) -> Points:
+def farthest_on_pieces(points: Points, pieces: Sequence[slice], direction: Points | complex) -> Points:
     """The farthest point in a direction over several smooth pieces, each faired for itself.
 
     points : (..., n); returns : (...)
 
     >>> x = np.arange(5.0)
     >>> corner = x + 1j * np.minimum(x, 4 - x)
-    >>> complex(farthest_in(corner, [slice(0, 3), slice(2, 5)], 1j))
+    >>> complex(farthest_on_pieces(corner, [slice(0, 3), slice(2, 5)], 1j))
     (2+2j)
     """
     direction = np.asarray(direction / np.abs(direction))[..., None]
@@ -75,7 +75,7 @@ def _highest(heights: NDArray[np.float64], first: NDArray[np.intp], last: NDArra
 
 
 def faired_pieces(points: Points, pieces: Sequence[slice], between: int = 8) -> Points:
-    """The smooth lines through the plotted points of several pieces, one after another, as :func:`faired`.
+    """The smooth lines through the plotted points of several pieces, one after another, as :func:`faired_line`.
 
     Pieces of as many points are faired together.
 
@@ -87,20 +87,20 @@ def faired_pieces(points: Points, pieces: Sequence[slice], between: int = 8) -> 
     lines: list[Points] = [points] * first.size
     for parts in np.unique(last - first):
         alike = np.flatnonzero(last - first == parts)
-        together = faired(points[..., first[alike, None] + np.arange(parts + 1)], between)
+        together = faired_line(points[..., first[alike, None] + np.arange(parts + 1)], between)
         for k, number in enumerate(alike):
             lines[number] = together[..., k, :]
     return np.concatenate(lines, axis=-1)
 
 
-def faired(points: Points, between: int = 8) -> Points:
+def faired_line(points: Points, between: int = 8) -> Points:
     """A smooth line through plotted points (..., n), with ``between`` short chords a part.
 
     Between two points the parabolas through them and either neighbour are blended into one another (A. W. Overhauser
     1968), so the line bends as the readings do.
 
     >>> x = np.arange(4.0)
-    >>> line = faired(x + 1j * x**2, between=2)
+    >>> line = faired_line(x + 1j * x**2, between=2)
     >>> complex(line[3])
     (1.5+2.25j)
     """

@@ -66,7 +66,7 @@ def climb_along(direction: Points, width: Floats) -> Floats:
 def crossing(p: Points, d: Points, q: Points, e: Points) -> Points:
     """The point that the line through p along d and the line through q along e have in common; NaN for parallels.
 
-    What a hand can read is :func:`meet`; this is for lines of which only the envelope is drawn.
+    What a hand can read is :func:`readable_crossing`; this is for lines of which only the envelope is drawn.
 
     >>> at = np.asarray
     >>> complex(crossing(at(0j), at(1 + 1j), at(2 + 0j), at(1j)))
@@ -78,13 +78,13 @@ def crossing(p: Points, d: Points, q: Points, e: Points) -> Points:
         return p + along * d
 
 
-def meet(p: Points, d: Points, q: Points, e: Points) -> Points:
+def readable_crossing(p: Points, d: Points, q: Points, e: Points) -> Points:
     """The point where the line through p along d meets the line through q along e; NaN when they are almost parallel.
 
     >>> at = np.asarray
-    >>> complex(meet(at(0j), at(1 + 1j), at(2 + 0j), at(1j)))
+    >>> complex(readable_crossing(at(0j), at(1 + 1j), at(2 + 0j), at(1j)))
     (2+2j)
-    >>> bool(np.isnan(meet(at(0j), at(1 + 0j), at(1j), at(1 + 0.01j))))
+    >>> bool(np.isnan(readable_crossing(at(0j), at(1 + 0j), at(1j), at(1 + 0.01j))))
     True
     """
     readable = np.abs(cross(d, e)) >= math.sin(READABLE_CROSSING) * np.abs(d) * np.abs(e)
@@ -118,7 +118,7 @@ def centre_of_circle(a: Points, b: Points, c: Points) -> Points:
     >>> complex(centre_of_circle(at(2 + 0j), at(1 + 1j), at(0j)))
     (1+0j)
     """
-    return meet(*perpendicular_bisector(a, b), *perpendicular_bisector(b, c))
+    return readable_crossing(*perpendicular_bisector(a, b), *perpendicular_bisector(b, c))
 
 
 def tangent_of_circle(a: Points, b: Points, c: Points) -> Points:
@@ -134,11 +134,11 @@ def tangent_of_circle(a: Points, b: Points, c: Points) -> Points:
     return unit((c - b) * (b - a) * np.conj(c - a))
 
 
-def along_to_circle(p: Points, d: Points, centre: Points | complex, radius: Floats | float) -> Points:
+def ray_to_circle(p: Points, d: Points, centre: Points | complex, radius: Floats | float) -> Points:
     """Where the ray from p along d leaves a circle; NaN when its line misses the circle.
 
     >>> at = np.asarray
-    >>> complex(along_to_circle(at(3 + 0j), at(1j), 0j, 5.0))
+    >>> complex(ray_to_circle(at(3 + 0j), at(1j), 0j, 5.0))
     (3+4j)
     """
     near = foot(np.asarray(centre), p, d)
@@ -150,7 +150,7 @@ def along_to_circle(p: Points, d: Points, centre: Points | complex, radius: Floa
     return near + unit(d) * half_chord
 
 
-def circles_meet(
+def circle_crossing(
     p: Points, radius_p: Floats | float, q: Points, radius_q: Floats | float, *, flat: bool = False
 ) -> Points:
     """Where two circles meet, to the left of the way from p to q; NaN when they do not, or at less than a degree.
@@ -158,7 +158,7 @@ def circles_meet(
     flat : to take any crossing for one, and circles that miss one another to touch halfway
 
     >>> at = np.asarray
-    >>> complex(circles_meet(at(0j), 5.0, at(6 + 0j), 5.0))
+    >>> complex(circle_crossing(at(0j), 5.0, at(6 + 0j), 5.0))
     (3+4j)
     """
     way = q - p

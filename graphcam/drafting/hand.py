@@ -38,7 +38,7 @@ def distance_between(start: Drawn, end: Drawn, along: Drawn | complex | None = N
     return Setting(amount, ends=(start, end), along=along, sampled=start.sampled or end.sampled)
 
 
-def calculated(formula: Callable[..., Floats], *given: Setting) -> Setting:
+def calculated_setting(formula: Callable[..., Floats], *given: Setting) -> Setting:
     """What a formula makes, in the head, of lengths or angles that were read or taken up."""
     amount = formula(*(each.amount for each in given))
     return Setting(amount, formula=formula, given=given, sampled=any(each.sampled for each in given))
@@ -238,13 +238,13 @@ class Hand:
         p, q = _places(one), _places(other)
         if one.radius is not None:
             p, r, q, s = _aligned(p, _radii(one), q, _radii(other))
-            found = euclid.circles_meet(p, r, q, s, flat=flat)
+            found = euclid.circle_crossing(p, r, q, s, flat=flat)
         elif other.radius is not None:
             p, d, q, r = _aligned(p, _way(one), q, _radii(other))
-            found = euclid.along_to_circle(p, d, q, r)
+            found = euclid.ray_to_circle(p, d, q, r)
         else:
             p, d, q, e = _aligned(p, _way(one), q, _way(other))
-            found = (euclid.crossing if flat else euclid.meet)(p, d, q, e)
+            found = (euclid.crossing if flat else euclid.readable_crossing)(p, d, q, e)
         return self._record_act(Kind.CROSS, name, {"one": one, "other": other, "flat": flat}, found)
 
     # --- compass and protractor --------------------------------------------------------------------------------------
@@ -286,7 +286,7 @@ class Hand:
         """
         direction = _way(inward)[0]
         touch = self._with_place_errors(
-            Kind.TANGENT, "across", curve.farthest_in(points.points, pieces, direction), direction
+            Kind.TANGENT, "across", curve.farthest_on_pieces(points.points, pieces, direction), direction
         )
         touch = self._with_place_errors(Kind.TANGENT, "along", touch, direction * euclid.UP)
         takes = {"points": points, "pieces": tuple(pieces), "inward": inward}
@@ -392,7 +392,7 @@ class Hand:
         return self.acts[name]
 
 
-def showing(construction: Construction) -> Hand:
+def errorless_hand(construction: Construction) -> Hand:
     """A hand without errors for what the steps only show, such as an enlarged detail."""
     return Hand(Pencil(), construction.meaning)
 

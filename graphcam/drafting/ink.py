@@ -14,7 +14,7 @@ from typing_extensions import TypeVar
 from graphcam.drafting.acts import Act, Drawn
 from graphcam.drafting.marks import AngleMark, Dimension, Label, Mark, Points
 from graphcam.drafting.meaning import Meaning
-from graphcam.showing import MAX_LINES, MAX_WIDTH, Plottable, from_above, in_lines
+from graphcam.showing import MAX_LINES, MAX_WIDTH, Plottable, higher_function, value_text
 
 # A construction says what it draws, so both come from here.
 from graphcam.words import Caption as Caption, Tell, Words as Words, say as say, sequence
@@ -123,7 +123,7 @@ class Step(Plottable):
     def __repr__(self) -> str:
         said = wrap(str(self.caption), MAX_WIDTH, max_lines=MAX_LINES - 2, placeholder=" ...")
         first = f"Step {str(self.title)!r}, view {self.view.name!r}, marks: {len(self.marks)}"
-        return in_lines(first, said, ".caption, .marks, .reads")
+        return value_text(first, said, ".caption, .marks, .reads")
 
     @property
     def own_marks(self) -> tuple[Mark, ...]:
@@ -266,7 +266,9 @@ class Construction(Plottable, Generic[G]):
         samples = self.pencil.samples
         first = f"Construction {self.name!r}, steps: {len(self.steps())}" + (f", samples: {samples}" if samples else "")
         rows = (f"{name}: {reading}" for name, reading in self.readings.items())
-        return in_lines(first, rows, ".readings[name], .steps(); .plot(step) draws it up to a step, .plot() all of it")
+        return value_text(
+            first, rows, ".readings[name], .steps(); .plot(step) draws it up to a step, .plot() all of it"
+        )
 
     # A step is what one names first.
     def plot(  # pyright: ignore[reportIncompatibleMethodOverride]
@@ -278,7 +280,7 @@ class Construction(Plottable, Generic[G]):
         ------
         DesignError : there is no such step, or the construction draws nothing
         """
-        return from_above("plots.construction_drawing.plot")(self, axes, step)
+        return higher_function("plots.construction_drawing.plot")(self, axes, step)
 
     def first(self, name: str) -> Any:
         """The points, or the lengths on paper of the reading, of that name in the first sample: what a step shows."""

@@ -94,7 +94,7 @@ def sharpness(radii: NDArray[np.floating[Any]]) -> NDArray[np.floating[Any]]:
 
 
 @dataclass(frozen=True)
-class Compared:
+class ComparedReading:
     """A reading as a quantity of the results, where it stands beside its exact counterpart.
 
     name, title : of the quantity, whose title is the reading's if it has none; an angle is told in degrees
@@ -116,7 +116,7 @@ class Compared:
 
 
 @dataclass(frozen=True)
-class Converges:
+class ReadingConvergence:
     """A reading whose error is followed over the number of parts, under the title ``quantity``.
 
     exact : the exact counterpart's name
@@ -143,8 +143,8 @@ class ReadingMeaning:
     title: Caption
     symbol: str
     unit: str
-    compared: tuple[Compared, ...] = ()
-    converges: Converges | None = None
+    compared: tuple[ComparedReading, ...] = ()
+    converges: ReadingConvergence | None = None
     over: Named | None = None
     judged: Literal["extremes", "least"] = "extremes"
 
@@ -182,6 +182,6 @@ class Meaning:
         return self.readings[name]
 
     @property
-    def compared_readings(self) -> Iterator[tuple[str, Compared]]:
+    def compared_readings(self) -> Iterator[tuple[str, ComparedReading]]:
         """The readings that are compared: the name of each, with a quantity that it is compared as."""
         return ((name, said) for name, reading in self.readings.items() for said in reading.compared)

@@ -97,14 +97,14 @@ class Paper:
         beside : what stands around it and does not grow with it [mm of paper], wide + i high
         """
         across = standard_scale(size.real, self.width - beside.real, self.ratios)
-        return coarsest(across, standard_scale(size.imag, self.height - beside.imag, self.ratios))
+        return coarsest_scale(across, standard_scale(size.imag, self.height - beside.imag, self.ratios))
 
 
 UNLIMITED = Paper(math.inf, math.inf, GOST_2_302)
 """Paper without bounds, for what is drawn on no sheet."""
 
 
-def coarsest(*scales: Scale) -> Scale:
+def coarsest_scale(*scales: Scale) -> Scale:
     """The scale with the most machine units per millimetre, at which things are drawn smallest."""
     return max(scales, key=lambda scale: scale.per_mm)
 

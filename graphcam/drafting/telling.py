@@ -53,12 +53,12 @@ def _amount(amount: object, k: int) -> float:
     return float(amounts[k if amounts.size > 1 else 0])
 
 
-def from_to(first: Words, last: Words) -> Caption:
+def stretch_caption(first: Words, last: Words) -> Caption:
     """A stretch of a curve by the names of its ends, at the beginning of a row."""
     return say("From {first} to {last}", first=first, last=last)
 
 
-def circle_drawn(circle: Caption, symbol: Words, radius: float, per_mm: float) -> Caption:
+def circle_caption(circle: Caption, symbol: Words, radius: float, per_mm: float) -> Caption:
     """How a circle is drawn with the compass, with its radius on the machine and on paper.
 
     circle : what is drawn, about what, as in the case that "draw" needs: "the prime circle about A"
@@ -69,7 +69,7 @@ def circle_drawn(circle: Caption, symbol: Words, radius: float, per_mm: float) -
     return said.with_values(circle=circle, **values)
 
 
-def led_by(said: Caption, parts: Sequence[Part]) -> tuple[Part, ...]:
+def introduced_parts(said: Caption, parts: Sequence[Part]) -> tuple[Part, ...]:
     """Parts, the first of which begins with what is said of all; where there are none, one part that says it."""
     if not parts:
         return (Part(said),)
@@ -80,7 +80,7 @@ Move = tuple[Caption, *tuple[Drawn, ...]]
 """What is done, and what it leaves."""
 
 
-def in_parts(
+def move_parts(
     moves: Sequence[Move], values: Mapping[str, Any], first: Sequence[Caption] = (), last: Sequence[Caption] = ()
 ) -> tuple[Part, ...]:
     """A part for each move, with the values in its places.
@@ -93,7 +93,7 @@ def in_parts(
     return tuple(Part(caption, tuple(draws)) for caption, (_, *draws) in zip(captions, moves, strict=True))
 
 
-def alike(_: int) -> Words:
+def no_setting(_: int) -> Words:
     """An empty setting, for places that differ in none."""
     return ""
 

@@ -19,7 +19,7 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, nearest_word_remedy
 from graphcam.given.exact_polynomials import ExactPiece
 from graphcam.given.motion_law import Fourth, Law
 from graphcam.given.piecewise import Floats, Formula, Side, sine_cosine
@@ -400,7 +400,7 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     own = isinstance(name, Law)
     if not own and name not in LAWS:
         known = (*LAWS, CONSTANT_VELOCITY)
-        remedy = nearest(f"{name}", known, LAW_SYNONYMS)
+        remedy = nearest_word_remedy(f"{name}", known, LAW_SYNONYMS)
         if callable(name):
             remedy = say("a law of your own is gc.Law(name, formula)")
         raise DesignError("law", name, say("a motion law that graphcam knows"), remedy)

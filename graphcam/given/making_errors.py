@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, among, check_number, nearest
+from graphcam.errors import DesignError, check_number, choice_limit, nearest_word_remedy
 from graphcam.given.laws import Floats
 from graphcam.words import say
 
@@ -51,7 +51,7 @@ class Deviations:
     def __post_init__(self) -> None:
         for name in self.sizes:
             if name not in MADE_SIZES:
-                raise DesignError("sizes", name, *among(name, MADE_SIZES))
+                raise DesignError("sizes", name, *choice_limit(name, MADE_SIZES))
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -126,7 +126,9 @@ class MakingErrors:
             _check_tolerance(name, getattr(self, name))
         if self.distribution not in DEVIATION_SHARES:
             limit = say("one that is known")
-            raise DesignError("distribution", self.distribution, limit, nearest(self.distribution, DEVIATION_SHARES))
+            raise DesignError(
+                "distribution", self.distribution, limit, nearest_word_remedy(self.distribution, DEVIATION_SHARES)
+            )
         if not self.reaches:
             found = say("left out")
             raise DesignError("waviness", found, say("given where no size has a tolerance"), say("or give a size one"))

@@ -14,7 +14,7 @@ from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.given.laws import Floats, Side, law, law_of_return
 from graphcam.given.motion_law import Law
 from graphcam.given.piecewise import Piece, Piecewise, chunks, dwell_formula, in_phase
-from graphcam.showing import Plottable, in_lines
+from graphcam.showing import Plottable, value_text
 from graphcam.words import Words, say
 
 CLOSURE_TOLERANCE = 1e-9
@@ -266,7 +266,7 @@ class Motion(Plottable):
 
     def __repr__(self) -> str:
         last = "motion(phi) gives s, v, a and j at phi in rad; .plot() draws them"
-        return in_lines(f"{type(self).__name__} {self._summary()}", map(_in_words, self.phases), last)
+        return value_text(f"{type(self).__name__} {self._summary()}", map(_in_words, self.phases), last)
 
     def _summary(self) -> str:
         return f"with a lift of {self.lift:.6g} (mm; of an arm, rad)"

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
 from graphcam.given.piecewise import Floats, Formula, Piece, Piecewise, Side, chunks, in_phase
-from graphcam.words import Words, bare, say
+from graphcam.words import Words, bare_caption, say
 
 Fourth = Callable[[Floats], tuple[Floats, float]]
 """f'''' of the distance x from an end of a phase, and a bound on |f'''''| over the piece."""
@@ -249,7 +249,7 @@ class Law:
         return places[:-1].T.ravel(), places[1:].T.ravel()
 
     def _error(self, what: Words, value: object, limit: Words, remedy: Words = "") -> DesignError:
-        shown = bare(value) if isinstance(value, str) else value
+        shown = bare_caption(value) if isinstance(value, str) else value
         return DesignError(say("{what} of the law '{name}'", what=what, name=self.name), shown, limit, remedy)
 
     def _check(self) -> None:

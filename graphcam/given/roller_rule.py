@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, nearest_word_remedy
 from graphcam.words import Caption, Words, say
 
 DEFAULT_RULE = "min(0.7 rho, 0.4 r0)"
@@ -97,7 +97,7 @@ def roller_rule(text: str) -> tuple[Candidate, ...]:
     wrong = next(term for term in readings[-1] if _candidate(term) is None)
     remedy = say("in place of '{wrong}' write a term such as 0.7 rho, 0.4 r0 or rho - 5", wrong=wrong)
     if re.fullmatch(r"[a-z-]+", text):
-        remedy = nearest(text, NAMED_RULES)
+        remedy = nearest_word_remedy(text, NAMED_RULES)
     limit = say("'K rho', 'K r0', 'rho - MM', min(..., ...) of these or the name of a rule")
     raise DesignError(say("roller rule"), text, limit, remedy)
 

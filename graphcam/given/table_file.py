@@ -13,7 +13,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from graphcam.errors import TaskError, unreadable
+from graphcam.errors import TaskError, unreadable_error
 from graphcam.given.measured import (
     DEFAULT_TOLERANCE,
     MeasuredMotion,
@@ -114,7 +114,7 @@ def _text(path: Path) -> str:
     try:
         content = path.read_bytes()
     except (OSError, ValueError) as error:
-        raise unreadable(path, say("the table"), say("a CSV file"), error, say("check motion.table")) from None
+        raise unreadable_error(path, say("the table"), say("a CSV file"), error, say("check motion.table")) from None
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

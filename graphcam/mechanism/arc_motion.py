@@ -27,8 +27,8 @@ from graphcam.given.motion import CLOSURE_TOLERANCE, FULL_TURN, wrap
 from graphcam.given.root_finding import roots
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.mechanism.kinematics import Complexes, Values
-from graphcam.showing import Plottable, in_lines
-from graphcam.words import Caption, bare, say
+from graphcam.showing import Plottable, value_text
+from graphcam.words import Caption, bare_caption, say
 
 ARC_FRACTIONS = np.sin(np.linspace(0, np.pi / 2, 65)) ** 2
 """Fractions of an arc between which a quantity is taken to have one extreme at most."""
@@ -132,7 +132,7 @@ class ArcFlank:
 
 def _point_text(point: Point) -> Caption:
     x, y = point
-    return bare(f"({x + 0.0:.6g}, {y + 0.0:.6g})")  # with no sign at 0
+    return bare_caption(f"({x + 0.0:.6g}, {y + 0.0:.6g})")  # with no sign at 0
 
 
 @dataclass(frozen=True, eq=False)
@@ -240,7 +240,7 @@ class ArcMotion(Plottable):
         phases = (f"{kind} {math.degrees(end - start):.6g}°" for kind, start, end in self.timing)
         sizes = f"prime radius {self.prime_radius:.6g} mm, roller radius {self.roller_radius:.6g} mm"
         last = "motion(phi) gives s, v, a and j at phi in rad; .jumps, .pitch_curve(phi); .plot() draws them"
-        return in_lines(f"ArcMotion with a lift of {self.lift:.6g} mm", (", ".join(phases), sizes), last)
+        return value_text(f"ArcMotion with a lift of {self.lift:.6g} mm", (", ".join(phases), sizes), last)
 
     @property
     def rise(self) -> float:

@@ -25,7 +25,7 @@ from graphcam.mechanism.kinematics import Kinematics, Pair, Values
 from graphcam.mechanism.leg_maxima import MaximumSearch
 from graphcam.mechanism.turn_extremes import Places, places_from
 from graphcam.mechanism.undercut import Undercut, trimmed_profile, undercuts
-from graphcam.showing import MAX_WIDTH, Plottable, in_lines
+from graphcam.showing import MAX_WIDTH, Plottable, value_text
 from graphcam.words import say
 
 
@@ -150,7 +150,7 @@ class Cam(Plottable):
         follower = ", ".join([f"{self.follower.kind} follower", *sizes])
         turn = shorten(", ".join(phases), MAX_WIDTH, placeholder=" ...")
         last = ".pitch_curve(phi), .profile(phi), .pressure_angle(phi) at phi in rad; .extremes(); .plot() draws it"
-        return in_lines(first, (follower, turn), last)
+        return value_text(first, (follower, turn), last)
 
     def pitch_curve(self, phi: ArrayLike, side: Side = "right") -> Floats:
         """(..., 2) the trace point's path on the cam [mm], at cam angles phi [rad]; NaN for NaN."""

@@ -29,7 +29,7 @@ from graphcam.mechanism.turn_extremes import (
     places_of,
     smooth_pieces,
 )
-from graphcam.showing import by_parts
+from graphcam.showing import parts_text
 from graphcam.words import say
 
 
@@ -141,7 +141,7 @@ class Contact:
 
     motion: Motion
     load: FollowerLoad
-    __repr__ = by_parts
+    __repr__ = parts_text
 
     def __post_init__(self) -> None:
         check_kind("motion", self.motion, Motion, remedy=say("of a cam take cam.motion"))

@@ -33,7 +33,7 @@ from graphcam.given.root_finding import roots
 from graphcam.mechanism.oscillator import Drive, DrivenOscillators, Oscillator, check_damping, steady
 from graphcam.mechanism.shock_response import AnyMotion, turn_edges
 from graphcam.mechanism.turn_extremes import VALUE_ROUNDING, ValueAt
-from graphcam.showing import Plottable, in_lines
+from graphcam.showing import Plottable, value_text
 from graphcam.words import say
 
 MAX_VIBRATIONS = 10_000.0
@@ -226,7 +226,7 @@ class VibratingFollower(Plottable):
             f"leaves the cam at {places}" if lost else "keeps contact",
         ]
         last = "follower(phi) gives x, v, a, deviation and force at phi in rad; .plot() draws them"
-        return in_lines(f"VibratingFollower at {self.speed_rpm:g} rpm", rows, last)
+        return value_text(f"VibratingFollower at {self.speed_rpm:g} rpm", rows, last)
 
     # --- how it is found ---------------------------------------------------------------------------------------------
 

@@ -69,7 +69,7 @@ from graphcam.mechanism.turn_extremes import (
     places_of,
     smooth_pieces,
 )
-from graphcam.showing import by_parts
+from graphcam.showing import parts_text
 from graphcam.words import say
 
 NO_GUIDE = Guide(friction=0.0, overhang=0.0, length=1.0)
@@ -171,8 +171,10 @@ class CamForces:
         try:
             least = self.least_normal()
         except DesignError as error:
-            return f"{by_parts(self)}\n  {error}"
-        said = f"{by_parts(self)}\n  minimum normal force: {least.value:.4g} N at {math.degrees(least.phi):.4g} degrees"
+            return f"{parts_text(self)}\n  {error}"
+        said = (
+            f"{parts_text(self)}\n  minimum normal force: {least.value:.4g} N at {math.degrees(least.phi):.4g} degrees"
+        )
         lost = ": contact is lost there; gc.least_preload(cam, load) keeps it"
         return said + (lost if least.value < 0 else "")
 

@@ -19,7 +19,7 @@ from graphcam.given.roller_contact import STEEL_POISSON_RATIO, STEEL_YOUNG_MODUL
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.turn_extremes import Places, TurnCurve, ValueAt, over_turn, places_from, places_maximum
-from graphcam.showing import by_parts
+from graphcam.showing import parts_text
 from graphcam.words import say
 
 
@@ -127,8 +127,8 @@ class ContactStress:
         try:
             most = self.greatest()
         except DesignError as error:
-            return f"{by_parts(self)}\n  {error}"
-        return f"{by_parts(self)}\n  maximum pressure: {most.value:.4g} MPa at {math.degrees(most.phi):.4g} degrees"
+            return f"{parts_text(self)}\n  {error}"
+        return f"{parts_text(self)}\n  maximum pressure: {most.value:.4g} MPa at {math.degrees(most.phi):.4g} degrees"
 
     def __post_init__(self) -> None:
         check_kind("forces", self.forces, CamForces, remedy=say("CamForces(cam, load) has them"))

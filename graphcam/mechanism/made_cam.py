@@ -20,7 +20,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, check_kind, nearest
+from graphcam.errors import DesignError, check_kind, nearest_word_remedy
 from graphcam.given.laws import Floats
 from graphcam.given.making_errors import Deviations
 from graphcam.mechanism.cam import Cam
@@ -66,7 +66,7 @@ class MadeCam:
         for name in self.deviations.sizes:
             if name not in own:
                 limit = say("a size of the {kind} follower", kind=self.cam.follower.kind)
-                raise DesignError("sizes", name, limit, nearest(name, own) if own else say("leave it out"))
+                raise DesignError("sizes", name, limit, nearest_word_remedy(name, own) if own else say("leave it out"))
 
     def __call__(self, phi: ArrayLike) -> tuple[Floats, Floats, Floats]:
         """(s, v, a) at cam angles phi [rad], counted from the nominal lowest place; shaped like phi and the deviations.

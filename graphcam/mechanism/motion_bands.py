@@ -34,7 +34,7 @@ from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.made_cam import MadeCam, lifts_by_error
 from graphcam.mechanism.turn_extremes import ValueAt, places_in, smooth_pieces
-from graphcam.showing import Plottable, in_lines
+from graphcam.showing import Plottable, value_text
 from graphcam.words import say
 
 SAMPLE_SIZE = 2000
@@ -111,7 +111,7 @@ class MotionBands(Plottable):
         last = (
             ".half_width to the first order, .sample of mechanisms that are solved, .table(); .plot() draws the bands"
         )
-        return in_lines(f"MotionBands, which hold {self.coverage:g} of all cams", rows, last)
+        return value_text(f"MotionBands, which hold {self.coverage:g} of all cams", rows, last)
 
     @cached_property
     def nominal(self) -> Floats:

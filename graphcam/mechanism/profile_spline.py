@@ -32,7 +32,7 @@ from graphcam.mechanism.envelope import Envelope, Indices
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.mechanism.spline_fit import Conditions, at_ends, basis, fitted_control_points
 from graphcam.mechanism.undercut import LostStretch, kept_arcs, lost_parts
-from graphcam.words import chained, either, say
+from graphcam.words import and_chain, or_list, say
 
 Degree = Literal[2, 3, 4, 5]
 DEFAULT_DEVIATION = 0.0005
@@ -177,7 +177,7 @@ def profile_spline(
     True
     """
     if degree not in get_args(Degree):
-        raise DesignError("degree", degree, either("2345"))
+        raise DesignError("degree", degree, or_list("2345"))
     least = max(MIN_DEVIATION, MIN_DEVIATION_SHARE * (cam.prime_radius + cam.motion.lift))
     if not deviation >= least:
         raise DesignError("deviation", deviation, say("{least:g} mm or more", least=least))
@@ -185,7 +185,7 @@ def profile_spline(
     lost = lost_parts(envelope)
     if lost and not trimmed:
         ends = [(math.degrees(part.begin), math.degrees(part.end)) for part in lost]
-        where = chained([say("from {begin:.2f} to {end:.2f}", begin=begin, end=end) for begin, end in ends])
+        where = and_chain([say("from {begin:.2f} to {end:.2f}", begin=begin, end=end) for begin, end in ends])
         remedy = say(
             "take a smaller roller or a larger cam; trimmed=True gives what can be cut, as trimmed_profile(n) does"
         )

@@ -44,7 +44,7 @@ from graphcam.mechanism.oscillator import (
     check_damping,
     driven,
 )
-from graphcam.showing import Plottable, in_lines
+from graphcam.showing import Plottable, value_text
 from graphcam.words import say
 
 MAX_RATIO = 1000.0
@@ -202,7 +202,7 @@ class FollowerResponse(Plottable):
             f"amplitude after it {self.amplitude:.6g} lifts",
         )
         first = f"FollowerResponse, {self.event.name}, n = {self.n:g} natural periods in the rise"
-        return in_lines(first, sizes, "response(u) gives x, x' and x'' at u in rise times; .plot() draws them")
+        return value_text(first, sizes, "response(u) gives x, x' and x'' at u in rise times; .plot() draws them")
 
 
 def follower_response(law: str | Law | AnyMotion, n: float, damping: float = 0.0) -> FollowerResponse:
@@ -286,7 +286,7 @@ class ShockSpectrum(Plottable):
             f"greatest dynamic factor {self.factor[top]:.4g} at n = {self.n[top]:g}, of C_a = {self.peak:.6g}",
         )
         last = "primary, residual, amplitude, factor: of each n; .plot() draws them"
-        return in_lines(f"ShockSpectrum, {self.law}", sizes, last)
+        return value_text(f"ShockSpectrum, {self.law}", sizes, last)
 
 
 def shock_spectrum(law: str | Law | AnyMotion, n: ArrayLike | None = None, damping: float = 0.0) -> ShockSpectrum:

@@ -26,7 +26,7 @@ from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.leg_maxima import MaximumSearch
 from graphcam.mechanism.made_cam import lifts_by_error
-from graphcam.showing import by_parts
+from graphcam.showing import parts_text
 from graphcam.words import say
 
 BINDING_ANGLE = 1e-7
@@ -49,7 +49,7 @@ class Sensitivities:
     """
 
     cam: Cam
-    __repr__ = by_parts
+    __repr__ = parts_text
 
     def pressure_angle(self, phi: ArrayLike) -> dict[str, Floats]:
         """The derivatives of alpha by the sizes of the design [rad/mm]."""

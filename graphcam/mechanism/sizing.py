@@ -42,8 +42,8 @@ from graphcam.mechanism.sizing_limits import (
     TurnPlaces,
 )
 from graphcam.mechanism.sizing_search import WatchedPlaces, best_sizes, exchange, nearest_sizes, polished
-from graphcam.showing import in_lines
-from graphcam.words import Caption, Words, chained, either, say
+from graphcam.showing import value_text
+from graphcam.words import Caption, Words, and_chain, or_list, say
 
 Objective = Literal["size", "stress"]
 OBJECTIVES: tuple[Objective, ...] = ("size", "stress")
@@ -81,11 +81,11 @@ def refuse(problem: SizingProblem) -> NoReturn:
 
 def _error(problem: SizingProblem, near: Sizes, names: list[str], why: Words) -> DesignError:
     said = [_limit_values(problem, near, name) for name in names]
-    found, limit = map(chained, zip(*said, strict=True))
+    found, limit = map(and_chain, zip(*said, strict=True))
     sizes = zip(problem.ranges, problem.values(near), strict=True)
     at = ", ".join(f"{name} {value:.6g}" for name, value in sizes)
     remedy = say("{why}: the nearest has {at} mm; widen the ranges or permit more", why=why, at=at)
-    return DesignError(chained(names), found, limit, remedy)
+    return DesignError(and_chain(names), found, limit, remedy)
 
 
 def _limit_values(problem: SizingProblem, near: Sizes, name: str) -> tuple[Caption, Caption]:
@@ -148,7 +148,7 @@ class SizedCam:
             f"bound by: {', '.join(self.binding) or 'nothing'}",
         ]
         last = ".cam, .radius, .stress, .least_width, .binding, .active"
-        return in_lines("SizedCam", said, last)
+        return value_text("SizedCam", said, last)
 
     @property
     def radius(self) -> float:
@@ -257,7 +257,7 @@ def _range(name: str, size: Range | float) -> Range:
 def best_cam(problem: SizingProblem, objective: Objective) -> SizedCam:
     """The best cam of a problem, as :func:`size_cam` says."""
     if objective not in OBJECTIVES:
-        raise DesignError("objective", objective, either([repr(each) for each in OBJECTIVES]))
+        raise DesignError("objective", objective, or_list([repr(each) for each in OBJECTIVES]))
     problem.check_contact()
     found = best_sizes(problem, "radius" if objective == "size" else "width")
     if found is None:

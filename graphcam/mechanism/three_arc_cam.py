@@ -21,7 +21,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.mechanism.arc_motion import ArcFlank, ArcMotion
 from graphcam.plane_vectors import dot
-from graphcam.showing import MAX_WIDTH, Plottable, in_lines
+from graphcam.showing import MAX_WIDTH, Plottable, value_text
 from graphcam.words import Caption, say, sequence
 
 LENGTH_ROUNDING = 4 * float(np.finfo(np.float64).eps)
@@ -38,7 +38,7 @@ class ThreeArcCam(ArcFlank, Plottable):
         points = [f"{name} ({x:.6g}, {y:.6g})" for name in ("A", "G", "F", "D") for x, y in [getattr(self, name)]]
         first = f"Cam of three circular arcs, {'sound' if self.sound else 'not sound'}"
         rows = (radii, f"{', '.join(points)} mm", *wrap(self.why, MAX_WIDTH))
-        return in_lines(first, rows, ".motion(roller_radius); .plot() draws it")
+        return value_text(first, rows, ".motion(roller_radius); .plot() draws it")
 
     def motion(self, roller_radius: float = 0.0, dwell: float = 0.0) -> ArcMotion:
         """What a central translating follower does on this flank and its mirror image.

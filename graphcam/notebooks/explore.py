@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from html import escape
 from typing import Any, Protocol, TypeVar
 
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, nearest_word_remedy
 from graphcam.words import say
 
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
@@ -133,7 +133,7 @@ def changed(task: AnyTask, values: Mapping[str, Any]) -> AnyTask:
 def _replaced(table: Any, name: str, path: list[str], value: Any) -> Any:
     known = [field.name for field in dataclasses.fields(table) if field.init]
     if path[0] not in known:
-        raise DesignError("key", name, say("one of the task"), nearest(path[0], known))
+        raise DesignError("key", name, say("one of the task"), nearest_word_remedy(path[0], known))
     if path[1:]:
         value = _replaced(getattr(table, path[0]), name, path[1:], value)
     return dataclasses.replace(table, **{path[0]: value})

@@ -29,7 +29,7 @@ from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.sheet_tables import DEFAULT_NAME
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_writer import TASK_FILE, task_files
-from graphcam.words import Tell, Words, bare, say, say_in
+from graphcam.words import Tell, Words, bare_caption, say, say_in
 
 TEMPLATE_FOLDER = Path(__file__).parent / "templates"
 SHOWN_OUTPUT_TYPES = ["text/html", "text/markdown", "image/svg+xml", "image/png", "text/plain"]
@@ -126,7 +126,7 @@ def notebook_of(solution: AnySolution) -> NotebookNode:
         _section(tell, say("Try it yourself"), CHECK_INTRODUCTION),
         *(cell for name in _asked_quantities(solution) for cell in _question_cells(solution, name)),
         _section(tell, say("Move the sliders"), PARTS_INTRODUCTION),
-        _hidden_cell(_parts(solution)),
+        _hidden_cell(_parts_slider(solution)),
         _section(tell, say("Drawn and exact"), say("Error and bound are in millimetres on paper.")),
         _hidden_cell("compared(solution)"),
         _section(tell, say("Where the error comes from"), ERRORS_INTRODUCTION),
@@ -182,7 +182,7 @@ def _question_cells(solution: AnySolution, name: str) -> list[NotebookNode]:
     return [nb.new_code_cell(source, metadata={"tags": ["try-it"]})]
 
 
-def _parts(solution: AnySolution) -> str:
+def _parts_slider(solution: AnySolution) -> str:
     """The code of a slider for the number of parts, on the drawing that shows them best."""
     arcs = isinstance(solution, ArcsSolution)
     construction, view = ("arc_diagrams", "acceleration") if arcs else ("integration", "displacement")
@@ -260,7 +260,7 @@ def print_pdf(page: Path, pdf: Path) -> None:
         try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=PRINT_SECONDS, check=False)
         except (OSError, subprocess.TimeoutExpired) as error:
-            raise OutputError(pdf, bare(f"{Path(program).name}: {error}")) from error
+            raise OutputError(pdf, bare_caption(f"{Path(program).name}: {error}")) from error
     if done.returncode or not pdf.exists():
         last = (done.stderr.strip().splitlines() or ["no message"])[-1]
         why = say("{name} says: {last}", name=Path(program).name, last=last)

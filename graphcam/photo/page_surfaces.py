@@ -122,12 +122,16 @@ class Plane:
         with np.errstate(divide="ignore", invalid="ignore"):
             straight = (a * x + b * y + c + 1j * (d * x + e * y + f)) / (g * x + h * y + 1)
         middle = parameters[..., 10, None] + 1j * parameters[..., 11, None]
-        return self.frame.centre + self.frame.unit * (middle + bent(straight - middle, parameters[..., 8:10]))
+        return self.frame.centre + self.frame.unit * (
+            middle + distorted_places(straight - middle, parameters[..., 8:10])
+        )
 
     def unproject(self, parameters: Numbers, places: Places) -> Places:
         """Places of the picture as points of the paper [mm], for parameters (12,)."""
         middle = complex(parameters[10], parameters[11])
-        straight = middle + unbent((places - self.frame.centre) / self.frame.unit - middle, parameters[8:10])
+        straight = middle + undistorted_places(
+            (places - self.frame.centre) / self.frame.unit - middle, parameters[8:10]
+        )
         back = np.linalg.inv(np.append(parameters[:8], 1.0).reshape(3, 3))
         x, y = straight.real, straight.imag
         over, up, depth = (row[0] * x + row[1] * y + row[2] for row in back)
@@ -135,14 +139,14 @@ class Plane:
             return self.frame.middle + HOMOGRAPHY_UNIT * (over + 1j * up) / depth
 
 
-def bent(straight: Places, lens: Numbers) -> Places:
+def distorted_places(straight: Places, lens: Numbers) -> Places:
     """Places (..., n) after distortion by a lens (..., 2) of k1 and k2."""
     squared = straight.real**2 + straight.imag**2
     first, second = np.moveaxis(lens, -1, 0)[..., None]
     return straight * (1 + first * squared + second * squared**2)
 
 
-def unbent(seen: Places, lens: Numbers) -> Places:
+def undistorted_places(seen: Places, lens: Numbers) -> Places:
     """Places before distortion by a lens (2,), from places where they are seen."""
     radius = np.abs(seen)
     straight = radius.copy()
@@ -230,7 +234,7 @@ class Sheet:
         with np.errstate(divide="ignore", invalid="ignore"):
             straight = (seen[..., 0, :] + 1j * seen[..., 1, :]) / seen[..., 2, :]
         pixels = straight * focal / self.frame.unit
-        return self.frame.centre + self.frame.unit * bent(pixels, parameters[..., 7:9])
+        return self.frame.centre + self.frame.unit * distorted_places(pixels, parameters[..., 7:9])
 
     def unproject(self, parameters: Numbers, places: Places) -> Places:
         """Places (n,) of the picture [px] as points of the paper [mm], for parameters (m,)."""

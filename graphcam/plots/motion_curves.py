@@ -91,26 +91,26 @@ def _name_phases(diagram: Axes, motion: PhasedMotion) -> None:
             diagram.text(middle, 1.02, kind, transform=above, rotation=turned, ha="center", va="bottom", size="small")
 
 
-SIZE_OF_BANDS = 7.0, 7.5
+BAND_FIGURE_SIZE = 7.0, 7.5
 """The size of a new figure of bands [inches]."""
 CURVE_SYMBOLS = "s", "v", "a"
 BAND_HEIGHT_SHARE = 0.12
 """The height of a band at its widest, as a part of the range of the nominal curve."""
 ROUND_FACTORS = 1.0, 2.0, 5.0, 10.0
-BEFORE_BANDS = -0.12
+BAND_NAME_OFFSET = -0.12
 """The horizontal place of the axis labels beside bands, as a part of the diagrams' width."""
 
 
 def plot_bands(bands: MotionBands, on: Axes | Figure | None = None) -> Axes:
     """Draw s, v and a in three diagrams inside of axes; returns the axes, whose ``child_axes`` they are."""
-    axes = axes_on(on, *SIZE_OF_BANDS)
+    axes = axes_on(on, *BAND_FIGURE_SIZE)
     axes.set_axis_off()
     height = (1 + DIAGRAM_GAP) / 3
     diagrams = [axes.inset_axes((0.0, k * height, 1.0, height - DIAGRAM_GAP)) for k in (2, 1, 0)]
     degrees, sample = np.degrees(bands.phi), bands.sample
     for k, (diagram, symbol) in enumerate(zip(diagrams, CURVE_SYMBOLS, strict=True)):
         nominal, half = bands.nominal[k], bands.half_width[k]
-        times = magnified(nominal, half)
+        times = magnification(nominal, half)
         low, high = nominal + times * sample.low[k], nominal + times * sample.high[k]
         label = f"{bands.samples} mechanisms, solved"
         diagram.fill_between(degrees, low, high, color=CURRENT_COLOUR, alpha=0.3, linewidth=0, label=label)
@@ -123,7 +123,7 @@ def plot_bands(bands: MotionBands, on: Axes | Figure | None = None) -> Axes:
             diagram.axvline(np.degrees(start), color=GREY, linewidth=0.6, linestyle=(0, (4, 3)))
         diagram.set(xlim=(0, 360), xticks=range(0, 361, 30), ylabel=symbol)
         diagram.tick_params(labelbottom=diagram is diagrams[-1])
-        diagram.yaxis.set_label_coords(BEFORE_BANDS, 0.5)
+        diagram.yaxis.set_label_coords(BAND_NAME_OFFSET, 0.5)
         diagram.spines[["top", "right"]].set_visible(False)
         diagram.text(
             1.01, 0.5, f"bands × {times:g}", rotation=90, transform=diagram.transAxes, va="center", color=ACCENT
@@ -134,10 +134,10 @@ def plot_bands(bands: MotionBands, on: Axes | Figure | None = None) -> Axes:
     return axes
 
 
-def magnified(nominal: Floats, half_width: Floats) -> float:
+def magnification(nominal: Floats, half_width: Floats) -> float:
     """The factor, a round number, by which bands are drawn wider.
 
-    >>> magnified(np.array([0.0, 30.0]), np.array([0.01, 0.02]))
+    >>> magnification(np.array([0.0, 30.0]), np.array([0.01, 0.02]))
     100.0
     """
     wanted = BAND_HEIGHT_SHARE * float(np.ptp(nominal)) / max(float(half_width.max()), 1e-300)

@@ -72,7 +72,7 @@ def _response(response: FollowerResponse, upper: Axes, lower: Axes) -> None:
 
 def _turn(follower: VibratingFollower, upper: Axes, lower: Axes) -> None:
     """Plot the acceleration of the cam and of the mass, and the force on the cam, over the turn."""
-    phi = _dense(follower)
+    phi = _dense_angles(follower)
     found = follower(phi)
     degrees = np.degrees(phi)
     upper.plot(degrees, follower.motion(phi)[2], color=GREY, linewidth=1.2, linestyle=(0, (6, 3)), label="cam")
@@ -92,7 +92,7 @@ def _turn(follower: VibratingFollower, upper: Axes, lower: Axes) -> None:
     upper.set_title(f"Elastic follower at {follower.speed_rpm:g} rpm", fontsize="medium")
 
 
-def _dense(follower: VibratingFollower) -> Floats:
+def _dense_angles(follower: VibratingFollower) -> Floats:
     """Cam angles (n,) [rad] over the turn, on both sides of every break, close enough to show the vibrations."""
     breaks = follower.motion.breaks
     phi = np.linspace(0, FULL_TURN, MIN_POINTS + round(POINTS_PER_PERIOD * follower.vibrations))

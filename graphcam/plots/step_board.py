@@ -11,11 +11,11 @@ from graphcam.drafting.act_order import pieces_of
 from graphcam.drafting.ink import Construction, Step, View
 from graphcam.drafting.marks import Origin
 from graphcam.sheets.formats import Lettering
-from graphcam.sheets.labels import lettered, shading_parted
+from graphcam.sheets.labels import lettered_steps, shading_parted
 from graphcam.sheets.mark_entities import Placement, expand
 from graphcam.sheets.model import Box, Entity, Group, Page, Source, bounding_box, by_place
 from graphcam.sheets.styles import CURRENT_PART_ROLE, CURRENT_STEP_ROLE, FORMER_STEP_ROLE, in_progress
-from graphcam.sheets.view_panels import Panel, clusters, panels, stand
+from graphcam.sheets.view_panels import Panel, clusters, panel_origins, panels
 from graphcam.words import Tell
 
 LETTER_HEIGHTS = Lettering(3.5, 3.0, 2.4)
@@ -70,7 +70,7 @@ class StepBoard:
     def _view_origins(self) -> dict[str, tuple[Panel, complex]]:
         """The views and their origins [mm] by name; the first origin is 0."""
         shown, factor = self._full_size, self.factor
-        return _arranged(shown if factor == 1.0 else [replace(panel, factor=factor) for panel in shown])
+        return _arranged_views(shown if factor == 1.0 else [replace(panel, factor=factor) for panel in shown])
 
     @cached_property
     def _has_titles(self) -> bool:
@@ -95,7 +95,7 @@ class StepBoard:
         # A step without marks may name a view in which nothing is drawn.
         steps = (*self.former, *self.steps)
         expanded = [expand(s.marks, places.get(s.view.name, Placement(0j)), LETTER_HEIGHTS) for s in steps]
-        return lettered(expanded, self._titles, self._box.moved(self.origin))
+        return lettered_steps(expanded, self._titles, self._box.moved(self.origin))
 
     def page(self, current: int | None = None, part: int | None = None) -> Page:
         """The drawing up to the step with index ``current``, which is in colour; by default the finished drawing.
@@ -107,7 +107,7 @@ class StepBoard:
         stages = [(FORMER_STEP_ROLE, entities) for entities in self._entities[:count]]
         if current is not None:
             *stages, (_, last) = stages
-            stages += [(CURRENT_STEP_ROLE, last)] if part is None else _up_to(self.steps[current], part, last)
+            stages += [(CURRENT_STEP_ROLE, last)] if part is None else _stages_up_to(self.steps[current], part, last)
         for k, entities in enumerate(shading_parted([entities for _, entities in stages])):
             if current is not None:
                 entities = tuple(replace(e, role=in_progress(e.role, stages[k][0])) for e in entities)
@@ -116,7 +116,7 @@ class StepBoard:
         return Page(box.width, box.height, box, tuple(groups))
 
 
-def _up_to(step: Step, part: int, entities: Sequence[Entity]) -> list[tuple[str, list[Entity]]]:
+def _stages_up_to(step: Step, part: int, entities: Sequence[Entity]) -> list[tuple[str, list[Entity]]]:
     """The stages of a step up to a part of it, each with its entities: what stood before, and what the part adds.
 
     What no part draws, such as the number of a reading, comes with the last of them; what is given is there before.
@@ -157,11 +157,11 @@ class Column:
     down: float = 0.0
 
 
-def _arranged(views: Sequence[Panel]) -> dict[str, tuple[Panel, complex]]:
+def _arranged_views(views: Sequence[Panel]) -> dict[str, tuple[Panel, complex]]:
     """Views by name with their origins, the first one's at 0: along their common axes, otherwise in columns."""
     if len(views) == 1:
         return {views[0].view.name: (views[0], 0j)}
-    groups = [(group, stand(group, VIEW_GAP)) for group in clusters(views)]
+    groups = [(group, panel_origins(group, VIEW_GAP)) for group in clusters(views)]
     boxes = [bounding_box(p.box.moved(at) for p, at in zip(*group, strict=True)) for group in groups]
     room = max(
         *(box.height for box in boxes), math.sqrt(sum(box.width * box.height for box in boxes) / MAX_ASPECT_RATIO)

@@ -8,7 +8,7 @@ from math import ceil
 import numpy as np
 
 from graphcam.constructions.acceleration import moving_phases
-from graphcam.constructions.angle_diagram import inside
+from graphcam.constructions.angle_diagram import inner_maximum
 from graphcam.constructions.axes import degrees, part_names, phase_title, station_names
 from graphcam.constructions.graduation import scale_at_speed
 from graphcam.constructions.law_names import law_title
@@ -21,7 +21,7 @@ from graphcam.given.impact import acceleration_jumps
 from graphcam.report.markdown import Block, Equation, Grid, digits, formula, general, number, numbers, warning
 from graphcam.report.sheet_contents import chapter_numbers, steps_of
 from graphcam.solving.solution import Solution
-from graphcam.words import Caption, Tell, Words, joined, say, sequence
+from graphcam.words import Caption, Tell, Words, and_list, say, sequence
 
 LAST_DIGIT = 0.005
 """The difference that is not seen in print: lengths [mm] and angles [degrees] have two decimals."""
@@ -44,7 +44,7 @@ def ordinates(solution: Solution) -> Iterator[Block]:
     yield Grid(say("Maximum ordinates of the phases"), header, rows)
 
 
-def in_degrees(solution: Solution) -> Iterator[Block]:
+def lift_in_degrees(solution: Solution) -> Iterator[Block]:
     """The paragraph on the lift of an arm in degrees, as a protractor has it."""
     if solution.drawn["integration"].readings["s"].unit == "rad":
         said = say("The displacement $s$ is the angle of the arm: in degrees the lift is {lift}°.")
@@ -84,7 +84,7 @@ def permitted_bend(solution: Solution) -> Iterator[Block]:
         yield say("At least {least:g} mm is required: the condition is satisfied.", least=least)
 
 
-def perfect_roller(solution: Solution) -> Iterator[Block]:
+def ideal_roller_radius(solution: Solution) -> Iterator[Block]:
     """The paragraph on the roller radius that the rule gives with an ideal pencil."""
     if not solution.chain.pencil.perfect and solution.chain.board.roller_radius is None:
         perfect = float(solution.chain.perfect.roller.value("roller_radius"))
@@ -112,7 +112,7 @@ def greatest_angles(solution: Solution) -> Iterator[Block]:
     plotted, board, extremes = solution.drawn["angle_diagram"], solution.chain.board, solution.cam.extremes()
     exactly = {"rise": extremes.pressure_angle_rise[0], "return": extremes.pressure_angle_return[0]}
     for name, limit in (("rise", board.limits.rise), ("return", board.limits.return_)):
-        if other := inside(plotted, name):
+        if other := inner_maximum(plotted, name):
             alpha = math.degrees(other.place.imag * plotted.givens.mu_alpha.per_mm)
             phi = math.degrees(other.place.real * board.mu_phi.per_mm)
             yield INSIDE_CAPTIONS[name].with_values(at=number(phi, 1), alpha=number(alpha))
@@ -155,7 +155,7 @@ def undercut(solution: Solution) -> Iterator[Block]:
             say(
                 "The profile is undercut at the stations {stations}: the follower cannot follow the required motion "
                 "there. Take a smaller roller or a larger prime radius.",
-                stations=joined(names),
+                stations=and_list(names),
             )
         )
     elif radius >= rho:
@@ -198,10 +198,10 @@ def jerks(solution: Solution) -> Iterator[Block]:
 
 CAUTIONS: Mapping[str, Callable[[Solution], Iterator[Block]]] = {
     "acceleration": ordinates,
-    "integration": in_degrees,
+    "integration": lift_in_degrees,
     "minimum_radius": sensitivity,
     "curvature": permitted_bend,
-    "roller": perfect_roller,
+    "roller": ideal_roller_radius,
     "angle_diagram": greatest_angles,
     "working_profile": undercut,
     "jerk": jerks,
@@ -209,9 +209,9 @@ CAUTIONS: Mapping[str, Callable[[Solution], Iterator[Block]]] = {
 """The paragraphs below the steps, by the name of the construction."""
 
 
-MOST_BESIDE = 3
+MAX_COLUMN_PAIRS = 3
 """The maximum number of pairs of columns in a table of places."""
-WIDEST, BETWEEN = 108, 5
+MAX_LINE_LETTERS, PAIR_GAP_LETTERS = 108, 5
 """The maximum number of letters in a line of a table, and the letters lost between the columns of a pair."""
 MIN_TABLE_ROWS = 4
 """The number of places up to which the paragraph itself names them, without a table."""
@@ -243,13 +243,13 @@ def _step(number: str, step: Step, tell: Tell) -> Iterator[Block]:
     parts = step.parts
     runs = [part for part in parts if len({tell(row.setting) for row in part.rows}) > 1]
     short, long = ([part for part in runs if (len(part.rows) > MIN_TABLE_ROWS) is many] for many in (False, True))
-    said = [each for part in parts for each in (part.caption, *(_beside(part, tell) if part in short else ()))]
+    said = [each for part in parts for each in (part.caption, *(_short_run_rows(part, tell) if part in short else ()))]
     whole = sequence([*said, *([step.why] if str(step.why) else [])], " ")
     yield say("**{number}. {title}.** {said}", number=number, title=step.title, said=whole)
     yield from (_places(step.title, part, tell) for part in long)
 
 
-def _beside(part: Part, tell: Tell) -> Iterator[Caption]:
+def _short_run_rows(part: Part, tell: Tell) -> Iterator[Caption]:
     """The rows of a short run, without those that have no setting or whose numbers the sentence has already."""
     said = tell(part.caption)
     for row in part.rows:
@@ -263,8 +263,8 @@ def _places(title: Caption, part: Part, tell: Tell) -> Grid:
     """The table of a run's settings, in as many columns side by side as there is room for."""
     told = [(tell(row.name), tell(row.setting)) for row in part.rows]
     # A few long cells may be broken.
-    widths = sorted(len(name) + len(setting) + BETWEEN for name, setting in told)
-    beside = max(1, min(MOST_BESIDE, WIDEST // widths[-1 - len(told) // 8]))
+    widths = sorted(len(name) + len(setting) + PAIR_GAP_LETTERS for name, setting in told)
+    beside = max(1, min(MAX_COLUMN_PAIRS, MAX_LINE_LETTERS // widths[-1 - len(told) // 8]))
     long = ceil(len(told) / beside)
     columns = [told[start : start + long] for start in range(0, len(told), long)]
     columns = [column + [("", "")] * (long - len(column)) for column in columns]
@@ -282,12 +282,12 @@ def _formula(said: Formula, drawn: Construction, of_lift: str, known: Known) -> 
     known.update((symbol.tex, str(symbol.caption)) for symbol in new)
     yield Equation(formula(said.general + (",", ".")[not new], **applied[0]))
     if new:
-        yield say("where {symbols}.", symbols=sequence([_explained(symbol, of_lift) for symbol in new], "; "))
+        yield say("where {symbols}.", symbols=sequence([_symbol_legend(symbol, of_lift) for symbol in new], "; "))
     if said.numbers:
         yield from (formula(f"$${said.numbers}.$$", **each) for each in applied)
 
 
-def _explained(symbol: Symbol, of_lift: str) -> Caption:
+def _symbol_legend(symbol: Symbol, of_lift: str) -> Caption:
     of = symbol.unit.replace("lift", of_lift)
     values: dict[str, Words] = {"symbol": f"${symbol.tex}$", "meaning": symbol.caption}
     if not of:

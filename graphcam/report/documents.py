@@ -102,7 +102,7 @@ def check_profile_size(solution: Solution) -> None:
     raise DesignError("drawing.profile_scale", value, limit, say("take a larger format, or leave it out"))
 
 
-def check_profile_hopeful(solution: Solution) -> None:
+def check_profile_strokes(solution: Solution) -> None:
     """Refuse a profile that is so large that its strokes alone would fill the memory.
 
     Raises
@@ -174,7 +174,7 @@ def contents_of(solution: AnySolution) -> Contents:
     """
     if isinstance(solution, ArcsSolution):
         return arcs_contents(solution)
-    check_profile_hopeful(solution)
+    check_profile_strokes(solution)
     return motion_contents(solution)
 
 

@@ -11,7 +11,7 @@ from graphcam.solving.solution import Solution
 from graphcam.solving.spring_design import IDLE_CAPTION, SpringDesign, with_unit
 from graphcam.solving.stress_design import StressDesign, rounded_up
 from graphcam.solving.turn_diagrams import at_side
-from graphcam.words import Caption, Words, joined, say, sequence
+from graphcam.words import Caption, Words, and_list, say, sequence
 
 FORMULAS = {
     "slides": r"\xi = m\,a\,\omega^2 + F_0 + c\,s<outer>.",
@@ -43,7 +43,7 @@ def contact(solution: Solution) -> list[Block]:
         spring.load,
         spring.least_preload,
         spring.contact.least_force(),
-        joined(spring.lost_captions),
+        and_list(spring.lost_captions),
     )
     along, preload, _ = spring.units
     keeps = say(
@@ -190,7 +190,7 @@ def _zero(value: float) -> float:
     return round(value, 9) + 0.0
 
 
-SHEAR, DEPTH = 0.300, 0.786
+SHEAR_SHARE, SHEAR_DEPTH = 0.300, 0.786
 """The maximum shear stress under a line contact as a part of the maximum pressure, and its depth in half-widths."""
 MODULUS = r"\frac{1}{E'} = \frac{1-\nu_1^2}{E_1} + \frac{1-\nu_2^2}{E_2},\qquad E' = <modulus>\ \text{<unit>}."
 PRESSURE = r"p_0 = \sqrt{\frac{N E'}{\pi\,w\,R}},\qquad b = \sqrt{\frac{4 N R}{\pi\,w\,E'}},\qquad "
@@ -233,10 +233,10 @@ def contact_stress(solution: Solution) -> list[Block]:
     if stress.no_stress_reason:
         said = NO_STRESS_REASONS[stress.no_stress_reason]
         return [given, modulus, warning(said) if stress.no_stress_reason != "no force" else said]
-    return [given, modulus, *_found(stress)]
+    return [given, modulus, *_stress_blocks(stress)]
 
 
-def _found(stress: StressDesign) -> list[Block]:
+def _stress_blocks(stress: StressDesign) -> list[Block]:
     roller = stress.forces.cam.roller_radius
     at, greatest = stress.contact, stress.max_stress
     assert at is not None
@@ -266,9 +266,9 @@ def _found(stress: StressDesign) -> list[Block]:
         "The strip is {strip} mm wide. The maximum shear stress, {share:.2f} of that pressure or {shear} MPa, "
         "lies {depth} mm below the surface: there pitting begins.",
         strip=number(2 * half_width, 3),
-        share=SHEAR,
-        shear=number(SHEAR * greatest.value, 1),
-        depth=number(DEPTH * half_width, 3),
+        share=SHEAR_SHARE,
+        shear=number(SHEAR_SHARE * greatest.value, 1),
+        depth=number(SHEAR_DEPTH * half_width, 3),
     )
     kind = "roller" if roller else "face"
     shape = SHAPES[stress.shape].with_values(**numbers(radius=abs(radius)))

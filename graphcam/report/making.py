@@ -8,7 +8,7 @@ from graphcam.given.making_errors import deviations_within
 from graphcam.report.markdown import Block, Equation, Grid, number, warning
 from graphcam.solving.solution import Solution
 from graphcam.solving.tolerance_design import ERROR_NAMES, ToleranceDesign, error_name, most_important, significant
-from graphcam.words import Caption, joined, say
+from graphcam.words import Caption, and_list, say
 
 SLIDING_FORMULA = (
     r"\Delta s = \frac{\delta + \Delta r}{\cos\alpha} + \sigma\,\Delta e\,\tan\alpha,\qquad "
@@ -89,5 +89,5 @@ def _solved(design: ToleranceDesign) -> Caption:
         "touches its wavy profile. Where their bands are widest, they are {bands}. Where one wave dominates, the first "
         "order takes a band too wide.",
         samples=bands.samples,
-        bands=joined(rows),
+        bands=and_list(rows),
     )

@@ -66,12 +66,12 @@ def text(plain: str) -> str:
 FORMULA_PATTERN = re.compile(r"((?<!\\)\$\$?[^$]+\$\$?)")
 
 
-def printed(note: str) -> str:
+def printed_note(note: str) -> str:
     """A note as Markdown: indices become elements of HTML, and commands of TeX within formulas.
 
     A decimal comma in a formula gets braces, without which a gap would follow it.
 
-    >>> printed("φ_у = 1,5, $r = −1,5·10⁵$ mm, \\\\$2,5")
+    >>> printed_note("φ_у = 1,5, $r = −1,5·10⁵$ mm, \\\\$2,5")
     'φ<sub>у</sub> = 1,5, $r = -1{,}5 \\\\cdot 10^{5}$ mm, \\\\$2,5'
     """
     return "".join(_in_tex(part) if k % 2 else in_html(part) for k, part in enumerate(FORMULA_PATTERN.split(note)))

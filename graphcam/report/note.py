@@ -23,7 +23,7 @@ from graphcam.report.markdown import (
     general,
     number,
     numbers,
-    printed,
+    printed_note,
     text,
     warning,
 )
@@ -36,7 +36,7 @@ from graphcam.solving.solution import Solution
 from graphcam.solving.stress_design import STRESS_MEANING
 from graphcam.solving.tolerance_design import TOLERANCE_MEANING
 from graphcam.tasks.sheet_tables import SheetTable, TitleTable
-from graphcam.words import Caption, joined, say, sequence
+from graphcam.words import Caption, and_list, say, sequence
 
 Chapter = tuple[Caption, Sequence[Block]]
 """Title and contents of a chapter."""
@@ -73,13 +73,13 @@ def whole_note(head: Sequence[Block], chapters: Sequence[Chapter], solution: Any
     tell, parts = solution.tell, list(head)
     for k, (title, said) in enumerate(chapters, 1):
         parts += [f"## {k}. {tell(title)}", *said]
-    return printed(blocks(*parts, tell=tell) + "\n")
+    return printed_note(blocks(*parts, tell=tell) + "\n")
 
 
 def comparison_file(solution: AnySolution) -> str:
     """The text of a Markdown file with the table of drawn and exact values."""
     title = say("{name}: drawn against exact", name=text(solution.task.title.translated_name(solution.tell)))
-    return printed(blocks(f"# {solution.tell(title)}", *against_exact(solution), tell=solution.tell) + "\n")
+    return printed_note(blocks(f"# {solution.tell(title)}", *against_exact(solution), tell=solution.tell) + "\n")
 
 
 CHAPTER_OPENINGS: Mapping[str, Callable[[Solution], Sequence[Block]]] = {
@@ -153,7 +153,7 @@ def hand_description(pencil: Pencil) -> Caption:
         (pencil.protractor, say("{error:g}° in an angle", error=math.degrees(pencil.protractor))),
     )
     if errors := [told for deviation, told in deviations if deviation]:
-        said.append(say("The drawing errors have standard deviations of {errors}.", errors=joined(errors)))
+        said.append(say("The drawing errors have standard deviations of {errors}.", errors=and_list(errors)))
     if pencil.division:
         said.append(say("Readings are rounded to {division:g} mm.", division=pencil.division))
     return sequence(said, " ")
@@ -235,7 +235,7 @@ def jumps_sentence(jumps: list[Jump], symbol: str, of_symbol: str) -> Grid:
 
 def _result(solution: Solution) -> list[Block]:
     built = [say("{name} {value} ({by})", name=name, value=value, by=by) for name, value, by in sizes(solution)]
-    said = say("The cam is made with these sizes: {sizes}.", sizes=joined(built))
+    said = say("The cam is made with these sizes: {sizes}.", sizes=and_list(built))
     return [said, *_face(solution), *map(warning, solution.warnings)]
 
 
@@ -267,7 +267,7 @@ def against_exact(solution: AnySolution) -> list[Block]:
         "this paper: for the finite number of parts it is {factor:g} times the maximum change when every part is "
         "divided into {parts}.",
         factor=CHANGE_TO_ERROR_FACTOR,
-        parts=joined([str(k) for k in REFINEMENTS]),
+        parts=and_list([str(k) for k in REFINEMENTS]),
     )
     hands = say(
         "For drawing errors it includes the bias and {deviations:g} standard deviations of {count} drawings with "
@@ -305,8 +305,8 @@ def errors_of_the_hand(solution: AnySolution) -> list[Chapter]:
 def _verdict(solution: AnySolution) -> list[Caption]:
     """The sentences on which drawn values are within their bounds."""
     quantities = solution.comparison.quantities.values()
-    outside = joined([q.title for q in quantities if abs(q.error_paper) > q.tolerance_paper])
-    unknown = joined([q.title for q in quantities if math.isfinite(q.error) and math.isnan(q.tolerance_paper)])
+    outside = and_list([q.title for q in quantities if abs(q.error_paper) > q.tolerance_paper])
+    unknown = and_list([q.title for q in quantities if math.isfinite(q.error) and math.isnan(q.tolerance_paper)])
     if outside and solution.chain.pencil.perfect:
         verdict = say("Outside the bound: {names}; draw such a value with more parts.", names=outside)
     elif outside:
@@ -335,7 +335,7 @@ def _other_sides(solution: AnySolution) -> list[Caption]:
         if said.sides and float(construction.value(reading)) * quantities[said.name].exact < 0
     ]
     text = say("Nearly equal on both sides: {names}; the side is compared on which the exact value has its maximum.")
-    return [text.with_values(names=joined(names))] if names else []
+    return [text.with_values(names=and_list(names))] if names else []
 
 
 def of_sheet(told: Table) -> Grid:

@@ -18,7 +18,7 @@ from graphcam.drafting.scale import unit
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.report.markdown import Block, Grid, digits, number, numbers
-from graphcam.report.sheet_data import on_paper
+from graphcam.report.sheet_data import paper_errors
 from graphcam.solving.solution import Solution
 from graphcam.words import Caption, Words, say
 from graphcam.workshop.part_outline import of_cam
@@ -134,7 +134,7 @@ def _at_round_angles(solution: Solution) -> list[Block]:
 def comparison_table(quantities: Mapping[str, Quantity]) -> Grid:
     """The table of every quantity: drawn, exact, its error in machine units and mm of paper, and known bounds."""
     there = [q for q in quantities.values() if q.exists]
-    rows = [(q.title, unit(q.unit), number(q.drawn, 3), *_exact_captions(q), *on_paper(q)) for q in there]
+    rows = [(q.title, unit(q.unit), number(q.drawn, 3), *_exact_captions(q), *paper_errors(q)) for q in there]
     header = (say("quantity"), say("unit"), say("drawn"), say("exact"), say("error"))
     header += say("error, mm of paper"), say("estimated bound, mm of paper")
     if any(math.isfinite(q.proved_paper) for q in there):

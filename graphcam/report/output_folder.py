@@ -22,7 +22,7 @@ from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.shown_solution import CUTTING_KINDS, DEFAULT_KINDS, FILE_KINDS, without_answers
 from graphcam.solving.solution import Solution
 from graphcam.tasks.sheet_tables import check_choice
-from graphcam.words import Words, chained, say
+from graphcam.words import Words, and_chain, say
 from graphcam.workshop.profile_files import FILE_NAMES, write_curves
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ def write(
     """Write a solution into a folder, as :meth:`~graphcam.solving.shown_solution.ShownSolution.write` says."""
     _check_names(solution, upto, dxf, files, working_drawing=working_drawing)
     part = _checked_part(solution) if working_drawing else None
-    finished, report = upto is None, progress or unheard
+    finished, report = upto is None, progress or ignore_progress
     wanted = _wanted_kinds(files, finished=finished, working_drawing=working_drawing)
     written: dict[str, str | None] = dict.fromkeys(FILE_KINDS)
     contents = contents_of(solution)
@@ -183,7 +183,7 @@ def _warn_of_boxes(drawing: Drawing) -> None:
         warnings.warn(said, LetteringWarning, stacklevel=3)
 
 
-def unheard(_: Words) -> None:
+def ignore_progress(_: Words) -> None:
     """Progress that nobody asked for: does nothing."""
 
 
@@ -235,7 +235,7 @@ def write_sheet(
     for k, page in enumerate(drawing.pages, 1):
         name = stem if k == 1 else f"{stem}-{k}"
         if pictures:
-            names = chained([kind.upper() for kind in pictures])
+            names = and_chain([kind.upper() for kind in pictures])
             report(say("writing {names}, page {k} of {pages}", names=names, k=k, pages=len(drawing.pages)))
         for kind, write_page in pictures.items():
             write_page(page, folder / f"{name}.{kind}")

@@ -13,7 +13,7 @@ from graphcam.drafting.ink import Construction, Step, say
 from graphcam.drafting.scale import ratio_text, unit
 from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam
-from graphcam.report.sheet_data import comparison, data, on_sheet, phases_at_speed
+from graphcam.report.sheet_data import comparison, conditions_on_sheet, data, phases_at_speed
 from graphcam.sheets.layout import Numbered, SheetPart
 from graphcam.sheets.sheet_frame import TitleBlock
 from graphcam.sheets.tables import Table
@@ -144,7 +144,7 @@ def motion_contents(solution: Solution) -> Contents:
     if solution.tolerances:
         results.append(solution.tolerances.table())
     title = title_block(solution.task.title, solution.tell, solution.task.drawing.remark)
-    given = data(solution), phases_at_speed(solution), *on_sheet(solution)
+    given = data(solution), phases_at_speed(solution), *conditions_on_sheet(solution)
     return Contents(solution, title, drawn, scaled_steps(drawn), given, tuple(results))
 
 

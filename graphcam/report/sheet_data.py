@@ -59,7 +59,7 @@ def conditions(solution: Solution) -> Table | None:
     return Table(TITLE_IN_DEGREES if swings else TITLE_IN_MM, (say("part of the motion"), "φ", *asked), tuple(rows))
 
 
-def on_sheet(solution: Solution) -> tuple[Table, ...]:
+def conditions_on_sheet(solution: Solution) -> tuple[Table, ...]:
     """The table of conditions if the sheet has room for it, else nothing."""
     table = conditions(solution)
     return () if table is None or len(table.rows) > MAX_SHEET_ROWS else (table,)
@@ -193,7 +193,7 @@ def phases_at_speed(solution: Solution) -> Table:
     return Table(say("Motion, maximum v and a"), header, rows, found)
 
 
-def on_paper(q: Quantity) -> tuple[Caption, Caption]:
+def paper_errors(q: Quantity) -> tuple[Caption, Caption]:
     """The error and the bound of a quantity [mm of paper]."""
     return number(q.error_paper, 3, sign=True), number(q.tolerance_paper, 3)
 
@@ -201,7 +201,7 @@ def on_paper(q: Quantity) -> tuple[Caption, Caption]:
 def comparison(quantities: Mapping[str, Quantity], title: Caption = DRAWN_AND_EXACT_TITLE) -> Table:
     """The table of every quantity, drawn and exact, with its error and its bound in mm of paper."""
     rows = tuple(
-        (sequence([q.title, unit(q.unit)]), number(q.drawn, 3), number(q.exact, 3), *on_paper(q))
+        (sequence([q.title, unit(q.unit)]), number(q.drawn, 3), number(q.exact, 3), *paper_errors(q))
         for q in quantities.values()
         if q.exists
     )

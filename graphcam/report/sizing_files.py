@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from graphcam.files import digest, whole_folder
 from graphcam.language import language as language_of
-from graphcam.report.output_folder import SHEET_KINDS, unheard, write_sheet, written_before
+from graphcam.report.output_folder import SHEET_KINDS, ignore_progress, write_sheet, written_before
 from graphcam.report.sheet_contents import title_block
 from graphcam.report.sizing_sheet import sizing_sheet
 from graphcam.report.sizing_tables import TITLES_BY_OBJECTIVE
@@ -35,7 +35,7 @@ def write(
     sizing: Sizing, folder: Path | str, language: str | None = None, progress: Callable[[Words], None] | None = None
 ) -> dict[str, str]:
     """Write a sizing into a folder, as :meth:`~graphcam.solving.sizing_design.Sizing.write` says."""
-    report = progress or unheard
+    report = progress or ignore_progress
     with whole_folder(folder, written_before(Path(folder), RESULTS_FILE)) as draft:
         report(say("laying out the chart"))
         files = write_sheet(chart(sizing, language), draft, FILE_STEM, SHEET_KINDS, "plain", report)

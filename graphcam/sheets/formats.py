@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from graphcam.errors import DesignError, among
+from graphcam.errors import DesignError, choice_limit
 from graphcam.sheets.model import Box
 from graphcam.words import Words, say
 
@@ -49,7 +49,7 @@ class Format:
         known = {"format": SHEET_SIZES, "frame": FRAME_MARGINS, "orientation": ORIENTATIONS}
         for (quantity, names), given in zip(known.items(), (self.name, self.frame, self.orientation), strict=True):
             if given is not None and given not in names:
-                raise DesignError(quantity, given, *among(given, names))
+                raise DesignError(quantity, given, *choice_limit(given, names))
         if self.orientation == "landscape" and self._is_upright_only:
             limit = say("portrait: GOST 2.301 uses A4 in portrait only")
             remedy = say('leave orientation out, or choose another format or frame = "iso"')

@@ -129,7 +129,7 @@ def _compass(favourite: complex) -> _Compass:
     return _Compass(ways[order], sides[order], np.repeat(far, len(directions))[order], cost[order])
 
 
-def outside(centre: complex, radius: float, start: float, end: float, text: str, height: float) -> LabelText:
+def label_along_arc(centre: complex, radius: float, start: float, end: float, text: str, height: float) -> LabelText:
     """A text with level places along an arc: beyond its middle, elsewhere along it, inside; far away with a leader."""
     half = _size(text, height) / 2
     shares = np.array([0.5, 0.42, 0.58, 0.34, 0.66, 0.25, 0.75])

@@ -112,7 +112,7 @@ def _parts(entity: Entity, boxes: Sequence[Points]) -> list[Entity]:
         case Circles() if boxes:
             return list(_bows_of(entity, boxes))
         case ArcEntity() if boxes:
-            return [replace(entity, start=a, end=b) for a, b in _open(entity, boxes)]
+            return [replace(entity, start=a, end=b) for a, b in _open_arcs(entity, boxes)]
         case _:
             return [entity]
 
@@ -147,7 +147,7 @@ def _bows_of(circles: Circles, boxes: Sequence[Points]) -> Iterator[Entity]:
     for k, centre in enumerate(circles.centres.tolist()):
         own = source and source.part(slice(k, k + 1), count)
         ring = ArcEntity(centre, circles.radius, 0.0, 2 * math.pi, circles.role, own)
-        bows = _open(ring, boxes)
+        bows = _open_arcs(ring, boxes)
         if bows == [(ring.start, ring.end)]:
             whole.append(k)
         else:
@@ -158,7 +158,7 @@ def _bows_of(circles: Circles, boxes: Sequence[Points]) -> Iterator[Entity]:
         yield replace(circles, centres=circles.centres[whole], source=source and source.part(whole, count))
 
 
-def _open(arc: ArcEntity, boxes: Sequence[Points]) -> list[tuple[float, float]]:
+def _open_arcs(arc: ArcEntity, boxes: Sequence[Points]) -> list[tuple[float, float]]:
     """The parts of an arc outside the boxes, as start and end [rad]."""
     count = max(2, math.ceil((arc.end - arc.start) * arc.radius / ARC_STEP))
     ways = np.linspace(arc.start, arc.end, count + 1)
@@ -325,7 +325,7 @@ def placed_label(writing: LabelText, k: int) -> list[Entity]:
     return drawn
 
 
-def lettered(steps: Sequence[Drawn], beside: Iterable[Entity], inside: Box) -> list[list[Entity]]:
+def lettered_steps(steps: Sequence[Drawn], beside: Iterable[Entity], inside: Box) -> list[list[Entity]]:
     """The entities of every step with its texts, kept off all steps and what else stands ``beside`` them.
 
     A thin line is parted where a text found no place off it.

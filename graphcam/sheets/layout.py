@@ -18,7 +18,7 @@ from dataclasses import dataclass, field, replace
 from graphcam.drafting.ink import Step
 from graphcam.drafting.scale import ratio_text
 from graphcam.sheets.formats import Format
-from graphcam.sheets.labels import lettered, shading_parted
+from graphcam.sheets.labels import lettered_steps, shading_parted
 from graphcam.sheets.mark_entities import Drawn, Placement, expand
 from graphcam.sheets.model import Drawing, Entity, Group, Page
 from graphcam.sheets.packing import MESH
@@ -202,7 +202,7 @@ def _page(sheet: Format, leaf: OpenPage, part: SheetPart, empty: Group, upto: fl
     pieces = list(_pieces(part, leaf))
     finished = [*empty.entities, *_tables(leaf, math.inf), *_titles(leaf, part, math.inf)]
     inside = sheet.content.grown(-FRAME_GAP)
-    placed = zip(pieces, lettered([piece.drawn for piece in pieces], finished, inside), strict=True)
+    placed = zip(pieces, lettered_steps([piece.drawn for piece in pieces], finished, inside), strict=True)
     shown = [(piece.step, entities) for piece, entities in placed if piece.since <= upto]
     steps: dict[int, list[Entity]] = {}
     for (number, _), entities in zip(shown, shading_parted([some for _, some in shown]), strict=True):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from graphcam.drafting import marks
 from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.formats import Lettering
-from graphcam.sheets.label_candidates import LabelText, label_along, label_around, label_over, outside, unit
+from graphcam.sheets.label_candidates import LabelText, label_along, label_along_arc, label_around, label_over, unit
 from graphcam.sheets.model import Angle, ArcEntity, ArrowHeads, Circles, Curve, Entity, Length, Source, Stroke, Strokes
 from graphcam.sheets.styles import STYLES_BY_ROLE
 from graphcam.sheets.text_measures import extent
@@ -191,7 +191,7 @@ def _angle(mark: marks.AngleMark, place: Placement, text: str, height: float) ->
         _arc_head(centre, radius, start, at_start, Role.DIMENSION),
         _arc_head(centre, radius, end, at_end, Role.DIMENSION),
     ]
-    writing = outside(centre, radius, start, end, text, height)
+    writing = label_along_arc(centre, radius, start, end, text, height)
     return drawn, [replace(writing, of=Angle(centre, radius, start, end, tuple(drawn)))]
 
 

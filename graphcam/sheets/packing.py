@@ -157,7 +157,7 @@ def at_left(x: Grid, y: Grid) -> Grid:
     return 10 * x + abs(y - y.mean())
 
 
-def top(x: Grid, y: Grid) -> Grid:
+def prefer_top(x: Grid, y: Grid) -> Grid:
     """The preference for a high place in the middle of the width."""
     return abs(x - x.mean()) - 10 * y
 

@@ -20,13 +20,13 @@ from graphcam.sheets.packing import (
     prefer_bottom_left,
     prefer_bottom_right,
     prefer_high,
+    prefer_top,
     prefer_top_left,
     prefer_top_right,
-    top,
 )
-from graphcam.sheets.page_space import OpenPage, ViewRun, blank, fits_on_sheet, free_rooms, kept_area
+from graphcam.sheets.page_space import OpenPage, ViewRun, blank_page, fits_on_sheet, free_rooms, kept_area
 from graphcam.sheets.tables import Block
-from graphcam.sheets.view_panels import Panel, clusters, shares, stand, with_lowest
+from graphcam.sheets.view_panels import Panel, clusters, panel_origins, shares, with_lowest
 from graphcam.words import say
 
 MIN_FILLED_SHARE = 0.57
@@ -297,7 +297,7 @@ def _with_blocks(
             return None
         place.leaf.put_block(block, place.by)
         leaves += [place.leaf] * place.begun
-    leaves = leaves or [blank(sheet)]
+    leaves = leaves or [blank_page(sheet)]
     return FilledPages(leaves, way, setting, _merit(leaves, views))
 
 
@@ -319,7 +319,7 @@ def _place(
             return Place(leaf, by, begun=False)
     if not more:
         return None
-    leaf = blank(sheet)
+    leaf = blank_page(sheet)
     by = find(leaf)
     # What is larger than a page has been refused before.
     assert by is not None
@@ -340,7 +340,7 @@ def _standing_run(sheet: Format, panels: Sequence[Panel], gap: float, way: Way) 
         for narrow in DIAGRAM_GAPS
         if narrow <= gap and (narrow == DIAGRAM_GAPS[-1] or fits_on_sheet(sheet, panels, narrow))
     )
-    return ViewRun(panels, stand(panels, gap), gap, way.closely)
+    return ViewRun(panels, panel_origins(panels, gap), gap, way.closely)
 
 
 def _preferred(sheet: Format, panels: Sequence[Panel], largest: Panel | None) -> Preference:
@@ -351,4 +351,4 @@ def _preferred(sheet: Format, panels: Sequence[Panel], largest: Panel | None) ->
         return prefer_bottom_right
     if sheet.name in ONE_PAGE:
         return prefer_bottom_left if sheet.is_upright else prefer_top_right
-    return top if sheet.is_upright else at_left
+    return prefer_top if sheet.is_upright else at_left

@@ -12,7 +12,7 @@ from graphcam.sheets.model import Box, bounding_box
 from graphcam.sheets.packing import Preference, Room, middle, prefer_high
 from graphcam.sheets.sheet_frame import taken_boxes
 from graphcam.sheets.tables import Block
-from graphcam.sheets.view_panels import LABEL_MARGIN, Panel, are_disjoint, shares, stand
+from graphcam.sheets.view_panels import LABEL_MARGIN, Panel, are_disjoint, panel_origins, shares
 
 FRAME_MARGIN = 4.0
 """The free margin along the frame [mm]; the air about a view is a part of it."""
@@ -159,7 +159,7 @@ class OpenPage:
 
     def centred(self) -> OpenPage:
         """The page with all that stands on it moved together, so that what is left empty lies around it."""
-        by = blank(self.sheet).find(self.taken, middle) if self.taken else 0j
+        by = blank_page(self.sheet).find(self.taken, middle) if self.taken else 0j
         if not by:
             return self
         views = {name: (panel, origin + by) for name, (panel, origin) in self.views.items()}
@@ -167,7 +167,7 @@ class OpenPage:
         return OpenPage(self.sheet, self.room, [], [box.moved(by) for box in self.taken], views, blocks)
 
 
-def blank(sheet: Format) -> OpenPage:
+def blank_page(sheet: Format) -> OpenPage:
     """An empty page."""
     return OpenPage(sheet, _blank_room(sheet).copy())
 
@@ -186,8 +186,9 @@ def kept_area(sheet: Format) -> float:
 
 def fits_on_sheet(sheet: Format, views: Sequence[Panel], gap: float) -> bool:
     """Whether views with a gap between them have room on an empty sheet."""
-    boxes = ViewRun(views, stand(views, gap)).boxes
+    boxes = ViewRun(views, panel_origins(views, gap)).boxes
     # The air of neighbours may overlap where there is little.
     return (
-        are_disjoint([box.grown(min(gap, 0.0)) for box in boxes]) and blank(sheet).find(boxes, prefer_high) is not None
+        are_disjoint([box.grown(min(gap, 0.0)) for box in boxes])
+        and blank_page(sheet).find(boxes, prefer_high) is not None
     )

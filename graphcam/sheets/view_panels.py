@@ -189,7 +189,7 @@ def shares(panel: Panel, others: Iterable[Panel]) -> bool:
     return any(panel.view.across == other.view.across or panel.view.up == other.view.up for other in others)
 
 
-def stand(group: Sequence[Panel], gap: float) -> list[complex]:
+def panel_origins(group: Sequence[Panel], gap: float) -> list[complex]:
     """Origins of panels, the first at 0: those that share ``across`` one under the other, ``up`` side by side.
 
     >>> from graphcam.drafting.ink import say
@@ -197,7 +197,7 @@ def stand(group: Sequence[Panel], gap: float) -> list[complex]:
     >>> import numpy as np
     >>> line = Line(np.array([0, 10 + 10j]), Role.CURVE)
     >>> upper, lower = (Panel(View(n, say(""), "phi", n), (line,), Lettering(5, 3.5, 2.5)) for n in ("v", "s"))
-    >>> stand([upper, lower], 4.0)
+    >>> panel_origins([upper, lower], 4.0)
     [0j, -26.25j]
     """
     columns: dict[str, list[Box]] = {}

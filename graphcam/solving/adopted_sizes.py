@@ -18,7 +18,7 @@ from graphcam.errors import DesignError
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.solving.solution_warnings import PRINT_ROUNDING, Caution, angles_exceeded
-from graphcam.words import Caption, Words, joined, say, sequence
+from graphcam.words import Caption, Words, and_list, say, sequence
 
 DIVISION_FACTORS = (2, 3, 4)
 """Times as many divisions, of which the first that helps is named."""
@@ -211,7 +211,7 @@ def _named_sizes(chain: Chain, radius: float, place: float) -> Words:
     keys = {"cam.prime_radius": radius} if chain.board.prime_radius is None else {}
     if chain.board.follower.place is None:
         keys[f"follower.{chain.board.follower.place_name}"] = place
-    return joined([_key(key, value) for key, value in keys.items()])
+    return and_list([_key(key, value) for key, value in keys.items()])
 
 
 def _key(name: str, value: float) -> Caption:

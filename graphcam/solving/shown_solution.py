@@ -8,7 +8,7 @@ from typing import Any
 
 from graphcam.comparison.quantities import Quantity
 from graphcam.given.laws import Floats
-from graphcam.showing import MAX_WIDTH, Plottable, from_above, in_lines
+from graphcam.showing import MAX_WIDTH, Plottable, higher_function, value_text
 from graphcam.words import Words
 
 DEFAULT_KINDS = (
@@ -71,14 +71,14 @@ class ShownSolution(Plottable):
         ['comparison.csv', 'note.md']
         """
         choices = {"upto": upto, "per_construction": per_construction, "dxf": dxf, "working_drawing": working_drawing}
-        return from_above("report.output_folder.write")(self, folder, files, **choices, progress=progress)
+        return higher_function("report.output_folder.write")(self, folder, files, **choices, progress=progress)
 
     def _in_lines(self, name: str, mechanism: object, drawn: Iterable[str]) -> str:
         # The last line of the mechanism says how to go on from there.
         *sizes, _ = repr(mechanism).splitlines()
         last = ".drawn[name], .comparison, .to_dict(); .plot() draws the sheet, .write(folder) writes the files"
         rows = [size.strip() for size in sizes] + wrap("drawn: " + ", ".join(drawn), MAX_WIDTH)
-        return in_lines(f"{type(self).__name__} of {name!r}", rows, last)
+        return value_text(f"{type(self).__name__} of {name!r}", rows, last)
 
 
 def without_answers(document: Mapping[str, Any]) -> dict[str, Any]:

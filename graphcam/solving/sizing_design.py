@@ -20,7 +20,7 @@ from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import least_preload
 from graphcam.mechanism.sizing import Objective, SizedCam, best_cam, pareto_front, sized_cam
 from graphcam.mechanism.sizing_limits import Measure, Sizes, SizingLimits, SizingProblem
-from graphcam.showing import from_above, in_lines
+from graphcam.showing import higher_function, value_text
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import SpringTable
@@ -55,7 +55,7 @@ class Sizing:
             f"active at the unrounded best: {', '.join(self.best.active)}",
         ]
         last = ".best, .front, .sized_task, .to_dict(); .write(folder) writes the files"
-        return in_lines(f"Sizing of {self.task.title.name!r}", rows, last)
+        return value_text(f"Sizing of {self.task.title.name!r}", rows, last)
 
     @cached_property
     def front(self) -> tuple[SizedCam, ...]:
@@ -111,7 +111,7 @@ class Sizing:
         DesignError : there is no such language
         OutputError : the folder cannot be written
         """
-        return from_above("report.sizing_files.write")(self, folder, language, progress)
+        return higher_function("report.sizing_files.write")(self, folder, language, progress)
 
 
 def size_task(task: Task | ArcsTask, objective: Objective | None = None) -> Sizing:

@@ -23,10 +23,10 @@ from graphcam.mechanism.forces import CamForces, Forces, mean_torque
 from graphcam.mechanism.jamming import jamming_margin
 from graphcam.mechanism.turn_extremes import Places, TurnCurve, ValueAt, over_turn, places_in, smooth_pieces
 from graphcam.sheets.tables import Table
-from graphcam.showing import by_parts
+from graphcam.showing import parts_text
 from graphcam.solving.solution_warnings import Caution
 from graphcam.solving.turn_diagrams import TurnDiagram, at_side, plain_place, turn_diagrams
-from graphcam.words import Words, joined, sequence
+from graphcam.words import Words, and_list, sequence
 
 CONTACT_MEANING = Meaning(
     "contact",
@@ -61,7 +61,7 @@ class SpringDesign:
     given: SpringLoad | ArmLoad
     open_preload: bool
     friction: float = 0.0
-    __repr__ = by_parts
+    __repr__ = parts_text
 
     @cached_property
     def least_preload(self) -> SpringPreload:
@@ -131,7 +131,7 @@ class SpringDesign:
         ]
         said = say(
             "Contact is lost {where}: a preload of {needed} keeps it, {given} are given.",
-            where=joined(where),
+            where=and_list(where),
             needed=with_unit(_rounded_up(self.needed_preload), preload),
             given=say("{value:.12g} {unit}", value=self.load.preload, unit=unit(preload)),
         )

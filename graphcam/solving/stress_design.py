@@ -18,7 +18,7 @@ from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.hertz import ContactStress, Stresses
 from graphcam.mechanism.turn_extremes import TurnCurve, ValueAt
 from graphcam.sheets.tables import Table
-from graphcam.showing import by_parts
+from graphcam.showing import parts_text
 from graphcam.solving.shown_solution import plain_number
 from graphcam.solving.solution_warnings import Caution
 from graphcam.solving.spring_design import PLAIN_POINTS, Row, with_unit
@@ -75,7 +75,7 @@ class StressDesign:
     chain: Chain
     forces: CamForces
     material: MaterialTable
-    __repr__ = by_parts
+    __repr__ = parts_text
 
     @cached_property
     def no_stress_reason(self) -> Literal["knife edge", "undercut", "no force"] | None:

@@ -10,7 +10,15 @@ from graphcam.constructions.drawn_arm import MAX_ARM_ON_PAPER, DrawnOscillating,
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
 from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.scale import STANDARD_RATIOS, Paper, Scale, coarsest, ratio_from_text, ratio_text, standard_scale
+from graphcam.drafting.scale import (
+    STANDARD_RATIOS,
+    Paper,
+    Scale,
+    coarsest_scale,
+    ratio_from_text,
+    ratio_text,
+    standard_scale,
+)
 from graphcam.errors import DesignError
 from graphcam.given.follower import Oscillating, omega_of
 from graphcam.given.roller_rule import roller_rule
@@ -222,4 +230,4 @@ def _scale_of_positions(task: Task, arm: Oscillating) -> Scale:
         centres.append((least.prime_radius, least.distance))
     size = positions_extent(arm.arm, over_the_turn(task.motion()), task.rotation, limits, centres)
     paper = largest_drawn(task.drawing, size, ARM_MARGINS)
-    return coarsest(standard_scale(arm.arm, MAX_ARM_ON_PAPER, paper.ratios), paper.scale(size, ARM_MARGINS))
+    return coarsest_scale(standard_scale(arm.arm, MAX_ARM_ON_PAPER, paper.ratios), paper.scale(size, ARM_MARGINS))

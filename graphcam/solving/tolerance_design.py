@@ -17,7 +17,7 @@ from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.motion_bands import MotionBands, Share, effects_of, half_widths, motion_bands
 from graphcam.mechanism.turn_extremes import Places, over_turn
 from graphcam.sheets.tables import Table
-from graphcam.showing import by_parts
+from graphcam.showing import parts_text
 from graphcam.solving.turn_diagrams import TurnDiagram, plain_place, turn_diagrams
 from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.words import Words, say_in
@@ -80,7 +80,7 @@ class ToleranceDesign:
     chain: Chain
     cam: Cam
     given: TolerancesTable
-    __repr__ = by_parts
+    __repr__ = parts_text
 
     @cached_property
     def bands(self) -> MotionBands:

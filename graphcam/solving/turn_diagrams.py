@@ -11,8 +11,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphcam.constructions.axes import axes_over_phi, degrees, degrees_below, phase_ends, phase_symbol, reach
-from graphcam.constructions.graduation import graduated, round_up
+from graphcam.constructions.axes import axes_over_phi, degrees, degrees_below, height_range, phase_ends, phase_symbol
+from graphcam.constructions.graduation import graduation_marks, round_up
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, Words, say
 from graphcam.drafting.marks import Dots, Label, Line, Mark, Role, Segments
@@ -102,11 +102,11 @@ def diagram_step(diagram: TurnDiagram) -> Step:
     points = diagram.curve.phi / mu_phi.per_mm + UP * diagram.curve.values / mu.per_mm
     level = [] if diagram.limit is None else [diagram.limit[0] / mu.per_mm]
     heights = np.append(points.imag, level)
-    low, high = reach(heights)
+    low, high = height_range(heights)
     ends = phase_ends(motion, mu_phi)
     axes = (
         *axes_over_phi(TURN_WIDTH, mu_phi, heights, diagram.ordinate),
-        *graduated(heights, mu.per_mm),
+        *graduation_marks(heights, mu.per_mm),
         *degrees_below(TURN_WIDTH, mu_phi, low),
         Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION),
         *(

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any
 
-from graphcam.errors import DesignError, GraphcamError, TaskError, among
+from graphcam.errors import DesignError, GraphcamError, TaskError, choice_limit
 from graphcam.language import ENGLISH, Language, language, languages
 from graphcam.studio.task_paths import PATH_PATTERN, steps_of, value_at
 from graphcam.tasks.task_file import EXAMPLE_REMEDY
@@ -170,7 +170,7 @@ def _field(error: GraphcamError, request: Mapping[str, Any]) -> str:
 
 def _function(ask: Any) -> Callable[[Mapping[str, Any]], Plain]:
     if not isinstance(ask, str) or ask not in REQUEST_FUNCTIONS:
-        raise DesignError("ask", str(ask), *among(ask, REQUEST_FUNCTIONS))
+        raise DesignError("ask", str(ask), *choice_limit(ask, REQUEST_FUNCTIONS))
     module, _, name = REQUEST_FUNCTIONS[ask].rpartition(".")
     return getattr(import_module(module), name)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from graphcam.constructions.arm_positions import cam_centre
 from graphcam.constructions.views import PROFILE, REGION
-from graphcam.drafting.euclid import circles_meet
+from graphcam.drafting.euclid import circle_crossing
 from graphcam.drafting.marks import Points
 from graphcam.plane_vectors import dot
 from graphcam.solving.solution import Solution
@@ -185,6 +185,6 @@ def _end_of_arm(solution: Solution) -> Iterator[Handle]:
             "cam.prime_radius": radius,
         }
 
-    at = complex(circles_meet(np.asarray(0j), radius, np.asarray(distance + 0j), arm, flat=True)) / mu
+    at = complex(circle_crossing(np.asarray(0j), radius, np.asarray(distance + 0j), arm, flat=True)) / mu
     axis = HandleAxis("follower.arm", ARM, "mm", arm, room, "x", {"sign": -1})
     yield Handle(PROFILE.name, "l", ARM, at, "along", (axis,), drag, along=1j * at / abs(at))

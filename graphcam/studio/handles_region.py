@@ -9,7 +9,7 @@ import numpy as np
 from graphcam.constructions.axes import pieces_of
 from graphcam.constructions.region import Boundary, boundary
 from graphcam.constructions.views import COMBINED
-from graphcam.drafting.curve import farthest_in
+from graphcam.drafting.curve import farthest_on_pieces
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.marks import Points
 from graphcam.given.follower import sense
@@ -167,7 +167,7 @@ def tangents_meet(solution: Solution, name: str, angles: Floats, level: float) -
     side, pieces = _side(solution, name), pieces_of(motion, stations, 1 if name == "rise" else -1)
     ends = np.asarray(solution.chain["pressure_angle"].first("ends"))
     along: Points = -side * UP * np.exp(1j * side * angles)
-    touch = farthest_in(np.broadcast_to(ends, (angles.size, ends.size)), pieces, along * -UP)
+    touch = farthest_on_pieces(np.broadcast_to(ends, (angles.size, ends.size)), pieces, along * -UP)
     return touch.real + (level - touch.imag) * along.real / along.imag
 
 

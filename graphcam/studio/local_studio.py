@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import DesignError, GraphcamError, among
+from graphcam.errors import DesignError, GraphcamError, choice_limit
 from graphcam.language import ENGLISH, language
-from graphcam.showing import from_above
+from graphcam.showing import higher_function
 from graphcam.solving.shown_solution import CUTTING_KINDS, DEFAULT_KINDS
 from graphcam.solving.solve import solve
 from graphcam.studio.address import StudioPlace, address_of
@@ -75,7 +75,7 @@ class WrittenFiles:
     def _written(self, kind: str, task: Task | ArcsTask) -> tuple[Path, list[str]]:
         if kind == NOTEBOOK_CHOICE:
             folder = self.folder / NOTEBOOK_CHOICE
-            return folder, from_above("notebooks.notebook_folder.write_folder")(task, folder)
+            return folder, higher_function("notebooks.notebook_folder.write_folder")(task, folder)
         solution, kinds = solve(task), self.kinds | {kind}
         part = PART_CHOICE in kinds
         if part and kind != PART_CHOICE:
@@ -89,7 +89,7 @@ class WrittenFiles:
 def _kind(request: Mapping[str, Any]) -> str:
     kind = request.get("kind")
     if not isinstance(kind, str) or kind not in FILES_BY_CHOICE:
-        raise DesignError("kind", kind, *among(kind, FILES_BY_CHOICE))
+        raise DesignError("kind", kind, *choice_limit(kind, FILES_BY_CHOICE))
     return kind
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from graphcam.constructions.chain import Chain
-from graphcam.errors import DesignError, among
+from graphcam.errors import DesignError, choice_limit
 from graphcam.language import language
 from graphcam.solving.solution import Solution, solve_motion
 from graphcam.studio.angle_predictions import angle_foretold, steepest_foretold
@@ -131,7 +131,7 @@ def prediction_answer(request: Mapping[str, Any]) -> dict[str, Any]:
     kinds = kinds_of(solution.chain)
     kind = request.get("kind") or kinds[0]
     if kind not in kinds:
-        raise DesignError("kind", kind, *among(kind, kinds))
+        raise DesignError("kind", kind, *choice_limit(kind, kinds))
     asked = PREDICTION_KINDS[kind][1](solution)
     said = {
         "kind": kind,

@@ -21,7 +21,7 @@ from importlib.resources import files
 from pathlib import Path, PurePosixPath
 
 from graphcam.errors import MissingFileError, TaskError
-from graphcam.words import bare, either, say
+from graphcam.words import bare_caption, or_list, say
 
 LOADER_FILE, GLUE_FILE, BINARY_FILE = "pyodide.js", "pyodide.asm.js", "pyodide.asm.wasm"
 STANDARD_LIBRARY_FILE, LOCK_FILE = "python_stdlib.zip", "pyodide-lock.json"
@@ -186,7 +186,7 @@ def _check(folder: Path, name: str, content: bytes, known: set[str | None]) -> N
     found = hashlib.sha256(content).hexdigest()
     if found not in known:
         trusted = sorted(each for each in known if each)
-        sums = either(trusted) if trusted else say("one that is known")
+        sums = or_list(trusted) if trusted else say("one that is known")
         remedy = say("take the files of '{packing}', or state the sums that you trust in a file {sums} there")
         remedy = remedy.with_values(packing=PACKING_COMMAND, sums=SUMS_FILE)
         raise TaskError(str(folder), say("the SHA-256 of {name}", name=name), found, sums, remedy)
@@ -203,7 +203,7 @@ def _numpy_for(folder: Path, names: list[str], python: str) -> str:
             where=say("for Python {python} in {folder}", python=python, folder=folder),
         )
     if len(fitting) > 1:
-        several = bare(", ".join(fitting))
+        several = bare_caption(", ".join(fitting))
         raise TaskError(str(folder), "NumPy", several, say("one of them alone"), say("remove the others"))
     return fitting[0]
 

@@ -9,7 +9,7 @@ from typing import Any
 from graphcam.drafting.act_order import ActPlaces
 from graphcam.drafting.acts import Act
 from graphcam.drafting.ink import Construction, Step, View
-from graphcam.errors import DesignError, among
+from graphcam.errors import DesignError, choice_limit
 from graphcam.report.sheet_contents import chapter_numbers, construction_named, names_of, scaled_steps, scales_found
 from graphcam.report.step_player import drawn_in_parts, step_slides
 from graphcam.sheets.layout import Numbered
@@ -125,7 +125,7 @@ def view_steps(
     names = names_of(solution)
     if upto is not None:
         if upto not in names:
-            raise DesignError("upto", upto, *among(upto, names))
+            raise DesignError("upto", upto, *choice_limit(upto, names))
         names = names[: names.index(upto) + 1]
     drawn = {name: construction_named(solution, name) for name in names if only is None or name in only}
     return ViewSteps(drawn, tuple(named_steps(scaled_steps(drawn, silent))))

@@ -10,7 +10,7 @@ from graphcam.language import language
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import task_from
-from graphcam.words import bare, say
+from graphcam.words import bare_caption, say
 
 MAX_DIVISIONS, MAX_PHASES, MAX_ROWS, MAX_POINTS = 200, 36, 2000, 60
 """Maximum sizes of a task in the studio: more take too long to be drawn while a size is moved."""
@@ -107,7 +107,7 @@ def task_data(data: Data) -> dict[str, Any]:
     """
     if not isinstance(task := data.get("task"), dict) or not task:
         limit = say("a table with a task")
-        raise DesignError("task", say("missing") if task is None else bare(type(task).__name__), limit)
+        raise DesignError("task", say("missing") if task is None else bare_caption(type(task).__name__), limit)
     return task
 
 

@@ -16,7 +16,7 @@ import traitlets
 
 from graphcam.sheets.player_svg import roles_css
 from graphcam.sheets.typefaces import FONT_FAMILY, font_faces
-from graphcam.showing import from_above
+from graphcam.showing import higher_function
 from graphcam.studio.address import differences
 from graphcam.studio.engine import answer
 from graphcam.studio.studio_page import PAGE_CAPTIONS, page
@@ -154,12 +154,12 @@ class StudioWidget(anywidget.AnyWidget):
         if not self._stills:
             return self._still_picture({}).html
         pictures = {says: self._still_picture(changes) for says, changes in self._stills.items()}
-        return from_above("notebooks.explore.side_by_side")(pictures)
+        return higher_function("notebooks.explore.side_by_side")(pictures)
 
     def _still_picture(self, changes: Mapping[str, Any]) -> Any:
         """A picture of the task with other values."""
         still = still_picture(changed_task(self._start if changes else self.task, changes), self.view, self._language)
-        return from_above("notebooks.construction_stages.Picture")(
+        return higher_function("notebooks.construction_stages.Picture")(
             still.svg, f"{still.title}. {still.caption}", still.title
         )
 

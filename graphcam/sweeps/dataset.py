@@ -27,7 +27,7 @@ from graphcam.sweeps.pareto_front import FoundBest, joined_front
 from graphcam.sweeps.shared_folder import SealedFile, SharedFolder
 from graphcam.sweeps.sweep import CHUNK_OF_DESIGNS, CHUNKS_PER_JOB, JOBS_AHEAD, Columns
 from graphcam.words import Caption, Words, say, sequence
-from graphcam.workers import WorkerPool, in_order, results
+from graphcam.workers import WorkerPool, ordered_results, results
 
 MANIFEST_FILE = "_manifest.json"
 """Readers of data sets pass over what begins with an underscore or a dot."""
@@ -80,7 +80,7 @@ def sweep_to_file(
         size, n = CHUNKS_PER_JOB * CHUNK_OF_DESIGNS, len(space)
         blocks = ((k, min(k + size, n)) for k in range(0, n, size))
         found = FoundBest(0)
-        for columns in in_order(executor, space.results, blocks, JOBS_AHEAD):
+        for columns in ordered_results(executor, space.results, blocks, JOBS_AHEAD):
             write(columns)
             found = found.with_block(space, columns)
             if progress:

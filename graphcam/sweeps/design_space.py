@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, nearest_word_remedy
 from graphcam.given.follower import FOLLOWERS_BY_KIND, Limits
 from graphcam.given.laws import LAWS
 from graphcam.given.plausible_ranges import bounded, check_positive
@@ -111,7 +111,9 @@ class Space:
         word_axis("rotation", self.rotation, ("ccw", "cw"))
         for name in self.quantities:
             if name not in QUANTITIES:
-                raise DesignError("quantities", name, say("quantities of a sweep"), nearest(name, QUANTITIES))
+                raise DesignError(
+                    "quantities", name, say("quantities of a sweep"), nearest_word_remedy(name, QUANTITIES)
+                )
         if not self.quantities:
             found = say("an empty list")
             raise DesignError("quantities", found, say("at least one"), say("leave it out for all of them"))
@@ -201,7 +203,7 @@ def _range(name: str, value: dict[str, Any]) -> NDArray[np.float64]:
     for key in value:
         if key not in _RANGE_KEYS:
             raise DesignError(
-                f"{name}.{key}", say("an unknown key"), say("one that is known"), nearest(key, _RANGE_KEYS)
+                f"{name}.{key}", say("an unknown key"), say("one that is known"), nearest_word_remedy(key, _RANGE_KEYS)
             )
     for key in _RANGE_KEYS:
         if key not in value:
@@ -227,7 +229,9 @@ def word_axis(name: str, value: Any, known: tuple[str, ...]) -> None:
         raise DesignError(name, say("an empty list"), say("a name or a list of names"))
     for word in values:
         if word not in known:
-            raise DesignError(name, word, say("a name or a list of names in quotes"), nearest(str(word), known))
+            raise DesignError(
+                name, word, say("a name or a list of names in quotes"), nearest_word_remedy(str(word), known)
+            )
 
 
 _REMEDY = say("graphcam/data/space.toml in the package is a commented example")

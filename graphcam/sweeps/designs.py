@@ -7,13 +7,13 @@ from typing import Any, Literal, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, nearest_word_remedy
 from graphcam.given.follower import FOLLOWERS_BY_KIND, Follower, swing_remedy
 from graphcam.given.laws import LAW_SYNONYMS, LAWS, Floats
 from graphcam.given.motion import CLOSURE_TOLERANCE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.cam import Cam
-from graphcam.words import bare, chained, say
+from graphcam.words import and_chain, bare_caption, say
 
 Part = slice | NDArray[np.integer[Any]] | NDArray[np.bool_]
 _COMMON_SIZES = "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius"
@@ -75,7 +75,7 @@ class Designs:
         _choices("follower", self.follower, tuple(OWN_SIZE_NAMES))
         sizes = {array.size for array in self._columns.values() if array.ndim}
         if len(sizes) > 1:
-            found = chained([bare(str(size)) for size in sorted(sizes)])
+            found = and_chain([bare_caption(str(size)) for size in sorted(sizes)])
             remedy = say("give one number for all cams, or one for each")
             raise DesignError(say("number of designs"), found, say("the same in every array"), remedy)
         self._check_follower()
@@ -197,7 +197,9 @@ def _choices(name: str, values: Any, known: tuple[str, ...], own: type | tuple[(
     array = np.asarray(values)
     for word in dict.fromkeys(array.ravel().tolist()):
         if not isinstance(word, own) and word not in known:
-            raise DesignError(name, word, say("a name that graphcam knows"), nearest(str(word), known, LAW_SYNONYMS))
+            raise DesignError(
+                name, word, say("a name that graphcam knows"), nearest_word_remedy(str(word), known, LAW_SYNONYMS)
+            )
     return _one_axis(name, array)
 
 

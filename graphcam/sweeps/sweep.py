@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, check_kind, nearest
+from graphcam.errors import DesignError, check_kind, nearest_word_remedy
 from graphcam.given.follower import FOLLOWERS_BY_KIND, Limits
 from graphcam.given.making_errors import MakingErrors
 from graphcam.given.spring_load import ArmLoad, SpringLoad
@@ -18,7 +18,7 @@ from graphcam.sweeps.designs import Designs
 from graphcam.sweeps.sweep_forces import FORCE_QUANTITIES, SweptLoad
 from graphcam.sweeps.sweep_quantities import BAND_QUANTITIES, QUANTITIES, Chunk, SweptErrors
 from graphcam.words import say
-from graphcam.workers import in_order
+from graphcam.workers import ordered_results
 
 CHUNK_OF_DESIGNS = 4096
 """Designs that are computed at a time: what they need stays in the processor's cache."""
@@ -107,7 +107,7 @@ def sweep(
     wanted = (quantities,) if isinstance(quantities, str) else tuple(quantities)
     for name in wanted:
         if name not in (known := (*QUANTITIES, *FORCE_QUANTITIES, *BAND_QUANTITIES)):
-            raise DesignError("quantity", name, say("one that a sweep can find"), nearest(name, known))
+            raise DesignError("quantity", name, say("one that a sweep can find"), nearest_word_remedy(name, known))
         if name in FORCE_QUANTITIES and load is None:
             given = say("given where {name} is asked for", name=name)
             raise DesignError("load", say("left out"), given, say("give a SpringLoad or an ArmLoad"))
@@ -129,7 +129,7 @@ def sweep(
     out, size = _empty_columns(wanted, len(designs)), CHUNKS_PER_JOB * chunk
     starts = range(0, len(designs), size)
     jobs = (designs.part(slice(k, k + size)) for k in starts)
-    for k, columns in zip(starts, in_order(executor, compute, jobs, JOBS_AHEAD), strict=True):
+    for k, columns in zip(starts, ordered_results(executor, compute, jobs, JOBS_AHEAD), strict=True):
         for name, column in columns.items():
             out[name][k : k + size] = column
     return out

@@ -8,7 +8,7 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
 from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.three_arcs import ThreeArcs
-from graphcam.showing import by_parts
+from graphcam.showing import parts_text
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain_data
 from graphcam.words import say
@@ -97,7 +97,7 @@ class ArcsTask:
     title: TitleTable = field(default_factory=TitleTable)
     drawing: ArcsDrawingTable = field(default_factory=ArcsDrawingTable)
     part: PartTable | None = None
-    __repr__ = by_parts
+    __repr__ = parts_text
 
     def __post_init__(self) -> None:
         check_positive("speed_rpm", self.speed_rpm, "rpm")

@@ -17,7 +17,7 @@ from functools import cache, reduce
 from typing import Annotated, Any, Literal, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
 from graphcam.errors import DesignError
-from graphcam.words import Words, either, say
+from graphcam.words import Words, or_list, say
 
 Place = tuple[int | str, ...]
 """A place in a file: keys, numbers of list entries, and the choices among classes by their kind."""
@@ -187,7 +187,7 @@ _PLAIN_READERS: dict[Any, Reader] = {float: _number, int: _whole_number, str: _t
 
 
 def _literal_reader(choices: tuple[Any, ...]) -> Reader:
-    expected = either([repr(choice) for choice in choices])
+    expected = or_list([repr(choice) for choice in choices])
     words = tuple(choice for choice in choices if isinstance(choice, str))
 
     def read(said: Any, place: Place, faults: list[Fault]) -> Any:
@@ -227,7 +227,7 @@ def _closest_faults(found: list[list[Fault]], place: Place) -> list[Fault]:
     if len(found) == 1 or best[0].place != place:
         return best
     expected = (fault.expected for faults in found if isinstance(fault := faults[0], WrongType))
-    return [WrongType(place, reduce(lambda first, last: either([first, last]), expected))]
+    return [WrongType(place, reduce(lambda first, last: or_list([first, last]), expected))]
 
 
 def _kind_reader(classes: tuple[type, ...]) -> Reader:

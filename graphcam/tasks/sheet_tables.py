@@ -4,7 +4,7 @@ import dataclasses
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, Self, get_args
 
-from graphcam.errors import DesignError, among
+from graphcam.errors import DesignError, choice_limit
 from graphcam.given.motion_law import Law
 from graphcam.language import ENGLISH, language, languages
 from graphcam.words import Tell, say
@@ -32,7 +32,7 @@ BUILTIN_NAMES = {
 def check_choice(quantity: str, value: str, known: tuple[str, ...]) -> None:
     """Refuse a word that is not among the known ones."""
     if value not in known:
-        raise DesignError(quantity, value, *among(value, known))
+        raise DesignError(quantity, value, *choice_limit(value, known))
 
 
 @dataclass(frozen=True)

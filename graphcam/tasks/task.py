@@ -16,7 +16,7 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import LIMIT_NAMES, FlatFaced, Limits, Oscillating, Rotation, Translating, sense
 from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
-from graphcam.showing import MAX_WIDTH, in_lines
+from graphcam.showing import MAX_WIDTH, value_text
 from graphcam.tasks.dataclass_reader import ByKeys, ByKind
 from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.motion_tables import MotionTable
@@ -292,7 +292,7 @@ class Task:
         phases = ", ".join(f"{phase.kind} {phase.angle:g}°" for phase in self.motion.phases or ())
         turns = f"turns {self.rotation}" + (f" at {self.speed_rpm:g} rpm" if self.speed_rpm else "")
         rows = f"{turns}, {self.follower.kind} follower", shorten(other or phases, MAX_WIDTH, placeholder=" ...")
-        return in_lines(f"Task {self.title.name!r}", rows, "gc.solve(task) designs the cam; .to_dict() tells all")
+        return value_text(f"Task {self.title.name!r}", rows, "gc.solve(task) designs the cam; .to_dict() tells all")
 
     def __post_init__(self) -> None:
         sense(self.rotation)

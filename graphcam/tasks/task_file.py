@@ -10,7 +10,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any, TypeVar
 
-from graphcam.errors import DesignError, MissingFileError, TaskError, among, unreadable
+from graphcam.errors import DesignError, MissingFileError, TaskError, choice_limit, unreadable_error
 from graphcam.given.table_file import read_table
 from graphcam.tasks import arcs_task as arcs, motion_tables, spring_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
@@ -30,7 +30,7 @@ from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_remedies import key_remedy, missing_remedy, toml_fault, value_remedy
 from graphcam.tasks.tolerances_table import TolerancesTable
-from graphcam.words import Caption, Words, bare, chained, say
+from graphcam.words import Caption, Words, and_chain, bare_caption, say
 
 BUILTIN_TASK_NAMES = ("coursework", "arm", "flat", "measured")
 """Names of the built-in tasks; "arcs" is one more, a cam of three circular arcs."""
@@ -130,7 +130,7 @@ def read_content(path: str | Path) -> bytes:
         return Path(path).read_bytes()
     except (OSError, ValueError) as error:
         remedy = say("check the name; {example}", example=EXAMPLE_REMEDY)
-        raise unreadable(path, THE_FILE, say("a TOML file"), error, remedy) from None
+        raise unreadable_error(path, THE_FILE, say("a TOML file"), error, remedy) from None
 
 
 @contextmanager
@@ -188,7 +188,7 @@ def builtin_task(name: str = "coursework") -> Task:
     """
     known = (*BUILTIN_TASK_NAMES, SIZING_TASK_NAME)
     if name not in known:
-        raise DesignError(say("built-in task"), name, *among(name, known))
+        raise DesignError(say("built-in task"), name, *choice_limit(name, known))
     task = _parse(f"{name}.toml", builtin_text(name).encode(), _built_in_folder())
     assert isinstance(task, Task)
     return task
@@ -214,7 +214,7 @@ def builtin_text(name: str) -> str:
     """
     known = (*BUILTIN_TASK_NAMES, SIZING_TASK_NAME, "arcs")
     if name not in known:
-        raise DesignError(say("built-in task"), name, *among(name, known))
+        raise DesignError(say("built-in task"), name, *choice_limit(name, known))
     return (_built_in_folder() / f"{name}.toml").read_text(encoding="utf-8")
 
 
@@ -296,7 +296,7 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
         case Misfit(table, error):
             return _misfit(path, data, table, error)
         case MissingKey((("spring" | "material"), *_)):
-            return _lacking(path, place, data)
+            return _missing_keys_error(path, place, data)
         case MissingKey():
             return TaskError(path, place, say("missing"), say("given"), missing_remedy(place, data) or EXAMPLE_REMEDY)
         case UnknownKey(where):
@@ -315,7 +315,7 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
             return TaskError(path, place, _shown_value(value), expected, EXAMPLE_REMEDY)
 
 
-def _lacking(path: str, place: str, data: dict[str, Any]) -> TaskError:
+def _missing_keys_error(path: str, place: str, data: dict[str, Any]) -> TaskError:
     """The error for a missing key of a spring or a material, which names all others missing beside it."""
     remedy = EXAMPLE_REMEDY
     if place == "spring.mass" and _swings(data):
@@ -352,7 +352,7 @@ def _unknown_key(
     kinds = [other[-1] for other in alike if key in _keys(classes[other])]
     if kinds:
         left_out = say("left out where the kind is {table}", table=table[-1])
-        return TaskError(path, place, _shown_value(value), left_out, say("it is for {names}", names=chained(kinds)))
+        return TaskError(path, place, _shown_value(value), left_out, say("it is for {names}", names=and_chain(kinds)))
     remedy = key_remedy(key, value, known, data)
     return TaskError(path, place, say("an unknown key"), say("one that is known"), remedy)
 
@@ -368,7 +368,7 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
     field, value = _look_up(data, (*place, *key.split(".")))
     # What follows from a table is no value that its key has.
     if not isinstance(value, int | float | str) or error.quantity == "the table's lift":
-        value = bare(error.value) if isinstance(error.value, str) else error.value
+        value = bare_caption(error.value) if isinstance(error.value, str) else error.value
     if error.quantity == "sum of the phase angles":
         field = say("{field} (sum of the angles)", field=field)
     elif error.quantity == "sum of rises less returns":
@@ -405,10 +405,10 @@ def _shown_value(value: Any) -> Any:
     if isinstance(value, Caption):
         return value
     if isinstance(value, bool):
-        return bare(str(value).lower())
+        return bare_caption(str(value).lower())
     if isinstance(value, dict):
         return say("a table")
     if isinstance(value, list):
         return say("a list of {count}", count=len(value))  # pyright: ignore[reportUnknownArgumentType]
     text = repr(value)
-    return bare(text[:_MAX_SHOWN_LENGTH] + "...") if len(text) > _MAX_SHOWN_LENGTH else value
+    return bare_caption(text[:_MAX_SHOWN_LENGTH] + "...") if len(text) > _MAX_SHOWN_LENGTH else value

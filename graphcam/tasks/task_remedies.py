@@ -13,10 +13,10 @@ import unicodedata
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from graphcam.errors import TaskError, nearest, suggestion
+from graphcam.errors import TaskError, nearest_word_remedy, suggestion
 from graphcam.given.follower import SENSE_SYNONYMS
 from graphcam.given.laws import LAW_SYNONYMS
-from graphcam.words import Words, bare, say
+from graphcam.words import Words, bare_caption, say
 
 OPTIONAL_KEYS = ("offset", "prime_radius", "roller_radius", "distance")
 """Keys that may be left out, because graphcam finds their values."""
@@ -39,7 +39,7 @@ def key_remedy(key: str, value: Any, known: Iterable[str], data: Mapping[str, An
         return _radius_remedy(key, value, data.get("follower"))
     if key == "closure":
         return say("leave out limits.pressure_angle_return for force closure, give it for form closure")
-    return nearest(key, known, SYNONYMS)
+    return nearest_word_remedy(key, known, SYNONYMS)
 
 
 def _radius_remedy(key: str, value: Any, follower: Any) -> Words:
@@ -136,11 +136,11 @@ def toml_fault(path: str, text: str, error: Exception, example: Words) -> TaskEr
     return TaskError(path, where, shown, expected, example)
 
 
-Told = tuple[Words, Words, Words, Words]
+LineFault = tuple[Words, Words, Words, Words]
 """The fault of a line: quantity, value, what it must be, and the remedy."""
 
 
-def _typography(line: str, place: Words) -> Told | None:
+def _typography(line: str, place: Words) -> LineFault | None:
     """The fault of a typographic character outside of texts and comments."""
     outside = _STRING_OR_COMMENT_PATTERN.sub(lambda found: " " * len(found[0]), line)
     for column, letter in enumerate(outside, 1):
@@ -150,7 +150,7 @@ def _typography(line: str, place: Words) -> Told | None:
         name = unicodedata.name(letter, f"U+{ord(letter):04X}").lower()
         what = say("{place}, column {column}: the character", place=place, column=column)
         if plain.strip():
-            found = bare(f"'{letter}' ({name})")
+            found = bare_caption(f"'{letter}' ({name})")
             return what, found, say("a plain {plain!r}", plain=plain), say("type it in a text editor")
         found = say("invisible ({name})", name=name)
         if plain:
@@ -173,15 +173,15 @@ def _plain_character(letter: str) -> str | None:
     return same if same.isascii() and len(same) == 1 else None
 
 
-def _comma(line: str, place: Words) -> Told | None:
+def _comma(line: str, place: Words) -> LineFault | None:
     """The fault of a number with a decimal comma."""
     if comma := _DECIMAL_COMMA_PATTERN.search(line):
-        found, remedy = bare(f"{comma[1]},{comma[2]}"), say("write {word}", word=f"{comma[1]}.{comma[2]}")
+        found, remedy = bare_caption(f"{comma[1]},{comma[2]}"), say("write {word}", word=f"{comma[1]}.{comma[2]}")
         return say("{place}: the number", place=place), found, say("written with a decimal point"), remedy
     return None
 
 
-def _value(line: str, place: Words) -> Told | None:
+def _value(line: str, place: Words) -> LineFault | None:
     """The fault of a text without quotes, or of a number with its unit."""
     for found in _VALUE_PATTERN.finditer(_STRING_OR_COMMENT_PATTERN.sub("''", line)):
         word = found[1]
@@ -189,13 +189,13 @@ def _value(line: str, place: Words) -> Told | None:
             continue
         if word in _BOOLEAN_SPELLINGS:
             remedy = say("write {word}", word=_BOOLEAN_SPELLINGS[word])
-            return say("{place}: the switch", place=place), bare(word), say("true or false"), remedy
+            return say("{place}: the switch", place=place), bare_caption(word), say("true or false"), remedy
         if number := _VALUE_WITH_UNIT_PATTERN.fullmatch(word):
             limit, remedy = say("written without its unit"), say("write {word}", word=number[1])
-            return say("{place}: the number", place=place), bare(word), limit, remedy
+            return say("{place}: the number", place=place), bare_caption(word), limit, remedy
         if "'" not in word and '"' not in word:
             limit, remedy = say("in quotes"), say('write "{word}"', word=word)
-            return say("{place}: the text", place=place), bare(word), limit, remedy
+            return say("{place}: the text", place=place), bare_caption(word), limit, remedy
     return None
 
 

@@ -80,7 +80,7 @@ def arcs_along(points: Complexes, tangents: Complexes, tolerance: float) -> tupl
         moves.append(_arc(complex(points[here]), biarc.joint, complex(tangents[here])))
         moves.append(_arc(biarc.joint, complex(points[there]), biarc.middle))
         here = there
-    return merged(moves), greatest
+    return merged_moves(moves), greatest
 
 
 def _longest_biarc(points: Complexes, tangents: Complexes, here: int, guess: int, tolerance: float) -> int:
@@ -131,7 +131,7 @@ def _arc(start: complex, end: complex, tangent: complex) -> Move:
     return Move(start, end, start + 1j * tangent / bend, bend < 0)
 
 
-def merged(moves: list[Move]) -> list[Move]:
+def merged_moves(moves: list[Move]) -> list[Move]:
     """The moves, neighbours on one circle joined as far as they make up half a turn."""
     kept = moves[:1]
     for move in moves[1:]:

@@ -17,7 +17,7 @@ import numpy as np
 from graphcam.errors import DesignError
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.words import say
-from graphcam.workshop.biarcs import Move, arcs_along, merged
+from graphcam.workshop.biarcs import Move, arcs_along, merged_moves
 from graphcam.workshop.part_outline import Outline
 
 SAMPLE_COUNTS = 2048, 8192, 32768, 131072, 524288
@@ -70,7 +70,7 @@ def cutter_path(outline: Outline, cutter_radius: float, tolerance: float) -> Cut
         found = [arcs_along(points, tangents, tolerance) for points, tangents in pieces]
         fitted = [piece for piece in found if piece is not None]
         if len(fitted) == len(found):
-            contour = merged([move for moves, _ in fitted for move in moves])
+            contour = merged_moves([move for moves, _ in fitted for move in moves])
             start = contour[0].start
             ways = _lead_moves(start, max(cutter_radius, LEAD_RADIUS_SHARE * abs(start)))
             return CutterPath(contour, *ways, cutter_radius, max(error for _, error in fitted))

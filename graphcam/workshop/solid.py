@@ -32,8 +32,8 @@ class StepFile:
         self._lines: list[str] = []
 
     def add(self, name: str, *values: object) -> str:
-        """Add an entity with these values, as :func:`written` writes them; returns its reference."""
-        return self.add_text(f"{name}({','.join(map(written, values))})")
+        """Add an entity with these values, as :func:`entity_text` writes them; returns its reference."""
+        return self.add_text(f"{name}({','.join(map(entity_text, values))})")
 
     def add_text(self, text: str) -> str:
         """Add an entity that is written out; returns its reference."""
@@ -100,10 +100,10 @@ class StepFile:
         )
 
 
-def written(value: object) -> str:
+def entity_text(value: object) -> str:
     """The text of a value of an entity: references and written-out texts stay, other values follow the standard.
 
-    >>> written([1.0, 2.5e-7]), written(True), written(3), written("#7")
+    >>> entity_text([1.0, 2.5e-7]), entity_text(True), entity_text(3), entity_text("#7")
     ('(1.,2.5E-07)', '.T.', '3', '#7')
     """
     if isinstance(value, str):
@@ -116,7 +116,7 @@ def written(value: object) -> str:
         return real(value)
     assert isinstance(value, Iterable)
     items: Sequence[object] = list(value)
-    return f"({','.join(map(written, items))})"
+    return f"({','.join(map(entity_text, items))})"
 
 
 def real(value: float) -> str:

@@ -14,7 +14,7 @@ import numpy as np
 
 from graphcam.drafting.marks import Points
 from graphcam.drafting.scale import ratio_text
-from graphcam.sheets.labels import lettered, shading_parted
+from graphcam.sheets.labels import lettered_steps, shading_parted
 from graphcam.sheets.mark_entities import Drawn
 from graphcam.sheets.model import Box, Drawing, Entity, Group, Page, Text
 from graphcam.sheets.packing import MESH, Grid, Preference, Room
@@ -193,7 +193,7 @@ def _first_page(contents: PartContents, views: PartLayout, tables: Placed, empty
     for name, entities in called_out(contents, views, lines).items():
         drawn[name][0].extend(entities)
     beside = [*empty.entities, *words, *titles]
-    placed = shading_parted(lettered(list(drawn.values()), beside, sheet.content))
+    placed = shading_parted(lettered_steps(list(drawn.values()), beside, sheet.content))
     groups = [Group(name, entities) for name, entities in zip(drawn, placed, strict=True)]
     origins = {"front": views.front, "section": views.section}
     extra = [Group("titles", tuple(titles)), Group("tables", tuple(words))]

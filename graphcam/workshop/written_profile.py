@@ -7,7 +7,7 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import DesignError, check_kind, nearest, suggestion
+from graphcam.errors import DesignError, check_kind, nearest_word_remedy, suggestion
 from graphcam.files import whole_folder
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.profile_spline import ProfileSpline, profile_spline
@@ -84,7 +84,7 @@ def _part_table(part: dict[str, Any]) -> PartTable:
     for key in part:
         if key not in known:
             found = say("{key} = {part!r}", key=key, part=part[key])
-            raise DesignError("part", found, say("what a table [part] has"), nearest(key, known))
+            raise DesignError("part", found, say("what a table [part] has"), nearest_word_remedy(key, known))
     return PartTable(**part)
 
 

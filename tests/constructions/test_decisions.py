@@ -11,7 +11,7 @@ from boards import SIZES, board_of, coursework, coursework_motion, limits, motio
 
 import graphcam as gc
 from graphcam.constructions.chain import AdoptedSizes, Chain
-from graphcam.constructions.minimum_radius import active
+from graphcam.constructions.minimum_radius import active_boundaries
 from graphcam.drafting.scale import GOST_2_302, Paper
 from graphcam.errors import DesignError
 from graphcam.given.roller_rule import roller_rule
@@ -26,7 +26,7 @@ def region_of(motion, permitted, offset=None, n=N, rotation="ccw"):
 
 
 def names(region) -> set[str]:
-    return {line.name for line in active(region)}
+    return {line.name for line in active_boundaries(region)}
 
 
 # --- the region ------------------------------------------------------------------------------------------------------

@@ -20,15 +20,15 @@ from graphcam.constructions.axes import (
     first_at_height,
     height_names,
     joined_parts,
+    number_labels,
     numbered_stations,
-    numbers,
     part_names,
     phase_symbol,
     phases_below,
     phi_axes,
     station_names,
 )
-from graphcam.constructions.graduation import falling_together, graduated
+from graphcam.constructions.graduation import coinciding_heights, graduation_marks
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import say
 from graphcam.drafting.marks import Arrow, Dimension, Role, Segments
@@ -121,7 +121,7 @@ def test_the_dimensions_of_the_phases_below_the_degrees_add_up_to_the_turn(scale
     ],
 )
 def test_an_ordinate_axis_has_round_values_away_from_the_rays(low, high, per_mm, every, parts, right):
-    strokes, *labels = graduated(np.array([low, high]), per_mm, right)
+    strokes, *labels = graduation_marks(np.array([low, high]), per_mm, right)
     at, out = (0, -1) if right is None else (right, 1)
     assert_allclose(strokes.starts.real, at)
     counts = strokes.starts.imag * per_mm * parts / every
@@ -140,7 +140,7 @@ def test_an_ordinate_axis_has_round_values_away_from_the_rays(low, high, per_mm,
 
 def test_the_ordinates_of_an_arm_are_graduated_in_degrees():
     """15 degrees are 56.25 mm high: every 5 degrees a number, 18.75 mm apart."""
-    _, *labels = graduated(np.array([0.0, 56.25]), math.radians(15) / 56.25, lift_unit="rad")
+    _, *labels = graduation_marks(np.array([0.0, 56.25]), math.radians(15) / 56.25, lift_unit="rad")
     assert [str(label.text) for label in labels] == ["5°", "10°", "15°"]
     assert [label.at.imag for label in labels] == pytest.approx([18.75, 37.5, 56.25])
 
@@ -150,21 +150,21 @@ def test_stations_are_named_at_their_places_in_their_directions_and_know_the_act
     places = np.arange(14) * (10 + 1j)
     towards = np.where(np.arange(14) % 2, 1j, -1j)
     left = hand().given("places", places)
-    labels = numbers(left, stations, towards)
+    labels = number_labels(left, stations, towards)
     names = station_names(stations)
     assert [label.text for label in labels] == names == [*"0123456", *(f"{k}′" for k in range(7))]
     assert_allclose([label.at for label in labels], places)
     assert_allclose([label.towards for label in labels], towards)
     assert all(label.small and label.of is left.act for label in labels)
     shown = np.arange(14) > 3
-    assert [label.text for label in numbers(left, stations, 1j, shown)] == names[4:]
-    assert {label.towards for label in numbers(left, stations, 1j, shown)} == {1j}
+    assert [label.text for label in number_labels(left, stations, 1j, shown)] == names[4:]
+    assert {label.towards for label in number_labels(left, stations, 1j, shown)} == {1j}
 
 
 def test_where_stations_stand_close_every_second_or_third_is_named_and_both_ends_of_a_phase():
     stations = divide(MOTION, 12)
     for apart, every in ((7.0, 1), (3.1, 2), (2.1, 3)):
-        labels = numbers(hand().given("places", np.arange(26) * apart + 0j), stations, 1j)
+        labels = number_labels(hand().given("places", np.arange(26) * apart + 0j), stations, 1j)
         named = [int(str(label.text)) for label in labels if not str(label.text).endswith("′")]
         assert named == [*range(0, 12, every), 12]
         assert min(np.diff(named)) * apart >= 6
@@ -172,7 +172,7 @@ def test_where_stations_stand_close_every_second_or_third_is_named_and_both_ends
 
 def test_heights_that_fall_on_one_another_are_found_together_from_the_lowest():
     heights = hand().given("heights", np.array([3, 1, 3.0001, -2, 1.0]) * 1j)
-    assert [group.tolist() for group in falling_together(heights)] == [[3], [1, 4], [0, 2]]
+    assert [group.tolist() for group in coinciding_heights(heights)] == [[3], [1, 4], [0, 2]]
 
 
 def test_of_equal_heights_the_first_stands_for_all_in_every_sample():

@@ -18,7 +18,7 @@ from graphcam.drafting.euclid import RIGHT
 from graphcam.drafting.hand import Hand, distance_between
 from graphcam.drafting.ink import Construction, Part, Step, View, say
 from graphcam.drafting.marks import Role
-from graphcam.drafting.meaning import Compared, Converges, Meaning, ReadingMeaning
+from graphcam.drafting.meaning import ComparedReading, Meaning, ReadingConvergence, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
 from graphcam.errors import DesignError
 from graphcam.exercises.definition.drawn_answers import drawn_answer, per_mm, with_own_answers
@@ -48,8 +48,8 @@ MEANING = Meaning(
             say("the toy's length"),
             "t",
             "lift/rad",
-            (Compared("toy_length", say("length of the toy"), exact="max_v"),),
-            Converges("length of the toy", "max_v"),
+            (ComparedReading("toy_length", say("length of the toy"), exact="max_v"),),
+            ReadingConvergence("length of the toy", "max_v"),
         )
     },
 )
@@ -168,7 +168,7 @@ def test_the_bench_follows_its_error_over_the_number_of_parts():
 
 
 def test_an_exact_counterpart_that_nobody_computes_is_refused_by_its_name():
-    said = Compared("toy_length", say("length of the toy"), exact="beauty")
+    said = ComparedReading("toy_length", say("length of the toy"), exact="beauty")
     meaning = replace(MEANING, readings={"length": replace(MEANING.readings["length"], compared=(said,))})
     solved = gc.solve(gc.builtin_task())
     wrong = solved.chain.adding(meaning, lambda chain: replace(toy(chain.integration, chain.pencil), meaning=meaning))

@@ -9,7 +9,7 @@ from scipy.optimize import minimize
 
 from graphcam.constructions.region import (
     Boundary,
-    binding,
+    binding_boundaries,
     boundary,
     highest_on,
     nearest_for_many,
@@ -53,7 +53,7 @@ def test_the_nearest_place_is_the_least_distance_over_the_region(a, b, c, first,
     assert all(line.clearance(np.asarray(place)) > -1e-8 for line in lines)
     found = least_distance(lines)
     assert abs(place) == pytest.approx(found, rel=1e-5, abs=1e-5)
-    assert {line.name for line in binding(lines, place)} or abs(place) < 1e-9
+    assert {line.name for line in binding_boundaries(lines, place)} or abs(place) < 1e-9
 
 
 def least_distance(lines: list[Boundary]) -> float:

@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 import graphcam as gc
 from graphcam.constructions.chain import AdoptedSizes, Chain
 from graphcam.constructions.profile_view import piecewise_curve
-from graphcam.drafting.hand import showing
+from graphcam.drafting.hand import errorless_hand
 from graphcam.drafting.marks import Arrow, Line, Role
 from graphcam.drafting.scale import Scale
 from graphcam.given.follower import sense
@@ -244,7 +244,7 @@ def test_a_dwells_arc_is_drawn_from_the_end_that_was_touched(missing):
     touch, nowhere = profile.acts["touch"], np.arange(profile.points["touch"].size)
     radius = abs(profile.points["touch"][12])
     nowhere[missing] = nowhere.size
-    hand = showing(profile)
+    hand = errorless_hand(profile)
     touched = hand.take("touched", touch, hand.given("nowhere", [np.nan]), which=nowhere)
     line = piecewise_curve("profile", profile.givens.inverted, touched).whole.points
     assert np.isfinite(line).all()

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 from graphcam.drafting.acts import Drawn, Kind
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.hand import Hand, calculated, distance_between
+from graphcam.drafting.hand import Hand, calculated_setting, distance_between
 from graphcam.drafting.ink import say
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.drafting.pencil import Pencil
@@ -73,7 +73,9 @@ def test_a_setting_is_the_distance_of_two_places_or_the_signed_way_along_a_direc
     assert_allclose(distance_between(a, b).amount, [5, 5])
     assert_allclose(distance_between(a, b, UP).amount, [-4, 4])
     assert_allclose(distance_between(b, a, RIGHT).amount, [3, -3])
-    assert_allclose(calculated(np.maximum, distance_between(a, b, UP), distance_between(b, a, UP)).amount, [4, 4])
+    assert_allclose(
+        calculated_setting(np.maximum, distance_between(a, b, UP), distance_between(b, a, UP)).amount, [4, 4]
+    )
 
 
 def test_a_reading_is_carried_over_times_its_sample_s_factor():

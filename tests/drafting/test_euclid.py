@@ -13,12 +13,12 @@ from numpy.testing import assert_allclose
 from graphcam.drafting.euclid import (
     READABLE_CROSSING,
     UP,
-    along_to_circle,
     centre_of_circle,
-    circles_meet,
+    circle_crossing,
     foot,
-    meet,
     perpendicular_bisector,
+    ray_to_circle,
+    readable_crossing,
     tangent_of_circle,
     turned_direction,
     unit,
@@ -75,7 +75,7 @@ def test_every_point_of_the_bisector_is_as_far_from_either_end(a, b, t):
 @same_every_time
 @given(points, directions, points, directions)
 def test_the_meeting_point_lies_on_both_lines(p, d, q, e):
-    at = meet(p, d, q, e)
+    at = readable_crossing(p, d, q, e)
     if abs(cross(unit(d), unit(e))) < math.sin(READABLE_CROSSING):
         assert np.isnan(at)
     else:
@@ -86,7 +86,7 @@ def test_the_meeting_point_lies_on_both_lines(p, d, q, e):
 
 def test_lines_that_cross_below_one_degree_have_no_readable_point_and_spoil_no_other():
     crossing = np.radians([-90.0, -1.01, -0.99, 0.0, 0.99, 1.01, 45.0, 179.01, 178.99])
-    at = meet(np.asarray(0j), np.asarray(2 + 0j), np.asarray(3 + 0j), turned_direction(0.5 + 0j, crossing))
+    at = readable_crossing(np.asarray(0j), np.asarray(2 + 0j), np.asarray(3 + 0j), turned_direction(0.5 + 0j, crossing))
     unreadable = [False, False, True, True, True, False, False, True, False]
     assert np.isnan(at).tolist() == unreadable
     assert_allclose(at[~np.array(unreadable)], 3)
@@ -126,14 +126,14 @@ def test_the_tangent_of_three_points_on_a_straight_line_is_the_line():
 @given(points, st.floats(1, BOARD), angles, directions, st.floats(-0.999, 0.999))
 def test_a_ray_leaves_the_circle_on_the_circle_and_on_its_line(centre, radius, angle, d, share):
     p = centre + share * radius * np.exp(1j * angle)  # inside
-    at = along_to_circle(p, d, centre, radius)
+    at = ray_to_circle(p, d, centre, radius)
     assert_allclose(np.abs(at - centre), radius, rtol=1e-12)
     assert abs(cross(unit(d), at - p)) < ROUNDING
     assert dot(d, at - p) > 0
 
 
 def test_a_line_that_misses_the_circle_is_a_miss_in_that_element_alone():
-    at = along_to_circle(np.array([4.0, 5.0, 5.1]) + 0j, np.asarray(1j), 0j, 5.0)
+    at = ray_to_circle(np.array([4.0, 5.0, 5.1]) + 0j, np.asarray(1j), 0j, 5.0)
     assert_allclose(at[:2], [4 + 3j, 5])
     assert np.isnan(at[2])
 
@@ -144,7 +144,7 @@ def test_two_circles_meet_on_both_and_to_the_left_of_the_way_between_their_centr
     """Euclid I.1 and III.10."""
     distance = abs(q - p)
     assume(distance == 0 or distance > ROUNDING)
-    at = circles_meet(p, radius_p, q, radius_q)
+    at = circle_crossing(p, radius_p, q, radius_q)
     if np.isnan(at):  # apart, one inside the other, or hardly crossing
         sine = crossing_sine(float(distance), radius_p, radius_q)
         assert sine < math.sin(READABLE_CROSSING) * (1 + 1e-6)
@@ -164,5 +164,5 @@ def test_a_line_that_almost_touches_the_circle_keeps_its_digits(gap):
     radius, distance = 50.0, 50.0 * (1 - gap)
     with mp.workdps(40):
         half_chord = float(mp.sqrt(mpf(radius) ** 2 - mpf(distance) ** 2))
-    at = along_to_circle(np.asarray(distance + 0j), np.asarray(UP), 0j, radius)
+    at = ray_to_circle(np.asarray(distance + 0j), np.asarray(UP), 0j, radius)
     assert float(at.imag) == pytest.approx(half_chord, rel=1e-15)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from numpy.testing import assert_allclose
 
-from graphcam.drafting.curve import faired, farthest_in, farthest_point
+from graphcam.drafting.curve import faired_line, farthest_on_pieces, farthest_point
 from graphcam.drafting.euclid import UP, turned_direction
 from graphcam.plane_vectors import dot
 
@@ -51,7 +51,7 @@ def test_nothing_is_read_across_a_corner():
     x = np.arange(9.0)
     roof = x + UP * np.where(x <= 4, 0.2 * x**2, 3.2 - 0.3 * (x - 4))
     pieces = [slice(0, 5), slice(4, 9)]
-    assert farthest_in(roof, pieces, UP) == roof[4]
+    assert farthest_on_pieces(roof, pieces, UP) == roof[4]
     assert abs(farthest_point(roof, UP) - roof[4]) > 0.01  # a curve faired over the corner would reach elsewhere
 
 
@@ -60,7 +60,7 @@ def test_the_farthest_of_pieces_is_farther_than_each():
     curve = x + UP * np.sin(2 * x)
     pieces = [slice(0, 4), slice(3, 10)]
     direction = turned_direction(UP, 0.3)
-    best = farthest_in(curve, pieces, direction)
+    best = farthest_on_pieces(curve, pieces, direction)
     reach = [float(dot(direction, farthest_point(curve[piece], direction))) for piece in pieces]
     assert float(dot(direction, best)) == max(reach)
 
@@ -101,14 +101,14 @@ def test_a_point_that_is_missing_spoils_its_own_sample_only():
 def test_two_points_are_their_own_curve():
     pair = np.array([0j, 1 + 2j])
     assert farthest_point(pair, UP) == 1 + 2j
-    assert faired(pair).tolist() == pair.tolist()
+    assert faired_line(pair).tolist() == pair.tolist()
 
 
 @pytest.mark.parametrize("between", [1, 2, 8])
 def test_the_faired_line_passes_through_its_points(between):
     random = np.random.default_rng(5)
     points = np.cumsum(random.uniform(1, 3, 9)) + UP * random.normal(0, 4, 9)
-    line = faired(points, between)
+    line = faired_line(points, between)
     assert line.size == (points.size - 1) * between + 1
     assert_allclose(line[::between], points, atol=1e-13)
 
@@ -116,12 +116,12 @@ def test_the_faired_line_passes_through_its_points(between):
 @pytest.mark.parametrize("count", [3, 4, 7])
 def test_the_faired_line_of_a_parabola_is_the_parabola(count):
     x = np.arange(count) - 1.3
-    line = faired(x + UP * (0.4 * x**2 - x + 2))
+    line = faired_line(x + UP * (0.4 * x**2 - x + 2))
     assert_allclose(line.imag, 0.4 * line.real**2 - line.real + 2, atol=1e-13)
 
 
 def test_the_faired_line_has_no_corner():
     x = np.linspace(0, 4, 9)
-    line = faired(x + UP * np.sin(x), between=400)
+    line = faired_line(x + UP * np.sin(x), between=400)
     turns = np.abs(np.angle(np.diff(line)[1:] / np.diff(line)[:-1]))
     assert turns.max() < 0.005  # a corner of the polygon turns by 0.25

@@ -14,7 +14,7 @@ from graphcam.drafting.scale import (
     Paper,
     Ratios,
     Scale,
-    coarsest,
+    coarsest_scale,
     ratio_text,
     standard_scale,
 )
@@ -68,7 +68,7 @@ def test_a_view_fits_its_paper_both_ways():
     assert [paper.scale(size).per_mm for size in (40 + 20j, 40 + 40j, 60 + 1j)] == [0.4, 1.0, 1.0]
     # What stands beside it takes room, and does not grow.
     assert paper.scale(40 + 20j, beside=30 + 5j).per_mm == 1.0
-    assert coarsest(Scale(2, "mm"), Scale(5, "mm"), Scale(0.1, "mm")).per_mm == 5
+    assert coarsest_scale(Scale(2, "mm"), Scale(5, "mm"), Scale(0.1, "mm")).per_mm == 5
 
 
 @pytest.mark.parametrize("size", [1.5e5, 3e6, 1e9])

@@ -13,7 +13,7 @@ from hand import Rng, even
 from printed_courses import Course
 
 from graphcam.constructions.chain import Chain
-from graphcam.drafting.curve import faired
+from graphcam.drafting.curve import faired_line
 from graphcam.errors import GraphcamError
 from graphcam.exercises.definition.drawn_answers import board_chain, drawn_answer
 from graphcam.exercises.definition.exercise import AskedAnswer
@@ -75,7 +75,7 @@ def closed_line(chain: Chain, asked: AskedAnswer) -> Points:
     at = 0
     for k, span in enumerate(stations.phases):
         phase = plotted[span]
-        found.append(faired(phase, between=BETWEEN))
+        found.append(faired_line(phase, between=BETWEEN))
         at += phase.size
         following = plotted[stations.phases[(k + 1) % len(stations.phases)]][0]
         arc = [phase[-1]]

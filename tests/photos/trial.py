@@ -32,7 +32,7 @@ from scenes import scene_of
 from two_sheets import tiles_measured
 
 import graphcam
-from graphcam.workers import executor_of, in_order
+from graphcam.workers import executor_of, ordered_results
 
 SEED = 18
 """Of the record in the repository; the tests take another."""
@@ -61,7 +61,7 @@ def run(
     left = [number for number in numbers if number not in done]
     job = partial(photograph, seed=seed, scratch=scratch)
     with executor_of(workers) as executor, journal.open("a", encoding="utf-8") as file:
-        for record in in_order(executor, job, left, ahead=2 * workers):
+        for record in ordered_results(executor, job, left, ahead=2 * workers):
             done[record["number"]] = record
             # On a line of its own, whatever an interrupted run left.
             file.write(f"\n{json.dumps({'seed': seed} | record)}\n")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import graphcam as gc
-from graphcam.showing import MAX_LINES, Plottable, from_above, in_lines
+from graphcam.showing import MAX_LINES, Plottable, higher_function, value_text
 from graphcam.solving.spring_design import SpringDesign
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -97,7 +97,7 @@ def test_a_solution_is_told_without_drawing_it():
 
 
 def test_many_rows_are_cut_short():
-    lines = in_lines("many", map(str, range(20)), "go on").splitlines()
+    lines = value_text("many", map(str, range(20)), "go on").splitlines()
     assert len(lines) == MAX_LINES
     assert lines[-2:] == ["  and 15 more", "go on"]
 
@@ -150,4 +150,4 @@ def test_functions_of_rooms_above_are_there():
         "motion_curves.plot", "motion_curves.plot_bands", "response_curves.plot", "response_curves.plot_spectrum",
     }  # fmt: skip
     for function in named | {f"plots.{function}" for function in drawn}:
-        assert callable(from_above(function))
+        assert callable(higher_function(function))

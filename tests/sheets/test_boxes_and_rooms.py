@@ -15,9 +15,9 @@ from graphcam.sheets.packing import (
     prefer_bottom_left,
     prefer_bottom_right,
     prefer_high,
+    prefer_top,
     prefer_top_left,
     prefer_top_right,
-    top,
 )
 
 WHOLE = st.integers(0, 6)
@@ -177,7 +177,7 @@ GRID_X, GRID_Y = (grid.ravel().astype(float) for grid in np.meshgrid(np.arange(7
         (prefer_bottom_right, (6, 0), (6, 1)),
         (prefer_high, (0, 4), (1, 4)),
         (at_left, (0, 2), (0, 1)),
-        (top, (3, 4), (2, 4)),
+        (prefer_top, (3, 4), (2, 4)),
         (middle, (3, 2), (3, 1)),
         (least_weighted(-1, -2), (6, 4), (5, 4)),
     ],
@@ -196,7 +196,7 @@ def test_preferences_take_first_and_next_what_they_say(preference, first, second
             (prefer_high, GRID_Y == 4),
             (prefer_top_right, GRID_Y == 4),
         ],
-        *[(prefer_bottom_left, GRID_Y == 0), (top, GRID_Y == 4)],
+        *[(prefer_bottom_left, GRID_Y == 0), (prefer_top, GRID_Y == 4)],
     ],
 )
 def test_an_edge_is_taken_from_end_to_end_before_the_next_cells(preference, edge):

@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from graphcam.sheets.label_candidates import LabelText, label_along, label_around, label_over, outside, unit
+from graphcam.sheets.label_candidates import LabelText, label_along, label_along_arc, label_around, label_over, unit
 from graphcam.sheets.model import Length
 from graphcam.sheets.sampling import corners
 from graphcam.sheets.text_measures import extent, points_size, width, wrap
@@ -145,7 +145,7 @@ def test_a_text_longer_than_its_line_stands_over_or_under_its_middle_or_clear_of
 
 @pytest.mark.parametrize(("start", "end"), [(0.2, 1.4), (2.0, 4.0), (-1.0, 0.5)])
 def test_the_text_of_an_angle_stands_outside_its_arc_before_inside(start, end):
-    writing = outside(10 + 5j, 40.0, start, end, TEXT, HEIGHT)
+    writing = label_along_arc(10 + 5j, 40.0, start, end, TEXT, HEIGHT)
     assert writing.bound
     assert not writing.angles.any()
     away = writing.centres[:14] - (10 + 5j)

@@ -10,7 +10,7 @@ import pytest
 
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dimension, Dots, Label, Line, Mark, Role, Segments
 from graphcam.sheets.formats import Lettering
-from graphcam.sheets.label_candidates import LabelText, label_along, label_around, label_over, outside
+from graphcam.sheets.label_candidates import LabelText, label_along, label_along_arc, label_around, label_over
 from graphcam.sheets.mark_entities import Placement, arrow, expand, head
 from graphcam.sheets.model import Angle, ArcEntity, ArrowHeads, Circles, Curve, Entity, Length, Stroke, Strokes
 from graphcam.sheets.styles import STYLES_BY_ROLE
@@ -218,7 +218,7 @@ def test_an_angle_is_drawn_between_its_directions(start, end):
         pytest.approx(centre + cmath.rect(20.0, 1.5)),
         pytest.approx(1j * cmath.rect(1.0, 1.5 - half)),
     )
-    assert same(text, outside(centre, 20.0, 0.3, 1.5, "69°", 3.5))
+    assert same(text, label_along_arc(centre, 20.0, 0.3, 1.5, "69°", 3.5))
     assert isinstance(text.of, Angle)
     assert (text.of.centre, text.of.radius, text.of.start, text.of.end) == (centre, 20.0, 0.3, 1.5)
     assert text.of.lines == (arc, first, second)

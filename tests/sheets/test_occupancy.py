@@ -8,7 +8,7 @@ from overlaps import place
 
 from graphcam.drafting.marks import Role
 from graphcam.sheets.label_candidates import LabelText, label_around
-from graphcam.sheets.labels import Occupancy, lettered, shading_parted
+from graphcam.sheets.labels import Occupancy, lettered_steps, shading_parted
 from graphcam.sheets.model import ArrowHeads, Box, Circles, Stroke, Strokes, Text
 from graphcam.sheets.sampling import corners
 
@@ -162,7 +162,7 @@ def test_the_texts_of_steps_keep_off_all_steps_and_come_back_to_their_own():
     wall = Stroke(np.array([12 + 36j, 58 + 36j]), Role.RESULT)
     steps = [([], [label_around(30 + 35j, "first", 3.5, 1j)]), ([wall], [label_around(45 + 35j, "second", 3.5, 1j)])]
     table = Strokes(np.array([12 + 33j]), np.array([40 + 33j]), Role.RESULT)
-    first, second = lettered(steps, [table], FRAME)
+    first, second = lettered_steps(steps, [table], FRAME)
     assert [e.text for e in first if isinstance(e, Text)] == ["first"]
     assert second[0] is wall
     assert [e.text for e in second if isinstance(e, Text)] == ["second"]

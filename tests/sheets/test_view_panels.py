@@ -14,7 +14,7 @@ from graphcam.sheets.formats import Format, Lettering
 from graphcam.sheets.model import Box
 from graphcam.sheets.sampling import box_of, pieces, sampled
 from graphcam.sheets.text_measures import extent, width
-from graphcam.sheets.view_panels import Panel, are_disjoint, clusters, panels, shares, stand
+from graphcam.sheets.view_panels import Panel, are_disjoint, clusters, panel_origins, panels, shares
 
 LETTERS = Lettering(5.0, 3.5, 2.5)
 STAR = 40 * (1 + 0.5 * (-1) ** np.arange(12)) * np.exp(2j * np.pi * np.arange(12) / 12)
@@ -220,7 +220,7 @@ def test_views_on_one_axis_stand_in_columns_and_rows_a_gap_apart():
     axes = {"a": ("phi", "a"), "v": ("phi", "v"), "s": ("phi", "s"), "d": ("e", "s")}
     group = [named(name, *axes[name], marks[name]) for name in "avsd"]
     for gap in (4.0, 12.0, -2.0):
-        a, v, s, d = origins = stand(group, gap)
+        a, v, s, d = origins = panel_origins(group, gap)
         boxes = [p.box.moved(origin) for p, origin in zip(group, origins, strict=True)]
         assert (a.real, a.imag, v.real, s.real) == (0, 0, 0, 0)
         assert d.imag == s.imag

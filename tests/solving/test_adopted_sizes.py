@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import graphcam as gc
-from graphcam.constructions.angle_diagram import inside
+from graphcam.constructions.angle_diagram import inner_maximum
 from graphcam.errors import DesignError, TaskError
 from graphcam.report.documents import sheet_of
 from graphcam.report.note import note
@@ -246,7 +246,7 @@ def test_the_maximum_inside_the_rise_is_shown_beside_a_larger_angle_in_the_dwell
     )
     solution = gc.solve(task)
     plotted = solution.drawn["angle_diagram"]
-    other = inside(plotted, "rise")
+    other = inner_maximum(plotted, "rise")
     assert other is not None
     assert np.degrees(float(plotted.value("max_rise"))) < 0, "the reading is what it was"
     highest = np.degrees(solution.cam.pressure_angle(np.radians(np.linspace(0, 110, 11_001)))).max()
@@ -260,7 +260,7 @@ def test_the_maximum_inside_the_rise_is_shown_beside_a_larger_angle_in_the_dwell
 @pytest.mark.parametrize("name", ["coursework", "arm", "measured"])
 def test_no_second_maximum_is_told_where_the_farthest_point_is_inside(name):
     plotted = gc.solve(gc.builtin_task(name)).drawn["angle_diagram"]
-    assert [inside(plotted, phase) for phase in ("rise", "return")] == [None, None]
+    assert [inner_maximum(plotted, phase) for phase in ("rise", "return")] == [None, None]
 
 
 @pytest.mark.parametrize(("rotation", "sign"), [("ccw", 1), ("cw", -1)])

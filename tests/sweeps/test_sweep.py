@@ -20,7 +20,7 @@ from graphcam.mechanism.turn_extremes import max_acceleration, max_velocity
 from graphcam.sweeps import sweep_quantities as asked
 from graphcam.sweeps.sweep import CHUNKS_PER_JOB, JOBS_AHEAD
 from graphcam.sweeps.sweep_quantities import QUANTITIES
-from graphcam.workers import in_order
+from graphcam.workers import ordered_results
 
 SAME = 1e-13
 """The relative error that a sweep may have."""
@@ -205,7 +205,7 @@ class AtOnce(Executor):
 def test_results_that_nobody_has_taken_yet_are_bounded():
     """What takes results, as a file does, may be slower than what makes them."""
     executor = AtOnce()
-    ahead = [executor.done - taken for taken, _ in enumerate(in_order(executor, abs, range(500), ahead=7))]
+    ahead = [executor.done - taken for taken, _ in enumerate(ordered_results(executor, abs, range(500), ahead=7))]
     assert (len(ahead), max(ahead), executor.done) == (500, 7, 500)
 
 
@@ -213,11 +213,11 @@ def test_a_sweep_keeps_to_its_own_bound(monkeypatch):
     executor, ahead = AtOnce(), []
 
     def watched(*given) -> Iterator[object]:
-        for taken, found in enumerate(in_order(*given)):
+        for taken, found in enumerate(ordered_results(*given)):
             ahead.append(executor.done - taken)
             yield found
 
-    monkeypatch.setattr("graphcam.sweeps.sweep.in_order", watched)
+    monkeypatch.setattr("graphcam.sweeps.sweep.ordered_results", watched)
     designs = some_designs(3 * JOBS_AHEAD * CHUNKS_PER_JOB)
     assert same_bits(gc.sweep(designs), gc.sweep(designs, executor=executor, chunk=1))
     assert (max(ahead), executor.done) == (JOBS_AHEAD, 3 * JOBS_AHEAD)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from graphcam.errors import MissingFileError, TaskError, unreadable
+from graphcam.errors import MissingFileError, TaskError, unreadable_error
 from graphcam.exercises.course.roster import Student, folder_name, is_shortened, read_roster, student_of
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise, library
@@ -287,7 +287,7 @@ def read_secret(path: str | Path) -> bytes:
         secret = Path(path).read_bytes().strip()
     except (OSError, ValueError) as error:
         remedy = say("name the file with the secret that the course was made with")
-        raise unreadable(path, say("the secret"), say("a file that only you can read"), error, remedy) from None
+        raise unreadable_error(path, say("the secret"), say("a file that only you can read"), error, remedy) from None
     if not secret:
         remedy = say("write one into the file and keep it")
         raise TaskError(str(path), say("the secret"), say("empty"), say("a long random text"), remedy)

@@ -41,7 +41,7 @@ from graphcam.language import languages
 from graphcam.photo.printed_page import Ink
 from graphcam.tasks.sheet_tables import check_choice
 from graphcam.words import Words, say
-from graphcam.workers import executor_of, in_order
+from graphcam.workers import executor_of, ordered_results
 
 WIDE_TOLERANCE_SHARE = 0.1
 """A tolerance is wide that exceeds this part of the value."""
@@ -152,7 +152,7 @@ def make(
         answer_keys: list[AnswerKey] = []
         variants = course_variants(exercise, (student.id for student in students), secret, executor)
         jobs = zip(students, variants, strict=True)
-        for text, files in in_order(
+        for text, files in ordered_results(
             executor, partial(papers, marks=Marks(secret, paper, ink) if paper else None), jobs
         ):
             answer_keys.append(AnswerKey.from_json(text))

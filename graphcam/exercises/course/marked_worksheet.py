@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import AXIS_OVERHANG, ordinate
+from graphcam.constructions.axes import AXIS_OVERHANG, ordinate_title
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.views import PROFILE, at_scale
 from graphcam.drafting.marks import Mark, Points
@@ -37,7 +37,7 @@ from graphcam.exercises.definition.exercise import Diagram, Exercise
 from graphcam.exercises.definition.variant import Variant
 from graphcam.photo.printed_page import Edges, Ink, PrintedPage, PrintedView
 from graphcam.sheets.formats import Format, Lettering
-from graphcam.sheets.labels import lettered
+from graphcam.sheets.labels import lettered_steps
 from graphcam.sheets.mark_entities import Placement, expand
 from graphcam.sheets.marked_paper import BAR_ROOM, MARKED_PAPERS, PATCH_SIDE, TITLE_ROOM, MarkedPaper, in_tiles
 from graphcam.sheets.model import (
@@ -122,7 +122,7 @@ def _diagram(exercise: Exercise, chain: Chain, name: Diagram, tell: Tell) -> Mar
     mu_phi = chain.board.mu_phi
     turn = 2 * np.pi / mu_phi.per_mm
     room = Box(-before, low, turn + AXIS_OVERHANG + AXIS_TIP_MARGIN, high)
-    unit = ordinate(AXES_ROOM[name][0], chain.board.follower.unit)
+    unit = ordinate_title(AXES_ROOM[name][0], chain.board.follower.unit)
     title = tell(say("{title}: {unit}", title=view.title, unit=unit))
     return MarkedView(view.name, room, marks, title, _scale_text(mu_phi, tell), turn)
 
@@ -377,5 +377,5 @@ class _PageMaker:
         """The light lines of a view, with their texts in its room."""
         tell = self.variant.exercise.tell
         drawn = expand(placed.view.marks, Placement(placed.origin), self.lettering, tell)
-        entities = lettered([drawn], [], placed.room)[0]
+        entities = lettered_steps([drawn], [], placed.room)[0]
         return [replace(entity, role=LIGHT_ROLES[self.ink]) for entity in entities]

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from pathlib import Path
 
-from graphcam.errors import TaskError, unreadable
+from graphcam.errors import TaskError, unreadable_error
 from graphcam.words import Words, say
 
 FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
@@ -86,7 +86,7 @@ def read_table(path: str | Path, what: Words) -> list[tuple[int, list[str]]]:
         found = say("not in UTF-8")
         raise TaskError(str(path), what, found, say("a CSV file in UTF-8"), say("save it as UTF-8")) from None
     except (OSError, ValueError) as error:
-        raise unreadable(path, what, say("a CSV file"), error) from None
+        raise unreadable_error(path, what, say("a CSV file"), error) from None
     first = text.partition("\n")[0]
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=";" if first.count(";") > first.count(",") else ",")
     try:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.errors import unreadable
+from graphcam.errors import unreadable_error
 from graphcam.exercises.course.course_folder import AnswerKeys
 from graphcam.exercises.course.recognition import Recognition
 from graphcam.exercises.course.roster import read_roster
@@ -137,7 +137,7 @@ def _names(folder: Path, known: Callable[[str], bool], *, lms: bool) -> list[str
         with os.scandir(folder) as entries:
             listed = [(entry.name, entry.is_file(follow_symlinks=False)) for entry in entries]
     except OSError as error:
-        raise unreadable(folder, say("the folder"), say("one with a folder for every student"), error) from None
+        raise unreadable_error(folder, say("the folder"), say("one with a folder for every student"), error) from None
     return sorted(
         name
         for name, plain in listed

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from graphcam.constructions.axes import AXIS_OVERHANG, axes_over_phi, ordinate, phase_ends, phi_axes
+from graphcam.constructions.axes import AXIS_OVERHANG, axes_over_phi, ordinate_title, phase_ends, phi_axes
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.differentiation import DIAGRAM_VIEWS
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
@@ -55,7 +55,7 @@ def empty_axes(exercise: Exercise, chain: Chain, name: Diagram) -> Step:
     (symbol, view, *_), (low, high) = AXES_ROOM[name], reach_of(exercise, name)
     # Under the measured diagram, which has a cam angle of its own.
     view = DIAGRAM_VIEWS[symbol] if "differentiation" in exercise.sheet else view
-    named = ordinate(symbol, chain.board.follower.unit)
+    named = ordinate_title(symbol, chain.board.follower.unit)
     axes = phi_axes(chain.board.motion, chain.board.mu_phi, np.array([low, high]), named)
     pole = () if name == "displacement" else (Line(np.array([-POLE_ROOM, 0]) + 0j, Role.CONSTRUCTION),)
     return Step(view.title, (), view, (*axes, *pole))

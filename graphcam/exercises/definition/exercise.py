@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from graphcam.drafting.marks import Points
 from graphcam.drafting.scale import UNITS
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, nearest_word_remedy
 from graphcam.exercises.definition.marked_formats import PAPER_NAMES
 from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.exercises.definition.student_hands import HandTable
@@ -209,7 +209,7 @@ class Exercise:
         named += [("alike", name) for pair in self.alike for name in pair]
         for where, name in named:
             if name not in self.misconceptions:
-                remedy = nearest(name, self.misconceptions) if self.misconceptions else say("list it there")
+                remedy = nearest_word_remedy(name, self.misconceptions) if self.misconceptions else say("list it there")
                 raise DesignError(where, name, say("one of the misconceptions of this exercise"), remedy)
 
     @property

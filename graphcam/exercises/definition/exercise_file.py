@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.constructions.chain import Chain
-from graphcam.errors import DesignError, TaskError, nearest, suggestion
+from graphcam.errors import DesignError, TaskError, nearest_word_remedy, suggestion
 from graphcam.exercises.definition.blank_axes import empty_axes
 from graphcam.exercises.definition.drawn_answers import board_chain, construction_of, drawn_answer
 from graphcam.exercises.definition.exercise import AskedAnswer, Exercise, Parameter
@@ -96,7 +96,7 @@ def exercise_path(name: str) -> Path:
         return Path(name)
     if name not in library():
         known = say("one that 'graphcam exercise list' names")
-        raise TaskError(name, say("the exercise"), say("unknown"), known, nearest(name, library()))
+        raise TaskError(name, say("the exercise"), say("unknown"), known, nearest_word_remedy(name, library()))
     return _folder() / f"{name}.toml"
 
 

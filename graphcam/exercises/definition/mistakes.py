@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from graphcam.constructions.law_names import LAW_TITLES
 from graphcam.drafting.ink import Caption
-from graphcam.errors import DesignError, nearest
+from graphcam.errors import DesignError, nearest_word_remedy
 
 # Both enter their mistakes as they are imported.
 from graphcam.exercises.definition import cam_mistakes as cam_mistakes, diagram_mistakes as diagram_mistakes
@@ -41,7 +41,7 @@ def misconception(name: str) -> Misconception:
     """
     key, _, argument = (part.strip() for part in name.partition(":"))
     if key not in CATALOGUE:
-        raise DesignError("misconception", key, say("one of the catalogue"), nearest(key, CATALOGUE))
+        raise DesignError("misconception", key, say("one of the catalogue"), nearest_word_remedy(key, CATALOGUE))
     entry = CATALOGUE[key]
     if bool(argument) != bool(entry.takes):
         wanted = (

@@ -15,7 +15,7 @@ import numpy as np
 from graphcam.drafting.acts import Floats, Kind
 from graphcam.drafting.pencil import Pencil, Stream
 from graphcam.drafting.slips import SLIPS
-from graphcam.errors import DesignError, among
+from graphcam.errors import DesignError, choice_limit
 from graphcam.words import say
 
 
@@ -148,7 +148,7 @@ class HandTable:
 
     def __post_init__(self) -> None:
         if self.name not in HANDS:
-            raise DesignError("hand.name", self.name, *among(self.name, HANDS))
+            raise DesignError("hand.name", self.name, *choice_limit(self.name, HANDS))
         for field, said in self._own.items():
             least, greatest = said if isinstance(said, tuple) else (said, said)
             if not 0 <= least <= greatest < math.inf:

@@ -12,7 +12,7 @@ from typing import Any
 
 from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.law_names import LAW_TITLES
-from graphcam.errors import TaskError, nearest
+from graphcam.errors import TaskError, nearest_word_remedy
 from graphcam.exercises.definition.exercise import Exercise, Value
 from graphcam.exercises.definition.marked_scale import MarkedDrawing
 from graphcam.tasks.task import Task
@@ -66,7 +66,7 @@ def _filled_template(node: Any, parameters: Mapping[str, Value], path: str) -> A
         return node
     sign, name = place.groups()
     if name not in parameters:
-        raise TaskError(path, "task", node, say("a parameter in braces"), nearest(name, parameters))
+        raise TaskError(path, "task", node, say("a parameter in braces"), nearest_word_remedy(name, parameters))
     value = parameters[name]
     return -value if sign and not isinstance(value, str) else value
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.constructions.chain import Chain
-from graphcam.drafting.curve import faired
+from graphcam.drafting.curve import faired_line
 from graphcam.drafting.marks import Points
 from graphcam.drafting.slips import UNIFORM_DEVIATION
 from graphcam.exercises.definition.drawn_answers import construction_of, drawn_answer, is_length, per_mm
@@ -177,7 +177,7 @@ def bulges(chain: Chain, asked: AskedAnswer) -> Floats:
     for piece in stations.pieces:
         plotted = points[piece]
         # Of two points alone the second comes back, which lies on the chord as well.
-        middle = faired(plotted, between=2)[1::2]
+        middle = faired_line(plotted, between=2)[1::2]
         found[piece.start : piece.stop - 1] = _bulges_of_parts(plotted[:-1], middle, plotted[1:])
     if not _is_closed(chain, asked, points):
         return found[:-1]

@@ -11,7 +11,7 @@ from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.key_making import MAX_COINCIDENCE_SHARE, issue
 from graphcam.exercises.marking.marking import mark
-from graphcam.workers import in_order
+from graphcam.workers import ordered_results
 
 GROUP_SIZE = 40
 """Students who sit together.  In a simulation of so many every one is marked by every other's key."""
@@ -37,7 +37,7 @@ def course_variants(
     """
     before: deque[AnswerKey] = deque(maxlen=GROUP_SIZE)
     names = list(students)
-    first = in_order(executor, partial(_first_variant, exercise, secret), names)
+    first = ordered_results(executor, partial(_first_variant, exercise, secret), names)
     for student, (variant, answer_key) in zip(names, first, strict=True):
         for _ in range(MAX_REDRAWS):
             if not any(too_near(exercise, answer_key, other) for other in before):

@@ -26,7 +26,7 @@ from graphcam.exercises.marking.course_variants import GROUP_SIZE, course_varian
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Diagnosis
 from graphcam.given.laws import DWELL_TO_DWELL_LAWS
-from graphcam.workers import executor_of, in_order
+from graphcam.workers import executor_of, ordered_results
 
 
 def unlisted_names(exercise: Exercise) -> list[str]:
@@ -298,7 +298,7 @@ def simulate(
     done: list[tuple[AnswerKey, Answers]] = []
     with executor_of(workers, cluster) as executor:
         course = course_variants(exercise, (f"student {k}" for k in range(variants)), secret, executor)
-        counted = in_order(executor, partial(_counted_attempt, exercise, hands), enumerate(course))
+        counted = ordered_results(executor, partial(_counted_attempt, exercise, hands), enumerate(course))
         for k, (draw, of_variant, careful_work) in enumerate(counted, 1):
             issued[draw] += 1
             whole.add(of_variant)

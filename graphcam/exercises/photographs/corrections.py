@@ -17,7 +17,7 @@ from graphcam.exercises.photographs.read_photo import pairs
 from graphcam.exercises.reading.answer_values import Points, number, points
 from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
 from graphcam.files import whole_file
-from graphcam.words import Words, bare, say
+from graphcam.words import Words, bare_caption, say
 
 FORMAT_VERSION = 1
 CORRECTIONS_FILE = "photo-corrections.json"
@@ -153,7 +153,7 @@ class _Reader:
         if isinstance(value, str):
             return TaskError(self.path, where, value[:60], allowed, EXPORT_REMEDY)
         shown = f"{value}"[:60] if isinstance(value, int | float | None) else f"a {type(value).__name__}"
-        return TaskError(self.path, where, bare(shown), allowed, EXPORT_REMEDY)
+        return TaskError(self.path, where, bare_caption(shown), allowed, EXPORT_REMEDY)
 
     def table(self, where: Words, said: Any, names: set[str] | None = None) -> dict[str, Any]:
         """A table, with exactly these names if they are given."""

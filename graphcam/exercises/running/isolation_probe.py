@@ -10,7 +10,7 @@ from pathlib import Path
 
 from graphcam.errors import GraphcamError
 from graphcam.exercises.running.isolation_levels import MEBIBYTE, Level, ResourceLimits
-from graphcam.words import Caption, Words, chained, say
+from graphcam.words import Caption, Words, and_chain, say
 
 PROBE_LIMITS = ResourceLimits(seconds=20.0, memory=512 * MEBIBYTE, processes=8)
 ESCAPE_ATTEMPTS = """
@@ -132,4 +132,4 @@ def _broken_limits(level: Level) -> Words:
     except (ValueError, KeyError):
         last = ended.text.strip().splitlines()[-1:] or [f"status {ended.status}"]
         return say("a program in it does not run ({last})", last=last[0])
-    return say("code in it reaches {names}", names=chained(broken)) if broken else ""
+    return say("code in it reaches {names}", names=and_chain(broken)) if broken else ""
