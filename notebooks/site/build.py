@@ -95,19 +95,7 @@ def build(
         write_reference(source / "reference")
         write_shown(out)
         return build_main(
-            [
-                "-q",
-                "-W",
-                "--keep-going",
-                "-b",
-                "html",
-                "-c",
-                str(HERE),
-                "-d",
-                f"{folder}/doctrees",
-                str(source),
-                str(out),
-            ]
+            ["-q", "-W", "--keep-going", "-b", "html", "-c", str(HERE), "-d", f"{folder}/doctrees", str(source), str(out)]
         )
 
 
@@ -177,9 +165,7 @@ def entry(name: str) -> str:
     thing = getattr(gc, name)
     if isinstance(thing, ModuleType):
         # A room that can be called: what it does then is told by its function.
-        return (
-            f'<span id="graphcam.{name}"></span>\n\n```{{eval-rst}}\n.. autofunction:: graphcam.{name}.open_{name}\n```'
-        )
+        return f'<span id="graphcam.{name}"></span>\n\n```{{eval-rst}}\n.. autofunction:: graphcam.{name}.open_{name}\n```'
     if not callable(thing):
         return f"```{{py:data}} graphcam.{name}\n\n`{thing}`\n```"
     options = ":members:\n" if isinstance(thing, type) else ""
@@ -213,9 +199,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description="Build the site.")
     parser.add_argument("--out", type=Path, default=Path("build/site"), help="folder for the site")
     ways = parser.add_mutually_exclusive_group()
-    ways.add_argument(
-        "--no-execute", action="store_true", help="notebooks without outputs, no sheets: for a quick look"
-    )
+    ways.add_argument("--no-execute", action="store_true", help="notebooks without outputs, no sheets: for a quick look")
     ways.add_argument("--executed", type=Path, metavar="DIR", help="folder of the notebooks, executed before (.ipynb)")
     pyodide = "folder with Pyodide and NumPy: the site has the studio, and every notebook a link into it"
     parser.add_argument("--pyodide", type=Path, metavar="DIR", help=pyodide)

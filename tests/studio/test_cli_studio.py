@@ -124,9 +124,9 @@ def test_wrong_input_is_one_message_and_status_2(opened, tmp_path, words, messag
 
 def test_the_studio_without_a_server_is_written_with_its_task(opened, tmp_path, monkeypatch):
     written = []
-    for module, name in (("one_file", "write_one_file"), ("site_folder", "write_site")):
+    for name in ("write_one_file", "write_site"):
         monkeypatch.setattr(
-            f"graphcam.studio.{module}.{name}", lambda *given, name=name: written.append((name, *given))
+            f"graphcam.studio.worker_page.{name}", lambda *given, name=name: written.append((name, *given))
         )
     for option, place in (("--html", "s.html"), ("--site", "s")):
         result, addresses = opened(option, place, "--pyodide", "p", "--language", "ru")
