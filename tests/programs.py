@@ -13,14 +13,14 @@ from typing import NoReturn
 
 import pytest
 
-from graphcam.sheets.model import ArrowHeads, Circles, Entity, Strokes, Text
+from graphcam.sheets.model import Circles, Entity, Heads, Strokes, Text
 from graphcam.sheets.text_measures import letters_of
 
 
 def count(entity: Entity) -> int:
     """How many entities of a CAD program the entity makes."""
     match entity:
-        case Strokes(starts=items) | Circles(centres=items) | ArrowHeads(corners=items):
+        case Strokes(starts=items) | Circles(centres=items) | Heads(corners=items):
             return len(items)
         case Text():
             return len(letters_of(entity.text, entity.height))

@@ -12,7 +12,7 @@ from graphcam.drafting import marks
 from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.label_candidates import LabelText, label_along, label_along_arc, label_around, label_over, unit
-from graphcam.sheets.model import Angle, ArcEntity, ArrowHeads, Circles, Curve, Entity, Length, Source, Stroke, Strokes
+from graphcam.sheets.model import Angle, ArcEntity, Circles, Curve, Entity, Heads, Length, Source, Stroke, Strokes
 from graphcam.sheets.styles import STYLES_BY_ROLE
 from graphcam.sheets.text_measures import extent
 from graphcam.words import Tell
@@ -126,10 +126,10 @@ def _head_length(role: str) -> float:
     return 3.0 + 3.0 * STYLES_BY_ROLE[role].width
 
 
-def head(tip: complex, direction: complex, role: str) -> ArrowHeads:
+def head(tip: complex, direction: complex, role: str) -> Heads:
     """A slim arrow head with its ``tip``, pointing in the ``direction``; longer on bolder lines."""
     back = -_head_length(role) * direction / abs(direction)
-    return ArrowHeads(np.array([[tip, tip + back * (1 + 0.16j), tip + back * (1 - 0.16j)]]), role)
+    return Heads(np.array([[tip, tip + back * (1 + 0.16j), tip + back * (1 - 0.16j)]]), role)
 
 
 def arrow(start: complex, end: complex, role: str) -> list[Entity]:
@@ -150,7 +150,7 @@ def _arc(mark: marks.Arc, place: Placement) -> list[Entity]:
     return drawn
 
 
-def _arc_head(centre: complex, radius: float, at: float, end: str, role: str) -> ArrowHeads:
+def _arc_head(centre: complex, radius: float, at: float, end: str, role: str) -> Heads:
     """A head at the direction ``at`` of an arc, along the chord, so that it does not leave the arc."""
     sense = 1 if end == "end" else -1
     half = min(1.0, _head_length(role) / (2 * radius))

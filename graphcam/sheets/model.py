@@ -175,7 +175,7 @@ class Polygons:
 
 
 @dataclass(frozen=True, eq=False)
-class ArrowHeads(Polygons):
+class Heads(Polygons):
     """Filled triangles with corners (n, 3): the heads of arrows."""
 
 

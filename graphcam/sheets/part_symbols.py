@@ -16,7 +16,7 @@ import numpy as np
 
 from graphcam.drafting.marks import Role
 from graphcam.sheets.mark_entities import head
-from graphcam.sheets.model import ArcEntity, ArrowHeads, Box, Entity, Strokes, Text, moved_entity
+from graphcam.sheets.model import ArcEntity, Box, Entity, Heads, Strokes, Text, moved_entity
 from graphcam.sheets.text_measures import width
 
 SYMBOL_ROLE = Role.DIMENSION
@@ -120,11 +120,11 @@ def datum_letter(letter: str, height: float) -> PartSymbol:
     )
 
 
-def datum_triangle(at: complex, away: complex, height: float) -> ArrowHeads:
+def datum_triangle(at: complex, away: complex, height: float) -> Heads:
     """The filled triangle that stands on a line ``at`` a place and points ``away`` from it."""
     up = height * away / abs(away)
     half = TRIANGLE_HALF_SIDE * 1j * up
-    return ArrowHeads(np.array([[at + up, at - half, at + half]]), SYMBOL_ROLE)
+    return Heads(np.array([[at + up, at - half, at + half]]), SYMBOL_ROLE)
 
 
 def nearest_place(box: Box, to: complex) -> complex:

@@ -62,7 +62,9 @@ def test_what_is_of_unix_is_hidden(tmp_path):
 def test_every_module_that_is_not_of_the_sandbox_is_imported_without_unix(tmp_path):
     modules = [".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts) for path in PACKAGE.rglob("*.py")]
     # What level L1 and L2 are made of; and the autograder of a system that is Linux.
-    of_linux = {f"graphcam.exercises.running.{name}" for name in ("launcher", "sandbox", "scratch_folders", "code_answers")}
+    of_linux = {
+        f"graphcam.exercises.running.{name}" for name in ("launcher", "sandbox", "scratch_folders", "code_answers")
+    }
     asked = sorted({name.removesuffix(".__init__") for name in modules} - of_linux - {"graphcam.__main__"})
     code = f"import importlib\nfor name in {asked}: importlib.import_module(name)"
     done = run(tmp_path, "-c", code)

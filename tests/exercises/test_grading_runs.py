@@ -296,10 +296,10 @@ def test_an_exercise_that_draws_other_variants_than_were_handed_out_is_refused(
 
 def test_a_second_run_into_the_same_grades_waits_for_the_first(tmp_path: Path):
     store = run.Store.for_run(tmp_path / "new" / "grades.csv", assignment())
-    with store.held(), pytest.raises(OutputError, match=r"grades\.csv.*another run is grading into it"), store.held():
+    with store.lock(), pytest.raises(OutputError, match=r"grades\.csv.*another run is grading into it"), store.lock():
         pass
     # The next one may, and where nothing was graded nothing is left.
-    with store.held():
+    with store.lock():
         pass
     assert list(tmp_path.iterdir()) == []
 

@@ -106,8 +106,8 @@ def test_the_rates_are_parts_of_the_hands(figures):
     said = found.to_dict()
     assert said["copies"] == {"pairs": 3, "best": 0.0, "above_half": 0}
     assert [said[rate] for rate in ("false_rejections", "right_diagnoses", "draws")] == [0.2, 0.7, 7 / 3]
-    assert found.rows["offset-sign"].right("offset-sign") == 6 / 15
-    assert found.rows["offset-sign"].right("polar-angle") == 0.0
+    assert found.rows["offset-sign"].named_share("offset-sign") == 6 / 15
+    assert found.rows["offset-sign"].named_share("polar-angle") == 0.0
 
 
 def test_a_mistake_that_is_never_named_is_not_diagnosed_at_all():

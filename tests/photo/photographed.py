@@ -91,7 +91,7 @@ class Camera:
         for _ in range(40):
             seen = self.pixels(np.array([0, width, width + 1j * height, 1j * height])) - self.centre
             over = max(np.abs(seen.real).max() / self.size[0], np.abs(seen.imag).max() / self.size[1]) * 2
-            self.distance *= 1 + 0.7 * (over / self.fill - 1)
+            self.distance *= 1 + 0.7 * (over / self.filled - 1)
 
     @property
     def centre(self):

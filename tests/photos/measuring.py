@@ -110,7 +110,7 @@ def _marked(scene: Scene, folder: Path) -> dict[str, Any]:
     key, asked = scene.course.key(scene.student), scene.course.drawn
     bars = tuple(
         round(abs(end - start) * part / RULE) * RULE
-        for (start, end), part in zip(scene.page.bars, scene.shot.placing.stretch_factors, strict=True)
+        for (start, end), part in zip(scene.page.bars, scene.shot.placing.stretched, strict=True)
     )
     corrections = StudentCorrections(bars={scene.page_number: (bars[0], bars[1])})
     with watched() as peak:

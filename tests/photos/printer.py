@@ -64,18 +64,18 @@ class Placing:
 
     def paper(self, points: Points) -> Points:
         """Where points (...) of the page are on paper."""
-        across, up = self.stretch_factors
+        across, up = self.stretched
         points = np.asarray(points)
         return np.asarray((across * points.real + 1j * up * points.imag) * np.exp(1j * self.turned) + self.shifted)
 
     def page(self, points: Points) -> Points:
         """Of which points of the page points (...) of the paper are; the inverse of :meth:`paper`."""
         back = (np.asarray(points) - self.shifted) * np.exp(-1j * self.turned)
-        return np.asarray(back.real / self.stretch_factors[0] + 1j * back.imag / self.stretch_factors[1])
+        return np.asarray(back.real / self.stretched[0] + 1j * back.imag / self.stretch_factors[1])
 
     def by_hand(self, way: Points) -> Points:
         """What on the page (...) are ways that a hand measures in true millimetres along the printed axes."""
-        return np.asarray(way.real / self.stretch_factors[0] + 1j * way.imag / self.stretch_factors[1])
+        return np.asarray(way.real / self.stretched[0] + 1j * way.imag / self.stretch_factors[1])
 
 
 def by_poppler(pdf: Path, page: int) -> NDArray[np.uint8]:

@@ -140,7 +140,7 @@ def test_functions_of_rooms_above_are_there():
     named: set[str] = set()
     for path in PACKAGE.rglob("*.py"):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "from_above":
+            if isinstance(node, ast.Call) and getattr(node.func, "id", "") == "higher_function":
                 named |= {node.args[0].value} if isinstance(node.args[0], ast.Constant) else set()
     assert {"report.output_folder.write", "plots.figures.svg_of"} <= named
     kinds = [getattr(gc, name) for name in dir(gc)]

@@ -18,7 +18,7 @@ from pdf_paths import PdfPage, pages
 from programs import count, program
 from scipy.spatial import cKDTree
 
-from graphcam.sheets.model import ArcEntity, ArrowHeads, Circles, Curve, Drawing, Entity, Page, Stroke, Strokes, Text
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Drawing, Entity, Heads, Page, Stroke, Strokes, Text
 from graphcam.sheets.styles import STYLES_BY_ROLE
 from graphcam.sheets.text_measures import letters_of, width
 
@@ -143,7 +143,7 @@ def _places(entity: Entity) -> np.ndarray:
             return np.concatenate([centres + radius * turn for turn in (1, 1j, -1, -1j)])
         case ArcEntity(centre=centre, radius=radius, start=start, end=end):
             return centre + radius * np.exp(1j * np.linspace(start, end, 9))
-        case ArrowHeads(corners=corners):
+        case Heads(corners=corners):
             return corners[:, 0]
         case Text():
             shift = {"left": 0.5, "center": 0.0, "right": -0.5}[entity.align] * width(entity.text, entity.height)

@@ -265,7 +265,7 @@ def sides(paper: Format) -> list[Entity]:
 def test_the_number_stands_once_more_in_the_corner_that_is_filed_on_top(paper):
     entities, inside_frame = [*frame(paper, NAMED, 1, 1).entities], paper.content
     (number,) = (t for t in texts_of(entities) if t.field == "number" and t.angle)
-    aside = paper.upright and paper.name != "A4"
+    aside = paper.is_upright and paper.name != "A4"
     # Beside the binding margin where the sheet lies when filed, else at the right.
     field = (
         (inside_frame.right - 14, inside_frame.top - 70, inside_frame.right, inside_frame.top)

@@ -79,7 +79,7 @@ def test_the_lines_of_hatching_are_a_spacing_apart_from_the_origin_on(outline: l
     np.testing.assert_allclose(levels, np.round(levels), atol=1e-9)
     # Every multiple that crosses the convex region is there once.
     assert np.round(levels).tolist() == list(range(int(np.ceil(reach.min())), int(np.floor(reach.max())) + 1))
-    assert lines(drawn).band_half_width(polygon.buffer(ROUNDING))
+    assert lines(drawn).within(polygon.buffer(ROUNDING))
     assert drawn.role == "hatch"
     assert HATCHING_SPACING == 3.0
 

@@ -12,7 +12,7 @@ from graphcam.drafting.marks import AngleMark, Arc, Arrow, Circle, Dimension, Do
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.label_candidates import LabelText, label_along, label_along_arc, label_around, label_over
 from graphcam.sheets.mark_entities import Placement, arrow, expand, head
-from graphcam.sheets.model import Angle, ArcEntity, ArrowHeads, Circles, Curve, Entity, Length, Stroke, Strokes
+from graphcam.sheets.model import Angle, ArcEntity, Circles, Curve, Entity, Heads, Length, Stroke, Strokes
 from graphcam.sheets.styles import STYLES_BY_ROLE
 from graphcam.sheets.text_measures import extent
 
@@ -30,7 +30,7 @@ def same(one: LabelText, other: LabelText) -> bool:
     return (one.text, one.height) == (other.text, other.height) and all(map(np.allclose, *places))
 
 
-def triangle(heads: ArrowHeads) -> tuple[complex, complex, float]:
+def triangle(heads: Heads) -> tuple[complex, complex, float]:
     """Tip, direction and length of one head, which is as slim on both sides."""
     ((tip, left, right),) = heads.corners.tolist()
     foot = (left + right) / 2

@@ -9,7 +9,7 @@ from overlaps import place
 from graphcam.drafting.marks import Role
 from graphcam.sheets.label_candidates import LabelText, label_around
 from graphcam.sheets.labels import Occupancy, lettered_steps, shading_parted
-from graphcam.sheets.model import ArrowHeads, Box, Circles, Stroke, Strokes, Text
+from graphcam.sheets.model import Box, Circles, Heads, Stroke, Strokes, Text
 from graphcam.sheets.sampling import corners
 
 FRAME = Box(10.0, 20.0, 60.0, 50.0)
@@ -77,7 +77,7 @@ def test_round_and_filled_entities_take_their_lines():
     ring = 35 + 35j + 8 * np.exp(1j * np.linspace(0, 6, 300))
     assert np.mean(np.array(cost(paper, *ring)) == FORBIDDEN) > 0.9
     assert cost(paper, 35 + 35j) == [0.0]
-    paper.take_entities([ArrowHeads(np.array([[15 + 25j, 20 + 25j, 20 + 27j]]), Role.RESULT)])
+    paper.take_entities([Heads(np.array([[15 + 25j, 20 + 25j, 20 + 27j]]), Role.RESULT)])
     assert cost(paper, 17.2 + 25.1j) == [FORBIDDEN]
 
 

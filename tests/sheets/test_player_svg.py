@@ -10,7 +10,7 @@ import pytest
 from programs import count
 from scene import drawing
 
-from graphcam.sheets.model import ArcEntity, ArrowHeads, Circles, Curve, Group, Stroke, Strokes, Text
+from graphcam.sheets.model import ArcEntity, Circles, Curve, Group, Heads, Stroke, Strokes, Text
 from graphcam.sheets.player import Slide, player
 from graphcam.sheets.player_svg import group_svg
 from graphcam.sheets.styles import STYLES_BY_ROLE
@@ -54,7 +54,7 @@ def test_lines_and_texts_lie_where_they_are_drawn():
         "a",
         (
             Stroke(np.array([10 + 20j, 30.128 + 40j]), "curve", closed=True),
-            ArrowHeads(np.array([[0, 3 + 1j, 3 - 1j]]), "curve"),
+            Heads(np.array([[0, 3 + 1j, 3 - 1j]]), "curve"),
             Text(5 + 7j, "α < 30°", 3.5, "center", np.pi / 2),
         ),
     )

@@ -28,13 +28,13 @@ from graphcam.sheets.matplotlib_renderer import _figure, draw_on, svg, write_png
 from graphcam.sheets.model import (
     Angle,
     ArcEntity,
-    ArrowHeads,
     Box,
     Circles,
     Curve,
     Drawing,
     Entity,
     Group,
+    Heads,
     Length,
     Page,
     Stroke,
@@ -57,7 +57,7 @@ ENTITIES: dict[str, Entity] = {
     "circles": Circles(np.array([100 + 50j, 150 + 60j]), 12.0, Role.CURVE),
     "dots": Circles(np.array([100 + 50j, 150 + 60j]), 0.75, Role.CURVE, opaque=True),
     "arc": ArcEntity(80 + 90j, 30.0, 0.4, 2.9, Role.LIMIT),
-    "heads": ArrowHeads(np.array([[10, 14 + 1j, 14 - 1j], [30 + 9j, 34 + 10j, 34 + 8j]]) + 20j, Role.DIMENSION),
+    "heads": Heads(np.array([[10, 14 + 1j, 14 - 1j], [30 + 9j, 34 + 10j, 34 + 8j]]) + 20j, Role.DIMENSION),
 }
 TEXTS = [
     Text(100 + 50j, "left", 3.5),

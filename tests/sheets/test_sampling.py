@@ -9,11 +9,11 @@ from programs import count
 
 from graphcam.sheets.model import (
     ArcEntity,
-    ArrowHeads,
     Circles,
     Curve,
     Entity,
     Group,
+    Heads,
     Stroke,
     Strokes,
     Text,
@@ -31,7 +31,7 @@ ENTITIES: list[Entity] = [
     Curve(SQUARE, "result"),
     Circles(np.array([5j, 20]), 3.0, "curve"),
     ArcEntity(5 + 5j, 8.0, 0.5, 2.5, "curve"),
-    ArrowHeads(np.array([[0, 3 + 1j, 3 - 1j], [5j, 6 + 1j, 7]]), "curve"),
+    Heads(np.array([[0, 3 + 1j, 3 - 1j], [5j, 6 + 1j, 7]]), "curve"),
     Text(2 + 3j, "graphcam", 3.5, "center", 0.4),
 ]
 

@@ -309,7 +309,7 @@ def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Path
     folder = tmp_path_factory.mktemp("large")
     (folder / "space.toml").write_text(LARGE)
     with pytest.MonkeyPatch.context() as patch:
-        for name in ("PART", "BLOCK"):
+        for name in ("MAX_PART_DESIGNS", "BLOCK_DESIGNS"):
             patch.setattr(dataset, name, PART_OF_LARGE)
         with closing(worker_pool(2, "")) as pool:
             sweep_to_folder(load_space(folder / "space.toml"), str(folder / "out"), pool)

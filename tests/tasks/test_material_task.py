@@ -144,7 +144,7 @@ def test_a_cam_that_nothing_presses_on_is_not_stressed(tmp_path):
     solution = solved(tmp_path, TRANSLATING + MATERIAL + "permitted_stress = 500\n")
     design = solution.stress
     slack = replace(design, forces=gc.CamForces(solution.cam, gc.SpringLoad(0, 0, 0, preload=-5)))
-    assert (slack.without, slack.greatest, slack.permitted) == ("no force", None, None)
+    assert (slack.no_stress_reason, slack.max_stress, slack.permitted) == ("no force", None, None)
     assert list(slack.cautions) == []
 
 

@@ -22,7 +22,7 @@ from graphcam.errors import DesignError
 from graphcam.language import language
 from graphcam.report.output_folder import write
 from graphcam.sheets.cad_renderer import write_cad
-from graphcam.sheets.model import ArrowHeads, Curve, Drawing, Length, Stroke, Strokes, Text
+from graphcam.sheets.model import Curve, Drawing, Heads, Length, Stroke, Strokes, Text
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.part_table import PartTable
@@ -223,7 +223,7 @@ def test_lines_to_the_side_of_an_undercut_cam_end_on_what_is_seen_of_it() -> Non
     drawing = working_drawing_of(PartContents(gc.solve(undercut_task())))
     origin = drawing.pages[0].origins["section"]
     (section,) = [g for g in drawing.pages[0].groups if g.name == "section"]
-    heads = np.concatenate([e.corners for e in section.entities if isinstance(e, ArrowHeads)]) - origin
+    heads = np.concatenate([e.corners for e in section.entities if isinstance(e, Heads)]) - origin
     # From the left; those of the width come from the right.
     on_side = heads[(np.abs(heads[:, 0].real) < 1e-6) & (heads[:, 1].real < 0), 0]
     edges = strokes(drawing, "section", Role.RESULT) - origin
