@@ -69,7 +69,7 @@ class Comparison:
     __repr__ = parts_text
 
     @cached_property
-    def exact_least_radius(self) -> tuple[float, float]:
+    def least(self) -> tuple[float, float]:
         """The exact least prime radius of the task and its place [mm]; NaN where no place keeps all the limits."""
         board = self.drawn.board
         follower = board.follower.built(board.follower.place, 0.0)
@@ -100,7 +100,7 @@ class Comparison:
     def exact(self) -> Mapping[str, float]:
         """The exact counterparts by name, in the order in which they are told."""
         board, extremes = self.drawn.board, self.cam.extremes()
-        least, place = self.exact_least_radius
+        least, place = self.least
         face = face_width(board.motion, board.rotation)
         rho = extremes.min_convex_radius[0]
         by_rule = min(term(rho=rho, r0=self.cam.prime_radius) for term in board.roller_rule)

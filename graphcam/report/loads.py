@@ -41,9 +41,9 @@ def contact(solution: Solution) -> list[Block]:
     spring = _spring(solution)
     load, needed, least, lost = (
         spring.load,
-        spring.least_preload,
+        spring.least,
         spring.contact.least_force(),
-        and_list(spring.lost_captions),
+        and_list(spring.lost),
     )
     along, preload, _ = spring.units
     keeps = say(
@@ -230,15 +230,15 @@ def contact_stress(solution: Solution) -> list[Block]:
         poisson2=stress.material.poisson_follower,
     )
     modulus = Equation(formula(MODULUS, modulus=number(stress.material().modulus, 0), unit=unit("MPa")))
-    if stress.no_stress_reason:
-        said = NO_STRESS_REASONS[stress.no_stress_reason]
-        return [given, modulus, warning(said) if stress.no_stress_reason != "no force" else said]
+    if stress.without:
+        said = NO_STRESS_REASONS[stress.without]
+        return [given, modulus, warning(said) if stress.without != "no force" else said]
     return [given, modulus, *_stress_blocks(stress)]
 
 
 def _stress_blocks(stress: StressDesign) -> list[Block]:
     roller = stress.forces.cam.roller_radius
-    at, greatest = stress.contact, stress.max_stress
+    at, greatest = stress.contact, stress.greatest
     assert at is not None
     assert greatest is not None
     force, half_width, radius = float(at.force), float(at.half_width), float(at.profile_radius)
@@ -278,7 +278,7 @@ def _stress_blocks(stress: StressDesign) -> list[Block]:
 def _verdict(stress: StressDesign) -> list[Caption]:
     """The sentences on whether the stress is permitted, and on the width that it needs."""
     limit = stress.material.permitted_stress
-    if limit is None or stress.max_stress is None or stress.least_width is None:
+    if limit is None or stress.greatest is None or stress.least_width is None:
         return []
     values = {"limit": limit, "width": number(rounded_up(stress.least_width))}
     if stress.permitted:

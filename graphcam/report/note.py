@@ -50,7 +50,7 @@ def note(solution: Solution) -> str:
     True
     """
     chapters = constructions(solution)
-    if solution.stress and solution.stress.no_stress_reason:
+    if solution.stress and solution.stress.without:
         chapters.append((STRESS_MEANING.title, contact_stress(solution)))
     if solution.tolerances and solution.tolerances.undercut:
         chapters.append((TOLERANCE_MEANING.title, errors_of_making(solution)))
@@ -243,14 +243,14 @@ def _face(solution: Solution) -> list[Caption]:
     """The sentences by which the adopted face follows from the drawn contact; none without a face."""
     if (face := solution.face) is None:
         return []
-    (left, right), (needs_left, needs_right) = face.drawn, face.min_half_widths
+    (left, right), (needs_left, needs_right) = face.drawn, face.least
     sides = {"left": left, "right": right, "needs_left": needs_left, "needs_right": needs_right}
     said = say(
         "The contact moves {left} mm to the left and {right} mm to the right of the follower's axis. With {margin:g} "
         "mm on each side the face must reach {needs_left} mm to the left and {needs_right} mm to the right: its "
         "minimum width is {width} mm.",
         margin=face.margin,
-        **numbers(**sides, width=sum(face.min_half_widths)),
+        **numbers(**sides, width=sum(face.least)),
     )
     (left, right), whole = face.adopted, sum(face.adopted)
     rounded = say(

@@ -51,7 +51,7 @@ class FaceDesign:
     rounding: float
 
     @property
-    def min_half_widths(self) -> Sides:
+    def least(self) -> Sides:
         """The drawn half-widths with the margin [mm]."""
         left, right = self.drawn
         return left + self.margin, right + self.margin
@@ -63,11 +63,11 @@ class FaceDesign:
         >>> FaceDesign((24.78, 24.08), (25.0, 24.2), 3.0, 1.0).adopted
         (28.0, 28.0)
         """
-        left, right = (multiple(steps_up(side, self.rounding), self.rounding) for side in self.min_half_widths)
+        left, right = (multiple(steps_up(side, self.rounding), self.rounding) for side in self.least)
         return left, right
 
     @property
-    def is_wide_enough(self) -> bool:
+    def wide_enough(self) -> bool:
         """Whether the adopted face has the margin beyond the exact contact too."""
         return all(
             exact + self.margin <= adopted + PRINT_ROUNDING
@@ -249,7 +249,7 @@ def _face(chain: Chain, face: FaceDesign | None) -> Iterator[Caution]:
         return
     for adopted, exact, said in zip(face.adopted, face.exact, FACE_REMARKS, strict=True):
         if (least := exact + face.margin) > adopted + PRINT_ROUNDING:
-            finer = _divisions(chain, lambda other: face_design(other, face.exact, face.margin).is_wide_enough)
+            finer = _divisions(chain, lambda other: face_design(other, face.exact, face.margin).wide_enough)
             wider = say("{length:g} mm", length=multiple(steps_up(least, face.rounding), face.rounding))
             remedy = _take([*finer, wider])
             yield Caution(said.with_values(adopted=adopted, least=least, margin=face.margin, remedy=remedy), "face")

@@ -69,7 +69,7 @@ class Solution(ShownSolution):
     @cached_property
     def cautions(self) -> list[Caution]:
         """What is wrong with the adopted cam, as captions with the places where it is seen."""
-        found = warnings_of(self.cam, self.chain.board, self.comparison.exact_least_radius[0])
+        found = warnings_of(self.cam, self.chain.board, self.comparison.least[0])
         spring = self.spring.cautions if self.spring else ()
         found += adopted_cautions(self.chain, self.cam, self.face)
         stress = self.stress.cautions if self.stress else ()

@@ -64,19 +64,19 @@ class SpringDesign:
     __repr__ = parts_text
 
     @cached_property
-    def least_preload(self) -> SpringPreload:
+    def least(self) -> SpringPreload:
         """The least preload that keeps contact."""
         return least_preload(self.cam, self.given)
 
     @property
-    def needed_preload(self) -> float:
+    def needed(self) -> float:
         """The least preload [N, or N mm], none where contact is kept without one: a spring cannot pull."""
-        return max(0.0, self.least_preload.preload)
+        return max(0.0, self.least.preload)
 
     @cached_property
     def load(self) -> SpringLoad | ArmLoad:
         """The load with its preload; an open one is what is needed."""
-        return replace(self.given, preload=self.needed_preload) if self.open_preload else self.given
+        return replace(self.given, preload=self.needed) if self.open_preload else self.given
 
     @cached_property
     def forces(self) -> CamForces:
@@ -112,10 +112,10 @@ class SpringDesign:
         """Whether nothing presses in the lower dwell, though contact is kept: only preload and load act there."""
         motion = self.cam.motion
         low = any(phase_kind(motion, k) == "lower dwell" for k in range(len(motion.phases)))
-        return low and not self.load.preload and not self.load.load and not self.lost_captions
+        return low and not self.load.preload and not self.load.load and not self.lost
 
     @property
-    def lost_captions(self) -> list[Caption]:
+    def lost(self) -> list[Caption]:
         """The intervals of the cam angle in which contact is lost, as captions."""
         return [say("{start} to {end}", start=degrees(start), end=degrees(end)) for start, end in self.contact.lost()]
 
@@ -132,7 +132,7 @@ class SpringDesign:
         said = say(
             "Contact is lost {where}: a preload of {needed} keeps it, {given} are given.",
             where=and_list(where),
-            needed=with_unit(_rounded_up(self.needed_preload), preload),
+            needed=with_unit(_rounded_up(self.needed), preload),
             given=say("{value:.12g} {unit}", value=self.load.preload, unit=unit(preload)),
         )
         yield Caution(said, "contact", tuple(start for start, _ in lost))
@@ -155,9 +155,9 @@ class SpringDesign:
         mean, most, fewest = self.torques
         return {
             "least_preload": {
-                "value": self.needed_preload,
+                "value": self.needed,
                 "unit": preload,
-                "phi_deg": math.degrees(self.least_preload.phi),
+                "phi_deg": math.degrees(self.least.phi),
             },
             "preload": {"value": self.load.preload, "unit": preload},
             "least_contact_force": plain_place(least, along),
@@ -311,13 +311,13 @@ class SpringDesign:
     def _found_rows(self) -> list[Row]:
         least, greatest, (along, preload, _) = self.contact.least_force(), self.greatest_normal, self.units
         mean, most, fewest = self.torques
-        lost, margin = sequence(self.lost_captions, "; "), jamming_margin(self.cam, self.friction)
+        lost, margin = sequence(self.lost, "; "), jamming_margin(self.cam, self.friction)
         contact = say("minimum contact force") if along == "N" else say("minimum contact torque")
         rows: list[Row] = [
             (
                 say("minimum preload"),
-                with_unit(self.needed_preload, preload),
-                say("at {phi}", phi=degrees(self.least_preload.phi)),
+                with_unit(self.needed, preload),
+                say("at {phi}", phi=degrees(self.least.phi)),
             ),
             (contact, with_unit(_without_rounding(least.value), along), at_side(least, self.cam.motion)),
             (say("maximum normal force"), with_unit(greatest.value, "N"), at_side(greatest, self.cam.motion)),
@@ -333,7 +333,7 @@ class SpringDesign:
                     at_side(margin, self.cam.motion),
                 )
             )
-        return [*rows, (say("contact"), say("lost, {where}", where=lost) if self.lost_captions else say("kept"), "")]
+        return [*rows, (say("contact"), say("lost, {where}", where=lost) if self.lost else say("kept"), "")]
 
 
 PLAIN_FORCE_COLUMNS = {

@@ -78,7 +78,7 @@ class StressDesign:
     __repr__ = parts_text
 
     @cached_property
-    def no_stress_reason(self) -> Literal["knife edge", "undercut", "no force"] | None:
+    def without(self) -> Literal["knife edge", "undercut", "no force"] | None:
         """The reason why there is no greatest stress, if there is none."""
         cam = self.forces.cam
         if cam.kinematics.takes_roller and not cam.roller_radius > 0:
@@ -93,28 +93,28 @@ class StressDesign:
         return ContactStress(self.forces, self.material())
 
     @cached_property
-    def max_stress(self) -> ValueAt | None:
+    def greatest(self) -> ValueAt | None:
         """The greatest peak pressure [MPa]."""
-        return None if self.no_stress_reason else self.stress.greatest()
+        return None if self.without else self.stress.greatest()
 
     @cached_property
     def contact(self) -> Stresses | None:
         """The contact where the stress is greatest."""
-        return self.stress.contact_at(self.max_stress) if self.max_stress else None
+        return self.stress.contact_at(self.greatest) if self.greatest else None
 
     @property
     def permitted(self) -> bool | None:
         """Whether the greatest stress is; None where none is judged."""
         limit = self.material.permitted_stress
-        if limit is None or self.no_stress_reason == "no force":
+        if limit is None or self.without == "no force":
             return None
-        return self.max_stress is not None and self.max_stress.value <= limit
+        return self.greatest is not None and self.greatest.value <= limit
 
     @cached_property
     def least_width(self) -> float | None:
         """The width of the contact [mm] at which the greatest stress is the permitted one."""
         limit = self.material.permitted_stress
-        return None if limit is None or self.max_stress is None else self.stress.least_width(limit)
+        return None if limit is None or self.greatest is None else self.stress.least_width(limit)
 
     @property
     def shape(self) -> Literal["convex", "concave", "flat"]:
@@ -130,20 +130,20 @@ class StressDesign:
         """What is to be warned of: a stress that is not permitted."""
         if self.permitted is not False:
             return
-        if self.max_stress is None:
-            said = say("No contact stress is permitted: {why}.", why=NO_STRESS_REASONS[str(self.no_stress_reason)])
+        if self.greatest is None:
+            said = say("No contact stress is permitted: {why}.", why=NO_STRESS_REASONS[str(self.without)])
             yield Caution(said, "contact stress")
             return
         said = say(
             "The contact stress reaches {stress:.4g} MPa at {phi}; {limit:g} MPa are permitted. Widen the contact to "
             "{width:.2f} mm, or enlarge {sizes}.",
-            stress=self.max_stress.value,
-            phi=degrees(self.max_stress.phi),
+            stress=self.greatest.value,
+            phi=degrees(self.greatest.phi),
             limit=self.material.permitted_stress,
             width=rounded_up(self.least_width or 0.0),
             sizes=ENLARGED_SIZES[self.forces.cam.kinematics.takes_roller],
         )
-        yield Caution(said, "contact stress", (self.max_stress.phi,))
+        yield Caution(said, "contact stress", (self.greatest.phi,))
 
     @property
     def drawn(self) -> dict[str, Construction]:
@@ -152,7 +152,7 @@ class StressDesign:
 
     @cached_property
     def _construction(self) -> Construction | None:
-        if self.max_stress is None:
+        if self.greatest is None:
             return None
         limit, curve = self.material.permitted_stress, self.stress.curve()
         diagram = TurnDiagram(
@@ -165,7 +165,7 @@ class StressDesign:
             curve,
             self._caption,
             why=say("Surfaces suffer pitting where they are pressed too hard too often."),
-            marked=((self.max_stress, with_unit(self.max_stress.value, "MPa")),),
+            marked=((self.greatest, with_unit(self.greatest.value, "MPa")),),
             limit=None if limit is None or self._is_limit_far else (limit, with_unit(limit, "MPa")),
             wrong=() if limit is None else tuple(_stretches_above(curve, limit)),
         )
@@ -175,7 +175,7 @@ class StressDesign:
     def _is_limit_far(self) -> bool:
         """Whether the permitted stress lies far above the greatest."""
         limit = self.material.permitted_stress
-        return limit is not None and self.max_stress is not None and limit > FAR_LIMIT_FACTOR * self.max_stress.value
+        return limit is not None and self.greatest is not None and limit > FAR_LIMIT_FACTOR * self.greatest.value
 
     @property
     def _caption(self) -> Caption:
@@ -193,11 +193,11 @@ class StressDesign:
         limit, width = self.material.permitted_stress, self.least_width
         found: dict[str, Any] = {
             "greatest": None,
-            "without": self.no_stress_reason,
+            "without": self.without,
             "permitted": limit and {"value": limit, "unit": "MPa", "kept": self.permitted},
             "least_width": width and {"value": width, "unit": "mm"},
         }
-        if self.max_stress is None or (at := self.contact) is None:
+        if self.greatest is None or (at := self.contact) is None:
             return found
         there = {
             "normal_force": {"value": float(at.force), "unit": "N"},
@@ -206,7 +206,7 @@ class StressDesign:
         }
         curve = self.stress.curve(PLAIN_POINTS)
         over_turn = {"phi_deg": np.degrees(curve.phi).tolist(), "peak_pressure": curve.values.tolist()}
-        return found | {"greatest": {**plain_place(self.max_stress, "MPa"), **there}, "over_turn": over_turn}
+        return found | {"greatest": {**plain_place(self.greatest, "MPa"), **there}, "over_turn": over_turn}
 
     def table(self) -> Table:
         """The contact and its results for the sheet."""
@@ -220,13 +220,13 @@ class StressDesign:
         return Table(say("Contact stress"), (say("quantity"), say("value"), ""), rows, found)
 
     def _results(self) -> Iterator[Row]:
-        if self.max_stress is None or (at := self.contact) is None:
-            yield say("maximum stress"), say("none"), NO_STRESS_REASONS[str(self.no_stress_reason)]
+        if self.greatest is None or (at := self.contact) is None:
+            yield say("maximum stress"), say("none"), NO_STRESS_REASONS[str(self.without)]
             return
         yield (
             say("maximum stress"),
-            with_unit(self.max_stress.value, "MPa"),
-            at_side(self.max_stress, self.forces.cam.motion),
+            with_unit(self.greatest.value, "MPa"),
+            at_side(self.greatest, self.forces.cam.motion),
         )
         yield say("normal force there"), with_unit(float(at.force), "N"), ""
         radius = "∞" if self.shape == "flat" else with_unit(abs(float(at.profile_radius)), "mm")

@@ -179,7 +179,7 @@ def test_tolerances_wider_than_the_mechanism_are_told_when_it_is_solved():
     [
         ({}, "waviness is left out, but must be given where no size has a tolerance"),
         ({"offset": -0.1}, "offset is -0.1, but must be a finite length of 0 mm or more"),
-        ({"waviness": (0.1,)}, "harmonics is 'a list of 0', but must be a list of 1, as waviness is"),
+        ({"waviness": (0.1,)}, "harmonics is a list of 0, but must be a list of 1, as waviness is"),
         ({"waviness": (0.1,), "harmonics": (0,)}, r"harmonics\[0\] is 0, but must be from 1 to 10000"),
         ({"waviness": (0.1, 0.2), "harmonics": (3, 3)}, r"harmonics\[1\] is 3, but must be given once"),
         ({"offset": 0.1, "distribution": "norml"}, "did you mean 'normal'"),

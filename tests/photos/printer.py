@@ -71,11 +71,11 @@ class Placing:
     def page(self, points: Points) -> Points:
         """Of which points of the page points (...) of the paper are; the inverse of :meth:`paper`."""
         back = (np.asarray(points) - self.shifted) * np.exp(-1j * self.turned)
-        return np.asarray(back.real / self.stretched[0] + 1j * back.imag / self.stretch_factors[1])
+        return np.asarray(back.real / self.stretched[0] + 1j * back.imag / self.stretched[1])
 
     def by_hand(self, way: Points) -> Points:
         """What on the page (...) are ways that a hand measures in true millimetres along the printed axes."""
-        return np.asarray(way.real / self.stretched[0] + 1j * way.imag / self.stretch_factors[1])
+        return np.asarray(way.real / self.stretched[0] + 1j * way.imag / self.stretched[1])
 
 
 def by_poppler(pdf: Path, page: int) -> NDArray[np.uint8]:

@@ -263,7 +263,7 @@ def cells():
     computed = {}
     exec("\n".join(in_a_notebook), computed)
     # The module of the laws with the page's lines in it.
-    text, table = Path(laws.__file__).read_text(encoding="utf-8"), "_MIRRORED = {\n"
+    text, table = Path(laws.__file__).read_text(encoding="utf-8"), "_MIRRORED_LAWS = {\n"
     assert text.count(table) == 1
     added = {"__name__": laws.__name__}
     exec(text.replace(table, f"{formula}\n{table}{entry}"), added)

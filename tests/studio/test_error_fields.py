@@ -19,7 +19,16 @@ from graphcam.tasks.material_table import MaterialTable
 PACKAGE = Path(gc.__file__).parent
 ROOMS = "comparison", "constructions", "drafting", "given", "mechanism", "solving", "tasks"
 """What a task that is drawn and computed goes through."""
-CHECKS = "DesignError", "RowError", "check_positive", "bounded", "check_choice", "_check_length", "check_number", "check_kind"
+CHECKS = (
+    "DesignError",
+    "RowError",
+    "check_positive",
+    "bounded",
+    "check_choice",
+    "_check_length",
+    "check_number",
+    "check_kind",
+)
 """What raises, and which argument names the quantity."""
 NOT_REACHED = {
     "exact counterpart": "a construction of the package itself names its counterpart",

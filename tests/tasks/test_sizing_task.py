@@ -59,7 +59,7 @@ def test_the_sized_task_is_drawn_and_keeps_what_was_asked(tmp_path):
     assert list(solution.warnings) == []
     assert (solution.cam.prime_radius, solution.cam.roller_radius) == (94, 15)
     assert solution.stress.permitted
-    assert solution.stress.max_stress.value == pytest.approx(sizing.adopted.stress, rel=1e-12)
+    assert solution.stress.greatest.value == pytest.approx(sizing.adopted.stress, rel=1e-12)
 
 
 @pytest.mark.slow
