@@ -25,7 +25,7 @@ from math import degrees, radians, tau
 import numpy as np
 
 import graphcam as gc
-from graphcam.drafting.hand import Hand, between
+from graphcam.drafting.hand import Hand, distance_between
 from graphcam.drafting.ink import say
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.notebooks import Question, Slider, chart, explore, picture_of, table
@@ -279,8 +279,8 @@ def phase_plane(law, n, parts, mu, pencil=IDEAL):
     for k in range(parts):
         radius = hand.join(f"radius {k}", centres[k], points[-1])
         turned = hand.protractor(f"ray {k}", centres[k], radius, -tau * n / parts)
-        points.append(hand.lay_off(f"point {k + 1}", centres[k], turned, between(centres[k], points[-1])))
-    return points, centres, hand.read("residual", between(origin, points[-1]), mu)
+        points.append(hand.lay_off(f"point {k + 1}", centres[k], turned, distance_between(centres[k], points[-1])))
+    return points, centres, hand.read("residual", distance_between(origin, points[-1]), mu)
 
 
 def show_plane(axes, law, n, parts, mu):
