@@ -7,7 +7,7 @@ from html import escape
 from typing import Any
 
 from graphcam.studio.address import StudioPlace, address_of
-from graphcam.studio.task_paths import changed
+from graphcam.studio.task_paths import changed_task
 from graphcam.studio.task_text import built_in_tasks
 
 FOLDER = "studio"
@@ -34,7 +34,7 @@ TASKS: Mapping[str, tuple[str, str, Mapping[str, Any]]] = {
 def place(name: str) -> StudioPlace:
     """What the studio shows of a notebook's task."""
     built_in, view, changes = TASKS[name]
-    return StudioPlace(changed(built_in_tasks()[built_in], changes), built_in, view)
+    return StudioPlace(changed_task(built_in_tasks()[built_in], changes), built_in, view)
 
 
 def try_it(name: str) -> str:
