@@ -256,7 +256,7 @@ def error_of_the_hand(every: Sequence[Hands]) -> Figure:
         if max(hands.method) > EXACT_ERROR_LIMIT:
             axes.plot(hands.parts, 100 * np.array(hands.method), color=colour, lw=1.1, ls=(0, (4, 3)))
         axes.plot(hands.best_parts, 100 * hands.floor, "o", color=colour, ms=8, mec="white", mew=1.2, zorder=5)
-    _notes_by_hand(axes, every[0], COLOURS[0])
+    _draw_band_with_notes(axes, every[0], COLOURS[0])
     parts = every[0].parts
     axes.set(xlim=(parts[0] / 1.1, parts[-1] * 4.2), ylim=(0.1, 12.0))
     _ticks_of_parts(axes, parts)
@@ -271,8 +271,8 @@ def error_of_the_hand(every: Sequence[Hands]) -> Figure:
     return figure
 
 
-def _notes_by_hand(axes: Axes, hands: Hands, colour: str) -> None:
-    """What band, dashes and dots are, said at one law."""
+def _draw_band_with_notes(axes: Axes, hands: Hands, colour: str) -> None:
+    """Draw the range of nine drawings in ten under one law, with notes on it, on the dashes and on the dot."""
     high, k = 100 * np.array(hands.high), len(hands.parts) * 3 // 4
     axes.fill_between(hands.parts, 100 * np.array(hands.low), high, color=colour, alpha=0.12, lw=0)
     band = f"nine drawings in ten, {hands.law}"

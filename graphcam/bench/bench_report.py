@@ -12,7 +12,7 @@ from graphcam import __version__
 from graphcam.bench.bench_followers import BENCH_LAWS
 from graphcam.bench.convergence import BOUNDS_SECTION, CONVERGENCE, PARTS
 from graphcam.bench.exact_rows import EXACT_SECTION
-from graphcam.bench.hand_errors import BUDGETS, PARTS as PENCIL_PARTS, PENCIL, bands
+from graphcam.bench.hand_errors import BUDGETS, PARTS as PENCIL_PARTS, PENCIL_SECTION, bands
 from graphcam.bench.load_rows import LOADS_SECTION
 from graphcam.bench.measured_rows import MEASURED_SECTION
 from graphcam.bench.peers import PEERS
@@ -26,7 +26,7 @@ from graphcam.words import Words, say
 
 ROWS = (EXACT_SECTION, LOADS_SECTION, BOUNDS_SECTION, MEASURED_SECTION, WAITING_SECTION, STUDIO_SECTION, CURVE_SECTION)
 """The sections of measured figures and goals."""
-REPORT_SECTIONS: tuple[Section, ...] = (CONVERGENCE, PENCIL, BUDGETS, METHODS, *ROWS, PEERS, DRAWING)
+REPORT_SECTIONS: tuple[Section, ...] = (CONVERGENCE, PENCIL_SECTION, BUDGETS, METHODS, *ROWS, PEERS, DRAWING)
 """All tables, in order."""
 PARTS_BY_FOUR = (6, 12, 24, 48, 96, 384, 1536, 6144, 24576, 98304)
 """Parts, each time twice and then four times as many."""
@@ -142,7 +142,7 @@ def bench(effort: Effort, directory: Path | str, progress: Callable[[Words], Non
         document = {"graphcam": __version__, **report.to_dict()}
         text = json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False)
         (folder / "bench.json").write_text(text + "\n", encoding="utf-8", newline="\n")
-        series, hands, methods = (report.records[each.key] for each in (CONVERGENCE, PENCIL, METHODS))
+        series, hands, methods = (report.records[each.key] for each in (CONVERGENCE, PENCIL_SECTION, METHODS))
         figures.save(figures.error_against_parts, folder / "bench-parts", series)
         figures.save(figures.error_against_time, folder / "bench-time", methods, report.bands, report.pair)
         figures.save(figures.error_of_the_hand, folder / "bench-pencil", hands)

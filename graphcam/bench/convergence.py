@@ -13,7 +13,7 @@ import numpy as np
 
 from graphcam.bench.bench_followers import BENCH_LAWS, FOLLOWER_KINDS, BenchFollower, scene
 from graphcam.bench.rows import EMPTY_CELL, BenchRow, Line, Parts, Section
-from graphcam.comparison.double_integration import chords
+from graphcam.comparison.double_integration import chord_errors
 from graphcam.comparison.quantities import Comparison, side_of
 from graphcam.constructions.chain import Chain
 from graphcam.given.laws import LAWS, Floats, law as law_of
@@ -195,7 +195,7 @@ def rows_of_law(name: str, parts: int) -> Iterator[BenchRow]:
     comparison = Comparison(where.chain(parts), where.cam)
     board = comparison.drawn.board
     rise, span = board.motion.phases[0], board.stations.phases[0]
-    exact, bounds = comparison.exact_stations.values, chords(law_of(name), board.stations.u[span]).read()
+    exact, bounds = comparison.exact_stations.values, chord_errors(law_of(name), board.stations.u[span]).read()
     for power, (quantity, bound) in enumerate(zip("sva", bounds, strict=True)):
         off = comparison.drawn_stations[quantity] - exact[power]
         per_unit = rise.angle**power / board.motion.lift

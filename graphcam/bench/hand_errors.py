@@ -142,7 +142,7 @@ def _lines_of_hands(h: Hands) -> Iterator[Line]:
         yield {**of, "n": n, "error": mean, "remark": f"of the method {method:.3g}" + ", best" * (n == h.best_parts)}
 
 
-PENCIL = Section(
+PENCIL_SECTION = Section(
     "pencil",
     say("Drawing error"),
     f"The maximum error of the displacement, as a part of the lift, over many drawings with errors of {SIGMA} mm in "

@@ -11,7 +11,7 @@ import numpy as np
 from graphcam.cli.command_language import translated
 from graphcam.cli.shared import echo, print_file, print_table
 from graphcam.files import whole_file
-from graphcam.sweeps.pareto_front import ANGLE, FEASIBLE, SIZE, FoundBest, front_csv
+from graphcam.sweeps.pareto_front import ANGLE, FEASIBLE, SIZE_COLUMN, FoundBest, front_csv
 from graphcam.words import Caption, say, say_many
 
 if TYPE_CHECKING:
@@ -39,9 +39,9 @@ def print_sweep(space: Space, found: FoundBest | Summary) -> None:
 
 
 def _print_front(space: Space, front: Columns) -> None:
-    shown = [name for name in dict.fromkeys((SIZE, *space.varied_columns, ANGLE)) if name in front]
+    shown = [name for name in dict.fromkeys((SIZE_COLUMN, *space.varied_columns, ANGLE)) if name in front]
     echo(say("the smallest: {values}", values=_first_values(front, shown)))
-    count = front[SIZE].size
+    count = front[SIZE_COLUMN].size
     if count == 1:
         return
     same = [name for name in shown if np.all(front[name] == front[name][0])]
@@ -75,7 +75,7 @@ def write_front(space: Space, out: str, front: Columns | None) -> None:
     from graphcam.sweeps.dataset import is_file
     from graphcam.sweeps.shared_folder import SharedFolder
 
-    if front is None or not front[SIZE].size:
+    if front is None or not front[SIZE_COLUMN].size:
         return
     for ending, text, what in _front_files(space, front):
         if is_file(out):
@@ -94,7 +94,7 @@ def write_front(space: Space, out: str, front: Columns | None) -> None:
 def _front_files(space: Space, front: Columns) -> Iterator[tuple[str, str, Caption]]:
     """Ending, text and description of each file of a front; the figure only if it has more than one design."""
     yield ".csv", front_csv(front), say("these designs with all their quantities")
-    if front[SIZE].size > 1:
+    if front[SIZE_COLUMN].size > 1:
         # Loads matplotlib.
         from graphcam.plots.figures import figure_svg
         from graphcam.plots.front_figure import front_figure

@@ -70,7 +70,7 @@ class ElementContact:
     hertz : the same by Hertz
     x : (n,) distances of the nodes from the common normal [mm];  pressure : (n,) MPa, 0 where there is no contact
     bodies : stresses in the cam and in the roller
-    elements : of both
+    elements : the number of elements of both meshes
     """
 
     hertz: LineContact

@@ -60,7 +60,7 @@ FIFTH_DERIVATIVES = {
 
 
 @dataclass(frozen=True, eq=False)
-class Chords:
+class ChordErrors:
     """How far the chords of a law are off at its divisions (n + 1,), of the lift: the part that is known, and the rest.
 
     s, v : the known parts before the end is read as the lift;  s_rest, v_rest : what may come to them
@@ -76,7 +76,7 @@ class Chords:
     def read(self) -> tuple[Floats, Floats, Floats]:
         """The bounds of displacement, velocity and acceleration at the divisions, the end being read as the lift.
 
-        >>> s, v, a = chords(law_of("3-4-5"), np.linspace(0, 1, 13)).read()
+        >>> s, v, a = chord_errors(law_of("3-4-5"), np.linspace(0, 1, 13)).read()
         >>> np.round([s.max(), v.max(), a.max()], 5).tolist()
         [0.00539, 0.00866, 0.09965]
         """
@@ -98,8 +98,8 @@ def has_known_derivatives(law: Law) -> bool:
     return law.name in FIFTH_DERIVATIVES and law in ((named := law_of(law.name, law.ratio)), named.reversed)
 
 
-def chords(law: Law, u: Floats) -> Chords:
-    """How far the chords of a law that is :func:`has_known_derivatives` are off at the divisions u, from 0 to 1."""
+def chord_errors(law: Law, u: Floats) -> ChordErrors:
+    """The errors of the chords between the divisions u, from 0 to 1, of a law whose derivatives are known."""
     w, after, before = np.diff(u), law(u[:-1]), law(u[1:], side="left")
     greatest, inner = (np.array([*half, *half[::-1]]) for half in FIFTH_DERIVATIVES[law.name])
     # At the middle f'''' of a mirrored law, which is odd about it, does not jump; that of the rectangular law is zero.
@@ -127,7 +127,7 @@ def chords(law: Law, u: Floats) -> Chords:
         for own, of_v in ((flat, v), (flat_rest, v_rest))
     )
     f, f1, f2 = law(u, derivatives=2)
-    return Chords(s, s_rest, v, v_rest, (f, f1, f2))
+    return ChordErrors(s, s_rest, v, v_rest, (f, f1, f2))
 
 
 def proved_bounds(motion: Motion, stations: Stations) -> dict[str, float]:
@@ -148,7 +148,7 @@ def proved_bounds(motion: Motion, stations: Stations) -> dict[str, float]:
     ):
         return {}
     divisions = [stations.u[span] for span in stations.phases]
-    drawn = [chords(p.normalised, u) for p, u in zip(phases, divisions, strict=True)]
+    drawn = [chord_errors(p.normalised, u) for p, u in zip(phases, divisions, strict=True)]
     rises = [(p, c) for p, c in zip(phases, drawn, strict=True) if p.direction > 0]
     ends = [p.lift / motion.lift * np.array([c.s[-1], c.s_rest[-1]]) for p, c in rises]
     end, rest = np.sum(ends, axis=0).tolist()
@@ -161,7 +161,7 @@ def proved_bounds(motion: Motion, stations: Stations) -> dict[str, float]:
     return {"max_v": float(off), "max_a": max_acceleration(motion) * (abs(end) + rest) / (1 + end - rest)}
 
 
-def _range_of_top(c: Chords, jumps: NDArray[np.bool_]) -> Floats:
+def _range_of_top(c: ChordErrors, jumps: NDArray[np.bool_]) -> Floats:
     """The heights between which the curve of v, faired from jump to jump, has its top, of the lift over the phase."""
     plotted = c.exact[1] + c.v
     second = np.where(jumps[1:-1], 0.0, np.abs(np.diff(plotted, 2)) + 4 * np.max(c.v_rest))

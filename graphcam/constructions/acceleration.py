@@ -210,12 +210,12 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
     return [
         _axis(diagram, np.concatenate([curve.shown.imag for curve in curves])),
         _ordinates(diagram, laws, curves),
-        Step(say("Acceleration by the law"), _by_their_laws(laws, curves), ACCELERATION, lines, why=shape),
+        Step(say("Acceleration by the law"), _law_parts(laws, curves), ACCELERATION, lines, why=shape),
         _middle_ordinates(diagram),
     ]
 
 
-def _by_their_laws(laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> tuple[Part, ...]:
+def _law_parts(laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> tuple[Part, ...]:
     """The parts that tell how the curves are drawn: by a textbook's law, or by the ordinates of a smoothed table."""
     named = [say("{phase} {law}", phase=law.title, law=law_name(law.phase.normalised)) for law in laws]
     told = say(

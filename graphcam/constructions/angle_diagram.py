@@ -144,7 +144,10 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
 def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:
     limits = plotted.givens.limits
     marks, parts, inner_marks, inner_parts = list[Mark](), list[Part](), list[Mark](), list[Part]()
-    for name, said, limit in (("max_rise", _ON_THE_RISE, limits.rise), ("max_return", _ON_THE_RETURN, limits.return_)):
+    for name, said, limit in (
+        ("max_rise", _RISE_CAPTION, limits.rise),
+        ("max_return", _RETURN_CAPTION, limits.return_),
+    ):
         top, alpha = plotted.acts[name].first, float(np.degrees(plotted.value(name)))
         marks += [top.dots(Role.LIMIT), top.label(say("{alpha:.1f}°", alpha=alpha), _away_from_axis(top))]
         compared = _NO_LIMIT if limit is None else _limit_remark(abs(alpha), limit, plotted.givens.mu_alpha)
@@ -178,8 +181,10 @@ def _limit_remark(size: float, limit: float, mu_alpha: Scale) -> Caption:
     return said.with_values(size=size, limit=float(np.degrees(limit)))
 
 
-_ON_THE_RISE = say("On the rise the farthest point of the curve is at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
-_ON_THE_RETURN = say("On the return the farthest point of the curve is at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
+_RISE_CAPTION = say("On the rise the farthest point of the curve is at {y:.2f} mm, so α = {alpha:.2f}°: {compared}.")
+_RETURN_CAPTION = say(
+    "On the return the farthest point of the curve is at {y:.2f} mm, so α = {alpha:.2f}°: {compared}."
+)
 _INSIDE_CAPTIONS = {
     "max_rise": say(
         "That of the rise is at an end of the phase; inside it, on the other side of the axis, the farthest point is "

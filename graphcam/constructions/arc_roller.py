@@ -51,7 +51,7 @@ ENDS = {
 """The accelerations at the first and the last station of every arc, in order."""
 
 
-def _worked(rolled: RollerOnArcs) -> Values:
+def _worked_values(rolled: RollerOnArcs) -> Values:
     """The formula's values at the station of the plan: lengths in the roller's drawing, and what they stand for."""
     k, mu = shown_station(rolled.givens.stations), rolled.givens.arcs.givens.mu_l.per_mm
     b, c, k_, m, n = (complex(rolled.first(name)[k]) for name in "BCKMN")
@@ -66,7 +66,7 @@ FORMULAS = (
     Formula(
         r"v = \mu_l \cdot OK",
         r"v_{<k>} = <mu:g> \cdot <ok:.2f> = <v:.3f>\ \text{<of_v>}",
-        _worked,
+        _worked_values,
         (
             V,
             Symbol(r"\mu_l", say("the scale of the drawing"), "mm/mm"),
@@ -78,7 +78,7 @@ FORMULAS = (
         r"CN = \frac{CK^2}{CB}, \qquad |a| = \mu_l \cdot OM",
         r"CN_{<k>} = \frac{<ck:.2f>^2}{<cb:.2f>} = <cn:.2f>\ \text{<mm>}, \qquad "
         r"|a_{<k>}| = <mu:g> \cdot <om:.2f> = <a:.3f>\ \text{<of_a>}",
-        _worked,
+        _worked_values,
         (
             A,
             Symbol("C", say("the centre of the arc on which the roller runs")),

@@ -33,7 +33,7 @@ class ArmInversionGivens(profile_view.InvertedGivens):
 ArmInverted = Construction[ArmInversionGivens]
 
 
-def _worked(inverted: ArmInverted) -> Values:
+def _worked_values(inverted: ArmInverted) -> Values:
     """The formula's values: the polar radius at the worked station."""
     givens, stations = inverted.givens, inverted.givens.integrated.givens.stations
     k, arm, c = profile_view.worked_station(stations), givens.arm, givens.distance
@@ -48,7 +48,7 @@ FORMULAS = (
         r"R = \sqrt{l^2 + c^2 - 2lc\cos(\psi_0 + s)}",
         r"R_{<k>} = \sqrt{<l:.6g>^2 + <c:.6g>^2 - 2 \cdot <l:.6g> \cdot <c:.6g>\cos(<psi0:.3f>^\circ + <s:.3f>^\circ)}"
         r" = <radius:.2f>\ \text{<mm>}",
-        _worked,
+        _worked_values,
         (RADIUS, ARM, DISTANCE, PSI0, S),
         of="radius",
     ),

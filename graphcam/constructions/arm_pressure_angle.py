@@ -76,7 +76,7 @@ def _at_start(measured: ArmAngles) -> Values:
     yield {"l": arm, "c": c, "r0": r0, "psi0": math.degrees(np.angle(-cam_centre(arm, c, r0)))}
 
 
-def _worked(measured: ArmAngles) -> Values:
+def _worked_values(measured: ArmAngles) -> Values:
     givens, k, (at_start,) = measured.givens, shown_station(measured), _at_start(measured)
     s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
     along, psi = sense(givens.rotation) * v, math.radians(at_start["psi0"]) + s
@@ -98,7 +98,7 @@ FORMULAS = (
         r"\gamma = 90^\circ - |\alpha|",
         r"\tan\alpha = \frac{<l:.6g>\,(1 <sign> <v:.4f>) - <c:.6g>\cos(<psi0:.3f>^\circ + <s:.3f>^\circ)}"
         r"{<c:.6g>\,\sin(<psi0:.3f>^\circ + <s:.3f>^\circ)} = <tangent:.4f>, \qquad \alpha = <alpha:.2f>^\circ",
-        _worked,
+        _worked_values,
         (ALPHA, SIGMA, V, S, Symbol(r"\gamma", say("the transmission angle"), "°")),
         of="alpha",
     ),

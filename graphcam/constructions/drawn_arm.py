@@ -31,10 +31,10 @@ START_OVERHANG = 0.3
 """So much is drawn beyond B₀ where the arm is not produced, in lengths of the arm."""
 SKETCH_PIVOT, SKETCH_ARM_OFFSET, SKETCH_SWING = 42 + 0j, 2.0, 0.2
 """The sizes of the kinematic diagram: the pivot, B beside A [mm], and how far the arm is seen to swing [rad]."""
-ROLLER_DATA = say(
+ROLLER_CAPTION = say(
     "The cam turns {rotation} about A and swings an arm about the pivot C; the roller on it turns about B."
 )
-KNIFE_EDGE_DATA = say(
+KNIFE_EDGE_CAPTION = say(
     "The cam turns {rotation} about A and swings an arm about the pivot C; the knife edge on it is B."
 )
 
@@ -121,7 +121,9 @@ class DrawnOscillating(DrawnFollower):
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """Sentences on the arm, the pivot and the roller."""
         return [
-            (KNIFE_EDGE_DATA if roller_radius == 0 else ROLLER_DATA).with_values(rotation=sense_caption(rotation)),
+            (KNIFE_EDGE_CAPTION if roller_radius == 0 else ROLLER_CAPTION).with_values(
+                rotation=sense_caption(rotation)
+            ),
             say("The arm is l = {arm:g} mm long.", arm=self.arm),
             *([] if self.place is None else [say("The pivot is c = {place:g} mm from A.", place=self.place)]),
             *roller_sentences(roller_radius),

@@ -23,7 +23,7 @@ STEM_LENGTH, GUIDE_HEIGHT, FACE_HALF_LENGTH = 34.0, 12.0, 17.0
 """The sizes of the kinematic diagram: stem, height of its guide above the face, and half the face [mm]."""
 TURN_SAMPLES = 361
 """Samples of a turn, to see how far aside a profile is touched."""
-FLAT_FACE_DATA = say(
+FLAT_FACE_CAPTION = say(
     "The cam turns {rotation} about A and moves a flat-faced follower; its line of motion meets the face in B."
 )
 
@@ -96,7 +96,7 @@ class DrawnFlatFaced(DrawnFollower):
 
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """A sentence on the face."""
-        return [FLAT_FACE_DATA.with_values(rotation=sense_caption(rotation))]
+        return [FLAT_FACE_CAPTION.with_values(rotation=sense_caption(rotation))]
 
     def limited(self, limits: Limits) -> Caption:
         """A sentence on the permitted radius of curvature, for under a face there is no pressure angle."""

@@ -25,8 +25,8 @@ from graphcam.given.spring_load import SpringLoad
 
 STEM_LENGTH, GUIDE_HEIGHT, SKETCH_OFFSET = 30.0, 9.0, 8.0
 """The sizes of the kinematic diagram: length of the stem, height of its guide above the roller, and an offset [mm]."""
-ROLLER_DATA = say("The cam turns {rotation} about A and moves a translating follower; its roller turns about B.")
-KNIFE_EDGE_DATA = say("The cam turns {rotation} about A and moves a translating follower; its knife edge is B.")
+ROLLER_CAPTION = say("The cam turns {rotation} about A and moves a translating follower; its roller turns about B.")
+KNIFE_EDGE_CAPTION = say("The cam turns {rotation} about A and moves a translating follower; its knife edge is B.")
 CENTRAL_REMARK = say("The line of motion passes through A.")
 LEFT_REMARK = say("The line of motion passes A on the left, at the offset e = {offset:g} mm.")
 RIGHT_REMARK = say("The line of motion passes A on the right, at the offset e = {offset:g} mm.")
@@ -119,7 +119,9 @@ class DrawnTranslating(DrawnFollower):
 
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """Sentences on the line of motion and the roller."""
-        moved = (KNIFE_EDGE_DATA if roller_radius == 0 else ROLLER_DATA).with_values(rotation=sense_caption(rotation))
+        moved = (KNIFE_EDGE_CAPTION if roller_radius == 0 else ROLLER_CAPTION).with_values(
+            rotation=sense_caption(rotation)
+        )
         if self.place is None:
             return [moved, *roller_sentences(roller_radius)]
         line = (CENTRAL_REMARK if self.place == 0 else LEFT_REMARK if self.place < 0 else RIGHT_REMARK).with_values(

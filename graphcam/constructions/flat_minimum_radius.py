@@ -206,7 +206,7 @@ def flat_curvature(region: FlatRegion, prime_radius: float, pencil: Pencil) -> F
 
 
 def _draw(region: FlatRegion) -> list[Step]:
-    return [_displacement_step(region), _curve_step(region), _touched(region), _radius_step(region)]
+    return [_displacement_step(region), _curve_step(region), _touched_tangent_step(region), _radius_step(region)]
 
 
 def _displacement_step(region: FlatRegion) -> Step:
@@ -297,7 +297,7 @@ def _curve_step(region: FlatRegion) -> Step:
     return Step(say("The curve of s over a"), (part,), OVER_ACCELERATION, marks, why=why)
 
 
-def _touched(region: FlatRegion) -> Step:
+def _touched_tangent_step(region: FlatRegion) -> Step:
     """The step that draws the tangent at 45 degrees, to where it meets the axis of s."""
     line, zero, need = region.acts["touch"].first, region.acts["zero"].first, float(region.value("need")) + 0.0
     slide = say(

@@ -32,7 +32,7 @@ class InversionGivens(profile_view.InvertedGivens):
 OffsetInverted = Construction[InversionGivens]
 
 
-def _worked(inverted: OffsetInverted) -> Values:
+def _worked_values(inverted: OffsetInverted) -> Values:
     """The formula's values: the polar radius at the worked station."""
     givens, stations = inverted.givens, inverted.givens.integrated.givens.stations
     k, e, r0 = profile_view.worked_station(stations), abs(givens.offset), givens.prime_radius
@@ -44,7 +44,7 @@ FORMULAS = (
     Formula(
         r"R = \sqrt{e^2 + (s_0 + s)^2}",
         r"R_{<k>} = \sqrt{<e:.2f>^2 + (<s0:.2f> + <s:.2f>)^2} = <radius:.2f>\ \text{<mm>}",
-        _worked,
+        _worked_values,
         (RADIUS, OFFSET, S0, S),
         of="radius",
     ),

@@ -75,7 +75,7 @@ class LeastRadiusGivens(ChainSettings):
 LeastRadius = Construction[LeastRadiusGivens]
 
 
-def _touched(side: str, drawn: LeastRadius) -> Values:
+def _touch_values(side: str, drawn: LeastRadius) -> Values:
     """The formula's values: where the tangent of the rise or of the return touches, and its bound for the centre."""
     limits = drawn.givens.limits
     angle = limits.rise if side == "rise" else limits.return_
@@ -101,7 +101,7 @@ FORMULAS = (
     Formula(
         r"s_0\tan[\alpha_1] + \sigma e \ge v_1 - s_1\tan[\alpha_1]",
         r"s_0\tan <angle:g>^\circ + \sigma e \ge <v:.2f> - <s:.2f>\tan <angle:g>^\circ = <least:.2f>\ \text{<mm>}",
-        partial(_touched, "rise"),
+        partial(_touch_values, "rise"),
         (
             S0,
             Symbol(r"[\alpha_1]", say("the pressure angle permitted on the rise"), "°"),
@@ -115,7 +115,7 @@ FORMULAS = (
     Formula(
         r"s_0\tan[\alpha_2] - \sigma e \ge |v_2| - s_2\tan[\alpha_2]",
         r"s_0\tan <angle:g>^\circ - \sigma e \ge <v:.2f> - <s:.2f>\tan <angle:g>^\circ = <least:.2f>\ \text{<mm>}",
-        partial(_touched, "return"),
+        partial(_touch_values, "return"),
         (
             Symbol(r"[\alpha_2]", say("the pressure angle permitted on the return"), "°"),
             Symbol("v_2", say("the velocity where the return line touches the curve"), "mm/rad"),
@@ -236,7 +236,7 @@ PLACE_CAPTIONS = {
     "apex": say("Apex: mark where the rise line and the return line cross, {distance:.1f} mm from B₀."),
     "central": say("Central (e = 0): mark where the line of motion enters the region, {distance:.1f} mm from B₀."),
 }
-"""How they are found."""
+"""How each of the textbooks' places of the cam centre is constructed, by the names in ``PLACE_NAMES``."""
 
 
 def _draw(region: LeastRadius) -> list[Step]:

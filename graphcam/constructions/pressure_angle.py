@@ -96,7 +96,7 @@ def _centre_height(measured: Construction[PressureAngleGivens]) -> Values:
     yield {"r0": r0, "e": e, "s0": math.sqrt(r0**2 - e**2)}
 
 
-def _worked(measured: Construction[PressureAngleGivens]) -> Values:
+def _worked_values(measured: Construction[PressureAngleGivens]) -> Values:
     givens, k = measured.givens, shown_station(measured)
     s, v = (float(givens.integrated.value(name)[k]) for name in "sv")
     across = sense(givens.rotation) * givens.offset
@@ -116,7 +116,7 @@ FORMULAS = (
     Formula(
         r"\tan\alpha = \frac{v - \sigma e}{s_0 + s}, \qquad \gamma = 90^\circ - |\alpha|",
         r"\tan\alpha = \frac{<v:.2f> <less> <e:.2f>}{<s0:.2f> + <s:.2f>}, \qquad \alpha = <alpha:.2f>^\circ",
-        _worked,
+        _worked_values,
         (ALPHA, V, SIGMA, S, Symbol(r"\gamma", say("the transmission angle"), "°")),
         of="alpha",
     ),

@@ -173,7 +173,7 @@ def _draw(profile: Profile) -> list[Step]:
     rounded = [_rounding_step(profile, profile.givens.rolled)] if profile.givens.rolled else []
     if not profile.givens.roller_radius:
         return [_envelope(profile), *_arcs_of_dwells(profile)]
-    steps = [*rounded, _circles(profile), _touched(profile), _envelope(profile), _angles(profile)]
+    steps = [*rounded, _circles(profile), _contact_points_step(profile), _envelope(profile), _angles(profile)]
     return [*steps, *_arcs_of_dwells(profile)]
 
 
@@ -209,7 +209,7 @@ def _circles(profile: Profile) -> Step:
     return Step(say("Roller circles"), (part,), PROFILE, marks, why=why)
 
 
-def _touched(profile: Profile) -> Step:
+def _contact_points_step(profile: Profile) -> Step:
     paper = profile.givens.roller_radius / profile.givens.inverted.givens.mu_l.per_mm
     found, names = profile.acts["touch points"].first, _names(profile)
     said = say(

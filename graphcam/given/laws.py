@@ -281,7 +281,7 @@ def _double_harmonic_tangent(k: float) -> tuple[float, float]:
     return 2 * math.atan(t) / _PI, square * square * (2 * root - 1) / (3 * k)
 
 
-def _double_harmonic_tangent_back(k: float) -> tuple[float, float]:
+def _reversed_double_harmonic_tangent(k: float) -> tuple[float, float]:
     q = _PI * k
     t = q / (1 + math.sqrt(1 + 3 * q * q))
     c2 = 1 / (1 + t * t)
@@ -435,7 +435,7 @@ def _built_law(name: str, ratio: float) -> Law:
     if name == "double-harmonic":
         formulas, peaks = (_double_harmonic, _double_harmonic_end), (3 * math.sqrt(3) * _PI / 8, _PI**2)
         fourths = tuple(partial(_fourth_of_double_harmonic, sign=sign) for sign in (-1, 1))
-        tangents, seams = (_double_harmonic_tangent, _double_harmonic_tangent_back), (0.5,)
+        tangents, seams = (_double_harmonic_tangent, _reversed_double_harmonic_tangent), (0.5,)
         return Law(name, formulas, seams, False, 0.5, 1.0, peaks, tangents, fourths, trusted=True, seams=seams)
     if name != "rectangular":
         formulas, edges, peaks, tangent = _MIRRORED_LAWS[name]

@@ -175,7 +175,7 @@ class MakingErrors:
 
 
 def wave_name(harmonic: int) -> str:
-    """What an error of the profile is called among all errors."""
+    """The name of the waviness of one harmonic among the errors."""
     return f"waviness {harmonic}"
 
 

@@ -135,7 +135,7 @@ class Cam(Plottable):
 
     @cached_property
     def kinematics(self) -> Kinematics:
-        """What follows from the follower: its values in the frame."""
+        """The follower's kinematics on this cam: trace point, pressure angle and curvature from (s, v, a, j)."""
         return kinematics(self.follower, self.prime_radius, self.sigma, self.motion.lift)
 
     @cached_property

@@ -34,8 +34,8 @@ SETTLED_STEP = 0.01
 """Greatest last step of a crossing's cam angles, as part of their difference: rounding leaves so much in tiny loops."""
 MIN_LOOP_ANGLE = 1e-6
 """A curve without cusps needs more than this angle [rad] to come back to itself."""
-MAX_SAMPLES = 1500
-"""On the whole profile, shared by its pieces."""
+PROFILE_SAMPLES = 1500
+"""About how many samples of the whole profile, shared by its pieces, the search for crossings begins with."""
 MIN_PIECE_SAMPLES, MAX_PIECE_SAMPLES = 9, 65
 
 
@@ -225,7 +225,7 @@ def _bounded_angles(old: Floats, new: Floats, bounds: Floats) -> Floats:
 
 def _samples(envelope: Envelope) -> tuple[Floats, Indices, Indices]:
     """Samples of the forward arcs: cam angle, piece, and number of the arc."""
-    count = min(max(MAX_SAMPLES // (envelope.edges.size - 1), MIN_PIECE_SAMPLES), MAX_PIECE_SAMPLES)
+    count = min(max(PROFILE_SAMPLES // (envelope.edges.size - 1), MIN_PIECE_SAMPLES), MAX_PIECE_SAMPLES)
     # Densely at the ends, which may be cusps.
     share = np.sin(np.linspace(0, np.pi / 2, count)) ** 2
     parts: list[tuple[Floats, int]] = []

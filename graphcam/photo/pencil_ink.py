@@ -64,7 +64,7 @@ PATCH_RING = 1.5
 """The width of the ring of bare paper beside a patch [mm]."""
 PATCH_DENSITY = (0.04, 1.2)
 """The range of densities of a patch of light print: others are a finger, or the edge of the photograph."""
-PATCH_UNEVEN = 0.25
+MAX_PATCH_UNEVENNESS = 0.25
 """The maximum difference of the quartiles of a patch, and of the paper about it; a greater one is half covered."""
 GREY_INK = np.ones(3)
 
@@ -176,7 +176,7 @@ def _patch(linear: Raster, corner: complex, side: float) -> NDArray[np.float64] 
     density = np.median(paper, 1) - np.median(inked, 1)
     quartiles = [float(np.ptp(np.percentile(part, (25, 75), axis=1), axis=0).max()) for part in (paper, inked)]
     faintest, darkest = PATCH_DENSITY
-    return density if max(quartiles) < PATCH_UNEVEN and faintest < density @ LUMA_WEIGHTS < darkest else None
+    return density if max(quartiles) < MAX_PATCH_UNEVENNESS and faintest < density @ LUMA_WEIGHTS < darkest else None
 
 
 def _noise_of_lines(soft: Channels) -> NDArray[np.float64]:

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from graphcam.sheets.styles import ACCENT, BLACK, GREY
-from graphcam.sweeps.pareto_front import ANGLE, SIZE
+from graphcam.sweeps.pareto_front import ANGLE, SIZE_COLUMN
 from graphcam.sweeps.sweep import Columns
 
 FIGURE_SIZE = 6.4, 4.2
@@ -18,7 +18,7 @@ def front_figure(front: Columns, limit: float) -> Figure:
 
     front : by column, with the pressure angle [degrees];  limit : of the pressure angle on the rise [degrees]
     """
-    size, angle = front[SIZE], np.abs(front[ANGLE])
+    size, angle = front[SIZE_COLUMN], np.abs(front[ANGLE])
     figure = Figure(figsize=FIGURE_SIZE, layout="tight")
     axes = figure.add_subplot()
     axes.margins(0.12)

@@ -14,7 +14,7 @@ from graphcam.sheets.formats import Lettering
 from graphcam.sheets.labels import lettered_steps, shading_parted
 from graphcam.sheets.mark_entities import Placement, expand
 from graphcam.sheets.model import Box, Entity, Group, Page, Source, bounding_box, by_place
-from graphcam.sheets.styles import CURRENT_PART_ROLE, CURRENT_STEP_ROLE, FORMER_STEP_ROLE, in_progress
+from graphcam.sheets.styles import CURRENT_PART_STAGE, CURRENT_STEP_STAGE, FORMER_STEP_STAGE, in_progress
 from graphcam.sheets.view_panels import Panel, clusters, panel_origins, panels
 from graphcam.words import Tell
 
@@ -104,10 +104,10 @@ class StepBoard:
         """
         count = len(self._entities) if current is None else len(self.former) + current + 1
         groups = [Group("titles", self._titles)] if self._has_titles else []
-        stages = [(FORMER_STEP_ROLE, entities) for entities in self._entities[:count]]
+        stages = [(FORMER_STEP_STAGE, entities) for entities in self._entities[:count]]
         if current is not None:
             *stages, (_, last) = stages
-            stages += [(CURRENT_STEP_ROLE, last)] if part is None else _stages_up_to(self.steps[current], part, last)
+            stages += [(CURRENT_STEP_STAGE, last)] if part is None else _stages_up_to(self.steps[current], part, last)
         for k, entities in enumerate(shading_parted([entities for _, entities in stages])):
             if current is not None:
                 entities = tuple(replace(e, role=in_progress(e.role, stages[k][0])) for e in entities)
@@ -137,7 +137,7 @@ def _stages_up_to(step: Step, part: int, entities: Sequence[Entity]) -> list[tup
 
     pieces = [(since(entity.source, at), piece) for entity in entities for at, piece in by_place(entity)]
     before, own = ([e for k, e in pieces if k < part], [e for k, e in pieces if k == part])
-    return [(FORMER_STEP_ROLE, before), (CURRENT_PART_ROLE, own)]
+    return [(FORMER_STEP_STAGE, before), (CURRENT_PART_STAGE, own)]
 
 
 def _in_view(steps: Sequence[Step], name: str) -> tuple[Step, ...]:

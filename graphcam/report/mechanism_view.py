@@ -25,7 +25,7 @@ from graphcam.words import Tell
 
 DECIMALS = 3
 """Decimals of lengths [mm] and angles [degrees], more than a screen shows."""
-DESCRIPTIONS = {
+SCENE_DESCRIPTIONS = {
     "stem": say("Cam and translating follower; the normal and the line of motion make the pressure angle."),
     "arm": say("Cam and oscillating follower; the normal and the direction of motion make the pressure angle."),
     "face": say("Cam and flat-faced follower; the normal of the face is its line of motion."),
@@ -151,7 +151,7 @@ def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dic
     units = "°", "°" if swings else " " + tell(unit_of("mm")), " " + tell(of_velocity)
     data: dict[str, Any] = {
         "kind": scene.kind,
-        "about": tell(DESCRIPTIONS[scene.kind]),
+        "about": tell(SCENE_DESCRIPTIONS[scene.kind]),
         "sigma": scene.sigma,
         "step": 360 / (scene.phi.size - 1),
         "phases": [_phase(phase, tell) for phase in scene.phases],

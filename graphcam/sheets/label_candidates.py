@@ -91,19 +91,20 @@ def _size(text: str, height: float) -> complex:
 
 def label_around(anchor: complex, text: str, height: float, towards: complex) -> LabelText:
     """A text with level places around a point, first near it in the direction ``towards``."""
-    half, near = _size(text, height) / 2, _compass(unit(towards))
+    half, near = _size(text, height) / 2, _point_label_places(unit(towards))
     side = near.side.real * half.real + 1j * (near.side.imag * half.imag)
     centres, anchors = anchor + near.ways + side, np.where(near.far, anchor, complex("nan"))
     return LabelText(text, height, centres, np.zeros(len(centres)), near.cost, anchors)
 
 
 @dataclass(frozen=True, eq=False)
-class _Compass:
+class _PointLabelPlaces:
     """The places (k,) of a text about a point, the best first.
 
     ways : vectors from the point to the text's box
     side : the side of the box that is nearest to the point, from its middle in halves of width and height
     far : whether a leader is needed
+    cost : the less, the better
     """
 
     ways: Points
@@ -114,7 +115,7 @@ class _Compass:
 
 # Labels of one construction look into few directions.
 @lru_cache(maxsize=256)
-def _compass(favourite: complex) -> _Compass:
+def _point_label_places(favourite: complex) -> _PointLabelPlaces:
     # The preferred direction itself comes first, then the compass.
     directions: Points = np.concatenate([[favourite], LABEL_DIRECTIONS])
     turned = 1.5 + 4.0 * (1.0 - (directions * favourite.conjugate()).real)
@@ -126,7 +127,7 @@ def _compass(favourite: complex) -> _Compass:
     # The box touches the point with a corner or with the middle of a side, and everything between.
     side = np.clip(1.6 * directions.real, -1, 1) + 1j * np.clip(1.6 * directions.imag, -1, 1)
     ways, sides = (LABEL_GAPS[:, None] * directions).ravel(), np.tile(side, len(LABEL_GAPS))
-    return _Compass(ways[order], sides[order], np.repeat(far, len(directions))[order], cost[order])
+    return _PointLabelPlaces(ways[order], sides[order], np.repeat(far, len(directions))[order], cost[order])
 
 
 def label_along_arc(centre: complex, radius: float, start: float, end: float, text: str, height: float) -> LabelText:

@@ -48,14 +48,14 @@ CODE_ROLE = "printed code"
 """The role of the cells of tags and codes."""
 FADED_COLOUR, CURRENT_COLOUR = "#9b9b9b", "#0b57a4"
 """Ink of a drawing in progress: of earlier steps, and of the current step."""
-FORMER_STEP_ROLE, CURRENT_STEP_ROLE, CURRENT_PART_ROLE = "former", "current", "part"
+FORMER_STEP_STAGE, CURRENT_STEP_STAGE, CURRENT_PART_STAGE = "former", "current", "part"
 """The stages of a drawing in progress; the lines of a current part are bold, since it is shown small."""
 
 
 def in_progress(role: str, stage: str) -> str:
     """The role of a line in a drawing in progress, by the ``stage`` in which it was drawn.
 
-    >>> STYLES_BY_ROLE[in_progress(Role.RESULT, FORMER_STEP_ROLE)].colour == FADED_COLOUR
+    >>> STYLES_BY_ROLE[in_progress(Role.RESULT, FORMER_STEP_STAGE)].colour == FADED_COLOUR
     True
     """
     return f"{stage} {role}"
@@ -76,11 +76,11 @@ STYLES_BY_ROLE: dict[str, Style] = {
     LIGHT_ROLES["grey"]: Style(THIN, colour=GREY_TINT),
     CODE_ROLE: Style(THIN),
     **{
-        in_progress(role, FORMER_STEP_ROLE): Style(min(style.width, MEDIUM), style.pattern, FADED_COLOUR)
+        in_progress(role, FORMER_STEP_STAGE): Style(min(style.width, MEDIUM), style.pattern, FADED_COLOUR)
         for role, style in _FINISHED_STYLES.items()
     },
-    **{in_progress(role, CURRENT_STEP_ROLE): _current(style) for role, style in _FINISHED_STYLES.items()},
-    **{in_progress(role, CURRENT_PART_ROLE): _bold(_current(style)) for role, style in _FINISHED_STYLES.items()},
+    **{in_progress(role, CURRENT_STEP_STAGE): _current(style) for role, style in _FINISHED_STYLES.items()},
+    **{in_progress(role, CURRENT_PART_STAGE): _bold(_current(style)) for role, style in _FINISHED_STYLES.items()},
 }
 """The style of each role of ink and of the sheet's own roles; all of them also for a drawing in progress.
 

@@ -231,8 +231,8 @@ class StudioServer(ThreadingTCPServer):
             error = {"field": "", "message": message, "remedy": "try again, or draw with fewer divisions"}
             return {"seq": request.get("seq"), "ok": False, "error": error}
 
-    def written(self, request: Mapping[str, Any]) -> Mapping[str, Any]:
-        """The names of the files that were written, or the error that they were not."""
+    def write_files(self, request: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Write the files that a request asks for, one request after the other: their names, or the error."""
         return self._writing_room.submit(self.write, request).result()
 
 
@@ -295,7 +295,7 @@ class _Handler(BaseHTTPRequestHandler):
         elif self.path in ("/engine", "/write"):
             self._check_method("POST")
             given = self._request()
-            self._send_json(self.server.answer(given) if self.path == "/engine" else self.server.written(given))
+            self._send_json(self.server.answer(given) if self.path == "/engine" else self.server.write_files(given))
         elif self.path in LIFE_SECONDS:
             self._check_method("POST")
             self._send_json(self._keep_alive(LIFE_SECONDS[self.path]))

@@ -148,7 +148,7 @@ def _check_size(data: Data) -> None:
         "drawing.divisions": (divisions if isinstance(divisions, int) else 0, MAX_DIVISIONS),
         "motion.phases": (_length(motion.get("phases")), MAX_PHASES),
         "motion.parts": (
-            sum(map(_points, parts)) if isinstance(parts := motion.get("parts"), list) else 0,
+            sum(map(_point_count, parts)) if isinstance(parts := motion.get("parts"), list) else 0,
             MAX_POINTS,
         ),
         "motion.table.rows": (_length(table.get("rows")), MAX_ROWS),
@@ -158,8 +158,8 @@ def _check_size(data: Data) -> None:
             raise DesignError(name, size, say("at most {most} in the studio", most=most))
 
 
-def _points(part: Any) -> int:
-    """The number of points of a part by conditions; what is no part counts too."""
+def _point_count(part: Any) -> int:
+    """The number of points of a part by conditions, at least 1; 1 for what is no such part."""
     return max(1, _length(part.get("points"))) if isinstance(part, dict) else 1
 
 

@@ -191,7 +191,7 @@ def swept_sizes(solution: AnySolution) -> dict[str, tuple[Caption, SizeRange, st
         for path, (group, name, unit) in NUMBER_FIELDS.items()
         if path in found and path not in UNSWEPT_PATHS and group is not DRAWING
     }
-    return sizes | (_of_points(solution) if isinstance(solution, ArcsSolution) else _of_phases(solution))
+    return sizes | (_of_points(solution) if isinstance(solution, ArcsSolution) else _phase_sizes(solution))
 
 
 def _of_points(solution: ArcsSolution) -> dict[str, tuple[Caption, SizeRange, str]]:
@@ -208,8 +208,8 @@ def _of_points(solution: ArcsSolution) -> dict[str, tuple[Caption, SizeRange, st
     return sizes
 
 
-def _of_phases(solution: Solution) -> dict[str, tuple[Caption, SizeRange, str]]:
-    """The angles of the phases, each at the cost of the next one, and the lift of all together."""
+def _phase_sizes(solution: Solution) -> dict[str, tuple[Caption, SizeRange, str]]:
+    """Caption, range and unit of each phase's angle, which the next one pays for, and of the lift, by their paths."""
     phases, motion = solution.task.motion.phases, solution.cam.motion
     if phases is None:
         return {}

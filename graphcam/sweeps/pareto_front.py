@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from graphcam.sweeps.design_space import Space
 from graphcam.sweeps.sweep import Columns
 
-SIZE, ANGLE, FEASIBLE = "prime_radius", "max_pressure_angle_rise_deg", "feasible"
+SIZE_COLUMN, ANGLE, FEASIBLE = "prime_radius", "max_pressure_angle_rise_deg", "feasible"
 """The columns that make the front; where the angle was not asked for, the smallest cam alone is on it."""
 
 
@@ -62,7 +62,7 @@ def pareto_front(first: ArrayLike, second: ArrayLike) -> NDArray[np.intp]:
 def front_of(space: Space, columns: Columns) -> Columns:
     """The front of some designs of a space, by the columns of their results, and their size if that does not vary."""
     n = next(iter(columns.values())).size
-    columns = {SIZE: np.full(n, space.axes[SIZE][0]), **columns}
+    columns = {SIZE_COLUMN: np.full(n, space.axes[SIZE_COLUMN][0]), **columns}
     return front_among({name: column[columns[FEASIBLE]] for name, column in columns.items() if name != FEASIBLE})
 
 
@@ -73,7 +73,7 @@ def front_among(columns: Columns) -> Columns:
     matter in which order the designs came.
     """
     order = np.lexsort(tuple(reversed(columns.values())))
-    size = columns[SIZE][order]
+    size = columns[SIZE_COLUMN][order]
     angle = np.abs(columns[ANGLE][order]) if ANGLE in columns else np.zeros(size.size)
     best = order[pareto_front(size, angle)]
     return {name: column[best] for name, column in columns.items()}
@@ -87,7 +87,7 @@ def joined_front(fronts: Sequence[Mapping[str, Any]]) -> Columns:
     [30.0]
     """
     # A front of no design, as it is read from a file, does not know the kind of its values.
-    parts = [part for part in fronts if len(part[SIZE])] or fronts
+    parts = [part for part in fronts if len(part[SIZE_COLUMN])] or fronts
     return front_among({name: np.concatenate([np.asarray(part[name]) for part in parts]) for name in parts[0]})
 
 

@@ -74,8 +74,8 @@ class Callout:
     lead: Callable[[Box, complex], list[Entity]]
 
 
-def called_out(contents: PartContents, layout: PartLayout, lines: Iterable[Entity]) -> dict[str, list[Entity]]:
-    """The entities of the symbols and their lines, by the view; ``lines`` are all that stands on the page."""
+def placed_callouts(contents: PartContents, layout: PartLayout, lines: Iterable[Entity]) -> dict[str, list[Entity]]:
+    """The symbols with their leaders, each in free room near its face, by the view; ``lines`` stand there already."""
     room = Room(layout.sheet.content.grown(-2))
     room.take_points(sampled(*linework(lines), 1.0), 2.0)
     found: dict[str, list[Entity]] = {}
@@ -190,7 +190,7 @@ def _first_page(contents: PartContents, views: PartLayout, tables: Placed, empty
     words = [*drawn_blocks(tables), *drawn_blocks(views.fixed), *views.general[0].drawn(views.general[1])]
     titles = _view_titles(views)
     lines = [*empty.entities, *words, *titles, *(entity for entities, _ in drawn.values() for entity in entities)]
-    for name, entities in called_out(contents, views, lines).items():
+    for name, entities in placed_callouts(contents, views, lines).items():
         drawn[name][0].extend(entities)
     beside = [*empty.entities, *words, *titles]
     placed = shading_parted(lettered_steps(list(drawn.values()), beside, sheet.content))

@@ -13,7 +13,7 @@ from random_tasks import random_arm_task, random_flat_task, random_task
 
 import graphcam as gc
 from graphcam.comparison import double_integration
-from graphcam.comparison.double_integration import FIFTH_DERIVATIVES, chords, has_known_derivatives, proved_bounds
+from graphcam.comparison.double_integration import FIFTH_DERIVATIVES, chord_errors, has_known_derivatives, proved_bounds
 from graphcam.drafting.pencil import Pencil
 from graphcam.given.laws import LAWS, Floats, law as law_of
 from graphcam.given.stations import divide
@@ -60,14 +60,14 @@ def drawn(name: str, u: tuple[float, ...], ratio: float = 1.0) -> tuple[list[mpf
 
 def off(name: str, u: Floats, ratio: float = 1.0) -> tuple[Floats, Floats]:
     """How far the known part of the bound is from the error of s and v."""
-    (s, v), found = drawn(name, tuple(u.tolist()), ratio), chords(law_of(name, ratio), u)
+    (s, v), found = drawn(name, tuple(u.tolist()), ratio), chord_errors(law_of(name, ratio), u)
     errors_s = [float(x - reference.lift(name, at, ratio)) for x, at in zip(s, u.tolist(), strict=True)]
     errors_v = [float(x - velocity(name, mpf(at), ratio)) for x, at in zip(v, u.tolist(), strict=True)]
     return np.abs(errors_s - found.s), np.abs(errors_v - found.v)
 
 
 def holds(name: str, u: Floats, ratio: float = 1.0) -> bool:
-    found, (s, v) = chords(law_of(name, ratio), u), off(name, u, ratio)
+    found, (s, v) = chord_errors(law_of(name, ratio), u), off(name, u, ratio)
     return bool(np.all(s <= found.s_rest + ROUNDING) and np.all(v <= found.v_rest + ROUNDING))
 
 
@@ -86,10 +86,10 @@ def test_a_jump_counts_for_nothing_on_a_division_and_holds_off_the_grid(ratio):
         stations = divide(motion, n)
         on = stations.u[stations.phases[0]]
         assert holds("rectangular", on, ratio)
-        assert max(each.max() for each in chords(law, on).read()) < ROUNDING
+        assert max(each.max() for each in chord_errors(law, on).read()) < ROUNDING
         beside = np.linspace(0, 1, n + 1) if ratio != 1 else np.linspace(0, 1, 2 * n + 2)
         assert holds("rectangular", beside, ratio)
-        errors.append(chords(law, beside).read()[1].max())
+        errors.append(chord_errors(law, beside).read()[1].max())
     assert errors[0] > errors[2] > 1e-3  # of first order only
 
 
@@ -103,7 +103,7 @@ def test_what_is_read_lies_within_the_bounds_and_they_tend_to_the_error(name):
         v = v - v[-1] * u
         s = np.append(0, np.cumsum(v[1:] + v[:-1]) / 2 / n)
         errors = [np.abs(x / s[-1] - exact) for x, exact in zip((s, v, law(u)[2]), law(u, 2), strict=True)]
-        bounds = chords(law, u).read()
+        bounds = chord_errors(law, u).read()
         for error, bound in zip(errors, bounds, strict=True):
             assert np.all(error <= bound + 20 * ROUNDING)
         tightness.append([b.max() / e.max() for e, b in zip(errors, bounds, strict=True) if e.max() > 1e-12])

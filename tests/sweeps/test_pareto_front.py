@@ -16,7 +16,7 @@ from typer.testing import CliRunner
 from graphcam.cli import app
 from graphcam.plots.front_figure import front_figure
 from graphcam.sweeps.design_space import Space, load_space
-from graphcam.sweeps.pareto_front import ANGLE, FEASIBLE, SIZE, front_among, joined_front, pareto_front
+from graphcam.sweeps.pareto_front import ANGLE, FEASIBLE, SIZE_COLUMN, front_among, joined_front, pareto_front
 
 SPACE = """
 [motion]
@@ -65,7 +65,7 @@ def test_what_is_on_the_front_is_beaten_by_none_and_what_is_not_is(pairs: list[t
 def columns(pairs: list[tuple[int, int]]) -> dict[str, Any]:
     sizes, angles = np.array(pairs, dtype=float).reshape(-1, 2).T
     # A third column, so that equal designs can be told apart.
-    return {SIZE: sizes, "offset": np.arange(sizes.size) % 3.0, ANGLE: -angles}
+    return {SIZE_COLUMN: sizes, "offset": np.arange(sizes.size) % 3.0, ANGLE: -angles}
 
 
 @given(PAIRS, PAIRS)
@@ -88,20 +88,20 @@ def test_the_command_ends_with_the_best_of_its_rows(space: Path, tmp_path: Path)
     rows = rows_of(tmp_path / "out.csv")
     kept = [row for row in rows if row[FEASIBLE] == "true"]
     assert f"{len(rows)} designs, {len(kept)} keep the limits" in result.stdout
-    measures = [(float(row[SIZE]), abs(float(row[ANGLE]))) for row in kept]
+    measures = [(float(row[SIZE_COLUMN]), abs(float(row[ANGLE]))) for row in kept]
     best = [
         k for k, (r, a) in enumerate(measures) if not any(s <= r and b <= a and (s, b) != (r, a) for s, b in measures)
     ]
     front = rows_of(tmp_path / "out-front.csv")
     assert len(front) > 3
-    assert {(float(row[SIZE]), abs(float(row[ANGLE]))) for row in front} == {measures[k] for k in best}
+    assert {(float(row[SIZE_COLUMN]), abs(float(row[ANGLE]))) for row in front} == {measures[k] for k in best}
     assert all({name: row[name] for name in front[0]} in [{n: r[n] for n in front[0]} for r in kept] for row in front)
     smallest = re.search(r"^the smallest: prime_radius (\S+), .*pressure_angle (\S+)$", result.stdout, re.MULTILINE)
     assert smallest
     assert float(smallest[1]) == min(measures)[0]
     assert abs(float(smallest[2])) == pytest.approx(min(measures)[1], rel=1e-4)
     table = [line.split() for line in result.stdout.splitlines() if re.match(r" +\d+ ", line)]
-    assert [float(row[0]) for row in table] == [float(row[SIZE]) for row in front]
+    assert [float(row[0]) for row in table] == [float(row[SIZE_COLUMN]) for row in front]
     figure = (tmp_path / "out-front.svg").read_text(encoding="utf-8")
     assert "maximum pressure angle on the rise" in figure
 
@@ -152,6 +152,6 @@ def test_the_figure_shades_what_no_design_reaches(space: Path):
     front = front_among({name: column[rows[FEASIBLE]] for name, column in rows.items() if name != FEASIBLE})
     axes = front_figure(front, 30.0).axes[0]
     (shaded,) = (patch.get_paths()[0] for patch in axes.collections)
-    for size, angle in zip(rows[SIZE][rows[FEASIBLE]], np.abs(rows[ANGLE][rows[FEASIBLE]]), strict=True):
+    for size, angle in zip(rows[SIZE_COLUMN][rows[FEASIBLE]], np.abs(rows[ANGLE][rows[FEASIBLE]]), strict=True):
         assert not shaded.contains_point((size + 1e-6, angle + 1e-6))
-    assert shaded.contains_point((front[SIZE][2] - 1e-3, abs(front[ANGLE][1]) - 1e-3))
+    assert shaded.contains_point((front[SIZE_COLUMN][2] - 1e-3, abs(front[ANGLE][1]) - 1e-3))

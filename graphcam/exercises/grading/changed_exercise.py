@@ -14,7 +14,7 @@ from graphcam.words import say
 
 COMPARED_KEYS = 5
 """Answer keys that are compared; one that somebody has changed alone is made again."""
-REMEDY = say("put the file back as it was; marks, caps and texts may change")
+CHANGED_EXERCISE_REMEDY = say("put the file back as it was; marks, caps and texts may change")
 
 
 def check_unchanged(exercise: Exercise, kept: AnswerKeys, students: Iterable[str], secret: bytes) -> None:
@@ -36,7 +36,9 @@ def check_unchanged(exercise: Exercise, kept: AnswerKeys, students: Iterable[str
         else:
             return
     if others:
-        raise TaskError(place, others[0], say("changed"), say("as it was when the handouts were made"), REMEDY)
+        raise TaskError(
+            place, others[0], say("changed"), say("as it was when the handouts were made"), CHANGED_EXERCISE_REMEDY
+        )
 
 
 def _comparable_keys(kept: AnswerKeys, students: Iterable[str], name: str) -> list[AnswerKey]:

@@ -139,7 +139,7 @@ def curve_of(chain: Chain, asked: AskedAnswer) -> Points:
         turn = (turning * after)[..., None]
         # What the hand's errors add to the angle of the dwell, or take from it.
         turn = turn + np.angle(end / start * np.exp(-1j * turn))
-        along = np.arange(1, _steps(after)) / _steps(after)
+        along = np.arange(1, _dwell_part_count(after)) / _dwell_part_count(after)
         radius = np.abs(start) + (np.abs(end) - np.abs(start)) * along
         found += [points[..., span], radius * np.exp(1j * (np.angle(start) + turn * along))]
     return np.concatenate(found, axis=-1)
@@ -156,7 +156,7 @@ def _dwells(chain: Chain) -> Floats:
     return turns
 
 
-def _steps(dwell: float) -> int:
+def _dwell_part_count(dwell: float) -> int:
     """The number of parts into which the arc of a dwell is divided; rounding makes no part more."""
     return max(1, math.ceil(dwell / DWELL_STEP - 1e-6))
 
@@ -183,7 +183,7 @@ def bulges(chain: Chain, asked: AskedAnswer) -> Floats:
         return found[:-1]
     # The angles at the cam centre after every moving phase, counter-clockwise [rad].
     inside = np.delete(np.angle(points[1:] / points[:-1]), stations.last[:-1])
-    steps = np.array([_steps(after) for after in _dwells(chain)])
+    steps = np.array([_dwell_part_count(after) for after in _dwells(chain)])
     found[stations.last] = np.tan(np.copysign(_dwells(chain) / steps, inside.sum()) / 4)
     times = np.ones(points.size, dtype=np.intp)
     times[stations.last] = steps

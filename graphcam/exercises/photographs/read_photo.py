@@ -23,7 +23,7 @@ BARS = ("length of the bar across", "length of the bar up")
 FORMAT_VERSION = 2
 PLACE_DECIMALS = 3
 """Decimals of a place in mm: a thousandth is far below what a photograph shows."""
-REMEDY = say("delete the folder that holds it, and read the photographs again")
+UNREADABLE_REMEDY = say("delete the folder that holds it, and read the photographs again")
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +130,7 @@ def from_json(text: str, path: str = "readings") -> tuple[list[ReadPhoto], str]:
     except (ValueError, KeyError, TypeError, AttributeError) as error:
         found = say("not readable ({error})", error=str(error))
         raise TaskError(
-            path, say("the reading"), found, say("one of format {format}", format=FORMAT_VERSION), REMEDY
+            path, say("the reading"), found, say("one of format {format}", format=FORMAT_VERSION), UNREADABLE_REMEDY
         ) from None
 
 

@@ -85,7 +85,7 @@ def _command(level: Level, limits: ResourceLimits) -> list[str]:
     python = [sys.executable, "-I", "-B", "-X", "utf8"]
     if level is Level.L1:
         return [*_another_user(), *python, launcher.__file__]
-    return [*_bubblewrap(limits), *python, "/launcher.py"]
+    return [*_bubblewrap_command(limits), *python, "/launcher.py"]
 
 
 def _another_user() -> list[str]:
@@ -97,7 +97,7 @@ def _another_user() -> list[str]:
     return [program, *others, "--inh-caps=-all", "--ambient-caps=-all", "--bounding-set=-all", "--no-new-privs"]
 
 
-def _bubblewrap(limits: ResourceLimits) -> list[str]:
+def _bubblewrap_command(limits: ResourceLimits) -> list[str]:
     program = shutil.which("bwrap") or "bwrap"
     unshared = [f"--unshare-{name}" for name in ("ipc", "pid", "net", "uts", "cgroup-try")]
     command = [program, *unshared, "--die-with-parent", "--new-session", "--hostname", "sandbox", "--cap-drop", "ALL"]
