@@ -15,7 +15,7 @@ from graphcam.constructions.arm_positions import cam_centre
 from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
 from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.board import DrawnFollower, FollowerLoads, FollowerSize, Values, roller_sentences
-from graphcam.constructions.mechanism_sketch import bearing, edge, low_point, plain_cam, size
+from graphcam.constructions.kinematic_sketch import bearing, edge, low_point, plain_cam, size
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil

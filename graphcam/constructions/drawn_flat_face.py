@@ -9,7 +9,7 @@ from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.board import DrawnFollower, FollowerSize, Values
 from graphcam.constructions.flat_inversion import flat_inversion
 from graphcam.constructions.flat_minimum_radius import flat_curvature, flat_least_radius
-from graphcam.constructions.mechanism_sketch import BASE_RADIUS, guided_stem, plain_cam
+from graphcam.constructions.kinematic_sketch import BASE_RADIUS, guided_stem, plain_cam
 from graphcam.drafting.euclid import UP
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Label, Line, Mark, Role

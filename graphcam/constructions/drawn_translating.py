@@ -11,7 +11,7 @@ from graphcam.constructions.board import DrawnFollower, FollowerLoads, Values, r
 from graphcam.constructions.force_plan import force_plan
 from graphcam.constructions.friction_plan import friction_plan
 from graphcam.constructions.inversion import inversion
-from graphcam.constructions.mechanism_sketch import edge, guided_stem, low_point, offset_marks, plain_cam
+from graphcam.constructions.kinematic_sketch import edge, guided_stem, low_point, offset_marks, plain_cam
 from graphcam.constructions.minimum_radius import least_radius
 from graphcam.constructions.pressure_angle import pressure_angle
 from graphcam.drafting.ink import Caption, Construction, say
