@@ -17,6 +17,7 @@ virtual work M_spring = (F0 + c x) dx/ds.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -28,7 +29,7 @@ from graphcam.given.follower import MM_PER_M, omega_of
 from graphcam.given.laws import Floats
 from graphcam.given.load_curve import Load, check_load, knots_of, largest, load_at, load_slope
 from graphcam.given.plausible_ranges import NUMBER_TYPES, bounded
-from graphcam.words import say
+from graphcam.words import Words, say
 
 Values = tuple[Floats, Floats, Floats, Floats]
 """(s, v, a, j)"""
@@ -102,17 +103,8 @@ class SpringLoad:
     load: Load = 0.0
 
     def __post_init__(self) -> None:
-        for quantity, unit in (("mass", "kg"), ("speed_rpm", "rpm"), ("stiffness", "N/mm"), ("friction", "N")):
-            limit = say("a finite number of 0 {unit} or more", unit=unit)
-            check_number(quantity, getattr(self, quantity), limit, least=0)
-        bounded("speed_rpm", self.speed_rpm, "rpm")
-        for quantity, unit in (("preload", "N"), ("acceleration", "rad/s^2")):
-            value = getattr(self, quantity)
-            if isinstance(value, tuple):  # all that is said of the preload, in place of the number alone
-                limit = say("a number of {unit}", unit=unit)
-                check_kind(quantity, value, NUMBER_TYPES, limit, say("write spring_preload(...).preload"))
-            check_number(quantity, value, say("a finite number of {unit}", unit=unit))
-        check_load(self.load)
+        units = {"mass": "kg", "speed_rpm": "rpm", "stiffness": "N/mm", "friction": "N"}
+        _check_numbers(self, units, "N")
 
     @property
     def omega(self) -> float:
@@ -242,17 +234,8 @@ class ArmLoad:
 
     def __post_init__(self) -> None:
         per = "N mm/rad" if self.at is None else "N/mm"
-        for quantity, unit in (("inertia", say("kg mm^2")), ("speed_rpm", "rpm"), ("stiffness", per)):
-            limit = say("a finite number of 0 {unit} or more", unit=unit)
-            check_number(quantity, getattr(self, quantity), limit, least=0)
-        bounded("speed_rpm", self.speed_rpm, "rpm")
-        for quantity, unit in (("preload", self.preload_unit), ("acceleration", "rad/s^2")):
-            value = getattr(self, quantity)
-            if isinstance(value, tuple):  # all that is said of the preload, in place of the number alone
-                limit = say("a number of {unit}", unit=unit)
-                check_kind(quantity, value, NUMBER_TYPES, limit, say("write spring_preload(...).preload"))
-            check_number(quantity, value, say("a finite number of {unit}", unit=unit))
-        check_load(self.load)
+        units = {"inertia": say("kg mm^2"), "speed_rpm": "rpm", "stiffness": per}
+        _check_numbers(self, units, self.preload_unit)
 
     @property
     def preload_unit(self) -> str:
@@ -377,3 +360,18 @@ class PlacedArmLoad:
         # The difference of lengths by that of their squares: it keeps its digits near the lowest place.
         stretch = 4 * b * r * np.sin(s / 2) * np.sin((start + angle) / 2) / (length + low)
         return way * stretch, way * first, way * second
+
+
+def _check_numbers(load: SpringLoad | ArmLoad, units: Mapping[str, Words], preload_unit: str) -> None:
+    """That the numbers of a load are finite; ``units`` are those of the numbers that are 0 or more."""
+    for quantity, unit in units.items():
+        limit = say("a finite number of 0 {unit} or more", unit=unit)
+        check_number(quantity, getattr(load, quantity), limit, least=0)
+    bounded("speed_rpm", load.speed_rpm, "rpm")
+    for quantity, unit in (("preload", preload_unit), ("acceleration", "rad/s^2")):
+        value = getattr(load, quantity)
+        if isinstance(value, tuple):  # all that is said of the preload, in place of the number alone
+            limit = say("a number of {unit}", unit=unit)
+            check_kind(quantity, value, NUMBER_TYPES, limit, say("write spring_preload(...).preload"))
+        check_number(quantity, value, say("a finite number of {unit}", unit=unit))
+    check_load(load.load)
