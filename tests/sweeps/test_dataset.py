@@ -367,7 +367,7 @@ def test_a_run_that_is_killed_goes_on_and_ends_in_the_same_bits(undisturbed, tmp
 from graphcam.cli import main
 from graphcam.sweeps import dataset
 
-dataset.PART = dataset.BLOCK = 16_384
+dataset.MAX_PART_DESIGNS = dataset.BLOCK_DESIGNS = 16_384
 main()
 """
     command = [sys.executable, "-c", script, "sweep", str(space), "--out", str(out), "--workers", "2"]
