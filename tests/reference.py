@@ -1,15 +1,17 @@
 """What the exact side is checked against: textbook formulas at 50 digits, everything else by differentiation.
 
-Nothing here imports or repeats graphcam's formulas.  Displacements are those printed in the books (J. E. Shigley,
-*Theory of Machines*; R. L. Norton, *Cam Design and Manufacturing Handbook*); velocities, accelerations, tangents and
-curvatures are ``mpmath.diff`` of them.
+Nothing here repeats the formulas that graphcam computes with.  Displacements are those printed in the books (J. E.
+Shigley, *Theory of Machines*; R. L. Norton, *Cam Design and Manufacturing Handbook*), which every law declares
+beside its own; velocities, accelerations, tangents and curvatures are ``mpmath.diff`` of them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
-from mpmath import cos, diff, matrix, mp, mpf, pi, sin, sqrt, tan
+from mpmath import cos, diff, matrix, mp, mpf, sin, sqrt, tan
+
+from graphcam.given.laws import DECLARED_LAWS
 
 mp.dps = 50
 Number = mpf
@@ -19,76 +21,18 @@ EPS = 2.0**-52
 def lift(name: str, u: Number, ratio: float = 1.0) -> Number:
     """The textbook's normalised displacement at u in [0, 1]."""
     u, ratio = mpf(u), mpf(ratio)
-    if name == "rectangular":
+    if ratio != 1:  # the rectangular law, the parts of which are of one length else
         m = 1 / (1 + ratio)
         return u**2 / m if u <= m else 1 - (1 - u) ** 2 / (1 - m)
-    if name in _FIRST_HALF:
-        return _FIRST_HALF[name](u) if u <= mpf(1) / 2 else 1 - _FIRST_HALF[name](1 - u)
-    return _WHOLE[name](u)
+    with mp.workdps(2 * mp.dps + 50):  # near u = 0 all but the fourth power of the double harmonic cancels
+        return DECLARED_LAWS[name].printed(u, mp)
 
 
 def lift_of(phase, u: Number) -> Number:
     """The normalised way of a phase, up or down; a return without a dwell before it is the rise seen backwards."""
-    if phase.direction < 0 and phase.law in ("double-harmonic", "eighth-degree"):
+    if phase.direction < 0 and DECLARED_LAWS[phase.law].rise_fall:
         return 1 - lift(phase.law, 1 - mpf(u))
     return lift(phase.law, u, phase.ratio)
-
-
-def _triangular(u: Number) -> Number:
-    return 16 * u**3 / 3 if u <= mpf(1) / 4 else mpf(1) / 6 - 2 * u + 8 * u**2 - 16 * u**3 / 3
-
-
-def _trapezoidal(u: Number) -> Number:
-    if u <= mpf(1) / 8:
-        return 64 * u**3 / 9
-    if u <= mpf(3) / 8:
-        return 8 * u**2 / 3 - u / 3 + mpf(1) / 72
-    return mpf(7) / 18 - 10 * u / 3 + 32 * u**2 / 3 - 64 * u**3 / 9
-
-
-def _modified_trapezoidal(u: Number) -> Number:
-    if u <= mpf(1) / 8:
-        return (2 * u - sin(4 * pi * u) / (2 * pi)) / (2 + pi)
-    if u <= mpf(3) / 8:
-        y = u - mpf(1) / 8
-        return (mpf(1) / 4 - 1 / (2 * pi) + 2 * y + 4 * pi * y**2) / (2 + pi)
-    return (-pi / 2 + 2 * (1 + pi) * u - sin(4 * pi * (u - mpf(1) / 4)) / (2 * pi)) / (2 + pi)
-
-
-def _modified_sine(u: Number) -> Number:
-    if u <= mpf(1) / 8:
-        return (pi * u - sin(4 * pi * u) / 4) / (4 + pi)
-    if u <= mpf(7) / 8:
-        return (2 + pi * u - 9 * sin(4 * pi * u / 3 + pi / 3) / 4) / (4 + pi)
-    return (4 + pi * u - sin(4 * pi * u) / 4) / (4 + pi)
-
-
-def _double_harmonic(u: Number) -> Number:
-    with mp.workdps(2 * mp.dps + 50):  # near u = 0 all but the fourth power cancels
-        return (1 - cos(pi * u)) / 2 - (1 - cos(2 * pi * u)) / 8
-
-
-_FIRST_HALF: dict[str, Callable[[Number], Number]] = {
-    "triangular": _triangular,
-    "trapezoidal": _trapezoidal,
-    "modified-trapezoidal": _modified_trapezoidal,
-}
-_WHOLE: dict[str, Callable[[Number], Number]] = {
-    "cosine": lambda u: (1 - cos(pi * u)) / 2,
-    "cycloidal": lambda u: u - sin(2 * pi * u) / (2 * pi),
-    "modified-sine": _modified_sine,
-    "2-3": lambda u: 3 * u**2 - 2 * u**3,
-    "3-4-5": lambda u: 10 * u**3 - 15 * u**4 + 6 * u**5,
-    "4-5-6-7": lambda u: 35 * u**4 - 84 * u**5 + 70 * u**6 - 20 * u**7,
-    "double-harmonic": _double_harmonic,
-    "eighth-degree": lambda u: (
-        mpf("6.09755") * u**3
-        - mpf("20.7804") * u**5
-        + mpf("26.73155") * u**6
-        - mpf("13.60965") * u**7
-        + mpf("2.56095") * u**8
-    ),
-}
 
 
 def displacement(motion, phi: Number) -> Number:

@@ -12,32 +12,29 @@ import numpy as np
 from graphcam.bench.bench_followers import LIFT, PERMITTED_ANGLE, BenchFollower
 from graphcam.bench.rivals import optional
 from graphcam.given.boundary_parts import MotionPoint
-from graphcam.given.laws import Floats, law as law_of
+from graphcam.given.laws import DECLARED_LAWS, Floats, law as law_of
 
 EPS = float(np.finfo(float).eps)
 REFERENCE_DIGITS = 50
 mp: Any = optional("mpmath")
-LIFTS: dict[str, Callable[[Any], Any]] = {
-    "rectangular": lambda u: 2 * u**2 if 2 * u < 1 else 1 - 2 * (1 - u) ** 2,
-    "cosine": lambda u: (1 - mp.cos(mp.pi * u)) / 2,
-    "cycloidal": lambda u: u - mp.sin(2 * mp.pi * u) / (2 * mp.pi),
-    "3-4-5": lambda u: u**3 * (10 - 15 * u + 6 * u**2),
-    "4-5-6-7": lambda u: u**4 * (35 - 84 * u + 70 * u**2 - 20 * u**3),
-}
-"""f(u) of the laws that are held against 50 digits."""
 INNER = np.random.default_rng(0).uniform(0.01, 0.99, 24)
 """Places inside a phase at which that is done, the same in every run."""
+
+
+def printed_lift(law: str) -> Callable[[Any], Any]:
+    """f(u) of a law as the books print it, at the digits of mpmath."""
+    return lambda u: DECLARED_LAWS[law].printed(u, mp)
 
 
 def law_values(law: str, u: Floats) -> Floats:
     """(4, n) f, f', f'', f''' rounded from 50 digits, by differences at a higher precision."""
     with mp.workdps(REFERENCE_DIGITS):
-        return np.array([[float(mp.diff(LIFTS[law], mp.mpf(x), k)) for x in u.tolist()] for k in range(4)])
+        return np.array([[float(mp.diff(printed_lift(law), mp.mpf(x), k)) for x in u.tolist()] for k in range(4)])
 
 
 def profile_points(where: BenchFollower, u: Floats) -> Floats:
     """(n, 2) the working profile at fractions of the rise of a translating follower, rounded from 50 digits."""
-    motion, sizes, lift = where.board.motion, where.sizes, LIFTS[where.law]
+    motion, sizes, lift = where.board.motion, where.sizes, printed_lift(where.law)
     angle, turn = motion.phases[0].angle, mp.mpc(0, where.cam.sigma)
     points: list[tuple[float, float]] = []
     with mp.workdps(REFERENCE_DIGITS):
@@ -55,7 +52,7 @@ def profile_points(where: BenchFollower, u: Floats) -> Floats:
 def least_radius(where: BenchFollower) -> float:
     """The minimum radius of the free scene, where the rise's and the return's tangent meet, rounded from 50 digits."""
     with mp.workdps(REFERENCE_DIGITS):
-        slope, lift, heights = mp.tan(mp.mpf(PERMITTED_ANGLE)), LIFTS[where.law], list[Any]()
+        slope, lift, heights = mp.tan(mp.mpf(PERMITTED_ANGLE)), printed_lift(where.law), list[Any]()
         for k in (0, 2):
             angle = mp.mpf(where.board.motion.phases[k].angle)
 
@@ -93,7 +90,7 @@ def rounding(found: Floats, exact: Floats) -> float:
 
 def law_eps(law: str) -> float | None:
     """The rounding of a law and its derivatives [eps]."""
-    if mp is None or law not in LIFTS:
+    if mp is None or law not in DECLARED_LAWS:
         return None
     the_law = law_of(law)
     off = np.abs(np.array(the_law(INNER)) - law_values(law, INNER)).max(axis=1)

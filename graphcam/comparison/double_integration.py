@@ -28,35 +28,16 @@ A jump on a division counts for nothing; one of f'' off the grid makes D m, of f
 The named part is the error itself, so that the bound is the tighter the more parts there are.
 """
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.given.laws import Floats, law as law_of
+from graphcam.given.laws import DECLARED_LAWS, Floats, law as law_of
 from graphcam.given.motion import Motion, MovingPhase
 from graphcam.given.motion_law import Law
 from graphcam.given.stations import Stations
 from graphcam.mechanism.turn_extremes import max_acceleration, max_velocity
-
-_PI = math.pi
-_RAMP, _SINE = 128 * _PI**3 / (2 + _PI), 64 * _PI**4 / (4 + _PI)
-FIFTH_DERIVATIVES = {
-    "rectangular": ((0.0,), ()),
-    "triangular": ((0.0, 0.0), (0.0,)),
-    "cosine": ((_PI**5 / 2,), ()),
-    "cycloidal": ((16 * _PI**4,), ()),
-    "trapezoidal": ((0.0, 0.0, 0.0), (0.0, 0.0)),
-    "modified-trapezoidal": ((4 * _PI * _RAMP, 0.0, 4 * _PI * _RAMP), (_RAMP, _RAMP)),
-    "modified-sine": ((4 * _PI * _SINE, 4 * _PI * _SINE / 27), (8 / 9 * _SINE,)),
-    "2-3": ((0.0,), ()),
-    "3-4-5": ((720.0,), ()),
-    "4-5-6-7": ((10080.0,), ()),
-    "double-harmonic": ((4.5 * _PI**5,), ()),
-    "eighth-degree": ((2493.648,), ()),
-}
-"""The greatest |f'''''| of each piece of the first half, and by how much f'''' jumps between them; so in the second."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,13 +76,23 @@ def has_known_derivatives(law: Law) -> bool:
     >>> has_known_derivatives(law_of("cosine"))
     True
     """
-    return law.name in FIFTH_DERIVATIVES and law in ((named := law_of(law.name, law.ratio)), named.reversed)
+    return _fifth_derivatives(law) is not None
+
+
+def _fifth_derivatives(law: Law) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
+    """What the declaration of a law says of its fifth derivative; None of a law of one's own, whatever its name."""
+    declared = DECLARED_LAWS.get(law.name)
+    if declared is None or law not in ((named := law_of(law.name, law.ratio)), named.reversed):
+        return None
+    return declared.fifth_derivatives
 
 
 def chord_errors(law: Law, u: Floats) -> ChordErrors:
     """The errors of the chords between the divisions u, from 0 to 1, of a law whose derivatives are known."""
+    known = _fifth_derivatives(law)
+    assert known is not None
     w, after, before = np.diff(u), law(u[:-1]), law(u[1:], side="left")
-    greatest, inner = (np.array([*half, *half[::-1]]) for half in FIFTH_DERIVATIVES[law.name])
+    greatest, inner = (np.array([*half, *half[::-1]]) for half in known)
     # At the middle f'''' of a mirrored law, which is odd about it, does not jump; that of the rectangular law is zero.
     bends = np.insert(inner, inner.size // 2, 0.0)
     first, last = np.searchsorted(law.edges, u[:-1], "right"), np.searchsorted(law.edges, u[1:], "left")

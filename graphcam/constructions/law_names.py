@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 
+from graphcam.given.laws import DECLARED_LAWS
 from graphcam.given.motion import Dwell, Motion
 from graphcam.given.motion_law import Law
 from graphcam.words import Caption, Words, say
@@ -9,11 +10,8 @@ from graphcam.words import Caption, Words, say
 LAW_TITLES: Mapping[str, Caption] = {
     str(title): title
     for title in (
-        *(say("rectangular"), say("triangular"), say("cosine"), say("cycloidal")),
-        *(say("trapezoidal"), say("modified-trapezoidal"), say("modified-sine"), say("measured")),
-        *(say("double-harmonic"), say("eighth-degree"), say("constant-velocity"), say("polynomial"), say("spline")),
-        # Polynomials are called by their powers; not every language leaves it at that.
-        *(say("2-3"), say("3-4-5"), say("4-5-6-7")),
+        *(law.title for law in DECLARED_LAWS.values()),
+        *(say("constant-velocity"), say("measured"), say("polynomial"), say("spline")),
     )
 }
 """What the laws are called; one that is not among them, as one of one's own, by its name."""

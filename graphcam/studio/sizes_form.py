@@ -6,7 +6,7 @@ from typing import Any, get_args
 
 from graphcam.constructions.axes import phase_symbol
 from graphcam.constructions.law_names import LAW_TITLES
-from graphcam.given.laws import LAWS
+from graphcam.given.laws import DECLARED_LAWS, LAWS
 from graphcam.given.load_curve import LoadCurve
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY
 from graphcam.given.roller_rule import DEFAULT_RULE, NAMED_RULES
@@ -208,7 +208,7 @@ def _phases(make: FieldMaker, solution: Solution) -> Field:
         "phases": rows,
         "laws": [{"value": law, "name": tell(LAW_TITLES[law])} for law in (*LAWS, CONSTANT_VELOCITY)],
         # Only this law has parts whose accelerations differ.
-        "ratio": RATIO_RANGE.plain() | {"law": "rectangular"},
+        "ratio": RATIO_RANGE.plain() | {"law": next(name for name, law in DECLARED_LAWS.items() if law.has_ratio)},
         "angle": SizeRange(MIN_PHASE_ANGLE, 360.0 - MIN_PHASE_ANGLE * (len(rows) - 1), 1.0).plain()
         | {"unit": DEGREE_SIGN},
         "lift": lifts.plain() | {"unit": _lift_unit(make, solution)},

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 
@@ -12,10 +13,9 @@ from mpmath import diff, mpf
 from random_tasks import random_arm_task, random_flat_task, random_task
 
 import graphcam as gc
-from graphcam.comparison import double_integration
-from graphcam.comparison.double_integration import FIFTH_DERIVATIVES, chord_errors, has_known_derivatives, proved_bounds
+from graphcam.comparison.double_integration import chord_errors, has_known_derivatives, proved_bounds
 from graphcam.drafting.pencil import Pencil
-from graphcam.given.laws import LAWS, Floats, law as law_of
+from graphcam.given.laws import DECLARED_LAWS, LAWS, Floats, law as law_of
 from graphcam.given.stations import divide
 from graphcam.report.markdown import blocks
 from graphcam.report.note import against_exact
@@ -107,26 +107,27 @@ def test_what_is_read_lies_within_the_bounds_and_they_tend_to_the_error(name):
         for error, bound in zip(errors, bounds, strict=True):
             assert np.all(error <= bound + 20 * ROUNDING)
         tightness.append([b.max() / e.max() for e, b in zip(errors, bounds, strict=True) if e.max() > 1e-12])
-    assert np.median(tightness[-1] or 1.0) < (2.1 if name == "4-5-6-7" else 1.3)
+    # Without a jerk at the ends the errors are of a higher order than what is known of them.
+    assert np.median(tightness[-1] or 1.0) < (1.3 if np.any(law_of(name)([0.0, 1.0])[3]) else 2.2)
 
 
-@pytest.mark.parametrize("name", [name for name in SMOOTH if max(FIFTH_DERIVATIVES[name][0]) > 0])
+@pytest.mark.parametrize("name", [name for name in SMOOTH if max(DECLARED_LAWS[name].fifth_derivatives[0]) > 0])
 def test_a_tenth_of_the_fifth_derivative_does_not_hold(name, monkeypatch):
     assert holds(name, np.linspace(0, 1, 6))
-    less = tuple(tuple(value / 10 for value in half) for half in FIFTH_DERIVATIVES[name])
-    monkeypatch.setitem(double_integration.FIFTH_DERIVATIVES, name, less)
+    less = tuple(tuple(value / 10 for value in half) for half in DECLARED_LAWS[name].fifth_derivatives)
+    monkeypatch.setitem(DECLARED_LAWS, name, replace(DECLARED_LAWS[name], fifth_derivatives=less))
     assert not all(holds(name, np.linspace(0, 1, n + 1)) for n in (3, 4, 5, 7, 12))
 
 
 @pytest.mark.parametrize("name", LAWS)
 def test_the_fifth_derivatives_are_the_greatest(name):
     edges = [0.0, *(e for e in law_of(name).edges if e < 0.5), 0.5]
-    for (a, b), greatest in zip(pairwise(edges), FIFTH_DERIVATIVES[name][0], strict=True):
-        inside = [mpf(a) + mpf(b - a) * k / 40 for k in range(1, 40)]
+    for (a, b), greatest in zip(pairwise(edges), DECLARED_LAWS[name].fifth_derivatives[0], strict=True):
+        inside = [mpf(a) + mpf(b - a) * k / 40 for k in (1e-3, *range(1, 40), 40 - 1e-3)]
         values = [abs(float(diff(lambda x: reference.lift(name, x), x, 5, h=mpf("1e-7")))) for x in inside]
         assert max(values) <= greatest * (1 + 1e-6) + 1e-6
         assert max(values) >= 0.8 * greatest
-    for edge, jump in zip(edges[1:-1], FIFTH_DERIVATIVES[name][1], strict=True):
+    for edge, jump in zip(edges[1:-1], DECLARED_LAWS[name].fifth_derivatives[1], strict=True):
         sides = [diff(lambda x: reference.lift(name, x), mpf(edge) + s, 4, h=mpf("1e-9")) for s in (-1e-6, 1e-6)]
         assert abs(float(sides[1] - sides[0])) == pytest.approx(jump, rel=1e-3, abs=1e-6)
 

@@ -22,7 +22,6 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import GOST_2_302, Paper, Scale
 from graphcam.errors import DesignError
 from graphcam.given.follower import sense
-from graphcam.given.laws import LAWS
 from graphcam.plane_vectors import dot
 
 PARTS = (12, 24, 48, 96)
@@ -156,10 +155,6 @@ def test_the_least_radius_of_an_arm_is_within_its_constant_over_n_squared(law, p
         for n in FINER
     ]
     assert 0.8 * constant <= max(scaled) < constant + 1e-8  # the constant is one, not merely a large number
-
-
-def test_every_law_has_its_constants():
-    assert set(CONSTANTS) == set(LAWS)
 
 
 @pytest.mark.parametrize("law", ["cosine", "cycloidal", "3-4-5", "2-3"])
