@@ -37,6 +37,8 @@ MAX_POINTS = 100
 """The maximum number of points of a part."""
 LAST_DIGITS_EFFECT = 1e-9
 """How far the last digits of the given numbers may change a part, as a part of its maximum displacement."""
+SAME_VALUE = Fraction(1, 10**9)
+"""Cam angles nearer to one another [rad], displacements and velocities (beside the greatest) are the same."""
 MAX_TURNINGS = 2
 """How often a part may turn between neighbouring points."""
 MAX_OVERSHOOT = 0.5
@@ -195,7 +197,7 @@ class _Part:
         span = max(given) - min(given) if given else 0.0
         for k, (before, after) in enumerate(pairwise(self.points)):
             low, high = before.place, after.place
-            between = [(place, piece) for place, piece in turns if low < place < high]
+            between = _apart([turn for turn in turns if low + SAME_VALUE < turn[0] < high - SAME_VALUE])
             where = say("between {told} and {told2}", told=quoted_angle(before.angle), told2=quoted_angle(after.angle))
             remedy = say("give a point there or fewer conditions, take a spline, or part the motion")
             if len(between) > MAX_TURNINGS:
@@ -225,6 +227,17 @@ class _Part:
             remedy = say("move the points apart, or give fewer conditions")
             limit = say("conditions that keep s to {last_digits:g} of its maximum", last_digits=LAST_DIGITS_EFFECT)
             raise DesignError("points", found, limit, remedy)
+
+
+def _apart(turns: Sequence[tuple[Fraction, ExactPiece]]) -> list[tuple[Fraction, ExactPiece]]:
+    """The turnings without pairs of them at the same place: rounding parts a double zero of the velocity in two."""
+    found: list[tuple[Fraction, ExactPiece]] = []
+    for turn in turns:
+        if found and turn[0] - found[-1][0] < SAME_VALUE:
+            found.pop()
+        else:
+            found.append(turn)
+    return found
 
 
 @dataclass(frozen=True)

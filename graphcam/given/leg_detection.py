@@ -353,7 +353,9 @@ def _slow_rows(x: Floats, y: Floats, noise: float, depth: float) -> list[_LevelR
         level = float(np.median(y[first : last + 1]))
         if last - first >= MIN_STOP_ROWS and level - y[0] > depth and y[-1] - level > depth:
             inside = first + np.flatnonzero(np.abs(y[first : last + 1] - level) <= MAX_LEVEL_DEVIATION * noise)
-            found.append(_LevelRows(int(inside[0]), int(inside[-1]), level))
+            # Of rows that noise throws far apart none may lie at their median: the follower does not rest there.
+            if inside.size:
+                found.append(_LevelRows(int(inside[0]), int(inside[-1]), level))
         length[(ends >= first) & (np.arange(y.size) <= last)] = 0.0
     return sorted(found, key=lambda flat: flat.first)
 
