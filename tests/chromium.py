@@ -4,14 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
-from playwright.sync_api import Browser, sync_playwright
 from programs import program
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 
 @contextmanager
 def chromium() -> Iterator[Browser]:
     """A browser without a window; two of them are not steered at a time."""
+    # The quick tests, which share a folder's conftest.py with slow ones, do without it.
+    from playwright.sync_api import sync_playwright
+
     path = program("chromium")
     with sync_playwright() as playwright:
         started = playwright.chromium.launch(

@@ -1,4 +1,4 @@
-"""What holds for every test: memory is given back, a process that dies ends the run, messages can be collected."""
+"""What holds for every test: only what may run is read, memory is given back, a process that dies ends the run."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import os
 import re
 import sys
 from contextlib import suppress
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -27,10 +28,29 @@ def pytest_configure(config: pytest.Config) -> None:
     """
     if config.pluginmanager.hasplugin("xdist") and config.option.maxworkerrestart is None:
         config.option.maxworkerrestart = "0"
+    config.pluginmanager.register(Read())
     # A variable, for a worker reads its options before it knows this file.
     if folder := os.environ.get("GRAPHCAM_MESSAGES"):
         Path(folder).mkdir(parents=True, exist_ok=True)
         config.pluginmanager.register(Messages(Path(folder, f"{os.getpid()}.txt")))
+
+
+class Read:
+    """Leaves files unread in which nothing may run: reading all of them takes longer than many of their tests."""
+
+    SLOW = "\npytestmark = pytest.mark.slow\n"
+    WIDGET = "widget.py"
+    """Needs the extra ``notebooks``; .ci/run tries its doctests by name."""
+
+    def pytest_ignore_collect(self, collection_path: Path, config: pytest.Config) -> bool | None:
+        """Whether a file has neither tests nor doctests, or slow ones alone where slow ones do not run."""
+        if collection_path.suffix != ".py" or not collection_path.is_file():
+            return None
+        text = collection_path.read_text(encoding="utf-8")
+        if collection_path.name.startswith("test_"):
+            return (config.option.markexpr == "not slow" and self.SLOW in text) or None
+        unknown = collection_path.name == self.WIDGET and find_spec("anywidget") is None
+        return unknown or ">>>" not in text or None
 
 
 class Messages:

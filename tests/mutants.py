@@ -2,7 +2,8 @@
 
 ``python tests/mutants.py marking --count 100 --seed 1`` prints every mutant with its place, what stood there and what
 it became, and the part that was killed of those that do something else.  The working tree is left alone: the tests
-run in a copy of it.
+run in a copy of it.  Slow tests are left out.  With ``--whole``, all other quick tests follow those of the room, up to
+the first that fails.
 
 A mutant exchanges an operator, a comparison, ``and`` and ``or``, a function for its opposite (``min`` and ``max``),
 the parts of a complex number or the sides of a box, ``True`` and ``False``; it adds one to a number, turns the sign of
@@ -69,6 +70,14 @@ ROOMS = {
             *("graphcam/exercises/marking", "tests/exercises/test_diagnosis.py", "tests/exercises/test_comparing.py"),
             *("tests/exercises/test_follow_through.py", "tests/exercises/test_feedback.py"),
             *("tests/exercises/test_simulated_counts.py", "tests/exercises/test_marking.py"),
+        ),
+    ),
+    "mechanism": Room(
+        ("graphcam/mechanism",),
+        (
+            *("graphcam/mechanism", "tests/mechanism/test_translating.py", "tests/mechanism/test_oscillating.py"),
+            *("tests/mechanism/test_flat_faced.py", "tests/mechanism/test_forces.py", "tests/mechanism"),
+            *("tests/test_table_of_hard_cases.py", "tests/comparison", "tests/solving"),
         ),
     ),
     "sheets": Room(
@@ -294,10 +303,19 @@ def equivalent(root: Path) -> dict[tuple[str, str, str], str]:
     return {(each["file"], each["old"], each["new"]): each["why"] for each in told.get("mutant", [])}
 
 
-def judged(room: Room, root: Path, count: int, seed: int, workers: int = 1) -> Iterator[tuple[Mutant, str]]:
-    """The mutants drawn, each with what became of it."""
+def judged(
+    room: Room, root: Path, count: int, seed: int, workers: int = 1, *, whole: bool = False
+) -> Iterator[tuple[Mutant, str]]:
+    """The mutants drawn, each with what became of it.
+
+    whole : whether the other quick tests follow those of the room
+    """
     same = equivalent(root)
     files = [path for test in room.tests for path in (sorted((root / test).glob("test_*.py")) or [root / test])]
+    if whole:
+        # The tests of the tool itself plant faults on their own.
+        files += [*sorted(path for path in (root / "tests").rglob("test_*.py") if path.stem != "test_mutants")]
+        files += [root / "graphcam"]
     tests = list(dict.fromkeys(path.relative_to(root).as_posix() for path in files))
     with tempfile.TemporaryDirectory() as place:
         folders: SimpleQueue[Path] = SimpleQueue()
@@ -332,9 +350,11 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--workers", type=int, default=1)
+    parser.add_argument("--whole", action="store_true")
     chosen = parser.parse_args()
     found: Counter[str] = Counter()
-    for mutant, fate in judged(ROOMS[chosen.room], ROOT, chosen.count, chosen.seed, chosen.workers):
+    drawn = judged(ROOMS[chosen.room], ROOT, chosen.count, chosen.seed, chosen.workers, whole=chosen.whole)
+    for mutant, fate in drawn:
         found[fate.split()[0]] += 1
         write(f"{mutant.file}:{mutant.line}: {' -> '.join(mutant.difference())}: {fate}\n")
     live = found["killed"] + found["survived"]

@@ -13,6 +13,8 @@ from hypothesis import given, strategies as st
 import graphcam
 from graphcam.language import read_catalog
 
+pytestmark = pytest.mark.slow
+
 RUSSIAN = Path(graphcam.__file__).parent / "data" / "languages" / "ru.po"
 TEXTS = st.text(st.characters(codec="utf-8", exclude_categories=["Cc", "Zl", "Zp", "Cs"]) | st.sampled_from('\n\t\\"'))
 

@@ -165,6 +165,7 @@ NOTES = [(spoken, name, "perfect") for spoken in CATALOGS for name in TASKS] + [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("spoken", "name", "hand"), NOTES)
 def test_a_note_has_no_english_word_and_no_foreign_decimal_sign(spoken, name, hand):
     solution = in_language(spoken, name, hand)
@@ -187,6 +188,7 @@ class Looked(dict[tuple[str, str], tuple[str, ...]]):
         return super().get(text, default)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spoken", CATALOGS)
 def test_what_the_built_in_tasks_show_is_nearly_all_translated(spoken, monkeypatch):
     looked, told = Looked(language(spoken).catalog.told), language(spoken).catalog
@@ -202,12 +204,14 @@ def test_what_the_built_in_tasks_show_is_nearly_all_translated(spoken, monkeypat
     assert len(missing) <= MOST_MISSING * len(asked), missing
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spoken", CATALOGS)
 def test_no_language_takes_more_paper(spoken):
     """Its words may be longer; what a spring adds to the coursework takes a second sheet, as in English."""
     assert [len(sheet_of(in_language(spoken, name)).pages) for name in ("coursework", "spring")] == [1, 2]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", TASKS)
 @pytest.mark.parametrize("spoken", CATALOGS)
 def test_a_sheet_has_no_english_word_and_no_foreign_decimal_sign(spoken, name):
@@ -227,6 +231,7 @@ def test_a_player_has_no_english_word(spoken):
     assert english_words(shown, (*SHARED, *KEYS), spoken) - own_words(spoken) == set()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spoken", languages())
 def test_a_translation_that_no_native_speaker_has_read_says_so_where_it_is_shown(spoken):
     solution = in_language(spoken, "flat")
@@ -253,6 +258,7 @@ def test_speaking_needs_no_library():
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("spoken", UNREAD)
 def test_the_command_line_speaks_no_language_that_has_no_messages(tmp_path, spoken):
     """Half of each sentence would be English."""

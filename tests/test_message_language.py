@@ -21,6 +21,8 @@ from graphcam.files import OutputError
 from graphcam.language import ENGLISH, Language, language, languages, read_catalog
 from graphcam.words import bare_caption, or_list, say
 
+pytestmark = pytest.mark.slow
+
 PACKAGE = Path(graphcam.__file__).parent
 RUSSIAN = language("ru")
 

@@ -74,6 +74,7 @@ def cam_of(row: Row) -> gc.Cam:
 # --- the table itself ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["law_end", "many_turns", "inflection", "orientation", "sum", "straight_flank"])
 def test_the_script_writes_this_table(name):
     text = hard_cases.TABLE.read_text(encoding="utf-8")

@@ -3,20 +3,27 @@
 A number may be told that the task gives, that an instrument of the part is set to, that was read before or is read in
 the step, that can be measured on what the part draws beside what it is drawn from, or that the sentence reckons from
 such numbers.  What is meant by a number is told by the unit behind it: one of mm is a length, one of degrees an angle.
+
+``python tests/constructions/numbers_on_the_board.py --seed 1 --size 100``, with ``tests``, ``tests/comparison`` and
+``tests/mechanism`` on the path, looks through the steps of random tasks.
 """
 
 from __future__ import annotations
 
+import argparse
 import dataclasses
 import math
 import re
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from itertools import combinations, pairwise, product
 from string import Formatter
 from typing import Any
 
 import numpy as np
+from random_tasks import random_arm_task, random_flat_task, random_task
 
 import graphcam as gc
 from graphcam.constructions.axes import station_names
@@ -27,6 +34,7 @@ from graphcam.drafting.hand import BISECTION_SHARE
 from graphcam.drafting.ink import Construction, Part, Reading, Step
 from graphcam.drafting.marks import Dots, Line, Mark, Segments
 from graphcam.drafting.scale import Scale
+from graphcam.errors import DesignError
 from graphcam.given.motion import MovingPhase
 from graphcam.report.sheet_contents import all_constructions, chapter_numbers, steps_of
 from graphcam.words import Caption, Words
@@ -596,3 +604,24 @@ def tried_off(words: Words, known: Known, symbols: dict[str, list[float]], times
             results.append("found" if {*stray(text, moved, known, dict(symbols))} - before else "missed")
     stray(text, every, known, symbols)
     return results
+
+
+def main() -> None:
+    """Print what random tasks tell though it does not stand on the board."""
+    parser = argparse.ArgumentParser(description=main.__doc__)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--size", type=int, default=100)
+    chosen = parser.parse_args()
+    kinds = (random_task, random_arm_task, random_flat_task)
+    count = 0
+    for k in range(chosen.size):
+        with suppress(DesignError):
+            for where, name, found in not_on_the_board(gc.solve(kinds[k % 3](chosen.seed * 10_000 + k))):
+                count += 1
+                sys.stdout.write(f"{kinds[k % 3].__name__}({chosen.seed * 10_000 + k}), {where}, {name}: {found}\n")
+    sys.stdout.write(f"{chosen.size} tasks: {count} numbers do not stand on the board\n")
+    sys.exit(count > 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -12,6 +12,7 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -482,8 +483,9 @@ def followed(construction: Construction) -> tuple[dict[str, list[float]], dict[s
     return readings, {data["rows"][number]["name"]: board.figure(number) for number in data["acts"]}
 
 
+@lru_cache(maxsize=1000)
 def figure_of(act: Act) -> Figure:
-    """What one act leaves, by the second board."""
+    """What one act leaves, by the second board; the marks of a drawing ask for the same acts again and again."""
     sheet = Sheet()
     number = sheet.number(act)
     return SecondBoard(json.loads(json.dumps(sheet.rows)), sheet.formulas).figure(number)

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from boards import arm_board, arm_motion_of, limits
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.chain import Chain
@@ -59,7 +60,7 @@ def over(task: Task, prime_radius: float, distance: float) -> float:
     return max(beyond)
 
 
-@pytest.mark.parametrize(("task", "one_by_one", "step"), OPEN)
+@over_all(("task", "one_by_one", "step"), OPEN)
 def test_radius_and_distance_left_open_are_round_and_keep_the_limits_together(task, one_by_one, step):
     chain = chain_of(task)
     assert chain.rounding == 1.0
@@ -73,7 +74,7 @@ def test_radius_and_distance_left_open_are_round_and_keep_the_limits_together(ta
     assert abs(chain.place - found) < 5
 
 
-@pytest.mark.parametrize(("task", "radius"), GIVEN)
+@over_all(("task", "radius"), GIVEN)
 def test_for_a_given_radius_the_nearest_distance_is_taken_that_the_region_permits(task, radius):
     chain = chain_of(task, prime_radius=radius)
     found = float(chain["minimum_radius"].value("distance"))
@@ -86,7 +87,7 @@ def test_for_a_given_radius_the_nearest_distance_is_taken_that_the_region_permit
     assert over(task, radius, nearer) > -AS_DRAWN
 
 
-@pytest.mark.parametrize(("task", "distance"), FIXED)
+@over_all(("task", "distance"), FIXED)
 def test_at_a_distance_whose_arc_holds_no_round_radius_a_less_round_one_is_adopted(task, distance):
     chain = chain_of(task, distance)
     least = float(chain["minimum_radius"].value("prime_radius"))
@@ -96,8 +97,8 @@ def test_at_a_distance_whose_arc_holds_no_round_radius_a_less_round_one_is_adopt
     assert over(task, math.ceil(least), distance) > AS_DRAWN
 
 
-@pytest.mark.parametrize("task", [task for task, *_ in (*OPEN, *GIVEN)])
-@pytest.mark.parametrize("larger", [1.02, 1.5])
+@over_all("task", [task for task, *_ in (*OPEN, *GIVEN)])
+@over_all("larger", [1.02, 1.5])
 def test_at_the_ends_of_the_permitted_distances_the_drawn_region_ends(task, larger):
     """Half a millimetre inside every stretch the exact angles are kept, half a millimetre outside they are not."""
     chain = chain_of(task, divisions=96)

@@ -8,6 +8,7 @@ import re
 
 import numpy as np
 import pytest
+from over_all import over_all
 from test_construction_steps import HANDS, fields
 from test_exact_side_unused import exact_side_forbidden
 from three_arcs import EXAMPLE, given, sound_data
@@ -23,14 +24,14 @@ from graphcam.mechanism.three_arc_cam import three_arc_cam
 ROUNDING = 1e-11
 """Of lengths, as a part of the largest one."""
 DEGREE_A_MM, PAPER = Scale(math.radians(1), "rad"), Paper(370.0, 370.0, GOST_2_302)
-every_hand = pytest.mark.parametrize("pencil", HANDS, ids=["perfect", "hand", "hands"])
+every_hand = over_all("pencil", HANDS)
 
 
 def board_of(data: dict, roller: float = 10.0, dwell: float = 40.0, divisions: int = 4) -> ArcBoard:
     return ArcBoard(ThreeArcs(**data), math.radians(dwell), roller, divisions, DEGREE_A_MM, PAPER)
 
 
-@pytest.mark.parametrize("roller", [0.0, 10.0, 60.0])
+@over_all("roller", [0.0, 10.0, 60.0])
 def test_the_drawing_s_scale_leaves_room_for_the_roller_all_about_the_cam(roller):
     """At the next larger standard scale cam and roller would not fit into their 370 mm."""
     board = board_of(CASES["case 2"], roller)
@@ -61,7 +62,7 @@ def usable() -> list[tuple[dict, gc.ArcMotion]]:
     return found
 
 
-@pytest.mark.parametrize("name", CASES)
+@over_all("name", CASES)
 def test_ruler_and_compass_find_both_roots_exactly(name):
     drawn = ArcChain(board_of(CASES[name]))["three_arcs"]
     cam, other = three_arc_cam(**CASES[name])
@@ -151,7 +152,7 @@ def test_a_second_arc_that_is_almost_straight_leaves_nothing_to_draw():
 
 
 @every_hand
-@pytest.mark.parametrize("name", [*CASES, "mirrored", "knife edge", "no dwell"])
+@over_all("name", [*CASES, "mirrored", "knife edge", "no dwell"])
 def test_every_step_says_what_is_drawn_and_draws_it(name, pencil):
     data = CASES.get(name, MIRRORED if name == "mirrored" else EXAMPLE)
     board = board_of(data, roller=0.0 if name == "knife edge" else 10.0, dwell=0.0 if name == "no dwell" else 40.0)

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from boards import ARM, arm_board, arm_motion, arm_motion_of, limits, order
 from numpy.testing import assert_allclose
+from over_all import over_all
 from test_convergence import distance_from_profile
 
 import graphcam as gc
@@ -29,7 +30,7 @@ FINER = (12, 19, 26, 40, 54, 75, 96)
 EXACT = 1e-12
 SIZES = AdoptedSizes(prime_radius=45.0, place=120.0, roller_radius=12.0)
 """A cam for every division, so that what converges is one cam's drawing."""
-each_rotation = pytest.mark.parametrize("rotation", ["ccw", "cw"])
+each_rotation = over_all("rotation", ["ccw", "cw"])
 
 
 def drawn(law: str, rotation: str = "ccw", n: int = 12, **changes) -> Chain:
@@ -52,8 +53,8 @@ def published(rotation: str, n: int) -> Chain:
     return Chain(board)
 
 
-@pytest.mark.parametrize(("rotation", "greatest"), [("ccw", 31.00), ("cw", -34.82)], ids=["opposite", "same"])
-@pytest.mark.parametrize("n", [12, 48])
+@over_all(("rotation", "greatest"), [("ccw", 31.00), ("cw", -34.82)])
+@over_all("n", [12, 48])
 def test_the_angles_of_a_published_arm(rotation, greatest, n):
     """Cam and arm turning in opposite senses on the rise and in the same."""
     chain = published(rotation, n)
@@ -92,7 +93,7 @@ def error_of_profile(chain: Chain, cam: gc.Cam) -> float:
 
 
 @each_rotation
-@pytest.mark.parametrize("error", [error_of_angles, error_of_pitch_points, error_of_profile])
+@over_all("error", [error_of_angles, error_of_pitch_points, error_of_profile])
 def test_the_error_of_a_cycloidal_arm_falls_with_the_second_order(error, rotation):
     errors = [error(drawn("cycloidal", rotation, n), cam_of("cycloidal", rotation)) for n in PARTS]
     assert order(PARTS, errors) == pytest.approx(2.0, abs=0.15)
@@ -144,8 +145,8 @@ def exact_least(law: str, problem: str, rotation: str):
     )
 
 
-@pytest.mark.parametrize("problem", PROBLEMS)
-@pytest.mark.parametrize("law", CONSTANTS)
+@over_all("problem", PROBLEMS)
+@over_all("law", CONSTANTS)
 def test_the_least_radius_of_an_arm_is_within_its_constant_over_n_squared(law, problem):
     constant = CONSTANTS[law][list(PROBLEMS).index(problem)]
     scaled = [
@@ -157,7 +158,7 @@ def test_the_least_radius_of_an_arm_is_within_its_constant_over_n_squared(law, p
     assert 0.8 * constant <= max(scaled) < constant + 1e-8  # the constant is one, not merely a large number
 
 
-@pytest.mark.parametrize("law", ["cosine", "cycloidal", "3-4-5", "2-3"])
+@over_all("law", ["cosine", "cycloidal", "3-4-5", "2-3"])
 def test_where_one_line_binds_the_distance_is_found_to_the_first_order(law):
     """The place nearest to the start is the foot on one of the lines, and the next line stands a fixed step apart."""
     assert exact_least(law, "free, force", "cw").active == ("rise",)
@@ -166,7 +167,7 @@ def test_where_one_line_binds_the_distance_is_found_to_the_first_order(law):
     assert 0.6 < max(scaled) < 1.4
 
 
-@pytest.mark.parametrize("law", ["rectangular", "cycloidal", "3-4-5"])
+@over_all("law", ["rectangular", "cycloidal", "3-4-5"])
 @each_rotation
 def test_from_the_plotted_lines_alone_the_least_radius_of_an_arm_is_too_small(law, rotation):
     """Fewer lines cut off less, so the lines at the stations alone permit too small a cam, by an erratic amount."""
@@ -199,7 +200,7 @@ def plotted_alone(region) -> float:
 
 
 @each_rotation
-@pytest.mark.parametrize("law", ["cycloidal", "rectangular", "2-3"])
+@over_all("law", ["cycloidal", "rectangular", "2-3"])
 def test_the_plans_closing_side_is_perpendicular_to_da(rotation, law):
     """Plan and mechanism are similar with perpendicular sides: V_B - V_Bx is square to D A, which is the normal."""
     steps = {str(step.title).split(" at ")[0]: step for step in drawn(law, rotation)["pressure_angle"].steps()}
@@ -252,8 +253,8 @@ def test_cam_angles_are_no_polar_angles_of_an_arms_pitch_curve():
 
 
 @each_rotation
-@pytest.mark.parametrize("problem", PROBLEMS)
-@pytest.mark.parametrize("law", ["cosine", "rectangular", "4-5-6-7"])
+@over_all("problem", PROBLEMS)
+@over_all("law", ["cosine", "rectangular", "4-5-6-7"])
 def test_no_line_cuts_the_cam_centre_off(law, problem, rotation):
     """Seen from every D, A makes no more than the permitted angle with the arm's normal."""
     region = region_of(law, problem, rotation, 24)
@@ -283,7 +284,7 @@ def test_the_region_of_a_longer_arm_is_the_same_region_enlarged():
         assert longer.readings[name].value == pytest.approx(2.5 * float(region.readings[name].value), rel=1e-12)
 
 
-@pytest.mark.parametrize("law", ["cosine", "cycloidal", "3-4-5", "rectangular"])
+@over_all("law", ["cosine", "cycloidal", "3-4-5", "rectangular"])
 def test_a_cam_that_turns_the_other_way_gives_the_motion_backwards(law):
     """An arm has no mirror image, but the same cam turned the other way runs through its motion backwards."""
     forwards = arm_motion_of((20, 90, law), (0, 40), (-20, 80, law), (0, 150))
@@ -319,7 +320,7 @@ def test_without_the_rest_condition_the_arm_still_has_to_reach_the_cam():
     assert chain.prime_radius > chain.place - ARM  # adopted so that the mechanism closes
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("lift", "rotation", "permitted"),
     [(11.5, "ccw", limits(28.455, 27.937)), (20.0, "cw", limits(45, 35)), (42.5, "cw", limits(38.7))],
 )

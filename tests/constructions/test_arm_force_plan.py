@@ -11,6 +11,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 from boards import order
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.arm_force_plan import arm_force_plan
@@ -22,8 +23,8 @@ from graphcam.tasks.task import CamTable, DrawingTable, OscillatingTable, Task
 
 TORSION = gc.ArmLoad(inertia=900, speed_rpm=150, stiffness=4000, preload=3000, load=8.0)
 AT_A_POINT = gc.ArmLoad(900, 150, stiffness=6, preload=150, acceleration=40, at=gc.ArmSpring(70.0, (130.0, -40.0)))
-LOADS = pytest.mark.parametrize("load", [TORSION, AT_A_POINT], ids=["torsion", "at a point"])
-BOTH = pytest.mark.parametrize("rotation", ["cw", "ccw"])
+LOADS = over_all("load", [TORSION, AT_A_POINT])
+BOTH = over_all("rotation", ["cw", "ccw"])
 NAMES = "load", "normal", "along", "side", "reaction"
 
 
@@ -62,7 +63,7 @@ def test_load_contact_force_and_reaction_are_in_equilibrium(rotation, load):
 
 
 @LOADS
-@pytest.mark.parametrize("name", ["load", "normal", "side"])
+@over_all("name", ["load", "normal", "side"])
 def test_the_drawn_forces_converge_to_the_exact_ones_with_second_order(name, load):
     parts = np.array([12, 24, 48, 96])
     for law, quarter in (("cycloidal", 1), ("3-4-5", 3)):

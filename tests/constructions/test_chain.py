@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from boards import SIZES, arm_board, arm_motion, coursework, flat_board, flat_motion, limits
 from numpy.testing import assert_array_equal
+from over_all import over_all
 
 from graphcam.constructions import board as board_module, chain as chain_module, drawn_translating as translating
 from graphcam.constructions.chain import AdoptedSizes, Chain
@@ -20,7 +21,7 @@ from graphcam.drafting.pencil import Pencil
 HAND = Pencil(line=0.2, dividers=0.2, division=0.5, protractor=0.01, seed=4)
 HANDS = Pencil(line=0.2, dividers=0.2, protractor=0.01, samples=3, seed=4)
 NAMES = translating.DrawnTranslating.constructions
-PENCILS = pytest.mark.parametrize("pencil", [Pencil(), HAND, HANDS], ids=["perfect", "hand", "hands"])
+PENCILS = over_all("pencil", [Pencil(), HAND, HANDS])
 
 
 def every_reading(chain: Chain) -> dict[tuple[str, str], np.ndarray]:
@@ -134,7 +135,7 @@ def test_errors_travel_from_one_construction_to_the_next():
 
 
 @PENCILS
-@pytest.mark.parametrize("name", NAMES)
+@over_all("name", NAMES)
 def test_a_construction_pickles_with_all_that_it_needs(name, pencil):
     construction = Chain(coursework("3-4-5"), pencil)[name]
     again = pickle.loads(pickle.dumps(construction))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 import re
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -20,6 +21,7 @@ from boards import (
     limits,
     motion_of,
 )
+from over_all import over_all
 
 from graphcam.constructions import views
 from graphcam.constructions.chain import Board, Chain
@@ -53,12 +55,12 @@ BOARDS: dict[str, Board] = {
     "below the start": board_of(motion_of((10, 40, "3-4-5"), (-30, 100, "cosine"), (20, 80, "cosine"))),
     "undercut": board_of(UNDERCUT, rotation="ccw", offset=5.0, prime_radius=30.0, roller_radius=20.0, divisions=24),
     "tiny lift": board_of(motion_of((1e-3, 100, "3-4-5"), (-1e-3, 100, "3-4-5")), offset=None),
-    **{f"3-4-5 in {n}": coursework("3-4-5", divisions=n) for n in (2, 3, 4, 96)},
+    **{f"3-4-5 in {n}": coursework("3-4-5", divisions=n) for n in (2, 3)},
     **{f"rectangular in {n}": coursework("rectangular", divisions=n) for n in (1, 2, 3, 96)},
 }
 ARMS: dict[str, Board] = {
-    **{f"arm, {lift} degrees": arm_board(arm_motion("3-4-5", lift), None) for lift in (5.0, 10.0, 25.0, 40.0)},
-    **{f"arm, {law}": arm_board(arm_motion(law), rotation="cw") for law in LAWS},
+    **{f"arm, {lift} degrees": arm_board(arm_motion("3-4-5", lift), None) for lift in (5.0, 40.0)},
+    **{f"arm, {law}": arm_board(arm_motion(law), rotation="cw") for law in [*LAWS][::3]},
     "arm, all given": arm_board(arm_motion("cosine"), prime_radius=50.0, roller_radius=12.0),
     "arm, form closure": arm_board(arm_motion("cosine"), None, limits=limits(45, 40)),
     "arm, no rest line": arm_board(arm_motion("cosine"), None, limits=limits(45, rest=False)),
@@ -75,7 +77,7 @@ ARMS: dict[str, Board] = {
     "arm of 1 m": arm_board(arm_motion("cosine"), None, 1000.0),
 }
 FLATS: dict[str, Board] = {
-    **{f"flat, {law}": flat_board(flat_motion(law)) for law in LAWS},
+    **{f"flat, {law}": flat_board(flat_motion(law)) for law in [*LAWS][1::3]},
     "flat, unequal parts": flat_board(flat_motion("rectangular", 2.5), rotation="cw"),
     "flat, given": flat_board(flat_motion("cosine"), prime_radius=60.0),
     "flat, too small": flat_board(flat_motion("cycloidal"), prime_radius=15.0),
@@ -87,15 +89,17 @@ FLATS: dict[str, Board] = {
     **{f"flat, rectangular in {n}": flat_board(flat_motion("rectangular"), divisions=n) for n in (1, 2, 3)},
 }
 BOARDS |= ARMS | FLATS
-NAMES = pytest.mark.parametrize("name", BOARDS)
+"""Every follower, kind of law and hand, and what is hard to draw; every law where the follower is a translating one."""
+NAMES = over_all("name", BOARDS)
 HANDS = [
     Pencil(),
     Pencil(line=0.2, dividers=0.2, division=0.5, protractor=math.radians(0.5), seed=1),
     Pencil(line=0.2, dividers=0.2, protractor=math.radians(0.5), samples=3, seed=2),
 ]
-every_hand = pytest.mark.parametrize("pencil", HANDS, ids=["perfect", "hand", "hands"])
+every_hand = over_all("pencil", HANDS)
 
 
+@cache
 def steps_of(board: Board, pencil: Pencil) -> list[Step]:
     return [step for construction in Chain(board, pencil).values() for step in construction.steps()]
 

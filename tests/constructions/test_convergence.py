@@ -13,6 +13,7 @@ from functools import cache
 import numpy as np
 import pytest
 from boards import SIZES, coursework, coursework_motion, limits, order
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.chain import AdoptedSizes, Chain
@@ -84,8 +85,8 @@ MEASURES = {
 }
 
 
-@pytest.mark.parametrize("law", SMOOTH)
-@pytest.mark.parametrize("quantity", MEASURES)
+@over_all("law", SMOOTH)
+@over_all("quantity", MEASURES)
 def test_the_error_falls_with_the_second_order_of_the_parts(law, quantity):
     errors = np.array([MEASURES[quantity](drawn(law, n), law) for n in PARTS])
     if (law, quantity) == ("cycloidal", "v"):  # a cosine keeps its shape under the pole method
@@ -94,7 +95,7 @@ def test_the_error_falls_with_the_second_order_of_the_parts(law, quantity):
         assert order(PARTS, errors) == pytest.approx(2.0, abs=0.1)
 
 
-@pytest.mark.parametrize("quantity", [name for name in MEASURES if name != "working profile"])
+@over_all("quantity", [name for name in MEASURES if name != "working profile"])
 def test_constant_acceleration_is_drawn_without_any_error(quantity):
     errors = [MEASURES[quantity](drawn("rectangular", n), "rectangular") for n in PARTS]
     assert max(errors) < EXACT
@@ -106,7 +107,7 @@ def test_the_profile_of_constant_acceleration_is_drawn_to_the_fourth_order():
     assert order(PARTS, errors) == pytest.approx(4.0, abs=0.1)
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("law", "percent"), [("rectangular", 0), ("cosine", 0), ("cycloidal", 0.37), ("3-4-5", 0.41), ("triangular", 0.46)]
 )
 def test_shape_errors_at_twelve_parts_are_those_of_the_textbooks(law, percent):
@@ -117,7 +118,7 @@ def test_shape_errors_at_twelve_parts_are_those_of_the_textbooks(law, percent):
 # --- bounds C/n^2 ----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("law", "offset", "return_limit", "constant"),
     [
         ("cycloidal", -10.0, None, 14.1),
@@ -141,7 +142,7 @@ def least_radius(law: str, n: int, offset: float | None, permitted) -> float:
     return float(chain["minimum_radius"].readings["prime_radius"].value)
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("law", "reading", "constant_deg"),
     [
         ("cycloidal", "max_rise", 8.8),
@@ -158,7 +159,7 @@ def test_the_greatest_pressure_angle_is_within_its_constant_over_n_squared(law, 
     assert 0.8 * constant_deg < scaled.max() < constant_deg
 
 
-@pytest.mark.parametrize(("law", "constant"), [("cycloidal", 240), ("3-4-5", 260)])
+@over_all(("law", "constant"), [("cycloidal", 240), ("3-4-5", 260)])
 def test_the_least_radius_of_curvature_inside_a_smooth_part_is_within_its_constant_over_n_squared(law, constant):
     exact = cam_of(law).extremes().min_convex_radius_moving[0]
     errors = [drawn(law, n)["curvature"].readings["rho_candidates"].value[0] - exact for n in FINER]
@@ -176,7 +177,7 @@ def test_the_least_radius_of_curvature_at_a_jump_is_approached_with_the_first_or
     assert order(PARTS, errors) == pytest.approx(1.0, abs=0.1)
 
 
-@pytest.mark.parametrize("law", SMOOTH)
+@over_all("law", SMOOTH)
 def test_from_plotted_points_alone_the_least_radius_is_always_too_small(law):
     """No plotted point lies beyond the curve, so a tangent laid on the points alone permits too small a cam."""
     exact = gc.minimum_radius(coursework_motion(law), gc.Translating(), "cw", offset=-10).prime_radius
@@ -195,9 +196,7 @@ def test_from_plotted_points_alone_the_least_radius_is_always_too_small(law):
     assert scaled.max() > 4 * scaled.min()  # erratic: it depends on where the points happen to fall
 
 
-@pytest.mark.parametrize(
-    ("law", "constant"), [("cosine", 0.83), ("cycloidal", 0.107), ("3-4-5", 0.53), ("triangular", 0.16)]
-)
+@over_all(("law", "constant"), [("cosine", 0.83), ("cycloidal", 0.107), ("3-4-5", 0.53), ("triangular", 0.16)])
 def test_the_greatest_velocity_is_within_its_constant_over_n_squared(law, constant):
     exact = max(gc.law(law).peak_velocity * phase.lift / phase.angle for phase in moving(law))
     scaled = [n * n * abs(drawn(law, n)["integration"].readings["max_v"].value / exact - 1) for n in FINER]
@@ -217,7 +216,7 @@ def lift_on_paper(law: str, n: int) -> tuple[float, float]:
     return float(top), 50.0 * 80.0**2 / (gc.law(law).peak_acceleration * 40.0 * 32.0)
 
 
-@pytest.mark.parametrize("n", [2, 3, 4, 5, 12, 24, 96])
+@over_all("n", [2, 3, 4, 5, 12, 24, 96])
 def test_the_cycloid_is_drawn_higher_by_the_gain_of_the_pole_method(n):
     paper, true = lift_on_paper("cycloidal", n)
     assert paper / true == pytest.approx((math.pi / n) / math.sin(math.pi / n), rel=EXACT)
@@ -232,8 +231,8 @@ def test_gain_and_residual_of_the_cycloid_in_24_parts():
     assert residual == pytest.approx(math.pi / (6 * 24**2), rel=2e-3)  # the textbook's estimate
 
 
-@pytest.mark.parametrize("ratio", [0.3, 1.0, 2.5])
-@pytest.mark.parametrize("n", range(1, 14))
+@over_all("ratio", [0.3, 1.0, 2.5])
+@over_all("n", range(1, 14))
 def test_constant_acceleration_of_any_ratio_is_exact_for_any_number_of_parts(ratio, n):
     chain = Chain(coursework("rectangular", ratio, divisions=n), decided=SIZES)
     motion, stations = chain.board.motion, chain.board.stations

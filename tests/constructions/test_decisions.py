@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from boards import SIZES, board_of, coursework, coursework_motion, limits, motion_of
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.chain import AdoptedSizes, Chain
@@ -32,7 +33,7 @@ def names(region) -> set[str]:
 # --- the region ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("law", "force", "form"),
     [
         ("rectangular", 43.28, 102.05), ("cosine", 29.76, 82.30), ("cycloidal", 44.47, 102.96), ("3-4-5", 40.13, 96.93),
@@ -46,7 +47,7 @@ def test_the_least_radii_of_the_coursework(law, force, form):
         assert region.readings["offset"].value == pytest.approx(-10, rel=1e-12)
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("law", "r0", "e"),
     [("3-4-5", 31.460717695936821, 1.2523617177719384), ("rectangular", 32.222477494517386, 1.4015871026113479)],
 )
@@ -83,9 +84,9 @@ def test_the_rest_line_moves_the_centre_to_the_corner():
     assert names(region) == {"rise", "rest"}
 
 
-@pytest.mark.parametrize("rotation", ["ccw", "cw"])
-@pytest.mark.parametrize("offset", [None, 0.0, 12.0, -12.0, 60.0])
-@pytest.mark.parametrize("permitted", [limits(30), limits(25, 40), limits(35, 70, rest=False), limits(40, 20)])
+@over_all("rotation", ["ccw", "cw"])
+@over_all("offset", [None, 0.0, 12.0, -12.0, 60.0])
+@over_all("permitted", [limits(30), limits(25, 40), limits(35, 70, rest=False), limits(40, 20)])
 def test_region_and_exact_least_radius_agree_where_the_law_is_drawn_without_error(rotation, offset, permitted):
     motion = motion_of((20, 90, "rectangular", 1.5), (0, 30), (10, 60, "rectangular"), (-30, 150, "rectangular", 0.7))
     exact = gc.minimum_radius(
@@ -113,7 +114,7 @@ def test_the_built_in_task():
     assert chain["roller"].readings["roller_radius"].value == pytest.approx(17.6, rel=1e-12)
 
 
-@pytest.mark.parametrize("law", gc.LAWS)
+@over_all("law", gc.LAWS)
 def test_a_free_offset_is_rounded_and_the_radius_read_again_at_it(law):
     chain = Chain(coursework(law, offset=None, limits=limits(30, 45)))
     free = chain["minimum_radius"].readings
@@ -140,7 +141,7 @@ def test_sizes_decided_before_take_the_place_of_the_proposals():
     assert chain["inversion"].givens.prime_radius == SIZES.prime_radius
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("rounding", "sizes"),
     [
         (None, (44.0, -10.0, 17.0)), (0.5, (43.5, -10.0, 17.0)), (0.1, (43.3, -10.0, 17.3)),
@@ -152,7 +153,7 @@ def test_radius_up_and_roller_down_to_a_multiple_of_the_rounding(rounding, sizes
     assert Chain(coursework(rounding=rounding)).sizes == AdoptedSizes(*sizes)
 
 
-@pytest.mark.parametrize(("lift", "rounding"), [(0.3, 0.01), (3, 0.1), (9, 0.1), (30, 1.0), (3000, 1.0)])
+@over_all(("lift", "rounding"), [(0.3, 0.01), (3, 0.1), (9, 0.1), (30, 1.0), (3000, 1.0)])
 def test_the_default_rounding_is_the_largest_power_of_ten_below_a_tenth_of_the_radius(lift, rounding):
     chain = Chain(board_of(motion_of((lift, 80, "cosine"), (-lift, 60, "cosine")), offset=None))
     assert chain.rounding == pytest.approx(rounding, rel=1e-15)
@@ -160,7 +161,7 @@ def test_the_default_rounding_is_the_largest_power_of_ten_below_a_tenth_of_the_r
     assert rounding == 1.0 or rounding <= least / 10 < 10 * rounding
 
 
-@pytest.mark.parametrize("offset", [10.0, 12.0, 27.0, 36.0])
+@over_all("offset", [10.0, 12.0, 27.0, 36.0])
 def test_a_radius_that_is_round_already_is_not_raised(offset):
     """The rest line alone binds: s0 = e/tan 30, so r0 = 2 e, but for rounding of the arithmetic."""
     chain = Chain(board_of(motion_of((-30, 80, "3-4-5"), (0, 40), (30, 100, "cosine")), offset=-offset))

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from boards import board_of, coursework_motion, order
 from numpy.testing import assert_allclose
+from over_all import over_all
 
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.differentiation import differentiation, measured_differentiation
@@ -48,8 +49,8 @@ def error(c, name: str) -> float:
     return np.max(np.abs(c.value(name) - displacement(c.value(f"{name}_at"))[derivative]))
 
 
-@pytest.mark.parametrize("by", ["chords", "tangents"])
-@pytest.mark.parametrize("name", ["v", "a"])
+@over_all("by", ["chords", "tangents"])
+@over_all("name", ["v", "a"])
 def test_the_derivatives_are_of_second_order(name, by):
     assert order(PARTS, [error(drawn(n, by), name) for n in PARTS]) == pytest.approx(2.0, abs=0.1)
 
@@ -64,7 +65,7 @@ def test_chords_are_of_second_order_at_the_middles_and_of_first_at_the_ends():
     assert order(PARTS, at_ends) == pytest.approx(1.0, abs=0.1)
 
 
-@pytest.mark.parametrize("by", ["chords", "tangents"])
+@over_all("by", ["chords", "tangents"])
 def test_the_greatest_values_are_of_second_order(by):
     """The greatest values of the closed curve are found by dense points."""
     phi = np.linspace(0, FULL_TURN, 100_001)
@@ -77,7 +78,7 @@ def test_the_greatest_values_are_of_second_order(by):
 UNEQUAL = np.array([0.0, 7.0, 11.0, 26.0, 30.0, 41.0, 60.0, 62.0])
 
 
-@pytest.mark.parametrize("x", [np.arange(8) * 10.0, UNEQUAL])
+@over_all("x", [np.arange(8) * 10.0, UNEQUAL])
 def test_parabolas_are_differentiated_exactly(x):
     y = 3 + 0.4 * x - 0.02 * x**2
     chords, tangents = (differentiation(x, y, MU_PHI, MU_S, POLES, Pencil(), by=by) for by in ("chords", "tangents"))
@@ -89,7 +90,7 @@ def test_parabolas_are_differentiated_exactly(x):
     assert_allclose(tangents.readings["v_at"].paper, x)
 
 
-@pytest.mark.parametrize("by", ["chords", "tangents"])
+@over_all("by", ["chords", "tangents"])
 def test_unequal_intervals_are_permitted(by):
     """Stations set at random: v is right to second order in the widest interval."""
     errors = []
@@ -99,7 +100,7 @@ def test_unequal_intervals_are_permitted(by):
     assert order((24, 48, 96, 192), errors) == pytest.approx(2.0, abs=0.35)
 
 
-@pytest.mark.parametrize("by", ["chords", "tangents"])
+@over_all("by", ["chords", "tangents"])
 def test_a_cyclic_diagram_wraps_round(by):
     """Where a turn is begun changes nothing, and the velocity comes to nothing over it."""
     c = drawn(24, by)
@@ -116,7 +117,7 @@ def test_a_cyclic_diagram_wraps_round(by):
         assert_allclose([each.value(f"max_{name}") for each in turned], c.value(f"max_{name}"), rtol=1e-9)
 
 
-@pytest.mark.parametrize(("by", "v", "a"), [("chords", 11, 10), ("tangents", 12, 12)])
+@over_all(("by", "v", "a"), [("chords", 11, 10), ("tangents", 12, 12)])
 def test_a_diagram_that_ends_has_no_chord_over_its_end(by, v, a):
     x = np.arange(12) * 10.0
     c = differentiation(x, np.sin(x / 40), MU_PHI, MU_S, POLES, Pencil(), by=by)
@@ -193,7 +194,7 @@ def test_a_mirror_s_error_does_not_depend_on_the_parts():
 # --- what cannot be, and the steps -----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("x", "turn"), [([0, 1, 2], None), ([0, 2, 1, 3, 4], None), ([0, 1, 1, 3, 4], None), ([0, 90, 180, 270, 360], 360)]
 )
 def test_stations_that_cannot_be_are_refused(x, turn):
@@ -201,7 +202,7 @@ def test_stations_that_cannot_be_are_refused(x, turn):
         differentiation(np.array(x, float), np.zeros(len(x)), MU_PHI, MU_S, POLES, Pencil(), turn=turn)
 
 
-@pytest.mark.parametrize("by", ["chords", "tangents"])
+@over_all("by", ["chords", "tangents"])
 def test_every_step_is_a_sentence_with_its_marks(by):
     steps = drawn(24, by).steps()
     assert [step.view.name.split()[-1] for step in steps] == [
@@ -263,8 +264,8 @@ def conditioned_motion():
     return boundary_motion([polynomial, SplinePart([MotionPoint(2.9, **low), *between_, MotionPoint(5.3, **low)], 5)])
 
 
-@pytest.mark.parametrize("by", ["chords", "tangents"])
-@pytest.mark.parametrize("name", ["v", "a"])
+@over_all("by", ["chords", "tangents"])
+@over_all("name", ["v", "a"])
 def test_a_motion_by_conditions_is_differentiated_to_second_order(name, by):
     """Of a motion whose jerk jumps at its joints, away from these; the exact values are its own polynomials'."""
     motion, derivative, errors = conditioned_motion(), {"v": 1, "a": 2}[name], []

@@ -10,6 +10,7 @@ from types import FrameType
 
 import pytest
 from boards import arm_board, arm_motion, coursework, flat_board, flat_motion, limits
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.chain import Chain
@@ -52,7 +53,7 @@ def test_the_guard_catches_every_way_into_the_exact_side():
             call()
 
 
-@pytest.mark.parametrize("law", LAWS)
+@over_all("law", LAWS)
 def test_the_chain_and_all_its_steps_are_drawn_without_the_exact_side(law):
     with exact_side_forbidden():
         chain = Chain(coursework(law, offset=None, limits=limits(30, 40)))
@@ -68,7 +69,7 @@ def test_a_trembling_hand_needs_it_as_little():
             construction.steps()
 
 
-@pytest.mark.parametrize("law", LAWS)
+@over_all("law", LAWS)
 def test_neither_arm_nor_flat_face_needs_it(law):
     hands = gc.Pencil(line=0.2, dividers=0.2, division=0.5, protractor=math.radians(0.5), samples=3)
     for board in (arm_board(arm_motion(law), None, limits=limits(45, 45)), flat_board(flat_motion(law))):

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from boards import flat_board, flat_motion, motion_of, order
 from numpy.testing import assert_allclose
+from over_all import over_all
 from test_convergence import distance_from_profile
 
 import graphcam as gc
@@ -29,7 +30,7 @@ EXACT = 1e-12
 SIZES = AdoptedSizes(prime_radius=60.0, place=0.0, roller_radius=0.0)
 LEAST_CURVATURE = 8.0
 FACES = ("face_left", "face_right")
-each_rotation = pytest.mark.parametrize("rotation", ["ccw", "cw"])
+each_rotation = over_all("rotation", ["ccw", "cw"])
 
 
 def drawn(law: str, rotation: str = "ccw", n: int = 12, ratio: float = 1.0) -> Chain:
@@ -93,7 +94,7 @@ def least_radius(law: str, n: int) -> float:
     return float(drawn(law, n=n)["minimum_radius"].readings["prime_radius"].value)
 
 
-@pytest.mark.parametrize("law", LEAST_RADIUS)
+@over_all("law", LEAST_RADIUS)
 def test_the_least_radius_under_a_flat_face_is_within_its_constant_over_n_squared(law):
     constant, parts = LEAST_RADIUS[law]
     exact = exact_least(flat_motion(law))
@@ -101,15 +102,15 @@ def test_the_least_radius_under_a_flat_face_is_within_its_constant_over_n_square
     assert 0.8 * constant < max(scaled) < constant  # the constant is one, not merely a large number
 
 
-@pytest.mark.parametrize("law", LEAST_RADIUS)
+@over_all("law", LEAST_RADIUS)
 def test_the_least_radius_under_a_flat_face_is_of_the_second_order(law):
     exact = exact_least(flat_motion(law))
     parts = PARTS[1:] if law == "eighth-degree" else PARTS  # with twelve parts its sharp bend is hardly seen
     assert order(parts, [abs(least_radius(law, n) - exact) for n in parts]) >= 1.9
 
 
-@pytest.mark.parametrize("law", ["triangular", "trapezoidal"])
-@pytest.mark.parametrize("n", [7, 10, 12, 13, 18])
+@over_all("law", ["triangular", "trapezoidal"])
+@over_all("n", [7, 10, 12, 13, 18])
 def test_where_corners_fall_off_the_equal_divisions_the_least_radius_keeps_its_bound(law, n):
     chain = drawn(law, n=n)
     reading = chain["minimum_radius"].readings["prime_radius"]
@@ -123,7 +124,7 @@ class EquallyDivided(DrawnFlatFaced):
     divides_at_corners = False
 
 
-@pytest.mark.parametrize("parts", [(10, 18, 34, 66), (14, 26, 50, 98)])
+@over_all("parts", [(10, 18, 34, 66), (14, 26, 50, 98)])
 def test_corners_of_the_acceleration_between_two_divisions_would_cost_an_order_on_the_unsafe_side(parts):
     """A triangle has its corner at a quarter: with 4 k + 2 equal parts nothing is plotted where s + a is least."""
     exact = exact_least(flat_motion("triangular"))
@@ -141,8 +142,8 @@ def test_corners_of_the_acceleration_between_two_divisions_would_cost_an_order_o
 
 
 @each_rotation
-@pytest.mark.parametrize("ratio", [0.4, 1.0, 2.5])
-@pytest.mark.parametrize("n", [1, 2, 3, 12, 25])
+@over_all("ratio", [0.4, 1.0, 2.5])
+@over_all("n", [1, 2, 3, 12, 25])
 def test_constant_acceleration_of_any_ratio_is_exact_at_the_jumps(n, ratio, rotation):
     """Both one-sided accelerations count: the least of s + a lies just after the switch of the rise."""
     chain = drawn("rectangular", rotation, n, ratio)
@@ -178,16 +179,14 @@ def error_of_profile(chain: Chain, cam: gc.Cam) -> float:
 
 
 @each_rotation
-@pytest.mark.parametrize("law", ["cycloidal", "3-4-5"])
-@pytest.mark.parametrize("error", [error_of_touch_points, error_of_profile])
+@over_all("law", ["cycloidal", "3-4-5"])
+@over_all("error", [error_of_touch_points, error_of_profile])
 def test_the_error_of_the_profile_falls_with_the_second_order(error, law, rotation):
     errors = [error(drawn(law, rotation, n), cam_of(law, rotation)) for n in PARTS]
     assert order(PARTS, errors) == pytest.approx(2.0, abs=0.15)
 
 
-@pytest.mark.parametrize(
-    ("law", "rho", "width"), [("cycloidal", 89.0, 0.0), ("3-4-5", 160.0, 16.3), ("cosine", 20.4, 22.5)]
-)
+@over_all(("law", "rho", "width"), [("cycloidal", 89.0, 0.0), ("3-4-5", 160.0, 16.3), ("cosine", 20.4, 22.5)])
 def test_curvature_and_width_are_within_their_constants_over_n_squared(law, rho, width):
     exact, faces = cam_of(law).extremes().min_convex_radius[0], face_width(flat_motion(law))
     scaled = {"rho": [], "width": []}
@@ -204,7 +203,7 @@ def test_curvature_and_width_are_within_their_constants_over_n_squared(law, rho,
 
 
 @each_rotation
-@pytest.mark.parametrize("law", ["cycloidal", "2-3"])
+@over_all("law", ["cycloidal", "2-3"])
 def test_every_face_touches_the_profile_square_to_its_ray_at_the_displacement(law, rotation):
     chain = drawn(law, rotation)
     inverted, phi = chain["inversion"], chain.board.stations.phi
@@ -237,7 +236,7 @@ def test_a_cam_that_turns_the_other_way_is_the_mirror_image():
         assert cw["minimum_radius"].value(name) == ccw["minimum_radius"].value(name)
 
 
-@pytest.mark.parametrize("law", ["3-4-5", "rectangular", "trapezoidal"])
+@over_all("law", ["3-4-5", "rectangular", "trapezoidal"])
 def test_the_tangent_leans_by_45_degrees_and_no_place_of_the_curve_lies_below_it(law):
     region = drawn(law, n=24)["minimum_radius"]
     curve, touch, zero = region.points["curve"], region.points["touch"], region.points["zero"]
@@ -265,7 +264,7 @@ def test_with_unequal_scales_the_tangent_leans_by_the_arctangent_of_their_ratio(
     assert lowest == np.argmin(curve.real + curve.imag)
 
 
-@pytest.mark.parametrize("prime_radius", [40.0, 60.0, 20.0])
+@over_all("prime_radius", [40.0, 60.0, 20.0])
 def test_the_least_curvature_is_what_the_radius_exceeds_the_need_by(prime_radius):
     chain = Chain(flat_board(flat_motion("3-4-5"), LEAST_CURVATURE, prime_radius=prime_radius))
     need = float(chain["minimum_radius"].value("need"))

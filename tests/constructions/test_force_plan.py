@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from boards import SIZES, coursework, order
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.chain import Chain
@@ -33,8 +34,8 @@ def value(plan: gc.Construction, name: str) -> float:
     return float(plan.readings[name].value)
 
 
-@pytest.mark.parametrize("guide", [None, GUIDE])
-@pytest.mark.parametrize("rotation", ["cw", "ccw"])
+@over_all("guide", [None, GUIDE])
+@over_all("rotation", ["cw", "ccw"])
 def test_load_contact_force_and_reaction_are_in_equilibrium(rotation, guide):
     """The triangle closes: the parts along and across the motion balance, and the friction acts against the motion."""
     angles = measured(rotation=rotation)
@@ -52,8 +53,8 @@ def test_load_contact_force_and_reaction_are_in_equilibrium(rotation, guide):
             assert friction == pytest.approx(side * 0.12 * (1 + 2 * (60 - s) / 90), rel=1e-12)
 
 
-@pytest.mark.parametrize("name", ["normal", "side", "friction"])
-@pytest.mark.parametrize(("law", "quarter"), [("cycloidal", 1), ("cycloidal", 3), ("3-4-5", 2), ("3-4-5", 3)])
+@over_all("name", ["normal", "side", "friction"])
+@over_all(("law", "quarter"), [("cycloidal", 1), ("cycloidal", 3), ("3-4-5", 2), ("3-4-5", 3)])
 def test_the_drawn_forces_converge_to_the_exact_ones_with_second_order(law, name, quarter):
     there = getattr(exact(law).at(0, quarter / 4), name)
     parts = np.array([12, 24, 48, 96])

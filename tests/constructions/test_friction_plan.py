@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from boards import SIZES, coursework, order
 from numpy.testing import assert_allclose
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.chain import Chain
@@ -22,7 +23,7 @@ from graphcam.drafting.scale import Scale
 
 LOAD = gc.SpringLoad(mass=0.5, speed_rpm=120, stiffness=2, preload=150, load=12.0)
 MU = 0.15
-BOTH = pytest.mark.parametrize("rotation", ["cw", "ccw"])
+BOTH = over_all("rotation", ["cw", "ccw"])
 
 
 def measured(law: str = "cycloidal", n: int = 12, pencil: Pencil | None = None, **changes):
@@ -55,8 +56,8 @@ def test_load_contact_force_and_reaction_are_in_equilibrium(rotation):
         assert reaction == pytest.approx(normal * abs(math.sin(alpha) + MU * math.cos(alpha)), rel=1e-10)
 
 
-@pytest.mark.parametrize(("name", "of_exact"), [("normal", "normal"), ("contact_friction", "contact_friction")])
-@pytest.mark.parametrize(("law", "quarter"), [("cycloidal", 1), ("3-4-5", 2), ("3-4-5", 3)])
+@over_all(("name", "of_exact"), [("normal", "normal"), ("contact_friction", "contact_friction")])
+@over_all(("law", "quarter"), [("cycloidal", 1), ("3-4-5", 2), ("3-4-5", 3)])
 def test_the_drawn_forces_converge_to_the_exact_ones_with_second_order(law, quarter, name, of_exact):
     there = float(getattr(exact(law).at(0, quarter / 4), of_exact))
     parts = np.array([12, 24, 48, 96])

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from boards import SIZES, board_of, coursework, coursework_motion, limits, motion_of
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.chain import Chain
@@ -23,14 +24,14 @@ def all_finite(chain: Chain, *names: str) -> bool:
 # --- few parts -------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("law", [law for law in LAWS if law != "rectangular"])
+@over_all("law", [law for law in LAWS if law != "rectangular"])
 def test_a_phase_of_one_part_has_nothing_at_its_middle(law):
     """A symmetrical law crosses zero there: the drawing stays flat, and no lift can fix its scale."""
     with pytest.raises(DesignError, match=r"maximum displacement on paper .* divide into more parts"):
         _ = Chain(coursework(law, divisions=1))["integration"]
 
 
-@pytest.mark.parametrize("law", LAWS)
+@over_all("law", LAWS)
 def test_two_parts_a_phase_are_drawn_to_the_end(law):
     chain = Chain(coursework(law, divisions=2))
     names = [name for name in chain if name != "curvature"]
@@ -63,7 +64,7 @@ def test_where_no_bend_is_readable_the_rule_rests_on_the_prime_radius_alone():
 # --- many parts ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("law", LAWS)
+@over_all("law", LAWS)
 def test_96_parts_a_phase_are_drawn_to_the_end(law):
     chain = Chain(coursework(law, divisions=96))
     assert all_finite(chain, *chain)
@@ -74,10 +75,8 @@ def test_96_parts_a_phase_are_drawn_to_the_end(law):
 # --- lines that hardly cross -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("offset", "degrees"), [(None, 0.4), (-10.0, 0.9)], ids=["rise and dwell line", "rise and the line of the offset"]
-)
-@pytest.mark.parametrize("rounding", [None, 1.0])
+@over_all(("offset", "degrees"), [(None, 0.4), (-10.0, 0.9)])
+@over_all("rounding", [None, 1.0])
 def test_lines_that_cross_below_one_degree_leave_no_radius_to_adopt(offset, degrees, rounding):
     chain = Chain(coursework("3-4-5", offset=offset, limits=limits(degrees), rounding=rounding))
     region = chain["minimum_radius"]
@@ -107,7 +106,7 @@ def test_lines_that_cross_just_above_one_degree_are_read():
 # --- phases that hardly last -----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("degrees", [1.0, 0.01])
+@over_all("degrees", [1.0, 0.01])
 def test_a_steep_phase_is_drawn_by_a_perfect_hand(degrees):
     motion = motion_of((30, degrees, "3-4-5"), (0, 100), (-30, degrees, "cosine"))
     chain = Chain(board_of(motion, offset=0.0, prime_radius=50.0, roller_radius=1.0))
@@ -137,7 +136,7 @@ def test_a_diagram_too_narrow_for_the_hand_is_an_error_and_a_miss_in_the_samples
     assert not np.isnan(Chain(board, Pencil(line=0.2, samples=200))["integration"].readings["s"].value).any()
 
 
-@pytest.mark.parametrize("lift", [1e-6, 1e6])
+@over_all("lift", [1e-6, 1e6])
 def test_very_small_and_very_large_lifts_are_only_a_matter_of_scale(lift):
     chain = Chain(board_of(motion_of((lift, 80, "cosine"), (0, 45), (-lift, 60, "cosine")), offset=None))
     unit = Chain(board_of(motion_of((1, 80, "cosine"), (0, 45), (-1, 60, "cosine")), offset=None))

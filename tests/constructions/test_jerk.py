@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from boards import board_of, coursework, coursework_motion, motion_of, order
 from numpy.testing import assert_allclose
+from over_all import over_all
 from replay import followed, off
 
 import graphcam as gc
@@ -41,7 +42,7 @@ def exact(chain: Chain):
     return chain.board.motion.at(stations.phase[left], (stations.u[left] + stations.u[left + 1]) / 2)[3]
 
 
-@pytest.mark.parametrize("name", SMOOTH)
+@over_all("name", SMOOTH)
 def test_the_jerk_and_its_greatest_value_are_of_second_order(name):
     """Chords between jumps and corners, and a curve carried on straight to their ends, both err as 1/n^2."""
     middles, peaks = [], []
@@ -55,7 +56,7 @@ def test_the_jerk_and_its_greatest_value_are_of_second_order(name):
     assert order(PARTS[1:], peaks[1:]) > 1.85
 
 
-@pytest.mark.parametrize("name", ["rectangular", "2-3", "triangular", "trapezoidal"])
+@over_all("name", ["rectangular", "2-3", "triangular", "trapezoidal"])
 def test_a_straight_acceleration_is_differentiated_exactly(name):
     """The scale alone is off, by what two integrations leave of the lift; of a part no chord runs across a corner."""
     chain = chain_of(coursework_motion(name))
@@ -68,7 +69,7 @@ def test_a_straight_acceleration_is_differentiated_exactly(name):
     )
 
 
-@pytest.mark.parametrize("name", DWELL_TO_DWELL_LAWS)
+@over_all("name", DWELL_TO_DWELL_LAWS)
 def test_the_peak_of_a_law_s_jerk_is_that_of_dense_places(name):
     u = np.linspace(0, 1, 200_001)
     dense = max(np.abs(law(name)(u, side=side)[3]).max() for side in ("left", "right"))
@@ -92,7 +93,7 @@ def test_the_scale_follows_from_the_pole():
     assert_allclose(longer["jerk"].value("j"), chain["jerk"].value("j"), rtol=1e-12)
 
 
-@pytest.mark.parametrize("name", ["cosine", "rectangular", "3-4-5", "triangular"])
+@over_all("name", ["cosine", "rectangular", "3-4-5", "triangular"])
 def test_where_the_acceleration_jumps_an_arrow_stands_for_infinity(name):
     chain = chain_of(coursework_motion(name))
     motion, joined = chain.board.motion, chain["jerk"].steps()[2]
@@ -113,8 +114,8 @@ def test_corners_fall_on_stations_only_where_the_jerk_is_drawn():
     assert list(Chain(asked))[3] == "jerk"
 
 
-@pytest.mark.parametrize("divisions", [2, 3])
-@pytest.mark.parametrize("name", ["cycloidal", "modified-trapezoidal"])
+@over_all("divisions", [2, 3])
+@over_all("name", ["cycloidal", "modified-trapezoidal"])
 def test_few_parts_are_drawn_too(name, divisions):
     """Of a stretch of one part the curve is level: no slope of the jerk is known there."""
     chain = chain_of(coursework_motion(name), divisions)
@@ -236,8 +237,8 @@ def test_without_a_speed_no_time_is_drawn_and_with_one_every_diagram_has_it():
 # --- the arc of the lower dwell --------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("rotation", ["cw", "ccw"])
-@pytest.mark.parametrize("dwell", [5.0, 100.0, 175.0, 181.0, 215.0])
+@over_all("rotation", ["cw", "ccw"])
+@over_all("dwell", [5.0, 100.0, 175.0, 181.0, 215.0])
 def test_the_arc_of_the_lower_dwell_has_the_dwell_s_angle(rotation, dwell):
     """At rest the normal goes through the cam centre, so that the touch point turns with the roller's centre."""
     rest = 360 - dwell

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from over_all import over_all
 from test_arc_drawing import CASES, EXAMPLE, MIRRORED, board_of
 
 import graphcam as gc
@@ -33,8 +34,8 @@ BOARDS: dict[str, tuple[dict[str, Any], dict[str, float]]] = {
     "no dwell": (EXAMPLE, {"dwell": 0.0, "divisions": 3}),
     "by hand": (EXAMPLE, {}),
 }
-EVERY = pytest.mark.parametrize("name", BOARDS)
-PERFECT = pytest.mark.parametrize("name", [name for name in BOARDS if name != "by hand"])
+EVERY = over_all("name", BOARDS)
+PERFECT = over_all("name", [name for name in BOARDS if name != "by hand"])
 
 
 def board(name: str) -> ArcBoard:
@@ -205,7 +206,7 @@ def is_bisected(lines: list[Line], a: complex, b: complex, to: complex, near: fl
     assert abs(end - start) > abs(end - (a + b) / 2)
 
 
-ROOTS = pytest.mark.parametrize(("prime", "at"), [("", 3), ("′", 5)], ids=["this root", "the other"])
+ROOTS = over_all(("prime", "at"), [("", 3), ("′", 5)])
 
 
 @EVERY
@@ -679,7 +680,7 @@ def scale_of_view(step: Step) -> float:
 
 # --- the diagrams ----------------------------------------------------------------------------------------------------
 
-DIAGRAMS = pytest.mark.parametrize(("k", "key"), list(enumerate(("a", "v", "s", "alpha"))))
+DIAGRAMS = over_all(("k", "key"), list(enumerate(("a", "v", "s", "alpha"))))
 
 
 def laid_off_at(step: Step) -> float:

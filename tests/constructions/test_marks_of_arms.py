@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from boards import arm_board, arm_motion, arm_motion_of, limits
 from numpy.testing import assert_allclose
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.axes import sense_caption
@@ -52,7 +53,7 @@ BOARDS = {
     "return first": arm_board(arm_motion_of((-20, 80, "3-4-5"), (0, 40), (20, 100, "cosine")), 110.0, arm=90.0),
     REACH: arm_board(arm_motion("cosine", 60.0), FREE, limits=limits(15, rest=False)),
 }
-EVERY = pytest.mark.parametrize("name", ["built-in", *BOARDS])
+EVERY = over_all("name", ["built-in", *BOARDS])
 
 
 @cache
@@ -168,7 +169,7 @@ def undrawn(step: Step) -> list[Mark]:
 
 
 @EVERY
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "a hand"])
+@over_all("pencil", [None, TREMBLING])
 def test_every_step_has_a_reason_and_its_parts_draw_all_its_marks(name, pencil):
     for construction in ("minimum_radius", "pressure_angle", "inversion"):
         for step in steps_of(name, construction, pencil)[1]:
@@ -404,7 +405,7 @@ def test_of_every_line_it_is_said_how_it_is_turned_and_on_which_side_of_it_the_c
         assert angle.end - angle.start == pytest.approx(math.radians(float(limit[:-1])))
 
 
-@pytest.mark.parametrize("name", ["built-in", *(name for name in BOARDS if name != REACH)])
+@over_all("name", ["built-in", *(name for name in BOARDS if name != REACH)])
 def test_in_the_dwells_the_lines_lie_on_the_other_side_of_the_normal(name):
     region, steps = steps_of(name, "minimum_radius")
     step = titled(steps, "Lines at the limit in the dwells")
@@ -443,7 +444,7 @@ def from_edge(place: complex, corners: np.ndarray) -> float:
     return min(found)
 
 
-@pytest.mark.parametrize("name", ["built-in", *(name for name in BOARDS if name != REACH)])
+@over_all("name", ["built-in", *(name for name in BOARDS if name != REACH)])
 def test_the_cam_centre_lies_on_the_edge_of_the_region_that_no_line_cuts(name):
     region, steps = steps_of(name, "minimum_radius")
     _, outward, _, tips = positions(region)
@@ -465,7 +466,7 @@ def test_the_cam_centre_lies_on_the_edge_of_the_region_that_no_line_cuts(name):
 
 
 @EVERY
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "a hand"])
+@over_all("pencil", [None, TREMBLING])
 def test_the_least_radius_and_the_distance_are_as_long_as_their_dimensions_say(name, pencil):
     region, steps = steps_of(name, "minimum_radius", pencil)
     step, mu, given = titled(steps, "The minimum prime radius"), region.givens.mu_l.per_mm, region.givens.distance
@@ -561,7 +562,7 @@ def shown_at(measured: Construction, steps: list[Step]) -> tuple[int, float]:
 
 
 @EVERY
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "a hand"])
+@over_all("pencil", [None, TREMBLING])
 def test_the_cam_centre_is_where_the_arcs_of_the_two_sizes_cross_below_the_arm(name, pencil):
     measured, steps = steps_of(name, "pressure_angle", pencil)
     step, mu = titled(steps, "The cam centre"), measured.givens.mu_l.per_mm
@@ -624,7 +625,7 @@ def test_the_plans_mechanism_is_the_one_of_the_sizes_and_the_displacement(name):
 
 
 @EVERY
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "a hand"])
+@over_all("pencil", [None, TREMBLING])
 def test_from_the_numbers_of_the_parts_alone_the_mechanism_is_drawn_again(name, pencil):
     """AC level, the angle at C, the arm, and the velocity along it: each to the printed digits, whoever drew before."""
     measured, steps = steps_of(name, "pressure_angle", pencil)
@@ -649,7 +650,7 @@ def test_from_the_numbers_of_the_parts_alone_the_mechanism_is_drawn_again(name, 
 
 
 @EVERY
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "a hand"])
+@over_all("pencil", [None, TREMBLING])
 def test_the_velocity_plan_is_square_to_the_mechanisms_triangle(name, pencil):
     measured, steps = steps_of(name, "pressure_angle", pencil)
     (a, b, c, d), step = mechanism(steps), titled(steps, PLAN)
@@ -687,7 +688,7 @@ def test_the_velocity_plan_is_square_to_the_mechanisms_triangle(name, pencil):
 
 
 @EVERY
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "a hand"])
+@over_all("pencil", [None, TREMBLING])
 def test_the_pressure_angle_that_is_printed_is_the_one_between_da_and_the_arms_normal(name, pencil):
     measured, steps = steps_of(name, "pressure_angle", pencil)
     (a, b, c, d), step = mechanism(steps), titled(steps, "The pressure angle")
@@ -715,7 +716,7 @@ def test_the_pressure_angle_that_is_printed_is_the_one_between_da_and_the_arms_n
 
 
 @EVERY
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "a hand"])
+@over_all("pencil", [None, TREMBLING])
 def test_all_rays_run_from_the_ends_d_to_the_cam_centre_each_with_its_normal_and_its_angle(name, pencil):
     measured, steps = steps_of(name, "pressure_angle", pencil)
     step, place = (

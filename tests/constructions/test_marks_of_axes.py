@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from boards import coursework_motion
 from numpy.testing import assert_allclose
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.axes import (
@@ -45,7 +46,7 @@ def hand() -> Hand:
     return Hand(Pencil(), Meaning("board", say("Board"), say("Something is drawn.")))
 
 
-@pytest.mark.parametrize("heights", [[3.0, -20.0, 11.0], [5.0, 7.0], [-5.0, -7.0], [np.nan, 4.0]])
+@over_all("heights", [[3.0, -20.0, 11.0], [5.0, 7.0], [-5.0, -7.0], [np.nan, 4.0]])
 def test_the_axes_reach_over_all_heights_and_the_axis_itself_and_are_named_at_their_heads(heights):
     across, up, ticks, phi, symbol, mu = axes_over_phi(90.0, TWO_DEGREES, np.array(heights), "v, mm/rad")
     assert isinstance(across, Arrow)
@@ -59,7 +60,7 @@ def test_the_axes_reach_over_all_heights_and_the_axis_itself_and_are_named_at_th
     assert_allclose(ticks.starts.real, np.arange(10, 181, 10) / 2)
 
 
-@pytest.mark.parametrize("scale", [DEGREE, HALF_A_DEGREE])
+@over_all("scale", [DEGREE, HALF_A_DEGREE])
 def test_a_thin_line_stands_where_each_phase_ends_from_the_lowest_to_the_highest(scale):
     marks = phi_axes(MOTION, scale, np.array([-10.0, 25.0]), "a")
     limits, _ = (mark for mark in marks if isinstance(mark, Segments))
@@ -70,7 +71,7 @@ def test_a_thin_line_stands_where_each_phase_ends_from_the_lowest_to_the_highest
     assert marks[0].end == pytest.approx(ends[-1] + AXIS_OVERHANG)
 
 
-ROOM = pytest.mark.parametrize(
+ROOM = over_all(
     ("scale", "tick", "every"), [(DEGREE, 10, 30), (HALF_A_DEGREE, 10, 30), (TWO_AND_A_HALF, 10, 60), (SIX, 30, 90)]
 )
 
@@ -100,7 +101,7 @@ def test_degrees_are_numbered_on_a_line_below_the_lowest_diagram_where_they_have
     assert np.diff([label.at.real for label in labels]).min() >= DEGREES_ROOM
 
 
-@pytest.mark.parametrize("scale", [DEGREE, HALF_A_DEGREE])
+@over_all("scale", [DEGREE, HALF_A_DEGREE])
 def test_the_dimensions_of_the_phases_below_the_degrees_add_up_to_the_turn(scale):
     dimensions = [mark for mark in phases_below(MOTION, scale, -20.0) if isinstance(mark, Dimension)]
     assert [str(mark.text) for mark in dimensions] == ["φ₁ = 80°", "φ₂ = 45°", "φ₃ = 60°", "φ₄ = 175°"]
@@ -109,8 +110,8 @@ def test_the_dimensions_of_the_phases_below_the_degrees_add_up_to_the_turn(scale
     assert dimensions[-1].end.real * scale.per_mm == pytest.approx(math.tau)
 
 
-@pytest.mark.parametrize("right", [None, 360.0])
-@pytest.mark.parametrize(
+@over_all("right", [None, 360.0])
+@over_all(
     ("low", "high", "per_mm", "every", "parts"),
     [
         (0, 50, 0.6, 10, 5),
@@ -198,8 +199,8 @@ def test_neighbours_are_named_together_within_a_phase_only():
     assert joined_parts([0, 2, 3, 11], stations) == "1, 3, 4, 6′"
 
 
-@pytest.mark.parametrize("parts", [9, 10, 100])
-@pytest.mark.parametrize("every", [1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30, 40, 50])
+@over_all("parts", [9, 10, 100])
+@over_all("every", [1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30, 40, 50])
 def test_the_stations_named_are_as_many_as_find_room_and_their_numbers_are_round(parts, every):
     """4.5 mm for one digit, 6 mm for two; of rounder steps the first that is wide enough."""
     turn = gc.Motion([gc.Rise(30, math.pi), gc.Return(30, math.pi)])

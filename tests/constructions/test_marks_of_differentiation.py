@@ -10,6 +10,7 @@ from functools import cache
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.differentiation import TANGENT_HALF_LENGTH, differentiation
@@ -37,7 +38,7 @@ def displacement(x):
 
 BUILT_IN = ("the built-in task",)
 KINDS = [(by, turn) for by in ("chords", "tangents") for turn in (TURN, None)]
-EVERY = pytest.mark.parametrize("kind", [*KINDS, BUILT_IN], ids=lambda kind: " ".join(map(str, kind)))
+EVERY = over_all("kind", [*KINDS, BUILT_IN])
 
 
 @cache
@@ -134,7 +135,7 @@ def test_every_diagram_has_its_axes_and_their_names_at_the_heads(kind):
 
 
 @EVERY
-@pytest.mark.parametrize("at", [0, 3, 6])
+@over_all("at", [0, 3, 6])
 def test_the_curve_runs_through_every_plotted_point_and_over_the_ends_of_the_turn(kind, at):
     c = drawn(kind)
     steps = c.steps()
@@ -162,8 +163,8 @@ def test_the_curve_runs_through_every_plotted_point_and_over_the_ends_of_the_tur
 # --- chords and tangents ---------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
-@pytest.mark.parametrize("kind", [k for k in [*KINDS, BUILT_IN] if by_chords(k)], ids=str)
+@over_all("pencil", [None, TREMBLING])
+@over_all("kind", [k for k in [*KINDS, BUILT_IN] if by_chords(k)])
 def test_chords_join_neighbouring_ordinates_and_come_round(kind, pencil):
     for plotted, _, (chords, *_), _, _ in passes(kind, pencil):
         polygon = one(chords, Line)
@@ -178,8 +179,8 @@ def neighbours(kind: tuple, plotted):
     return np.concatenate([plotted[-1:] - turn, plotted, plotted[:1] + turn]) if turn else plotted
 
 
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
-@pytest.mark.parametrize("kind", [k for k in KINDS if not by_chords(k)], ids=str)
+@over_all("pencil", [None, TREMBLING])
+@over_all("kind", [k for k in KINDS if not by_chords(k)])
 def test_a_tangent_touches_its_point_and_crosses_neither_chord_there(kind, pencil):
     """Between the slopes of the two chords at a point lies that of the tangent: it passes without crossing them."""
     for plotted, _, (tangents, *_), _, _ in passes(kind, pencil):
@@ -197,7 +198,7 @@ def test_a_tangent_touches_its_point_and_crosses_neither_chord_there(kind, penci
         assert np.all(seen <= np.maximum(chords[:-1], chords[1:]) + slack)
 
 
-@pytest.mark.parametrize("kind", [k for k in KINDS if not by_chords(k)], ids=str)
+@over_all("kind", [k for k in KINDS if not by_chords(k)])
 def test_a_tangent_has_the_slope_of_the_parabola_through_its_point_and_its_neighbours(kind):
     for plotted, _, (tangents, *_), _, _ in passes(kind):
         lines, places = one(tangents, Segments), neighbours(kind, plotted)
@@ -213,7 +214,7 @@ def test_a_tangent_has_the_slope_of_the_parabola_through_its_point_and_its_neigh
 
 
 @EVERY
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
+@over_all("pencil", [None, TREMBLING])
 def test_the_pole_lies_its_distance_to_the_left_and_the_distance_is_set_down_below_the_rays(kind, pencil):
     slack = MANY * SIGMA if pencil else EXACT
     for _, _, (_, step, _), distance, index in passes(kind, pencil):
@@ -351,7 +352,7 @@ def told_height(caption) -> float:
 
 
 @EVERY
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
+@over_all("pencil", [None, TREMBLING])
 def test_ray_k_is_drawn_parallel_to_chord_or_tangent_k_and_every_row_bears_that_number_and_says_its_lengths(
     kind, pencil
 ):

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from boards import flat_board, flat_motion, motion_of
 from numpy.testing import assert_allclose
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.axes import station_names
@@ -39,7 +40,7 @@ CIRCLE = "inversion", "Prime circle"
 RAYS = "inversion", "Rays of the inverted positions"
 FACES = "inversion", "Faces"
 CONTACTS = "inversion", "Contact points"
-EVERY = pytest.mark.parametrize("name", ["the built-in task", *BOARDS])
+EVERY = over_all("name", ["the built-in task", *BOARDS])
 
 
 @cache
@@ -228,7 +229,7 @@ def lowest_of(sums: list[float]) -> float:
 
 
 @EVERY
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
+@over_all("pencil", [None, TREMBLING])
 def test_the_tangent_leans_by_45_degrees_touches_the_curve_and_crosses_it_nowhere(name, pencil):
     region = chain(name, pencil)["minimum_radius"]
     shown, step = (step_of(name, *title, pencil) for title in (JOINED, TANGENT))
@@ -273,7 +274,7 @@ def test_the_tangent_leans_by_45_degrees_touches_the_curve_and_crosses_it_nowher
 
 
 @EVERY
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
+@over_all("pencil", [None, TREMBLING])
 def test_the_cam_centre_lies_the_least_radius_below_the_start_of_the_lift(name, pencil):
     region = chain(name, pencil)["minimum_radius"]
     step, mu = step_of(name, *FOUND, pencil), float(np.ravel(region.readings["need"].scale)[0])
@@ -303,7 +304,7 @@ def test_the_cam_centre_lies_the_least_radius_below_the_start_of_the_lift(name, 
 
 
 @EVERY
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
+@over_all("pencil", [None, TREMBLING])
 def test_the_least_radius_of_curvature_reaches_from_the_adopted_centre_to_the_tangent(name, pencil):
     drawn = chain(name, pencil)
     curved, region = drawn["curvature"], drawn["minimum_radius"]
@@ -335,7 +336,7 @@ def test_the_least_radius_of_curvature_reaches_from_the_adopted_centre_to_the_ta
 
 
 @EVERY
-@pytest.mark.parametrize("pencil", [None, TREMBLING], ids=["perfect", "hand"])
+@over_all("pencil", [None, TREMBLING])
 def test_the_rays_turn_against_the_rotation_up_to_the_prime_circle_and_go_on_by_the_displacement(name, pencil):
     inverted = chain(name, pencil)["inversion"]
     circle_step, step, faces = (step_of(name, *title, pencil) for title in (CIRCLE, RAYS, FACES))
@@ -463,7 +464,7 @@ def test_the_half_widths_said_are_how_far_the_touches_wander_to_either_side(name
         assert half_width == pytest.approx(paper * mu, abs=0.0051 * (1 + mu))
 
 
-@pytest.mark.parametrize("given", [None, 60.0, 15.0])
+@over_all("given", [None, 60.0, 15.0])
 def test_the_adopted_radius_is_told_before_anything_is_drawn_with_it(given):
     drawn = Chain(flat_board(flat_motion("cycloidal"), prime_radius=given))
     first, circle = drawn["inversion"].steps()[:2]

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from boards import SIZES, coursework
 from numpy.testing import assert_allclose
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.axes import station_names
@@ -28,9 +29,7 @@ TREMBLING = Pencil(line=SIGMA, dividers=SIGMA, protractor=0.009, seed=5)
 RISE, RETURN = 4, 20
 """Stations in the middle of the rise and of the return."""
 PLANS = [(rotation, k, guide) for rotation in ("cw", "ccw") for k in (RISE, RETURN) for guide in (None, GUIDE)]
-EVERY = pytest.mark.parametrize(
-    ("rotation", "k", "guide"), PLANS, ids=lambda value: "" if value is None else str(value)[:5]
-)
+EVERY = over_all(("rotation", "k", "guide"), PLANS)
 
 
 @cache

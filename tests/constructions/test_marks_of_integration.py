@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from boards import arm_board, arm_motion, board_of, coursework, motion_of
+from over_all import over_all
 
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction, Step
@@ -33,8 +34,8 @@ BOARDS = {
 SIGMA, EXACT, MANY = 0.2, 1e-9, 6
 """A hand's deviation, what is rounding [mm], and so many deviations that no error of a fixed seed's hand is greater."""
 HANDS = {"perfect": None, "hand": Pencil(line=SIGMA, dividers=SIGMA, protractor=0.009, seed=5)}
-EVERY = pytest.mark.parametrize(("name", "hand"), [(name, hand) for name in BOARDS for hand in HANDS])
-PASSES = pytest.mark.parametrize("index", [0, 1], ids=["a to v", "v to s"])
+EVERY = over_all(("name", "hand"), [(name, hand) for name in BOARDS for hand in HANDS])
+PASSES = over_all("index", [0, 1])
 
 
 @cache

@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from boards import arm_board, arm_motion, coursework, flat_board, flat_motion, limits
+from over_all import over_all
 
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.drawn_translating import DrawnTranslating
@@ -26,7 +27,7 @@ BOARDS = {
     "arm, knife edge": arm_board(arm_motion("cosine"), roller_radius=0.0),
     "flat": flat_board(flat_motion("3-4-5")),
 }
-every = pytest.mark.parametrize("name", BOARDS)
+every = over_all("name", BOARDS)
 EXACT = 1e-9
 
 
@@ -119,7 +120,7 @@ def test_the_points_and_bearings_are_named(name):
         np.testing.assert_allclose(support - hinge, [-0.8 - 0.9j, -3 - 5j, 3 - 5j, 0.8 - 0.9j])
 
 
-@pytest.mark.parametrize("name", [name for name in BOARDS if "arm" not in name])
+@over_all("name", [name for name in BOARDS if "arm" not in name])
 def test_a_stem_slides_in_its_guide_on_the_line_of_motion(name):
     b = place(name, "B")
     (motion, *upright), (arrow,) = of(name, Line, Role.AXIS), of(name, Arrow)
@@ -147,7 +148,7 @@ def test_a_stem_slides_in_its_guide_on_the_line_of_motion(name):
         assert {dimension.start.real, dimension.end.real} == {0, b.real}
 
 
-@pytest.mark.parametrize("name", ["arm", "arm, all open", "arm, knife edge"])
+@over_all("name", ["arm", "arm, all open", "arm, knife edge"])
 def test_the_arm_joins_its_end_to_the_pivot_and_rises_away_from_the_cam(name):
     b, c = place(name, "B"), place(name, "C")
     (rod,) = (line for line in of(name, Line, Role.CURVE) if line.points.size == 2)

@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from boards import board_of, coursework, motion_of
+from over_all import over_all
 
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.acts import Kind
@@ -29,7 +30,7 @@ BOARDS = {
     ),
 }  # fmt: skip
 HAND = Pencil(line=0.02, dividers=0.02, protractor=math.radians(0.01), seed=3)
-every = pytest.mark.parametrize(("name", "hand"), [*((name, None) for name in BOARDS), ("ccw, to the right", HAND)])
+every = over_all(("name", "hand"), [*((name, None) for name in BOARDS), ("ccw, to the right", HAND)])
 
 
 @cache
@@ -474,7 +475,7 @@ def test_the_proposed_roller_is_rounded_down_in_a_step_of_its_own():
     laid_off_from_b(chain, step, {"r": chain.roller_radius})
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("rule", "said"),
     [("0.5 r0", "The proposed radius of 20 mm is adopted unchanged."), ("0.52 r0", "Round 20.80 mm down to 20 mm")],
 )
@@ -494,7 +495,7 @@ def test_where_a_hand_proposes_less_than_was_decided_it_is_said():
         assert f"with the ideal pencil: {chain.roller_radius:g} mm." in caption
 
 
-@pytest.mark.parametrize("radius", [0.0, 12.0, 40.0])
+@over_all("radius", [0.0, 12.0, 40.0])
 def test_a_given_roller_is_taken_without_the_rule_and_without_rounding(radius):
     chain = Chain(coursework("3-4-5", roller_radius=radius, prime_radius=46.0))
     caption, rho = str(chain["roller"].steps()[0].caption), float(chain["curvature"].value("rho"))

@@ -12,6 +12,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from boards import board_of, coursework, limits, motion_of
+from over_all import over_all
 
 from graphcam.constructions.adoption import Adoption, adoption_step
 from graphcam.constructions.chain import Chain
@@ -37,7 +38,7 @@ HANDS = {"perfect": None, "hand": Pencil(line=SIGMA, dividers=SIGMA, protractor=
 EXACT, MANY = 1e-9, 6
 """mm, and so many standard deviations that no error of a fixed seed's hand is greater."""
 CASES = [(name, hand) for name in BOARDS for hand in HANDS]
-EVERY = pytest.mark.parametrize(("name", "hand"), CASES)
+EVERY = over_all(("name", "hand"), CASES)
 
 
 @cache
@@ -573,7 +574,7 @@ def test_the_rounding_compares_what_is_adopted_with_the_least_radius_there():
         assert least == pytest.approx(float(drawn["minimum_radius"].readings["prime_radius"].value), rel=1e-4)
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("adopted", "said"),
     [
         (Adoption(44.0, -10.0, 43.28, None, False, 1.0), "Round the minimum radius, 43.28 mm, up to r₀ = 44 mm."),

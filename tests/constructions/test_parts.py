@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from golden_random import TASKS as RANDOM
 from numbers_on_the_board import not_on_the_board, share_found
+from over_all import over_all
 from test_acts import own_marks
 
 import graphcam as gc
@@ -25,7 +26,7 @@ FILES = Path(__file__).parents[1] / "data" / "told_once"
 OF_FILES = {file.stem: gc.load_task(file) for file in sorted(FILES.glob("*.toml"))}
 TASKS = {"arcs": gc.builtin_arcs_task()} | BUILT_IN | OF_FILES | RANDOM
 Place = tuple[Act, int]
-EVERY = pytest.mark.parametrize("name", TASKS)
+EVERY = over_all("name", TASKS)
 
 
 @cache
@@ -153,10 +154,11 @@ def test_a_part_that_is_missing_or_said_twice_would_be_found():
 
 # --- numbers ---------------------------------------------------------------------------------------------------------
 
+TOLD = ("coursework", "arcs")
+"""Tried always; as every task takes seconds, the others are slow."""
 WATCHED = [*(name for name in TASKS if name not in RANDOM), *list(RANDOM)[::5]]
 
 
-@cache
 def strays(name: str) -> list[tuple[str, str]]:
     """The numbers that steps of a task tell though they do not stand on the board, by step."""
     try:
@@ -166,10 +168,15 @@ def strays(name: str) -> list[tuple[str, str]]:
     return [(where, found) for where, _, found in not_on_the_board(solution)]
 
 
-@pytest.mark.parametrize(
-    "name", [*WATCHED, *(pytest.param(each, marks=pytest.mark.slow) for each in RANDOM if each not in WATCHED)]
-)
+@over_all("name", TOLD)
 def test_every_number_that_a_part_tells_stands_on_the_board(name):
+    assert strays(name) == []
+
+
+@pytest.mark.slow
+@over_all("name", [name for name in WATCHED if name not in TOLD])
+def test_every_number_that_a_part_of_other_tasks_tells_stands_on_the_board(name):
+    """Of more tasks: ``python tests/constructions/numbers_on_the_board.py --seed 1 --size 100``."""
     assert strays(name) == []
 
 

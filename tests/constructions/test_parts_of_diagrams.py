@@ -8,6 +8,7 @@ import re
 import numpy as np
 import pytest
 from boards import arm_board, arm_motion, coursework, limits
+from over_all import over_all
 from test_marks_of_integration import BOARDS, EVERY, MANY, PASSES, SIGMA, Pass, drawn, names_of, of, starts, steps
 
 from graphcam.constructions.chain import Chain
@@ -406,7 +407,7 @@ ANGLES = {
 }
 
 
-@pytest.mark.parametrize("name", ANGLES)
+@over_all("name", ANGLES)
 def test_every_angle_is_set_off_at_its_station_upward_where_it_is_positive(name):
     chain = Chain(ANGLES[name])
     step = chain["angle_diagram"].steps()[0]
@@ -423,7 +424,7 @@ def test_every_angle_is_set_off_at_its_station_upward_where_it_is_positive(name)
     assert own_pieces(step) <= done
 
 
-@pytest.mark.parametrize("name", ANGLES)
+@over_all("name", ANGLES)
 def test_the_largest_angles_are_compared_with_their_limits(name):
     board, step = ANGLES[name], Chain(ANGLES[name])["angle_diagram"].steps()[1]
     dots, labels = of(step, Dots, Role.LIMIT), of(step, Label)

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from boards import SIZES, board_of, coursework, motion_of
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.chain import Chain
@@ -39,13 +40,13 @@ def shape_errors(law: str, n: int = 12, only: frozenset[Kind] | None = None) -> 
     return 100 * np.abs(drawn - exact).max(axis=1) / 30
 
 
-@pytest.mark.parametrize(("law", "percent"), [("rectangular", 0.46), ("cosine", 0.57), ("cycloidal", 0.85)])
+@over_all(("law", "percent"), [("rectangular", 0.46), ("cosine", 0.57), ("cycloidal", 0.85)])
 def test_the_shape_errors_of_a_hand_are_those_of_the_textbooks(law, percent):
     """With an error on every projected ordinate and on every chord's end, the others off."""
     assert shape_errors(law, only=TEXTBOOK).mean() == pytest.approx(percent, rel=0.15)
 
 
-@pytest.mark.parametrize("law", ["rectangular", "cosine", "cycloidal", "3-4-5"])
+@over_all("law", ["rectangular", "cosine", "cycloidal", "3-4-5"])
 def test_the_greatest_velocity_of_a_hand_scatters_by_about_one_percent(law):
     chain, rise = one_rise(law, pencil=Pencil(line=SIGMA, samples=SAMPLES, only=TEXTBOOK))
     greatest = chain["integration"].readings["v"].value[:, rise].max(axis=1)
@@ -108,7 +109,7 @@ def in_bounds(scatter: float, bound: float) -> bool:
     return 0.8 * bound < scatter < bound
 
 
-@pytest.mark.parametrize(("name", "reading"), AMPLIFICATION)
+@over_all(("name", "reading"), AMPLIFICATION)
 def test_every_reading_scatters_within_its_bound_and_so_does_every_kind_of_act_in_it(name, reading):
     """The bound is the root of the sum of the squares of what the kinds of acts bring."""
     parts, sigma = AMPLIFICATION[name, reading], 0.05
@@ -148,7 +149,7 @@ def test_no_hand_covers_a_touch_point_by_its_own_circle():
     assert not np.isnan(profile.points["touch"]).any()
 
 
-@pytest.mark.parametrize("offset", [-10.0, None])
+@over_all("offset", [-10.0, None])
 def test_decisions_are_those_of_the_perfect_pencil(offset):
     board = coursework("3-4-5", offset=offset)
     perfect = Chain(board).sizes
@@ -176,9 +177,7 @@ def radii(rho: float, h: float, sigma: float) -> np.ndarray:
     return np.abs(centre_of_circle(a, b, c) - b)
 
 
-@pytest.mark.parametrize(
-    ("rho", "h", "sigma"), [(40.0, 20.0, 0.2), (40.0, 20.0, 0.1), (60.0, 25.0, 0.2), (25, 12, 0.1)]
-)
+@over_all(("rho", "h", "sigma"), [(40.0, 20.0, 0.2), (40.0, 20.0, 0.1), (60.0, 25.0, 0.2), (25, 12, 0.1)])
 def test_three_points_of_a_hand_scatter_the_radius_as_the_textbook_says(rho, h, sigma):
     """sqrt(6) sigma rho/h^2, relative, where the points are not too near to one another; the bias is its square."""
     noise = sigma * rho / h**2

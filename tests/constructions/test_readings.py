@@ -12,6 +12,7 @@ from functools import cache
 import numpy as np
 import pytest
 from boards import coursework
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.chain import Chain
@@ -24,8 +25,8 @@ from graphcam.tasks.task_file import builtin_arcs_task, builtin_task
 
 TASKS = ("coursework", "arm", "flat", "measured", "arcs")
 HANDS = (Pencil(), Pencil(line=0.1, dividers=0.1, protractor=math.radians(0.5), samples=3, seed=4))
-each_task = pytest.mark.parametrize("task", TASKS)
-each_hand = pytest.mark.parametrize("pencil", HANDS, ids=["perfect", "hands"])
+each_task = over_all("task", TASKS)
+each_hand = over_all("pencil", HANDS)
 WRITTEN = re.compile(r"(-?[\d.]+) mm × ([-\d.e]+)(°| \(?[^ ]+\)?)/mm = (-?[\d.]+)(°| .+)")
 
 
@@ -129,7 +130,7 @@ def row_of(task: str, construction: str, name: str) -> ReadingRow:
     return row
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("task", "name", "extremes"),
     [
         ("coursework", "inversion.x", ["minimum (station 12) = -73.49", "maximum (station 12′) = 13.69"]),

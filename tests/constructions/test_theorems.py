@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from boards import SIZES, board_of, coursework, coursework_motion, motion_of
 from numpy.testing import assert_allclose
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.chain import AdoptedSizes, Chain
@@ -19,7 +20,7 @@ from graphcam.drafting.scale import Scale
 from graphcam.given.follower import sense
 
 SIDES = [("ccw", 10.0), ("ccw", -10.0), ("cw", 10.0), ("cw", -10.0), ("ccw", 0.0), ("cw", 0.0)]
-every_side = pytest.mark.parametrize(("rotation", "offset"), SIDES)
+every_side = over_all(("rotation", "offset"), SIDES)
 
 
 def chain_of(rotation: str, offset: float, law: str = "3-4-5", n: int = 12, **changes) -> Chain:
@@ -30,7 +31,7 @@ def chain_of(rotation: str, offset: float, law: str = "3-4-5", n: int = 12, **ch
 # --- acceleration and integration ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("first", "second"), [("rectangular", "cosine"), ("cycloidal", "2-3"), ("cosine", "3-4-5")])
+@over_all(("first", "second"), [("rectangular", "cosine"), ("cycloidal", "2-3"), ("cosine", "3-4-5")])
 def test_the_ordinate_of_the_return_follows_from_closure(first, second):
     """y_rise/y_return = (C_rise/C_return)(F_return/F_rise)^2 for equal lifts."""
     board = board_of(motion_of((30, 80, first), (0, 45), (-30, 60, second)))
@@ -58,9 +59,7 @@ def test_the_scales_follow_through_the_poles():
     assert readings["s"].value.max() == pytest.approx(30, rel=1e-15)  # the known lift fixes the scale
 
 
-@pytest.mark.parametrize(
-    "choice", [{"ordinate": 23.0}, {"poles": (57.3, 31.0)}, {"mu_phi": Scale(math.radians(2), "rad")}]
-)
+@over_all("choice", [{"ordinate": 23.0}, {"poles": (57.3, 31.0)}, {"mu_phi": Scale(math.radians(2), "rad")}])
 def test_the_draughtsmans_choices_change_the_paper_but_no_machine_value(choice):
     before = Chain(coursework("cycloidal"), decided=SIZES)
     after = Chain(coursework("cycloidal", **choice), decided=SIZES)
@@ -100,7 +99,7 @@ def test_a_velocity_left_at_the_end_of_a_phase_is_taken_up_by_its_base_line():
 
 
 @every_side
-@pytest.mark.parametrize("law", ["cycloidal", "rectangular"])
+@over_all("law", ["cycloidal", "rectangular"])
 def test_the_plans_closing_side_is_perpendicular_to_da(rotation, offset, law):
     """The plan and the triangle of the mechanism have perpendicular sides."""
     _, _, mechanism, plan, normal, angle, _ = chain_of(rotation, offset, law)["pressure_angle"].steps()
@@ -144,7 +143,7 @@ def test_the_angle_at_rest_of_a_published_cam():
     assert math.degrees(alpha[0]) == pytest.approx(-12.153197469007869, rel=1e-12)
 
 
-@pytest.mark.parametrize(("offset", "greatest"), [(10.0, 22.79), (-10.0, 37.04)])
+@over_all(("offset", "greatest"), [(10.0, 22.79), (-10.0, 37.04)])
 def test_the_greatest_angles_of_a_lecture_script(offset, greatest):
     """The case offset-roller: cosine rise, constant-acceleration return; the second is the offset on the wrong side."""
     motion = motion_of((50, 120, "cosine"), (0, 90), (-50, 90, "rectangular"))
@@ -175,7 +174,7 @@ def test_the_inverted_line_touches_the_circle_of_the_offset(rotation, offset):
     assert_allclose(turn, -sense(rotation) * inverted.givens.integrated.givens.stations.phi, atol=1e-13)
 
 
-@pytest.mark.parametrize("rotation", ["ccw", "cw"])
+@over_all("rotation", ["ccw", "cw"])
 def test_pitch_points_of_a_central_follower_lie_at_the_prime_radius_and_the_displacement(rotation):
     chain = chain_of(rotation, 0.0)
     s, inverted = chain["integration"].readings["s"].value, chain["inversion"].readings
@@ -184,8 +183,8 @@ def test_pitch_points_of_a_central_follower_lie_at_the_prime_radius_and_the_disp
     assert_allclose(np.exp(1j * inverted["polar_angle"].value), expected, atol=1e-14)
 
 
-@pytest.mark.parametrize("law", ["rectangular", "3-4-5"])
-@pytest.mark.parametrize("offset", [10.0, -7.0, None])
+@over_all("law", ["rectangular", "3-4-5"])
+@over_all("offset", [10.0, -7.0, None])
 def test_a_cam_that_turns_the_other_way_with_the_opposite_offset_is_the_mirror_image(law, offset):
     opposite = None if offset is None else -offset
     ccw = Chain(coursework(law, rotation="ccw", offset=offset))
@@ -213,14 +212,14 @@ def test_a_knife_edge_runs_on_the_pitch_curve():
     assert_allclose(chain["working_profile"].points["touch"], chain["inversion"].points["pitch"], rtol=1e-15)
 
 
-@pytest.mark.parametrize("n", [12, 24, 48, 96])
-@pytest.mark.parametrize("law", ["rectangular", "cycloidal", "3-4-5"])
+@over_all("n", [12, 24, 48, 96])
+@over_all("law", ["rectangular", "cycloidal", "3-4-5"])
 def test_no_touch_point_of_a_sound_roller_is_covered(n, law):
     chain = Chain(coursework(law, divisions=n))
     assert np.isnan(chain["working_profile"].points["covered"]).all()
 
 
-@pytest.mark.parametrize("n", [24, 36, 48, 96])
+@over_all("n", [24, 36, 48, 96])
 def test_touch_points_of_an_undercut_roller_are_covered_between_the_crossings(n):
     """The case undercut: the two branches cross at phi = 36.66 and 58.62, and at 93.83 and 107.08 degrees."""
     motion = motion_of((30, 60, "3-4-5"), (0, 30), (-30, 60, "3-4-5"))
@@ -238,7 +237,7 @@ def test_touch_points_of_an_undercut_roller_are_covered_between_the_crossings(n)
     assert "undercut" in str(envelope.caption)
 
 
-@pytest.mark.parametrize("missing", [[12], [13], [12, 13]], ids=["before", "after", "on both sides"])
+@over_all("missing", [[12], [13], [12, 13]])
 def test_a_dwells_arc_is_drawn_from_the_end_that_was_touched(missing):
     profile = chain_of("cw", -10.0)["working_profile"]
     touch, nowhere = profile.acts["touch"], np.arange(profile.points["touch"].size)

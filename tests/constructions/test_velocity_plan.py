@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import pytest
 from golden_random import TASKS as RANDOM
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.constructions.axes import station_names
@@ -17,7 +18,7 @@ from graphcam.drafting.marks import Arrow, Dimension, Label
 from graphcam.report.documents import contents_of
 
 COURSEWORK, ARM = gc.builtin_task(), replace(gc.builtin_task("arm"), speed_rpm=150.0)
-AT_A_SPEED = pytest.mark.parametrize("task", [COURSEWORK, ARM], ids=["coursework", "arm"])
+AT_A_SPEED = over_all("task", [COURSEWORK, ARM])
 SPEED = r"(v₂?₁?) = ([\d.]+) m/s"
 
 
@@ -50,7 +51,7 @@ def test_the_sides_of_the_plan_bear_the_speeds_of_their_lengths_and_close_as_vec
     assert dict(re.findall(SPEED, str(step.parts[-1].caption))) == said
 
 
-@pytest.mark.parametrize("task", [replace(COURSEWORK, speed_rpm=None), gc.builtin_task("arm")], ids=["stem", "arm"])
+@over_all("task", [replace(COURSEWORK, speed_rpm=None), gc.builtin_task("arm")])
 def test_without_a_speed_the_plan_is_one_of_velocities_divided_by_the_cams(task):
     step = plan_of(gc.solve(task))
     assert re.search(r"at station \S+, [\d.:]+, μᵥ = [\d.]+ \(mm/rad\)/mm$", str(step.view.title))
@@ -64,7 +65,7 @@ def test_all_steps_in_the_view_of_a_plan_have_one_title():
         assert len(titles) == 1
 
 
-@pytest.mark.parametrize("speed", [None, 150.0])
+@over_all("speed", [None, 150.0])
 def test_the_plan_of_a_cam_of_arcs_names_its_station_and_its_scales(speed):
     solution = gc.solve(replace(gc.builtin_arcs_task(), speed_rpm=speed))
     views = {step.view.name: str(step.view.title) for step in solution.drawn["arc_roller"].steps()}
@@ -89,7 +90,7 @@ ROUND = [gc.builtin_task(name) for name in ("coursework", "arm", "flat", "measur
 ROUND += [task for name, task in list(RANDOM.items())[:4] if isinstance(task, gc.Task)]
 
 
-@pytest.mark.parametrize("task", ROUND, ids=str)
+@over_all("task", ROUND)
 def test_degrees_and_phases_stand_under_the_lowest_diagram_alone_whichever_it_is(task):
     solution = gc.solve(task)
     below: dict[str, list[str]] = {}

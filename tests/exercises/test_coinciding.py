@@ -51,6 +51,7 @@ def test_what_is_drawn_counts_among_the_marks_and_is_not_earned_by_a_number():
     assert with_numbers({10.0: 1, 10.5: 1}, curve) == pytest.approx(0.5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", library())
 def test_no_number_earns_more_than_half_of_an_issued_variant(name: str):
     for student in ("Anna", "Boris", "Clara"):

@@ -95,6 +95,7 @@ def test_a_wrong_file_gets_one_message(tmp_path, old, new, message):
     assert str(caught.value).startswith(str(path))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", CATALOGS)
 @pytest.mark.parametrize("name", library())
 def test_what_is_translated_of_an_exercise_of_the_library_has_the_same_places(name, language):
@@ -106,6 +107,7 @@ def test_what_is_translated_of_an_exercise_of_the_library_has_the_same_places(na
         assert {word for text in told.values() for word in english_words(PLACE.sub("", text))} <= {"min"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", CATALOGS)
 def test_the_library_is_nearly_all_translated(language):
     every = sum(len(texts_of(name, language)) for name in library())

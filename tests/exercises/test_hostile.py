@@ -36,6 +36,8 @@ from graphcam.exercises.running.isolation_probe import reason_unavailable
 from graphcam.exercises.running.sandbox import run_cells
 from graphcam.exercises.running.scratch_folders import scratch_folder
 
+pytestmark = pytest.mark.slow
+
 SECONDS = 2.0
 A_MOMENT = 1.0
 OWNED = Path("/tmp/graphcam-owned")
@@ -188,7 +190,6 @@ def running(mark: str) -> list[str]:
     return found
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("case", hostile_code.CODE)
 def test_code_gives_one_record_in_time(
     case: str, level: Level, tmp_path: Path, assignment: Assignment, answer_key: str
@@ -240,7 +241,6 @@ time.sleep(0.5)
 """
 
 
-@pytest.mark.slow
 def test_nothing_is_left_behind_at_l1(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """Neither a process that goes its own way, nor a tree of folders that is too deep for Python to remove."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))

@@ -22,6 +22,8 @@ from graphcam.exercises.definition.exercise_file import exercise_path
 from graphcam.exercises.running.isolation_levels import Level
 from graphcam.exercises.running.sandbox import visible_folders
 
+pytestmark = pytest.mark.slow
+
 ORDINARY = 61_234
 """A number that no account has."""
 CODE = [*hostile_code.CODE, *hostile_code.MORE_CODE]
@@ -45,14 +47,12 @@ def test_a_sample_of_code_holds_at_l2():
     assert faults(SAMPLE, Level.L2) == []
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("group", range(GROUPS))
 def test_all_cases_hold_at_l2(group: int):
     needed()
     assert faults(NOTEBOOKS[group::GROUPS], Level.L2) == []
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("group", range(GROUPS))
 def test_all_cases_hold_for_an_ordinary_user(group: int):
     needed()

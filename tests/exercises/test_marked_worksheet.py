@@ -101,6 +101,7 @@ def test_texts_do_not_run_into_one_another(paper: str):
             assert not any(text.meets(other) for text in texts for other in solid)
 
 
+@pytest.mark.slow
 @BOTH
 @EACH
 def test_the_room_is_the_same_for_all_and_holds_every_cam(name: str, paper: str):

@@ -144,6 +144,7 @@ def test_what_is_timed_is_the_work_that_hand_ins_make():
     assert sum(each.record.diagnosis is not None for each in wrong) >= 0.9 * HANDS * len(exercise.misconceptions)
 
 
+@pytest.mark.slow
 def test_the_speed_of_marking_is_printed():
     result = CliRunner().invoke(app, ["exercise", "speed", "acceleration-and-scales"])
     row = next(line for line in result.stdout.splitlines() if "acceleration-and-scales" in line)

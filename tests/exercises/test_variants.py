@@ -165,6 +165,7 @@ ISSUED = {
 """The draws that students a, b and c get."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", library())
 def test_the_draw_that_is_issued_stays_the_same(name):
     # The choice among draws rests on sampled scatters; their random numbers are those that NumPy keeps for ever.

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Generator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from playwright.sync_api import Page, sync_playwright
 from programs import program
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
 
 
 @contextmanager
@@ -16,6 +19,9 @@ def opened(path: Path, site: Path | None = None) -> Generator[tuple[Page, list[s
 
     site : the folder whose files the page may ask for too
     """
+    # The quick tests, which share a file with slow ones, do without it.
+    from playwright.sync_api import sync_playwright
+
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(
             executable_path=program("chromium"), args=["--no-sandbox", "--disable-gpu"])  # fmt: skip

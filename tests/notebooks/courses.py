@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
-import jupytext
 from nbformat import NotebookNode
 
 from graphcam.notebooks.notebook_execution import execute
@@ -18,6 +17,9 @@ COURSE = sorted(path.stem for path in FOLDER.glob("[0-9][0-9]_*.py"))
 @cache
 def executed(name: str) -> NotebookNode:
     """A notebook with its outputs, from a clean kernel."""
+    # The names of the notebooks are known without it.
+    import jupytext
+
     return execute(jupytext.read(FOLDER / f"{name}.py"), FOLDER)
 
 

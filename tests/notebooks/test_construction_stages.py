@@ -90,6 +90,7 @@ def test_an_unknown_view_is_named(drawn):
         drawing(drawn["minimum_radius"], "profile")
 
 
+@pytest.mark.slow
 def test_chosen_steps_are_shown(drawn, monkeypatch):
     import IPython.display
 

@@ -15,6 +15,8 @@ from courses import COURSE, FOLDER, executed, page
 sys.path.append(str(FOLDER))
 import pair
 
+pytestmark = pytest.mark.slow
+
 LARGEST_PICTURE = 300_000
 """Bytes of a picture, as a page holds it."""
 PARTS = ("**Aim.**", "**You need**", "**Time:**", "## Background", "## Try it yourself", "## Drawn and exact",
@@ -58,7 +60,6 @@ def test_a_notebook_has_its_parts_and_asserts_a_number(name):
     assert all(re.fullmatch(r"(your_\w+ = None  # .+\n)+(\w+\.check\(your_\w+\)\n?)+", cell) for cell in tried)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", COURSE)
 def test_a_notebook_runs_and_its_page_stands_alone(name, tmp_path):
     path = tmp_path / f"{name}.html"
@@ -75,7 +76,6 @@ def test_a_notebook_runs_and_its_page_stands_alone(name, tmp_path):
     assert max(len(base64.b64decode(picture)) for picture in pictures) <= LARGEST_PICTURE
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", COURSE)
 def test_the_stills_stand_for_the_sliders(name):
     bundles = [out.data for cell in executed(name).cells for out in cell.get("outputs", ()) if "data" in out]

@@ -23,6 +23,8 @@ from graphcam.notebooks.notebook_folder import to_html, write_notebook
 from graphcam.tasks.task import SpringTable
 from graphcam.tasks.task_writer import task_files
 
+pytestmark = pytest.mark.slow
+
 COURSEWORK, ARM, FLAT = (gc.builtin_task(name) for name in ("coursework", "arm", "flat"))
 SMOOTH = tuple(
     changed(phase, {"law": "cycloidal"}) if phase.kind != "dwell" else phase for phase in COURSEWORK.motion.phases
@@ -88,7 +90,6 @@ def test_a_russian_notebook_has_no_english_word_and_no_decimal_point(name):
     assert re.findall(r"\d\.\d", text) == []
 
 
-@pytest.mark.slow
 def test_a_russian_page_has_no_english_word(tmp_path):
     task = in_russian("arcs")
     page = to_html(execute(write_notebook(task), written(tmp_path, task)), "Кулачок", "ru")
@@ -116,7 +117,6 @@ def test_a_title_is_no_markup():
     assert write_notebook(task).cells[0].source.startswith("# Cam \\*A\\* \\<b\\>")
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", TASKS)
 def test_a_notebook_runs_beside_its_task(name, tmp_path):
     page = to_html(execute(write_notebook(TASKS[name]), written(tmp_path, TASKS[name])), name)
@@ -127,7 +127,6 @@ def test_a_notebook_runs_beside_its_task(name, tmp_path):
     assert max(len(base64.b64decode(picture)) for picture in pictures) <= 300_000
 
 
-@pytest.mark.slow
 def test_the_command_writes_notebook_page_and_print(tmp_path):
     program("chromium")
     done = CliRunner().invoke(app, ["notebook", "--out", str(tmp_path / "lesson"), "--execute", "--html", "--pdf"])

@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 import warnings
 
+import pytest
+
 from graphcam.notebooks.construction_stages import Picture
 from graphcam.notebooks.explore import WIDGET_VIEW, Slider, explore
 
@@ -26,6 +28,7 @@ def test_without_ipywidgets_the_stills_stand_and_nobody_warns(monkeypatch):
     assert 'alt="24 parts, pole 40"' in bundle["text/html"]
 
 
+@pytest.mark.slow
 def test_a_slider_redraws():
     exploration = explore(draw, **SLIDERS)
     box = exploration._widget()

@@ -26,6 +26,7 @@ def with_code(module=0.75):
     return paper
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("size", "tilt", "shot"),
     [

@@ -67,6 +67,7 @@ def test_two_tags_may_be_hidden(hidden):
     assert camera.misses(found).max() < 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("degrees", [-15, -8, 4, 15])
 @pytest.mark.parametrize("slope", [0.0, 0.08, 5.0])
 @pytest.mark.parametrize("page", [A3, A4])
@@ -86,6 +87,7 @@ def test_a_fold_is_registered_or_refused(page, slope, degrees):
     assert refused <= 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lift", [-8.0, -3.0, 2.0, 8.0])
 @pytest.mark.parametrize("direction", [0.0, 90.0, 35.0])
 @pytest.mark.parametrize("page", [A3, A4])

@@ -18,6 +18,8 @@ from graphcam.photo.rectify import rectify
 from graphcam.photo.registration import register
 from graphcam.photo.tags import find_tags
 
+pytestmark = pytest.mark.slow
+
 REAL = Path(__file__).parent / "real"
 PHOTOGRAPHS = sorted(REAL.glob("*.jpg"))
 

@@ -16,6 +16,8 @@ from stand_in import drawn_page, stand_in
 
 from graphcam.photo.tags import find_tags
 
+pytestmark = pytest.mark.slow
+
 PAGE = (420.0, 297.0)
 MIDDLE = complex(*PAGE) / 2
 SIZE = (1000, 750)
@@ -170,7 +172,6 @@ def print_of_the_stand_in() -> Print:
     return screened(drawn_page(stand_in()), Printer())
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("quarters", [0, 3])
 def test_tags_are_seen_where_the_truth_says(print_of_the_stand_in: Print, quarters: int) -> None:
     page, bend = stand_in(), Bend.none(MIDDLE)

@@ -11,15 +11,15 @@ from figures import pooled, row, rows_of, table_of
 from scenes import KIND_SHARES, scene_of
 from trial_goals import COURSES, SEED, check_goals, photographs, shared_scratch
 
+pytestmark = pytest.mark.slow
+
 RECORD = Path(__file__).parent / "record.json"
 
 
-@pytest.mark.slow
 def test_twelve_photographs(tmp_path_factory: pytest.TempPathFactory) -> None:
     check_goals(photographs(range(12), shared_scratch(tmp_path_factory)))
 
 
-@pytest.mark.slow
 def test_a_photograph_is_told_by_its_number(tmp_path_factory: pytest.TempPathFactory) -> None:
     scratch = shared_scratch(tmp_path_factory)
     first, again, other = (scene_of(number, SEED, scratch, COURSES, kind="careful") for number in (0, 0, 1))

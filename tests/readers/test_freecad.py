@@ -13,6 +13,8 @@ from scene import drawing as scene
 
 from graphcam.sheets.dxf_renderer import write_dxf
 
+pytestmark = pytest.mark.slow
+
 THOUSANDTH = 1e-3
 SCRIPT = """
 import FreeCAD, Import

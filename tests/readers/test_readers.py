@@ -20,6 +20,8 @@ from graphcam.sheets.model import Drawing
 from graphcam.workshop.part_contents import PartContents
 from graphcam.workshop.working_drawing import working_drawing_of
 
+pytestmark = pytest.mark.slow
+
 TASKS = Path(graphcam.__file__).parent / "data" / "tasks"
 
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
-
-from playwright.sync_api import Page
+from typing import TYPE_CHECKING
 
 import graphcam as gc
 from graphcam.language import ENGLISH
@@ -13,6 +12,9 @@ from graphcam.report.documents import contents_of, drawing_of, scene_of
 from graphcam.report.step_player import player_of, slides
 from graphcam.tasks.task import DrawingTable
 from graphcam.tasks.task_file import builtin_arcs_task, builtin_task
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
 
 
 def task_of(name: str) -> gc.Task:

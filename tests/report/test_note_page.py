@@ -19,6 +19,8 @@ from graphcam.report.step_player import player_of
 from graphcam.tasks.task_file import BUILTIN_TASK_NAMES, SIZING_TASK_NAME
 from graphcam.words import say
 
+pytestmark = pytest.mark.slow
+
 NAMES = (*BUILTIN_TASK_NAMES, SIZING_TASK_NAME, "arcs")
 OTHERS = [name for name in languages() if name != ENGLISH.name]
 A4 = 210 / 25.4 * 96
@@ -91,7 +93,6 @@ def test_powers_of_ten_are_written_as_a_hand_writes_them(number, english, russia
     assert (str(said), language("ru").text(said)) == (english, russian)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("to", ["en", "ru"])
 def test_the_page_prints_on_a4_and_nothing_runs_over_its_edge(solutions, tmp_path, to):
     with chromium() as browser:

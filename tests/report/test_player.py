@@ -16,6 +16,8 @@ import graphcam as gc
 from graphcam.sheets.model import Text
 from graphcam.sheets.player import Slide
 
+pytestmark = pytest.mark.slow
+
 MECHANISMS = ("coursework", "arm", "flat", "measured", "arcs", "knife")
 slow = pytest.mark.slow
 each_mechanism = pytest.mark.parametrize("name", MECHANISMS)

@@ -6,6 +6,8 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page
 
+pytestmark = pytest.mark.slow
+
 WINDOWS = {"desk": (1440, 900), "twice as near": (720, 450), "phone": (390, 844)}
 each_window = pytest.mark.parametrize("window", WINDOWS.values(), ids=WINDOWS)
 

@@ -15,6 +15,8 @@ from graphcam.drafting.acts import Act, Kind
 from graphcam.sheets.model import Box, Drawing, Group, Page as Sheet, Source, Strokes, Text
 from graphcam.sheets.player import PAGE_CAPTIONS, Acts, PartText, ReadingText, RowText, RunText, Slide, player
 
+pytestmark = pytest.mark.slow
+
 RAYS, CHORDS, CURVE = (Act(Kind.JOIN, "integration", name, {}, 3) for name in ("rays", "chords", "curve"))
 PLACES = np.arange(3)
 

@@ -22,6 +22,8 @@ from graphcam.report.documents import contents_of, drawing_of
 from graphcam.report.sheet_contents import Contents
 from graphcam.report.step_player import player_of, slides
 
+pytestmark = pytest.mark.slow
+
 REACHED = 2e-5
 """mm or rad: the page writes numbers to 9 decimals, which crossings at a degree enlarge."""
 BUILT_IN = {name: gc.builtin_task(name) for name in ("coursework", "arm", "flat", "measured")}
@@ -173,7 +175,6 @@ def test_the_pages_of_random_tasks_lead_to_all_readings(kind):
     assert sum(follow_random(kind, seed) > 10 for seed in SHOWN) >= len(SHOWN) - 1
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", RANDOM)
 def test_the_pages_of_30_random_tasks_of_every_follower_lead_to_all_readings(kind):
     assert sum(follow_random(kind, seed) > 10 for seed in range(30)) >= 27

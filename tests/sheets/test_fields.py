@@ -427,6 +427,7 @@ def test_a_word_is_broken_only_where_it_fits_no_other_way():
     assert "".join(line.text for line in fitted_text("凸轮机构" * 6, field, 3.5)) == "凸轮机构" * 6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("frame_name", ["gost", "iso"])
 def test_what_fits_its_field_in_no_standard_letters_is_refused_by_its_name_and_length(frame_name):
     for name in ("author", "name", "document", "organisation"):

@@ -17,6 +17,8 @@ from graphcam.solving.arcs_solution import AnySolution
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import builtin_task
 
+pytestmark = pytest.mark.slow
+
 CELL = 10.0
 """Side of the cells by which a page is measured [mm]."""
 

@@ -17,6 +17,8 @@ from graphcam.sheets.model import Text
 from graphcam.sheets.typefaces import ALPHABET, GLYPHS_FILE, glyph_table, lettering_file, shipped
 from graphcam.tasks.task_file import BUILTIN_TASK_NAMES
 
+pytestmark = pytest.mark.slow
+
 TASKS = {name: gc.builtin_task(name) for name in BUILTIN_TASK_NAMES} | {"arcs": gc.builtin_arcs_task()}
 
 

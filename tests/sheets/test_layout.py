@@ -139,6 +139,7 @@ def test_a1_parts_the_combined_diagram_from_the_others() -> None:
     assert len(axes) == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("seed", "paper"), [(k, list(SHEET_SIZES)[k % 4]) for k in range(12)])
 def test_random_tasks_have_no_text_in_the_way(seed: int, paper: str) -> None:
     random = np.random.default_rng(seed)

@@ -127,6 +127,7 @@ def texts_of(drawing: Drawing) -> Iterator[str]:
     return (e.text for p in drawing.pages for g in p.groups for e in g.entities if isinstance(e, Text))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["pdf", "svg", "png"])
 def test_every_letter_is_drawn_by_its_own_outlines(kind, shown, tmp_path):
     page, file = page_of(shown), tmp_path / f"letters.{kind}"
@@ -208,6 +209,7 @@ def test_what_no_face_has_is_a_box_of_its_width_and_named_in_one_warning(monkeyp
     assert "□□ mechanism" in letters_in(tmp_path / "out" / "sheet.pdf")
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("forgotten")
 def test_the_command_tells_in_one_line_what_is_a_box(monkeypatch, tmp_path):
     monkeypatch.setattr(typefaces, "installed", lambda: ())

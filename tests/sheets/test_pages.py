@@ -89,6 +89,7 @@ SPARSE = {("arcs", "A4", "iso", "landscape"): 0.5, ("arcs", "A4", "iso", "portra
 """Where two large views of a small sheet leave strips in which nothing has room."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", range(8))
 def test_pages_are_well_used_and_views_keep_off_each_other(number: int) -> None:
     """The tasks in turn, each on other sheets."""

@@ -133,6 +133,7 @@ def solution_of(name: str, sheet: tuple[str, str, str]) -> AnySolution:
     return gc.solve(replace(task, drawing=replace(task.drawing.on(paper), frame=frame, orientation=lie)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "sheet"), BUILTIN)
 def test_printed_lengths_measure_themselves_on_every_format(name: str, sheet: tuple[str, str, str]) -> None:
     check(solution_of(name, sheet))
@@ -166,6 +167,7 @@ HARD = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("paper", ["A4", "A3", "A1"])
 @pytest.mark.parametrize("name", HARD)
 def test_what_is_hard_to_place_is_drawn_to_scales_at_which_it_fits(name: str, paper: str) -> None:
@@ -191,6 +193,7 @@ def test_a_given_size_that_fits_no_page_is_named_when_the_sheet_is_drawn(given: 
     check(gc.solve(replace(task, drawing=replace(task.drawing.on("A3"), **fitting))))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("given", ["10:1", "100:1"])
 @pytest.mark.parametrize("paper", ["A1", "A3"])
 def test_a_profile_scale_that_fits_no_page_is_refused_with_the_largest_that_does(given: str, paper: str) -> None:
@@ -225,6 +228,7 @@ def test_poles_that_are_given_are_kept_and_the_ordinate_suits_them() -> None:
     check(solution)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("frame", ["gost", "iso"])
 def test_drawing_scales_are_those_of_the_frame_s_standard(frame: str) -> None:
     """The built-in flat face stands at 2.5:1 in a GOST frame; ISO 5455 has 2:1."""

@@ -28,6 +28,8 @@ from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import SpringTable, Task
 from graphcam.tasks.task_file import builtin_arcs_task, builtin_task
 
+pytestmark = pytest.mark.slow
+
 LEAST_HEIGHT = 2.5
 """Of letters by ISO 3098 and GOST 2.304 on these sheets, mm; the printed form of a title block is smaller."""
 LANGUAGES = "en", "ru"
@@ -144,7 +146,6 @@ def wrong_angles(drawing: Drawing) -> list[tuple[str, float]]:
     return found
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("number", range(60))
 def test_nothing_is_in_the_way_on_the_sheet_of_a_random_task(number: int) -> None:
     """Neither on the finished sheet, nor on the blank one, nor on those of one construction each."""

@@ -23,6 +23,8 @@ from graphcam.given.declared_law import DeclaredLaw
 from graphcam.given.stations import divide
 from graphcam.sweeps.dataset import parts_of
 
+pytestmark = pytest.mark.slow
+
 WITH_COMMANDS = [page for page in HOW_TO if blocks(page, "bash")]
 NAMED = "5-6-7-8-9"
 
@@ -61,7 +63,6 @@ def test_what_a_table_says_of_a_file_stands_in_it(page):
         assert [name for name in names if name not in held] == [], path
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("page", WITH_COMMANDS)
 def test_the_commands_of_a_page_run_in_order(page, tmp_path):
     for name, text in files(page).items():
@@ -230,7 +231,6 @@ def with_german(tmp_path_factory):
     return clone, run, (look, check, update)
 
 
-@pytest.mark.slow
 def test_the_language_of_the_page_is_spoken_where_it_is_translated(with_german):
     clone, run, (look, _, update) = with_german
     done = run(look)
@@ -244,7 +244,6 @@ def test_the_language_of_the_page_is_spoken_where_it_is_translated(with_german):
     assert 'msgstr "Pol und Strahlen, {source} nach {target}"' in kept
 
 
-@pytest.mark.slow
 def test_the_check_of_the_page_names_what_is_not_translated_yet(with_german):
     _, run, (_, check, _) = with_german
     done = run(check)
@@ -354,7 +353,6 @@ def test_the_conditions_of_the_page_are_met(cells):
 MANY = "how-to/sweep-many-cams.md"
 
 
-@pytest.mark.slow
 def test_the_parts_of_the_page_are_read_as_it_says(tmp_path):
     script = """
 import runpy, subprocess, sys
@@ -368,7 +366,6 @@ runpy.run_path("read.py")
     assert 40 <= float(radius) < 80
 
 
-@pytest.mark.slow
 def test_the_search_of_the_page_ends_in_the_front_of_the_whole_grid(tmp_path):
     script = """
 import itertools

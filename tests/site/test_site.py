@@ -19,6 +19,8 @@ from programs import pyodide_folder
 
 import graphcam as gc
 
+pytestmark = pytest.mark.slow
+
 FETCHED = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src"}
 """What a browser asks for by itself."""
 
@@ -77,12 +79,10 @@ def faults(site: Path) -> Iterator[str]:
                 yield f"{path.name} leads to {address}, which has no such place"
 
 
-@pytest.mark.slow
 def test_every_link_leads_somewhere_and_nothing_is_fetched_from_elsewhere(site):
     assert list(faults(site)) == []
 
 
-@pytest.mark.slow
 def test_the_quick_site_has_the_same_pages(site, tmp_path):
     build("--no-execute", "--out", tmp_path)
     pages = [{path.relative_to(folder) for path in folder.rglob("*.html")} for folder in (site, tmp_path)]
@@ -93,7 +93,6 @@ def test_the_quick_site_has_the_same_pages(site, tmp_path):
     assert [path for path in tmp_path.rglob("*.html") if "studio/index.html" in path.read_text(encoding="utf-8")] == []
 
 
-@pytest.mark.slow
 def test_with_pyodide_the_site_has_the_studio_and_every_notebook_a_link_into_it(tmp_path):
     (tmp_path / "pyodide").mkdir()
     site = tmp_path / "site"
@@ -109,7 +108,6 @@ def test_with_pyodide_the_site_has_the_studio_and_every_notebook_a_link_into_it(
     assert next(link for link in pages if link != "index.html") == "studio.html"
 
 
-@pytest.mark.slow
 def test_the_gallery_shows_a_sheet_of_every_task_and_its_pictures_are_small(site):
     pictures = {path.stem: path.stat().st_size for path in (site / "_images").glob("*.png")}
     assert set(pictures) >= {path.stem for path in (ROOT / "graphcam" / "data" / "tasks").glob("*.toml")}
@@ -126,7 +124,6 @@ def test_wrong_links_are_found(tmp_path):
     assert [word in text for word, text in zip(("gone", "nowhere", "x.js"), said, strict=True)] == [True] * 3
 
 
-@pytest.mark.slow
 def test_the_reference_has_every_public_name_and_the_course_every_notebook(site):
     pages = [Links(path) for path in (site / "reference").glob("*.html")]
     anchors = set().union(*(page.anchors for page in pages))
@@ -135,7 +132,6 @@ def test_the_reference_has_every_public_name_and_the_course_every_notebook(site)
     assert {path.stem for path in (site / "course").glob("[0-9]*.html")} == course
 
 
-@pytest.mark.slow
 def test_the_player_of_the_first_page_steps_where_it_stands(site):
     """It moves its own boxes, not the page around it."""
     with opened(site / "index.html", site) as (shown, wrong):
@@ -156,14 +152,12 @@ def test_the_player_of_the_first_page_steps_where_it_stands(site):
     assert wrong == []
 
 
-@pytest.mark.slow
 def test_the_summaries_of_the_commands_are_whole(site):
     text = (site / "reference" / "commands.html").read_text(encoding="utf-8")
     assert "draw the sheet, write the note and the tables, compare with exact values." in text
     assert re.findall(r"<li>.*<code.*?</code>: .*\.\.\.</p>", text) == []
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("page", ["index", "course/04_shaded_region", "reference/index", "how-to/check-my-drawing"])
 def test_a_page_opens_without_a_fault_or_a_request(site, page):
     with opened(site / f"{page}.html", site) as (shown, wrong):

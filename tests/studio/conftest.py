@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import pytest
 from chromium import chromium
-from playwright.sync_api import Browser
 from studio_pages import Engine, settled
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 
 # Two that are steered at a time are one too many, and other folders have their own.

@@ -9,13 +9,15 @@ import zlib
 from collections.abc import Callable
 from contextlib import suppress
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from playwright.sync_api import Locator, Page
 from studio_tasks import BUILT_IN, plain_task
 
 from graphcam.studio.engine import answer
 from graphcam.studio.studio_page import page
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Locator, Page
 
 Plain = dict[str, Any]
 

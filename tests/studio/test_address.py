@@ -117,6 +117,7 @@ TWIN = """async (address) => { const { write, read } = addressOf(studio.config),
     return [found, await write({ view: null, step: null, phi: USUAL_PHI, ...found })]; }"""
 
 
+@pytest.mark.slow
 def test_the_page_reads_and_writes_the_same(opened):
     page = opened()
     for seed in range(0, 500, 9):

@@ -50,6 +50,7 @@ def timeless(answered: dict) -> dict:
     return {key: value for key, value in json.loads(json.dumps(answered)).items() if key != "ms"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", ["en", "ru"])
 def test_the_engine_alone_answers_as_among_all_libraries(language, tmp_path):
     requests = [whole(name, language) for name in BUILT_IN]

@@ -27,6 +27,7 @@ def dragged(name, what, view, count=3):
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "what"), DRAGS)
 def test_frame_and_labels_stay_while_a_size_is_moved(name, what):
     for view in view_names(name):
@@ -39,6 +40,7 @@ def test_frame_and_labels_stay_while_a_size_is_moved(name, what):
                 assert math.dist((x, y), after[label][:2]) <= MAX_HOP + 0.01, (view, label)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "what"), DRAGS)
 def test_scales_stay_while_a_size_is_moved_and_without_hold_they_go(name, what):
     far = 25 * STEP[what]

@@ -130,6 +130,7 @@ def assert_nearest_station(name, handle, drawn, other, to):
     assert apart(handle, other, to) <= nearest + 0.01
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_values_keep_to_steps_and_ranges(name):
     solution = solved(name)
@@ -304,6 +305,7 @@ def draws(name, count, seed):
             assert released["ok"], (handle["id"], to, sizes, released.get("error"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", BUILT_IN)
 def test_a_drag_never_leads_to_an_error(name):
     draws(name, 1, 5)

@@ -13,6 +13,8 @@ import graphcam as gc
 from graphcam.studio.task_text import plain_task
 from graphcam.studio.widget import WIDGET_VIEW, StudioWidget
 
+pytestmark = pytest.mark.slow
+
 TASK = plain_task(gc.builtin_task())
 
 

@@ -10,6 +10,8 @@ import pytest
 import graphcam as gc
 from graphcam.studio.engine import answer
 
+pytestmark = pytest.mark.slow
+
 NOTEBOOK = """<!DOCTYPE html><meta charset="utf-8"><link rel="icon" href="data:,"><title>notebook</title>
 <div id="a"></div>
 <script type="module">

@@ -29,6 +29,8 @@ from graphcam.sweeps.design_space import load_space
 from graphcam.sweeps.shared_folder import SharedFolder
 from graphcam.workers import WorkerPool, worker_pool
 
+pytestmark = pytest.mark.slow
+
 SPACE = """
 rotation = ["ccw", "cw"]
 [motion]
@@ -327,7 +329,6 @@ def until(ready: Callable[[], object], seconds: float = 60) -> None:
         time.sleep(0.002)
 
 
-@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # of the cluster's own closing
 def test_a_worker_that_is_killed_twice_in_the_middle_of_a_part_changes_no_bit(undisturbed, tmp_path):
     from distributed import LocalCluster
@@ -360,7 +361,6 @@ def test_a_worker_that_is_killed_twice_in_the_middle_of_a_part_changes_no_bit(un
     assert len(arrow_dataset.dataset(out).to_table(columns=["feasible"])) == len(pd.read_parquet(out)) == 320_000
 
 
-@pytest.mark.slow
 def test_a_run_that_is_killed_goes_on_and_ends_in_the_same_bits(undisturbed, tmp_path):
     (space, whole), out = undisturbed, tmp_path / "out"
     script = """

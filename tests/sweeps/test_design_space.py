@@ -70,6 +70,7 @@ def test_the_rows_are_those_of_a_sweep(space, tmp_path):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out-front.csv", "out.csv", "space.toml"]
 
 
+@pytest.mark.slow
 def test_parquet_and_csv_hold_the_same(space, tmp_path):
     from pyarrow import parquet
 

@@ -57,6 +57,7 @@ def undercut_task() -> gc.Task:
     return replace(task, follower=replace(task.follower, roller_radius=40.0), cam=replace(task.cam, prime_radius=45.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("language", ["en", "ru"])
 @pytest.mark.parametrize("frame", ["gost", "iso"])
 @pytest.mark.parametrize("name", NAMES)
@@ -66,6 +67,7 @@ def test_no_text_lies_on_a_text_or_on_a_bold_line(name: str, frame: str, languag
     assert {(page.width, page.height) for page in drawing.pages} <= FORMATS
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("part", [HUB, PartTable(keyway="none"), PartTable(bore=8, width=60), PartTable(table_step=1)])
 @pytest.mark.parametrize("frame", ["gost", "iso"])
 def test_other_parts_are_as_clear(frame: str, part: PartTable) -> None:

@@ -22,6 +22,8 @@ from graphcam.exercises.photographs.corrections import (
 )
 from graphcam.exercises.photographs.counted_answers import SEARCH_BAND, settled_student
 
+pytestmark = pytest.mark.slow
+
 NAME = "pitch"
 
 

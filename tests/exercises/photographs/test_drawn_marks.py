@@ -17,6 +17,8 @@ from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.photographs.course_photographs import READINGS_FOLDER, ReadingOrder, read_course
 from graphcam.photo.printed_page import PrintedPage, PrintedView
 
+pytestmark = pytest.mark.slow
+
 DPI = 200
 PER_MM = DPI / 25.4
 FINER = 4
@@ -88,7 +90,6 @@ def cross(place: complex) -> list[np.ndarray]:
     return [place + 1.5 * way * np.array([-1, 1]) for way in (1, 1j)]
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("mark", "drawn"), [("circle", ring), ("cross", cross)])
 def test_plotted_points_are_read_as_they_are_marked(tmp_path, mark, drawn):
     handout = Handout(tmp_path, "inversion-arm", {'layer = "ROLLERS"': f'layer = "ROLLERS"\nmark = "{mark}"'})
@@ -99,7 +100,6 @@ def test_plotted_points_are_read_as_they_are_marked(tmp_path, mark, drawn):
     assert np.abs(given[:, None] - right).min(0).max() < OFF
 
 
-@pytest.mark.slow
 def test_a_place_is_where_two_lines_cross(tmp_path):
     mark = 'points = "pitch"\nplace = "profile"\nmark = "crossing"\ncomponent = '
     changes = {f'reading = "{axis}"': f'{mark}"{axis}"' for axis in ("x", "y")}
@@ -111,7 +111,6 @@ def test_a_place_is_where_two_lines_cross(tmp_path):
     assert abs(complex(given["x_8"], given["y_8"]) - right) < OFF
 
 
-@pytest.mark.slow
 def test_a_length_is_measured_between_its_two_marks(tmp_path):
     changes = {'reading = "s"': 'reading = "s"\nplace = "displacement"\nmark = "length"'}
     handout = Handout(tmp_path, "inversion-translating", changes)

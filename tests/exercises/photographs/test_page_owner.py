@@ -24,6 +24,7 @@ def printed(course, student: str, page: int) -> PrintedPage:
     return PrintedPage.from_json(path.read_text())
 
 
+@pytest.mark.slow
 def test_the_code_on_the_sheet_says_whose_it_is(course, sheets):
     for student, page in (("Anna", 1), ("Anna", 2), ("Boris", 2)):
         text = printed(course, student, page).code

@@ -32,6 +32,8 @@ from graphcam.exercises.reports.unrolled_drawings import key_line
 from graphcam.photo.printed_page import PrintedPage
 from graphcam.workers import WorkerPool
 
+pytestmark = pytest.mark.slow
+
 DPI = 200
 NAME = "pitch"
 

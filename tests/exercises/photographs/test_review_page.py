@@ -15,6 +15,8 @@ from playwright.sync_api import Browser, Page
 from graphcam.exercises.photographs.corrections import kept_corrections
 from graphcam.exercises.reports.unrolled_drawings import key_line
 
+pytestmark = pytest.mark.slow
+
 NAME = "pitch"
 CLARA = "<b>Clara</b>"
 WINDOWS = {"desk": (1440, 900), "phone": (390, 844)}
