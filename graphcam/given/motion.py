@@ -374,8 +374,11 @@ class Motion(Plottable):
 
 
 def _check_lengths(phases: Sequence[Phase], starts: Floats) -> None:
-    """That the phases begin one after another, so far apart that the places can be told."""
+    """That the phases begin one after another, each where the one before ends, and so far apart that it can be told."""
     for phase, length in zip(phases, np.diff(starts, append=FULL_TURN), strict=True):
+        if abs(length - phase.angle) > 2 * CLOSURE_TOLERANCE:
+            found = say("{length:.10g} rad from one start to the next", length=length)
+            raise DesignError("angle", found, say("{angle:.10g} rad, as the phase takes", angle=phase.angle))
         if not length >= SHORTEST_PHASE:
             limit = say("long enough to be told from rounding, {shortest:g} rad", shortest=SHORTEST_PHASE)
             found = say("{angle:.6g} rad", angle=phase.angle)

@@ -606,3 +606,67 @@ def test_where_the_profile_of_what_moves_at_0_crosses_itself_both_branches_pass(
     for loop in loops:
         for phi in loop.crossing[:2]:
             assert cam.profile(phi) == pytest.approx(np.array(loop.crossing[2:]), abs=1e-6)
+
+
+# --- the scale of the lift -------------------------------------------------------------------------------------------
+
+LIFTS = np.arange(1, 61)
+
+
+def random_shape(seed: int) -> list[tuple[float, dict[str, float]]]:
+    """Points of a turn with one or two lobes: degrees, and what is asked there of a lift of 1."""
+    random = np.random.default_rng(seed)
+    ends = ({"v": 0.0, "a": 0.0}, {"v": 0.0}, {"v": 0.0, "a": 0.0, "j": 0.0})[random.integers(3)]
+    places = np.sort(random.choice(np.arange(10, 360, 10), 2 * int(random.integers(1, 3)) - 1, replace=False))
+    between = [
+        (float(place), {"s": float(random.choice(heights))} | ({"v": 0.0} if random.random() < 0.7 else {}))
+        for place, heights in zip(places, ([0.25, 0.5, 0.75, 1.0], [0.0, 0.1, 0.25]) * 2, strict=False)
+    ]
+    return [(0.0, {"s": 0.0, **ends}), *between, (360.0, {"s": 0.0, **ends})]
+
+
+def answer(shape: list[tuple[float, dict[str, float]]], lift: float, kind: type) -> object:
+    """The phases of the motion, or what it is refused for."""
+    points = [at(degrees, **{name: number * lift for name, number in given.items()}) for degrees, given in shape]
+    try:
+        motion = gc.boundary_motion([kind(points)])
+    except gc.DesignError as error:
+        return str(error.quantity)
+    return [phase.kind for phase in motion.phases], motion.angles.round(7).tolist()
+
+
+def shapes_that_hang_on_the_lift(seeds: range, lifts: int) -> list[tuple[int, str]]:
+    found = []
+    for seed, kind in ((seed, kind) for seed in seeds for kind in (Poly, Spline)):
+        some = np.random.default_rng(seed).choice(LIFTS, lifts, replace=False)
+        if len({str(answer(random_shape(seed), float(lift), kind)) for lift in some}) > 1:
+            found.append((seed, kind.name))
+    return found
+
+
+def test_answers_do_not_depend_on_the_scale_of_the_lift():
+    answers = [answer(random_shape(seed), 1.0, Spline) for seed in range(20)]
+    assert {type(found) for found in answers} == {str, tuple}  # some are motions, some are refused
+    assert shapes_that_hang_on_the_lift(range(20), 4) == []
+
+
+@pytest.mark.slow
+def test_the_answers_of_150_shapes_do_not_depend_on_the_scale_of_the_lift():
+    assert shapes_that_hang_on_the_lift(range(150), 6) == []
+
+
+@pytest.mark.parametrize("lift", [5, 10, 12.5, 20, 30])
+def test_two_lobes_by_one_polynomial_close_at_every_lift(lift):
+    """Where both ends and the middle of a part are equally high, its lift is that of its turnings."""
+    points = [at(90 * k, s=lift * (k % 2), v=0, **({} if k % 2 else {"a": 0})) for k in range(5)]
+    motion = gc.boundary_motion([Poly(points)])
+    assert motion(np.radians([90, 270]))[0] - motion(0)[0] == pytest.approx([lift, lift], rel=1e-12)
+
+
+@pytest.mark.parametrize("lift", [5, 13, 18, 32, 60])
+def test_a_turning_at_a_point_is_none_between_the_points(lift):
+    """Rounding puts it a little to either side, as it does the two halves of a double zero of the velocity."""
+    ends = {"s": 0, **REST}
+    way = [at(50, s=0.25 * lift), at(100, s=0.75 * lift), at(180, s=0.75 * lift, v=0)]
+    motion = gc.boundary_motion([Poly([at(0, **ends), *way, at(360, **ends)])])
+    assert np.degrees(motion.starts) == pytest.approx([0, 127.172373, 180, 252.742610], abs=1e-5)

@@ -310,3 +310,50 @@ def test_every_digit_is_that_of_another_processor(other):
         return subprocess.run(command, check=True, capture_output=True, text=True, env=environment).stdout
 
     assert fitted(**other) == fitted()
+
+
+@pytest.mark.parametrize("kind", ["noise", "steps", "held"])
+def test_accelerations_of_any_kind_make_a_motion_or_are_refused(kind):
+    """Noisy, stepped and random tables; a part that is slow by noise alone is no dwell."""
+    exact, made = (
+        Motion([Rise(20, 1.75, "modified-trapezoidal"), Dwell(1.0), Return(20, 2 * np.pi - 2.75)]),
+        0,
+    )
+    for seed in (*range(4), 74, 84, 364):
+        random = np.random.default_rng(seed)
+        a = exact(DEGREES)[2]
+        greatest = float(np.abs(a).max())
+        if kind == "noise":
+            a = a + random.normal(0, 0.05 * greatest, a.size)
+        elif kind == "steps":
+            step = greatest / random.integers(1, 6)
+            a = np.round(a / step) * step
+        else:
+            a = np.repeat(random.normal(0, 10, a.size // 4 + 1), 4)[: a.size]
+        for tolerance in (0.05, 1.0):
+            try:
+                motion = integrated_motion(DEGREES, a, tolerance)
+            except DesignError:
+                continue
+            made += 1
+            assert np.diff(motion.starts, append=2 * np.pi) == pytest.approx(motion.angles, abs=2e-9)
+    assert made
+
+
+def test_the_table_of_accelerations_in_which_no_row_lies_at_a_level_is_read():
+    """5 % noise, of seed 364: the median of a slow part lies between its rows."""
+    rise, back = (kind(20, np.radians(angle), "modified-trapezoidal") for kind, angle in ((Rise, 100), (Return, 120)))
+    exact = Motion([rise, Dwell(np.radians(60)), back, Dwell(np.radians(80))])
+    phi = np.radians(np.arange(360))
+    a = exact(phi)[2]
+    a = a + np.random.default_rng(364).normal(0, 0.05 * np.abs(a).max(), a.size)
+    for tolerance in (0.05, 0.1):
+        assert refused_for_tolerance(phi, a, tolerance) or integrated_motion(phi, a, tolerance).lift > 15
+
+
+def refused_for_tolerance(phi: np.ndarray, a: np.ndarray, tolerance: float) -> bool:
+    try:
+        integrated_motion(phi, a, tolerance)
+    except DesignError as error:
+        return "tolerance" in f"{error}"
+    return False
