@@ -56,8 +56,7 @@ NODES = np.array([*_INNER, 1 - 1e-12, -1 + 1e-12])
 _TO_COEFFICIENTS = 2 / (DEGREE + 1) * chebyshev.chebvander(_INNER, DEGREE)
 _TO_COEFFICIENTS[:, 0] /= 2
 _AT_ENDS = chebyshev.chebvander(NODES[-2:], DEGREE).T
-_DERIVATIVE = np.vstack([np.zeros(DEGREE), chebyshev.chebder(np.eye(DEGREE + 1)).T[1:]])
-_DERIVATIVE = np.hstack([_DERIVATIVE, np.zeros((DEGREE + 1, 1))])
+_DERIVATIVE = np.pad(chebyshev.chebder(np.eye(DEGREE + 1)).T, ((0, 0), (0, 1)))
 _HALVES = [chebyshev.chebvander((_INNER + side) / 2, DEGREE).T @ _TO_COEFFICIENTS for side in (-1, 1)]
 _SIGNS = (-1.0) ** _NUMBERS
 
@@ -69,7 +68,7 @@ class _Cells(NamedTuple):
     low: Floats
     high: Floats
 
-    def selected(self, chosen: NDArray[np.bool_]) -> _Cells:
+    def selected(self, chosen: NDArray[np.bool_] | Indices) -> _Cells:
         return _Cells(self.piece[chosen], self.low[chosen], self.high[chosen])
 
     def divided(self) -> _Cells:
@@ -127,7 +126,7 @@ class Pieces:
         flat, sloped = may & flat, may & ~flat
         slopes, curved = coefficients[sloped] @ _DERIVATIVE, cells.selected(sloped)
         which, t = _roots(slopes)
-        found = [(curved.piece[which], _Cells(*(part[which] for part in curved)).at(t))]
+        found = [(curved.piece[which], curved.selected(which).at(t))]
         even = cells.selected(flat)
         found.append((even.piece, even.at(np.zeros(1))))
         # Where a slope is small all about the seam of two cells, a root there may fall to neither.
@@ -149,7 +148,7 @@ class Pieces:
         """
         cells, coefficients, _, ragged = self._resolved(quantity, np.zeros(self.low.size, dtype=np.intp))
         which, t = _roots(coefficients)
-        piece, x = cells.piece[which], _Cells(*(part[which] for part in cells)).at(t)
+        piece, x = cells.piece[which], cells.selected(which).at(t)
         return np.concatenate([piece, ragged.piece]), np.concatenate([x, ragged.low])
 
     def _resolved(

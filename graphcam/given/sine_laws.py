@@ -153,12 +153,16 @@ def _reversed_double_harmonic_tangent(k: float) -> tuple[float, float]:
 
 
 def _cosine_law(_: float) -> Law:
-    return Law("cosine", _cosine, (), True, 1.0, 1.0, (_PI / 2, _PI**2 / 2), (_cosine_tangent,) * 2, trusted=True)
+    return Law(
+        "cosine", _cosine, (), True, 1.0, 1.0, (_PI / 2, _PI**2 / 2), (_cosine_tangent, _cosine_tangent), trusted=True
+    )
 
 
 def _cycloidal_law(_: float) -> Law:
     formula = partial(_sine_up, height=2 * _PI, k=2 * _PI)
-    return Law("cycloidal", formula, (), True, 1.0, 1.0, (2.0, 2 * _PI), (_cycloidal_tangent,) * 2, trusted=True)
+    return Law(
+        "cycloidal", formula, (), True, 1.0, 1.0, (2.0, 2 * _PI), (_cycloidal_tangent, _cycloidal_tangent), trusted=True
+    )
 
 
 def _modified_trapezoidal_law(_: float) -> Law:
