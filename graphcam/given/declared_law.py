@@ -6,10 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from graphcam.given.motion_law import Law
-from graphcam.given.piecewise import Floats
 from graphcam.words import Caption
 
 Printed = Callable[[Any, Any], Any]
@@ -56,8 +53,3 @@ def mirrored_print(first_half: Printed) -> Printed:
         return first_half(u, functions) if 2 * u <= 1 else 1 - first_half(1 - u, functions)
 
     return printed
-
-
-def no_fourth(x: Floats) -> tuple[Floats, float]:
-    """The fourth derivative of a piece whose acceleration is a line, and a bound on the fifth there."""
-    return np.zeros_like(x), 0.0

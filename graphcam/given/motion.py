@@ -326,21 +326,6 @@ class Motion(Plottable):
         s, v, a, j = out.reshape(4, *shape)
         return s, v, a, j
 
-    def fourth(self, phase: NDArray[np.intp], u: Floats, half: Floats) -> tuple[Floats, Floats]:
-        """s'''' by phi in the middles of parts of rises and returns, and how far from it it may be inside them.
-
-        phase : (n,) index of each one's phase
-        u, half : (n,) its middle and half its width, as fractions of the phase; no edge of the law lies inside
-        """
-        out = np.empty((2, u.size))
-        for number in np.unique(phase):
-            here, moving = phase == number, self.phases[number]
-            assert isinstance(moving, MovingPhase)
-            unit = moving.lift / moving.angle**4
-            out[:, here] = moving.normalised.fourth(u[here], half[here])
-            out[:, here] *= [[moving.direction * unit], [unit]]
-        return out[0], out[1]
-
     def angle_at(self, phase: ArrayLike, u: ArrayLike) -> Floats:
         """The cam angle [rad] at the fraction u of a phase.
 

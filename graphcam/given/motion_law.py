@@ -18,11 +18,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
+from graphcam.given.extreme_search import Pieces
 from graphcam.given.piecewise import Floats, Formula, Piece, Piecewise, Side, chunks, in_phase
 from graphcam.words import Words, bare_caption, say
 
-Fourth = Callable[[Floats], tuple[Floats, float]]
-"""f'''' of the distance x from an end of a phase, and a bound on |f'''''| over the piece."""
 Tangent = Callable[[float], tuple[float, float]]
 """Where f' - f/k is largest, and how great, as a function of k: a closed form."""
 _OfNumber = Callable[[float], Sequence[Any]]
@@ -35,8 +34,6 @@ DERIVATIVE_ACCURACY = 1e-7
 CHECKED_PARTS = 17
 """Parts of a piece that are checked: a prime, so that no usual fraction, where a formula may bend, ends one."""
 GAUSS_NODES, GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(12)
-ESTIMATE_FACTOR = 2.0
-"""An estimate of f'''' may be off by so many times what two neighbouring estimates differ by."""
 DERIVATIVE_NAMES = "f", "f'", "f''", "f'''"
 
 
@@ -55,8 +52,6 @@ class Law:
     peaks : max f' and max |f''|; None has them found
     tangents : closed forms of the place u where f' - f/k is largest, and of that value, for any k > 0; the second one
         is that of the law seen from its end.  None has the place found
-    fourths : for each formula a function that returns f'''' at an array, and a bound on |f'''''| over the piece; with
-        them it is proved where a quantity is largest.  Left out, f'''' is estimated, and nothing is proved
     trusted : it is known to be a law, so the check is omitted, which takes some milliseconds
     seams : those edges at which no derivative jumps: the formulas of either side only look from different ends
 
@@ -83,7 +78,6 @@ class Law:
     ratio: float = 1.0
     peaks: tuple[float, float] | None = field(default=None, repr=False)
     tangents: tuple[Tangent | None, Tangent | None] = field(default=(None, None), repr=False)
-    fourths: Sequence[Fourth] = field(default=(), repr=False)
     trusted: InitVar[bool] = False
     seams: tuple[float, ...] = field(default=(), repr=False)
     pieces: tuple[Piece, ...] = field(init=False, repr=False)
@@ -91,9 +85,9 @@ class Law:
 
     def __post_init__(self, mirrored: bool, trusted: bool) -> None:
         formulas = (self.formulas,) if callable(self.formulas) else tuple(self.formulas)
-        starts, middle, fourths = (0.0, *map(float, self.edges)), self.middle, tuple(self.fourths)
+        starts, middle = (0.0, *map(float, self.edges)), self.middle
         if mirrored:
-            formulas, fourths, middle = (*formulas, *formulas[::-1]), (*fourths, *fourths[::-1]), 0.5
+            formulas, middle = (*formulas, *formulas[::-1]), 0.5
             starts = (*starts, middle, *(1.0 - u for u in starts[:0:-1]))
         if not all(a < b for a, b in pairwise((*starts, 1.0))):
             raise self._error("edges", list(starts[1:]), say("between 0 and 1, in order"))
@@ -113,7 +107,6 @@ class Law:
             "edges": starts[1:],
             "middle": middle,
             "pieces": tuple(pieces),
-            "fourths": fourths,
         }
         for name, value in made.items():
             object.__setattr__(self, name, value)
@@ -156,25 +149,6 @@ class Law:
     @cached_property
     def _piecewise(self) -> Piecewise:
         return Piecewise(self.pieces)
-
-    def fourth(self, u: Floats, half: Floats) -> tuple[Floats, Floats]:
-        """f'''' in the middles u of intervals that no edge lies in, (n,), and how far it may be from that inside them.
-
-        half : (n,) half the intervals' widths
-
-        >>> import graphcam as gc
-        >>> [x.tolist() for x in gc.law("3-4-5").fourth(np.array([0.25]), np.array([0.125]))]
-        [[-180.0], [90.0]]
-        """
-        if not self.fourths:
-            first, there, last = self(u - half)[3], self(u)[3], self(u + half, side="left")[3]
-            return (last - first) / (2 * half), ESTIMATE_FACTOR * np.abs(first - 2 * there + last) / half
-        number, values, off = np.searchsorted(self.edges, u, side="right"), np.empty_like(u), np.empty_like(u)
-        for k, (fourth, piece) in enumerate(zip(self.fourths, self.pieces, strict=True)):
-            here = number == k
-            value, bound = fourth(np.abs(u[here] - piece.origin))
-            values[here], off[here] = piece.length * value, bound * half[here]
-        return values, off
 
     @cached_property
     def peak_velocity(self) -> float:
@@ -228,20 +202,17 @@ class Law:
         ahead, back = self.tangents
         turned, ratio = (formulas[::-1], edges, False, 1 - self.middle), 1 / self.ratio
         seams = tuple(1 - u for u in self.seams)
-        return Law(self.name, *turned, ratio, self.peaks, (back, ahead), self.fourths[::-1], trusted=True, seams=seams)
+        return Law(self.name, *turned, ratio, self.peaks, (back, ahead), trusted=True, seams=seams)
 
     # --- what a law must keep to --------------------------------------------------------------------------------------
 
     def _max_derivative(self, order: int) -> float:
         """The maximum magnitude of a derivative, of both sides of a jump, to full precision."""
-        low, high = self._parts()
-        while True:
-            u = np.linspace(low, high, 9)
-            height = np.abs([*self(u[:1])[order], *self(u[1:], side="left")[order]])
-            if np.max(high - low) < ACCURACY:
-                return float(height.max())
-            top, column = np.clip(height.argmax(axis=0), 1, 7), np.arange(low.size)
-            low, high = u[top - 1, column], u[top + 1, column]
+        ends = np.array([0.0, *self.edges, 1.0])
+        at_ends = np.abs([*self(ends[:-1])[order], *self(ends[1:], side="left")[order]])
+        pieces = Pieces(ends[:-1], ends[1:])
+        _, u = pieces.stationary(lambda _, u: self(u)[order], None, at_ends.max(keepdims=True), np.abs)
+        return float(np.abs(self(u)[order]).max(initial=at_ends.max()))
 
     def _parts(self) -> tuple[Floats, Floats]:
         ends = np.array([0.0, *self.edges, 1.0])
@@ -299,9 +270,6 @@ class Law:
         if self.peaks is not None and len(self.peaks) != 2:
             limit = say("two numbers, max f' and max |f''|")
             raise self._error("peaks", self.peaks, limit, say("leave them out to be found"))
-        if len(self.fourths) not in (0, len(self.pieces)):
-            limit = say("{pieces}, one for each formula, or none", pieces=len(self.pieces))
-            raise self._error(say("number of fourths"), len(self.fourths), limit)
         if not self.ratio > 0:
             raise self._error("ratio", self.ratio, say("greater than 0"))
 

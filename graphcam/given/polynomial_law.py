@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from itertools import pairwise
 
 from graphcam.errors import DesignError, check_kind
 from graphcam.given.boundary_joints import check_joint, greatest_lift
 from graphcam.given.boundary_parts import MotionPoint, Part, PolynomialPart, SplinePart
-from graphcam.given.exact_polynomials import ExactPiece, derivative, pieces_between, rounded_terms, shortest
+from graphcam.given.exact_polynomials import ExactPiece, pieces_between, rounded_terms, shortest
 from graphcam.given.local_polynomials import LocalPolynomials, cells
-from graphcam.given.motion_law import Fourth, Law
-from graphcam.given.piecewise import Floats
+from graphcam.given.motion_law import Law
 from graphcam.words import say
 
 CONSTANT_VELOCITY = "constant-velocity"
@@ -52,10 +50,8 @@ def leg_law(name: str, pieces: Sequence[ExactPiece], *, trusted: bool = True) ->
     one = Fraction(1)
     formulas = [LocalPolynomials(each) for each in cells(first)]
     formulas += [LocalPolynomials(each) for each in cells(second, one, ahead=False)]
-    fourths: list[Fourth] = [_FourthDerivative(piece, Fraction(0), ahead=True) for piece in first]
-    fourths += [_FourthDerivative(piece, one, ahead=False) for piece in second]
     edges = [float(piece.start) for piece in unit[1:]]
-    law = Law(name, formulas, edges, middle=float(middle), fourths=fourths, trusted=trusted, seams=seams)
+    law = Law(name, formulas, edges, middle=float(middle), trusted=trusted, seams=seams)
     return lift, law
 
 
@@ -75,29 +71,6 @@ def _without_slivers(pieces: Sequence[ExactPiece]) -> list[ExactPiece]:
 def _scaled_piece(piece: ExactPiece, start: Fraction, angle: Fraction, low: Fraction, lift: Fraction) -> ExactPiece:
     p = ((piece.p[0] - low) / lift, *(c / lift for c in piece.p[1:]))
     return ExactPiece((piece.start - start) / angle, piece.width / angle, rounded_terms(p))
-
-
-@dataclass(frozen=True)
-class _FourthDerivative:
-    """f'''' of a piece by the distance from an end, and a bound on |f'''''|; made when it is asked for."""
-
-    piece: ExactPiece
-    origin: Fraction
-    ahead: bool
-
-    @cached_property
-    def _series(self) -> LocalPolynomials:
-        p = tuple(c / self.piece.width**4 for c in derivative(self.piece.p, 4))
-        (found,) = cells([ExactPiece(self.piece.start, self.piece.width, p)], self.origin, self.ahead)
-        return LocalPolynomials(found)
-
-    @cached_property
-    def _bound(self) -> float:
-        # Within a cell |x| is 1 at most.
-        return max(sum(k * abs(c) for k, c in enumerate(cell.coefficients)) / cell.scale for cell in self._series.cells)
-
-    def __call__(self, x: Floats) -> tuple[Floats, float]:
-        return self._series(x)[0], self._bound
 
 
 def boundary_law(parts: Sequence[Part] | Sequence[MotionPoint], name: str = "by conditions") -> Law:

@@ -11,9 +11,9 @@ import math
 from fractions import Fraction
 from functools import partial
 
-from graphcam.given.declared_law import DeclaredLaw, no_fourth
+from graphcam.given.declared_law import DeclaredLaw
 from graphcam.given.exact_polynomials import ExactPiece
-from graphcam.given.motion_law import Fourth, Law
+from graphcam.given.motion_law import Law
 from graphcam.given.piecewise import Floats, Formula
 from graphcam.given.polynomial_law import leg_law
 from graphcam.words import say
@@ -40,14 +40,6 @@ def _poly_4_5_6_7(x: Floats):
     return f, 140 * p * square, 420 * square * (1 - 2 * x), 840 * p * (1 - 5 * p)
 
 
-def _fourth_3_4_5(x: Floats) -> tuple[Floats, float]:
-    return 720 * x - 360, 720.0
-
-
-def _fourth_4_5_6_7(x: Floats) -> tuple[Floats, float]:
-    return 840 * (1 - 2 * x) * (1 - 10 * x * (1 - x)), 10080.0
-
-
 def _polynomial_tangent(k: float, *, n: int, rest: tuple[float, ...]) -> tuple[float, float]:
     """The tangent of f' = C (u (1 - u))^n: there n k (1 - 2u) = u (1 - u), and f' and f/k have u^n/(1 - u) in common.
 
@@ -61,34 +53,30 @@ def _polynomial_tangent(k: float, *, n: int, rest: tuple[float, ...]) -> tuple[f
     return u, u**n / (1 - u) * height
 
 
-def _polynomial(
-    name: str, formula: Formula, peaks: tuple[float, float], n: int, rest: tuple[float, ...], fourth: Fourth
-) -> Law:
+def _polynomial(name: str, formula: Formula, peaks: tuple[float, float], n: int, rest: tuple[float, ...]) -> Law:
     """A law whose velocity is C (u (1 - u))^n; ``rest`` as its tangent takes it."""
     tangent = partial(_polynomial_tangent, n=n, rest=rest)
-    return Law(name, formula, (), True, 1.0, 1.0, peaks, (tangent, tangent), (fourth,), trusted=True)
+    return Law(name, formula, (), True, 1.0, 1.0, peaks, (tangent, tangent), trusted=True)
 
 
 POLYNOMIAL_2_3 = DeclaredLaw(
     title=say("2-3"),
     synonyms=("cubic", "полином 2-3", "đa thức 2-3", "2-3 多项式"),
-    make=lambda _: _polynomial("2-3", _poly_2_3, (1.5, 6.0), 1, (3, -4, 2), no_fourth),
+    make=lambda _: _polynomial("2-3", _poly_2_3, (1.5, 6.0), 1, (3, -4, 2)),
     printed=lambda u, _: 3 * u**2 - 2 * u**3,
     fifth_derivatives=((0.0,), ()),
 )
 POLYNOMIAL_3_4_5 = DeclaredLaw(
     title=say("3-4-5"),
     synonyms=("quintic", "polynomial 3-4-5", "полином 3-4-5", "đa thức 3-4-5", "3-4-5 多项式", "五次多项式"),
-    make=lambda _: _polynomial("3-4-5", _poly_3_4_5, (1.875, 10 / math.sqrt(3)), 2, (10, -20, 18, -6), _fourth_3_4_5),
+    make=lambda _: _polynomial("3-4-5", _poly_3_4_5, (1.875, 10 / math.sqrt(3)), 2, (10, -20, 18, -6)),
     printed=lambda u, _: 10 * u**3 - 15 * u**4 + 6 * u**5,
     fifth_derivatives=((720.0,), ()),
 )
 POLYNOMIAL_4_5_6_7 = DeclaredLaw(
     title=say("4-5-6-7"),
     synonyms=("polynomial 4-5-6-7", "полином 4-5-6-7", "đa thức 4-5-6-7", "4-5-6-7 多项式", "七次多项式"),
-    make=lambda _: _polynomial(
-        "4-5-6-7", _poly_4_5_6_7, (2.1875, 84 / (5 * math.sqrt(5))), 3, (35, -98, 126, -80, 20), _fourth_4_5_6_7
-    ),
+    make=lambda _: _polynomial("4-5-6-7", _poly_4_5_6_7, (2.1875, 84 / (5 * math.sqrt(5))), 3, (35, -98, 126, -80, 20)),
     printed=lambda u, _: 35 * u**4 - 84 * u**5 + 70 * u**6 - 20 * u**7,
     fifth_derivatives=((10080.0,), ()),
 )

@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.given.declared_law import DeclaredLaw, mirrored_print, no_fourth
-from graphcam.given.motion_law import Fourth, Law
-from graphcam.given.piecewise import Floats, Formula, sine_cosine
+from graphcam.given.declared_law import DeclaredLaw, mirrored_print
+from graphcam.given.motion_law import Law
+from graphcam.given.piecewise import Floats, sine_cosine
 from graphcam.words import say
 
 _PI = math.pi
@@ -113,16 +113,6 @@ def _of_series(t: Floats) -> Floats:
     return t * square * series
 
 
-def _fourth_of_sine(x: Floats, *, formula: Formula, height: float, k: float) -> tuple[Floats, float]:
-    """The fourth derivative f'''' of an acceleration height * sin(k x + c)."""
-    return -(k**2) * np.asarray(formula(x)[2]), height * k**3
-
-
-def _fourth_of_double_harmonic(x: Floats, *, sign: int) -> tuple[Floats, float]:
-    """f'''' from the start with the sign -1, from the end +1: only the second wave changes sign."""
-    return _PI**4 * (-np.cos(_PI * x) / 2 - sign * 2 * np.cos(2 * _PI * x)), 4.5 * _PI**5
-
-
 def _cosine_tangent(k: float) -> tuple[float, float]:
     q = _PI * k
     return math.atan(q) / _PI, _PI / 2 * q / (1 + math.hypot(1, q))
@@ -162,48 +152,39 @@ def _reversed_double_harmonic_tangent(k: float) -> tuple[float, float]:
     return 2 * math.atan(t) / _PI, t * c2 * (2 * _PI * c2 - t * (1 + c2) / k)
 
 
-def _sines(*pieces: tuple[Formula, dict[str, float]]) -> tuple[Fourth, ...]:
-    """The fourth derivatives of pieces whose accelerations are sines."""
-    return tuple(partial(_fourth_of_sine, formula=formula, **sizes) for formula, sizes in pieces)
-
-
 def _cosine_law(_: float) -> Law:
-    tangents, fourths = (_cosine_tangent,) * 2, _sines((_cosine, {"height": _PI**2 / 2, "k": _PI}))
-    return Law("cosine", _cosine, (), True, 1.0, 1.0, (_PI / 2, _PI**2 / 2), tangents, fourths, trusted=True)
+    return Law(
+        "cosine", _cosine, (), True, 1.0, 1.0, (_PI / 2, _PI**2 / 2), (_cosine_tangent, _cosine_tangent), trusted=True
+    )
 
 
 def _cycloidal_law(_: float) -> Law:
-    sizes = {"height": 2 * _PI, "k": 2 * _PI}
-    formula = partial(_sine_up, **sizes)
-    tangents, fourths = (_cycloidal_tangent,) * 2, _sines((formula, sizes))
-    return Law("cycloidal", formula, (), True, 1.0, 1.0, (2.0, 2 * _PI), tangents, fourths, trusted=True)
+    formula = partial(_sine_up, height=2 * _PI, k=2 * _PI)
+    return Law(
+        "cycloidal", formula, (), True, 1.0, 1.0, (2.0, 2 * _PI), (_cycloidal_tangent, _cycloidal_tangent), trusted=True
+    )
 
 
 def _modified_trapezoidal_law(_: float) -> Law:
-    height, sizes = _MODIFIED_TRAPEZOIDAL_PEAK, {"height": _MODIFIED_TRAPEZOIDAL_PEAK, "k": 4 * _PI}
-    up, down = partial(_sine_up, **sizes), partial(_sine_down, **sizes, peak=2.0)
+    height, k = _MODIFIED_TRAPEZOIDAL_PEAK, 4 * _PI
+    up, down = partial(_sine_up, height=height, k=k), partial(_sine_down, height=height, k=k, peak=2.0)
     formulas = up, partial(_sine_top, height=height), down
-    fourths = *_sines((up, sizes)), no_fourth, *_sines((down, sizes))
-    return Law(
-        "modified-trapezoidal", formulas, (1 / 8, 3 / 8), True, peaks=(2.0, height), fourths=fourths, trusted=True
-    )
+    return Law("modified-trapezoidal", formulas, (1 / 8, 3 / 8), True, peaks=(2.0, height), trusted=True)
 
 
 def _modified_sine_law(_: float) -> Law:
-    height = _PI * _MODIFIED_SINE_PEAK
-    rising, falling = ({"height": height, "k": k} for k in (4 * _PI, 4 * _PI / 3))
-    formulas = partial(_sine_up, **rising), partial(_sine_down, **falling, peak=_MODIFIED_SINE_PEAK)
-    fourths = _sines(*zip(formulas, (rising, falling), strict=True))
-    return Law(
-        "modified-sine", formulas, (1 / 8,), True, peaks=(_MODIFIED_SINE_PEAK, height), fourths=fourths, trusted=True
+    height, peak = _PI * _MODIFIED_SINE_PEAK, _MODIFIED_SINE_PEAK
+    rising, falling = (
+        partial(_sine_up, height=height, k=4 * _PI),
+        partial(_sine_down, height=height, k=4 * _PI / 3, peak=peak),
     )
+    return Law("modified-sine", (rising, falling), (1 / 8,), True, peaks=(peak, height), trusted=True)
 
 
 def _double_harmonic_law(_: float) -> Law:
     formulas, peaks = (_double_harmonic, _double_harmonic_end), (3 * math.sqrt(3) * _PI / 8, _PI**2)
-    fourths = tuple(partial(_fourth_of_double_harmonic, sign=sign) for sign in (-1, 1))
     tangents, seams = (_double_harmonic_tangent, _reversed_double_harmonic_tangent), (0.5,)
-    return Law("double-harmonic", formulas, seams, False, 0.5, 1.0, peaks, tangents, fourths, trusted=True, seams=seams)
+    return Law("double-harmonic", formulas, seams, False, 0.5, 1.0, peaks, tangents, trusted=True, seams=seams)
 
 
 def _printed_modified_trapezoidal(u: Any, m: Any) -> Any:

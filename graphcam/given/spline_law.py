@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from graphcam.errors import DesignError
 from graphcam.given.b_splines import PiecewisePolynomial
 from graphcam.given.monotone_spline import DEGREE, Fit
-from graphcam.given.motion_law import Fourth, Law
+from graphcam.given.motion_law import Law
 from graphcam.given.piecewise import Floats
 from graphcam.given.reproducible_sums import powers
 from graphcam.words import say
@@ -58,14 +58,11 @@ def spline_law(fit: Fit, start: float, end: float, contact: tuple[int, int]) -> 
     ahead[: contact[0], 0] = back[: contact[1], -1] = 0.0
     first, second = PiecewisePolynomial(ahead, u), PiecewisePolynomial(back[:, ::-1], (1.0 - u)[::-1])
     half = int(np.argmin(np.abs(u[1:-1] - 0.5))) + 1
-    splines = [first] * half + [second] * (u.size - 1 - half)
-    places = np.where(np.arange(u.size - 1) < half, (u[:-1] + u[1:]) / 2, 1.0 - (u[:-1] + u[1:]) / 2)
-    fourths = [_fourth(spline, float(place)) for spline, place in zip(splines, places, strict=True)]
     # One formula for all pieces of a half, so that many places in it are computed together.
     formulas = [partial(_spline, spline=first)] * half + [partial(_spline, spline=second)] * (u.size - 1 - half)
     edges, middle_edge = u[1:-1].tolist(), float(u[half])
     peaks = first.greatest(1), first.greatest(2)
-    return lift, Law(MEASURED_LAW, formulas, edges, middle=middle_edge, peaks=peaks, trusted=True, fourths=fourths)
+    return lift, Law(MEASURED_LAW, formulas, edges, middle=middle_edge, peaks=peaks, trusted=True)
 
 
 def _shifted_taylor(taylor: Floats, shift: Floats) -> Floats:
@@ -114,20 +111,9 @@ def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[floa
     at_start, at_end = (2 if acceleration else 3 for acceleration in accelerations)
     spline.c[:at_start], spline.c[-at_end:] = 0.0, 1.0
     knots = np.unique(spline.t)
-    fourths = [_fourth(spline, float(place)) for place in (knots[:-1] + knots[1:]) / 2]
-    return Law(name, [partial(_spline, spline=spline)] * (knots.size - 1), knots[1:-1].tolist(), fourths=fourths)
+    return Law(name, [partial(_spline, spline=spline)] * (knots.size - 1), knots[1:-1].tolist())
 
 
 def _spline(u: Floats, *, spline: BSpline | PiecewisePolynomial):
     """A spline and its first three derivatives."""
     return [spline(u, nu=order) for order in range(4)]
-
-
-def _fourth(spline: BSpline | PiecewisePolynomial, place: float) -> Fourth:
-    """The fourth derivative of the piece that a place lies in."""
-    return partial(_fourth_of_spline, spline=spline, fifth=abs(float(spline(place, nu=DEGREE))))
-
-
-def _fourth_of_spline(u: Floats, *, spline: BSpline | PiecewisePolynomial, fifth: float) -> tuple[Floats, float]:
-    """A quintic spline's fourth derivative, and the magnitude of its fifth between two knots."""
-    return spline(u, nu=4), fifth

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.given.declared_law import DeclaredLaw, mirrored_print, no_fourth
+from graphcam.given.declared_law import DeclaredLaw, mirrored_print
 from graphcam.given.motion_law import Law
 from graphcam.given.piecewise import Floats
 from graphcam.words import say
@@ -56,15 +56,13 @@ def _rectangular(ratio: float) -> Law:
     first = partial(_constant, height=2 / middle)
     second = first if middle == 0.5 else partial(_constant, height=2 / (1 - middle))
     ahead, back = (partial(_rectangular_tangent, middle=part) for part in parts)
-    peaks, fourths = (2.0, 2 / min(parts)), (no_fourth, no_fourth)
-    return Law(
-        "rectangular", (first, second), (middle,), False, middle, ratio, peaks, (ahead, back), fourths, trusted=True
-    )
+    peaks = 2.0, 2 / min(parts)
+    return Law("rectangular", (first, second), (middle,), False, middle, ratio, peaks, (ahead, back), trusted=True)
 
 
 def _triangular(_: float) -> Law:
     formulas = partial(_linear_up, slope=32.0), partial(_linear_down, slope=32.0)
-    return Law("triangular", formulas, (1 / 4,), True, peaks=(2.0, 8.0), fourths=(no_fourth,) * 2, trusted=True)
+    return Law("triangular", formulas, (1 / 4,), True, peaks=(2.0, 8.0), trusted=True)
 
 
 def _trapezoidal(_: float) -> Law:
@@ -73,9 +71,7 @@ def _trapezoidal(_: float) -> Law:
         partial(_trapezoid_top, height=16 / 3),
         partial(_linear_down, slope=128 / 3),
     )
-    return Law(
-        "trapezoidal", formulas, (1 / 8, 3 / 8), True, peaks=(2.0, 16 / 3), fourths=(no_fourth,) * 3, trusted=True
-    )
+    return Law("trapezoidal", formulas, (1 / 8, 3 / 8), True, peaks=(2.0, 16 / 3), trusted=True)
 
 
 def _printed_triangular(u: Any, _: Any) -> Any:

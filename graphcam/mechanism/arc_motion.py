@@ -21,18 +21,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, check_number
+from graphcam.given.extreme_search import Pieces
 from graphcam.given.impact import JUMP_ROUNDING, Jump
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import CLOSURE_TOLERANCE, FULL_TURN, wrap
-from graphcam.given.root_finding import roots
 from graphcam.given.three_arcs import Point, ThreeArcs
 from graphcam.mechanism.kinematics import Complexes, Values
 from graphcam.showing import Plottable, value_text
 from graphcam.words import Caption, bare_caption, say
-
-ARC_FRACTIONS = np.sin(np.linspace(0, np.pi / 2, 65)) ** 2
-"""Fractions of an arc between which a quantity is taken to have one extreme at most."""
-
 
 FIT_TOLERANCE = 1e-3
 """How far given points may miss the arcs, as a part of their distance from the cam centre: printed data are rounded."""
@@ -297,15 +293,15 @@ class ArcMotion(Plottable):
 
     def max_velocity(self) -> tuple[float, float]:
         """The maximum |v| [mm/rad] of the turn and where on the rise [rad]."""
-        return self._greatest(lambda r: r[1], slope=lambda r: r[2])
+        return self._greatest(lambda r: r[1])
 
     def max_acceleration(self) -> tuple[float, float]:
         """The maximum |a| [mm/rad^2] of the turn, of both sides at a jump, and where on the rise [rad]."""
-        return self._greatest(lambda r: r[2], slope=lambda r: r[3])
+        return self._greatest(lambda r: r[2])
 
     def max_pressure_angle(self) -> tuple[float, float]:
         """The maximum pressure angle [rad] and where on the rise [rad]; on the return it is the same, negative."""
-        return self._greatest(lambda r: np.arctan2(r[1], r[0]), slope=lambda r: r[2] * r[0] - r[1] ** 2)
+        return self._greatest(lambda r: np.arctan2(r[1], r[0]))
 
     # --- how it is found ---------------------------------------------------------------------------------------------
 
@@ -341,18 +337,10 @@ class ArcMotion(Plottable):
         r2 = (b * r - (s1 + b1) * r1) / s
         return r, r1, r2, (3 * b * r1 + b1 * r - 3 * s1 * r2) / s
 
-    def _greatest(self, value: Callable[[Values], Floats], slope: Callable[[Values], Floats]) -> tuple[float, float]:
-        """The value of maximum magnitude on the rise: at an end of an arc, or where its slope vanishes."""
-
-        def slope_at(psi: Floats, arc: NDArray[np.intp]) -> Floats:
-            return slope(self._radius(arc, psi))
-
-        arc = np.arange(3)
-        start, end = self.edges[:3], self.edges[1:4]
-        psi = start[:, None] + (end - start)[:, None] * ARC_FRACTIONS
-        signs = np.sign(slope_at(psi, arc[:, None]))
-        on, left = np.nonzero(signs[:, :-1] * signs[:, 1:] < 0)
-        inner = roots(lambda psi: slope_at(psi, on), psi[on, left], psi[on, left + 1])
+    def _greatest(self, value: Callable[[Values], Floats]) -> tuple[float, float]:
+        """The value of maximum magnitude on the rise: at an end of an arc, or where it is stationary."""
+        arc, start, end = np.arange(3), self.edges[:3], self.edges[1:4]
+        on, inner = Pieces(start, end).stationary(lambda arc, psi: value(self._radius(arc, psi)))
         arcs, psi = np.concatenate([arc, arc, on]), np.concatenate([start, end, inner])
         values = value(self._radius(arcs, psi))
         k = int(np.argmax(np.abs(values)))

@@ -22,8 +22,7 @@ from graphcam.given.piecewise import chunks, sine_cosine
 from graphcam.mechanism.envelope import Envelope
 from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.kinematics import Kinematics, Pair, Values
-from graphcam.mechanism.leg_maxima import MaximumSearch
-from graphcam.mechanism.turn_extremes import Places, places_from
+from graphcam.mechanism.turn_extremes import Places, first_index, highest_places, places_from
 from graphcam.mechanism.undercut import Undercut, trimmed_profile, undercuts
 from graphcam.showing import MAX_WIDTH, Plottable, value_text
 from graphcam.words import say
@@ -193,19 +192,17 @@ class Cam(Plottable):
         return CamPoints(phi, values, pitch, profile, self._pressure_angle(values), curvature)
 
     def extremes(self) -> Extremes:
-        """Maximum pressure angles and minimum convex radii of curvature, each proved to be exceeded nowhere.
+        """Maximum pressure angles and minimum convex radii of curvature, to full precision.
 
         The fields of what it returns: pressure_angle_rise and pressure_angle_return [rad], min_convex_radius and
         min_convex_radius_moving [mm]; each is a pair (value, phi) with the cam angle [rad] of the place.
 
-        With the laws of graphcam, measured and sampled ones included, no extreme can hide beside another, because their
-        fourth derivatives bound them between two points (see :mod:`graphcam.mechanism.leg_maxima`).  The same holds for
-        a law of your own that has ``fourths``.  Without them, they are estimated over 128 parts of the phase; this
-        finds the extremes of every law that does not oscillate faster, but proves nothing.
+        No extreme hides beside another or between two samples: the search follows each quantity with as many parts as
+        it needs (see :mod:`graphcam.given.extreme_search`).
         """
-        search, kin = MaximumSearch(self.motion), self.kinematics
-        steep = search.highest(kin.steepness, kin.pressure_slope, signed=True)
-        sharp = search.highest(kin.sharpness, kin.curvature_slope)
+        kin = self.kinematics
+        steep = highest_places(self.motion, kin.steepness, signed=True)
+        sharp = highest_places(self.motion, kin.sharpness)
         direction = self.motion.directions
         return Extremes(
             self._steepest(steep.selected(direction[steep.phase] > 0)),
@@ -246,12 +243,12 @@ class Cam(Plottable):
 
     def _steepest(self, places: Places) -> tuple[float, float]:
         alpha = self._pressure_angle(places.values)
-        k = np.argmax(np.abs(alpha))
+        k = first_index(np.abs(alpha), places.phi)
         return float(alpha[k]), float(places.phi[k])
 
     def _sharpest(self, places: Places) -> tuple[float, float]:
         radius = self.kinematics.convex_radius(places.values)
-        k = np.argmin(radius)
+        k = first_index(-radius, places.phi) if np.isfinite(radius).any() else 0
         return (float(radius[k]), float(places.phi[k])) if radius[k] < math.inf else (math.inf, math.nan)
 
     def _in_chunks(

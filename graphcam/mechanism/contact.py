@@ -7,6 +7,7 @@ Source: I. Voloder, M. Cohodar, S. Karic, *Annals of DAAAM* (2007).
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -23,11 +24,11 @@ from graphcam.mechanism.turn_extremes import (
     VALUE_ROUNDING,
     Places,
     ValueAt,
+    first_highest,
     over_turn,
     places_in,
-    places_maximum,
-    places_of,
     smooth_pieces,
+    stationary_places,
 )
 from graphcam.showing import parts_text
 from graphcam.words import say
@@ -111,15 +112,9 @@ def _least_preload(motion: Motion, load: FollowerLoad) -> SpringPreload:
         weight, _ = load.leverage(places.values)
         return load.preload - load.force(places.values, motion.directions[places.phase], places.phi) / weight
 
-    def slope(places: Places) -> Floats:
-        """The derivative of the preload up to a positive factor, the weight."""
-        (weight, weight_slope), direction = load.leverage(places.values), motion.directions[places.phase]
-        force, force_slope = load.force(places.values, direction, places.phi), load.slope(places.values, places.phi)
-        return force * weight_slope - force_slope * weight
-
-    everywhere = places_of(motion, slope, load.knots)
-    size = float((load.size(everywhere.values) / load.leverage(everywhere.values)[0]).max())
-    found = places_maximum(motion, slope, needed, size, load.knots)
+    places = stationary_places(motion, needed, load.knots)
+    size = float((load.size(places.values) / load.leverage(places.values)[0]).max())
+    found = first_highest(motion, places, needed, load.knots, size)
     return SpringPreload(found.value, found.phi)
 
 
@@ -190,20 +185,19 @@ class Contact:
     def _force(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Floats:
         return self.force(places_in(self.motion, phase, u, side))
 
-    def _slope(self, places: Places) -> Floats:
-        return self.load.slope(places.values, places.phi)
-
+    @cached_property
     def _places(self) -> Places:
-        return places_of(self.motion, self._slope, self.load.knots)
+        return stationary_places(self.motion, self.force, self.load.knots)
 
     def _extreme(self, sign: int) -> ValueAt:
-        size = float(self.load.size(self._places().values).max())
-        return places_maximum(self.motion, self._slope, lambda places: sign * self.force(places), size, self.load.knots)
+        places = self._places
+        size = float(self.load.size(places.values).max())
+        return first_highest(self.motion, places, lambda places: sign * self.force(places), self.load.knots, size)
 
     def _stretches(self) -> list[tuple[int, float, float]]:
         """(phase, u, u) of stretches in which xi is monotonous, in order."""
         phase, u0, u1 = smooth_pieces(self.motion, self.load.knots)
-        places = self._places()
+        places = self._places
         roots, root_phase = places.u[2 * phase.size :], places.phase[2 * phase.size :]
         stretches: list[tuple[int, float, float]] = []
         for k, low, high in zip(phase, u0, u1, strict=True):

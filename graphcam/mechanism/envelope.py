@@ -20,8 +20,7 @@ from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.root_finding import roots
 from graphcam.mechanism.kinematics import Complexes, Kinematics, Values
-from graphcam.mechanism.leg_maxima import MaximumSearch
-from graphcam.mechanism.turn_extremes import Places, smooth_pieces, stationary_places
+from graphcam.mechanism.turn_extremes import Places, highest_places, smooth_pieces, stationary_places
 
 Indices = NDArray[np.intp]
 CUSP_TOLERANCE = 1e-12
@@ -163,13 +162,13 @@ class Envelope:
     @cached_property
     def _places(self) -> Places:
         """The places where the pitch curve's curvature is stationary, and both ends of every piece."""
-        return stationary_places(self.motion, self.kinematics.curvature_slope)
+        return stationary_places(self.motion, lambda places: self.kinematics.sharpness(places.values))
 
     @property
     def least_radius(self) -> float:
         """The least convex radius of the pitch curve [mm], or the prime radius where that is less."""
         kin = self.kinematics
-        sharpest = MaximumSearch(self.motion).highest(kin.sharpness, kin.curvature_slope)
+        sharpest = highest_places(self.motion, kin.sharpness)
         return min(float(kin.convex_radius(sharpest.values).min()), self.prime_radius)
 
     # --- cusps -------------------------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from graphcam.given.follower import FlatFaced, Limits, Rotation, sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.mechanism.kinematics import Appearance, Complexes, Contour, Kinematics, Pair, Values
-from graphcam.mechanism.turn_extremes import stationary_places, velocity_range
+from graphcam.mechanism.turn_extremes import highest_places, velocity_range
 from graphcam.words import say
 
 
@@ -60,9 +60,9 @@ class FlatFacedKinematics(Kinematics):
         s, v, _, _ = values
         return self.prime_radius + s, v
 
-    def tipping(self, values: Values, friction: float, roller: float) -> tuple[Floats, Floats]:
+    def tipping(self, values: Values, friction: float, roller: float) -> Floats:
         """-v: the contact wanders from the middle of the face."""
-        return -values[1], -values[2]
+        return -values[1]
 
     def speed(self, values: Values, inset: float) -> Floats:
         """rho - inset [mm/rad]: the face turns with the cam."""
@@ -73,10 +73,10 @@ class FlatFacedKinematics(Kinematics):
         rho = self.convex_radius(values)
         return np.divide(1.0, rho, out=np.full_like(rho, np.inf), where=rho != 0)
 
-    def curvature_slope(self, values: Values) -> Floats:
-        """-rho', of the sign of kappa'."""
+    def sharpness_and_slope(self, values: Values) -> tuple[Floats, Floats]:
+        """-rho, and its derivative."""
         _, v, _, j = values
-        return -(v + j)
+        return self.sharpness(values), -(v + j)
 
     def sharpness(self, values: Values) -> Floats:
         """The measure of sharpness: -rho [mm]."""
@@ -87,10 +87,9 @@ class FlatFacedKinematics(Kinematics):
         s, _, a, _ = values
         return self.prime_radius + s + a
 
-    def relative_radius(self, values: Values, roller: Any) -> tuple[Floats, Floats]:
+    def relative_radius(self, values: Values, roller: Any) -> Floats:
         """rho: a face is not curved."""
-        _, v, _, j = values
-        return self.convex_radius(values), v + j
+        return self.convex_radius(values)
 
     def lift_per_error(self, values: Values) -> dict[str, Any]:
         """1 by the profile: the face is square to its motion."""
@@ -181,6 +180,6 @@ def flat_minimum_radius(
     """
     least = curvature or 0.0
     check_number(say("minimum radius of curvature"), least, say("a finite length of 0 mm or more"), least=0)
-    s, _, a, _ = stationary_places(motion, slope=lambda values: values[1] + values[3]).values
+    s, _, a, _ = highest_places(motion, lambda values: -(values[0] + values[2])).values
     radius = least - float(np.min(s + a))
     return FlatMinimumRadius(radius, ("curvature",)) if radius > 0 else FlatMinimumRadius(0.0, ())

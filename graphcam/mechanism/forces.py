@@ -40,7 +40,6 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property, partial
-from itertools import pairwise
 from typing import overload
 
 import numpy as np
@@ -65,9 +64,9 @@ from graphcam.mechanism.turn_extremes import (
     ValueAt,
     places_from,
     places_in,
-    places_maximum,
-    places_of,
     smooth_pieces,
+    turn_maximum,
+    zero_angles,
 )
 from graphcam.showing import parts_text
 from graphcam.words import say
@@ -218,7 +217,7 @@ class CamForces:
         """The forces at places that belong to phases."""
         values, direction = places.values, self.cam.motion.directions[places.phase]
         cosine, sine, _ = contact_angle(self.cam.kinematics, values)
-        normal, slip, (near, far) = self.normal(places), self._slip(places), self.bearings(values)[0]
+        normal, slip, (near, far) = self.normal(places), self._slip(places), self.bearings(values)
         with np.errstate(invalid="ignore"):
             works = np.where(direction > 0, np.maximum(1 - slip, 0.0), 1 / (1 + slip))
         stem = np.nan if self.cam.kinematics.swings else 1.0
@@ -230,8 +229,8 @@ class CamForces:
             side=normal * sine,
             near=stem * normal * near,
             far=stem * normal * far,
-            friction=np.abs(normal) * self._guide_friction(values)[0],
-            torque=normal * self._turning(values)[0],
+            friction=np.abs(normal) * self._guide_friction(values),
+            torque=normal * self._turning(values),
             efficiency=np.where(direction == 0, np.nan, stem * works),
             transmission=transmission(self.cam, values, self.friction)[0],
             contact_friction=self.friction * normal,
@@ -244,7 +243,7 @@ class CamForces:
         ------
         DesignError : the follower jams, at the cam or in its guide
         """
-        return self._extreme(self.normal_slope, self.normal)
+        return self._extreme(self.normal)
 
     def least_normal(self) -> ValueAt:
         """The minimum normal force over the turn [N]; contact is lost where it is negative.
@@ -253,7 +252,7 @@ class CamForces:
         ------
         DesignError : the follower jams, at the cam or in its guide
         """
-        return self._extreme(self.normal_slope, self.normal, -1)
+        return self._extreme(self.normal, -1)
 
     def greatest_torque(self) -> ValueAt:
         """The maximum torque that must drive the cam [N mm].
@@ -273,7 +272,7 @@ class CamForces:
         >>> round(torque.value, 1), round(degrees(torque.phi), 2)
         (1953.2, 60.48)
         """
-        return self._extreme(self.torque_slope, self.torque)
+        return self._extreme(self.torque)
 
     def least_torque(self) -> ValueAt:
         """The minimum torque on the cam [N mm], negative where the follower drives it.
@@ -282,11 +281,11 @@ class CamForces:
         ------
         DesignError : the follower jams, at the cam or in its guide
         """
-        return self._extreme(self.torque_slope, self.torque, -1)
+        return self._extreme(self.torque, -1)
 
     def least_efficiency(self) -> ValueAt:
         """The minimum efficiency of the guide over the rises; at 0 or below it jams."""
-        worst = places_maximum(self.cam.motion, self._slip_slope, self._slip_on_rises)
+        worst = turn_maximum(self.cam.motion, self._slip_on_rises, self.corners)
         return worst._replace(value=1 - worst.value)
 
     # --- for other quantities of the contact -------------------------------------------------------------------------
@@ -294,26 +293,12 @@ class CamForces:
     def normal(self, places: Places) -> Floats:
         """N at places that belong to phases [N]; NaN where the follower jams."""
         direction, values = self.cam.motion.directions[places.phase], places.values
-        left = self._moving_force(values, direction)[0]
+        left = self._moving_force(values, direction)
         return self.pressing.force(values, direction, places.phi) / np.where(left > 0, left, np.nan)
-
-    def normal_slope(self, places: Places) -> Floats:
-        """dN/dphi [N/rad] inside a phase."""
-        # N = Q/D
-        direction, values = self.cam.motion.directions[places.phase], places.values
-        q, q_slope = self.pressing.force(values, direction, places.phi), self.pressing.slope(values, places.phi)
-        d, d_slope = self._moving_force(values, direction)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return (q_slope * d - q * d_slope) / d**2
 
     def torque(self, places: Places) -> Floats:
         """The torque on the cam at places that belong to phases [N mm]; NaN where the follower jams."""
-        return self.normal(places) * self._turning(places.values)[0]
-
-    def torque_slope(self, places: Places) -> Floats:
-        """The derivative of the torque by phi inside a phase [N mm/rad]."""
-        lever, lever_slope = self._turning(places.values)
-        return self.normal_slope(places) * lever + self.normal(places) * lever_slope
+        return self.normal(places) * self._turning(places.values)
 
     def check(self) -> None:
         """Check that the follower moves: that it jams nowhere.
@@ -336,60 +321,50 @@ class CamForces:
             self._check_guide()
         return True
 
-    def _extreme(
-        self, slope: Callable[[Places], Floats], quantity: Callable[[Places], Floats], sign: int = 1
-    ) -> ValueAt:
+    def _extreme(self, quantity: Callable[[Places], Floats], sign: int = 1) -> ValueAt:
         """The maximum value, or with -1 the minimum, of a quantity that grows without bound where the follower jams."""
         self.check()
-        found = places_maximum(
-            self.cam.motion, slope, lambda places: sign * quantity(places), knots=self.pressing.knots
-        )
+        knots = (*self.pressing.knots, *self.corners)
+        found = turn_maximum(self.cam.motion, lambda places: sign * quantity(places), knots)
         return found._replace(value=sign * found.value)
 
-    def _moving_force(self, values: Values, direction: Floats) -> tuple[Floats, Floats]:
-        """What a unit of normal force moves along the motion, less what the guide holds of it, and its slope.
+    def _moving_force(self, values: Values, direction: Floats) -> Floats:
+        """What a unit of normal force moves along the motion, less what the guide holds of it; of an arm [mm]."""
+        moved = transmission(self.cam, values, self.friction)[0]
+        return self.cam.kinematics.reach * moved - direction * self._guide_friction(values)
 
-        Of an arm about the pivot [mm].
-        """
-        (moved, moved_slope), (held, held_slope) = (
-            transmission(self.cam, values, self.friction),
-            self._guide_friction(values),
-        )
-        reach = self.cam.kinematics.reach
-        return reach * moved - direction * held, reach * moved_slope - direction * held_slope
+    def _guide_friction(self, values: Values) -> Floats:
+        """h, the friction in the guide over the normal force."""
+        if not self.guide.friction:
+            return np.zeros_like(values[0])
+        near, far = self.bearings(values)
+        return self.guide.friction * (np.abs(near) + np.abs(far))
 
-    def _guide_friction(self, values: Values) -> tuple[Floats, Floats]:
-        """h, the friction in the guide over the normal force, and its slope."""
-        guide, still = self.guide, np.zeros_like(values[0])
-        if not guide.friction:
-            return still, still
-        bearings, slopes = self.bearings(values)
-        held_slope = sum((np.sign(n) * slope for n, slope in zip(bearings, slopes, strict=True)), still)
-        return guide.friction * (np.abs(bearings[0]) + np.abs(bearings[1])), guide.friction * held_slope
+    def bearings(self, values: Values) -> tuple[Floats, Floats]:
+        """N1 and N2 of the bearings over the normal force."""
+        cosine, sine, _ = contact_angle(self.cam.kinematics, values)
+        moment = self.cam.kinematics.tipping(values, self.friction, self.cam.roller_radius)
+        x, length = sine + self.friction * cosine, self.guide.length
+        far = x * ((self.guide.overhang - values[0]) / length) + moment / length
+        return x + far, far
 
-    def bearings(self, values: Values) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats]]:
-        """N1 and N2 of the bearings over the normal force, and their slopes."""
-        cosine, sine, turning = contact_angle(self.cam.kinematics, values)
-        moment, moment_slope = self.cam.kinematics.tipping(values, self.friction, self.cam.roller_radius)
-        x, x_slope = sine + self.friction * cosine, (cosine - self.friction * sine) * turning
-        b, length = self.guide.overhang - values[0], self.guide.length
-        far, far_slope = x * (b / length) + moment / length, (x_slope * b - x * values[1] + moment_slope) / length
-        return (x + far, far), (x_slope + far_slope, far_slope)
+    @cached_property
+    def corners(self) -> tuple[float, ...]:
+        """The cam angles [rad] at which a bearing of the guide changes its side, so that the friction has a corner."""
+        if not self.guide.friction:
+            return ()
+        motion, knots = self.cam.motion, self.pressing.knots
+        found = [zero_angles(motion, partial(_bearing, self, which), knots) for which in (0, 1)]
+        return tuple(np.concatenate(found).tolist())
 
-    def _turning(self, values: Values) -> tuple[Floats, Floats]:
-        return lever_about_cam(self.cam.kinematics, values, self.friction, self.cam.roller_radius)
+    def _turning(self, values: Values) -> Floats:
+        return lever_about_cam(self.cam.kinematics, values, self.friction, self.cam.roller_radius)[0]
 
     def _slip(self, places: Places) -> Floats:
-        return self._guide_friction(places.values)[0] / transmission(self.cam, places.values, self.friction)[0]
+        return self._guide_friction(places.values) / transmission(self.cam, places.values, self.friction)[0]
 
     def _slip_on_rises(self, places: Places) -> Floats:
         return np.where(self.cam.motion.directions[places.phase] > 0, self._slip(places), np.nan)
-
-    def _slip_slope(self, places: Places) -> Floats:
-        """A quantity with the sign of the slope of h/(cos alpha - mu sin alpha)."""
-        moved, moved_slope = transmission(self.cam, places.values, self.friction)
-        held, held_slope = self._guide_friction(places.values)
-        return held_slope * moved - held * moved_slope
 
     def _place_text(self, found: ValueAt) -> str:
         alpha = math.degrees(self.cam.pressure_angle(found.phi))
@@ -418,7 +393,7 @@ class CamForces:
 GAUSS_NODE_COUNT = 24
 """The number of Gauss nodes on a part of a smooth piece."""
 PIECE_PARTS = 4
-"""A smooth piece is divided into so many equal parts, and where a bearing of the guide changes its side."""
+"""A smooth piece, in which no bearing of the guide changes its side, is divided into so many equal parts."""
 
 
 def mean_torque(forces: CamForces) -> float:
@@ -450,21 +425,11 @@ def mean_torque(forces: CamForces) -> float:
 
 def _parts(forces: CamForces) -> tuple[NDArray[np.intp], Floats, Floats]:
     """The parts of the turn in which the torque is smooth: phase, and the fractions where a part begins and ends."""
-    motion, knots = forces.cam.motion, forces.pressing.knots
-    phase, u0, u1 = smooth_pieces(motion, knots)
-    cuts: list[tuple[int, float]] = []
-    for which in (0, 1) if forces.guide.friction else ():
-        found = places_of(motion, partial(_bearing, forces, which), knots)
-        inner = slice(2 * phase.size, None)
-        cuts += zip(found.phase[inner].tolist(), found.u[inner].tolist(), strict=True)
-    rows: list[tuple[int, float, float]] = []
-    for k, start, end in zip(phase.tolist(), u0.tolist(), u1.tolist(), strict=True):
-        ends = {*np.linspace(start, end, PIECE_PARTS + 1).tolist(), *(u for i, u in cuts if i == k and start < u < end)}
-        rows += [(k, a, b) for a, b in pairwise(sorted(ends))]
-    of, low, high = zip(*rows, strict=True)
-    return np.array(of), np.array(low), np.array(high)
+    phase, u0, u1 = smooth_pieces(forces.cam.motion, (*forces.pressing.knots, *forces.corners))
+    ends = np.linspace(u0, u1, PIECE_PARTS + 1)
+    return np.tile(phase, PIECE_PARTS), ends[:-1].ravel(), ends[1:].ravel()
 
 
 def _bearing(forces: CamForces, which: int, places: Places) -> Floats:
     """The force of one bearing over the normal force: where it changes its sign, the friction has a corner."""
-    return forces.bearings(places.values)[0][which]
+    return forces.bearings(places.values)[which]

@@ -18,7 +18,7 @@ from graphcam.given.laws import Floats, Side
 from graphcam.given.roller_contact import STEEL_POISSON_RATIO, STEEL_YOUNG_MODULUS, RollerContact
 from graphcam.mechanism.forces import CamForces
 from graphcam.mechanism.kinematics import Kinematics, Values
-from graphcam.mechanism.turn_extremes import Places, TurnCurve, ValueAt, over_turn, places_from, places_maximum
+from graphcam.mechanism.turn_extremes import Places, TurnCurve, ValueAt, over_turn, places_from, turn_maximum
 from graphcam.showing import parts_text
 from graphcam.words import say
 
@@ -152,7 +152,7 @@ class ContactStress:
     def of(self, places: Places) -> Stresses:
         """The contact at places that belong to phases."""
         force, modulus = self.forces.normal(places), self.contact.modulus
-        relative, _ = self._kinematics.relative_radius(places.values, self._roller)
+        relative = self._kinematics.relative_radius(places.values, self._roller)
         sound = np.where(relative > 0, relative, np.nan)
         load = np.maximum(force, 0) / self.contact.width / math.pi
         peak, half_width = np.sqrt(load * modulus / sound), 2 * np.sqrt(load * sound / modulus)
@@ -177,15 +177,13 @@ class ContactStress:
         if self.forces.greatest_normal().value <= 0:
             found = say("nowhere positive")
             raise DesignError(say("contact force"), found, say("greater than 0 N somewhere"), say("preload the spring"))
-        squared, phi, side = places_maximum(
-            cam.motion, self.slope, self._squared_pressure, knots=self.forces.pressing.knots
-        )
+        squared, phi, side = turn_maximum(cam.motion, self.squared_pressure, self.forces.pressing.knots)
         return ValueAt(math.sqrt(squared), phi, side)
 
     def contact_at(self, found: ValueAt) -> Stresses:
         """The contact at the place of a peak pressure, such as the maximum: arrays of the shape ()."""
         values = self.forces.cam.motion(found.phi, found.side)
-        relative, _ = self._kinematics.relative_radius(values, self._roller)
+        relative = self._kinematics.relative_radius(values, self._roller)
         # p = E' b/(2 R) and F = pi/2 p b w.
         half_width = 2 * found.value * relative / self.contact.modulus
         force = math.pi / 2 * found.value * half_width * self.contact.width
@@ -197,10 +195,10 @@ class ContactStress:
         check_number(say("permitted stress"), permitted, say("a finite number greater than 0 MPa"), above=0)
         return self.contact.width * (self.greatest().value / permitted) ** 2
 
-    def slope(self, places: Places) -> Floats:
-        """A quantity with the sign of the peak pressure's slope, that is of (F/R)', at places inside phases."""
-        relative, relative_slope = self._kinematics.relative_radius(places.values, self._roller)
-        return self.forces.normal_slope(places) * relative - self.forces.normal(places) * relative_slope
+    def squared_pressure(self, places: Places) -> Floats:
+        """The square of the peak pressure [MPa^2] at places inside phases; negative where nothing presses."""
+        relative = self._kinematics.relative_radius(places.values, self._roller)
+        return self.forces.normal(places) * self.contact.modulus / (math.pi * self.contact.width * relative)
 
     @property
     def _roller(self) -> float:
@@ -213,10 +211,6 @@ class ContactStress:
     def _profile_radius(self, values: Values) -> Floats:
         with np.errstate(divide="ignore"):
             return np.divide(1.0, self._kinematics.curvature(values)) - self._roller
-
-    def _squared_pressure(self, places: Places) -> Floats:
-        relative, _ = self._kinematics.relative_radius(places.values, self._roller)
-        return self.forces.normal(places) * self.contact.modulus / (math.pi * self.contact.width * relative)
 
     def _undercut(self, rho: float) -> DesignError:
         if not self._kinematics.takes_roller:

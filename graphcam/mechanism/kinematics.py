@@ -123,10 +123,6 @@ class Kinematics(ABC):
         """What |tan(alpha)| does not exceed over a motion with that lift and that greatest |v|; 0 of a face."""
         return 0.0 * lift
 
-    def pressure_slope(self, values: Values) -> Floats:
-        """A quantity with the sign of alpha'."""
-        return pair_cross(*self.pressure(values))
-
     def pressed_by(self, load: Any) -> FollowerLoad:
         """A load on the follower beside this cam.
 
@@ -184,13 +180,12 @@ class Kinematics(ABC):
     def sliding(self, values: Values, roller: float) -> tuple[Floats, Floats]:
         """The velocity of the cam past a follower whose roller does not turn [mm/rad], and its derivative by phi."""
 
-    def tipping(self, values: Values, friction: float, roller: float) -> tuple[Floats, Floats]:
-        """The moment of a unit normal force with its friction about trace point or middle of the face, and its slope.
+    def tipping(self, values: Values, friction: float, roller: float) -> Floats:
+        """The moment of a unit normal force with its friction about trace point or middle of the face [mm].
 
-        Positive as that of the friction on a roller [mm].
+        Positive as that of the friction on a roller.
         """
-        still = np.zeros_like(values[0])
-        return still + friction * roller, still
+        return np.zeros_like(values[0]) + friction * roller
 
     @abstractmethod
     def speed(self, values: Values, inset: float) -> Floats:
@@ -204,12 +199,8 @@ class Kinematics(ABC):
         """Curvature kappa of the pitch curve [1/mm], positive where the cam is convex."""
 
     @abstractmethod
-    def curvature_slope(self, values: Values) -> Floats:
-        """A quantity with the sign of kappa', and zero with it."""
-
     def sharpness_and_slope(self, values: Values) -> tuple[Floats, Floats]:
         """The sharpness, and what has the sign of its derivative; both cost little more than one."""
-        return self.sharpness(values), self.curvature_slope(values)
 
     @abstractmethod
     def sharpness(self, values: Values) -> Floats:
@@ -221,8 +212,8 @@ class Kinematics(ABC):
         """The roller radius [mm] as far as it matters: inf where it does not, NaN for NaN."""
 
     @abstractmethod
-    def relative_radius(self, values: Values, roller: Any) -> tuple[Floats, Floats]:
-        """R of Hertz's contact with the profile [mm], and R' by phi; not positive where the profile is undercut.
+    def relative_radius(self, values: Values, roller: Any) -> Floats:
+        """R of Hertz's contact with the profile [mm]; not positive where the profile is undercut.
 
         1/R is the sum of both curvatures.  roller : its radius [mm]
         """
@@ -328,10 +319,6 @@ class RollerKinematics(Kinematics):
         squared = np.add(along * along, across * across)
         return squared, np.add(squared, g * across - h * along)
 
-    def curvature_slope(self, values: Values) -> Floats:
-        """A quantity with the sign of kappa'."""
-        return self.sharpness_and_slope(values)[1]
-
     def sharpness_and_slope(self, values: Values) -> tuple[Floats, Floats]:
         """kappa [1/mm], and what has the sign of kappa'."""
         (along, across), (along1, across1) = self.pressure(values)
@@ -345,10 +332,9 @@ class RollerKinematics(Kinematics):
         """The measure of sharpness: the curvature kappa [1/mm]."""
         return self.curvature(values)
 
-    def relative_radius(self, values: Values, roller: Any) -> tuple[Floats, Floats]:
+    def relative_radius(self, values: Values, roller: Any) -> Floats:
         """r (1 - kappa r), whether the profile, of the radius 1/kappa - r, is convex, flat or concave."""
-        kappa, kappa_slope = self.curvature(values), self.curvature_slope(values) / self.speed(values, inset=0.0) ** 5
-        return roller * (1 - kappa * roller), -roller * roller * kappa_slope
+        return roller * (1 - self.curvature(values) * roller)
 
     @staticmethod
     def radius_of(sharpness: Floats) -> Floats:

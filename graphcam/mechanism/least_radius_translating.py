@@ -15,17 +15,20 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.errors import check_number
+from graphcam.given.extreme_search import Pieces
 from graphcam.given.follower import Limits, Translating
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.motion_law import Law
-from graphcam.given.root_finding import roots
 from graphcam.mechanism.half_planes import Line
 from graphcam.mechanism.leg_places import legs
-from graphcam.mechanism.turn_extremes import PIECE_FRACTIONS
 from graphcam.words import say
+
+GROWING_PLACES = 0.3 * 4.0 ** np.arange(60)
+"""Places, over a small one, between which a law grows by no more than some powers of four."""
 
 
 @dataclass(frozen=True)
@@ -122,18 +125,16 @@ def steepest_tangent(law: Law, k: float) -> tuple[float, float]:
     if closed_form := law.tangents[0]:
         return closed_form(k)
 
-    def slope(u: Floats) -> Floats:
-        """The slope of k f' - f, a pure number; it vanishes where that is largest."""
-        _, f1, f2 = law(u, derivatives=2)
-        return k * f2 - f1
+    def height(_: NDArray[np.intp], u: Floats) -> Floats:
+        """k f' - f, a pure number."""
+        f, f1 = law(u, derivatives=1)
+        return k * f1 - f
 
-    edges = np.array([0.0, *law.edges, 1.0])
-    u = (edges[:-1, None] + np.diff(edges)[:, None] * PIECE_FRACTIONS).ravel()
-    # Of a law that begins as u^n the place is (n - 1) k for small k, which may lie before every sample.
-    u = np.append(min(k, u[0]) / 2, u)
-    sign = np.sign(slope(u))
-    top = np.flatnonzero((sign[:-1] > 0) & (sign[1:] <= 0))
-    places = roots(slope, u[top], u[top + 1])
+    # Of a law that begins as u^n the place is (n - 1) k for small k, and the height as small as k^n.
+    growing = k * GROWING_PLACES
+    edges = np.unique([0.0, *law.breaks, *growing[growing < 1], 1.0])
+    _, inside = Pieces(edges[:-1], edges[1:]).stationary(height, np.arange(edges.size - 1))
+    places = np.concatenate([edges, inside])
     f, f1 = law(places, derivatives=1)
     heights = f1 - f / k
     best = np.argmax(heights)

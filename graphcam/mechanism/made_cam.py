@@ -24,8 +24,8 @@ from graphcam.errors import DesignError, check_kind, nearest_word_remedy
 from graphcam.given.laws import Floats
 from graphcam.given.making_errors import Deviations
 from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.jets import Jet
 from graphcam.mechanism.kinematics import Contour, Values
-from graphcam.mechanism.taylor_intervals import Taylor
 from graphcam.words import say
 
 MAX_NEWTON_STEPS = 20
@@ -101,7 +101,7 @@ class MadeCam:
         (x, y), (nx, ny), kappa = kin.path(values)
         normal = nx + 1j * np.asarray(ny)
         length = kin.speed(values, 0.0)
-        along = cast(Taylor, kin.speed(_followed(values), cast(Any, Taylor(_ZERO, r - delta, -slope, -bend, _ZERO))))
+        along = cast(Jet, kin.speed(_followed(values), cast(Any, Jet(r - delta, -slope, -bend))))
         forwards = np.hypot(along.value, slope)
         leaning = (bend * along.value - slope * along.slope) / (forwards * forwards)
         turning = length * kappa - leaning
@@ -135,12 +135,9 @@ def linear_off(cam: Cam, phi: Floats, deviations: Deviations) -> tuple[Floats, F
     return s, v, a
 
 
-def lifts_by_error(kin: Any, values: Values) -> dict[str, Taylor]:
+def lifts_by_error(kin: Any, values: Values) -> dict[str, Jet]:
     """The lift of the follower by what is too large, with the first two derivatives by phi."""
     return kin.lift_per_error(_followed(values))
-
-
-_ZERO = np.zeros(())
 
 
 def _followed(values: Values) -> Values:
@@ -150,7 +147,7 @@ def _followed(values: Values) -> Values:
 
 def _derivatives(values: Values) -> Iterator[Any]:
     s, v, a, j = values
-    yield Taylor(_ZERO, s, v, a, _ZERO)
-    yield Taylor(_ZERO, v, a, j, _ZERO)
-    yield Taylor(_ZERO, a, j, _ZERO, _ZERO)  # its second derivative is asked for by nobody
+    yield Jet(s, v, a)
+    yield Jet(v, a, j)
+    yield Jet(a, j, np.zeros(()))  # its second derivative is asked for by nobody
     yield j

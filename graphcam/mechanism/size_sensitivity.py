@@ -24,8 +24,8 @@ from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.least_radius import minimum_radius
-from graphcam.mechanism.leg_maxima import MaximumSearch
 from graphcam.mechanism.made_cam import lifts_by_error
+from graphcam.mechanism.turn_extremes import highest_places
 from graphcam.showing import parts_text
 from graphcam.words import say
 
@@ -182,7 +182,7 @@ def _steepest(motion: Motion, kin: Kinematics, direction: float, towards: float)
     def steepness(values: Values) -> Floats:
         return towards * kin.steepness(values)
 
-    places = MaximumSearch(motion).highest(steepness, lambda values: towards * kin.pressure_slope(values))
+    places = highest_places(motion, steepness)
     values = places.selected(motion.directions[places.phase] == direction).values
     k = np.argmax(steepness(values))
     s, v, a, j = (value[k] for value in values)

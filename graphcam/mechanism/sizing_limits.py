@@ -28,7 +28,7 @@ from graphcam.mechanism.hertz import ContactStress
 from graphcam.mechanism.jamming import check_friction
 from graphcam.mechanism.kinematics import Values
 from graphcam.mechanism.translating import TranslatingKinematics
-from graphcam.mechanism.turn_extremes import Places, places_of, smooth_pieces, stationary_places
+from graphcam.mechanism.turn_extremes import Places, smooth_pieces, stationary_places
 from graphcam.words import say
 
 RISE_LIMIT, RETURN_LIMIT, CURVATURE_LIMIT, SHARE_LIMIT, STRESS_LIMIT = LIMITS = (
@@ -124,10 +124,10 @@ class TurnPlaces:
         """The places where pressure angle, curvature and stress of one cam can have their exact extremes."""
         cam, load = stress.forces.cam, stress.forces.pressing
         kin, motion = cam.kinematics, cam.motion
-        steep, sharp = (stationary_places(motion, slope) for slope in (kin.pressure_slope, kin.curvature_slope))
-        first, *others = (
-            cls.of(motion, load, places) for places in (steep, sharp, places_of(motion, stress.slope, load.knots))
-        )
+        steep = stationary_places(motion, lambda places: kin.steepness(places.values))
+        sharp = stationary_places(motion, lambda places: kin.curvature(places.values))
+        stressed = stationary_places(motion, stress.squared_pressure, load.knots)
+        first, *others = (cls.of(motion, load, places) for places in (steep, sharp, stressed))
         for other in others:
             first = first.joined(other)
         return first

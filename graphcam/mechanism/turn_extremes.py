@@ -1,30 +1,25 @@
 """The extremes of a motion and of any quantity of it, one that jumps included, and its curve over the turn.
 
-An extreme lies at an end of a smooth piece, or where the slope vanishes.  Source of v_max = C_v h/F and a_max =
-C_a h/F^2: R. L. Norton, *Cam Design and Manufacturing Handbook* (2009), chapter 3.
+An extreme lies at an end of a smooth piece, or where the quantity is stationary inside it, which
+:mod:`graphcam.given.extreme_search` finds.  Source of v_max = C_v h/F and a_max = C_a h/F^2: R. L. Norton, *Cam Design
+and Manufacturing Handbook* (2009), chapter 3.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from graphcam.given.extreme_search import Pieces
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, wrap
-from graphcam.given.root_finding import roots
 from graphcam.mechanism.kinematics import Values
-
-_END_FRACTIONS = np.logspace(-12, -4, 25)
-# Fractions of a piece: dense at its ends, where a small prime radius or a steep limit moves the extremes to.
-PIECE_FRACTIONS = np.concatenate(
-    [_END_FRACTIONS, np.sin(np.linspace(0, np.pi / 2, 97)[1:-1]) ** 2, 1 - _END_FRACTIONS[::-1]]
-)
-"""Fractions of a smooth piece between which a quantity is taken to have one extreme at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,29 +40,64 @@ class Places:
         return Places(self.phase[chosen], self.u[chosen], self.phi[chosen], (s, v, a, j))
 
 
-def stationary_places(motion: Motion, slope: Callable[[Values], Floats]) -> Places:
-    """Both ends of every smooth piece, with the values from inside, and the inner roots of the slope.
+PlaceQuantity = Callable[[Places], Floats]
+"""A quantity at places, shaped like them."""
 
-    slope : the derivative of the quantity by phi, or anything of its sign, as a function of (s, v, a, j)
+
+def stationary_places(motion: Motion, quantity: PlaceQuantity, knots: Sequence[float] = ()) -> Places:
+    """Both ends of every smooth piece, with the values from inside, and where inside a quantity is stationary.
+
+    knots : cam angles [rad] at which the quantity may bend inside a smooth piece of the motion
 
     >>> from math import pi
     >>> import graphcam as gc
     >>> motion = gc.Motion([gc.Rise(30, pi, "cosine"), gc.Return(30, pi, "cosine")])
-    >>> stationary_places(motion, slope=lambda values: values[2]).u.round(12).tolist()  # where v is greatest
-    [0.0, 0.0, 1.0, 1.0, 0.5, 0.5]
+    >>> places = stationary_places(motion, lambda places: places.values[1])  # where v is greatest
+    >>> np.unique(places.u.round(9)).tolist()
+    [0.0, 0.5, 1.0]
     """
-    return places_of(motion, lambda places: slope(places.values))
+    smooth = _smooth(motion, tuple(knots))
+    piece, u = smooth.moving.stationary(smooth.on_pieces(quantity), smooth.phase)
+    inside = smooth.phase[piece]
+    return at_places(motion, *smooth.ends, (inside, u, motion.at(inside, u)))
 
 
-def places_of(motion: Motion, slope: Callable[[Places], Floats], knots: Sequence[float] = ()) -> Places:
-    """The extreme places of a quantity that depends on the cam angle besides, or on the sense of the motion.
+def zero_angles(motion: Motion, quantity: PlaceQuantity, knots: Sequence[float] = ()) -> Floats:
+    """The cam angles [rad] at which a quantity vanishes inside a smooth piece."""
+    smooth = _smooth(motion, tuple(knots))
+    piece, u = smooth.moving.zeros(smooth.on_pieces(quantity))
+    return motion.angle_at(smooth.phase[piece], u)
 
-    slope : of places;  knots : cam angles [rad] at which the slope may jump inside a smooth piece
+
+def highest_places(motion: Motion, quantity: Callable[[Values], Floats], *, signed: bool = False) -> Places:
+    """Both ends of every smooth piece, and where inside a quantity is highest on the rises, and on the returns.
+
+    Places that are as high, or nearly so, are among them; others may be.
+
+    quantity : of (s, v, a, j);  signed : whether a negative value counts as much as a positive one
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(30, pi, "cosine"), gc.Return(30, pi, "cosine")])
+    >>> np.unique(highest_places(motion, lambda values: values[1], signed=True).u.round(9)).tolist()
+    [0.0, 0.5, 1.0]
     """
-    phase, u0, u1 = smooth_pieces(motion, knots)
-    phase_r, u_r = _roots(motion, slope, phase, u0, u1)
-    begin, end, inner = motion.at(phase, u0, "right"), motion.at(phase, u1, "left"), motion.at(phase_r, u_r)
-    return at_places(motion, (phase, u0, begin), (phase, u1, end), (phase_r, u_r, inner))
+    return _highest_places(motion, lambda places: quantity(places.values), (), motion.directions, signed)
+
+
+def _highest_places(
+    motion: Motion, quantity: PlaceQuantity, knots: Sequence[float], groups: Floats, signed: bool = False
+) -> Places:
+    """The ends of the pieces, and where each group of phases, 0 to 2 or -1, may be highest."""
+    height = np.abs if signed else np.positive
+    smooth, group = _smooth(motion, tuple(knots)), groups.astype(np.intp) % 3
+    top = np.full(3, -np.inf)
+    for phase, u, values in smooth.ends:
+        at_ends = quantity(Places(phase, u, motion.angle_at(phase, u), values))
+        np.fmax.at(top, group[phase], height(at_ends))
+    piece, u = smooth.moving.stationary(smooth.on_pieces(quantity), group[smooth.phase], top, height)
+    inside = smooth.phase[piece]
+    return at_places(motion, *smooth.ends, (inside, u, motion.at(inside, u)))
 
 
 def places_in(motion: Motion, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> Places:
@@ -111,6 +141,11 @@ def smooth_pieces(motion: Motion, knots: Sequence[float] = ()) -> tuple[NDArray[
 
     knots : cam angles [rad] at which pieces end besides
     """
+    return _smooth_pieces(motion, tuple(knots))
+
+
+@lru_cache(maxsize=64)
+def _smooth_pieces(motion: Motion, knots: tuple[float, ...]) -> tuple[NDArray[np.intp], Floats, Floats]:
     pieces = [
         (k, u0, u1)
         for k, phase in enumerate(motion.phases)
@@ -118,6 +153,39 @@ def smooth_pieces(motion: Motion, knots: Sequence[float] = ()) -> tuple[NDArray[
     ]
     phase, u0, u1 = zip(*pieces, strict=True)
     return np.array(phase), np.array(u0), np.array(u1)
+
+
+class _Smooth(NamedTuple):
+    """The smooth pieces of a motion.
+
+    ends : their beginnings and their ends, with the values from inside
+    phase, moving : of rises and returns alone: in a dwell nothing changes
+    first : the places of these that every search begins with
+    """
+
+    motion: Motion
+    ends: tuple[tuple[NDArray[np.intp], Floats, Values], ...]
+    phase: NDArray[np.intp]
+    moving: Pieces
+    first: Places
+
+    def on_pieces(self, quantity: PlaceQuantity) -> Callable[[NDArray[np.intp], Floats], Floats]:
+        """A quantity at fractions u of phases, by the numbers of the pieces."""
+
+        def at(piece: NDArray[np.intp], u: Floats) -> Floats:
+            here = u is self.moving.nodes
+            return quantity(self.first if here else places_in(self.motion, self.phase[piece], u))
+
+        return at
+
+
+@lru_cache(maxsize=64)
+def _smooth(motion: Motion, knots: tuple[float, ...]) -> _Smooth:
+    phase, u0, u1 = smooth_pieces(motion, knots)
+    ends = (phase, u0, motion.at(phase, u0, "right")), (phase, u1, motion.at(phase, u1, "left"))
+    moving = motion.directions[phase] != 0
+    pieces = Pieces(u0[moving], u1[moving])
+    return _Smooth(motion, ends, phase[moving], pieces, places_in(motion, phase[moving, None], pieces.nodes))
 
 
 def _inside(motion: Motion, k: int, phase: Phase, knots: Sequence[float]) -> list[float]:
@@ -136,22 +204,10 @@ def _inside(motion: Motion, k: int, phase: Phase, knots: Sequence[float]) -> lis
     )
 
 
-def _roots(
-    motion: Motion, slope: Callable[[Places], Floats], phase: NDArray[np.intp], u0: Floats, u1: Floats
-) -> tuple[NDArray[np.intp], Floats]:
-    moving = motion.directions[phase] != 0  # in a dwell nothing changes
-    phase, u0, u1 = phase[moving], u0[moving], u1[moving]
-    u = u0[:, None] + (u1 - u0)[:, None] * PIECE_FRACTIONS
-    sign = np.sign(slope(places_in(motion, phase[:, None], u)))
-    on_root = np.nonzero(sign == 0)
-    piece, left = np.nonzero(sign[:, :-1] * sign[:, 1:] < 0)
-    inside = phase[piece]
-    bracketed = roots(lambda u: slope(places_in(motion, inside, u)), u[piece, left], u[piece, left + 1])
-    return np.concatenate([inside, phase[on_root[0]]]), np.concatenate([bracketed, u[on_root]])
-
-
 KNOT_DISTANCE = 1e-9
 """Knots that lie nearer to a break than this part of a phase are one with it."""
+SAME_ANGLE = 1e-9
+"""Places that are nearer to one another than this angle [rad], and as high, are one."""
 VALUE_ROUNDING = 32 * np.finfo(np.float64).eps
 """Values that differ by less than this part of their terms are the same value."""
 
@@ -164,42 +220,45 @@ class ValueAt(NamedTuple):
     side: Side
 
 
-def turn_maximum(
-    motion: Motion, slope: Callable[[Values], Floats], quantity: Callable[[Places], Floats], size: float = 0.0
-) -> ValueAt:
+def turn_maximum(motion: Motion, quantity: PlaceQuantity, knots: Sequence[float] = ()) -> ValueAt:
     """The supremum of a quantity over the turn, to full precision; of equal ones the first.
 
-    slope : the quantity's derivative by phi, or anything of its sign, as a function of (s, v, a, j)
-    size : of the terms that the quantity is a sum of, if they are larger than itself; NaN values are left out
+    quantity : at places; NaN values are left out
+    knots : cam angles [rad] at which it may bend inside a smooth piece
 
     >>> from math import pi
     >>> import graphcam as gc
     >>> motion = gc.Motion([gc.Rise(30, pi, "rectangular"), gc.Return(30, pi, "rectangular")])
-    >>> value, phi, side = turn_maximum(motion, lambda values: values[3], lambda places: places.values[2])
+    >>> value, phi, side = turn_maximum(motion, lambda places: places.values[2])
     >>> round(value, 3), phi, side  # the acceleration just after the start, and on to the middle
     (12.159, 0.0, 'right')
     """
-    return places_maximum(motion, lambda places: slope(places.values), quantity, size)
+    return first_highest(
+        motion, _highest_places(motion, quantity, knots, np.zeros(len(motion.phases))), quantity, knots
+    )
 
 
-def places_maximum(
-    motion: Motion,
-    slope: Callable[[Places], Floats],
-    quantity: Callable[[Places], Floats],
-    size: float = 0.0,
-    knots: Sequence[float] = (),
+def first_highest(
+    motion: Motion, places: Places, quantity: PlaceQuantity, knots: Sequence[float] = (), size: float = 0.0
 ) -> ValueAt:
-    """The supremum of a quantity whose slope depends on the cam angle besides, or on the sense of the motion.
+    """The highest of a quantity's stationary places over the turn, as :func:`stationary_places` gives them.
 
-    slope : of places;  knots : cam angles [rad] at which it may jump inside a smooth piece
+    size : of the terms that the quantity is a sum of, if they are larger than itself; NaN values are left out
     """
-    places = places_of(motion, slope, knots)
     values, pieces = quantity(places), len(smooth_pieces(motion, knots)[0])
-    top = np.nanmax(values)
-    best = np.flatnonzero(values >= top - VALUE_ROUNDING * max(size, abs(top)))
-    k = best[np.argmin(places.phi[best])]
+    k = first_index(values, places.phi, size)
     # The beginnings of the pieces come first, then their ends.
     return ValueAt(float(values[k]), float(places.phi[k]), "left" if pieces <= k < 2 * pieces else "right")
+
+
+def first_index(values: Floats, phi: Floats, size: float = 0.0) -> int:
+    """Which of the greatest values comes first in the turn; of those at one place the first in the array.
+
+    size : of the terms that the values are sums of, if they are larger than these; NaN values are left out
+    """
+    top = np.nanmax(values)
+    (best,) = np.nonzero(values >= top - VALUE_ROUNDING * max(size, abs(top)))
+    return int(best[np.argmax(phi[best] <= phi[best].min() + SAME_ANGLE)])
 
 
 def velocity_range(motion: Motion) -> tuple[float, float]:

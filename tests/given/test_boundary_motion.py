@@ -319,15 +319,6 @@ def test_the_law_of_constant_velocity_passes_the_check_of_laws(blends, smooth):
     assert law.reversed(0.5)[1] == pytest.approx(law(0.5)[1], rel=1e-14)
 
 
-def test_fourth_derivatives_are_bounded():
-    law = gc.boundary_law([P(0, s=0, v=0, a=0, j=0), P(0.5, s=0.4), P(1, s=1, v=0, a=0)])
-    u = np.linspace(0.02, 0.98, 49)
-    values, off = law.fourth(u, np.full(u.size, 0.01))
-    for sign in (-0.01, 0.01):
-        assert np.all(np.abs(law.fourth(u + sign, np.zeros(u.size))[0] - values) <= off + 1e-9)
-    np.testing.assert_allclose((law(u + 1e-6)[3] - law(u - 1e-6)[3]) / 2e-6, values, rtol=1e-6, atol=1e-4)
-
-
 def test_a_law_of_several_parts_and_of_a_return():
     parts = [Poly([P(0, s=5, v=0, a=0), P(1, s=3, v=-3)]), Poly([P(1, s=3, v=-3), P(2, s=0, v=0, a=0)])]
     law = gc.boundary_law(parts, "down")

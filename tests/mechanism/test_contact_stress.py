@@ -78,7 +78,7 @@ def test_the_relative_curvature_is_the_sum_of_both_bodies(kind, seed):
     exact, roller = reference(cam), cam.roller_radius
     for phi in np.random.default_rng(seed).random(4) * 2 * math.pi:
         values = cam.motion(phi)
-        found, slope = cam.kinematics.relative_radius(values, roller)
+        found = cam.kinematics.relative_radius(values, roller)
 
         def relative(at, exact=exact, roller=roller):
             if kind == "flat-faced":
@@ -88,9 +88,6 @@ def test_the_relative_curvature_is_the_sum_of_both_bodies(kind, seed):
 
         angle = mpf(float(phi))
         assert float(found) == pytest.approx(float(relative(angle)), rel=1e-10)
-        step = mpf("1e-6")
-        differences = (relative(angle + step) - relative(angle - step)) / (2 * step)
-        assert float(slope) == pytest.approx(float(differences), rel=1e-6, abs=1e-6 * cam.prime_radius)
 
 
 def test_a_roller_on_a_straight_flank_is_a_roller_on_a_plane():
@@ -102,7 +99,7 @@ def test_a_roller_on_a_straight_flank_is_a_roller_on_a_plane():
     a = (kin.s0 + s) + 2 * v * v / (kin.s0 + s)
     straight = tuple(np.array(x) for x in (s, v, a, 0.0))
     assert float(kin.curvature(straight)) == pytest.approx(0, abs=1e-17)
-    assert float(kin.relative_radius(straight, 10.0)[0]) == pytest.approx(10.0, rel=1e-15)
+    assert float(kin.relative_radius(straight, 10.0)) == pytest.approx(10.0, rel=1e-15)
     flat = gc.hertz_line_contact(500, 12, math.inf, 10.0)
     assert flat == gc.hertz_line_contact(500, 12, 10.0, math.inf)
     assert flat.peak_pressure == pytest.approx(gc.hertz_line_contact(500, 12, 1e15, 10.0).peak_pressure, rel=1e-14)

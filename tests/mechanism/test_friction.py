@@ -139,21 +139,6 @@ def test_the_mean_torque_is_the_integral_by_another_rule(kind):
 
 
 @EVERY
-def test_slopes_are_those_of_the_values(kind, rotation):
-    """Of normal force and torque by central differences, on rise and return, in a guide where there is one."""
-    cam, step = cam_of(kind, rotation), 1e-6
-    guide = gc.Guide(0.0, 0.0, 1.0) if cam.kinematics.swings else gc.Guide(0.1, 80.0, 90.0)
-    forces = gc.CamForces(cam, load_of(kind, load=TABLE, acceleration=40.0), guide, friction=MU)
-    for k in (0, 2):
-        u, angle = np.linspace(0.07, 0.93, 9), cam.motion.phases[k].angle
-        behind, here, ahead = (places_in(cam.motion, k, u + d / angle) for d in (-step, 0.0, step))
-        for value, slope in ((forces.normal, forces.normal_slope), (forces.torque, forces.torque_slope)):
-            found = slope(here)
-            difference = (value(ahead) - value(behind)) / (2 * step)
-            assert_allclose(found, difference, rtol=1e-6, atol=1e-6 * np.abs(difference).max())
-
-
-@EVERY
 def test_dense_sampling_never_exceeds_the_extremes(kind, rotation):
     cam = cam_of(kind, rotation)
     for load in (load_of(kind), load_of(kind, load=TABLE, acceleration=60.0)):
