@@ -5,7 +5,7 @@ It also has running sums, in memory copies, and the order of the curvature throu
 
 import math
 import tracemalloc
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -43,11 +43,11 @@ SWEPT_CASES = (
 """The swept cases, each a follower with a law."""
 RIVAL_STATIONS = 360
 RIVAL_RUNS = 40
-LAW_GOALS = (
-    dict.fromkeys(("3-4-5", "4-5-6-7"), "<= 0.7")
-    | dict.fromkeys(("cosine", "cycloidal"), "<= 1.3")
-    | dict.fromkeys(("rectangular", "modified-sine", "modified-trapezoidal"), "<= 1.6")
-)
+LAW_GOALS: Mapping[str, str] = {
+    **dict.fromkeys(("3-4-5", "4-5-6-7"), "<= 0.7"),
+    **dict.fromkeys(("cosine", "cycloidal"), "<= 1.3"),
+    **dict.fromkeys(("rectangular", "modified-sine", "modified-trapezoidal"), "<= 1.6"),
+}
 """Goals of some laws: polynomial, trigonometric, piecewise."""
 LOBE_PHASES = 200
 """Phases of a cam on which a large roller leaves many loops."""
