@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from graphcam.errors import DesignError
 from graphcam.given.boundary_parts import Part, quoted_angle
-from graphcam.given.exact_polynomials import PI, ExactPiece
+from graphcam.given.exact_polynomials import PI, ExactPiece, sampled_values
 from graphcam.words import say
 
 FULL_TURN = 2 * PI
@@ -61,10 +61,9 @@ def _check_gap(
 
 
 def greatest_lift(parts: Sequence[Part]) -> Fraction:
-    """The difference of the displacements at which pieces begin and end."""
-    pieces = [piece for part in parts for piece in part.pieces]
-    ends = [piece.at(place) for piece in pieces for place in (piece.start, (piece.start + piece.end) / 2, piece.end)]
-    return max(ends) - min(ends)
+    """The difference of the displacements at some places of every piece; 0 only if no piece moves."""
+    values = [s for part in parts for piece in part.pieces for s in sampled_values(piece.p)]
+    return max(values) - min(values)
 
 
 def joined_turn(parts: Sequence[Part]) -> list[ExactPiece]:

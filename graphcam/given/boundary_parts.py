@@ -22,6 +22,7 @@ from graphcam.given.exact_polynomials import (
     ExactPiece,
     derivative,
     rounded_terms,
+    sampled_values,
     shortest,
     solve_exactly,
     turning_places,
@@ -39,6 +40,8 @@ LAST_DIGITS_EFFECT = 1e-9
 """How far the last digits of the given numbers may change a part, as a part of its maximum displacement."""
 MAX_TURNINGS = 2
 """How often a part may turn between neighbouring points."""
+SAME_PLACE = Fraction(1, 10**9)
+"""Where a part turns nearer to a point than this fraction of its angle, it turns at the point."""
 MAX_OVERSHOOT = 0.5
 """How far a part may pass two neighbouring points, as a part of the span of the given displacements."""
 
@@ -192,9 +195,10 @@ class _Part:
     def _check_swings(self, pieces: Sequence[ExactPiece]) -> None:
         turns = turning_places(pieces)
         given = [point.s for point in self.points if point.s is not None]
-        span = max(given) - min(given) if given else 0.0
+        span, beside = max(given) - min(given) if given else 0.0, SAME_PLACE * (self.end - self.start)
         for k, (before, after) in enumerate(pairwise(self.points)):
-            low, high = before.place, after.place
+            # At a point with v = 0 the sign changes beside it, by the rounding of the coefficients.
+            low, high = before.place + beside, after.place - beside
             between = [(place, piece) for place, piece in turns if low < place < high]
             where = say("between {told} and {told2}", told=quoted_angle(before.angle), told2=quoted_angle(after.angle))
             remedy = say("give a point there or fewer conditions, take a spline, or part the motion")
@@ -215,9 +219,10 @@ class _Part:
         nudged = self._solve([_nudged(k, *condition) for k, condition in enumerate(self._conditions)])
         if nudged is None:
             raise self._open()
-        places = [Fraction(k, 8) for k in range(9)]
         both = [
-            (value_at(piece.p, y), value_at(p, y)) for piece, (_, p) in zip(pieces, nudged, strict=True) for y in places
+            pair
+            for piece, (_, p) in zip(pieces, nudged, strict=True)
+            for pair in zip(sampled_values(piece.p), sampled_values(p), strict=True)
         ]
         off = max(abs(here - there) for here, there in both)
         if off > LAST_DIGITS_EFFECT * max(abs(here) for here, _ in both):
