@@ -7,11 +7,13 @@ from fractions import Fraction
 from itertools import pairwise
 
 from graphcam.errors import DesignError
-from graphcam.given.boundary_parts import SAME_VALUE, Part, quoted_angle
-from graphcam.given.exact_polynomials import PI, ExactPiece, turning_places
+from graphcam.given.boundary_parts import Part, quoted_angle
+from graphcam.given.exact_polynomials import PI, ExactPiece, sampled_values
 from graphcam.words import say
 
 FULL_TURN = 2 * PI
+SAME_VALUE = Fraction(1, 10**9)
+"""Cam angles nearer to one another [rad], displacements and velocities (beside the greatest) are the same."""
 
 
 def check_joint(before: Part, after: Part, number: int, size: Fraction) -> None:
@@ -59,11 +61,9 @@ def _check_gap(
 
 
 def greatest_lift(parts: Sequence[Part]) -> Fraction:
-    """The difference of the highest and the lowest displacement."""
-    pieces = [piece for part in parts for piece in part.pieces]
-    reached = [piece.at(place) for piece in pieces for place in (piece.start, piece.end)]
-    reached += [piece.at(place) for place, piece in turning_places(pieces)]
-    return max(reached) - min(reached)
+    """The difference of the displacements at some places of every piece; 0 only if no piece moves."""
+    values = [s for part in parts for piece in part.pieces for s in sampled_values(piece.p)]
+    return max(values) - min(values)
 
 
 def joined_turn(parts: Sequence[Part]) -> list[ExactPiece]:

@@ -13,8 +13,8 @@ from fractions import Fraction
 import numpy as np
 
 from graphcam.errors import DesignError
-from graphcam.given.boundary_joints import FULL_TURN, joined_turn
-from graphcam.given.boundary_parts import SAME_VALUE, Part, SplinePart
+from graphcam.given.boundary_joints import FULL_TURN, SAME_VALUE, joined_turn
+from graphcam.given.boundary_parts import Part, SplinePart
 from graphcam.given.exact_polynomials import ExactPiece, derivative, pieces_between, sign_changes
 from graphcam.given.local_polynomials import LocalPolynomials, cells
 from graphcam.given.measured import from_zero

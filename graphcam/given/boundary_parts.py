@@ -22,6 +22,7 @@ from graphcam.given.exact_polynomials import (
     ExactPiece,
     derivative,
     rounded_terms,
+    sampled_values,
     shortest,
     solve_exactly,
     turning_places,
@@ -37,10 +38,10 @@ MAX_POINTS = 100
 """The maximum number of points of a part."""
 LAST_DIGITS_EFFECT = 1e-9
 """How far the last digits of the given numbers may change a part, as a part of its maximum displacement."""
-SAME_VALUE = Fraction(1, 10**9)
-"""Cam angles nearer to one another [rad], displacements and velocities (beside the greatest) are the same."""
 MAX_TURNINGS = 2
 """How often a part may turn between neighbouring points."""
+SAME_PLACE = Fraction(1, 10**9)
+"""Where a part turns nearer to a point than this fraction of its angle, it turns at the point."""
 MAX_OVERSHOOT = 0.5
 """How far a part may pass two neighbouring points, as a part of the span of the given displacements."""
 
@@ -194,10 +195,11 @@ class _Part:
     def _check_swings(self, pieces: Sequence[ExactPiece]) -> None:
         turns = turning_places(pieces)
         given = [point.s for point in self.points if point.s is not None]
-        span = max(given) - min(given) if given else 0.0
+        span, beside = max(given) - min(given) if given else 0.0, SAME_PLACE * (self.end - self.start)
         for k, (before, after) in enumerate(pairwise(self.points)):
-            low, high = before.place, after.place
-            between = _apart([turn for turn in turns if low + SAME_VALUE < turn[0] < high - SAME_VALUE])
+            # At a point with v = 0 the sign changes beside it, by the rounding of the coefficients.
+            low, high = before.place + beside, after.place - beside
+            between = [(place, piece) for place, piece in turns if low < place < high]
             where = say("between {told} and {told2}", told=quoted_angle(before.angle), told2=quoted_angle(after.angle))
             remedy = say("give a point there or fewer conditions, take a spline, or part the motion")
             if len(between) > MAX_TURNINGS:
@@ -217,9 +219,10 @@ class _Part:
         nudged = self._solve([_nudged(k, *condition) for k, condition in enumerate(self._conditions)])
         if nudged is None:
             raise self._open()
-        places = [Fraction(k, 8) for k in range(9)]
         both = [
-            (value_at(piece.p, y), value_at(p, y)) for piece, (_, p) in zip(pieces, nudged, strict=True) for y in places
+            pair
+            for piece, (_, p) in zip(pieces, nudged, strict=True)
+            for pair in zip(sampled_values(piece.p), sampled_values(p), strict=True)
         ]
         off = max(abs(here - there) for here, there in both)
         if off > LAST_DIGITS_EFFECT * max(abs(here) for here, _ in both):
@@ -227,17 +230,6 @@ class _Part:
             remedy = say("move the points apart, or give fewer conditions")
             limit = say("conditions that keep s to {last_digits:g} of its maximum", last_digits=LAST_DIGITS_EFFECT)
             raise DesignError("points", found, limit, remedy)
-
-
-def _apart(turns: Sequence[tuple[Fraction, ExactPiece]]) -> list[tuple[Fraction, ExactPiece]]:
-    """The turnings without pairs of them at the same place: rounding parts a double zero of the velocity in two."""
-    found: list[tuple[Fraction, ExactPiece]] = []
-    for turn in turns:
-        if found and turn[0] - found[-1][0] < SAME_VALUE:
-            found.pop()
-        else:
-            found.append(turn)
-    return found
 
 
 @dataclass(frozen=True)

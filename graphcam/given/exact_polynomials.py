@@ -19,7 +19,7 @@ PI = Fraction("3.14159265358979323846264338327950288419716939937510582097494")
 MAX_DENOMINATOR = 10**6
 """A number that is the nearest one of the machine to a fraction with no greater a denominator stands for it."""
 COEFFICIENT_BITS = 400
-"""Behind the point, of coefficients that were solved for."""
+"""The binary digits that the largest of the coefficients that were solved for keeps."""
 HALVING_COUNT = 90
 """How often an interval is halved about a place where a polynomial changes its sign."""
 
@@ -75,10 +75,24 @@ def shifted(p: Exact, at: Fraction, scale: Fraction) -> Exact:
 
 
 def rounded_terms(p: Sequence[Fraction]) -> Exact:
-    """The coefficients to :data:`COEFFICIENT_BITS` digits behind the binary point, so that further work with them is
-    quick."""
-    unit = 1 << COEFFICIENT_BITS
-    return tuple(Fraction(round(coefficient * unit), unit) for coefficient in p)
+    """The coefficients to :data:`COEFFICIENT_BITS` binary digits of the largest, so that further work is quick.
+
+    >>> rounded_terms([Fraction(1, 4), Fraction(3) / 2**500]) == (Fraction(1, 4), 0)
+    True
+    """
+    largest = max(map(abs, p))
+    places = COEFFICIENT_BITS + largest.denominator.bit_length() - largest.numerator.bit_length()
+    unit = Fraction(2) ** places
+    return tuple(round(coefficient * unit) / unit for coefficient in p)
+
+
+def sampled_values(p: Exact) -> list[Fraction]:
+    """The values at more equidistant places from 0 to 1 than the degree says: all the same only if p is constant.
+
+    >>> sampled_values((Fraction(1), Fraction(-2)))
+    [Fraction(1, 1), Fraction(0, 1), Fraction(-1, 1)]
+    """
+    return [value_at(p, Fraction(k, len(p))) for k in range(len(p) + 1)]
 
 
 def solve_exactly(rows: Sequence[Sequence[Fraction]], right: Sequence[Fraction]) -> list[Fraction] | None:

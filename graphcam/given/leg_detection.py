@@ -318,7 +318,8 @@ def _level_rows(rows: Floats, k: int, noise: float) -> _LevelRows:
 def _run(rows: Floats, k: int, level: float, off: float) -> tuple[int, int]:
     """The first and the last row about k that are off the level by no more than ``off``."""
     outside = np.abs(rows - level) > off
-    return k + 1 - int(np.argmax(outside[k::-1])), k - 1 + int(np.argmax(outside[k:]))
+    before, after = np.flatnonzero(outside[:k]), np.flatnonzero(outside[k + 1 :])
+    return int(before[-1]) + 1 if before.size else 0, k + int(after[0]) if after.size else rows.size - 1
 
 
 def _with_intermediate_dwells(
@@ -353,8 +354,7 @@ def _slow_rows(x: Floats, y: Floats, noise: float, depth: float) -> list[_LevelR
         level = float(np.median(y[first : last + 1]))
         if last - first >= MIN_STOP_ROWS and level - y[0] > depth and y[-1] - level > depth:
             inside = first + np.flatnonzero(np.abs(y[first : last + 1] - level) <= MAX_LEVEL_DEVIATION * noise)
-            # Of rows that noise throws far apart none may lie at their median: the follower does not rest there.
-            if inside.size:
+            if inside.size:  # of rows in two groups the median lies between, where no row is
                 found.append(_LevelRows(int(inside[0]), int(inside[-1]), level))
         length[(ends >= first) & (np.arange(y.size) <= last)] = 0.0
     return sorted(found, key=lambda flat: flat.first)

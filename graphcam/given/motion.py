@@ -22,6 +22,8 @@ CLOSURE_TOLERANCE = 1e-9
 FULL_TURN = 2 * math.pi
 SHORTEST_PHASE = 1e-10
 """A phase that leaves less of the turn than this [rad] is lost in the rounding of the places where phases begin."""
+START_ROUNDING = 1e-14
+"""How far the rounding of the places where phases begin [rad] may make a phase longer or shorter."""
 NEAR_TURN_SHARE = 0.02
 """So much of a turn angles may miss it and still be meant for one, where another unit or argument is looked for."""
 
@@ -359,15 +361,15 @@ class Motion(Plottable):
 
 
 def _check_lengths(phases: Sequence[Phase], starts: Floats) -> None:
-    """That the phases begin one after another, each where the one before ends, and so far apart that it can be told."""
-    for phase, length in zip(phases, np.diff(starts, append=FULL_TURN), strict=True):
-        if abs(length - phase.angle) > 2 * CLOSURE_TOLERANCE:
-            found = say("{length:.10g} rad from one start to the next", length=length)
-            raise DesignError("angle", found, say("{angle:.10g} rad, as the phase takes", angle=phase.angle))
+    """That the phases begin one after another, each as far on as its angle says, and can be told from rounding."""
+    for k, (phase, length) in enumerate(zip(phases, np.diff(starts, append=FULL_TURN), strict=True)):
         if not length >= SHORTEST_PHASE:
             limit = say("long enough to be told from rounding, {shortest:g} rad", shortest=SHORTEST_PHASE)
             found = say("{angle:.6g} rad", angle=phase.angle)
             raise DesignError("angle", found, limit, say("leave the phase out"))
+        if abs(length - phase.angle) > CLOSURE_TOLERANCE + START_ROUNDING:
+            limit = say("{length:.12g} rad, from its start to the next one", length=length)
+            raise DesignError(f"phases[{k}].angle", say("{angle:.12g} rad", angle=phase.angle), limit)
 
 
 def _remedy(phases: Sequence[Phase], turn: float) -> Words:

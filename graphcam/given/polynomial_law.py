@@ -20,7 +20,7 @@ CONSTANT_VELOCITY = "constant-velocity"
 HALF = Fraction(1, 2)
 MIDDLE_RANGE = Fraction(1, 4), Fraction(3, 4)
 """An edge between these is where the law is seen from the other end; else a seam is laid at the middle."""
-MIN_PIECE_SHARE = Fraction(1, 10**12)
+MIN_PIECE_SHARE = Fraction(1, 10**9)
 """A piece shorter than this part of a leg is rounding."""
 MAX_BLEND_ORDER = 3
 """Blends are smooth to this derivative at most: the jerk is continuous."""
