@@ -10,6 +10,7 @@ import sys
 from contextlib import suppress
 from importlib.util import find_spec
 from pathlib import Path
+from typing import ClassVar
 
 import pytest
 
@@ -39,8 +40,12 @@ class Read:
     """Leaves files unread in which nothing may run: reading all of them takes longer than many of their tests."""
 
     SLOW = "\npytestmark = pytest.mark.slow\n"
-    WIDGET = "widget.py"
-    """Needs the extra ``notebooks``; .ci/run tries its doctests by name."""
+    OF_EXTRAS: ClassVar = {
+        **dict.fromkeys(("graphcam/studio/widget.py", "graphcam/studio/__init__.py"), "anywidget"),
+        **dict.fromkeys(("graphcam/notebooks/construction_stages.py", "graphcam/notebooks/shown_tables.py"), "IPython"),
+        **dict.fromkeys(("graphcam/bench/sweep_curve.py", "graphcam/sweeps/shared_folder.py"), "pyarrow"),
+    }
+    """Modules whose examples need an extra, and what they import; .ci/run tries them by name."""
 
     def pytest_ignore_collect(self, collection_path: Path, config: pytest.Config) -> bool | None:
         """Whether a file has neither tests nor doctests, or slow ones alone where slow ones do not run."""
@@ -49,8 +54,8 @@ class Read:
         text = collection_path.read_text(encoding="utf-8")
         if collection_path.name.startswith("test_"):
             return (config.option.markexpr == "not slow" and self.SLOW in text) or None
-        unknown = collection_path.name == self.WIDGET and find_spec("anywidget") is None
-        return unknown or ">>>" not in text or None
+        needed = self.OF_EXTRAS.get("/".join(collection_path.parts[-3:]))
+        return (needed is not None and find_spec(needed) is None) or ">>>" not in text or None
 
 
 class Messages:

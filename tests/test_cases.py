@@ -92,7 +92,10 @@ def test_extremes_to_all_digits():
     assert [math.degrees(angle), math.degrees(at)] == pytest.approx(case["pressure_angle"], rel=ALL_DIGITS)
     motion = Motion([Rise(case["lift"], case["rise"] * DEG), Return(case["lift"], 240 * DEG)])
     radius, at = Cam(motion, Translating(case["offset"]), case["prime_radius"], "ccw").extremes().min_convex_radius
-    assert [radius, math.degrees(at)] == pytest.approx(case["convex_radius"], rel=ALL_DIGITS)
+    exact, place = case["convex_radius"]
+    assert radius == pytest.approx(exact, rel=ALL_DIGITS)
+    # The place is a zero of the slope, which is known to fewer digits than the value.
+    assert math.degrees(at) == pytest.approx(place, rel=10 * ALL_DIGITS)
 
 
 @pytest.mark.parametrize("name", ["3-4-5", "rectangular"])

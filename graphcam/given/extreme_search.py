@@ -83,7 +83,7 @@ class _Cells(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Pieces:
+class SmoothPieces:
     """Pieces on each of which quantities are smooth.
 
     low, high : (p,) where each begins and ends
@@ -110,7 +110,7 @@ class Pieces:
         top : for each group a height that is reached elsewhere: only places that may be higher are sought
         height : ``np.abs`` if a negative value counts as much as a positive one
 
-        >>> pieces = Pieces(np.array([0.0]), np.array([3.0]))
+        >>> pieces = SmoothPieces(np.array([0.0]), np.array([3.0]))
         >>> waves = pieces.stationary(lambda _, x: np.sin(40 * np.pi * x))[1]
         >>> np.unique(waves.round(9)).size, bool(np.abs(np.cos(40 * np.pi * waves)).max() < 1e-9)
         (120, True)
@@ -141,7 +141,7 @@ class Pieces:
     def zeros(self, quantity: Quantity) -> tuple[Indices, Floats]:
         """Pieces and places, inside, where a quantity vanishes.
 
-        >>> pieces = Pieces(np.array([0.0, 2.0]), np.array([2.0, 4.0]))
+        >>> pieces = SmoothPieces(np.array([0.0, 2.0]), np.array([2.0, 4.0]))
         >>> piece, x = pieces.zeros(lambda piece, x: np.cos(x))
         >>> piece.tolist(), x.round(9).tolist()
         ([0], [1.570796327])

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError
-from graphcam.given.extreme_search import Pieces
+from graphcam.given.extreme_search import SmoothPieces
 from graphcam.given.piecewise import Floats, Formula, Piece, Piecewise, Side, chunks, in_phase
 from graphcam.words import Words, bare_caption, say
 
@@ -210,7 +210,7 @@ class Law:
         """The maximum magnitude of a derivative, of both sides of a jump, to full precision."""
         ends = np.array([0.0, *self.edges, 1.0])
         at_ends = np.abs([*self(ends[:-1])[order], *self(ends[1:], side="left")[order]])
-        pieces = Pieces(ends[:-1], ends[1:])
+        pieces = SmoothPieces(ends[:-1], ends[1:])
         _, u = pieces.stationary(lambda _, u: self(u)[order], None, at_ends.max(keepdims=True), np.abs)
         return float(np.abs(self(u)[order]).max(initial=at_ends.max()))
 

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, check_number
-from graphcam.given.extreme_search import Pieces
+from graphcam.given.extreme_search import SmoothPieces
 from graphcam.given.impact import JUMP_ROUNDING, Jump
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import CLOSURE_TOLERANCE, FULL_TURN, wrap
@@ -340,7 +340,7 @@ class ArcMotion(Plottable):
     def _greatest(self, value: Callable[[Values], Floats]) -> tuple[float, float]:
         """The value of maximum magnitude on the rise: at an end of an arc, or where it is stationary."""
         arc, start, end = np.arange(3), self.edges[:3], self.edges[1:4]
-        on, inner = Pieces(start, end).stationary(lambda arc, psi: value(self._radius(arc, psi)))
+        on, inner = SmoothPieces(start, end).stationary(lambda arc, psi: value(self._radius(arc, psi)))
         arcs, psi = np.concatenate([arc, arc, on]), np.concatenate([start, end, inner])
         values = value(self._radius(arcs, psi))
         k = int(np.argmax(np.abs(values)))

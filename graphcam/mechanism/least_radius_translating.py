@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import check_number
-from graphcam.given.extreme_search import Pieces
+from graphcam.given.extreme_search import SmoothPieces
 from graphcam.given.follower import Limits, Translating
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
@@ -133,7 +133,7 @@ def steepest_tangent(law: Law, k: float) -> tuple[float, float]:
     # Of a law that begins as u^n the place is (n - 1) k for small k, and the height as small as k^n.
     growing = k * GROWING_PLACES
     edges = np.unique([0.0, *law.breaks, *growing[growing < 1], 1.0])
-    _, inside = Pieces(edges[:-1], edges[1:]).stationary(height, np.arange(edges.size - 1))
+    _, inside = SmoothPieces(edges[:-1], edges[1:]).stationary(height, np.arange(edges.size - 1))
     places = np.concatenate([edges, inside])
     f, f1 = law(places, derivatives=1)
     heights = f1 - f / k

@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from graphcam.given.extreme_search import Pieces
+from graphcam.given.extreme_search import SmoothPieces
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, wrap
 from graphcam.mechanism.kinematics import Values
@@ -166,7 +166,7 @@ class _Smooth(NamedTuple):
     motion: Motion
     ends: tuple[tuple[NDArray[np.intp], Floats, Values], ...]
     phase: NDArray[np.intp]
-    moving: Pieces
+    moving: SmoothPieces
     first: Places
 
     def on_pieces(self, quantity: PlaceQuantity) -> Callable[[NDArray[np.intp], Floats], Floats]:
@@ -184,7 +184,7 @@ def _smooth(motion: Motion, knots: tuple[float, ...]) -> _Smooth:
     phase, u0, u1 = smooth_pieces(motion, knots)
     ends = (phase, u0, motion.at(phase, u0, "right")), (phase, u1, motion.at(phase, u1, "left"))
     moving = motion.directions[phase] != 0
-    pieces = Pieces(u0[moving], u1[moving])
+    pieces = SmoothPieces(u0[moving], u1[moving])
     return _Smooth(motion, ends, phase[moving], pieces, places_in(motion, phase[moving, None], pieces.nodes))
 
 

@@ -183,6 +183,7 @@ def test_a_loop_over_stations_misses_the_extremes_of_a_sweep_with_the_second_ord
         assert missed[1].max() < missed[0].max() / 8
 
 
+@pytest.mark.slow
 def test_a_sweep_into_a_file_tells_what_it_took():
     seconds, processor_seconds, peak_bytes = swept_file(1000, workers=2)
     assert min(seconds, processor_seconds) > 0
@@ -208,6 +209,7 @@ def test_a_package_that_is_not_there_is_left_out_with_the_reason(monkeypatch):
     assert all("not installed" in p.reason for p in found)
 
 
+@pytest.mark.slow
 def test_the_faults_of_another_package_are_found_again():
     found = {p.quantity: p for p in peers.peers(Timer(0.0)) if p.package.startswith("mechanism")}
     assert found["working profile"].error == pytest.approx(4.76, abs=0.005)

@@ -59,6 +59,7 @@ def test_what_is_of_unix_is_hidden(tmp_path):
     assert run(tmp_path, "-c", code).stdout.strip() == "['spawn'] spawn"
 
 
+@pytest.mark.slow
 def test_every_module_that_is_not_of_the_sandbox_is_imported_without_unix(tmp_path):
     modules = [".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts) for path in PACKAGE.rglob("*.py")]
     # What level L1 and L2 are made of; and the autograder of a system that is Linux.
@@ -116,6 +117,7 @@ roller_radius = 12
 """
 
 
+@pytest.mark.slow
 def test_a_space_is_swept_into_a_file_and_into_a_folder(tmp_path):
     (tmp_path / "space.toml").write_text(SPACE, encoding="utf-8")
     for place in ("designs.csv", "designs"):

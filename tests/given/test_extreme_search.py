@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
 
-from graphcam.given.extreme_search import Pieces
+from graphcam.given.extreme_search import SmoothPieces
 
-ONE = Pieces(np.array([0.0]), np.array([1.0]))
+ONE = SmoothPieces(np.array([0.0]), np.array([1.0]))
 
 
 def close_to(found, wanted, within) -> bool:
@@ -58,7 +58,7 @@ def test_a_corner_that_nobody_declared_is_told_to_a_part_in_a_thousand_million(p
 
 
 def test_pieces_do_not_look_into_one_another():
-    pieces = Pieces(np.array([0.0, 1.0]), np.array([1.0, 2.0]))
+    pieces = SmoothPieces(np.array([0.0, 1.0]), np.array([1.0, 2.0]))
     piece, x = pieces.stationary(lambda piece, x: np.where(piece == 0, (x - 0.25) ** 2, -((x - 1.5) ** 2)))
     assert np.unique(piece).tolist() == [0, 1]
     assert x[piece == 0] == pytest.approx(0.25, abs=1e-11)
@@ -67,7 +67,7 @@ def test_pieces_do_not_look_into_one_another():
 
 def test_of_maxima_only_those_that_may_be_highest_are_sought():
     """Two groups, each with a height that it reaches elsewhere."""
-    pieces, group = Pieces(np.array([0.0, 1.0]), np.array([1.0, 2.0])), np.array([0, 1])
+    pieces, group = SmoothPieces(np.array([0.0, 1.0]), np.array([1.0, 2.0])), np.array([0, 1])
     piece, x = pieces.stationary(lambda _, x: np.sin(np.pi * x), group, np.array([0.5, 0.5]))
     assert np.unique(piece).tolist() == [0]
     assert x == pytest.approx(0.5)

@@ -14,6 +14,8 @@ from graphcam.report.documents import contents_of, drawing_of
 from graphcam.report.step_player import player_of, slides
 from graphcam.sheets.player import Slide
 
+pytestmark = pytest.mark.slow
+
 DOUBLED = re.compile(r"\.\.(?!\.)|。。|，，|,,|;;|。\.|\.。|\s[.,;]")
 """Stops that two texts leave where they are joined."""
 PLAIN = ("coursework", "arm", "flat", "measured", "arcs")

@@ -20,13 +20,16 @@ ALIKE = 1e-6
 def _facts(task: str) -> dict[str, float]:
     solution = gc.solve(task_of("card", loads(task)))
     extremes, integrated = solution.cam.extremes(), solution.chain.integration
+    phi = np.linspace(0, 360, 36_001)
+    curvature = solution.cam.pitch_curvature(np.radians(phi))
     return {
         **solution.comparison.exact,
         **{f"mu_{name}": integrated.readings[name].per_mm for name in "sva"},
         "height_v": float(np.ptp(integrated.readings["v"].paper)),
         "undercuts": float(len(solution.cam.undercuts())),
         "phi_steepest": math.degrees(extremes.pressure_angle_rise[1]),
-        "phi_sharpest": math.degrees(extremes.min_convex_radius[1]),
+        # A rise and a return by the same law are equally sharp: the cards tell of the return.
+        "phi_sharpest": float(phi[curvature > (1 - ALIKE) * curvature.max()][-1]),
     }
 
 

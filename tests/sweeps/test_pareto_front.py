@@ -106,6 +106,7 @@ def test_the_command_ends_with_the_best_of_its_rows(space: Path, tmp_path: Path)
     assert "maximum pressure angle on the rise" in figure
 
 
+@pytest.mark.slow
 def test_a_folder_tells_the_same_front_also_after_an_interruption(
     space: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):

@@ -222,6 +222,7 @@ def test_the_bytes_repeat_and_a_name_is_plain():
 # --- as others read it -----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_parser_of_another_make_finds_the_same_words():
     """gcodeparser's commands and numbers are those of the replay."""
     text = cutting_program(outline_of(gc.solve(gc.builtin_task())), cutter_radius=8.0)

@@ -231,6 +231,8 @@ def test_a_cam_of_arcs_has_the_faces_of_its_arcs(kernel, tmp_path):
 
 SCRIPT = """
 import Part
+
+pytestmark = pytest.mark.slow
 shape = Part.Shape()
 shape.read({path!r})
 box = shape.optimalBoundingBox(False)
