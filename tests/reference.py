@@ -130,8 +130,8 @@ def least_radius(motion, rise: float, return_: float | None, rest: bool, offset:
         s0 = (heights[1] - x) / slopes[1]
         if return_ is not None:
             s0 = max(s0, (heights[-1] + x) / slopes[-1])
-        if rest:
-            s0 = max(s0, x / slopes[1])
+        if rest:  # |x| / s0, the tangent where nothing moves, at both ends of the lower dwell
+            s0 = max(s0, *(abs(x) / slope for slope in slopes.values() if slope))
         return x**2 + max(s0, mpf(0)) ** 2
 
     if offset is not None:

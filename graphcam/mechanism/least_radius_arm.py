@@ -89,8 +89,8 @@ class Side(NamedTuple):
         return found
 
     def _touches_beside(self, line: HalfPlane, k: int) -> bool:
-        if line.touch is None or line.touch.side is not self:
-            return False
+        if line.touch is None or line.touch.side is not self or not line.touch.low < line.touch.w < line.touch.high:
+            return False  # at the end of its piece a line may touch, and the excess grow on in the next one
         w = self.legs.w
         return line.touch.leg is self.legs.leg_of(k) and w.item(k - 1) <= line.touch.w <= w.item(k + 1)
 

@@ -112,11 +112,11 @@ def angles_exceeded(cam: Cam, board: Board, slack: float) -> Iterator[tuple[str,
     returns : "rise" or "return", the pressure angle, the cam angle there, and the limit
     """
     extremes, limits = cam.extremes(), board.limits
-    for word, (alpha, phi), limit in (
-        ("rise", extremes.pressure_angle_rise, limits.rise),
-        ("return", extremes.pressure_angle_return, limits.return_),
+    for word, (alpha, phi), limit, driven in (
+        ("rise", extremes.pressure_angle_rise, limits.rise, 1),
+        ("return", extremes.pressure_angle_return, limits.return_, -1),
     ):
-        at_rest = word == "rise" and alpha < 0 and not limits.rest  # the angle at the low rest, which is not limited
+        at_rest = driven * alpha < 0 and not limits.rest  # the angle at the low rest, which is not limited
         if limit is not None and not at_rest and math.degrees(abs(alpha) - limit) > slack:
             yield word, alpha, phi, limit
 

@@ -188,7 +188,7 @@ class LimitsTable:
     pressure_angle_rise : degrees; None takes the usual one of the follower's kind
     pressure_angle_return : degrees; None is force closure, where the return does not limit the radius
     min_curvature_radius : mm, of a flat-faced follower's profile
-    rest : whether the angle at the lower dwell must keep the rise's limit too
+    rest : whether the angle at the lower dwell must keep the limits of the phases beside it too
     """
 
     pressure_angle_rise: float | None = None
