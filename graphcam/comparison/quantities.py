@@ -11,6 +11,7 @@ import numpy as np
 from graphcam.comparison.bounds import Bounds
 from graphcam.comparison.double_integration import proved_bounds
 from graphcam.comparison.phase_speeds import PhaseAtSpeed, at_speed
+from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction
 from graphcam.drafting.meaning import ComparedReading
@@ -18,6 +19,7 @@ from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam, CamPoints
 from graphcam.mechanism.flat_faced import face_width
+from graphcam.mechanism.followers import LeastRadius
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.turn_extremes import max_acceleration, max_jerk, max_velocity
 from graphcam.showing import parts_text
@@ -60,6 +62,18 @@ class Quantity:
         return self.error / self.per_mm
 
 
+def exact_minimum(board: Board) -> LeastRadius:
+    """The exact minimum prime radius of what lies on a board.
+
+    Raises
+    ------
+    DesignError : no prime radius satisfies the limits
+    """
+    follower = board.follower.built(board.follower.place, 0.0)
+    conditions: dict[str, Any] = asdict(board.limits) | dict(board.follower.conditions)
+    return minimum_radius(board.motion, follower, board.rotation, **conditions)
+
+
 @dataclass(frozen=True, eq=False)
 class Comparison:
     """A drawn chain and the exact cam with the sizes that were adopted from it."""
@@ -71,11 +85,8 @@ class Comparison:
     @cached_property
     def least(self) -> tuple[float, float]:
         """The exact least prime radius of the task and its place [mm]; NaN where no place keeps all the limits."""
-        board = self.drawn.board
-        follower = board.follower.built(board.follower.place, 0.0)
-        conditions: dict[str, Any] = asdict(board.limits) | dict(board.follower.conditions)
         try:
-            least = minimum_radius(board.motion, follower, board.rotation, **conditions)
+            least = exact_minimum(self.drawn.board)
         except DesignError:  # an arm at a given distance; the cam itself may be given all the same
             return math.nan, math.nan
         return least.prime_radius, least.place
