@@ -96,8 +96,9 @@ class DrawnTranslating(DrawnFollower):
             (at, slope), (other, steep) = lines
             down.append((at - other) / (steep - slope))
         if limits.rest:
-            stricter = limits.return_ is not None and limits.return_ < limits.rise
-            rests = [rise, -math.tan(limits.return_)] if stricter else [rise]
+            rests = [rise]
+            if limits.return_ is not None and limits.return_ < limits.rise:
+                rests.append(-math.tan(limits.return_))
             lines += [(0.0, slope) for slope in rests]
             down += [offset / slope for slope in rests]
         beside = [offset, *v.tolist(), *(at + slope * max(down) for at, slope in lines)]

@@ -17,8 +17,6 @@ from graphcam.words import Caption, say, sequence
 PRINT_ROUNDING = 0.005
 """mm or degrees: what differs by less does not differ in print."""
 ENLARGE_REMEDY = say("Enlarge the prime radius.")
-MIN_BASE_SHARE = 0.15
-"""A base circle below so much of the prime radius has no room for a shaft."""
 MAX_METRES_LIFT = 0.2
 """A lift below so many mm looks like metres."""
 MAX_RADIANS_LIFT = 1.0
@@ -48,12 +46,7 @@ def warnings_of(cam: Cam, board: Board, least_prime_radius: float) -> list[Cauti
 
     cam : as it was adopted;  board : what was given;  least_prime_radius : the exact one of the task [mm]
     """
-    return [
-        *_undercut(cam),
-        *_limits(cam, board),
-        *_prime_radius(board, least_prime_radius),
-        *_base_circle(cam),
-    ]
+    return [*_undercut(cam), *_limits(cam, board), *_prime_radius(board, least_prime_radius)]
 
 
 def _undercut(cam: Cam) -> Iterator[Caution]:
@@ -133,16 +126,6 @@ def _prime_radius(board: Board, least: float) -> Iterator[Caution]:
     if given is not None and given < least - PRINT_ROUNDING:
         said = say("The given prime radius of {given:g} mm is smaller than the minimum permitted one, {least:.2f} mm.")
         yield Caution(said.with_values(given=given, least=least), "prime radius")
-
-
-def _base_circle(cam: Cam) -> Iterator[Caution]:
-    left = cam.prime_radius - cam.roller_radius
-    if left < MIN_BASE_SHARE * cam.prime_radius:
-        said = say(
-            "A roller of {roller:g} mm on a prime radius of {r0:g} mm leaves a base circle of {left:.3g} mm, which has "
-            "no room for a shaft. Take a smaller roller or a larger prime radius."
-        )
-        yield Caution(said.with_values(roller=cam.roller_radius, r0=cam.prime_radius, left=left), "roller radius")
 
 
 def unit_slips(task: Task) -> Iterator[Caution]:

@@ -332,7 +332,7 @@ def test_limits_near_0_and_90_degrees(name, limit):
         (lambda: least(motion_of("cosine", swing=90), "ccw", (45, None, True)), "lift is 90 degrees, but .* 90 degr"),
         (lambda: least(motion_of("cosine", swing=70), "ccw", (45, 30, True)), "less than 60 degrees for these limits"),
         (lambda: least(motion_of("cosine", swing=80), "ccw", (45, 30, False)), "less than 75 degrees for these limits"),
-        (lambda: least(motion_of("cosine"), "ccw", (45, None, True), 10.0), "centre distance is 10.0, but must be one"),
+        (lambda: least(motion_of("cosine"), "ccw", (45, None, True), 10.0), "centre distance is 10 mm, but must be"),
         (lambda: least(motion_of("cosine"), "ccw", (90, None, True)), "between 0 and 90 degrees"),
         (lambda: least(motion_of("cosine"), "ccw", (45, 0, True)), "between 0 and 90 degrees"),
         (lambda: least(motion_of("cosine"), "ccw", (math.nan, None, True)), "between 0 and 90 degrees"),

@@ -234,12 +234,6 @@ def test_what_rounded_angles_miss_of_a_turn_is_taken_up_by_the_longest_dwell_and
     assert [phase["angle"] for phase in task.to_dict()["motion"]["phases"]] == [float(angle) for angle in angles]
 
 
-def test_a_roller_that_leaves_no_room_for_a_shaft_is_warned_of(solved):
-    flat = solved("prime_radius = 30", "prime_radius = 400").warnings
-    assert flat == []
-    assert any("leaves a base circle of 2 mm" in warning for warning in solved("= 20", "= 28").warnings)
-
-
 NO_RADIUS = """
 rotation = "{rotation}"
 [motion]
