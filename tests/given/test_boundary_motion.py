@@ -338,6 +338,13 @@ def test_a_law_of_several_parts_and_of_a_return():
     assert law.jumps == (0.5,)
 
 
+def test_a_law_of_parts_with_a_gap_between_them_rests_there():
+    parts = [Poly([P(k, s=k / 2, **REST), P(k + 1, s=k / 2 + 1, **REST)]) for k in (0, 2)]
+    f, *derivatives = gc.boundary_law(parts)([1 / 6, 0.4, 0.5, 0.6, 5 / 6])
+    np.testing.assert_allclose(f, [0.25, 0.5, 0.5, 0.5, 0.75], rtol=1e-14)
+    assert not np.any(np.array(derivatives)[:, 1:4])
+
+
 # --- what it is made of ----------------------------------------------------------------------------------------------
 
 
