@@ -101,6 +101,10 @@ class Kinematics(ABC):
         DesignError : the follower does not fit the prime radius or the lift
         """
 
+    def face_ends(self, motion: Motion) -> Mapping[str, float]:
+        """How far the contact wanders on a flat face [mm], by the names of its ends; none without a face."""
+        return {}
+
     def check_motion(self, motion: Motion) -> None:  # noqa: B027 - most followers can do any
         """Check that the follower can do a motion, beyond its lift.
 

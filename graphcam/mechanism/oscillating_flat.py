@@ -242,6 +242,11 @@ class OscillatingFlatKinematics(Kinematics):
             placed.check(self.swing)
         return placed
 
+    def face_ends(self, motion: Motion) -> Mapping[str, float]:
+        """The nearest and the farthest contact from the foot of the pivot."""
+        reach = self.face_reach(motion)
+        return {"face_near": reach.near, "face_far": reach.far}
+
     def face_reach(self, motion: Motion) -> FaceReach:
         """Where the contact lies on the face over a turn."""
         places = (highest_places(motion, lambda values, sign=sign: sign * self.contact(values)) for sign in (-1, 1))
