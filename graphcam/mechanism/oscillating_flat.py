@@ -50,6 +50,20 @@ class FaceReach:
         return self.far - self.near
 
 
+def check_swing(motion: Motion, sigma: int) -> None:
+    """Check that a face never turns with its cam as fast as the cam: the contact would go to infinity.
+
+    Raises
+    ------
+    DesignError : it does
+    """
+    fastest = max(-sigma * v for v in velocity_range(motion))
+    if not fastest < OscillatingFlatKinematics.max_speed_with_cam:
+        found, limit = say("{v:.4g} rad/rad", v=fastest), say("less than 1 where the face turns with the cam")
+        remedy = say("swing less, or in a larger cam angle, or let the cam turn the other way")
+        raise DesignError(say("angular velocity of the face"), found, limit, remedy)
+
+
 @dataclass(frozen=True, eq=False)
 class OscillatingFlatKinematics(Kinematics):
     """The face touches the cam c cos(psi)/w from the foot of the pivot on it, with w = 1 + sigma v.
@@ -100,12 +114,8 @@ class OscillatingFlatKinematics(Kinematics):
             raise DesignError("lift", lift, limit, swing_remedy(self.swing, remedy))
 
     def check_motion(self, motion: Motion) -> None:
-        """Check that the face never turns with the cam as fast as the cam: the contact would go to infinity."""
-        fastest = max(-self.sigma * v for v in velocity_range(motion))
-        if not fastest < self.max_speed_with_cam:
-            found, limit = say("{v:.4g} rad/rad", v=fastest), say("less than 1 where the face turns with the cam")
-            remedy = say("swing less, or in a larger cam angle, or let the cam turn the other way")
-            raise DesignError(say("angular velocity of the face"), found, limit, remedy)
+        """Check that the face never turns with the cam as fast as the cam."""
+        check_swing(motion, self.sigma)
 
     @cached_property
     def psi0(self) -> Any:

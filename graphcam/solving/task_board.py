@@ -21,9 +21,10 @@ from graphcam.drafting.scale import (
     standard_scale,
 )
 from graphcam.errors import DesignError
-from graphcam.given.follower import Oscillating, omega_of
+from graphcam.given.follower import Oscillating, omega_of, sense
 from graphcam.given.roller_rule import roller_rule
 from graphcam.mechanism.least_radius import minimum_radius
+from graphcam.mechanism.oscillating_flat import check_swing
 from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import profile_room
 from graphcam.sheets.page_space import free_rooms
@@ -143,6 +144,7 @@ def _(table: FlatFacedTable, task: Task) -> DrawnFlatFaced:
 
 @drawn_follower.register
 def _(table: OscillatingFlatTable, task: Task) -> DrawnOscillatingFlat:
+    check_swing(task.motion(), sense(task.rotation))  # which no drawing could show
     size = complex(2 * table.distance, table.distance)
     paper = largest_drawn(task.drawing, size, ARM_MARGINS)
     scale = coarsest_scale(

@@ -78,6 +78,8 @@ FIELDS_BY_QUANTITY: Mapping[str, str] = {
     "poles[1]": "drawing.poles[1]",
     "rounding": "drawing.rounding",
     "face margin": "follower.face_margin",
+    "face offset": "follower.face_offset",
+    "angular velocity of the face": "motion.phases",
     "format": "drawing.format",
     "frame": "drawing.frame",
     "orientation": "drawing.orientation",

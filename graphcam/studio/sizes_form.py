@@ -341,10 +341,8 @@ def _table(solution: Solution, kind: str) -> dict[str, Any]:
 def _can_follow(solution: Solution, table: dict[str, Any]) -> bool:
     """Whether a follower can do the motion: measured angles are nothing for a stem, millimetres nothing for a face."""
     measured, present = solution.task.motion.table, solution.task.follower.column
-    in_mm = table.get("lift") != "angle" and table["kind"] != OscillatingFlat.kind
-    if measured is None:
-        return in_mm or present == "s_deg" or table["kind"] != OscillatingFlat.kind
-    return measured.column == "a" or (measured.column == "s_mm") == in_mm
+    column = table_of(table)(**table).column
+    return column == "s_mm" or present == column if measured is None else measured.column in ("a", column)
 
 
 def _changes(solution: Solution, follower: dict[str, Any]) -> dict[str, Any]:

@@ -217,11 +217,15 @@ class OscillatingFlatTable(_FollowerTable):
 
     def check(self, prime_radius: float) -> None:
         """Refuse a pivot that the face on a given prime radius [mm] cannot have."""
-        if not abs(prime_radius + self.face_offset) < self.distance:
+        together = prime_radius + self.face_offset
+        if not together > 0:
             limit = say(
-                "greater than {sum:g} mm, the prime radius and the face offset together",
-                sum=abs(prime_radius + self.face_offset),
+                "greater than {least:g} mm, so that the line through the pivot passes above A", least=-prime_radius
             )
+            remedy = say("bring the face nearer to its pivot or take a larger cam.prime_radius")
+            raise DesignError("follower.face_offset", self.face_offset, limit, remedy)
+        if not together < self.distance:
+            limit = say("greater than {sum:g} mm, the prime radius and the face offset together", sum=together)
             remedy = say("move the pivot away or take a smaller cam.prime_radius")
             raise DesignError("follower.distance", self.distance, limit, remedy)
 

@@ -306,8 +306,9 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
             return TaskError(
                 path, f"{place}.kind", _shown_value(found), say("one of {names}", names=", ".join(tags)), remedy
             )
-        case WrongType((*_, key), expected, choices):
-            remedy = value_remedy(f"{key}", value, choices) or EXAMPLE_REMEDY
+        case WrongType((*where, key), expected, choices):
+            needed = key in _needed_keys(classes.get(_table(tuple(where))))
+            remedy = value_remedy("" if needed else f"{key}", value, choices) or EXAMPLE_REMEDY
             return TaskError(path, place, _shown_value(value), expected, remedy)
         case WrongType(_, expected):
             return TaskError(path, place, _shown_value(value), expected, EXAMPLE_REMEDY)
@@ -353,6 +354,12 @@ def _unknown_key(
         return TaskError(path, place, _shown_value(value), left_out, say("it is for {names}", names=and_chain(kinds)))
     remedy = key_remedy(key, value, known, data)
     return TaskError(path, place, say("an unknown key"), say("one that is known"), remedy)
+
+
+def _needed_keys(table: type | None) -> list[str]:
+    """The keys without which a table of a file is not whole."""
+    own = () if table is None else dataclasses.fields(table)
+    return [field.name for field in own if field.default is field.default_factory is dataclasses.MISSING]
 
 
 def _keys(table: type) -> list[str]:
