@@ -213,6 +213,7 @@ def _rest(inverted: SwingingInverted) -> Step:
     names = ("middle", "circle of Thales", "first tangent", "arcs of the tangents", "starts", "pivots")
     half, thales, tangent, arcs, starts, pivots = (inverted.acts[name].first for name in names)
     stations, psi0 = station_names(inverted.givens.integrated.givens.stations), float(inverted.value("psi0"))
+    length = abs(tangent.place - pivots[0].place)
     first = say(
         "Halve the line from A to the first pivot C{name}, and with {half:.1f} mm draw the semicircle about its "
         "middle: it meets the circle in T. CT is the tangent, {length:.2f} mm long, and the face at rest leans by ψ₀ = "
@@ -220,13 +221,13 @@ def _rest(inverted: SwingingInverted) -> Step:
     ).with_values(
         name=stations[0],
         half=float(np.asarray(thales.radius)),
-        length=float(np.atleast_1d(arcs.radius)[0]),
+        length=length,
         psi0=math.degrees(psi0),
     )
     others = say(
         "Keep {length:.2f} mm in the compass and strike it from every pivot across the circle, always on the left as "
         "seen from A: the points T of all tangents."
-    ).with_values(length=float(np.atleast_1d(arcs.radius)[0]))
+    ).with_values(length=length)
     line, centres = inverted.acts["first line at rest"].first, inverted.acts["line of centres"].first
     radius = ANGLE_SHARE * abs(pivots[0].place)
     named = say("ψ₀ = {angle:.2f}°", angle=math.degrees(psi0))

@@ -117,7 +117,8 @@ class OscillatingKinematics(RollerKinematics):
 
     def pressed_by(self, load: Any) -> FollowerLoad:
         """A torque about the pivot."""
-        placed = PlacedArmLoad(super().pressed_by(load), self.arm, self.distance, self.psi0)
+        super().pressed_by(load)
+        placed = PlacedArmLoad(load, self.arm, self.distance, self.psi0)
         if np.ndim(self.psi0) == 0:
             placed.check(self.swing)
         return placed

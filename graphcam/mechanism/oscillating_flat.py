@@ -158,10 +158,10 @@ class OscillatingFlatKinematics(Kinematics):
     def convex_radius(self, values: Values) -> Floats:
         """rho [mm]: 0 at a cusp, negative where the envelope runs backwards; infinite where the contact is."""
         sine, cosine = self._sine_cosine(values)
-        by_sine, by_cosine = self._factors(values)
+        by_sine, by_cosine = self.factors(values)
         return self.distance * (by_sine * sine + by_cosine * cosine) - self.face_offset
 
-    def _factors(self, values: Values) -> tuple[Any, Any]:
+    def factors(self, values: Values) -> tuple[Any, Any]:
         """(2 w - 1)/w^2 and a/w^3, the factors of c sin(psi) and c cos(psi) in rho."""
         w = self._turning(values)
         return (2 * w - 1) / (w * w), values[2] / (w * w * w)
@@ -181,7 +181,7 @@ class OscillatingFlatKinematics(Kinematics):
         w, (sine, cosine), (by_sine, by_cosine) = (
             self._turning(values),
             self._sine_cosine(values),
-            self._factors(values),
+            self.factors(values),
         )
         sine1, cosine1 = -2 * a * v / w**3, j / w**3 - 3 * self.sigma * a * a / w**4
         slope = (sine1 - v * by_cosine) * sine + (cosine1 + v * by_sine) * cosine
@@ -244,7 +244,8 @@ class OscillatingFlatKinematics(Kinematics):
         ------
         DesignError : as for every load, or it is a force on the end of an arm
         """
-        placed = PlacedArmLoad(super().pressed_by(load), 0.0, self.distance, self.psi0)
+        super().pressed_by(load)
+        placed = PlacedArmLoad(load, 0.0, self.distance, self.psi0)
         if largest(load.load):
             limit = say("left out, for a face has no end of an arm on which it would act")
             raise DesignError("load", say("given"), limit, say("give its moment as the preload of a torsion spring"))
@@ -318,7 +319,7 @@ class OscillatingFlatKinematics(Kinematics):
         w, (sine, cosine), (by_sine, by_cosine) = (
             self._turning(values),
             self._sine_cosine(values),
-            self._factors(values),
+            self.factors(values),
         )
         by_psi = self.distance * (by_sine * cosine - by_cosine * sine)
         found = {name: by_psi * turn for name, turn in self._angle_by_sizes_at_rest().items()}
@@ -387,7 +388,7 @@ def oscillating_flat_minimum_radius(
 
     def needed(values: Values) -> Floats:
         """The least psi0 [rad] with which rho is the permitted one at a place."""
-        by_sine, by_cosine = kin._factors(values)
+        by_sine, by_cosine = kin.factors(values)
         share = (least + f) / c / np.hypot(by_sine, by_cosine)
         return np.arcsin(np.clip(share, -1.0, 1.0)) - np.arctan2(by_cosine, by_sine) - values[0]
 

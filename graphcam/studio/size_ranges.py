@@ -250,7 +250,7 @@ def _of_arm(solution: Solution, step: float) -> dict[str, SizeRange]:
 
 def _of_swinging_face(solution: Solution, step: float) -> dict[str, SizeRange]:
     """The line of the face passes the cam centre on its side, and its pivot lies beyond it, a few steps away."""
-    distance, radius, f = solution.chain.place, solution.chain.prime_radius, solution.task.follower().face_offset
+    distance, radius, f = solution.chain.place, solution.chain.prime_radius, sizes_of(solution.task)["face_offset"]
     room = TRIANGLE_MARGIN_STEPS * step
     # Up to where the face at the end of its swing is square to the line of centres.
     highest = distance * math.cos(solution.cam.motion.lift)
