@@ -56,3 +56,24 @@ def over_all(names: str | tuple[str, ...], cases: Iterable[Any]) -> Callable[[Te
         return whole
 
     return made
+
+
+def over_seeds(seeds: int | Iterable[int]) -> Callable[[Test], Test]:
+    """Make one test of a test of one seed, over some; ``python tests/random_cases.py`` takes any others.
+
+    seeds : those of the suite, or how many from 0 on
+
+    >>> @over_seeds(3)
+    ... def test_all_are_small(seed):
+    ...     assert seed < 2
+    >>> test_all_are_small()
+    Traceback (most recent call last):
+    ExceptionGroup: test_all_are_small: 1 of 3 fail (1 sub-exception)
+    """
+
+    def made(test: Test) -> Test:
+        whole = over_all("seed", range(seeds) if isinstance(seeds, int) else seeds)(test)
+        whole.of_one_seed = test
+        return whole
+
+    return made
