@@ -125,6 +125,10 @@ class DrawnFollower(ABC):
         """The kinematic diagram: the follower low on a plain cam, with the sizes that the task gives."""
 
     @abstractmethod
+    def assignment(self, roller: bool) -> Caption:
+        """The sentence that asks for a cam for this follower, with a roller or without one."""
+
+    @abstractmethod
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """Sentences on what the cam moves, and on the sizes that the task gives."""
 

@@ -116,26 +116,12 @@ def heading(title: TitleTable, drawing: SheetTable) -> list[Block]:
     return [f"# {head}", f"*{drawing.remark}*" if drawing.remark else "", "  \n".join(signed)]
 
 
-ASSIGNMENT_CAPTIONS = {
-    "translating": (
-        say("A disk cam is to move a translating follower with a knife edge by the following motion."),
-        say("A disk cam is to move a translating follower with a roller by the following motion."),
-    ),
-    "oscillating": (
-        say("A disk cam is to move an oscillating follower with a knife edge by the following motion."),
-        say("A disk cam is to move an oscillating follower with a roller by the following motion."),
-    ),
-    "flat-faced": (say("A disk cam is to move a flat-faced follower by the following motion."),) * 2,
-}
-"""The assignment by the kind of follower, without a roller and with one."""
-
-
 def task_data(solution: Solution) -> list[Block]:
     """The chapter on what is given, and what is to be found."""
     roller, given, asked = solution.chain.board.roller_radius != 0, data(solution), conditions(solution)
     rows = tuple((name, say("to be found") if by == ADOPTED_LABEL else value) for name, value, by in given.rows)
     return [
-        ASSIGNMENT_CAPTIONS[solution.task.follower.kind][roller],
+        solution.chain.board.follower.assignment(roller),
         of_sheet(phases(solution)),
         *([of_sheet(asked)] if asked else []),
         Grid(given.title, given.header[:2], rows),

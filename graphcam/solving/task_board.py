@@ -8,6 +8,7 @@ from functools import singledispatch
 from graphcam.constructions.board import Board, DrawnFollower
 from graphcam.constructions.drawn_arm import MAX_ARM_ON_PAPER, DrawnOscillating, positions_extent
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
+from graphcam.constructions.drawn_swinging_face import DrawnOscillatingFlat
 from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.scale import (
@@ -28,7 +29,15 @@ from graphcam.sheets.layout import profile_room
 from graphcam.sheets.page_space import free_rooms
 from graphcam.solving.diagram_sizes import STANDARD_POLES, DiagramRoom, DrawnHeights, over_the_turn
 from graphcam.tasks.sheet_tables import SheetTable
-from graphcam.tasks.task import DrawingTable, FlatFacedTable, FollowerTable, OscillatingTable, Task, TranslatingTable
+from graphcam.tasks.task import (
+    DrawingTable,
+    FlatFacedTable,
+    FollowerTable,
+    OscillatingFlatTable,
+    OscillatingTable,
+    Task,
+    TranslatingTable,
+)
 from graphcam.words import say
 
 
@@ -130,6 +139,17 @@ def _(table: OscillatingTable, task: Task) -> DrawnOscillating:
 @drawn_follower.register
 def _(table: FlatFacedTable, task: Task) -> DrawnFlatFaced:
     return DrawnFlatFaced(task.limits.min_curvature_radius or 0.0)
+
+
+@drawn_follower.register
+def _(table: OscillatingFlatTable, task: Task) -> DrawnOscillatingFlat:
+    size = complex(2 * table.distance, table.distance)
+    paper = largest_drawn(task.drawing, size, ARM_MARGINS)
+    scale = coarsest_scale(
+        standard_scale(table.distance, MAX_ARM_ON_PAPER, paper.ratios), paper.scale(size, ARM_MARGINS)
+    )
+    least = task.limits.min_curvature_radius or 0.0
+    return DrawnOscillatingFlat(table.distance, table.face_offset, least, scale)
 
 
 DIAGRAM_ROOMS = {

@@ -32,7 +32,7 @@ from graphcam.tasks.task_remedies import key_remedy, missing_remedy, toml_fault,
 from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.words import Caption, Words, and_chain, bare_caption, say
 
-BUILTIN_TASK_NAMES = ("coursework", "arm", "flat", "measured")
+BUILTIN_TASK_NAMES = ("coursework", "arm", "flat", "swinging-face", "measured")
 """Names of the built-in tasks; "arcs" is one more, a cam of three circular arcs."""
 SIZING_TASK_NAME = "sizing"
 """The name of the built-in task with a table ``[sizing]``."""
@@ -51,9 +51,7 @@ _CLASSES: Classes = {
     ("motion", "parts", "polynomial", "points"): motion_tables.PointTable,
     ("motion", "parts", "spline"): motion_tables.SplineTable,
     ("motion", "parts", "spline", "points"): motion_tables.PointTable,
-    ("follower", "translating"): tables.TranslatingTable,
-    ("follower", "oscillating"): tables.OscillatingTable,
-    ("follower", "flat-faced"): tables.FlatFacedTable,
+    **{("follower", kind): table for kind, table in tables.FOLLOWER_TABLES.items()},
     ("cam",): tables.CamTable,
     ("limits",): tables.LimitsTable,
     ("spring",): spring_tables.SpringTable,
@@ -338,9 +336,9 @@ def _missing_keys(data: dict[str, Any]) -> list[str]:
 
 
 def _swings(data: dict[str, Any]) -> bool:
-    """Whether a file's follower is an arm, which has a moment of inertia in place of a mass."""
+    """Whether a file's follower turns about a pivot, and has a moment of inertia in place of a mass."""
     follower = data.get("follower")
-    return isinstance(follower, dict) and follower.get("kind") == "oscillating"
+    return isinstance(follower, dict) and tables.table_of(follower).swings
 
 
 def _unknown_key(
