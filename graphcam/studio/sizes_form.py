@@ -272,7 +272,7 @@ def _spring(make: FieldMaker, spring: SpringDesign) -> Iterator[Field]:
 def _drawing(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     """The fields of the draughtsman's choices."""
     board = solution.chain.board
-    yield make.number("drawing.divisions")
+    yield make.open_number("drawing.divisions", board.divisions)
     yield make.open_number("drawing.ordinate", board.ordinate)
     yield from (make.entry("drawing.poles", board.poles, k) for k in (0, 1))
     yield make.choice("drawing.jerk", DRAWING, say("Jerk"), JERK_CHOICES.items())
