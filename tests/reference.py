@@ -21,9 +21,11 @@ EPS = 2.0**-52
 def lift(name: str, u: Number, ratio: float = 1.0) -> Number:
     """The textbook's normalised displacement at u in [0, 1]."""
     u, ratio = mpf(u), mpf(ratio)
-    if ratio != 1:  # the rectangular law, the parts of which are of one length else
+    if ratio != 1:  # its halves are stretched to parts of unequal length
         m = 1 / (1 + ratio)
-        return u**2 / m if u <= m else 1 - (1 - u) ** 2 / (1 - m)
+        if name == "rectangular":
+            return u**2 / m if u <= m else 1 - (1 - u) ** 2 / (1 - m)
+        return 2 * m * lift(name, u / (2 * m)) if u <= m else 1 - 2 * (1 - m) * lift(name, (1 - u) / (2 * (1 - m)))
     with mp.workdps(2 * mp.dps + 50):  # near u = 0 all but the fourth power of the double harmonic cancels
         return DECLARED_LAWS[name].printed(u, mp)
 

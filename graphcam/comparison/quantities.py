@@ -24,6 +24,9 @@ from graphcam.mechanism.turn_extremes import max_acceleration, max_jerk, max_vel
 from graphcam.showing import parts_text
 from graphcam.words import Caption, say, sequence
 
+PRINTED_ERROR = 5e-4
+"""mm of paper: errors and bounds that differ by less are one in print."""
+
 
 @dataclass(frozen=True)
 class Quantity:
@@ -59,6 +62,12 @@ class Quantity:
     def error_paper(self) -> float:
         """The error on the paper [mm]."""
         return self.error / self.per_mm
+
+    @property
+    def is_beyond_bound(self) -> bool:
+        """Whether drawn and exact differ by more than is estimated, or than is proved, so that it shows in print."""
+        off = abs(self.error_paper) - PRINTED_ERROR
+        return off > self.tolerance_paper or off > self.proved_paper
 
 
 def exact_minimum(board: Board) -> LeastRadius:

@@ -37,7 +37,7 @@ class Caution:
     said: Caption
     of: Literal[
         "profile", "pressure angle", "prime radius", "roller radius", "face", "contact", "contact stress", "rounding",
-        "unit", "scale",
+        "unit", "scale", "divisions",
     ]  # fmt: skip
     phi: tuple[float, ...] = ()
     alpha: float | None = None

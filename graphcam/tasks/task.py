@@ -285,7 +285,7 @@ class LimitsTable:
 class DrawingTable(SheetTable):
     """``[drawing]``: divisions, scales and rounding of the constructions, and the sheet.
 
-    divisions : equal parts per phase
+    divisions : equal parts per phase; None is 12, and more in a phase whose acceleration lasts less than a part
     ordinate : mm on paper, the maximum ordinate of the first rise's acceleration; None is the longest of a round
         series at which the whole diagram keeps to its room on the sheet
     poles : mm on paper, the pole distances of the integrations a to v and v to s; None is 40 at 1 degree a millimetre,
@@ -296,7 +296,7 @@ class DrawingTable(SheetTable):
     jerk : whether the jerk is drawn too, by differentiation of the acceleration diagram
     """
 
-    divisions: int = 12
+    divisions: int | None = None
     ordinate: float | None = None
     poles: tuple[float, float] | None = None
     rounding: float | None = None
@@ -305,7 +305,7 @@ class DrawingTable(SheetTable):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not 1 <= self.divisions <= MAX_DIVISIONS:
+        if self.divisions is not None and not 1 <= self.divisions <= MAX_DIVISIONS:
             raise DesignError("divisions", self.divisions, say("from 1 to {most} parts per phase", most=MAX_DIVISIONS))
         check_positive("ordinate", self.ordinate, "mm on paper")
         for k, pole in enumerate(self.poles or ()):
