@@ -21,9 +21,11 @@ EPS = 2.0**-52
 def lift(name: str, u: Number, ratio: float = 1.0) -> Number:
     """The textbook's normalised displacement at u in [0, 1]."""
     u, ratio = mpf(u), mpf(ratio)
-    if ratio != 1:  # the rectangular law, the parts of which are of one length else
+    if ratio != 1:  # its halves are stretched to parts of unequal length
         m = 1 / (1 + ratio)
-        return u**2 / m if u <= m else 1 - (1 - u) ** 2 / (1 - m)
+        if name == "rectangular":
+            return u**2 / m if u <= m else 1 - (1 - u) ** 2 / (1 - m)
+        return 2 * m * lift(name, u / (2 * m)) if u <= m else 1 - 2 * (1 - m) * lift(name, (1 - u) / (2 * (1 - m)))
     with mp.workdps(2 * mp.dps + 50):  # near u = 0 all but the fourth power of the double harmonic cancels
         return DECLARED_LAWS[name].printed(u, mp)
 
@@ -130,8 +132,8 @@ def least_radius(motion, rise: float, return_: float | None, rest: bool, offset:
         s0 = (heights[1] - x) / slopes[1]
         if return_ is not None:
             s0 = max(s0, (heights[-1] + x) / slopes[-1])
-        if rest:
-            s0 = max(s0, x / slopes[1])
+        if rest:  # |x| / s0, the tangent where nothing moves, at both ends of the lower dwell
+            s0 = max(s0, *(abs(x) / slope for slope in slopes.values() if slope))
         return x**2 + max(s0, mpf(0)) ** 2
 
     if offset is not None:

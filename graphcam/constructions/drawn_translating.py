@@ -96,8 +96,10 @@ class DrawnTranslating(DrawnFollower):
             (at, slope), (other, steep) = lines
             down.append((at - other) / (steep - slope))
         if limits.rest:
-            lines.append((0.0, rise))
-            down.append(offset / rise)
+            stricter = limits.return_ is not None and limits.return_ < limits.rise
+            rests = [rise, -math.tan(limits.return_)] if stricter else [rise]
+            lines += [(0.0, slope) for slope in rests]
+            down += [offset / slope for slope in rests]
         beside = [offset, *v.tolist(), *(at + slope * max(down) for at, slope in lines)]
         return complex(max(beside) - min(beside), float(s.max()) + max(down))
 

@@ -185,7 +185,7 @@ class Limits:
 
     rise : on every rise
     return_ : on every return; None for force closure, where a spring drives the return
-    rest : whether the angle in the lower dwell must keep the rise's limit too
+    rest : whether the angle in the lower dwell must keep the limits of the phases beside it too
 
     Raises
     ------

@@ -3,8 +3,9 @@
 import math
 from contextlib import suppress
 from dataclasses import replace
-from functools import singledispatch
+from functools import partial, singledispatch
 
+from graphcam.comparison.chord_readings import finer_parts
 from graphcam.constructions.board import Board, DrawnFollower
 from graphcam.constructions.drawn_arm import MAX_ARM_ON_PAPER, DrawnOscillating, positions_extent
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
@@ -40,6 +41,9 @@ from graphcam.tasks.task import (
     TranslatingTable,
 )
 from graphcam.words import say
+
+USUAL_DIVISIONS = 12
+"""The parts of a phase where the task leaves them open."""
 
 
 def format_of(drawing: SheetTable) -> Format:
@@ -81,7 +85,7 @@ def board_of(task: Task) -> Board:
     room = room.beside_jerk if drawing.jerk else room
     heights = DrawnHeights(motion, room.degrees_per_mm)
     ordinate, poles = heights.choose(room, page_room(task, heights, follower), drawing.ordinate, drawing.poles)
-    return Board(
+    board = Board(
         motion=motion,
         follower=follower,
         rotation=task.rotation,
@@ -89,7 +93,7 @@ def board_of(task: Task) -> Board:
         prime_radius=task.cam.prime_radius,
         roller_radius=task.follower.roller_radius,
         roller_rule=roller_rule(task.follower.roller_rule),
-        divisions=drawing.divisions,
+        divisions=drawing.divisions or USUAL_DIVISIONS,
         ordinate=ordinate,
         poles=poles,
         mu_phi=Scale(math.radians(room.degrees_per_mm), "rad"),
@@ -98,6 +102,9 @@ def board_of(task: Task) -> Board:
         paper=profile_paper(drawing) if scale is None else replace(profile_paper(drawing), held={PROFILE.name: scale}),
         jerk_pole=heights.jerk_pole(room, ordinate) if drawing.jerk else None,
     )
+    if drawing.divisions is not None:
+        return board
+    return replace(board, finer=finer_parts(motion, partial(board.divided, board.divisions)))
 
 
 def given_profile_scale(drawing: DrawingTable) -> float | None:
@@ -198,7 +205,7 @@ def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> Dia
     low = heights.motion.lift / mu_s if mu_s else math.inf
     high, pole = diagram.height - DIAGRAM_MARGINS.imag, diagram.width - beside
     # Of few parts velocity and displacement are drawn higher: by so much of a cycloid, less of other laws.
-    part = math.pi / max(task.drawing.divisions, 2)
+    part = math.pi / max(task.drawing.divisions or USUAL_DIVISIONS, 2)
     surplus = (part / math.sin(part)) ** 2
     return DiagramRoom(heights.degrees_per_mm, high, high / surplus, min(high, low) / surplus, pole)
 

@@ -36,7 +36,7 @@ from graphcam.words import Caption, Tell, Words, say, say_in
 PENCIL_RANGE = SizeRange(0.0, 0.5, 0.05)
 """Standard deviation of a line [mm]; 0.2 is a careful student's."""
 RATIO_RANGE = SizeRange(0.2, 5.0, 0.1)
-"""The range of the ratio of accelerations of the rectangular law's parts."""
+"""The range of the ratio of accelerations of a law's parts."""
 KIND_NAMES = {"rise": say("rise"), "dwell": say("dwell"), "return": say_in("a phase", "return")}
 SENSE_NAMES = {"cw": say("clockwise"), "ccw": say("anticlockwise")}
 LIFT_NAMES = {"angle": say("angle of the arm, degrees"), "arc": say("arc of its end, mm")}
@@ -209,8 +209,8 @@ def _phases(make: FieldMaker, solution: Solution) -> Field:
         "kind": "phases",
         "phases": rows,
         "laws": [{"value": law, "name": tell(LAW_TITLES[law])} for law in (*LAWS, CONSTANT_VELOCITY)],
-        # Only this law has parts whose accelerations differ.
-        "ratio": RATIO_RANGE.plain() | {"law": next(name for name, law in DECLARED_LAWS.items() if law.has_ratio)},
+        # Only these laws have parts whose accelerations differ.
+        "ratio": RATIO_RANGE.plain() | {"laws": [name for name, law in DECLARED_LAWS.items() if law.has_ratio]},
         "angle": SizeRange(MIN_PHASE_ANGLE, 360.0 - MIN_PHASE_ANGLE * (len(rows) - 1), 1.0).plain()
         | {"unit": DEGREE_SIGN},
         "lift": lifts.plain() | {"unit": _lift_unit(make, solution)},
@@ -277,7 +277,7 @@ def _spring(make: FieldMaker, spring: SpringDesign) -> Iterator[Field]:
 def _drawing(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     """The fields of the draughtsman's choices."""
     board = solution.chain.board
-    yield make.number("drawing.divisions")
+    yield make.open_number("drawing.divisions", board.divisions)
     yield make.open_number("drawing.ordinate", board.ordinate)
     yield from (make.entry("drawing.poles", board.poles, k) for k in (0, 1))
     yield make.choice("drawing.jerk", DRAWING, say("Jerk"), JERK_CHOICES.items())

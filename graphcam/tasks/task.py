@@ -264,7 +264,7 @@ class LimitsTable:
     pressure_angle_rise : degrees; None takes the usual one of the follower's kind
     pressure_angle_return : degrees; None is force closure, where the return does not limit the radius
     min_curvature_radius : mm, of the profile under a flat face
-    rest : whether the angle at the lower dwell must keep the rise's limit too
+    rest : whether the angle at the lower dwell must keep the limits of the phases beside it too
     """
 
     pressure_angle_rise: float | None = None
@@ -289,7 +289,7 @@ class LimitsTable:
 class DrawingTable(SheetTable):
     """``[drawing]``: divisions, scales and rounding of the constructions, and the sheet.
 
-    divisions : equal parts per phase
+    divisions : equal parts per phase; None is 12, and more in a phase whose acceleration lasts less than a part
     ordinate : mm on paper, the maximum ordinate of the first rise's acceleration; None is the longest of a round
         series at which the whole diagram keeps to its room on the sheet
     poles : mm on paper, the pole distances of the integrations a to v and v to s; None is 40 at 1 degree a millimetre,
@@ -300,7 +300,7 @@ class DrawingTable(SheetTable):
     jerk : whether the jerk is drawn too, by differentiation of the acceleration diagram
     """
 
-    divisions: int = 12
+    divisions: int | None = None
     ordinate: float | None = None
     poles: tuple[float, float] | None = None
     rounding: float | None = None
@@ -309,7 +309,7 @@ class DrawingTable(SheetTable):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not 1 <= self.divisions <= MAX_DIVISIONS:
+        if self.divisions is not None and not 1 <= self.divisions <= MAX_DIVISIONS:
             raise DesignError("divisions", self.divisions, say("from 1 to {most} parts per phase", most=MAX_DIVISIONS))
         check_positive("ordinate", self.ordinate, "mm on paper")
         for k, pole in enumerate(self.poles or ()):

@@ -10,7 +10,7 @@ from functools import cache
 from itertools import pairwise
 
 import numpy as np
-from golden_random import TASKS as RANDOM
+from golden_random import SOME as RANDOM
 from over_all import over_all
 from replay import Figure, SecondBoard, figure_of, followed, off, written
 

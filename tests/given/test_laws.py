@@ -45,6 +45,25 @@ def test_rectangular_law_with_unequal_parts(ratio):
     assert ddf[0] / -ddf[1] == pytest.approx(ratio, rel=4 * EPS)
 
 
+@pytest.mark.parametrize("name", ["triangular", "cycloidal", "modified-trapezoidal", "modified-sine"])
+@pytest.mark.parametrize("ratio", [0.25, 2.0, 7.3])
+def test_skewed_laws_have_parts_in_the_ratio_of_their_accelerations(name, ratio):
+    u = off_the_breaks(name, ratio)
+    exact = np.array([[float(x) for x in reference(name, v, ratio)] for v in u]).T
+    assert_allclose(np.array(law(name, ratio)(u)), exact, rtol=1e-11, atol=1e-12)
+    unequal, dense = law(name, ratio), law(name, ratio)(np.linspace(0, 1, 20_001))[2]
+    assert dense.max() / -dense.min() == pytest.approx(ratio, rel=1e-3)
+    assert unequal.peak_acceleration == pytest.approx(np.abs(dense).max(), rel=1e-3)
+    assert unequal.peak_velocity == law(name).peak_velocity  # at the end of the accelerating part
+    assert float(unequal(1 / (1 + ratio))[1]) == pytest.approx(unequal.peak_velocity)
+    assert unequal.reversed.ratio == pytest.approx(1 / ratio)
+    for k in (0.05, 0.5, 5.0):
+        for tangent, seen in zip(unequal.tangents, (unequal, unequal.reversed), strict=True):
+            if tangent is not None:
+                f, f1 = seen(np.linspace(0, 1, 20_001), 1)
+                assert tangent(k)[1] == pytest.approx((f1 - f / k).max(), rel=1e-6)
+
+
 RATIOS = [10.0**k for k in range(-12, 13)] + (10 ** np.random.default_rng(12).uniform(-12, 12, 500)).tolist()
 
 

@@ -75,18 +75,19 @@ def test_least_radius_of_a_given_offset(motion, e, return_):
 
 @pytest.mark.parametrize("motion", MOTIONS, ids=LABELS)
 @pytest.mark.parametrize("rotation", ["ccw", "cw"])
-def test_a_cam_of_the_least_radius_reaches_its_limit_and_keeps_it(motion, rotation):
-    """Sizing for 30 and 40 degrees delivers 30 and 40 degrees, not 30.44."""
+@pytest.mark.parametrize(("rise", "back"), [(30, 40), (45, 30), (60, 20)])
+def test_a_cam_of_the_least_radius_reaches_its_limit_and_keeps_it(motion, rotation, rise, back):
+    """Sizing for 30 and 40 degrees delivers them, not 30.44; for 45 and 30 not 34.98 where the return ends."""
     follower = Translating(roller_radius=3)
     for offset in (None, 4.0, -4.0):
-        least = minimum_radius(motion, follower, rotation, rise=30 * DEG, return_=40 * DEG, offset=offset)
+        least = minimum_radius(motion, follower, rotation, rise=rise * DEG, return_=back * DEG, offset=offset)
         cam = Cam(motion, Translating(least.offset, 3), least.prime_radius, rotation)
         extremes = cam.extremes()
         at_rest = cam.pressure_angle(motion.starts[np.argmin(motion.levels[:-1])])
         reached = {
-            "rise": extremes.pressure_angle_rise[0] / (30 * DEG),
-            "return": -extremes.pressure_angle_return[0] / (40 * DEG),
-            "rest": abs(float(at_rest)) / (30 * DEG),
+            "rise": abs(extremes.pressure_angle_rise[0]) / (rise * DEG),
+            "return": abs(extremes.pressure_angle_return[0]) / (back * DEG),
+            "rest": abs(float(at_rest)) / (min(rise, back) * DEG),
         }
         assert max(reached.values()) <= 1 + 1e-13
         for line in least.active:

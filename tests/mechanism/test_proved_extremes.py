@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from intervals import Sum, backwards, greatest, law_of, law_of_polynomials, quantities
 from mpmath import atan, mpf
+from over_all import over_seeds
 
 import graphcam as gc
 from graphcam.given.laws import LAWS, RISE_FALL_LAWS
@@ -85,7 +86,7 @@ def measured_cam(seed: int) -> gc.Cam:
     return gc.Cam(gc.measured_motion(phi, source(phi)[0], 0.02), follower, r0)
 
 
-@pytest.mark.parametrize("seed", range(9))
+@over_seeds(6)
 def test_no_value_exceeds_the_extremes_of_random_cams(seed):
     check(random_cam(seed))
 
@@ -95,14 +96,8 @@ def test_no_value_exceeds_the_extremes_of_a_measured_motion():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(9, 280))
-def test_no_value_exceeds_the_extremes_of_many_random_cams(seed):
-    check(random_cam(seed))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(2, 22))
-def test_no_value_exceeds_the_extremes_of_many_measured_motions(seed):
+@over_seeds(4)
+def test_no_value_exceeds_the_extremes_of_measured_motions(seed):
     check(measured_cam(seed))
 
 
