@@ -39,6 +39,9 @@ def over_all(names: str | tuple[str, ...], cases: Iterable[Any]) -> Callable[[Te
                 except pytest.skip.Exception as why:
                     # Of many cases none is passed over in silence.
                     failed.append(told(AssertionError(f"skipped: {why}"), case))
+                except pytest.fail.Exception as why:
+                    # It is no Exception: what did not raise, say.
+                    failed.append(told(AssertionError(str(why)), case))
                 except Exception as why:  # noqa: BLE001 - whatever it is, the other cases are tried
                     failed.append(told(why, case))
             if failed:

@@ -14,7 +14,7 @@ from functools import cache
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from over_all import over_seeds
+from over_all import over_all, over_seeds
 from scipy.interpolate import BSpline, KroghInterpolator
 from scipy.spatial import cKDTree
 
@@ -236,7 +236,7 @@ TABLES = {
 }
 
 
-@pytest.mark.parametrize("name", TABLES)
+@over_all("name", TABLES)
 def test_a_task_whose_motion_moves_at_0_is_solved(name):
     text = f'rotation = "ccw"\n[motion]\nparts = [{TABLES[name]}]\n[follower]\nkind = "translating"'
     solution = gc.solve(task_from(tomllib.loads(text)))
@@ -292,7 +292,7 @@ def test_any_table_of_accelerations_gives_a_motion_or_a_message(seed):
     motion_through(seed)
 
 
-@pytest.mark.parametrize(("seed", "tolerance"), [(118, 0.05), (137, 0.1)])
+@over_all(("seed", "tolerance"), [(118, 0.05), (137, 0.1)])
 def test_where_no_row_is_near_the_median_the_motion_does_not_rest(seed, tolerance):
     motion = gc.Motion(
         [
@@ -330,14 +330,14 @@ def in_thirds(h: float) -> list[gc.MotionPoint]:
     return [at(0, **low), at(50, s=0.25 * h), at(100, s=middle), at(180, s=middle, v=0), at(360, **low)]
 
 
-@pytest.mark.parametrize("h", range(1, 61))
+@over_all("h", range(1, 61))
 def test_a_turning_at_a_point_is_at_it_for_every_lift(h):
     places = [float(place) for place, _ in turning_places(Poly(in_thirds(h)).pieces)]
     inner = [place for place in np.degrees(places) if 1e-9 < place < 360 - 1e-9]
     assert inner == pytest.approx([127.172373, 180.0, 252.74261], abs=1e-6)
 
 
-@pytest.mark.parametrize("h", [5, 10, 12.5, 20, 30, 1e-30, 1e30])
+@over_all("h", [5, 10, 12.5, 20, 30, 1e-30, 1e30])
 def test_two_lobes_by_one_polynomial_are_those_of_scipy(h):
     motion = two_lobes(Poly, h)
     x = np.radians([0, 0, 0, 90, 90, 180, 180, 180, 270, 270, 360, 360, 360])
@@ -349,7 +349,7 @@ def test_two_lobes_by_one_polynomial_are_those_of_scipy(h):
         assert_allclose(values, expected, atol=1e-8 * float(np.abs(expected).max()), rtol=0)
 
 
-@pytest.mark.parametrize("v", range(-20, 21))
+@over_all("v", range(-20, 21))
 def test_a_motion_as_high_at_180_degrees_as_at_0_closes(v):
     motion = in_one(v, 0, 90, 270)
     assert motion(-motion.zero)[0] + motion.lowest == pytest.approx(10)

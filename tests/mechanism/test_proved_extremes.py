@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from intervals import Sum, backwards, greatest, law_of, law_of_polynomials, quantities
 from mpmath import atan, mpf
-from over_all import over_seeds
+from over_all import over_all, over_seeds
 
 import graphcam as gc
 from graphcam.given.laws import LAWS, RISE_FALL_LAWS
@@ -122,7 +122,7 @@ def waving_law(waves: int, height: float) -> tuple[gc.Law, list[Sum]]:
     return gc.Law(name, formula, trusted=True), [exact]  # it waves too fast for the check of laws
 
 
-@pytest.mark.parametrize(("waves", "height"), [(60, 2e-6), (300, 3e-8)])
+@over_all(("waves", "height"), [(60, 2e-6), (300, 3e-8)])
 def test_waves_much_shorter_than_any_step_of_a_search_hide_no_extreme(waves, height):
     own, exact = waving_law(waves, height)
     motion = Motion([Rise(20, 2.0, own), Dwell(0.5), Return(20, 1.5, own), Dwell(FULL_TURN - 4.0)])
@@ -136,7 +136,7 @@ def test_waves_much_shorter_than_any_step_of_a_search_hide_no_extreme(waves, hei
         check(cam, {own.name: exact})
 
 
-@pytest.mark.parametrize(("first", "second"), [(1e-3, 1e3), (1e3, 1e3), (1e-3, 1e-3)])
+@over_all(("first", "second"), [(1e-3, 1e3), (1e3, 1e3), (1e-3, 1e-3)])
 def test_lopsided_laws_hide_no_extreme(first, second):
     rise, back = Rise(12, 1.4, "rectangular", first), Return(12, 1.1, "rectangular", second)
     check(gc.Cam(Motion([rise, Dwell(0.6), back, Dwell(FULL_TURN - 3.1)]), gc.Translating(-3.0, 5.0), 30.0))
