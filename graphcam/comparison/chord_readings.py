@@ -5,7 +5,7 @@ or counted whole.  The chords of a hand without error are calculated here as the
 turned to end at rest, what is left at the end of the turn is taken up by the returns, and the top is read as the lift.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from graphcam.drafting.curve import farthest_on_pieces
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
-from graphcam.given.stations import MAX_FINER_PARTS, Stations
+from graphcam.given.motion_law import Law
+from graphcam.given.stations import MAX_FINER_PARTS, Stations, cuts_at_corners
 
 MAX_S_SHARE = 0.02
 """How far s may be off, as a part of the lift, before a phase is divided into more parts."""
@@ -22,6 +23,8 @@ MAX_V_SHARE = 0.05
 """How far v and its maximum may be off, as a part of the phase's maximum, before it is divided into more parts."""
 ENOUGH_OWN_SHARE = 0.4
 """A phase that is divided into more parts is divided until its own chords are off by this part of what is permitted."""
+HALVED_SHARE = 0.2
+"""Parts are halved whose chords are off by more than this part of the one that is off the most."""
 MIN_OWN_SHARE = 0.5
 """A phase whose own chords are off by less than this part of what is permitted does not spoil the others."""
 
@@ -55,7 +58,8 @@ def chord_readings(motion: Motion, stations: Stations) -> ChordReadings:
     >>> motion = gc.Motion([rise, gc.Return(30, 2 * np.pi - 2.0, "cosine")])
     >>> chord_readings(motion, divide(motion, 12)).too_coarse
     [0, 1]
-    >>> chord_readings(motion, divide(motion, 12, finer={0: 4})).too_coarse
+    >>> finer = finer_parts(motion, 12, lambda finer: divide(motion, 12, finer=finer))
+    >>> chord_readings(motion, divide(motion, 12, finer=finer)).too_coarse
     []
     """
     phase, left, u = stations.phase, stations.left, stations.u
@@ -94,36 +98,47 @@ def chord_readings(motion: Motion, stations: Stations) -> ChordReadings:
     return ChordReadings(index, s_off, v_off, own)
 
 
-def finer_parts(motion: Motion, divided: Callable[[Mapping[int, int]], Stations]) -> dict[int, int]:
-    """The phases that must be divided at their corners, and into how many each of their parts is divided again.
+def finer_parts(
+    motion: Motion, divisions: int, divided: Callable[[Mapping[int, Sequence[float]]], Stations]
+) -> dict[int, Sequence[float]]:
+    """The cuts of the phases whose acceleration is too short for equal parts.
 
-    The phase whose chords are off the most comes first, and so on until all are read well within what is permitted, or
-    cannot be divided further.
+    They are cut at the corners of their acceleration, and the parts in which a chord is off the most are halved, until
+    v and s are read well within what is permitted, or there are too many parts.
 
     divided : the stations with such phases
     """
-    finer: dict[int, int] = {}
-    stations = divided(finer)
-    readings = chord_readings(motion, stations)
+    finer: dict[int, Sequence[float]] = {}
+    readings = chord_readings(motion, divided(finer))
     while candidates := _divisible(readings, finer):
-        for at in candidates:
-            k = int(readings.phase[at])
-            trial = {**finer, k: 2 * finer[k] if k in finer else 1}
-            again = divided(trial)
-            if again.parts[at].stop - again.parts[at].start <= MAX_FINER_PARTS:
-                finer, stations = trial, again
-                readings = chord_readings(motion, stations)
-                break
+        for k in candidates:
+            law = motion.phases[k].normalised
+            cuts = _halved(law, np.asarray(finer[k])) if k in finer else cuts_at_corners(law, divisions)
+            if k in finer and cuts.size == len(finer[k]):
+                continue
+            finer = {**finer, k: cuts.tolist()}
+            readings = chord_readings(motion, divided(finer))
+            break
         else:
             break
     return finer
 
 
-def _divisible(readings: ChordReadings, finer: Mapping[int, int]) -> list[int]:
-    """The moving phases whose chords are to be divided, those that are off the most first."""
-    coarse = bool(readings.too_coarse)
-    least = np.array(
-        [ENOUGH_OWN_SHARE if k in finer else MIN_OWN_SHARE if coarse else np.inf for k in readings.phase.tolist()]
-    )
-    worst = np.argsort(-readings.own, kind="stable")
-    return worst[readings.own[worst] > least[worst]].tolist()
+def _halved(law: Law, cuts: Floats) -> Floats:
+    """The cuts with those parts halved whose chords are off the most; the same where there would be too many."""
+    (f, f1), widths, middles = law(cuts, 1), np.diff(cuts), (cuts[:-1] + cuts[1:]) / 2
+    off_v = np.abs(widths * law(middles)[2] - np.diff(f1)) / (MAX_V_SHARE * law.peak_velocity)
+    off_s = np.abs(widths * (f1[:-1] + f1[1:]) / 2 - np.diff(f)) / MAX_S_SHARE
+    off = np.maximum(off_v, off_s)
+    worst = np.argsort(-off, kind="stable")[: MAX_FINER_PARTS - widths.size]
+    return np.sort([*cuts, *middles[worst[off[worst] > HALVED_SHARE * off.max()]]])
+
+
+def _divisible(readings: ChordReadings, finer: Mapping[int, Sequence[float]]) -> list[int]:
+    """The moving phases that are to be divided, those whose chords are off the most first."""
+    coarse, found = readings.too_coarse, list[int]()
+    for at in np.argsort(-readings.own, kind="stable").tolist():
+        k, own = int(readings.phase[at]), readings.own[at]
+        if (k in coarse or own > ENOUGH_OWN_SHARE) if k in finer else (coarse and own > MIN_OWN_SHARE):
+            found.append(k)
+    return found

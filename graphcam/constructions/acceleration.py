@@ -351,7 +351,7 @@ def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
     if finer := [phase_title(diagram.givens.motion, k) for k in stations.finer]:
         said = say(
             "Over {phases} the acceleration lasts less than a usual part, and would be missed between two middle "
-            "ordinates or counted whole: there the corners are cuts, and the parts are shorter."
+            "ordinates or counted whole: there its corners are cuts, and the parts are shorter where it acts."
         )
         divided = sequence([divided, said.with_values(phases=and_list(finer))], " ")
     parts = introduced_parts(

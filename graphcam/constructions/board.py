@@ -1,7 +1,7 @@
 """What lies on the drawing board before the first line: the task, and what differs between followers."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Self
@@ -163,7 +163,7 @@ class Board:
     station : whose velocity plan is asked for, None for the one that shows most
     refine : divides every part again, to see what finer parts would change
     jerk_pole : of the diagram of the jerk [mm of paper], None where none is asked for
-    finer : phases by their index that need more parts than ``divisions``, as :func:`divide` takes them
+    finer : the cuts of phases by their index that need more parts than ``divisions``, as :func:`divide` takes them
     """
 
     motion: Motion
@@ -183,14 +183,14 @@ class Board:
     refine: int = 1
     station: int | None = None
     jerk_pole: float | None = None
-    finer: Mapping[int, int] = field(default_factory=dict[int, int])
+    finer: Mapping[int, Sequence[float]] = field(default_factory=dict[int, Sequence[float]])
 
     @cached_property
     def stations(self) -> Stations:
         """The ends of the parts into which the phases are divided."""
         return self.divided(self.divisions, self.finer)
 
-    def divided(self, divisions: int, finer: Mapping[int, int]) -> Stations:
+    def divided(self, divisions: int, finer: Mapping[int, Sequence[float]]) -> Stations:
         """The stations with another number of divisions."""
         # No chord of the acceleration may run across a corner, where the jerk jumps.
         at_corners = self.follower.divides_at_corners or self.jerk_pole is not None

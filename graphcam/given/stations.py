@@ -1,6 +1,6 @@
 """Dividing the phases: the stations of a drawing, at the ends of equal parts of each moving phase."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell, Motion
-from graphcam.given.motion_law import JUMP_SHARE, Law
+from graphcam.given.motion_law import Law
 from graphcam.words import say
 
 
@@ -61,9 +61,9 @@ class Stations:
 
 MAX_FINER_PARTS = 48
 """A phase whose acceleration is short is divided into at most so many parts."""
-ACCELERATION_SAMPLES = 5
-"""So many places between two corners show whether there is an acceleration."""
-NO_PHASES: Mapping[int, int] = {}
+EQUAL_WIDTH = 1e-9
+"""Parts whose widths differ by less, as parts of their phase, are equal."""
+NO_PHASES: Mapping[int, Sequence[float]] = {}
 
 
 def divide(
@@ -72,7 +72,7 @@ def divide(
     refine: int = 1,
     *,
     at_corners: bool = False,
-    finer: Mapping[int, int] = NO_PHASES,
+    finer: Mapping[int, Sequence[float]] = NO_PHASES,
 ) -> Stations:
     """Divide each moving phase into ``divisions`` equal parts, and each of these again into ``refine``.
 
@@ -80,8 +80,7 @@ def divide(
     jumps gets its own whole number of equal parts, in proportion, at least one.  With ``at_corners`` the corners of the
     acceleration fall on divisions too, where what is looked for may be greatest in a corner.
 
-    finer : phases by their index that are divided at the corners in any case, unless these are too many, and into how
-        many each of their parts is divided again, but for stretches without acceleration
+    finer : the cuts u, both ends of the phase among them, of phases by their index that are not divided equally
 
     Raises
     ------
@@ -98,8 +97,8 @@ def divide(
     >>> triangular = gc.Motion([gc.Rise(30, pi, "triangular"), gc.Return(30, pi, "cosine")])
     >>> divide(triangular, 6, at_corners=True).u[:7].round(3).tolist()
     [0.0, 0.125, 0.25, 0.417, 0.583, 0.75, 1.0]
-    >>> divide(triangular, 3, finer={0: 2}).u.round(3).tolist()
-    [0.0, 0.125, 0.25, 0.5, 0.75, 0.875, 1.0, 0.0, 0.333, 0.667, 1.0]
+    >>> divide(triangular, 3, finer={0: [0, 0.125, 0.25, 0.75, 1]}).stretches
+    (slice(0, 3, None), slice(2, 4, None), slice(3, 5, None), slice(5, 9, None))
     """
     if divisions < 1:
         raise DesignError("divisions", divisions, say("1 or more parts per phase"))
@@ -113,14 +112,16 @@ def divide(
             continue
         law = part.normalised
         # Where the stretches of equal parts begin and end.
-        short = k in finer and len(law.jumps) + len(law.corners) < MAX_FINER_PARTS
-        ends = (0.0, *sorted((*law.jumps, *(law.corners if at_corners or short else ()))), 1.0)
-        # Across a short acceleration no hand fairs a curve: the line on either side of it is nearly straight.
-        apart = ends if short else (*law.jumps, 1.0)
+        ends = (0.0, *sorted((*law.jumps, *(law.corners if at_corners else ()))), 1.0)
+        runs, apart = zip(pairwise(ends), _shares(ends, divisions), strict=True), (*law.jumps, 1.0)
+        if k in finer:
+            # Across a short acceleration no hand fairs a curve: the line on either side of it is nearly straight.
+            apart = (*law.jumps, *law.corners, 1.0)
+            runs = _runs(finer[k], apart)
         first = begun = len(u)
         u.append(0.0)
-        for (start, end), share in zip(pairwise(ends), _shares(ends, divisions), strict=True):
-            n = share * refine * (finer[k] if k in finer and _accelerates(law, start, end) else 1)
+        for (start, end), share in runs:
+            n = share * refine
             stretches.append(slice(len(u) - 1, len(u) + n))
             # The end itself, since a rounding beyond it the acceleration has jumped.
             u.extend([*(start + (end - start) * np.arange(1, n) / n), end])
@@ -137,10 +138,24 @@ def divide(
     return Stations(*made, tuple(finer))
 
 
-def _accelerates(law: Law, start: float, end: float) -> bool:
-    """Whether a law has an acceleration between two places, which are no farther apart than its corners."""
-    inside = np.linspace(start, end, ACCELERATION_SAMPLES + 2)[1:-1]
-    return bool(np.abs(law(inside)[2]).max() > JUMP_SHARE * law.peak_acceleration)
+def cuts_at_corners(law: Law, divisions: int) -> Floats:
+    """The cuts u of so many parts, or more, with the jumps and corners of the acceleration, unless these are too many.
+
+    >>> import graphcam as gc
+    >>> cuts_at_corners(gc.law("trapezoidal"), 4).tolist()
+    [0.0, 0.125, 0.375, 0.625, 0.875, 1.0]
+    """
+    corners = law.corners if len(law.jumps) + len(law.corners) < MAX_FINER_PARTS else ()
+    ends = (0.0, *sorted((*law.jumps, *corners)), 1.0)
+    shares = zip(pairwise(ends), _shares(ends, divisions), strict=True)
+    return np.append(np.concatenate([np.linspace(*ends, n, endpoint=False) for ends, n in shares]), 1.0)
+
+
+def _runs(cuts: Sequence[float], apart: Sequence[float]) -> list[tuple[tuple[float, float], int]]:
+    """The stretches of equal parts between cuts, broken at some of them, and how many parts each has."""
+    widths, last = np.diff(cuts), len(cuts) - 1
+    bounds = [k for k in range(1, last) if cuts[k] in apart or abs(widths[k] - widths[k - 1]) > EQUAL_WIDTH]
+    return [((float(cuts[a]), float(cuts[b])), b - a) for a, b in pairwise((0, *bounds, last))]
 
 
 @lru_cache

@@ -162,7 +162,7 @@ def _finer_phases(solution: Solution) -> list[Row]:
     stations, motion = solution.chain.board.stations, solution.chain.board.motion
     parts = dict(zip(stations.phase[stations.last].tolist(), stations.parts, strict=True))
     counts = [(phase_title(motion, k), parts[k].stop - parts[k].start) for k in stations.finer]
-    value = say("{n:d} parts, cut at the corners of a")
+    value = say("{n:d} parts, shorter where a changes")
     return [(say("divisions of {phase}", phase=phase), value.with_values(n=n), "") for phase, n in counts]
 
 

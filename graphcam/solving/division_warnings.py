@@ -38,7 +38,7 @@ def _remedy(board: Board) -> Caption:
     """Divisions with which the readings are within what is permitted."""
     tried = (n for n in TRIED_DIVISIONS if not chord_readings(board.motion, board.divided(n, {})).too_coarse)
     enough, left_out = next(tried, None), partial(board.divided, TRIED_DIVISIONS[0])
-    finer = {} if board.finer else finer_parts(board.motion, left_out)
+    finer = {} if board.finer else finer_parts(board.motion, TRIED_DIVISIONS[0], left_out)
     if finer and not chord_readings(board.motion, left_out(finer)).too_coarse:
         said = say("Leave drawing.divisions out.")
         return said if enough is None else say("Take drawing.divisions = {n}, or leave it out.", n=enough)

@@ -104,7 +104,7 @@ def board_of(task: Task) -> Board:
     )
     if drawing.divisions is not None:
         return board
-    return replace(board, finer=finer_parts(motion, partial(board.divided, board.divisions)))
+    return replace(board, finer=finer_parts(motion, board.divisions, partial(board.divided, board.divisions)))
 
 
 def given_profile_scale(drawing: DrawingTable) -> float | None:
