@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import partial
 
 from graphcam.given.declared_law import DeclaredLaw
-from graphcam.given.exact_polynomials import ExactPiece
+from graphcam.given.exact_conditions import as_series
 from graphcam.given.motion_law import Law
 from graphcam.given.piecewise import Floats, Formula
 from graphcam.given.polynomial_law import leg_law
@@ -87,7 +87,7 @@ POLYNOMIAL_4_5_6_7 = DeclaredLaw(
 EIGHTH_DEGREE = DeclaredLaw(
     title=say("eighth-degree"),
     synonyms=("полином восьмой степени", "đa thức bậc tám", "八次多项式"),
-    make=lambda _: leg_law("eighth-degree", [ExactPiece(Fraction(0), Fraction(1), _EIGHTH_COEFFICIENTS)])[1],
+    make=lambda _: leg_law("eighth-degree", as_series([(Fraction(0), Fraction(1), _EIGHTH_COEFFICIENTS)]))[1],
     printed=lambda u, _: sum(c.numerator * u**k / c.denominator for k, c in enumerate(_EIGHTH_COEFFICIENTS)),
     fifth_derivatives=((2493.648,), ()),
     rise_fall=True,
