@@ -96,8 +96,10 @@ class DrawnTranslating(DrawnFollower):
             (at, slope), (other, steep) = lines
             down.append((at - other) / (steep - slope))
         if limits.rest:
-            lines.append((0.0, rise))
-            down.append(offset / rise)
+            stricter = limits.return_ is not None and limits.return_ < limits.rise
+            rests = [rise, -math.tan(limits.return_)] if stricter else [rise]
+            lines += [(0.0, slope) for slope in rests]
+            down += [offset / slope for slope in rests]
         beside = [offset, *v.tolist(), *(at + slope * max(down) for at, slope in lines)]
         return complex(max(beside) - min(beside), float(s.max()) + max(down))
 
@@ -116,6 +118,12 @@ class DrawnTranslating(DrawnFollower):
             *guided_stem(b, STEM_LENGTH, GUIDE_HEIGHT),
             *offset_marks(SKETCH_OFFSET * side, self.place),
         )
+
+    def assignment(self, roller: bool) -> Caption:
+        """The sentence that asks for a cam for a stem."""
+        if roller:
+            return say("A disk cam is to move a translating follower with a roller by the following motion.")
+        return say("A disk cam is to move a translating follower with a knife edge by the following motion.")
 
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """Sentences on the line of motion and the roller."""

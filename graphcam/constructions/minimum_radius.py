@@ -85,9 +85,9 @@ def _touch_values(side: str, drawn: LeastRadius) -> Values:
         yield {"angle": math.degrees(angle), "s": s, "v": v, "least": v - s * math.tan(angle)}
 
 
-def _rests(drawn: LeastRadius) -> Values:
-    if "rest" in drawn.points:
-        yield {"angle": math.degrees(drawn.givens.limits.rise)}
+def _rests(name: str, drawn: LeastRadius) -> Values:
+    if name in drawn.points:
+        yield {"angle": math.degrees(_limit_of(name, drawn.givens.limits))}
 
 
 def _radius(drawn: LeastRadius) -> Values:
@@ -124,7 +124,16 @@ FORMULAS = (
         of="prime_radius",
     ),
     Formula(
-        r"s_0\tan[\alpha_1] - \sigma e \ge 0", r"s_0\tan <angle:g>^\circ - \sigma e \ge 0", _rests, of="prime_radius"
+        r"s_0\tan[\alpha_1] - \sigma e \ge 0",
+        r"s_0\tan <angle:g>^\circ - \sigma e \ge 0",
+        partial(_rests, "rest"),
+        of="prime_radius",
+    ),
+    Formula(
+        r"s_0\tan[\alpha_2] + \sigma e \ge 0",
+        r"s_0\tan <angle:g>^\circ + \sigma e \ge 0",
+        partial(_rests, "rest after the return"),
+        of="prime_radius",
     ),
     Formula(
         r"r_0 = \sqrt{s_0^2 + e^2}",
@@ -177,10 +186,12 @@ def least_radius(
 
 
 def _bounds(hand: Hand, givens: LeastRadiusGivens, ends: Drawn, start: Drawn) -> list[Drawn]:
-    """The lines that bound the region: the rise's tangent, the return's unless a spring drives it, the rest line.
+    """The lines that bound the region: the rise's tangent, the return's unless a spring drives it, the rest lines.
 
     What a line permits lies to its right: of a line at the angle to the motion that leans to the side on which the
-    rise's segments lie, the side away from them.  The return's line and the rest line lean the other way.
+    rise's segments lie, the side away from them.  The return's line and the rest line lean the other way.  At the end
+    of a return the angle is the same with the other sign: unless the return permits less than the rise, the tangent of
+    the rise cuts off more than a second rest line would.
     """
     sigma, limits, integrated = sense(givens.rotation), givens.limits, givens.integrated
 
@@ -194,16 +205,19 @@ def _bounds(hand: Hand, givens: LeastRadiusGivens, ends: Drawn, start: Drawn) ->
         lines.append(touching("return", -1, limits.return_, -sigma))
     if limits.rest:
         lines.append(hand.protractor("rest", start, sigma * UP, -sigma * limits.rise))
+        if limits.return_ is not None and limits.return_ < limits.rise:
+            lines.append(hand.protractor("rest after the return", start, -sigma * UP, sigma * limits.return_))
     return lines
 
 
 def active_boundaries(region: LeastRadius) -> list[Boundary]:
     """The boundaries on which the cam centre lies, in the first sample."""
-    return binding_boundaries(_shown_boundaries(region), complex(region.first("centre")))
+    return binding_boundaries(shown_boundaries(region), complex(region.first("centre")))
 
 
-def _shown_boundaries(region: LeastRadius) -> list[Boundary]:
-    return [boundary(region.acts[name].first) for name in LINE_LABELS if name in region.acts]
+def shown_boundaries(region: LeastRadius) -> list[Boundary]:
+    """The boundaries of the first sample."""
+    return [boundary(region.acts[name].first) for name in LINE_NAMES if name in region.acts]
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -212,16 +226,32 @@ ANGLE_RADIUS = 22.0
 """Radius of the arcs that show the permitted angles [mm]."""
 HIGHEST_ANGLE_PLACE, LOWEST_ANGLE_PLACE = 0.12, 0.85
 """So far down the lines of the region their angles are shown."""
-LINE_LABELS = {"rise": say("rise"), "return": say("return"), "rest": say_in("a line of the region", "dwell")}
-"""The lines that bound the region, by what they limit."""
-LINE_NAMES = {"rise": say("the rise line"), "return": say("the return line"), "rest": say("the dwell line")}
-"""The names of the boundaries inside a sentence."""
+REST_LINES = "rest", "rest after the return"
+"""The lines that are drawn from the start of the lift."""
+LINE_NAMES = {
+    "rise": say("the rise line"),
+    "return": say("the return line"),
+    "rest": say("the dwell line"),
+    "rest after the return": say("the dwell line of the return"),
+}
+"""The lines that bound the region, by their names inside a sentence."""
 LIMIT_NAMES = {
     "rise": say_in("a limit", "on the rise"),
     "return": say_in("a limit", "on the return"),
     "rest": say_in("a limit", "in the lower dwell"),
+    "rest after the return": say_in("a limit", "at the end of the return"),
 }
 """Where each of them limits the pressure angle."""
+REST_CAPTIONS = {
+    "rest": say(
+        "From B₀ draw the dwell line at {angle} to the line of motion, down {side}: it keeps the angle in "
+        "the lower dwell within its limit."
+    ),
+    "rest after the return": say(
+        "From B₀ draw the dwell line of the return at {angle} to the line of motion, down {side}: it keeps the angle "
+        "at the end of the return, where less is permitted than on the rise, within its limit."
+    ),
+}
 CURVE_NAMES = {"rise": say("the curve of the rise"), "return": say("the curve of the return")}
 SLIDE_CAPTIONS = {
     1: say("leaning to the right going up, and slide it in from the lower right"),
@@ -240,7 +270,7 @@ PLACE_CAPTIONS = {
 
 
 def _draw(region: LeastRadius) -> list[Step]:
-    centre, lines = region.acts["centre"].first, _shown_boundaries(region)
+    centre, lines = region.acts["centre"].first, shown_boundaries(region)
     others = (place.place for place in _alternatives(region).values())
     picture = picture_of((0j, centre.place, *others, *_adopted(region)), lines)
     found = _unreadable() if np.isnan(centre.place) else _result(region)
@@ -264,7 +294,7 @@ def _adopted(region: LeastRadius) -> list[complex]:
 
 def _touching(region: LeastRadius, picture: RegionPicture) -> Step:
     hand, limits = errorless_hand(region), region.givens.limits
-    lines = [_limit_line(region, hand, line, picture) for line in _shown_boundaries(region)]
+    lines = [_limit_line(region, hand, line, picture) for line in shown_boundaries(region)]
     parts = [part for part, _ in lines]
     if not limits.return_:
         none = say("A spring drives the return (force closure), so no line is drawn for the return.")
@@ -284,10 +314,10 @@ def _limit_line(
     drawn = region.acts[line.name].first
     direction = region.acts.get(f"direction of {line.name}")
     limit = drawn if direction is None else direction.first
-    above = drawn.place - complex(line.along / abs(line.along.imag)) * (0.0 if line.name == "rest" else 10.0)
-    below = picture.end(line, [other for other in _shown_boundaries(region) if other.name != line.name])
+    above = drawn.place - complex(line.along / abs(line.along.imag)) * (0.0 if line.name in REST_LINES else 10.0)
+    below = picture.end(line, [other for other in shown_boundaries(region) if other.name != line.name])
     # The angles stand apart, and beside the region: a tangent's not far below its touch, the rest line's low.
-    share, way = (LOWEST_ANGLE_PLACE, UP) if line.name == "rest" else (HIGHEST_ANGLE_PLACE, -UP)
+    share, way = (LOWEST_ANGLE_PLACE, UP) if line.name in REST_LINES else (HIGHEST_ANGLE_PLACE, -UP)
     at = hand.cross(
         f"{line.name} on its way",
         drawn,
@@ -302,11 +332,8 @@ def _limit_line(
         AngleMark(at.place, ANGLE_RADIUS, first, last, angle).left_by(limit),
     )
     lean = float(line.along.real)
-    if line.name == "rest":
-        said = say(
-            "From B₀ draw the dwell line at {angle} to the line of motion, down {side}: it keeps the angle in "
-            "the lower dwell within its limit."
-        ).with_values(angle=angle, side=side_caption(lean))
+    if line.name in REST_LINES:
+        said = REST_CAPTIONS[line.name].with_values(angle=angle, side=side_caption(lean))
     else:
         said = say(
             "For the limit {limited} set a set square at {angle} to the line of motion, {slide} until it touches "
@@ -341,7 +368,7 @@ def _at_zero_lift(region: LeastRadius) -> Caption:
 
 
 def _shaded(region: LeastRadius, picture: RegionPicture) -> Step:
-    hand, lines, others = errorless_hand(region), _shown_boundaries(region), _alternatives(region)
+    hand, lines, others = errorless_hand(region), shown_boundaries(region), _alternatives(region)
     permitted = hand.given("permitted places", picture.permitted(lines))
     sides = [
         say(
@@ -441,7 +468,12 @@ def _centre_caption(region: LeastRadius) -> Caption:
 
 
 def _limit(line: Boundary, limits: Limits) -> Caption:
-    return degrees(limits.return_ if line.name == "return" and limits.return_ is not None else limits.rise)
+    return degrees(_limit_of(line.name, limits))
+
+
+def _limit_of(name: str, limits: Limits) -> float:
+    of_return = name in ("return", "rest after the return")
+    return limits.return_ if of_return and limits.return_ is not None else limits.rise
 
 
 def _alternatives(region: LeastRadius) -> dict[str, Drawn]:

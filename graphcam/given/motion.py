@@ -125,7 +125,7 @@ class Rise(MovingPhase):
     """A phase that lifts the follower by ``lift`` over ``angle`` radians: s = lift f(u).
 
     lift : mm; of an arm rad;  angle : rad;  law : one of :data:`graphcam.LAWS`, or a :class:`graphcam.Law` of one's own
-    ratio : |first part's acceleration| / |second part's|, of the law "rectangular"
+    ratio : |first part's acceleration| / |second part's|, of a law that may have unequal parts
 
     >>> import graphcam as gc
     >>> gc.Rise(30, math.radians(120), "cycloidal")

@@ -61,7 +61,11 @@ def _polynomial(name: str, formula: Formula, peaks: tuple[float, float], n: int,
 
 POLYNOMIAL_2_3 = DeclaredLaw(
     title=say("2-3"),
-    synonyms=("cubic", "полином 2-3", "đa thức 2-3", "2-3 多项式"),
+    synonyms=(
+        *("cubic", "linearly decreasing acceleration", "equally decreasing acceleration", "uniformly decreasing"),
+        *("равномерно убывающее ускорение", "линейно убывающее ускорение", "равномерно убывающий", "линейно убывающий"),
+        *("полином 2-3", "đa thức 2-3", "2-3 多项式"),
+    ),
     make=lambda _: _polynomial("2-3", _poly_2_3, (1.5, 6.0), 1, (3, -4, 2)),
     printed=lambda u, _: 3 * u**2 - 2 * u**3,
     fifth_derivatives=((0.0,), ()),

@@ -247,17 +247,6 @@ class ArmLoad:
         """Speed of the cam [rad/s]."""
         return omega_of(self.speed_rpm)
 
-    def placed(self, arm: float, distance: float, psi0: float, swing: float) -> "PlacedArmLoad":
-        """The load on an arm of a length whose pivot is at a distance [mm], from the low angle over a swing [rad].
-
-        Raises
-        ------
-        DesignError : a spring at a point passes its dead point, where it has no torque
-        """
-        placed = PlacedArmLoad(self, arm, distance, psi0)
-        placed.check(swing)
-        return placed
-
 
 @dataclass(frozen=True, eq=False)
 class PlacedArmLoad:

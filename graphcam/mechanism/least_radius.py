@@ -1,7 +1,8 @@
 """The minimum prime radius that keeps the pressure angle, or of a flat-faced follower the curvature, within its limits.
 
 Each follower's stands in a file of its own: :mod:`~graphcam.mechanism.least_radius_translating`,
-:mod:`~graphcam.mechanism.least_radius_arm` and :mod:`~graphcam.mechanism.flat_faced`.
+:mod:`~graphcam.mechanism.least_radius_arm`, :mod:`~graphcam.mechanism.flat_faced` and
+:mod:`~graphcam.mechanism.oscillating_flat`.
 """
 
 import math
@@ -14,6 +15,7 @@ from graphcam.given.follower import (
     Follower,
     Limits,
     Oscillating,
+    OscillatingFlat,
     Rotation,
     Translating,
     sense,
@@ -51,7 +53,7 @@ def minimum_radius(
 @overload
 def minimum_radius(
     motion: Motion,
-    follower: FlatFaced,
+    follower: FlatFaced | OscillatingFlat,
     rotation: Rotation = "ccw",
     rise: float | None = None,
     return_: float | None = None,
@@ -79,8 +81,8 @@ def minimum_radius(
         translating follower and 45 for an arm, as in a sweep and a task file; return_ = None is force closure, no limit
         there.  :func:`graphcam.size_cam` takes 25 degrees if nothing is said, the limit of the problem it comes from
     offset : e [mm] of a translating follower if it is given; None leaves it free
-    rest : whether the angle in the lower dwell must also satisfy the rise's limit; for an arm, whether the angle in
-        both dwells must satisfy the limits of the phases that end there, so that |alpha| satisfies them all the way
+    rest : whether the angle in the lower dwell, for an arm in both, must also satisfy the limits of the phases that
+        end there, so that |alpha| satisfies them all the way
     curvature : the minimum permitted radius of curvature [mm] of the profile under a flat face; None is 0, where the
         profile has a cusp, which a cam can only approach
 

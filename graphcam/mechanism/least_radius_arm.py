@@ -37,7 +37,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.mechanism.half_planes import LINE_NAMES, HalfPlane, Line, NearestPoint, nearest_point
 from graphcam.mechanism.leg_places import LegPlaces, OneLeg, sampled_legs
-from graphcam.words import say
+from graphcam.words import say, sequence
 
 LINE_ROUNDING = 1e-15
 """How far a point may lie beyond a line and count as on it, relative to the arm and the distance from its start."""
@@ -89,8 +89,8 @@ class Side(NamedTuple):
         return found
 
     def _touches_beside(self, line: HalfPlane, k: int) -> bool:
-        if line.touch is None or line.touch.side is not self:
-            return False
+        if line.touch is None or line.touch.side is not self or not line.touch.low < line.touch.w < line.touch.high:
+            return False  # at the end of its piece a line may touch, and the excess grow on in the next one
         w = self.legs.w
         return line.touch.leg is self.legs.leg_of(k) and w.item(k - 1) <= line.touch.w <= w.item(k + 1)
 
@@ -194,20 +194,29 @@ def arm_minimum_radius(motion: Motion, follower: Oscillating, sigma: int, limits
     (11.2226, 88.2929, ('rise', 'rest'))
     """
     _check_lift(motion, limits)
-    region, arm = _region(motion, follower.arm, sigma, limits), follower.arm
-    if follower.distance is None:
+    if (found := _least(motion, follower, sigma, limits)) is not None:
+        return found
+    free = arm_minimum_radius(motion, replace(follower, distance=None), sigma, limits)
+    limit = say("one at which the pressure angle can keep its limits over the whole swing")
+    remedy = say("leave it open: the minimum prime radius has a centre distance of {distance:.6g} mm")
+    remedy = remedy.with_values(distance=free.distance)
+    if (other := _least(motion, follower, -sigma, limits)) is not None:
+        turned = say("or turn the cam the other way, with a minimum prime radius of {radius:.5g} mm")
+        remedy = sequence([remedy, turned.with_values(radius=other.prime_radius)])
+    raise DesignError(say("centre distance"), say("{length:g} mm", length=follower.distance), limit, remedy)
+
+
+def _least(motion: Motion, follower: Oscillating, sigma: int, limits: Limits) -> ArmMinimumRadius | None:
+    """The minimum, or None where the limits are exceeded at the given distance whatever the prime radius."""
+    region, arm, distance = _region(motion, follower.arm, sigma, limits), follower.arm, follower.distance
+    if distance is None:
         point, lines, _ = _nearest_permitted(region, 0j, nearest_point)
         distance = abs(arm + point)
     else:
-        distance = follower.distance
         arc = _Arc(arm, distance)
         point, lines, beyond = _nearest_permitted(region, arc.point(0.0), arc.first)
         if beyond > KEPT_TOLERANCE * (arm + abs(point)):
-            free = arm_minimum_radius(motion, replace(follower, distance=None), sigma, limits)
-            limit = say("one at which the pressure angle can keep its limits over the whole swing")
-            remedy = say("leave it open: the minimum prime radius has a centre distance of {distance:.6g} mm")
-            remedy = remedy.with_values(distance=free.distance)
-            raise DesignError(say("centre distance"), distance, limit, remedy)
+            return None
     names = [line.name for line in lines]
     return ArmMinimumRadius(abs(point), distance, tuple([name for name in LINE_NAMES if name in names]))
 

@@ -1,17 +1,21 @@
 """The minimum prime radius of a translating follower: the region for the cam centre, cut out by lines.
 
-With e' = sigma e the pressure angle is permitted on the rises, on the returns and at the lower dwell where
+With e' = sigma e the pressure angle is permitted on the rises and on the returns, their ends included, where
 
     s0 tan A  + e' >= M,    M  = max over the rises of (v - s tan A)
-    s0 tan A' - e' >= M',   M' = max over the returns of (|v| - s tan A')
     s0 tan A  - e' >= 0
+    s0 tan A' - e' >= M',   M' = max over the returns of (|v| - s tan A')
+    s0 tan A' + e' >= 0
 
-so the cam centre lies in a region bounded by up to three lines, and r0 is its distance from the start of the lift.
+so the cam centre lies in a region bounded by lines, and r0 is its distance from the start of the lift.  The second and
+the fourth, of |alpha| in the lower dwell, say that the angle keeps its limit on the side to which no velocity drives
+it: there |v| and s only help, so the end of the phase decides.
 
 Source: the shaded region of the textbooks on the theory of machines, written as inequalities.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -23,7 +27,7 @@ from graphcam.given.follower import Limits, Translating
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.motion_law import Law
-from graphcam.mechanism.half_planes import Line
+from graphcam.mechanism.half_planes import LINE_NAMES, HalfPlane, Line, nearest_point
 from graphcam.mechanism.leg_places import legs
 from graphcam.words import say
 
@@ -58,47 +62,35 @@ def translating_minimum_radius(
     >>> round(least.prime_radius, 4), round(least.offset, 4), least.active
     (22.5647, 11.2824, ('rise', 'rest'))
     """
-    slope = math.tan(limits.rise)
-    height = _steepest_line(motion, +1, slope)
-    lines: list[_Bound] = []
-    if limits.return_ is not None:
-        back = math.tan(limits.return_)
-        lines.append(("return", back, _steepest_line(motion, -1, back)))
-    if limits.rest:
-        lines.append(("rest", slope, 0.0))
+    lines = _region(motion, limits)
     if offset is None:
-        across, s0, active = _nearest_permitted(slope, height, lines)
-        return MinimumRadius(math.hypot(across, s0), sigma * across, active)
+        centre, kept = nearest_point(lines)
+        return MinimumRadius(abs(centre), sigma * centre.real, _names(kept))
     check_number("offset", offset, say("a finite length in mm"), say("leave it out to let it be found"))
-    place = sigma * offset
-    heights: dict[Line, float] = {"rise": (height - place) / slope}
-    heights |= {name: (height + place) / slope for name, slope, height in lines}
-    s0 = max(0.0, *heights.values())
-    needing: list[Line] = [name for name, needed in heights.items() if needed == s0 > 0]
-    return MinimumRadius(math.hypot(offset, s0), offset, tuple(needing))
+    across = sigma * offset
+    needed = [(line.height - line.normal.real * across) / line.normal.imag for line in lines]
+    s0 = max(0.0, *needed)
+    kept = [line for line, least in zip(lines, needed, strict=True) if least == s0 > 0]
+    return MinimumRadius(math.hypot(offset, s0), offset, _names(kept))
 
 
-_Bound = tuple[Line, float, float]
-"""Name, slope and height of the line of the returns, or of the rest: s0 slope - e' >= height."""
+def _region(motion: Motion, limits: Limits) -> list[HalfPlane]:
+    """The lines that bound the region of e' + i s0, each on the side to which the velocity drives the angle first."""
+    driven: list[HalfPlane] = []
+    resting: list[HalfPlane] = []
+    limited: tuple[tuple[Line, int, float | None], ...] = ("rise", +1, limits.rise), ("return", -1, limits.return_)
+    for name, direction, limit in limited:
+        if limit is not None:
+            across, up = math.cos(limit), math.sin(limit)
+            height = across * _steepest_line(motion, direction, math.tan(limit))
+            driven.append(HalfPlane(name, complex(direction * across, up), height))
+            resting.append(HalfPlane("rest", complex(-direction * across, up), 0.0))
+    return [*driven, *resting] if limits.rest else driven
 
 
-def _nearest_permitted(slope: float, height: float, lines: list[_Bound]) -> tuple[float, float, tuple[Line, ...]]:
-    """The point (e', s0) nearest to the start of the lift, with s0 slope + e' >= height and the other lines kept."""
-    for name, other, its_height in lines:
-        # Where the perpendicular meets the line of the returns the rises may be kept too.
-        foot = its_height / (1 + other * other)
-        if foot * (slope * other - 1) >= height:
-            return -foot, foot * other, (name,)
-    # Else the point lies on the rises' line: at the foot, or farther up, as far as the others need.
-    across = height / (1 + slope * slope)
-    s0 = across * slope
-    active: tuple[Line, ...] = ("rise",)
-    for name, other, its_height in lines:
-        crossing = (height + its_height) / (slope + other)
-        if crossing > s0:
-            across, s0 = (height * other - its_height * slope) / (slope + other), crossing
-            active = "rise", name
-    return across, s0, active
+def _names(lines: Sequence[HalfPlane]) -> tuple[Line, ...]:
+    found = {line.name for line in lines}
+    return tuple(name for name in LINE_NAMES if name in found)
 
 
 # --- the tangent to the s - v diagram --------------------------------------------------------------------------------

@@ -111,7 +111,7 @@ def greatest_angles(solution: Solution) -> Iterator[Block]:
     """The paragraph on the maximum angles inside the phases, and on why and by how much a limit is exceeded."""
     plotted, board, extremes = solution.drawn["angle_diagram"], solution.chain.board, solution.cam.extremes()
     exactly = {"rise": extremes.pressure_angle_rise[0], "return": extremes.pressure_angle_return[0]}
-    for name, limit in (("rise", board.limits.rise), ("return", board.limits.return_)):
+    for name, limit, driven in (("rise", board.limits.rise, 1), ("return", board.limits.return_, -1)):
         if other := inner_maximum(plotted, name):
             alpha = math.degrees(other.place.imag * plotted.givens.mu_alpha.per_mm)
             phi = math.degrees(other.place.real * board.mu_phi.per_mm)
@@ -119,7 +119,7 @@ def greatest_angles(solution: Solution) -> Iterator[Block]:
         if limit is None:
             continue
         angle, over = float(plotted.value(f"max_{name}")), math.degrees(abs(exactly[name]) - limit)
-        unlimited = name == "rise" and exactly[name] < 0 and not board.limits.rest  # the angle at the low rest
+        unlimited = driven * exactly[name] < 0 and not board.limits.rest  # the angle at the low rest
         if math.degrees(abs(angle)) > math.degrees(limit) + LAST_DIGIT:
             yield warning(
                 EXCEEDED_CAPTIONS[name].with_values(limit=degrees(limit), why=_why_exceeded(name, angle, solution))
@@ -134,7 +134,7 @@ def _why_exceeded(name: str, angle: float, solution: Solution) -> Caption:
     if given is not None and given < least:
         said = say("the given prime radius of {given:g} mm is smaller than the minimum, {least} mm")
         return said.with_values(given=given, least=number(least))
-    if name == "rise" and angle < 0 and not chain.board.limits.rest:
+    if (angle < 0) == (name == "rise") and not chain.board.limits.rest:
         return say("it is the angle in the lower dwell, which this task does not limit")
     if not chain.pencil.perfect:
         return say("the drawing errors exceed the amount by which the prime radius was rounded up")

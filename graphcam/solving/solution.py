@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from graphcam import __version__
-from graphcam.comparison.quantities import Comparison, transmission_deg
+from graphcam.comparison.quantities import Comparison, exact_minimum, transmission_deg
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
 from graphcam.constructions.graduation import SYMBOLS, scale_at_speed, time_scale
@@ -22,8 +22,16 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.profile_spline import ProfileSpline, profile_spline
 from graphcam.solving.adopted_sizes import FaceDesign, adopted_cautions, face_design
+from graphcam.solving.division_warnings import coarse_divisions, disagreement
 from graphcam.solving.shown_solution import FILE_KINDS, ShownSolution, plain_number, plain_quantities, plain_stations
-from graphcam.solving.solution_warnings import Caution, less_round, title_scale, unit_slips, warnings_of
+from graphcam.solving.solution_warnings import (
+    Caution,
+    closed_turn,
+    less_round,
+    title_scale,
+    unit_slips,
+    warnings_of,
+)
 from graphcam.solving.spring_design import SpringDesign
 from graphcam.solving.stress_design import StressDesign
 from graphcam.solving.task_board import board_of
@@ -63,18 +71,27 @@ class Solution(ShownSolution):
 
     @cached_property
     def warnings(self) -> list[str]:
-        """What is wrong with the adopted cam, as sentences, by the exact side; none if it is sound."""
-        return [self.tell(caution.said) for caution in self.cautions]
+        """What is wrong with the adopted cam or its drawing, as sentences; none if they are sound and agree."""
+        beyond = disagreement(self.comparison.quantities, self.chain.pencil)
+        return [self.tell(said) for said in (*(caution.said for caution in self.cautions), *beyond)]
 
     @cached_property
     def cautions(self) -> list[Caution]:
         """What is wrong with the adopted cam, as captions with the places where it is seen."""
         found = warnings_of(self.cam, self.chain.board, self.comparison.least[0])
         spring = self.spring.cautions if self.spring else ()
-        found += adopted_cautions(self.chain, self.cam, self.face)
+        found += [*coarse_divisions(self.chain), *adopted_cautions(self.chain, self.cam, self.face)]
         stress = self.stress.cautions if self.stress else ()
         scale = title_scale(self.task, self.chain.profile_scale)
-        return [*found, *spring, *stress, *unit_slips(self.task), *less_round(self.chain), *scale]
+        return [
+            *found,
+            *spring,
+            *stress,
+            *unit_slips(self.task),
+            *closed_turn(self.task),
+            *less_round(self.chain),
+            *scale,
+        ]
 
     @property
     def tell(self) -> Tell:
@@ -247,7 +264,12 @@ def solve_motion(task: Task, pencil: Pencil | None = None) -> Solution:
 def solved_on(board: Board, task: Task, pencil: Pencil | None = None) -> Solution:
     """The solution of a task on a drawing board, whose scales may be other than the task's own."""
     chain = Chain(board, pencil or Pencil())
-    follower = chain.board.follower.built(chain.place, chain.roller_radius)
+    try:
+        follower = chain.board.follower.built(chain.place, chain.roller_radius)
+    except DesignError:
+        # Where no cam centre can be read because there is none, the exact side knows the reason and a way out.
+        exact_minimum(board)
+        raise
     solution = Solution(task, chain, Cam(task.motion(), follower, chain.prime_radius, task.rotation))
     if solution.spring:
         solution.spring.check()

@@ -17,6 +17,8 @@ from graphcam.words import Caption, say, sequence
 PRINT_ROUNDING = 0.005
 """mm or degrees: what differs by less does not differ in print."""
 ENLARGE_REMEDY = say("Enlarge the prime radius.")
+MIN_BASE_SHARE = 0.15
+"""A base circle below so much of the prime radius has no room for a shaft."""
 MAX_METRES_LIFT = 0.2
 """A lift below so many mm looks like metres."""
 MAX_RADIANS_LIFT = 1.0
@@ -35,7 +37,7 @@ class Caution:
     said: Caption
     of: Literal[
         "profile", "pressure angle", "prime radius", "roller radius", "face", "contact", "contact stress", "rounding",
-        "unit", "scale",
+        "unit", "scale", "divisions",
     ]  # fmt: skip
     phi: tuple[float, ...] = ()
     alpha: float | None = None
@@ -46,7 +48,12 @@ def warnings_of(cam: Cam, board: Board, least_prime_radius: float) -> list[Cauti
 
     cam : as it was adopted;  board : what was given;  least_prime_radius : the exact one of the task [mm]
     """
-    return [*_undercut(cam), *_limits(cam, board), *_prime_radius(board, least_prime_radius)]
+    return [
+        *_undercut(cam),
+        *_limits(cam, board),
+        *_prime_radius(board, least_prime_radius),
+        *_base_circle(cam),
+    ]
 
 
 def _undercut(cam: Cam) -> Iterator[Caution]:
@@ -112,11 +119,13 @@ def angles_exceeded(cam: Cam, board: Board, slack: float) -> Iterator[tuple[str,
     returns : "rise" or "return", the pressure angle, the cam angle there, and the limit
     """
     extremes, limits = cam.extremes(), board.limits
-    for word, (alpha, phi), limit in (
-        ("rise", extremes.pressure_angle_rise, limits.rise),
-        ("return", extremes.pressure_angle_return, limits.return_),
+    if "curvature" in board.follower.conditions:  # which takes the place of the pressure angle
+        return
+    for word, (alpha, phi), limit, driven in (
+        ("rise", extremes.pressure_angle_rise, limits.rise, 1),
+        ("return", extremes.pressure_angle_return, limits.return_, -1),
     ):
-        at_rest = word == "rise" and alpha < 0 and not limits.rest  # the angle at the low rest, which is not limited
+        at_rest = driven * alpha < 0 and not limits.rest  # the angle at the low rest, which is not limited
         if limit is not None and not at_rest and math.degrees(abs(alpha) - limit) > slack:
             yield word, alpha, phi, limit
 
@@ -126,6 +135,16 @@ def _prime_radius(board: Board, least: float) -> Iterator[Caution]:
     if given is not None and given < least - PRINT_ROUNDING:
         said = say("The given prime radius of {given:g} mm is smaller than the minimum permitted one, {least:.2f} mm.")
         yield Caution(said.with_values(given=given, least=least), "prime radius")
+
+
+def _base_circle(cam: Cam) -> Iterator[Caution]:
+    left = cam.prime_radius - cam.roller_radius
+    if left < MIN_BASE_SHARE * cam.prime_radius:
+        said = say(
+            "A roller of {roller:g} mm on a prime radius of {r0:g} mm leaves a base circle of {left:.3g} mm, which has "
+            "no room for a shaft. Take a smaller roller or a larger prime radius."
+        )
+        yield Caution(said.with_values(roller=cam.roller_radius, r0=cam.prime_radius, left=left), "roller radius")
 
 
 def unit_slips(task: Task) -> Iterator[Caution]:
@@ -143,6 +162,17 @@ def unit_slips(task: Task) -> Iterator[Caution]:
             "The permitted pressure angle of {angle:g}° looks like radians: if so, give {meant:.3g}, in degrees."
         )
         yield Caution(said.with_values(angle=slip[1], meant=math.degrees(slip[1])), "unit")
+
+
+def closed_turn(task: Task) -> Iterator[Caution]:
+    """The sentence on a turn that the phase angles of the file miss by their rounding."""
+    if closing := task.motion.closed:
+        k, missing = closing
+        said = say("The phase angles sum to {turn:.10g}°: φ{number} takes up the missing {missing:.2g}°.")
+        if missing < 0:
+            said = say("The phase angles sum to {turn:.10g}°: φ{number} is shortened by {missing:.2g}°.")
+        values = {"turn": 360 - missing, "number": k + 1, "missing": abs(missing)}
+        yield Caution(said.with_values(**values), "rounding")
 
 
 def title_scale(task: Task, drawn: Scale) -> Iterator[Caution]:

@@ -155,7 +155,7 @@ def _worst_station(chain: Chain, guess: complex, origin: complex, mu: float) -> 
     rising = np.array([board.motion.phases[k].direction > 0 for k in board.stations.phase])
     angle = np.where(rising, alpha, -alpha if limits.return_ is not None else -np.inf)
     if limits.rest:
-        angle = np.where(rising, np.abs(alpha), angle)
+        angle = np.where(rising | (limits.return_ is not None), np.abs(alpha), angle)
     permitted = np.where(rising, limits.rise, limits.rise if limits.return_ is None else limits.return_)
     worst = int(np.nanargmax(angle - permitted)) if np.isfinite(angle - permitted).any() else None
     if worst is None:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.constructions.axes import pieces_of
-from graphcam.constructions.region import Boundary, boundary
+from graphcam.constructions.minimum_radius import shown_boundaries
+from graphcam.constructions.region import Boundary
 from graphcam.constructions.views import COMBINED
 from graphcam.drafting.curve import farthest_on_pieces
 from graphcam.drafting.euclid import UP
@@ -30,8 +31,6 @@ from graphcam.studio.handle import (
 from graphcam.studio.size_ranges import ANGLE_RANGE, SizeRange, lift_of, multiple_above, ranges, round_up, step_for
 from graphcam.words import say
 
-LINE_NAMES = "rise", "return", "rest"
-"""The lines that bound the region, where they are drawn."""
 EDGE_TOLERANCE = 1e-6
 """What lies so little outside of the region [mm of paper] is on its edge."""
 CENTRE_NAME = say("Cam centre A")
@@ -98,7 +97,7 @@ def centre_of_region(solution: Solution) -> CentreOfRegion:
     named = (region.acts.get(name) for name in ("nearest", "foot on rise", "central"))
     places = (complex(np.ravel(each.first.shown)[0]) for each in named if each is not None)
     return CentreOfRegion(
-        lines=tuple(boundary(region.acts[name].first) for name in LINE_NAMES if name in region.acts),
+        lines=tuple(shown_boundaries(region)),
         mu=region.readings["prime_radius"].per_mm,
         step=step,
         most=max(most, radius),

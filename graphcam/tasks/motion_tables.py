@@ -1,7 +1,7 @@
 """The table ``[motion]`` of a task file: phases in degrees and mm, parts by conditions, or a measured motion."""
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Annotated, ClassVar, Literal
 
@@ -17,8 +17,9 @@ from graphcam.tasks.dataclass_reader import ByKind, ByName
 from graphcam.words import Words, say
 
 ANGLE_CLOSURE = 1e-9
-"""The maximum error of the sum of a file's phase angles [degrees]."""
-
+"""A sum of phase angles that misses a turn by no more [degrees] is a turn: rounding of the arithmetic."""
+ROUNDED_CLOSURE = 1e-3
+"""So much may be missing where the angles of a file were rounded [degrees]: the longest dwell takes it up."""
 
 TWO_TURNS = 720.0
 """The maximum angle [degrees] at which a part may end, as a part may pass the end of the turn."""
@@ -173,7 +174,8 @@ PhaseTable = Annotated[RiseTable | DwellTable | ReturnTable, ByKind()]
 class MotionTable:
     """``[motion]``: the phases of one revolution, in order, or parts by conditions, or the table of a measured motion.
 
-    phases : their angles sum to 360 degrees, their lifts to 0
+    phases : their angles sum to 360 degrees, their lifts to 0; what rounding leaves, less than 0.001 degrees, the
+        longest dwell takes up
     parts : polynomials and splines through points, in place of phases; where they leave a gap the follower rests
     table : of a measured motion, in place of phases; a file gives the name of a CSV file beside it
     tolerance : mm (degrees for an arm), how far the motion may pass the table; None is 0.01
@@ -204,9 +206,20 @@ class MotionTable:
         bounded("tolerance", self.tolerance, "mm (degrees for an arm)")
         if self.phases is not None:
             turn = math.fsum(phase.angle for phase in self.phases)
-            if abs(turn - 360) > ANGLE_CLOSURE:
+            if abs(turn - 360) > ROUNDED_CLOSURE:
                 raise DesignError(say("sum of the phase angles"), turn, say("360 degrees"), _remedy(turn, self.phases))
         self()
+
+    @property
+    def closed(self) -> tuple[int, float] | None:
+        """The phase that takes up what rounded angles leave of the turn, and how much [degrees]; None if nothing.
+
+        >>> thirds = RiseTable(120, 30, "2-3"), DwellTable(119.9999), ReturnTable(120, 30, "2-3")
+        >>> number, missing = MotionTable(thirds).closed
+        >>> number, round(missing, 6)
+        (1, 0.0001)
+        """
+        return _closed(self.phases or ())
 
     def __call__(self) -> Motion:
         """The motion, in radians and mm (an arm's lift in radians too)."""
@@ -231,9 +244,21 @@ def _remedy(turn: float, phases: tuple[PhaseTable, ...]) -> Words:
     return told.with_values(off=off, which=which)
 
 
+def _closed(tables: tuple[PhaseTable, ...]) -> tuple[int, float] | None:
+    missing = 360 - math.fsum(table.angle for table in tables)
+    if not tables or abs(missing) <= ANGLE_CLOSURE:
+        return None
+    # Without a dwell the longest phase takes it up.
+    return max(range(len(tables)), key=lambda k: (tables[k].kind == "dwell", tables[k].angle)), missing
+
+
 @lru_cache(maxsize=16)  # because a task asks for its motion in several places
 def _motion(tables: tuple[PhaseTable, ...], unit: float) -> Motion:
-    phases: list[Phase] = [table(unit) for table in tables]
+    closed = list(tables)
+    if closing := _closed(tables):
+        k, missing = closing
+        closed[k] = replace(closed[k], angle=closed[k].angle + missing)
+    phases: list[Phase] = [table(unit) for table in closed]
     return Motion(phases)
 
 

@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from mpmath import mp, mpf
+from over_all import over_all
 from scipy.interpolate import BSpline, make_interp_spline
 from scipy.spatial import cKDTree
 
@@ -103,7 +104,7 @@ JOINT = 2 * EPS
 """Joints lie at the machine's angles, off the exact ones by half a unit of the last digit at most [rad]."""
 
 
-@pytest.mark.parametrize("name", HARD)
+@over_all("name", HARD)
 def test_values_to_four_eps_of_each_function_at_40_digits(name):
     motion = gc.boundary_motion([made(part) for part in HARD[name]])
     assert motion.zero == 0
@@ -160,7 +161,7 @@ def spline_points() -> list[gc.MotionPoint]:
     return [at(k, s=s, **ends.get(k, {})) for k, s in zip(ANGLES, HEIGHTS, strict=True)]
 
 
-@pytest.mark.parametrize("degree", [3, 4, 5, 7])
+@over_all("degree", [3, 4, 5, 7])
 def test_a_spline_is_that_of_scipy_on_the_same_knots(degree):
     part = Spline(spline_points(), degree)
     width = part.end - part.start
@@ -177,7 +178,7 @@ def test_a_spline_is_that_of_scipy_on_the_same_knots(degree):
                 assert part.polynomials(place)[order] == pytest.approx(ours, rel=1e-12, abs=1e-12)
 
 
-@pytest.mark.parametrize("degree", [2, 3, 5])
+@over_all("degree", [2, 3, 5])
 def test_all_derivatives_below_the_degree_are_continuous_at_the_knots(degree):
     points = spline_points()
     if degree == 2:
@@ -305,7 +306,7 @@ def test_it_travels_to_other_processes_and_tells_itself():
     assert "by conditions: polynomial of degree 6, spline of degree 5" in repr(motion)
 
 
-@pytest.mark.parametrize("follower", [gc.Translating(5), gc.FlatFaced()])
+@over_all("follower", [gc.Translating(5), gc.FlatFaced()])
 def test_it_stands_wherever_a_motion_does(follower):
     motion = whole()
     cam = gc.Cam(motion, follower, prime_radius=80)
@@ -320,8 +321,8 @@ def test_it_stands_wherever_a_motion_does(follower):
 # --- laws ------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("smooth", [1, 2, 3])
-@pytest.mark.parametrize("blends", [(0.25, 0.25), (0.1, 0.4), (1e-6, 0.3)])
+@over_all("smooth", [1, 2, 3])
+@over_all("blends", [(0.25, 0.25), (0.1, 0.4), (1e-6, 0.3)])
 def test_the_law_of_constant_velocity_passes_the_check_of_laws(blends, smooth):
     law = gc.constant_velocity_law(*blends, smooth)
     assert law.peak_velocity == pytest.approx(2 / (2 - sum(blends)), rel=1e-14)
@@ -527,21 +528,21 @@ LAWS = {
 }
 
 
-@pytest.mark.parametrize("name", PARTS)
+@over_all("name", PARTS)
 def test_a_part_that_cannot_be_is_told(name):
     make, message = PARTS[name]
     with pytest.raises(gc.DesignError, match=message):
         make()
 
 
-@pytest.mark.parametrize("name", TURNS)
+@over_all("name", TURNS)
 def test_a_turn_that_cannot_be_is_told(name):
     make, message = TURNS[name]
     with pytest.raises(gc.DesignError, match=message):
         gc.boundary_motion(make())
 
 
-@pytest.mark.parametrize("name", LAWS)
+@over_all("name", LAWS)
 def test_a_law_that_cannot_be_is_told(name):
     make, message = LAWS[name]
     with pytest.raises(gc.DesignError, match=message):
@@ -582,7 +583,7 @@ AROUND_0 = {
 }
 
 
-@pytest.mark.parametrize("name", AROUND_0)
+@over_all("name", AROUND_0)
 def test_phases_and_starts_of_what_moves_at_0_are_those_of_the_motion(name):
     motion = gc.boundary_motion(AROUND_0[name])
     starts = np.append(motion.starts, TURN)
@@ -619,7 +620,7 @@ def test_the_cam_of_what_moves_at_0_is_written_as_it_is(name, tmp_path):
     assert cam.undercuts() == []
 
 
-@pytest.mark.parametrize("v", [-19.5, -14])
+@over_all("v", [-19.5, -14])
 def test_where_the_profile_of_what_moves_at_0_crosses_itself_both_branches_pass(v):
     cam = gc.Cam(gc.boundary_motion(moving_at_0(v)), gc.Translating(offset=3, roller_radius=25), prime_radius=30)
     loops = cam.undercuts()

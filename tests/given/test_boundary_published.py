@@ -12,6 +12,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.given.exact_conditions import PI, value_at
@@ -26,7 +27,7 @@ def coefficients(part: gc.PolynomialPart) -> list[float]:
     return [float(c) for c in p]
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("ends", "printed"),
     [  # Norton, Cam Design and Manufacturing Handbook (2009), chapter 4, and Rothbart, Cams (1956), chapter 3: identity
         ({"v": 0}, [0, 0, 3, -2]),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from dataclasses import replace
 
 import pytest
@@ -184,3 +185,92 @@ def test_only_standard_scales_are_drawn(given):
     with pytest.raises(DesignError, match=r"a standard drawing scale, such as 10:1, 5:1, 4:1, 2.5:1") as raised:
         solve(replace(task, drawing=replace(task.drawing, profile_scale=given)))
     assert raised.value.quantity == "drawing.profile_scale"
+
+
+ROUNDED = """
+rotation = "ccw"
+[motion]
+phases = [
+  {{ kind = "rise", angle = {rise}, lift = 20, law = "modified-sine" }},
+  {{ kind = "dwell", angle = {high} }},
+  {{ kind = "return", angle = {back}, lift = 20, law = "modified-sine" }},
+  {{ kind = "dwell", angle = {low} }},
+]
+[follower]
+kind = "translating"
+roller_radius = 10
+[cam]
+prime_radius = 60
+"""
+
+
+@pytest.mark.parametrize(
+    ("angles", "sentence", "lengths"),
+    [
+        (
+            # Sevenths of a turn, to four decimals.
+            ("51.4286", "102.8571", "102.8571", "102.8571"),
+            "The phase angles sum to 359.9999°: φ2 takes up the missing 0.0001°.",
+            (51.4286, 102.8572, 102.8571, 102.8571),
+        ),
+        (
+            # Of 0.83 s: 0.17, 0.2, 0.23, 0.23 s.
+            ("73.735", "86.747", "99.759", "99.7595"),
+            "The phase angles sum to 360.0005°: φ4 is shortened by 0.0005°.",
+            (73.735, 86.747, 99.759, 99.759),
+        ),
+        (("51.4286", "102.8572", "102.8571", "102.8571"), "", (51.4286, 102.8572, 102.8571, 102.8571)),
+    ],
+)
+def test_what_rounded_angles_miss_of_a_turn_is_taken_up_by_the_longest_dwell_and_told(
+    angles, sentence, lengths, tmp_path
+):
+    path = tmp_path / "cam.toml"
+    path.write_text(ROUNDED.format(**dict(zip(("rise", "high", "back", "low"), angles, strict=True))))
+    task = load_task(path)
+    solution = solve(task)
+    assert [warning for warning in solution.warnings if "sum to" in warning] == ([sentence] if sentence else [])
+    assert [math.degrees(phase.angle) for phase in solution.cam.motion.phases] == pytest.approx(lengths, abs=1e-9)
+    assert [phase["angle"] for phase in task.to_dict()["motion"]["phases"]] == [float(angle) for angle in angles]
+
+
+def test_a_roller_that_leaves_no_room_for_a_shaft_is_warned_of(solved):
+    flat = solved("prime_radius = 30", "prime_radius = 400").warnings
+    assert flat == []
+    assert any("leaves a base circle of 2 mm" in warning for warning in solved("= 20", "= 28").warnings)
+
+
+NO_RADIUS = """
+rotation = "{rotation}"
+[motion]
+phases = [
+  {{ kind = "dwell", angle = 60 }},
+  {{ kind = "rise", angle = 120, lift = 24, law = "rectangular" }},
+  {{ kind = "dwell", angle = 90 }},
+  {{ kind = "return", angle = 90, lift = 24, law = "cosine" }},
+]
+[follower]
+kind = "oscillating"
+arm = 55
+{distance}
+roller_radius = 10
+[limits]
+pressure_angle_rise = 35
+pressure_angle_return = 70
+"""
+
+
+def test_where_no_radius_satisfies_the_limits_the_message_has_ways_out_that_do(tmp_path):
+    """At 60 mm the least maximum on the rise is 38.81 degrees, by radii in steps of 0.05 mm."""
+    path = tmp_path / "arm.toml"
+    path.write_text(NO_RADIUS.format(rotation="ccw", distance="distance = 60"))
+    with pytest.raises(DesignError) as refused:
+        solve(load_task(path))
+    assert str(refused.value) == (
+        "centre distance is 60 mm, but must be one at which the pressure angle can keep its limits over the whole "
+        "swing; leave it open: the minimum prime radius has a centre distance of 64.5481 mm, or turn the cam the other "
+        "way, with a minimum prime radius of 17.349 mm"
+    )
+    for rotation, distance in (("ccw", ""), ("cw", "distance = 60")):
+        path.write_text(NO_RADIUS.format(rotation=rotation, distance=distance))
+        assert not [warning for warning in solve(load_task(path)).warnings if "permitted" in warning]
