@@ -181,11 +181,13 @@ class _Part:
     @cached_property
     def at_ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """s and v at the start and at the end."""
-        first, last, width = self.solution[0], self.solution[-1], self.end - self.start
-        ends = (first, Fraction(0)), (last, Fraction(1))
-        return tuple(
-            (float(value_at(p, y)), float(value_at(p, y, 1) / ((high - low) * width))) for (low, high, p), y in ends
-        )
+
+        def s_and_v(span: Span, y: int) -> tuple[float, float]:
+            low, high, p = span
+            width = (high - low) * (self.end - self.start)
+            return float(value_at(p, Fraction(y))), float(value_at(p, Fraction(y), 1) / width)
+
+        return s_and_v(self.solution[0], 0), s_and_v(self.solution[-1], 1)
 
     def _open(self) -> DesignError:
         if all(point.s is None for point in self.points):

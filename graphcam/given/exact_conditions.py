@@ -18,6 +18,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from graphcam.given.piecewise import Floats
 from graphcam.given.piecewise_polynomial import ORDER_COUNT, PiecewisePolynomial, taylor_shift
 
 Exact = Sequence[Fraction]
@@ -234,7 +235,7 @@ def _cells(
     return found
 
 
-def _needed_terms(c: np.ndarray, reach: float, greatest: Sequence[float], rests: bool) -> tuple[int, bool]:
+def _needed_terms(c: Floats, reach: float, greatest: Sequence[float], rests: bool) -> tuple[int, bool]:
     """How many terms are asked for within reach of the anchor, and whether none of the derivatives' cancel there."""
     needed, fit = 1, True
     for order, size in enumerate(greatest):

@@ -234,16 +234,17 @@ class PiecewisePolynomial:
             cell = int(found.ends.searchsorted(place, "left" if way < 0 else "right")) - 1
             if not 0 <= cell < found.anchors.size or found.anchors[cell] == place:
                 continue
-            low, high = found.ends[cell : cell + 2]
-            by = place - found.anchors[cell]
+            low, high = found.ends[cell : cell + 2].tolist()
+            anchor = float(found.anchors[cell])
             # No further than the terms of the series reached: there they hardly cancel.
-            reach = max(high - found.anchors[cell], found.anchors[cell] - low)
+            reach = max(high - anchor, anchor - low)
             near = [max(low, place - reach), place] if way < 0 else [place, min(high, place + reach)]
             c = found.coefficients[:, cell : cell + 1].copy()
-            taylor_shift(c, by)
+            taylor_shift(c, place - anchor)
             c[1:zeros] = 0.0
             about = PiecewisePolynomial(np.array(near), np.array([place]), c, self.breaks[:0])
-            parts = found.between(found.ends[0], near[0]), about, found.between(near[1], found.ends[-1])
+            first, last = found.ends[[0, -1]].tolist()
+            parts = found.between(first, near[0]), about, found.between(near[1], last)
             found = PiecewisePolynomial.joined([part for part in parts if part.anchors.size])
         return replace(found, breaks=self.breaks)
 

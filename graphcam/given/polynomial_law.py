@@ -32,7 +32,8 @@ def leg_law(name: str, leg: PiecewisePolynomial, *, trusted: bool = True) -> tup
 
     Those of the first half are series in u, those of the second in 1 - u, so that little lift keeps its digits.
     """
-    (start, end), angle = leg.ends[[0, -1]].tolist(), leg.ends[-1] - leg.ends[0]
+    start, end = leg.ends[[0, -1]].tolist()
+    angle = end - start
     low, high = leg([start, end])[0].tolist()
     lift = high - low
     places = leg.breaks

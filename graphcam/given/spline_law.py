@@ -59,5 +59,9 @@ def sampled_law(name: str, u: ArrayLike, f: ArrayLike, accelerations: tuple[floa
     # These coefficients are the ends' f, f' and f''; without their rounding what is small near an end keeps its digits.
     at_start, at_end = (2 if acceleration else 3 for acceleration in accelerations)
     spline.c[:at_start], spline.c[-at_end:] = 0.0, 1.0
-    leg = PiecewisePolynomial.of_spline(spline.t, spline.c, DEGREE).at_rest(u[0], at_start).at_rest(u[-1], at_end)
+    leg = (
+        PiecewisePolynomial.of_spline(spline.t, spline.c, DEGREE)
+        .at_rest(float(u[0]), at_start)
+        .at_rest(float(u[-1]), at_end)
+    )
     return leg_law(name, leg, trusted=False)[1]
