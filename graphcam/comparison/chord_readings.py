@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from graphcam.drafting.curve import farthest_on_pieces
 from graphcam.given.laws import Floats
-from graphcam.given.motion import Motion
+from graphcam.given.motion import Motion, MovingPhase
 from graphcam.given.motion_law import Law
 from graphcam.given.stations import MAX_FINER_PARTS, Stations, cuts_at_corners
 
@@ -74,8 +74,10 @@ def chord_readings(motion: Motion, stations: Stations) -> ChordReadings:
         chords = np.append(0.0, np.cumsum(steps[parts]))
         v[span] = chords - u[span] * chords[-1]
         s[span] = np.append(0.0, np.cumsum(widths[parts] * (v[span][:-1] + v[span][1:]) / 2))
-        law, lift = motion.phases[index[k]].normalised, motion.phases[index[k]].lift
-        permitted[:, k] = MAX_S_SHARE * lift, MAX_V_SHARE * law.peak_velocity * lift / motion.angles[index[k]]
+        moving = motion.phases[int(index[k])]
+        assert isinstance(moving, MovingPhase)
+        permitted[:, k] = MAX_S_SHARE, MAX_V_SHARE * moving.normalised.peak_velocity / moving.angle
+        permitted[:, k] *= moving.lift
         off = np.abs(s[span] - (exact_s[span] - exact_s[span.start])).max(), np.abs(v[span] - exact_v[span]).max()
         own[k] = np.max(off / permitted[:, k])
     ends = s[stations.last]
@@ -112,7 +114,9 @@ def finer_parts(
     readings = chord_readings(motion, divided(finer))
     while candidates := _divisible(readings, finer):
         for k in candidates:
-            law = motion.phases[k].normalised
+            phase = motion.phases[k]
+            assert isinstance(phase, MovingPhase)
+            law = phase.normalised
             cuts = _halved(law, np.asarray(finer[k])) if k in finer else cuts_at_corners(law, divisions)
             if k in finer and cuts.size == len(finer[k]):
                 continue

@@ -11,7 +11,7 @@ from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import Caption, Part, Row, say
 from graphcam.drafting.marks import Line, Points, Role
 from graphcam.drafting.telling import FRENCH_CURVE, RULER, stretch_caption
-from graphcam.given.motion import FULL_TURN
+from graphcam.given.motion import FULL_TURN, MovingPhase
 from graphcam.plane_vectors import dot
 from graphcam.words import sequence
 
@@ -50,7 +50,9 @@ def curve_over_phi(
     either = any(straight) and not all(straight)
     for piece, by_ruler in zip(stations.pieces, straight, strict=True):
         tool = [RULER if by_ruler else FRENCH_CURVE] if either else []
-        jumps = float(stations.u[piece.start]) in givens.motion.phases[stations.phase[piece.start]].normalised.jumps
+        # A phase with stations moves.
+        phase = givens.motion.phases[int(stations.phase[piece.start])]
+        jumps = isinstance(phase, MovingPhase) and float(stations.u[piece.start]) in phase.normalised.jumps
         meeting = met if jumps else CONTINUOUS_TANGENT
         corner = [] if piece.start in begins else [meeting.with_values(first=names[piece.start])]
         faired = hand.fair(name, curve.first, [piece])

@@ -44,7 +44,7 @@ def skewed(law: Law, ratio: float) -> Law:
     return Law(law.name, formulas, inner, False, first, ratio, peaks, (ahead, back), trusted=True)
 
 
-def _stretched(x: Floats, *, formula: Formula, part: float) -> tuple[Floats, Floats, Floats, Floats]:
+def _stretched(x: Floats, *, formula: Formula, part: float) -> tuple[Floats | float, ...]:
     """The half of a law over a part of the phase, at the distance x from its end."""
     f, f1, f2, f3 = formula(x / (2 * part))
     return 2 * part * f, f1, f2 / (2 * part), f3 / (2 * part) ** 2

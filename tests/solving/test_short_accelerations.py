@@ -260,6 +260,10 @@ def test_no_drawn_value_is_beyond_its_bound_without_a_warning():
     assert found["within its bounds"] >= 8, found
 
 
+def test_a_level_stretch_of_v_is_read_at_its_height_and_not_where_rounding_has_its_corner():
+    assert check_case(1150) == "within its bounds"
+
+
 @pytest.mark.slow
 def test_no_drawn_value_of_150_motions_is_beyond_its_bound_without_a_warning():
     found = Counter(check_case(seed) for seed in range(150))
