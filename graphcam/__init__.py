@@ -19,6 +19,8 @@ sigma = +1, ``"cw"`` is sigma = -1.  By inversion a point fixed to the frame app
   A rise turns the arm clockwise; alpha is positive on an ordinary rise for sigma = +1 (opposite senses), negative for
   sigma = -1 (the same sense).
 - Flat-faced follower: contact at (sigma*v, r0 + s); the radius of curvature of the profile is r0 + s + a.
+- Oscillating flat face: pivot at (c, 0), face along (-cos(psi), sin(psi)), f beside the pivot towards the cam centre;
+  c*sin(psi0) = r0 + f; psi = psi0 + s, on the rise the face turns clockwise.
 - Curvature kappa of the pitch curve is positive where the cam is convex.
 - The working profile is the inner parallel curve of the pitch curve at the roller radius.
 

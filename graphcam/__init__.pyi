@@ -10,6 +10,7 @@ from .given.follower import (
     FlatFaced as FlatFaced,
     Limits as Limits,
     Oscillating as Oscillating,
+    OscillatingFlat as OscillatingFlat,
     Translating as Translating,
 )
 from .given.laws import LAWS as LAWS, law as law
@@ -56,6 +57,7 @@ from .mechanism.least_radius import (
 from .mechanism.least_radius_arm import ArmMinimumRadius as ArmMinimumRadius
 from .mechanism.made_cam import MadeCam as MadeCam
 from .mechanism.motion_bands import MotionBands as MotionBands, motion_bands as motion_bands
+from .mechanism.oscillating_flat import FaceReach as FaceReach, face_reach as face_reach
 from .mechanism.profile_spline import ProfileSpline as ProfileSpline, profile_spline as profile_spline
 from .mechanism.shock_response import (
     FollowerResponse as FollowerResponse,

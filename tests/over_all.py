@@ -39,6 +39,9 @@ def over_all(names: str | tuple[str, ...], cases: Iterable[Any]) -> Callable[[Te
                 except pytest.skip.Exception as why:
                     # Of many cases none is passed over in silence.
                     failed.append(told(AssertionError(f"skipped: {why}"), case))
+                except pytest.fail.Exception as why:
+                    # It is no Exception: what did not raise, say.
+                    failed.append(told(AssertionError(str(why)), case))
                 except Exception as why:  # noqa: BLE001 - whatever it is, the other cases are tried
                     failed.append(told(why, case))
             if failed:
@@ -53,6 +56,37 @@ def over_all(names: str | tuple[str, ...], cases: Iterable[Any]) -> Callable[[Te
         kept = [each for name, each in signature.parameters.items() if name not in keys]
         assert len(kept) == len(signature.parameters) - len(keys), (test.__name__, names)
         whole.__signature__ = signature.replace(parameters=kept)
+        return whole
+
+    return made
+
+
+def pairs(ones: Iterable[Any], others: Iterable[Any], every: int = 3) -> list[tuple[Any, Any]]:
+    """One in so many of all pairs, so that each value occurs with several of the other list.
+
+    >>> pairs("abc", range(6))
+    [('a', 0), ('a', 3), ('b', 2), ('b', 5), ('c', 1), ('c', 4)]
+    """
+    row = list(others)
+    return [(one, other) for k, one in enumerate(ones) for n, other in enumerate(row) if (k + n) % every == 0]
+
+
+def over_seeds(seeds: int | Iterable[int]) -> Callable[[Test], Test]:
+    """Make one test of a test of one seed, over some; ``python tests/random_cases.py`` takes any others.
+
+    seeds : those of the suite, or how many from 0 on
+
+    >>> @over_seeds(3)
+    ... def test_all_are_small(seed):
+    ...     assert seed < 2
+    >>> test_all_are_small()
+    Traceback (most recent call last):
+    ExceptionGroup: test_all_are_small: 1 of 3 fail (1 sub-exception)
+    """
+
+    def made(test: Test) -> Test:
+        whole = over_all("seed", range(seeds) if isinstance(seeds, int) else seeds)(test)
+        whole.of_one_seed = test
         return whole
 
     return made

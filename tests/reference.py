@@ -21,9 +21,11 @@ EPS = 2.0**-52
 def lift(name: str, u: Number, ratio: float = 1.0) -> Number:
     """The textbook's normalised displacement at u in [0, 1]."""
     u, ratio = mpf(u), mpf(ratio)
-    if ratio != 1:  # the rectangular law, the parts of which are of one length else
+    if ratio != 1:  # its halves are stretched to parts of unequal length
         m = 1 / (1 + ratio)
-        return u**2 / m if u <= m else 1 - (1 - u) ** 2 / (1 - m)
+        if name == "rectangular":
+            return u**2 / m if u <= m else 1 - (1 - u) ** 2 / (1 - m)
+        return 2 * m * lift(name, u / (2 * m)) if u <= m else 1 - 2 * (1 - m) * lift(name, (1 - u) / (2 * (1 - m)))
     with mp.workdps(2 * mp.dps + 50):  # near u = 0 all but the fourth power of the double harmonic cancels
         return DECLARED_LAWS[name].printed(u, mp)
 
@@ -189,6 +191,42 @@ class ReferenceArm(ReferenceCam):
         """Between the normal and the trace point's motion, positive where the normal lies counter-clockwise of it."""
         (x, y), (a, b) = turned(self.normal(phi), self.sigma * phi), self.outward(phi)
         return mp.atan2(a * y - b * x, a * x + b * y)
+
+
+class ReferenceSwingingFace:
+    """A cam under a face that swings: each point of its profile is the limit of where two positions of the face meet.
+
+    In the frame the face goes through a point f beside the pivot (c, 0), along (-cos(psi), sin(psi)).
+    """
+
+    def __init__(self, cam) -> None:
+        self.motion, self.sigma = cam.motion, {"ccw": 1, "cw": -1}[cam.rotation]
+        self.c, self.f = mpf(cam.follower.distance), mpf(cam.follower.face_offset)
+        self.psi0 = mp.asin((mpf(cam.prime_radius) + self.f) / self.c)
+
+    def face(self, phi: Number) -> tuple[matrix, matrix]:
+        """A point of the face and its direction, in cam coordinates."""
+        psi = self.psi0 + displacement(self.motion, phi)
+        way = matrix([-cos(psi), sin(psi)])
+        foot = matrix([self.c, 0]) + self.f * matrix([-way[1], way[0]])
+        return turned(foot, -self.sigma * phi), turned(way, -self.sigma * phi)
+
+    def meeting(self, phi: Number) -> tuple[Number, matrix]:
+        """How far from the foot of the pivot a face is touched, and where: it moves along itself there."""
+        point, way = self.face(phi)
+        point1, way1 = (matrix([diff(lambda t, i=i, k=k: self.face(t)[k][i], phi) for i in (0, 1)]) for k in (0, 1))
+        along = -(point1[0] * way[1] - point1[1] * way[0]) / (way1[0] * way[1] - way1[1] * way[0])
+        return along, point + along * way
+
+    def profile(self, phi: Number) -> matrix:
+        return self.meeting(phi)[1]
+
+    def radius_of_curvature(self, phi: Number) -> Number:
+        """The way along the face for each radian that its direction turns."""
+        way = self.face(phi)[1]
+        x1, y1 = (diff(lambda t, i=i: self.profile(t)[i], phi) for i in (0, 1))
+        dx, dy = (diff(lambda t, i=i: self.face(t)[1][i], phi) for i in (0, 1))
+        return (x1 * way[0] + y1 * way[1]) / (way[0] * dy - way[1] * dx)
 
 
 class ReferenceFace:

@@ -14,6 +14,7 @@ import golden
 import numpy as np
 import pytest
 from golden_random import FILE, TASKS, differences, read
+from over_all import over_all
 
 BEFORE = json.loads(FILE.read_text(encoding="utf-8"))
 REFUSED = {"arm 59", "flat 38"}
@@ -29,7 +30,7 @@ def damaged(readings, name, part, value, at=0):
     return found
 
 
-@pytest.mark.parametrize("name", TASKS)
+@over_all("name", TASKS)
 def test_every_reading_is_the_one_that_was_read_before(name):
     assert differences(BEFORE[name], read(TASKS[name])) == []
 

@@ -13,6 +13,7 @@ from functools import cache
 from typing import Any
 
 import pytest
+from over_all import over_all
 from russian import english_words
 from translations import CATALOGS, MOST_MISSING, PACKAGE, catalog, has_words, singular, texts_of_the_code
 from typer.testing import CliRunner
@@ -158,15 +159,13 @@ def letters_on(solution) -> list[str]:
     return [e.text for page in pages for group in page.groups for e in group.entities if isinstance(e, Text)]
 
 
-NOTES = [(spoken, name, "perfect") for spoken in CATALOGS for name in TASKS] + [
-    # What errors of the hand add is the same for every task.
-    *(("ru", name, "hand") for name in TASKS),
-    *((spoken, "spring", "hand") for spoken in UNREAD),
-]
+NOTES = [(spoken, name, "perfect") for spoken in CATALOGS for name in TASKS]
+# What errors of the hand add is the same for every task.
+NOTES += [(spoken, name, "hand") for spoken in CATALOGS for name in ("spring", "arcs")]
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("spoken", "name", "hand"), NOTES)
+@over_all(("spoken", "name", "hand"), NOTES)
 def test_a_note_has_no_english_word_and_no_foreign_decimal_sign(spoken, name, hand):
     solution = in_language(spoken, name, hand)
     # A step's number has a point in every language.
@@ -188,38 +187,36 @@ class Looked(dict[tuple[str, str], tuple[str, ...]]):
         return super().get(text, default)
 
 
+SHOWN = {"ru": tuple(TASKS)} | dict.fromkeys(UNREAD, ("coursework", "spring", "arm", "flat", "arcs"))
+"""The tasks of which all is looked at, by language: all constructions, and every task in a language that is read."""
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("spoken", CATALOGS)
-def test_what_the_built_in_tasks_show_is_nearly_all_translated(spoken, monkeypatch):
-    looked, told = Looked(language(spoken).catalog.told), language(spoken).catalog
-    monkeypatch.setitem(vars(told), "told", looked)
-    for name in TASKS:
-        solution = in_language(spoken, name)
-        contents = contents_of(solution)
-        for made in (sheet_of(solution), note_of(solution), player_of(contents, drawing_of(contents))):
-            assert made
+@over_all("spoken", CATALOGS)
+def test_what_the_built_in_tasks_show_is_in_their_language_and_takes_no_more_paper(spoken):
+    """No English word, no foreign decimal sign; and of all that is looked up nearly all is translated."""
+    told = language(spoken).catalog
+    looked, pages = Looked(told.told), {}
+    foreign = r"\d,\d" if language(spoken).decimal == "." else r"\d\.\d"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(vars(told), "told", looked)
+        for name in SHOWN[spoken]:
+            solution = in_language(spoken, name)
+            contents = contents_of(solution)
+            drawing = drawing_of(contents)
+            assert note_of(solution)
+            assert player_of(contents, drawing)
+            pages[name], texts = len(drawing.pages), [text.text for text in drawing.texts]
+            # The name of a file.
+            found = {word for text in texts for word in english_words(text, SHARED, spoken)} - own_words(spoken)
+            assert found <= {"measured"}, name
+            assert [text for text in texts if re.search(foreign, text)] == [], name
     asked = {(context, text) for context, text in looked.asked if context or has_words(text)}
     missing = sorted(text for _, text in asked - looked.keys())
     assert len(asked) > 300
     assert len(missing) <= MOST_MISSING * len(asked), missing
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("spoken", CATALOGS)
-def test_no_language_takes_more_paper(spoken):
-    """Its words may be longer; what a spring adds to the coursework takes a second sheet, as in English."""
-    assert [len(sheet_of(in_language(spoken, name)).pages) for name in ("coursework", "spring")] == [1, 2]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", TASKS)
-@pytest.mark.parametrize("spoken", CATALOGS)
-def test_a_sheet_has_no_english_word_and_no_foreign_decimal_sign(spoken, name):
-    texts = letters_on(in_language(spoken, name))
-    # The name of a file.
-    assert {word for text in texts for word in english_words(text, SHARED, spoken)} - own_words(spoken) <= {"measured"}
-    foreign = r"\d,\d" if language(spoken).decimal == "." else r"\d\.\d"
-    assert [text for text in texts if re.search(foreign, text)] == []
+    # Words may be longer; what a spring adds to the coursework takes a second sheet, as in English.
+    assert (pages["coursework"], pages["spring"]) == (1, 2)
 
 
 @pytest.mark.parametrize("spoken", CATALOGS)

@@ -25,6 +25,15 @@ def test_every_case_that_fails_is_told_whatever_it_fails_of():
     assert fails(test) == ["where n = 3", "where n = 4"]
 
 
+def test_what_does_not_raise_is_told_and_the_others_are_tried():
+    @over_all("n", [0, 1, 2])
+    def test(n):
+        with pytest.raises(ZeroDivisionError):
+            assert 1 / n
+
+    assert fails(test) == ["where n = 1", "where n = 2"]
+
+
 def test_other_arguments_are_left_to_fixtures_and_several_are_taken_together():
     @over_all("n", [1, 2])
     @over_all(("a", "b"), [(1, 1), (2, 2)])

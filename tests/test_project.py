@@ -11,11 +11,23 @@ import sys
 import tomllib
 import zipfile
 from collections import Counter
+from dataclasses import fields
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
 import graphcam
+from graphcam.given.follower import FOLLOWER_CLASSES, FOLLOWERS_BY_KIND, Follower, Kind
+from graphcam.mechanism.followers import EXACT_FUNCTIONS
+from graphcam.solving.task_board import drawn_follower
+from graphcam.studio.form_fields import NUMBER_FIELDS
+from graphcam.studio.predictions import BASE_TASKS, SIZE_RANGES
+from graphcam.studio.sizes_form import KINDS as KIND_NAMES_IN_FORM
+from graphcam.sweeps.design_space import SpaceCamTable
+from graphcam.sweeps.designs import Designs
+from graphcam.tasks.task import FOLLOWER_TABLES
+from graphcam.tasks.task_file import BUILTIN_TASK_NAMES, builtin_task
 
 ROOT = Path(__file__).parents[1]
 HEAVY = {"matplotlib", "ezdxf", "nbconvert", "typer", "rich", "babel"}
@@ -124,10 +136,11 @@ def test_the_top_level_holds_what_it_should():
     assert found - made == allowed
 
 
-FOLLOWER_CLASS = re.compile(r"(Drawn)?(Translating|Oscillating|FlatFaced)(Table|Kinematics)?$")
-KINDS = {follower.kind for follower in (graphcam.Translating, graphcam.Oscillating, graphcam.FlatFaced)}
+FOLLOWER_CLASS = re.compile(r"(Drawn)?(Translating|Oscillating|FlatFaced|OscillatingFlat)(Table|Kinematics)?$")
+KINDS = set(FOLLOWERS_BY_KIND)
 MAY_ASK = {
     *("mechanism/translating.py", "mechanism/oscillating.py", "mechanism/flat_faced.py"),
+    *("mechanism/oscillating_flat.py", "constructions/drawn_swinging_face.py"),
     *("constructions/drawn_translating.py", "constructions/drawn_arm.py", "constructions/drawn_flat_face.py"),
 }
 """The followers' own files."""
@@ -159,6 +172,41 @@ def test_nobody_but_the_followers_own_files_asks_which_follower_it_is():
     asking = {name: asked_followers(path.read_text(encoding="utf-8")) for name, path in modules.items()}
     assert set(modules) >= MAY_ASK
     assert {name: asked for name, asked in asking.items() if asked and name not in MAY_ASK} == {}
+
+
+def test_every_list_of_followers_has_every_follower():
+    for listed in (FOLLOWER_TABLES, KIND_NAMES_IN_FORM, BASE_TASKS, SIZE_RANGES):
+        assert listed.keys() == FOLLOWERS_BY_KIND.keys()
+    assert set(get_args(Kind)) == FOLLOWERS_BY_KIND.keys()
+    assert EXACT_FUNCTIONS.keys() == set(FOLLOWER_CLASSES) == set(get_args(Follower))
+    assert {builtin_task(name).follower.kind for name in BUILTIN_TASK_NAMES} == FOLLOWERS_BY_KIND.keys()
+    for kind, follower in FOLLOWERS_BY_KIND.items():
+        names = {field.name for field in fields(follower)}
+        assert names <= {field.name for field in fields(Designs)} & {field.name for field in fields(SpaceCamTable)}
+        table = FOLLOWER_TABLES[kind]
+        assert table in drawn_follower.registry
+        numbers = {field.name for field in fields(table) if field.type in ("float", "float | None", float)}
+        assert {f"follower.{name}" for name in numbers & names} <= NUMBER_FIELDS.keys()
+
+
+HOMES = {"given/follower.py", "tasks/task.py", "tasks/arcs_task.py"}
+"""Where the kinds are declared: the followers, and the tables that a file has for them."""
+DEFAULTS = {"sweeps/designs.py", "sweeps/design_space.py"}
+"""Where one is what is meant if nothing is said."""
+TEXTS = {"studio/sizes_form.py"}
+"""Where a name that users see is the same word."""
+
+
+def test_the_kinds_of_followers_are_named_at_home_alone():
+    """The bench chooses its cases by name."""
+    package, naming = Path(graphcam.__file__).parent, set[str]()
+    for path in package.rglob("*.py"):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        docs = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+        named = {node.value for node in ast.walk(tree) if isinstance(node, ast.Constant) and id(node) not in docs}
+        if {word for word in named if isinstance(word, str)} & KINDS:
+            naming.add(path.relative_to(package).as_posix())
+    assert {name for name in naming if not name.startswith("bench/")} == HOMES | DEFAULTS | TEXTS
 
 
 @pytest.mark.parametrize(

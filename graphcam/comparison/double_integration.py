@@ -79,12 +79,23 @@ def has_known_derivatives(law: Law) -> bool:
     return _fifth_derivatives(law) is not None
 
 
-def _fifth_derivatives(law: Law) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
-    """What the declaration of a law says of its fifth derivative; None of a law of one's own, whatever its name."""
+def _fifth_derivatives(law: Law) -> tuple[Floats, Floats] | None:
+    """The greatest fifth derivative of each piece of a law, and the jumps of the fourth between them, as declared.
+
+    None of a law of one's own, whatever its name.
+    """
     declared = DECLARED_LAWS.get(law.name)
-    if declared is None or law not in ((named := law_of(law.name, law.ratio)), named.reversed):
+    if declared is None or declared.fifth_derivatives is None:
         return None
-    return declared.fifth_derivatives
+    if law not in ((named := law_of(law.name, law.ratio)), named.reversed):
+        return None
+    greatest, bends = declared.fifth_derivatives
+    # The halves of a law are stretched to its parts; at their end, where f'''' is odd about it, it does not jump.
+    first, second = 2 * law.middle, 2 * (1 - law.middle)
+    return (
+        np.array([*(x / first**4 for x in greatest), *(x / second**4 for x in greatest[::-1])]),
+        np.array([*(x / first**3 for x in bends), 0.0, *(x / second**3 for x in bends[::-1])]),
+    )
 
 
 def chord_errors(law: Law, u: Floats) -> ChordErrors:
@@ -92,9 +103,7 @@ def chord_errors(law: Law, u: Floats) -> ChordErrors:
     known = _fifth_derivatives(law)
     assert known is not None
     w, after, before = np.diff(u), law(u[:-1]), law(u[1:], side="left")
-    greatest, inner = (np.array([*half, *half[::-1]]) for half in known)
-    # At the middle f'''' of a mirrored law, which is odd about it, does not jump; that of the rectangular law is zero.
-    bends = np.insert(inner, inner.size // 2, 0.0)
+    greatest, bends = known
     first, last = np.searchsorted(law.edges, u[:-1], "right"), np.searchsorted(law.edges, u[1:], "left")
     fifth = np.array([greatest[a : b + 1].max() for a, b in zip(first, last, strict=True)])
     steep = w**2 / 24 * (before[3] - after[3])

@@ -18,12 +18,14 @@ from graphcam.drafting.meaning import ComparedReading
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam, CamPoints
-from graphcam.mechanism.flat_faced import face_width
 from graphcam.mechanism.followers import LeastRadius
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.turn_extremes import max_acceleration, max_jerk, max_velocity
 from graphcam.showing import parts_text
 from graphcam.words import Caption, say, sequence
+
+PRINTED_ERROR = 5e-4
+"""mm of paper: errors and bounds that differ by less are one in print."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +62,12 @@ class Quantity:
     def error_paper(self) -> float:
         """The error on the paper [mm]."""
         return self.error / self.per_mm
+
+    @property
+    def is_beyond_bound(self) -> bool:
+        """Whether drawn and exact differ by more than is estimated, or than is proved, so that it shows in print."""
+        off = abs(self.error_paper) - PRINTED_ERROR
+        return off > self.tolerance_paper or off > self.proved_paper
 
 
 def exact_minimum(board: Board) -> LeastRadius:
@@ -112,7 +120,6 @@ class Comparison:
         """The exact counterparts by name, in the order in which they are told."""
         board, extremes = self.drawn.board, self.cam.extremes()
         least, place = self.least
-        face = face_width(board.motion, board.rotation)
         rho = extremes.min_convex_radius[0]
         by_rule = min(term(rho=rho, r0=self.cam.prime_radius) for term in board.roller_rule)
         return {
@@ -126,8 +133,7 @@ class Comparison:
             "max_pressure_angle_return_deg": math.degrees(extremes.pressure_angle_return[0]),
             "min_pitch_curvature_radius": rho,
             "roller_radius": by_rule if board.roller_radius is None else board.roller_radius,
-            "face_left": face.left,
-            "face_right": face.right,
+            **self.cam.kinematics.face_ends(board.motion),
             # Of these the errors are followed over the number of parts; they are not told.
             "max_pressure_angle_rise": extremes.pressure_angle_rise[0],
             "min_moving_curvature_radius": extremes.min_convex_radius_moving[0],

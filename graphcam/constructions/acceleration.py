@@ -180,7 +180,7 @@ def moving_phases(motion: Motion, stations: Stations) -> list[MovingPhase]:
 
 def equal_parts(stations: Stations) -> Caption:
     """A sentence on which parts are equal to one another."""
-    if stations.stretches == stations.pieces:
+    if stations.stretches == stations.pieces and not stations.finer:
         return say("equal between jumps of the acceleration")
     return say("equal between jumps and corners of the acceleration")
 
@@ -348,6 +348,12 @@ def _middle_ordinates(diagram: AccelerationDiagram) -> Step:
         "Divide the moving phases into parts, {equal}, and number the cuts; each part has the number of the cut at its "
         "end."
     ).with_values(equal=equal_parts(stations))
+    if finer := [phase_title(diagram.givens.motion, k) for k in stations.finer]:
+        said = say(
+            "Over {phases} the acceleration lasts less than a usual part, and would be missed between two middle "
+            "ordinates or counted whole: there its corners are cuts, and the parts are shorter where it acts."
+        )
+        divided = sequence([divided, said.with_values(phases=and_list(finer))], " ")
     parts = introduced_parts(
         divided, [part for k in range(len(stations.phases)) for part in _divided_phase(diagram, k)]
     )

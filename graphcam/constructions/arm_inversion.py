@@ -108,7 +108,7 @@ ARC_OVERHANG = 0.012
 def _draw(inverted: ArmInverted) -> list[Step]:
     return [
         _circles(inverted),
-        _pivots(inverted),
+        pivots_step(inverted),
         _starts(inverted),
         *profile_view.pitch_steps(inverted, _turned_arms_step(inverted)),
     ]
@@ -123,7 +123,8 @@ def _circles(inverted: ArmInverted) -> Step:
     return profile_view.prime_step(inverted, title, start, circles, why=why, parts=(Part(pivots, (circle,)),))
 
 
-def _pivots(inverted: ArmInverted) -> Step:
+def pivots_step(inverted: profile_view.Inverted) -> Step:
+    """The step that steps the pivot off on its circle."""
     pivots, positions = (inverted.acts[name] for name in ("pivots", "inverted positions"))
     stations = inverted.givens.integrated.givens.stations
     said = say(

@@ -1,8 +1,8 @@
 """What lies on the drawing board before the first line: the task, and what differs between followers."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Self
 
@@ -125,6 +125,10 @@ class DrawnFollower(ABC):
         """The kinematic diagram: the follower low on a plain cam, with the sizes that the task gives."""
 
     @abstractmethod
+    def assignment(self, roller: bool) -> Caption:
+        """The sentence that asks for a cam for this follower, with a roller or without one."""
+
+    @abstractmethod
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """Sentences on what the cam moves, and on the sizes that the task gives."""
 
@@ -159,6 +163,7 @@ class Board:
     station : whose velocity plan is asked for, None for the one that shows most
     refine : divides every part again, to see what finer parts would change
     jerk_pole : of the diagram of the jerk [mm of paper], None where none is asked for
+    finer : the cuts of phases by their index that need more parts than ``divisions``, as :func:`divide` takes them
     """
 
     motion: Motion
@@ -178,10 +183,15 @@ class Board:
     refine: int = 1
     station: int | None = None
     jerk_pole: float | None = None
+    finer: Mapping[int, Sequence[float]] = field(default_factory=dict[int, Sequence[float]])
 
     @cached_property
     def stations(self) -> Stations:
         """The ends of the parts into which the phases are divided."""
+        return self.divided(self.divisions, self.finer)
+
+    def divided(self, divisions: int, finer: Mapping[int, Sequence[float]]) -> Stations:
+        """The stations with another number of divisions."""
         # No chord of the acceleration may run across a corner, where the jerk jumps.
         at_corners = self.follower.divides_at_corners or self.jerk_pole is not None
-        return divide(self.motion, self.divisions, self.refine, at_corners=at_corners)
+        return divide(self.motion, divisions, self.refine, at_corners=at_corners, finer=finer)

@@ -363,6 +363,8 @@ class Chain(Drawings):
                 raise DesignError(LIMIT_NAMES[way], found, limit, remedy)
             limit = say("a place within all limits, where lines cross at a degree or more")
             remedy = say("give {names}, or permit larger pressure angles", names=and_chain(missing))
+            if "curvature" in follower.conditions:
+                remedy = say("give {names}, or permit a smaller radius of curvature", names=and_chain(missing))
             raise DesignError(say("minimum prime radius"), say("unreadable"), limit, remedy)
         if name == "prime_radius" and not value > 0:
             remedy = say("any radius keeps the limits: give cam.prime_radius, or stricter limits")

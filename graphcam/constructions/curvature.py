@@ -5,7 +5,7 @@ dwell the pitch curve is an arc about the cam centre; its ends and its middle ar
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
 
@@ -41,10 +41,14 @@ from graphcam.words import Words, sequence
 
 @dataclass(frozen=True, eq=False)
 class CurvatureGivens:
-    """The pitch curve, and the samples ([samples]) in which it turns a corner."""
+    """The pitch curve, and the samples ([samples]) in which it turns a corner.
+
+    profile : whether this curve is the profile itself, because a flat face runs on it
+    """
 
     inverted: Inverted
     corner: NDArray[np.bool_]
+    profile: bool = False
 
 
 Curved = Construction[CurvatureGivens]
@@ -103,7 +107,16 @@ MEANING = Meaning(
 )
 
 
-def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
+PROFILE_MEANING = replace(
+    MEANING,
+    why=say(
+        "Three close points of a curve determine the circle that fits it best. The minimum radius of curvature tells "
+        "how sharp the profile is."
+    ),
+)
+
+
+def curvature(inverted: Inverted, pencil: Pencil, *, profile: bool = False) -> Curved:
     """Find the sharpest convex place among three neighbouring points of a smooth piece, and the arcs of the dwells.
 
     Readings: besides ``rho`` and ``phi`` the ``rho_candidates`` (..., 2), of moving phases and of rests, infinite
@@ -111,7 +124,8 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     corner that three points cannot tell.
     Points: the ``triple`` (..., 3) at the sharpest place and its ``centre``.
     """
-    hand, integrated, mu_l = Hand(pencil, MEANING), inverted.givens.integrated, inverted.givens.mu_l.per_mm
+    hand, integrated = Hand(pencil, PROFILE_MEANING if profile else MEANING), inverted.givens.integrated
+    mu_l = inverted.givens.mu_l.per_mm
     pitch, centre, nowhere = (
         hand.earlier_places(inverted, "pitch"),
         hand.given("cam centre"),
@@ -149,7 +163,7 @@ def curvature(inverted: Inverted, pencil: Pencil) -> Curved:
     hand.read("rho_candidates", distance_between(b, centres), mu_l, "mm")
     in_radians = partial(np.multiply, integrated.givens.mu_phi.per_mm)
     hand.read("phi", calculated_setting(in_radians, phi), 1.0, rounded=False)
-    return hand.finished(CurvatureGivens(inverted, corner), _draw, {"triple": triple, "centre": o})
+    return hand.finished(CurvatureGivens(inverted, corner, profile), _draw, {"triple": triple, "centre": o})
 
 
 def _dwell_arcs(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> tuple[Drawn, Drawn]:
@@ -226,7 +240,15 @@ def _chords(curved: Curved, detail: Detail) -> Step:
     said = say(
         "Find the sharpest outward bend of the pitch curve and call this point B: here {place}, at φ = "
         "{phi:.1f}°. Copy {points} with dividers to a free part of the sheet, {copied}."
-    ).with_values(place=_place(curved), phi=np.degrees(phi[1] % FULL_TURN), points=points, copied=_copied(detail))
+    )
+    if curved.givens.profile:
+        said = say(
+            "Find the sharpest outward bend of the profile and call this point B: here {place}, at φ = {phi:.1f}°. "
+            "Copy {points} with dividers to a free part of the sheet, {copied}."
+        )
+    said = said.with_values(
+        place=_place(curved), phi=np.degrees(phi[1] % FULL_TURN), points=points, copied=_copied(detail)
+    )
     joined = say(
         "Join them with a ruler: the chords measure {first:.2f} mm and {second:.2f} mm. They span {step:.3g}° of the "
         "cam angle."
@@ -321,7 +343,13 @@ def _measured(curved: Curved, detail: Detail) -> Step:
     said = say(
         "Join O to B with a ruler: OB measures {paper:.2f} mm, at {ratio}, so the minimum radius of curvature of "
         "the pitch curve is ρ = {rho:.3f} mm."
-    ).with_values(paper=abs(detail.hub.place), ratio=ratio_text(detail.per_mm), rho=curved.value("rho"))
+    )
+    if curved.givens.profile:
+        said = say(
+            "Join O to B with a ruler: OB measures {paper:.2f} mm, at {ratio}, so the minimum radius of curvature of "
+            "the profile is ρ = {rho:.3f} mm."
+        )
+    said = said.with_values(paper=abs(detail.hub.place), ratio=ratio_text(detail.per_mm), rho=curved.value("rho"))
     check = say(
         "Check with the compass: the arc about O through B passes through the neighbouring points and follows the "
         "curve closely."
@@ -338,8 +366,12 @@ def _on_profile(curved: Curved) -> Step:
     said = say(
         "On the profile mark O too, {paper:.1f} mm from B, square to the pitch curve on its inner side: the roller's "
         "centre turns about it while the roller passes B."
-    ).with_values(paper=abs(b.place - o.place))
+    )
     why = say("The place of O shows how much of the cam is left between the roller and O.")
+    if curved.givens.profile:
+        said = say("On the profile mark O too, {paper:.1f} mm from B, square to the profile on its inner side.")
+        why = say("While the face passes B the profile is nearly an arc about O.")
+    said = said.with_values(paper=abs(b.place - o.place))
     marks = (
         Line(np.array([o.place, b.place]), Role.LIMIT).left_by(ob),
         *(o.dots(Role.LIMIT), o.label("O", o.place - b.place), b.label("B", b.place - o.place)),

@@ -11,7 +11,7 @@ from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import Caption, Part, Row, say
 from graphcam.drafting.marks import Line, Points, Role
 from graphcam.drafting.telling import FRENCH_CURVE, RULER, stretch_caption
-from graphcam.given.motion import FULL_TURN
+from graphcam.given.motion import FULL_TURN, MovingPhase
 from graphcam.plane_vectors import dot
 from graphcam.words import sequence
 
@@ -29,6 +29,11 @@ _CURVE_WITH_JUMPS = say(
     "Draw the curve through the points from jump to jump of the acceleration: with the ruler where they lie on one "
     "line, elsewhere with the French curve."
 )
+_CURVE_WITH_CORNERS = say(
+    "Draw the curve through the points from jump to jump and from corner to corner of the acceleration: with the ruler "
+    "where they lie on one line, elsewhere with the French curve."
+)
+CONTINUOUS_TANGENT = say("at {first} the tangent is continuous")
 _DWELL_CAPTION = say("In the dwells draw it horizontally with the T-square.")
 
 
@@ -45,12 +50,17 @@ def curve_over_phi(
     either = any(straight) and not all(straight)
     for piece, by_ruler in zip(stations.pieces, straight, strict=True):
         tool = [RULER if by_ruler else FRENCH_CURVE] if either else []
-        corner = [] if piece.start in begins else [met.with_values(first=names[piece.start])]
+        # A phase with stations moves.
+        phase = givens.motion.phases[int(stations.phase[piece.start])]
+        jumps = isinstance(phase, MovingPhase) and float(stations.u[piece.start]) in phase.normalised.jumps
+        meeting = met if jumps else CONTINUOUS_TANGENT
+        corner = [] if piece.start in begins else [meeting.with_values(first=names[piece.start])]
         faired = hand.fair(name, curve.first, [piece])
         ends = stretch_caption(names[piece.start], names[piece.stop - 1])
         rows.append(Row(ends, sequence([*tool, *corner], "; ") if tool or corner else "", (faired,)))
         lines.append(faired.line(Role.RESULT))
     told = _ALL_STRAIGHT if all(straight) else _CURVE_WITH_JUMPS if either else _ALL_BENT
+    told = _CURVE_WITH_CORNERS if stations.finer else told
     level, resting = _dwell_levels(givens, hand, curve)
     rests = (Part(_DWELL_CAPTION, (level,)),) if resting else ()
     return (*lines, *resting), (Part(told, rows=tuple(rows)), *rests)

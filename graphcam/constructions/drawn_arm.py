@@ -118,6 +118,12 @@ class DrawnOscillating(DrawnFollower):
             Label(0.7 * SKETCH_PIVOT, size("c", self.place), -1j),
         )
 
+    def assignment(self, roller: bool) -> Caption:
+        """The sentence that asks for a cam for an arm."""
+        if roller:
+            return say("A disk cam is to move an oscillating follower with a roller by the following motion.")
+        return say("A disk cam is to move an oscillating follower with a knife edge by the following motion.")
+
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """Sentences on the arm, the pivot and the roller."""
         return [

@@ -94,6 +94,10 @@ class DrawnFlatFaced(DrawnFollower):
         face = Line(b + np.array([-FACE_HALF_LENGTH, FACE_HALF_LENGTH]), Role.CURVE)
         return *plain_cam(b, sense(rotation)), face, Label(b, "B"), *guided_stem(b, STEM_LENGTH, GUIDE_HEIGHT)
 
+    def assignment(self, roller: bool) -> Caption:
+        """The sentence that asks for a cam for a flat face."""
+        return say("A disk cam is to move a flat-faced follower by the following motion.")
+
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """A sentence on the face."""
         return [FLAT_FACE_CAPTION.with_values(rotation=sense_caption(rotation))]

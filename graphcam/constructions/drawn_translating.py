@@ -120,6 +120,12 @@ class DrawnTranslating(DrawnFollower):
             *offset_marks(SKETCH_OFFSET * side, self.place),
         )
 
+    def assignment(self, roller: bool) -> Caption:
+        """The sentence that asks for a cam for a stem."""
+        if roller:
+            return say("A disk cam is to move a translating follower with a roller by the following motion.")
+        return say("A disk cam is to move a translating follower with a knife edge by the following motion.")
+
     def described(self, rotation: Rotation, roller_radius: float | None) -> list[Caption]:
         """Sentences on the line of motion and the roller."""
         moved = (KNIFE_EDGE_CAPTION if roller_radius == 0 else ROLLER_CAPTION).with_values(

@@ -123,15 +123,16 @@ def flat_inversion(
 
 # --- the steps -------------------------------------------------------------------------------------------------------
 
+ENVELOPE_SAID = say(
+    "Join the contact points by the smooth curve that touches every face at its contact point: it is the envelope."
+)
+ENVELOPE_WHY = say("The cam touches the face in every position and crosses it in none.")
+
 
 def _draw(inverted: profile_view.Inverted) -> list[Step]:
     decided, mu_l = inverted.givens.adopted(), inverted.givens.mu_l.per_mm
     adoption = [adoption_step(decided, "e", mu_l, PROFILE)] if decided else []
-    said = say(
-        "Join the contact points by the smooth curve that touches every face at its contact point: it is the envelope."
-    )
-    why = say("The cam touches the face in every position and crosses it in none.")
-    profile = profile_view.pitch_steps(inverted, _contacts(inverted), say("Profile"), said, why)
+    profile = profile_view.pitch_steps(inverted, _contacts(inverted), say("Profile"), ENVELOPE_SAID, ENVELOPE_WHY)
     return [*adoption, _circle(inverted), _rays(inverted), _faces(inverted), *profile]
 
 

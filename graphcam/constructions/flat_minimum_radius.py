@@ -138,23 +138,20 @@ def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pe
 
     least_curvature : the least permitted radius of curvature of the profile [mm]
     """
-    hand, stations = Hand(pencil, LEAST_RADIUS_MEANING), integrated.givens.stations
+    hand = Hand(pencil, LEAST_RADIUS_MEANING)
     s, a, before = (integrated.readings[name] for name in ("s", "a", "a_before"))
-    origin, axis, count = hand.given("origin"), hand.given("axis of s", along=UP), stations.u.size
+    origin, axis = hand.given("origin"), hand.given("axis of s", along=UP)
     heights = hand.project("displacements", hand.carry(s), axis)
     # Equal scales: the accelerations are laid off in the scale of s.  At a jump the curve has two ends.
     equal = np.asarray(a.scale) / np.asarray(s.scale)
     after = hand.lay_off("accelerations", heights, RIGHT, hand.carry(a, equal))
-    jumps = _jumps(integrated)
+    jumps = jump_stations(integrated)
     nearer = calculated_setting(itemgetter((..., jumps)), hand.carry(before, equal))
     near = hand.lay_off("before the jumps", heights[jumps], RIGHT, nearer)
-    ends = np.arange(count)
-    ends[jumps] = count + np.arange(jumps.size)
-    order = [np.append(np.arange(p.start, p.stop - 1), ends[p.stop - 1]) for p in stations.stretches]
-    curve = hand.take("curve", after, near, which=np.concatenate(order))
+    curve = hand.take("curve", after, near, which=order_with_jumps(integrated))
     # Where the follower rests there is no acceleration: a point of the axis of s.
-    rests = hand.take("rests", heights, which=_dwell_stations(integrated))
-    tangent = hand.tangent("touch", hand.take("curve and rests", curve, rests), _smooth(integrated), DOWN_LEFT)
+    rests = hand.take("rests", heights, which=dwell_stations(integrated))
+    tangent = hand.tangent("touch", hand.take("curve and rests", curve, rests), smooth_pieces(integrated), DOWN_LEFT)
     zero = hand.cross("zero", tangent, axis)
     need = distance_between(zero, origin, UP)
     radius = calculated_setting(_sufficient_radius, hand.at_scale(least_curvature, s), need)
@@ -164,7 +161,16 @@ def flat_least_radius(integrated: Integrated, least_curvature: float, pencil: Pe
     return hand.finished(givens, _draw, {"curve": curve, "rests": rests, "touch": tangent, "zero": zero})
 
 
-def _jumps(integrated: Integrated) -> NDArray[np.intp]:
+def order_with_jumps(integrated: Integrated) -> NDArray[np.intp]:
+    """The places of a curve that has two at every jump, those before the jumps standing after all others."""
+    stations, jumps = integrated.givens.stations, jump_stations(integrated)
+    ends = np.arange(stations.u.size)
+    ends[jumps] = stations.u.size + np.arange(jumps.size)
+    return np.concatenate([np.append(np.arange(p.start, p.stop - 1), ends[p.stop - 1]) for p in stations.stretches])
+
+
+def jump_stations(integrated: Integrated) -> NDArray[np.intp]:
+    """The stations at which the acceleration jumps."""
     a, before = (integrated.readings[name].paper for name in ("a", "a_before"))
     return np.flatnonzero((a != before).reshape(-1, a.shape[-1]).any(axis=0))
 
@@ -174,14 +180,14 @@ def _sufficient_radius(least: Floats, need: Floats) -> Floats:
     return np.maximum(least + need, 0.0)
 
 
-def _smooth(integrated: Integrated) -> list[slice]:
+def smooth_pieces(integrated: Integrated) -> list[slice]:
     """The pieces of the curve that are faired, and then the dwells, each by itself."""
     ends = np.cumsum([stretch.stop - stretch.start for stretch in integrated.givens.stations.stretches]).tolist()
-    ends += [ends[-1] + k + 1 for k in range(_dwell_stations(integrated).size)]
+    ends += [ends[-1] + k + 1 for k in range(dwell_stations(integrated).size)]
     return [slice(start, end) for start, end in pairwise([0, *ends])]
 
 
-def _dwell_stations(integrated: Integrated) -> NDArray[np.intp]:
+def dwell_stations(integrated: Integrated) -> NDArray[np.intp]:
     """The last stations of the moving phases that a dwell follows."""
     motion, last = integrated.givens.motion, integrated.givens.stations.last
     following = (integrated.givens.stations.phase[last] + 1) % len(motion.phases)
@@ -212,7 +218,7 @@ def _draw(region: FlatRegion) -> list[Step]:
 def _displacement_step(region: FlatRegion) -> Step:
     integrated, names = region.givens.integrated, ("displacements", "accelerations", "before the jumps")
     heights, after, near = (region.acts[name].first for name in names)
-    stations, jumps = integrated.givens.stations, _jumps(integrated).tolist()
+    stations, jumps = integrated.givens.stations, jump_stations(integrated).tolist()
     named, lowest = station_names(stations), [region.acts[name].place.imag for name in ("A", "zero")]
     if adopted := region.givens.adopted():
         lowest.append(-adopted.prime_radius / region.readings["prime_radius"].per_mm)
@@ -250,7 +256,7 @@ def _station(region: FlatRegion, k: int) -> Caption:
     """A caption of what is marked and laid off at a station: where the acceleration jumps, on both sides."""
     s, a, before = (float(region.givens.integrated.first(name)[k]) for name in ("s", "a", "a_before"))
     said = say("{height}, from there {after}")
-    if k in _jumps(region.givens.integrated):
+    if k in jump_stations(region.givens.integrated):
         said = say("{height}, from there before the jump {near}, after it {after}")
     elif abs(a) < NEGLIGIBLE_SIZE:
         said = say("{height}; the acceleration is zero")
@@ -280,12 +286,12 @@ def _curve_step(region: FlatRegion) -> Step:
     integrated, smooth, curve = region.givens.integrated, errorless_hand(region), region.acts["curve"].first
     stations, rests, marks, rows = integrated.givens.stations, region.acts["rests"].first, list[Mark](), list[Row]()
     names = station_names(stations)
-    for piece, stretch in zip(_smooth(integrated), stations.stretches, strict=False):
+    for piece, stretch in zip(smooth_pieces(integrated), stations.stretches, strict=False):
         start, end = names[stretch.start], names[stretch.stop - 1]
         line = smooth.fair(f"from {start}", curve[piece], [slice(None)])
         marks.append(line.line(Role.RESULT))
         rows.append(Row(stretch_caption(start, end), "", (line,)))
-    for k, last in enumerate(_dwell_stations(integrated)):
+    for k, last in enumerate(dwell_stations(integrated)):
         called = say("In the dwell after {name}", name=names[last])
         rows.append(Row(called, _height_caption(rests.shown[k].imag), (rests[k],)))
     said = say(
@@ -334,7 +340,7 @@ def nearest_station(region: FlatRegion) -> str:
     stretches = [np.arange(each.start, each.stop) for each in integrated.givens.stations.stretches]
     places, of = (
         np.append(acts["curve"].shown, acts["rests"].shown),
-        np.concatenate([*stretches, _dwell_stations(integrated)]),
+        np.concatenate([*stretches, dwell_stations(integrated)]),
     )
     return station_names(integrated.givens.stations)[of[np.argmin(np.round(np.abs(places - place), 3))]]
 

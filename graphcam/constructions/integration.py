@@ -23,7 +23,7 @@ from graphcam.constructions.axes import (
     pole_marks,
     station_names,
 )
-from graphcam.constructions.curve_over_phi import curve_over_phi
+from graphcam.constructions.curve_over_phi import CONTINUOUS_TANGENT, curve_over_phi
 from graphcam.constructions.graduation import graduated_at_speed, graduation_marks, time_scale_caption
 from graphcam.constructions.pole_scales import PoleTerms, pole_formula
 from graphcam.constructions.turn_board import TurnGivens
@@ -253,7 +253,7 @@ def _measurable(top: Floats, full: Floats, pencil: Pencil) -> Floats:
     """
     risen = top > NEGLIGIBLE_DISPLACEMENT * full
     if pencil.samples is None and not risen:
-        remedy = say("divide into more parts, or draw longer ordinates")
+        remedy = say("leave drawing.divisions out, or divide into more parts")
         quantity = say("maximum displacement on paper")
         raise DesignError(quantity, say("{length:.3g} mm", length=float(top)), say("above the axis"), remedy)
     return np.where(risen, top, np.nan)
@@ -306,10 +306,10 @@ _OF_CHORDS = say(
 )
 _CORNERS_REASON = say("The slope of v is the acceleration: v has a corner where it jumps, and is smooth elsewhere.")
 _SMOOTH_REASON = say("The slope of s is the velocity, which never jumps, so adjoining pieces of s share a tangent.")
-_CORNER, _TANGENT = say("at {first} it has a corner"), say("at {first} the tangent is continuous")
+_CORNER = say("at {first} it has a corner")
 _INTEGRATIONS = (
     _Integrating(1, ACCELERATION, VELOCITY, ("a", "v"), _ORDINATES_CAPTION, _AT_REST, _CORNERS_REASON, _CORNER),
-    _Integrating(2, VELOCITY, DISPLACEMENT, ("v", "s"), _OF_CHORDS, _SHARED_OUT, _SMOOTH_REASON, _TANGENT),
+    _Integrating(2, VELOCITY, DISPLACEMENT, ("v", "s"), _OF_CHORDS, _SHARED_OUT, _SMOOTH_REASON, CONTINUOUS_TANGENT),
 )
 
 

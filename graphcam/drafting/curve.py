@@ -36,6 +36,8 @@ def farthest_on_pieces(points: Points, pieces: Sequence[slice], direction: Point
     >>> corner = x + 1j * np.minimum(x, 4 - x)
     >>> complex(farthest_on_pieces(corner, [slice(0, 3), slice(2, 5)], 1j))
     (2+2j)
+    >>> complex(farthest_on_pieces(x + 1j * np.minimum(x, 1), [slice(0, 5)], 1j))
+    (2+1j)
     """
     direction = np.asarray(direction / np.abs(direction))[..., None]
     first, last = _ends(pieces, points.shape[-1])
@@ -64,14 +66,20 @@ def _ends(pieces: Sequence[slice], count: int) -> NDArray[np.intp]:
 def _highest(heights: NDArray[np.float64], first: NDArray[np.intp], last: NDArray[np.intp]) -> NDArray[np.intp]:
     """(..., k) the place of the greatest of heights (..., n) in each of k runs, from the first place to the last.
 
-    All runs are gone through in one pass; they may share places.
+    Of several that are equal it is the middle one, so that a level stretch is touched within, and not where rounding or
+    a corner has it.  All runs are gone through in one pass; they may share places.
     """
     counts = last - first + 1
     begins = np.cumsum(counts) - counts
     places = np.arange(counts.sum()) + np.repeat(first - begins, counts)
     in_order = np.where(np.isnan(heights), -np.inf, heights)[..., places]
     greatest = np.repeat(np.maximum.reduceat(in_order, begins, axis=-1), counts, axis=-1)
-    return np.minimum.reduceat(np.where(in_order == greatest, places, heights.shape[-1]), begins, axis=-1)
+    highest = in_order >= greatest - 10.0**-PLACE_DECIMALS
+    passed = np.cumsum(highest, axis=-1)
+    among = np.add.reduceat(highest, begins, axis=-1, dtype=np.intp)
+    middle = passed[..., begins] - highest[..., begins] + (among + 1) // 2
+    found = highest & (passed == np.repeat(middle, counts, axis=-1))
+    return np.minimum.reduceat(np.where(found, places, heights.shape[-1]), begins, axis=-1)
 
 
 def faired_pieces(points: Points, pieces: Sequence[slice], between: int = 8) -> Points:

@@ -1,4 +1,4 @@
-"""B-splines of one variable and polynomials piece by piece, as far as measured motions need them.
+"""B-splines of one variable, as far as measured motions need them.
 
 Written for itself because they must run where there is NumPy alone.  Source: C. de Boor, *A Practical Guide to Splines*
 (rev. ed., 2001), chapters X and XIV.
@@ -6,17 +6,11 @@ Written for itself because they must run where there is NumPy alone.  Source: C.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from functools import cached_property, partial
-from math import perm
-
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from graphcam.given.piecewise import Floats
-from graphcam.given.reproducible_sums import ordered_sum
-from graphcam.given.root_finding import roots
 
 
 def basis_functions(knots: Floats, degree: int, at: Floats) -> tuple[NDArray[np.intp], Floats]:
@@ -39,79 +33,6 @@ def basis_functions(knots: Floats, degree: int, at: Floats) -> tuple[NDArray[np.
         raised[:, 1:] += share * values
         values = raised
     return part[:, None] + np.arange(-degree, 1), values
-
-
-@dataclass(frozen=True, eq=False)
-class KnottedSpline:
-    """A spline by its knots (m + p + 1,), its coefficients (m,) and its degree p.
-
-    >>> line = KnottedSpline(np.arange(5.0), np.array([0.0, 2.0, 4.0]), 1)
-    >>> float(line(1.5)), line([1.5, 2.5], nu=1).tolist()
-    (1.0, [2.0, 2.0])
-    """
-
-    knots: Floats
-    coefficients: Floats
-    degree: int
-
-    def __call__(self, at: ArrayLike, nu: int = 0) -> Floats:
-        """The values, or those of a derivative, at places of any shape."""
-        if nu:
-            return self.derivative(at, nu - 1)
-        places = np.asarray(at, dtype=np.float64)
-        numbers, values = basis_functions(self.knots, self.degree, places.ravel())
-        return ordered_sum(values * self.coefficients[numbers]).reshape(places.shape)
-
-    @cached_property
-    def derivative(self) -> KnottedSpline:
-        """The spline of the first derivative; where knots coincide it has a coefficient that no interval sees."""
-        p, knots = self.degree, self.knots
-        widths = knots[p + 1 : -1] - knots[1 : -p - 1]
-        rises = p * np.diff(self.coefficients)
-        return KnottedSpline(knots[1:-1], np.divide(rises, widths, out=np.zeros_like(rises), where=widths > 0), p - 1)
-
-
-@dataclass(frozen=True, eq=False)
-class PiecewisePolynomial:
-    """Polynomials about the left ends of their intervals; the first and the last go on beyond.
-
-    coefficients : (d + 1, n), the lowest first;  ends : (n + 1,) of the intervals
-
-    >>> square = PiecewisePolynomial(np.array([[0.0], [0.0], [1.0]]), np.array([0.0, 1.0]))
-    >>> square([0.5, 2.0]).tolist(), square([0.5], nu=1).tolist()
-    ([0.25, 4.0], [1.0])
-    """
-
-    coefficients: Floats
-    ends: Floats
-
-    def __call__(self, at: ArrayLike, nu: int = 0) -> Floats:
-        """The values, or those of a derivative, at places of any shape."""
-        places = np.asarray(at, dtype=np.float64)
-        piece = np.clip(np.searchsorted(self.ends, places, side="right") - 1, 0, self.ends.size - 2)
-        return self._derivative_in_intervals(places - self.ends[piece], nu, self.coefficients[:, piece])
-
-    def greatest(self, nu: int) -> float:
-        """The greatest magnitude of a derivative in the intervals.
-
-        >>> cubic = PiecewisePolynomial(np.array([[0.0], [3.0], [0.0], [-4.0]]), np.array([0.0, 0.75]))
-        >>> round(cubic.greatest(0), 12)
-        1.0
-        """
-        widths = np.diff(self.ends)
-        cuts = np.stack([np.zeros_like(widths), widths])
-        # Between neighbouring places where a derivative vanishes the one before it vanishes once at most.
-        for order in range(self.coefficients.shape[0] - 2, nu, -1):
-            derivative = partial(self._derivative_in_intervals, nu=order, coefficients=self.coefficients[:, None])
-            cuts = np.concatenate([cuts[:1], roots(derivative, cuts[:-1], cuts[1:]), cuts[-1:]])
-        return float(np.abs(self._derivative_in_intervals(cuts, nu, self.coefficients[:, None])).max())
-
-    def _derivative_in_intervals(self, x: Floats, nu: int, coefficients: Floats) -> Floats:
-        """A derivative at distances from the left ends of intervals, whose coefficients stand beside them."""
-        found = np.zeros(x.shape)
-        for power in range(self.coefficients.shape[0] - 1, nu - 1, -1):
-            found = found * x + perm(power, nu) * coefficients[power]
-        return found
 
 
 def solve_banded(band: Floats, right: Floats) -> Floats:

@@ -6,25 +6,21 @@ pieces of its polynomials.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from fractions import Fraction
+from dataclasses import dataclass
 
 import numpy as np
 
 from graphcam.errors import DesignError
-from graphcam.given.boundary_joints import FULL_TURN, SAME_VALUE, joined_turn
-from graphcam.given.boundary_parts import Part, SplinePart
-from graphcam.given.exact_polynomials import ExactPiece, derivative, pieces_between, sign_changes
-from graphcam.given.local_polynomials import LocalPolynomials, cells
+from graphcam.given.boundary_joints import SAME_VALUE, dwell_after, greatest_lift, joined_parts
+from graphcam.given.boundary_parts import Part, SplinePart, quoted_angle
 from graphcam.given.measured import from_zero
-from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
+from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.piecewise import Floats, Side
+from graphcam.given.piecewise_polynomial import SAME_LEVEL, SAME_PLACE, PiecewisePolynomial
 from graphcam.given.polynomial_law import leg_law
 from graphcam.words import say
-
-ZERO_DISPLACEMENT = Fraction(1, 1 << 60)
-"""A lowest displacement nearer to 0 than this part of the lift is 0, and was rounded."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -41,13 +37,11 @@ class BoundaryMotion(Motion):
     parts: tuple[Part, ...]
     zero: float
     lowest: float
-    joints: Floats
-    """(n,) cam angles at which phases begin and polynomials join"""
-    _series: LocalPolynomials
+    _series: PiecewisePolynomial
 
-    def _told_exactly(self, starts: Floats) -> Floats:
-        # The joints are known from the given angles; sums of the phases' angles are off by their rounding.
-        return self.joints[np.abs(self.joints - starts[:, None]).argmin(axis=1)]
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        object.__setattr__(self, "_series", self._series.with_breaks(self.starts))
 
     def _summary(self) -> str:
         degrees = ", ".join(f"{part.name} of degree {part.highest_power}" for part in self.parts)
@@ -56,7 +50,7 @@ class BoundaryMotion(Motion):
     @property
     def breaks(self) -> Floats:
         """The cam angles where a derivative may jump: where phases begin and where polynomials join."""
-        return self.joints
+        return self._series.breaks
 
     def _fill(self, turned: Floats, side: Side, out: Floats) -> None:
         # From the given angles themselves: as a fraction of its phase the place within a tiny part keeps few digits.
@@ -83,83 +77,79 @@ def boundary_motion(parts: Sequence[Part]) -> BoundaryMotion:
     (['rise', 'return', 'dwell'], 30.0)
     """
     given = tuple(parts)
-    pieces = joined_turn(given)
-    legs = _legs(pieces)
-    if len(legs) < 2:
-        value = say("at rest at {p:g} over the whole turn", p=float(pieces[0].p[0]))
+    turn = _joined_turn(given)
+    runs = turn.runs()
+    if len(runs) > 1 and runs[0][1] == runs[-1][1]:
+        del runs[0]
+    if len(runs) < 2:
+        value = say("at rest at {p:g} over the whole turn", p=float(turn.coefficients[0, 0]))
         raise DesignError("motion", value, say("one with a rise and a return"), say("give different s"))
+    starts = [start for start, _ in runs]
+    ends = [*starts[1:], starts[0] + FULL_TURN]
+    for place in (starts[0], *ends):
+        turn = turn.at_rest(place)
     # Twice round, so that a leg over the end of the turn is found whole.
-    round_ = [*pieces, *(replace(piece, start=piece.start + FULL_TURN) for piece in pieces)]
-    phases: list[tuple[float, Phase]] = []
-    levels: list[Fraction] = []
-    for start, end, sign in legs:
-        leg = pieces_between(round_, start, end)
-        levels.append(leg[0].at(start))
-        phases.append((float(start % FULL_TURN), _phase(given, leg, sign)))
-    ordered, zero_ = from_zero(phases)
-    zero = _exactly(zero_, [start for start, _, _ in legs]) if abs(zero_) > SAME_VALUE else Fraction(0)
-    lowest = min(levels)
-    if abs(lowest) <= ZERO_DISPLACEMENT * (max(levels) - lowest):
-        lowest = Fraction(0)
-    turn = pieces_between(_moved_by_turn(round_, zero), zero, zero + FULL_TURN)
-    lowered = [replace(piece, p=(piece.p[0] - lowest, *piece.p[1:])) for piece in turn]
-    series = LocalPolynomials([cell for cut in cells(lowered, zero) for cell in cut])
-    joints = _apart(
-        [float((start - zero) % FULL_TURN) for start, _, _ in legs] + [float(piece.start - zero) for piece in turn]
-    )
-    return BoundaryMotion(ordered, given, float(zero), float(lowest), joints, series)
+    round_ = PiecewisePolynomial.joined([turn, turn.seen(-FULL_TURN)])
+    phases = [
+        (start % FULL_TURN, _phase(given, round_.between(start, end), sign))
+        for (start, sign), end in zip(runs, ends, strict=True)
+    ]
+    ordered, zero = from_zero(phases)
+    if abs(zero) <= SAME_PLACE:
+        zero = 0.0
+    levels = turn(starts)[0]
+    lowest = float(levels.min())
+    if abs(lowest) <= SAME_LEVEL * np.ptp(levels):
+        lowest = 0.0
+    turns = math.floor((zero - turn.ends[0]) / FULL_TURN + SAME_PLACE)
+    series = round_.seen(-turns * FULL_TURN).between(zero, zero + FULL_TURN).seen(zero, base=lowest)
+    return BoundaryMotion(ordered, given, zero, lowest, series)
 
 
-def _exactly(zero: float, starts: Sequence[Fraction]) -> Fraction:
-    """The one of the places, a turn before or behind if need be, that was rounded to ``zero``."""
-    return min(
-        (start % FULL_TURN - turns * FULL_TURN for start in starts for turns in (0, 1)),
-        key=lambda at: abs(at - Fraction(zero)),
-    )
+def _joined_turn(parts: Sequence[Part]) -> PiecewisePolynomial:
+    """The motion of one turn from the first part's beginning on, the gaps filled with rest."""
+    if not parts:
+        found = say("empty")
+        raise DesignError("parts", found, say("one part or more"), say("give what leads the follower up and back"))
+    turn = joined_parts(parts)
+    begun = float(parts[0].start)
+    if not 0 <= begun < FULL_TURN:
+        limit = say("from 0 to less than 360 degrees")
+        raise DesignError("parts[0].points[0].angle", quoted_angle(begun), limit, say("count the cam angle from 0"))
+    _check_closed(parts)
+    if float(parts[-1].end) < begun + FULL_TURN - SAME_PLACE:
+        turn = PiecewisePolynomial.joined([turn, dwell_after(parts[-1], begun + FULL_TURN)])
+    return turn
 
 
-def _apart(places: Sequence[float]) -> Floats:
-    """The places from 0 to less than a turn in order; of those that are the same, the first that is given."""
-    kept = [0.0, float(FULL_TURN)]
-    for place in places:
-        if min(abs(place - other) for other in kept) > SAME_VALUE:
-            kept.append(place)
-    return np.array(sorted(kept)[:-1])
+def _check_closed(parts: Sequence[Part]) -> None:
+    first, last, size = parts[0], parts[-1], greatest_lift(parts)
+    turn = float(last.end - first.start)
+    if turn > FULL_TURN + SAME_PLACE:
+        remedy = say("one turn of the cam is 360 degrees: shorten a part")
+        limit = say("360 degrees or less from first to last")
+        raise DesignError(say("parts (turn)"), quoted_angle(turn), limit, remedy)
+    s, v = zip(last.at_ends[1], first.at_ends[0], strict=True)
+    if abs(s[1] - s[0]) > SAME_VALUE * size:
+        limit = say("{s:.10g}, as the first part begins", s=s[1])
+        remedy = say("lead the follower back to where it was a turn before")
+        raise DesignError(say("parts (s at their end)"), say("{s:.10g}", s=s[0]), limit, remedy)
+    gap = turn < FULL_TURN - SAME_PLACE
+    off = max(map(abs, v)) if gap else abs(v[1] - v[0])
+    if off > SAME_VALUE * (size + abs(v[0])):
+        found = say("{v:.10g}, and {v2:.10g} where they begin", v=v[0], v2=v[1])
+        limit = say("0 at both: the follower dwells between them") if gap else say("the same at both")
+        raise DesignError(say("parts (v at their end)"), found, limit, say("give v at the first and at the last point"))
 
 
-def _legs(pieces: Sequence[ExactPiece]) -> list[tuple[Fraction, Fraction, int]]:
-    """Where over one turn the motion rises (+1), rests (0) or falls (-1); the last leg may end behind the turn."""
-    found: list[tuple[Fraction, int]] = []
-    for piece in pieces:
-        sign, places = sign_changes(derivative(piece.p))
-        for k, place in enumerate([Fraction(0), *places]):
-            now = sign * (-1) ** k
-            if not found or found[-1][1] != now:
-                found.append((piece.start + piece.width * place, now))
-    ends = [*found[1:], (found[0][0] + FULL_TURN, 0)]
-    # What moves for less than a place is told from another one is rounding.
-    long = [(start, sign) for (start, sign), (end, _) in zip(found, ends, strict=True) if end - start > SAME_VALUE]
-    merged = [leg for before, leg in zip([(0, None), *long], long, strict=False) if before[1] != leg[1]]
-    if len(merged) > 1 and merged[0][1] == merged[-1][1]:
-        del merged[0]
-    ends = [*merged[1:], (merged[0][0] + FULL_TURN, 0)]
-    return [(start, end, sign) for (start, sign), (end, _) in zip(merged, ends, strict=True)]
-
-
-def _phase(parts: Sequence[Part], leg: Sequence[ExactPiece], sign: int) -> Phase:
-    start, end = leg[0].start, leg[-1].end
+def _phase(parts: Sequence[Part], leg: PiecewisePolynomial, sign: int) -> Phase:
+    start, end = leg.ends[[0, -1]].tolist()
     if not sign:
-        return Dwell(float(end - start))
+        return Dwell(end - start)
     splined = any(
         (part.start < end and part.end > start) or part.start + FULL_TURN < end
         for part in parts
         if isinstance(part, SplinePart)
     )
     lift, law = leg_law("spline" if splined else "polynomial", leg)
-    return (Rise if sign > 0 else Return)(abs(float(lift)), float(end - start), law)
-
-
-def _moved_by_turn(pieces: Sequence[ExactPiece], zero: Fraction) -> list[ExactPiece]:
-    """The pieces, moved by a turn if the place lies before them."""
-    back = FULL_TURN if zero < pieces[0].start else Fraction(0)
-    return [replace(piece, start=piece.start - back) for piece in pieces]
+    return (Rise if sign > 0 else Return)(abs(lift), end - start, law)

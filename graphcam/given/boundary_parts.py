@@ -15,19 +15,11 @@ from functools import cached_property
 from itertools import pairwise
 from typing import ClassVar
 
+import numpy as np
+
 from graphcam.errors import DesignError, check_number
-from graphcam.given.exact_polynomials import (
-    PI,
-    Exact,
-    ExactPiece,
-    derivative,
-    rounded_terms,
-    sampled_values,
-    shortest,
-    solve_exactly,
-    turning_places,
-    value_at,
-)
+from graphcam.given.exact_conditions import PI, Condition, Span, as_series, shortest, solve_conditions, value_at
+from graphcam.given.piecewise_polynomial import SAME_PLACE, PiecewisePolynomial
 from graphcam.words import Caption, say
 
 MAX_DEGREE = 31
@@ -40,8 +32,6 @@ LAST_DIGITS_EFFECT = 1e-9
 """How far the last digits of the given numbers may change a part, as a part of its maximum displacement."""
 MAX_TURNINGS = 2
 """How often a part may turn between neighbouring points."""
-SAME_PLACE = Fraction(1, 10**9)
-"""Where a part turns nearer to a point than this fraction of its angle, it turns at the point."""
 MAX_OVERSHOOT = 0.5
 """How far a part may pass two neighbouring points, as a part of the span of the given displacements."""
 
@@ -147,15 +137,15 @@ class _Part:
 
     @property
     def highest_power(self) -> int:
-        return max(len(piece.p) for piece in self.pieces) - 1
+        return max(len(p) for _, _, p in self.solution) - 1
 
     @property
     def _count(self) -> int:
         return sum(len(point.given) for point in self.points)
 
     @property
-    def _conditions(self) -> list[tuple[Fraction, int, Fraction]]:
-        """The conditions: place as a fraction of the part, order of the derivative by that fraction, value."""
+    def _conditions(self) -> list[Condition]:
+        """What is given, over the part from 0 to 1."""
         width = self.end - self.start
         return [
             ((point.place - self.start) / width, order, shortest(number) * width**order)
@@ -164,18 +154,40 @@ class _Part:
         ]
 
     @cached_property
-    def pieces(self) -> tuple[ExactPiece, ...]:
-        """The polynomials that meet the conditions, in order."""
-        found = self._solve(self._conditions)
+    def solution(self) -> list[Span]:
+        """The polynomials that meet the conditions, over the part from 0 to 1."""
+        return self._solved(self._conditions)
+
+    def _solved(self, conditions: Sequence[Condition]) -> list[Span]:
+        found = solve_conditions(self._order, self._inner_knots([place for place, _, _ in conditions]), conditions)
         if found is None:
             raise self._open()
-        width = self.end - self.start
-        return tuple(ExactPiece(self.start + width * low, width * (high - low), p) for (low, high), p in found)
+        return found
 
-    def _solve(
-        self, conditions: Sequence[tuple[Fraction, int, Fraction]]
-    ) -> list[tuple[tuple[Fraction, Fraction], Exact]] | None:
+    @property
+    def _order(self) -> int:
         raise NotImplementedError
+
+    def _inner_knots(self, places: Sequence[Fraction]) -> list[Fraction]:
+        raise NotImplementedError
+
+    @cached_property
+    def polynomials(self) -> PiecewisePolynomial:
+        """The part as a function of the cam angle."""
+        width = self.end - self.start
+        rests = [(point.place - self.start) / width for point in self.points if point.v == 0]
+        return as_series(self.solution, self.start, width, rests)
+
+    @cached_property
+    def at_ends(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """s and v at the start and at the end."""
+
+        def s_and_v(span: Span, y: int) -> tuple[float, float]:
+            low, high, p = span
+            width = (high - low) * (self.end - self.start)
+            return float(value_at(p, Fraction(y))), float(value_at(p, Fraction(y), 1) / width)
+
+        return s_and_v(self.solution[0], 0), s_and_v(self.solution[-1], 1)
 
     def _open(self) -> DesignError:
         if all(point.s is None for point in self.points):
@@ -186,20 +198,29 @@ class _Part:
         found = say("{count} conditions that depend on each other", count=self._count)
         return DesignError("points", found, limit, remedy)
 
-    def _check_sound(self) -> None:
-        """Refuse what swings, and what the last digits of the given numbers decide."""
-        pieces = self.pieces
-        self._check_last_digits(pieces)
-        self._check_swings(pieces)
+    def _check_last_digits(self) -> None:
+        """Refuse what the last digits of the given numbers decide."""
+        nudged = self._solved([_nudged(k, *condition) for k, condition in enumerate(self._conditions)])
+        both = np.array(
+            [
+                [[float(value_at(p, Fraction(k, len(p)))) for k in range(len(p) + 1)] for p in (here, there)]
+                for (_, _, here), (_, _, there) in zip(self.solution, nudged, strict=True)
+            ]
+        )
+        off = np.abs(both[:, 1] - both[:, 0]).max()
+        if off > LAST_DIGITS_EFFECT * np.abs(both[:, 0]).max():
+            found = say("decided by the last digits of the numbers: s changes by {off:.3g} with them", off=off)
+            remedy = say("move the points apart, or give fewer conditions")
+            limit = say("conditions that keep s to {last_digits:g} of its maximum", last_digits=LAST_DIGITS_EFFECT)
+            raise DesignError("points", found, limit, remedy)
 
-    def _check_swings(self, pieces: Sequence[ExactPiece]) -> None:
-        turns = turning_places(pieces)
+    def _check_swings(self) -> None:
+        turns = self.polynomials.turnings()
         given = [point.s for point in self.points if point.s is not None]
-        span, beside = max(given) - min(given) if given else 0.0, SAME_PLACE * (self.end - self.start)
+        span, beside = max(given) - min(given) if given else 0.0, SAME_PLACE * float(self.end - self.start)
         for k, (before, after) in enumerate(pairwise(self.points)):
-            # At a point with v = 0 the sign changes beside it, by the rounding of the coefficients.
-            low, high = before.place + beside, after.place - beside
-            between = [(place, piece) for place, piece in turns if low < place < high]
+            # At a point with v = 0 the sign may change beside it, by rounding.
+            between = [x for x in turns if float(before.place) + beside < x < float(after.place) - beside]
             where = say("between {told} and {told2}", told=quoted_angle(before.angle), told2=quoted_angle(after.angle))
             remedy = say("give a point there or fewer conditions, take a spline, or part the motion")
             if len(between) > MAX_TURNINGS:
@@ -209,27 +230,11 @@ class _Part:
             if before.s is None or after.s is None or not span:
                 continue
             least, most = min(before.s, after.s) - MAX_OVERSHOOT * span, max(before.s, after.s) + MAX_OVERSHOOT * span
-            for place, piece in between:
-                if not least <= (s := float(piece.at(place))) <= most:
+            for s in self.polynomials(between)[0].tolist():
+                if not least <= s <= most:
                     limit = say("from {least:.6g} to {most:.6g}; the part swings", least=least, most=most)
                     quantity = say("points[{k}] (s behind it)", k=k)
                     raise DesignError(quantity, say("{s:.6g} {where}", s=s, where=where), limit, remedy)
-
-    def _check_last_digits(self, pieces: Sequence[ExactPiece]) -> None:
-        nudged = self._solve([_nudged(k, *condition) for k, condition in enumerate(self._conditions)])
-        if nudged is None:
-            raise self._open()
-        both = [
-            pair
-            for piece, (_, p) in zip(pieces, nudged, strict=True)
-            for pair in zip(sampled_values(piece.p), sampled_values(p), strict=True)
-        ]
-        off = max(abs(here - there) for here, there in both)
-        if off > LAST_DIGITS_EFFECT * max(abs(here) for here, _ in both):
-            found = say("decided by the last digits of the numbers: s changes by {off:.3g} with them", off=float(off))
-            remedy = say("move the points apart, or give fewer conditions")
-            limit = say("conditions that keep s to {last_digits:g} of its maximum", last_digits=LAST_DIGITS_EFFECT)
-            raise DesignError("points", found, limit, remedy)
 
 
 @dataclass(frozen=True)
@@ -248,7 +253,7 @@ class PolynomialPart(_Part):
 
     >>> import graphcam as gc
     >>> rise = gc.PolynomialPart([gc.MotionPoint(0, s=0, v=0, a=0), gc.MotionPoint(1, s=1, v=0, a=0)])
-    >>> [int(c) for c in rise.pieces[0].p]
+    >>> [int(c) for c in rise.solution[0][2]]
     [0, 0, 0, 10, -15, 6]
     """
 
@@ -269,34 +274,15 @@ class PolynomialPart(_Part):
             if self.degree > degree:
                 remedy = say("they are too few: leave the degree out, or change them")
             raise DesignError("degree", self.degree, limit, remedy)
-        self._check_sound()
+        self._check_last_digits()
+        self._check_swings()
 
-    def _solve(
-        self, conditions: Sequence[tuple[Fraction, int, Fraction]]
-    ) -> list[tuple[tuple[Fraction, Fraction], Exact]] | None:
-        # Newton's polynomials: of conditions that ask for s, v, a ... without a gap the equations are a triangle.
-        places = [place for place, _, _ in conditions]
-        rows = [_newton(places, place, order) for place, order, _ in conditions]
-        found = solve_exactly(rows, [right for _, _, right in conditions])
-        if found is None:
-            return None
-        found = rounded_terms(found)
-        p = [found[-1]]
-        for place, coefficient in zip(places[-2::-1], found[-2::-1], strict=True):
-            p = [low - place * high for low, high in zip([Fraction(0), *p], [*p, Fraction(0)], strict=True)]
-            p[0] += coefficient
-        return [((Fraction(0), Fraction(1)), rounded_terms(p))]
+    @property
+    def _order(self) -> int:
+        return self._count - 1
 
-
-def _newton(places: Sequence[Fraction], at: Fraction, order: int) -> list[Fraction]:
-    """A derivative at a place of 1, (x - x_0), (x - x_0)(x - x_1), ..."""
-    values = [Fraction(1), *[Fraction(0)] * order]
-    row = [values[order]]
-    for place in places[:-1]:
-        # (x - c) g has the derivatives (x - c) g^(m) + m g^(m - 1).
-        values = [(at - place) * g + m * values[m - 1] for m, g in enumerate(values)]
-        row.append(values[order])
-    return row
+    def _inner_knots(self, places: Sequence[Fraction]) -> list[Fraction]:
+        return []
 
 
 @dataclass(frozen=True)
@@ -318,7 +304,7 @@ class SplinePart(_Part):
 
     >>> import graphcam as gc
     >>> points = [gc.MotionPoint(0, s=0, v=0, a=0), gc.MotionPoint(0.5, s=0.4), gc.MotionPoint(1, s=1, v=0, a=0)]
-    >>> len(gc.SplinePart(points, degree=4).pieces)
+    >>> len(gc.SplinePart(points, degree=4).solution)
     3
     """
 
@@ -340,7 +326,8 @@ class SplinePart(_Part):
             raise DesignError("points", say("{count} conditions", count=self._count), limit, remedy)
         if self.knots is not None:
             self._check_knots(tuple(self.knots), inner)
-        self._check_sound()
+        self._check_last_digits()
+        self._check_swings()
 
     def _check_knots(self, knots: tuple[float, ...], inner: int) -> None:
         object.__setattr__(self, "knots", knots)
@@ -357,6 +344,10 @@ class SplinePart(_Part):
                     f"knots[{min(k, inner - 1)}]", quoted_angle(after), limit, say("sort them by the angle")
                 )
 
+    @property
+    def _order(self) -> int:
+        return self.degree
+
     def _inner_knots(self, places: Sequence[Fraction]) -> list[Fraction]:
         if self.knots is None:
             p = self.degree
@@ -364,58 +355,11 @@ class SplinePart(_Part):
         width = self.end - self.start
         return [(exact_angle(knot) - self.start) / width for knot in self.knots]
 
-    def _solve(
-        self, conditions: Sequence[tuple[Fraction, int, Fraction]]
-    ) -> list[tuple[tuple[Fraction, Fraction], Exact]] | None:
-        p, n = self.degree, self._count
-        inner = self._inner_knots([place for place, _, _ in conditions])
-        knots = [*[Fraction(0)] * (p + 1), *inner, *[Fraction(1)] * (p + 1)]
-        spans = [(k, low, high) for k, (low, high) in enumerate(pairwise(knots)) if high > low]
-        splines = {k: _b_splines(knots, p, k) for k, _, _ in spans}
-        rows: list[list[Fraction]] = []
-        for place, order, _ in conditions:
-            k, low, high = next(span for span in spans if place <= span[2]) if place < 1 else spans[-1]
-            row = [Fraction(0)] * n
-            for number, spline in enumerate(splines[k], k - p):
-                row[number] = value_at(derivative(spline, order), (place - low) / (high - low)) / (high - low) ** order
-            rows.append(row)
-        found = solve_exactly(rows, [right for _, _, right in conditions])
-        if found is None:
-            return None
-        found = rounded_terms(found)
-        return [((low, high), rounded_terms(_combined(found[k - p : k + 1], splines[k]))) for k, low, high in spans]
-
-
-def _b_splines(knots: Sequence[Fraction], degree: int, k: int) -> list[Exact]:
-    """The B-splines that are not zero between knots k and k + 1, as polynomials of y from 0 to 1 there."""
-    low, width = knots[k], knots[k + 1] - knots[k]
-    found: list[Exact] = [(Fraction(1),)]
-    for p in range(1, degree + 1):
-        raised = [[Fraction(0)] * (p + 1) for _ in range(p + 1)]
-        for m, spline in enumerate(found):
-            # B-spline number k - p + 1 + m of the degree before is shared between this number and the one before it.
-            first = knots[k - p + 1 + m]
-            length = knots[k + 1 + m] - first
-            share = (low - first) / length, width / length
-            for power, c in enumerate(spline):
-                raised[m + 1][power] += share[0] * c
-                raised[m + 1][power + 1] += share[1] * c
-                raised[m][power] += (1 - share[0]) * c
-                raised[m][power + 1] -= share[1] * c
-        found = [tuple(spline) for spline in raised]
-    return found
-
-
-def _combined(factors: Sequence[Fraction], splines: Sequence[Exact]) -> list[Fraction]:
-    """The sum of polynomials of one degree, each times its factor."""
-    columns = zip(*splines, strict=True)
-    return [sum((c * q for c, q in zip(factors, column, strict=True)), Fraction(0)) for column in columns]
-
 
 Part = PolynomialPart | SplinePart
 
 
-def _nudged(k: int, place: Fraction, order: int, right: Fraction) -> tuple[Fraction, int, Fraction]:
+def _nudged(k: int, place: Fraction, order: int, right: Fraction) -> Condition:
     """A condition with other last digits."""
     off = Fraction(1 if k % 2 else -1, 1 << 52)
     moved_place = place if place in (0, 1) else place * (1 + off)

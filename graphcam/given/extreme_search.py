@@ -34,6 +34,9 @@ RESOLVED = 1e-12
 """The last coefficients of a resolved quantity, as a part of its greatest value."""
 NOISE = 1e-8
 """What is left of this part, and is not lessened by a division, is rounding: no division would."""
+LESSENED, PLAIN_TAIL = 0.5, 4.0
+"""A division lessens what is no rounding to less than this part of it; rounding is off at the ends by no more than so
+many times the last coefficients."""
 FLAT = 2e-14
 """A quantity that differs by no more than this part of its greatest value over a cell is told by its middle."""
 NEARLY_STATIONARY = 1e-8
@@ -176,7 +179,7 @@ class SmoothPieces:
             off = np.abs(coefficients @ _AT_ENDS - values[:, -2:]).max(axis=1) / DEGREE
             tail, scale = terms[:, -TAIL:].max(axis=1), scales[group]
             left = np.maximum(tail, off)
-            rounding = (left <= NOISE * scale) & (left >= left_before / 2) & (off <= 4 * tail)
+            rounding = (left <= NOISE * scale) & (left >= LESSENED * left_before) & (off <= PLAIN_TAIL * tail)
             done = (left <= RESOLVED * scale) | rounding
             going = ~(done | np.isnan(magnitude))
             if top is not None:

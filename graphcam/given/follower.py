@@ -122,6 +122,36 @@ class FlatFaced:
     roller_radius = 0.0
 
 
+@dataclass(frozen=True)
+class OscillatingFlat:
+    """A follower with a flat face that swings about a pivot at (distance, 0).
+
+    distance : centre distance c [mm]
+    face_offset : f [mm], how far the face lies beside the line through the pivot, towards the cam centre if positive
+
+    The lift of its motion is an angle in radians.  In the lower dwell the face touches the base circle:
+    c sin(psi0) = r0 + f, with psi0 the angle between the face and the line of centres.
+
+    >>> import graphcam as gc
+    >>> swing, turn = math.radians(15), math.radians(90)
+    >>> motion = gc.Motion([gc.Rise(swing, turn), gc.Dwell(turn), gc.Return(swing, turn), gc.Dwell(turn)])
+    >>> cam = gc.Cam(motion, gc.OscillatingFlat(distance=100, face_offset=10), prime_radius=40)
+    >>> round(math.degrees(cam.kinematics.psi0), 9)
+    30.0
+    """
+
+    distance: float
+    face_offset: float = 0.0
+    kind = "oscillating-flat"
+    lift_unit = "rad"
+    usual_limit_deg = 45.0
+    roller_radius = 0.0
+
+    def __post_init__(self) -> None:
+        _check_length("centre distance", self.distance, zero=False)
+        check_number("face offset", self.face_offset, say("a finite length in mm"))
+
+
 def swing_remedy(lift: float, otherwise: Words) -> Words:
     """What to do about the lift of an arm [rad] that is too large: beyond a turn it was meant in another unit.
 
@@ -133,8 +163,10 @@ def swing_remedy(lift: float, otherwise: Words) -> Words:
     return otherwise
 
 
-Follower = Translating | Oscillating | FlatFaced
-FOLLOWER_CLASSES = Translating, Oscillating, FlatFaced
+Follower = Translating | Oscillating | FlatFaced | OscillatingFlat
+FOLLOWER_CLASSES = Translating, Oscillating, FlatFaced, OscillatingFlat
+Kind = Literal["translating", "oscillating", "flat-faced", "oscillating-flat"]
+"""What a file calls the kind of a follower."""
 FOLLOWERS_BY_KIND: dict[str, type[Follower]] = {follower.kind: follower for follower in FOLLOWER_CLASSES}
 """The followers by their kind."""
 

@@ -24,7 +24,7 @@ from graphcam.words import say
 __all__ = ["LAWS", "Floats", "Side", "law"]
 
 MAX_PART_RATIO = 1e12
-"""Greatest ratio of the rectangular law's parts: of more, the shorter is lost beside the longer."""
+"""Greatest ratio of a law's parts: of more, the shorter is lost beside the longer."""
 DECLARED_LAWS: Mapping[str, DeclaredLaw] = {
     law.name: law
     for law in (
@@ -53,8 +53,8 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     ----------
     name : one of :data:`LAWS`, or "constant-velocity" with blends of a quarter, or a
         :class:`~graphcam.given.motion_law.Law`
-    ratio : nu = |a1|/|a2|, first part's acceleration over the second's; only the rectangular law has one.  It is kept
-        as nearly as the place u = 1/(1 + nu) between the parts is a number of the machine
+    ratio : nu = |a1|/|a2|, first part's acceleration over the second's, of a law that may have unequal parts.  It is
+        kept as nearly as the place u = 1/(1 + nu) between the parts is a number of the machine
 
     Raises
     ------
@@ -86,7 +86,8 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     if ratio != 1 and (own or not DECLARED_LAWS[name].has_ratio):
         called = name.name if own else name
         limit = say("1 for the {called} law", called=called)
-        raise DesignError("ratio", ratio, limit, say("only the rectangular law has unequal parts"))
+        names = ", ".join(name for name, declared in DECLARED_LAWS.items() if declared.has_ratio)
+        raise DesignError("ratio", ratio, limit, say("laws with unequal parts are {names}", names=names))
     return name if own else _built_law(name, ratio)
 
 

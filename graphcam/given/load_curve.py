@@ -3,7 +3,6 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -65,16 +64,6 @@ class LoadCurve:
         """The load [N] at cam angles [rad], any real numbers; NaN for NaN."""
         return np.interp(wrap(phi), self.phi, self.force)
 
-    def slope(self, phi: Floats | float) -> Floats:
-        """The derivative of the load by phi [N/rad]; at a row that of the line behind it."""
-        angles = np.asarray(self.phi)
-        row = np.clip(np.searchsorted(angles, wrap(phi), side="right") - 1, 0, angles.size - 2)
-        return self._steepness[row]
-
-    @cached_property
-    def _steepness(self) -> Floats:
-        return np.diff(self.force) / np.diff(self.phi)
-
 
 Load = float | LoadCurve
 """A load along the motion: the same over the turn [N], or one that depends on the cam angle."""
@@ -83,11 +72,6 @@ Load = float | LoadCurve
 def load_at(load: Load, phi: Floats | float) -> Floats | float:
     """A load [N] at cam angles [rad]."""
     return load(phi) if isinstance(load, LoadCurve) else load
-
-
-def load_slope(load: Load, phi: Floats | float) -> Floats | float:
-    """The derivative of a load by phi [N/rad]."""
-    return load.slope(phi) if isinstance(load, LoadCurve) else 0.0
 
 
 def knots_of(load: Load) -> tuple[float, ...]:

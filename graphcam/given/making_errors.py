@@ -16,7 +16,7 @@ from graphcam.words import say
 Distribution = Literal["normal", "uniform"]
 TOLERANCED_SIZES = "roller_diameter", "offset", "distance", "arm"
 """The sizes that may have a tolerance; each follower has some of them."""
-MADE_SIZES = "roller_radius", *TOLERANCED_SIZES[1:]
+MADE_SIZES = "roller_radius", *TOLERANCED_SIZES[1:], "face_offset"
 """The sizes of which a cam and its follower may be off: of a roller it is the radius that counts."""
 DEVIATION_SHARES = {"normal": 1 / 3, "uniform": 1 / math.sqrt(3)}
 """The standard deviation of a size as a part of half its tolerance zone: an end is three of them, or the last value."""
@@ -33,7 +33,7 @@ class Deviations:
     harmonics : (k,) of the waves;  waves : (k, ...) complex [mm]: the profile lies the real part of the sum of
         waves * exp(i harmonics theta) too far out, along its normal at the place that is touched at the cam angle theta
     sizes : by how much a size is too large [mm], by its name: "roller_radius", "offset", "distance" (between the
-        centres), "arm"
+        centres), "arm", "face_offset"
 
     Raises
     ------

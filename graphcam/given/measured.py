@@ -13,11 +13,13 @@ from numpy.typing import ArrayLike
 from graphcam.errors import DesignError, check_number
 from graphcam.given.laws import Floats
 from graphcam.given.leg_detection import Leg, find_legs
-from graphcam.given.monotone_spline import Fit, fit
+from graphcam.given.monotone_spline import fit
 from graphcam.given.motion import FULL_TURN, NEAR_TURN_SHARE, Dwell, Motion, Phase, Return, Rise
+from graphcam.given.piecewise_polynomial import PiecewisePolynomial
+from graphcam.given.polynomial_law import leg_law
 from graphcam.given.reproducible_sums import ordered_sum
 from graphcam.given.root_finding import roots
-from graphcam.given.spline_law import REST_ZEROS, TURNING_ZEROS, spline_law
+from graphcam.given.spline_law import MEASURED_LAW
 from graphcam.words import Caption, Words, say
 
 DEFAULT_TOLERANCE = 0.01
@@ -43,6 +45,8 @@ NOISE_WINDOW, ROWS_PER_PART = 7, 30
 """Rows through which a polynomial is laid to see the noise, and those of a part of the turn."""
 NORMAL_MEDIAN = 0.6745
 """The median of |x| for a normal distribution of standard deviation 1."""
+REST_ZEROS, TURNING_ZEROS = 4, 2
+"""How many of the first Taylor coefficients are zero: s is smooth to the third derivative at a rest, else v is zero."""
 ANGLE_ROUNDING = 1e-9
 """Cam angles nearer to one another than this [rad] are the same."""
 MIN_SHOWN_SHIFT = 1e-3
@@ -298,7 +302,7 @@ def _scatter(phi: Floats, s: Floats) -> float:
 # --- from the spline to phases ---------------------------------------------------------------------------------------
 
 
-def _phases(fitted: Fit, legs: list[Leg]) -> tuple[list[Phase], float, float]:
+def _phases(fitted: PiecewisePolynomial, legs: list[Leg]) -> tuple[list[Phase], float, float]:
     """The phases of one turn, the cam angle [rad] at which they begin, and the lowest displacement."""
     ends = [
         leg.end if leg.to_rest else _turning_angle(fitted, leg, following)
@@ -306,23 +310,24 @@ def _phases(fitted: Fit, legs: list[Leg]) -> tuple[list[Phase], float, float]:
     ]
     before = [ends[-1] - FULL_TURN, *ends[:-1]]
     starts = [leg.start if leg.from_rest else end for leg, end in zip(legs, before, strict=True)]
+    for leg, start, end in zip(legs, starts, ends, strict=True):
+        fitted = fitted.at_rest(start, REST_ZEROS if leg.from_rest else TURNING_ZEROS)
+        fitted = fitted.at_rest(end, REST_ZEROS if leg.to_rest else TURNING_ZEROS)
     phases: list[tuple[float, Phase]] = []
     for leg, start, end, following in zip(legs, starts, ends, [*starts[1:], starts[0] + FULL_TURN], strict=True):
-        contact = REST_ZEROS if leg.from_rest else TURNING_ZEROS, REST_ZEROS if leg.to_rest else TURNING_ZEROS
-        lift, law = spline_law(fitted, start, end, contact)
+        lift, law = leg_law(MEASURED_LAW, fitted.between(start, end))
         phases.append((start, (Rise if leg.direction > 0 else Return)(abs(lift), end - start, law)))
         if leg.to_rest:
             phases.append((end, Dwell(following - end)))
-    return *from_zero(phases), min(float(fitted.spline(start)) for start in starts)
+    return *from_zero(phases), float(fitted(starts)[0].min())
 
 
-def _turning_angle(fitted: Fit, leg: Leg, following: Leg) -> float:
+def _turning_angle(fitted: PiecewisePolynomial, leg: Leg, following: Leg) -> float:
     """The cam angle [rad] between two legs where the velocity changes its sign."""
-    v = fitted.velocity
     before = np.linspace(leg.start, leg.end, LEG_SAMPLES)
     after = np.linspace(leg.end, following.end, LEG_SAMPLES)
-    fastest = before[np.argmax(leg.direction * v(before))], after[np.argmin(leg.direction * v(after))]
-    return float(roots(v, *fastest))
+    fastest = [x[np.argmax(way * leg.direction * fitted(x)[1])] for x, way in ((before, 1), (after, -1))]
+    return float(roots(lambda x: fitted(x)[1], *fastest))
 
 
 def from_zero(phases: list[tuple[float, Phase]]) -> tuple[list[Phase], float]:

@@ -26,10 +26,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError
-from graphcam.given.b_splines import KnottedSpline, basis_functions, solve_banded
+from graphcam.given.b_splines import basis_functions, solve_banded
 from graphcam.given.laws import Floats
 from graphcam.given.leg_detection import Leg
 from graphcam.given.motion import FULL_TURN
+from graphcam.given.piecewise_polynomial import PiecewisePolynomial
 from graphcam.given.reproducible_sums import ordered_sum
 from graphcam.words import Words, say
 
@@ -114,20 +115,10 @@ def _sums_by_place(places: NDArray[np.intp], values: Floats, size: int) -> Float
     return sums
 
 
-@dataclass(frozen=True, eq=False)
-class Fit:
-    """A periodic spline s(phi), its derivative, whose digits do not come from differences of s, and its knots [rad].
-
-    They reach over three turns, of which the first leg begins the middle one.
-    """
-
-    spline: KnottedSpline
-    velocity: KnottedSpline
-    knots: Floats
-
-
-def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float, advice: Words = "") -> Fit:
-    """The most likely spline that keeps every row to the tolerance.
+def fit(
+    phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float, advice: Words = ""
+) -> PiecewisePolynomial:
+    """The most likely periodic spline that keeps every row to the tolerance, over three turns.
 
     phi, s : (n,) cam angles [rad] within the turn that begins with the first leg, in order, and displacements
     legs : from :func:`~graphcam.given.leg_detection.find_legs`
@@ -142,7 +133,7 @@ def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float,
     likelihood = _likelihood(circle, phi, s, legs, noise)
     for _ in range(PULL_ROUNDS):
         fitted = _closed_spline(circle, likelihood, _most_likely_unknowns(likelihood, s, counts))
-        off = np.abs(fitted.spline(phi) - s)
+        off = np.abs(fitted(phi)[0] - s)
         if off.max() <= tolerance:
             return fitted
         counts[off > tolerance] *= PULL_FACTOR
@@ -295,7 +286,7 @@ def _most_likely_unknowns(given: _Likelihood, s: Floats, counts: Floats) -> Floa
     return z
 
 
-def _closed_spline(circle: _Circle, given: _Likelihood, z: Floats) -> Fit:
+def _closed_spline(circle: _Circle, given: _Likelihood, z: Floats) -> PiecewisePolynomial:
     """The spline of the unknowns, with velocities of the right sign, and closed, to the last digit."""
     velocity = given.velocity(z)
     velocity[given.one_way * velocity < 0] = 0.0
@@ -304,6 +295,9 @@ def _closed_spline(circle: _Circle, given: _Likelihood, z: Floats) -> Fit:
     rises = velocity * widths
     velocity[rises < 0] *= np.sum(rises[rises > 0]) / -np.sum(rises[rises < 0])
     c = z[circle.index[0]] + np.cumsum(velocity * widths) - velocity[0] * widths[0]
-    turn = np.arange(circle.turns.size) % circle.knots.size
-    s = KnottedSpline(circle.turns, c[turn[: -DEGREE - 1]], DEGREE)
-    return Fit(s, KnottedSpline(circle.turns, velocity[turn[:-DEGREE]], DEGREE - 1), np.unique(circle.turns))
+    n, first = circle.knots.size, circle.knots[:1]
+    # The digits of v do not come from differences of s.
+    coefficients = velocity[np.arange(circle.turns.size - DEGREE) % n]
+    s = PiecewisePolynomial.of_spline(circle.turns, coefficients, DEGREE - 1).integral()
+    numbers, values = basis_functions(circle.turns, DEGREE, first)
+    return s.seen(0.0, base=(s(first)[0] - ordered_sum(values * c[numbers % n])).item())

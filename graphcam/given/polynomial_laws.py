@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import partial
 
 from graphcam.given.declared_law import DeclaredLaw
-from graphcam.given.exact_polynomials import ExactPiece
+from graphcam.given.exact_conditions import as_series
 from graphcam.given.motion_law import Law
 from graphcam.given.piecewise import Floats, Formula
 from graphcam.given.polynomial_law import leg_law
@@ -61,7 +61,11 @@ def _polynomial(name: str, formula: Formula, peaks: tuple[float, float], n: int,
 
 POLYNOMIAL_2_3 = DeclaredLaw(
     title=say("2-3"),
-    synonyms=("cubic", "полином 2-3", "đa thức 2-3", "2-3 多项式"),
+    synonyms=(
+        *("cubic", "linearly decreasing acceleration", "equally decreasing acceleration", "uniformly decreasing"),
+        *("равномерно убывающее ускорение", "линейно убывающее ускорение", "равномерно убывающий", "линейно убывающий"),
+        *("полином 2-3", "đa thức 2-3", "2-3 多项式"),
+    ),
     make=lambda _: _polynomial("2-3", _poly_2_3, (1.5, 6.0), 1, (3, -4, 2)),
     printed=lambda u, _: 3 * u**2 - 2 * u**3,
     fifth_derivatives=((0.0,), ()),
@@ -83,7 +87,7 @@ POLYNOMIAL_4_5_6_7 = DeclaredLaw(
 EIGHTH_DEGREE = DeclaredLaw(
     title=say("eighth-degree"),
     synonyms=("полином восьмой степени", "đa thức bậc tám", "八次多项式"),
-    make=lambda _: leg_law("eighth-degree", [ExactPiece(Fraction(0), Fraction(1), _EIGHTH_COEFFICIENTS)])[1],
+    make=lambda _: leg_law("eighth-degree", as_series([(Fraction(0), Fraction(1), _EIGHTH_COEFFICIENTS)]))[1],
     printed=lambda u, _: sum(c.numerator * u**k / c.denominator for k, c in enumerate(_EIGHTH_COEFFICIENTS)),
     fifth_derivatives=((2493.648,), ()),
     rise_fall=True,

@@ -18,6 +18,7 @@ import numpy as np
 from graphcam.given.declared_law import DeclaredLaw, mirrored_print
 from graphcam.given.motion_law import Law
 from graphcam.given.piecewise import Floats, sine_cosine
+from graphcam.given.skewed_law import skewed
 from graphcam.words import say
 
 _PI = math.pi
@@ -158,27 +159,28 @@ def _cosine_law(_: float) -> Law:
     )
 
 
-def _cycloidal_law(_: float) -> Law:
+def _cycloidal_law(ratio: float) -> Law:
     formula = partial(_sine_up, height=2 * _PI, k=2 * _PI)
-    return Law(
-        "cycloidal", formula, (), True, 1.0, 1.0, (2.0, 2 * _PI), (_cycloidal_tangent, _cycloidal_tangent), trusted=True
-    )
+    tangents = _cycloidal_tangent, _cycloidal_tangent
+    return skewed(Law("cycloidal", formula, (), True, 1.0, 1.0, (2.0, 2 * _PI), tangents, trusted=True), ratio)
 
 
-def _modified_trapezoidal_law(_: float) -> Law:
+def _modified_trapezoidal_law(ratio: float) -> Law:
     height, k = _MODIFIED_TRAPEZOIDAL_PEAK, 4 * _PI
     up, down = partial(_sine_up, height=height, k=k), partial(_sine_down, height=height, k=k, peak=2.0)
     formulas = up, partial(_sine_top, height=height), down
-    return Law("modified-trapezoidal", formulas, (1 / 8, 3 / 8), True, peaks=(2.0, height), trusted=True)
+    equal = Law("modified-trapezoidal", formulas, (1 / 8, 3 / 8), True, peaks=(2.0, height), trusted=True)
+    return skewed(equal, ratio)
 
 
-def _modified_sine_law(_: float) -> Law:
+def _modified_sine_law(ratio: float) -> Law:
     height, peak = _PI * _MODIFIED_SINE_PEAK, _MODIFIED_SINE_PEAK
     rising, falling = (
         partial(_sine_up, height=height, k=4 * _PI),
         partial(_sine_down, height=height, k=4 * _PI / 3, peak=peak),
     )
-    return Law("modified-sine", (rising, falling), (1 / 8,), True, peaks=(peak, height), trusted=True)
+    equal = Law("modified-sine", (rising, falling), (1 / 8,), True, peaks=(peak, height), trusted=True)
+    return skewed(equal, ratio)
 
 
 def _double_harmonic_law(_: float) -> Law:
@@ -227,6 +229,7 @@ CYCLOIDAL = DeclaredLaw(
     make=_cycloidal_law,
     printed=lambda u, m: u - m.sin(2 * m.pi * u) / (2 * m.pi),
     fifth_derivatives=((16 * _PI**4,), ()),
+    has_ratio=True,
 )
 MODIFIED_TRAPEZOIDAL = DeclaredLaw(
     title=say("modified-trapezoidal"),
@@ -237,6 +240,7 @@ MODIFIED_TRAPEZOIDAL = DeclaredLaw(
     make=_modified_trapezoidal_law,
     printed=mirrored_print(_printed_modified_trapezoidal),
     fifth_derivatives=((4 * _PI * _RAMP, 0.0, 4 * _PI * _RAMP), (_RAMP, _RAMP)),
+    has_ratio=True,
 )
 MODIFIED_SINE = DeclaredLaw(
     title=say("modified-sine"),
@@ -247,6 +251,7 @@ MODIFIED_SINE = DeclaredLaw(
     make=_modified_sine_law,
     printed=_printed_modified_sine,
     fifth_derivatives=((4 * _PI * _SINE, 4 * _PI * _SINE / 27), (8 / 9 * _SINE,)),
+    has_ratio=True,
 )
 DOUBLE_HARMONIC = DeclaredLaw(
     title=say("double-harmonic"),

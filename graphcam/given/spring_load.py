@@ -27,7 +27,7 @@ import numpy as np
 from graphcam.errors import DesignError, check_kind, check_number
 from graphcam.given.follower import MM_PER_M, omega_of
 from graphcam.given.laws import Floats
-from graphcam.given.load_curve import Load, check_load, knots_of, largest, load_at, load_slope
+from graphcam.given.load_curve import Load, check_load, knots_of, largest, load_at
 from graphcam.given.plausible_ranges import NUMBER_TYPES, bounded
 from graphcam.words import Words, say
 
@@ -127,11 +127,11 @@ class SpringLoad:
         inertia = self.mass / MM_PER_M * (a * self.omega**2 + v * self.acceleration)
         return inertia + self.preload + self.stiffness * s + self.friction * direction + load_at(self.load, phi)
 
-    def slope(self, values: Values, phi: Floats | float = math.nan) -> Floats:
-        """dF/dphi [N/rad] inside a phase, from (s, v, a, j)."""
+    def slope(self, values: Values) -> Floats:
+        """dF/dphi [N/rad] inside a phase, from (s, v, a, j), under a load that is the same over the turn."""
         _, v, a, j = values
         inertia = self.mass / MM_PER_M * (j * self.omega**2 + a * self.acceleration)
-        return inertia + self.stiffness * v + load_slope(self.load, phi)
+        return inertia + self.stiffness * v
 
     def size(self, values: Values) -> Floats:
         """The sum of the magnitudes of the force's terms [N], to which its rounding is relative."""
@@ -247,17 +247,6 @@ class ArmLoad:
         """Speed of the cam [rad/s]."""
         return omega_of(self.speed_rpm)
 
-    def placed(self, arm: float, distance: float, psi0: float, swing: float) -> "PlacedArmLoad":
-        """The load on an arm of a length whose pivot is at a distance [mm], from the low angle over a swing [rad].
-
-        Raises
-        ------
-        DesignError : a spring at a point passes its dead point, where it has no torque
-        """
-        placed = PlacedArmLoad(self, arm, distance, psi0)
-        placed.check(swing)
-        return placed
-
 
 @dataclass(frozen=True, eq=False)
 class PlacedArmLoad:
@@ -289,13 +278,13 @@ class PlacedArmLoad:
         inertia = given.inertia / MM_PER_M * (a * given.omega**2 + v * given.acceleration)
         return inertia + (given.preload + given.stiffness * x) * x1 + self.arm * load_at(given.load, phi)
 
-    def slope(self, values: Values, phi: Floats | float = math.nan) -> Floats:
-        """The derivative of the load by phi inside a phase [N mm/rad]."""
+    def slope(self, values: Values) -> Floats:
+        """The derivative by phi inside a phase [N mm/rad], under a load that is the same over the turn."""
         _, v, a, j = values
         given, (x, x1, x2) = self.given, self._spring(values)
         inertia = given.inertia / MM_PER_M * (j * given.omega**2 + a * given.acceleration)
         spring = given.stiffness * x1 * x1 + (given.preload + given.stiffness * x) * x2
-        return inertia + spring * v + self.arm * load_slope(given.load, phi)
+        return inertia + spring * v
 
     def size(self, values: Values) -> Floats:
         """The sum of the magnitudes of the torque's terms [N mm]."""

@@ -1,5 +1,6 @@
 """Dividing the phases: the stations of a drawing, at the ends of equal parts of each moving phase."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Dwell, Motion
+from graphcam.given.motion_law import Law
 from graphcam.words import say
 
 
@@ -22,10 +24,12 @@ class Stations:
     phase : (m,) index of the phase that each station belongs to
     u, phi : (m,) fraction of the phase and cam angle [rad]
     phases : slice of the stations of each moving phase, in order
-    pieces : slices between places where the acceleration jumps; neighbours inside a phase share the jump's station
+    pieces : slices between places where the acceleration jumps, and of the ``finer`` phases between its corners;
+        neighbours inside a phase share the station there
     stretches : slices of equal parts, which may be shorter than the pieces; neighbours share a station too
     left : (p,) station at which each part begins; it ends at ``left + 1``
     refine : into how many each of the divisions was divided again, 1 for a drawing as it was asked for
+    finer : the phases that have more parts than the others, because their acceleration is short
     """
 
     phase: NDArray[np.intp]
@@ -36,6 +40,7 @@ class Stations:
     stretches: tuple[slice, ...]
     left: NDArray[np.intp]
     refine: int = 1
+    finer: tuple[int, ...] = ()
 
     @property
     def moving(self) -> NDArray[np.intp]:
@@ -54,12 +59,28 @@ class Stations:
         return tuple(slice(s.start - k, s.stop - k - 1) for k, s in enumerate(self.phases))
 
 
-def divide(motion: Motion, divisions: int, refine: int = 1, *, at_corners: bool = False) -> Stations:
+MAX_FINER_PARTS = 48
+"""A phase whose acceleration is short is divided into at most so many parts."""
+EQUAL_WIDTH = 1e-9
+"""Parts whose widths differ by less, as parts of their phase, are equal."""
+NO_PHASES: Mapping[int, Sequence[float]] = {}
+
+
+def divide(
+    motion: Motion,
+    divisions: int,
+    refine: int = 1,
+    *,
+    at_corners: bool = False,
+    finer: Mapping[int, Sequence[float]] = NO_PHASES,
+) -> Stations:
     """Divide each moving phase into ``divisions`` equal parts, and each of these again into ``refine``.
 
     A phase whose acceleration jumps inside is divided so that the jump falls on a division: each stretch between
     jumps gets its own whole number of equal parts, in proportion, at least one.  With ``at_corners`` the corners of the
     acceleration fall on divisions too, where what is looked for may be greatest in a corner.
+
+    finer : the cuts u, both ends of the phase among them, of phases by their index that are not divided equally
 
     Raises
     ------
@@ -76,6 +97,8 @@ def divide(motion: Motion, divisions: int, refine: int = 1, *, at_corners: bool 
     >>> triangular = gc.Motion([gc.Rise(30, pi, "triangular"), gc.Return(30, pi, "cosine")])
     >>> divide(triangular, 6, at_corners=True).u[:7].round(3).tolist()
     [0.0, 0.125, 0.25, 0.417, 0.583, 0.75, 1.0]
+    >>> divide(triangular, 3, finer={0: [0, 0.125, 0.25, 0.75, 1]}).stretches
+    (slice(0, 3, None), slice(2, 4, None), slice(3, 5, None), slice(5, 9, None))
     """
     if divisions < 1:
         raise DesignError("divisions", divisions, say("1 or more parts per phase"))
@@ -90,14 +113,19 @@ def divide(motion: Motion, divisions: int, refine: int = 1, *, at_corners: bool 
         law = part.normalised
         # Where the stretches of equal parts begin and end.
         ends = (0.0, *sorted((*law.jumps, *(law.corners if at_corners else ()))), 1.0)
+        runs, apart = zip(pairwise(ends), _shares(ends, divisions), strict=True), (*law.jumps, 1.0)
+        if k in finer:
+            # Across a short acceleration no hand fairs a curve: the line on either side of it is nearly straight.
+            apart = (*law.jumps, *law.corners, 1.0)
+            runs = _runs(finer[k], apart)
         first = begun = len(u)
         u.append(0.0)
-        for (start, end), share in zip(pairwise(ends), _shares(ends, divisions), strict=True):
+        for (start, end), share in runs:
             n = share * refine
             stretches.append(slice(len(u) - 1, len(u) + n))
             # The end itself, since a rounding beyond it the acceleration has jumped.
             u.extend([*(start + (end - start) * np.arange(1, n) / n), end])
-            if end in (*law.jumps, 1.0):
+            if end in apart:
                 pieces.append(slice(begun, len(u)))
                 begun = len(u) - 1
         phase += [k] * (len(u) - first)
@@ -106,7 +134,28 @@ def divide(motion: Motion, divisions: int, refine: int = 1, *, at_corners: bool 
     angles = np.array([part.angle for part in motion.phases])
     left = np.concatenate([np.arange(s.start, s.stop - 1) for s in phases])
     phi = motion.starts[phase_of] + fraction * angles[phase_of]
-    return Stations(phase_of, fraction, phi, tuple(phases), tuple(pieces), tuple(stretches), left, refine)
+    made = phase_of, fraction, phi, tuple(phases), tuple(pieces), tuple(stretches), left, refine
+    return Stations(*made, tuple(finer))
+
+
+def cuts_at_corners(law: Law, divisions: int) -> Floats:
+    """The cuts u of so many parts, or more, with the jumps and corners of the acceleration, unless these are too many.
+
+    >>> import graphcam as gc
+    >>> cuts_at_corners(gc.law("trapezoidal"), 4).tolist()
+    [0.0, 0.125, 0.375, 0.625, 0.875, 1.0]
+    """
+    corners = law.corners if len(law.jumps) + len(law.corners) < MAX_FINER_PARTS else ()
+    ends = (0.0, *sorted((*law.jumps, *corners)), 1.0)
+    shares = zip(pairwise(ends), _shares(ends, divisions), strict=True)
+    return np.append(np.concatenate([np.linspace(*ends, n, endpoint=False) for ends, n in shares]), 1.0)
+
+
+def _runs(cuts: Sequence[float], apart: Sequence[float]) -> list[tuple[tuple[float, float], int]]:
+    """The stretches of equal parts between cuts, broken at some of them, and how many parts each has."""
+    widths, last = np.diff(cuts), len(cuts) - 1
+    bounds = [k for k in range(1, last) if cuts[k] in apart or abs(widths[k] - widths[k - 1]) > EQUAL_WIDTH]
+    return [((float(cuts[a]), float(cuts[b])), b - a) for a, b in pairwise((0, *bounds, last))]
 
 
 @lru_cache

@@ -15,6 +15,7 @@ import numpy as np
 from graphcam.given.declared_law import DeclaredLaw, mirrored_print
 from graphcam.given.motion_law import Law
 from graphcam.given.piecewise import Floats
+from graphcam.given.skewed_law import skewed
 from graphcam.words import say
 
 
@@ -60,9 +61,9 @@ def _rectangular(ratio: float) -> Law:
     return Law("rectangular", (first, second), (middle,), False, middle, ratio, peaks, (ahead, back), trusted=True)
 
 
-def _triangular(_: float) -> Law:
+def _triangular(ratio: float) -> Law:
     formulas = partial(_linear_up, slope=32.0), partial(_linear_down, slope=32.0)
-    return Law("triangular", formulas, (1 / 4,), True, peaks=(2.0, 8.0), trusted=True)
+    return skewed(Law("triangular", formulas, (1 / 4,), True, peaks=(2.0, 8.0), trusted=True), ratio)
 
 
 def _trapezoidal(_: float) -> Law:
@@ -89,8 +90,10 @@ def _printed_trapezoidal(u: Any, _: Any) -> Any:
 RECTANGULAR = DeclaredLaw(
     title=say("rectangular"),
     synonyms=(
-        *("constant acceleration", "uniform acceleration", "parabolic", "parabola"),
+        *("constant acceleration", "uniform acceleration", "parabolic", "parabola", "gravity", "UARM"),
+        *("constant acceleration and deceleration", "uniformly accelerated and retarded motion"),
         *("прямоугольный (постоянного ускорения)", "прямоугольный", "постоянного ускорения", "параболический"),
+        *("равноускоренный", "равноускоренное движение", "постоянное ускорение"),
         *("gia tốc không đổi", "等加速等减速", "等加速"),
     ),
     make=_rectangular,
@@ -104,6 +107,7 @@ TRIANGULAR = DeclaredLaw(
     make=_triangular,
     printed=mirrored_print(_printed_triangular),
     fifth_derivatives=((0.0, 0.0), (0.0,)),
+    has_ratio=True,
 )
 TRAPEZOIDAL = DeclaredLaw(
     title=say("trapezoidal"),

@@ -68,7 +68,7 @@ class Cam(Plottable):
     Parameters
     ----------
     motion : displacement over one revolution
-    follower : translating, oscillating or flat-faced; of a flat-faced one pitch curve and profile are the same curve
+    follower : one of graphcam's; of one with a flat face pitch curve and profile are the same curve
     prime_radius : r0 [mm], the minimum radius of the pitch curve
     rotation : "ccw" or "cw"
 
@@ -125,7 +125,7 @@ class Cam(Plottable):
             remedy = say("take a smaller roller or enlarge the prime radius")
             raise DesignError(say("roller radius"), self.roller_radius, limit, remedy)
         object.__setattr__(self, "sigma", sense(self.rotation))
-        _ = self.kinematics  # says at once what does not fit
+        self.kinematics.check_motion(self.motion)
 
     @property
     def roller_radius(self) -> float:

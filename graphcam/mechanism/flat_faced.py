@@ -120,6 +120,11 @@ class FlatFacedKinematics(Kinematics):
         """The radius of curvature rho [mm] of a sharpness."""
         return -sharpness
 
+    def face_ends(self, motion: Motion) -> Mapping[str, float]:
+        """How far the contact wanders to the left and to the right of the axis."""
+        width = face_width(motion, "ccw" if self.sigma > 0 else "cw")
+        return {"face_left": width.left, "face_right": width.right}
+
     def appearance(self, motion: Motion, values: Values) -> Appearance:
         """A face whose middle slides upwards, as wide as the contact wanders."""
         width = face_width(motion, "ccw" if self.sigma > 0 else "cw")

@@ -3,12 +3,13 @@
 from collections.abc import Callable
 from typing import Literal, NamedTuple
 
-from graphcam.given.follower import FlatFaced, Follower, Oscillating, Translating
+from graphcam.given.follower import FlatFaced, Follower, Oscillating, OscillatingFlat, Translating
 from graphcam.mechanism.flat_faced import FlatFacedKinematics, FlatMinimumRadius, flat_minimum_radius
 from graphcam.mechanism.kinematics import Kinematics
 from graphcam.mechanism.least_radius_arm import ArmMinimumRadius, arm_minimum_radius
 from graphcam.mechanism.least_radius_translating import MinimumRadius, translating_minimum_radius
 from graphcam.mechanism.oscillating import OscillatingKinematics
+from graphcam.mechanism.oscillating_flat import OscillatingFlatKinematics, oscillating_flat_minimum_radius
 from graphcam.mechanism.translating import TranslatingKinematics
 
 LeastRadius = MinimumRadius | ArmMinimumRadius | FlatMinimumRadius
@@ -30,6 +31,7 @@ EXACT_FUNCTIONS: dict[type[Follower], ExactFunctions] = {
     Translating: ExactFunctions(TranslatingKinematics, translating_minimum_radius, "offset"),
     Oscillating: ExactFunctions(OscillatingKinematics, arm_minimum_radius, None),
     FlatFaced: ExactFunctions(FlatFacedKinematics, flat_minimum_radius, "curvature"),
+    OscillatingFlat: ExactFunctions(OscillatingFlatKinematics, oscillating_flat_minimum_radius, "curvature"),
 }
 
 

@@ -331,7 +331,7 @@ class CamForces:
     def _moving_force(self, values: Values, direction: Floats) -> Floats:
         """What a unit of normal force moves along the motion, less what the guide holds of it; of an arm [mm]."""
         moved = transmission(self.cam, values, self.friction)[0]
-        return self.cam.kinematics.reach * moved - direction * self._guide_friction(values)
+        return self.cam.kinematics.reach(values)[0] * moved - direction * self._guide_friction(values)
 
     def _guide_friction(self, values: Values) -> Floats:
         """h, the friction in the guide over the normal force."""

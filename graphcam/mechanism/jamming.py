@@ -31,8 +31,7 @@ def transmitted(kin: Kinematics, values: Values, friction: float, roller: Any) -
     """The transmission of one cam or of many, as in :func:`transmission`, with the radii of their rollers [mm]."""
     cosine, sine, turning = contact_angle(kin, values)
     lean = kin.leaning * friction
-    rim = roller / kin.reach if kin.swings else 0.0
-    return cosine - lean * (sine - rim), -(sine + lean * cosine) * turning
+    return cosine - lean * (sine - kin.rim(roller)), -(sine + lean * cosine) * turning
 
 
 def lever_about_cam(kin: Kinematics, values: Values, friction: float, roller: Any) -> tuple[Floats, Floats]:
@@ -40,8 +39,9 @@ def lever_about_cam(kin: Kinematics, values: Values, friction: float, roller: An
     _, v, a, _ = values
     moved, moved_slope = transmitted(kin, values, friction, roller)
     sliding, sliding_slope = kin.sliding(values, roller)
-    lever = kin.reach * v * moved + friction * sliding
-    return lever, kin.reach * (a * moved + v * moved_slope) + friction * sliding_slope
+    reach, reach_slope = kin.reach(values)
+    slope = reach * (a * moved + v * moved_slope) + reach_slope * v * moved
+    return reach * v * moved + friction * sliding, slope + friction * sliding_slope
 
 
 def jamming_margin(cam: Cam, friction: float) -> ValueAt:

@@ -9,6 +9,7 @@ i sigma q1/|q1|.  The vector q whose argument is the pressure angle is q1, turne
 positive where the cam is convex, is (|q|^2 + g q.imag - h q.real)/|q|^3, with g and h of each follower's own.
 """
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from copy import copy
@@ -21,7 +22,7 @@ from numpy.typing import NDArray
 from graphcam.errors import check_kind
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
-from graphcam.given.spring_load import FollowerLoad, SpringLoad
+from graphcam.given.spring_load import ArmLoad, FollowerLoad, SpringLoad
 from graphcam.words import say
 
 Complexes = NDArray[np.complexfloating[Any, Any]]
@@ -29,18 +30,21 @@ Pair = tuple[Floats | float, Floats | float]
 """The x and y of plane vectors; real, because numpy takes its time with complex arrays."""
 Values = tuple[Floats, Floats, Floats, Floats]
 """(s, v, a, j)"""
+INERTIA_REMEDY, MASS_REMEDY = say("give its inertia about the pivot"), say("an ArmLoad turns an arm")
 
 
 @dataclass(frozen=True, eq=False)
 class Appearance:
     """A follower as a picture of the mechanism shows it.
 
-    kind : a stem with a roller or a knife edge, an arm, a flat face
-    trace : (n,) the trace point, or the middle of the face;  motion : (n,) unit directions of its motion on the rise
-    pivot : of the arm;  face : how far the face reaches to the left (negative) and to the right [mm]
+    kind : a stem with a roller or a knife edge, an arm, a flat face, a flat face that swings
+    trace : (n,) the trace point, or the middle of the face, or where it touches;  motion : (n,) unit directions of its
+        motion on the rise
+    pivot : of the arm, or of the face;  face : how far the face reaches to the left (negative) and to the right, or
+        where it begins and ends from the foot of its pivot [mm]
     """
 
-    kind: Literal["stem", "arm", "face"]
+    kind: Literal["stem", "arm", "face", "blade"]
     trace: Complexes
     motion: Complexes
     pivot: complex = 0j
@@ -80,6 +84,8 @@ class Kinematics(ABC):
     """Whether the contact pushes the follower aside at all."""
     swings: ClassVar[bool] = False
     """Whether the follower swings about a pivot: then s is an angle, and a load along the motion a torque."""
+    max_speed_with_cam: ClassVar[float] = math.inf
+    """What |v| [rad/rad] must stay below where the follower turns in the sense of the cam."""
 
     @classmethod
     @abstractmethod
@@ -93,6 +99,18 @@ class Kinematics(ABC):
         Raises
         ------
         DesignError : the follower does not fit the prime radius or the lift
+        """
+
+    def face_ends(self, motion: Motion) -> Mapping[str, float]:
+        """How far the contact wanders on a flat face [mm], by the names of its ends; none without a face."""
+        return {}
+
+    def check_motion(self, motion: Motion) -> None:  # noqa: B027 - most followers can do any
+        """Check that the follower can do a motion, beyond its lift.
+
+        Raises
+        ------
+        DesignError : it cannot
         """
 
     def part(self, which: NDArray[Any] | slice) -> Self:
@@ -124,20 +142,25 @@ class Kinematics(ABC):
         return 0.0 * lift
 
     def pressed_by(self, load: Any) -> FollowerLoad:
-        """A load on the follower beside this cam.
+        """A load on the follower beside this cam, or beside each of many.
 
         Raises
         ------
         DesignError : it is a load on another kind of follower, or does not fit
         """
-        limit = say("a SpringLoad, for the follower slides")
-        check_kind("load", load, SpringLoad, limit, say("an ArmLoad turns an arm"))
+        if self.swings:
+            check_kind("load", load, ArmLoad, say("an ArmLoad, for the follower swings"), INERTIA_REMEDY)
+        else:
+            check_kind("load", load, SpringLoad, say("a SpringLoad, for the follower slides"), MASS_REMEDY)
         return load
 
-    @property
-    def reach(self) -> Any:
-        """How far the trace point moves with s [mm per mm; of an arm per rad]."""
-        return 1.0
+    def reach(self, values: Values) -> tuple[Any, Any]:
+        """How far the point of contact, or the trace point, moves with s [mm per mm; of an arm per rad]; its slope."""
+        return 1.0, 0.0
+
+    def rim(self, roller: Any) -> Any:
+        """How far beside the trace point the friction on a roller [mm] turns the follower, in parts of the reach."""
+        return 0.0
 
     @abstractmethod
     def lift_per_error(self, values: Values) -> dict[str, Any]:

@@ -1,7 +1,8 @@
 """The minimum prime radius that keeps the pressure angle, or of a flat-faced follower the curvature, within its limits.
 
 Each follower's stands in a file of its own: :mod:`~graphcam.mechanism.least_radius_translating`,
-:mod:`~graphcam.mechanism.least_radius_arm` and :mod:`~graphcam.mechanism.flat_faced`.
+:mod:`~graphcam.mechanism.least_radius_arm`, :mod:`~graphcam.mechanism.flat_faced` and
+:mod:`~graphcam.mechanism.oscillating_flat`.
 """
 
 import math
@@ -14,6 +15,7 @@ from graphcam.given.follower import (
     Follower,
     Limits,
     Oscillating,
+    OscillatingFlat,
     Rotation,
     Translating,
     sense,
@@ -51,7 +53,7 @@ def minimum_radius(
 @overload
 def minimum_radius(
     motion: Motion,
-    follower: FlatFaced,
+    follower: FlatFaced | OscillatingFlat,
     rotation: Rotation = "ccw",
     rise: float | None = None,
     return_: float | None = None,

@@ -13,12 +13,12 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from graphcam.errors import DesignError, check_kind
+from graphcam.errors import DesignError
 from graphcam.given.follower import Oscillating, swing_remedy
 from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.piecewise import sine_cosine
-from graphcam.given.spring_load import ArmLoad, FollowerLoad
+from graphcam.given.spring_load import FollowerLoad, PlacedArmLoad
 from graphcam.mechanism.kinematics import Appearance, Contour, Pair, RollerKinematics, Values
 from graphcam.words import say
 
@@ -117,14 +117,19 @@ class OscillatingKinematics(RollerKinematics):
 
     def pressed_by(self, load: Any) -> FollowerLoad:
         """A torque about the pivot."""
-        limit = say("an ArmLoad, for the follower swings")
-        check_kind("load", load, ArmLoad, limit, say("give its inertia about the pivot"))
-        return load.placed(self.arm, self.distance, self.psi0, self.swing)
+        super().pressed_by(load)
+        placed = PlacedArmLoad(load, self.arm, self.distance, self.psi0)
+        if np.ndim(self.psi0) == 0:
+            placed.check(self.swing)
+        return placed
 
-    @property
-    def reach(self) -> Any:
+    def reach(self, values: Values) -> tuple[Any, Any]:
         """l: s is an angle."""
-        return self.arm
+        return self.arm, 0.0
+
+    def rim(self, roller: Any) -> Any:
+        """r/l: the friction acts at the rim of the roller."""
+        return roller / self.arm
 
     @property
     def leaning(self) -> Any:

@@ -126,7 +126,8 @@ def radius_sensitivity(
         sigma_i (d alpha_i/d r0 dr0 + d alpha_i/dx dx + d alpha_i/dp dp) = dA_i
 
     The arguments are those of :func:`graphcam.minimum_radius`.  The derivatives are called "rise" and "return" by the
-    permitted angles, "offset" or "distance" where it is given, "arm", "lift", and under a flat face "curvature".
+    permitted angles, "offset" or "distance" where it is given, "arm", "lift", and under a flat face "curvature" and the
+    sizes of the face.  There the sharpest place takes the place of the steepest.
 
     Raises
     ------
@@ -145,7 +146,12 @@ def radius_sensitivity(
         shown = say("{length:g} mm", length=least.prime_radius)
         raise DesignError(say("minimum prime radius"), shown, say("held by a limit"), remedy)
     if least.place_name is None:
-        return {"curvature": 1.0, "lift": (least.prime_radius - (curvature or 0.0)) / motion.lift}
+        slopes = _sharpest_radius_by_sizes(
+            motion, kinematics(follower, least.prime_radius, sense(rotation), motion.lift)
+        )
+        by_radius = slopes.pop("prime_radius")
+        found = {name: -by / by_radius for name, by in slopes.items()} | {"curvature": 1 / by_radius}
+        return found | {"lift": found["lift"] / motion.lift}
     fixed = {"offset": offset, "distance": getattr(follower, "distance", None)}[least.place_name] is not None
     free = ["prime_radius"] if fixed else ["prime_radius", least.place_name]
     sized = replace(follower, roller_radius=0.0, **{least.place_name: least.place})
@@ -159,6 +165,13 @@ def radius_sensitivity(
     right |= {name: [float(place.limit == name) for place in held] for name, limit in limits.items() if limit}
     found = {name: float(np.linalg.solve(np.array(matrix), np.array(column))[0]) for name, column in right.items()}
     return found | {"lift": found["lift"] / motion.lift}
+
+
+def _sharpest_radius_by_sizes(motion: Motion, kin: Kinematics) -> dict[str, float]:
+    """The derivatives of the minimum radius of curvature: its place stands still to the first order."""
+    values = highest_places(motion, kin.sharpness).values
+    k = int(np.argmax(kin.sharpness(values)))
+    return {name: float(by[k]) for name, by in kin.radius_by_sizes(values).items()}
 
 
 def _holding_places(

@@ -186,7 +186,7 @@ def _parts_slider(solution: AnySolution) -> str:
     """The code of a slider for the number of parts, on the drawing that shows them best."""
     arcs = isinstance(solution, ArcsSolution)
     construction, view = ("arc_diagrams", "acceleration") if arcs else ("integration", "displacement")
-    start = solution.task.drawing.divisions
+    start = solution.chain.board.divisions
     values, shown = sorted({2, 4, 8, 12, 24, start}), tuple(sorted({4, start}))
     parts = solution.tell(say_in("of a slider", "parts"))
     return PARTS_CODE.format(construction=construction, view=view, values=values, start=start, shown=shown, parts=parts)

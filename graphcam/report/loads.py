@@ -124,18 +124,23 @@ def _presses(spring: SpringDesign) -> Caption:
 
 
 NORMAL_FORCE = {
-    (True, False): r"N = \frac{\xi}{\cos\alpha}, \qquad M = N\,v\cos\alpha.",
-    (True, True): (
+    ("stem", False): r"N = \frac{\xi}{\cos\alpha}, \qquad M = N\,v\cos\alpha.",
+    ("stem", True): (
         r"N = \frac{\xi}{\cos\alpha - \mu\sin\alpha}, \qquad "
         r"M = N\,\bigl(v\,(\cos\alpha - \mu\sin\alpha) + \mu\,w\bigr)."
     ),
-    (False, False): r"N = \frac{\xi}{l\cos\alpha}, \qquad M = N\,v\,l\cos\alpha.",
-    (False, True): (
+    ("arm", False): r"N = \frac{\xi}{l\cos\alpha}, \qquad M = N\,v\,l\cos\alpha.",
+    ("arm", True): (
         r"N = \frac{\xi}{l\cos\alpha - \sigma\mu\,(l\sin\alpha - r)}, \qquad "
         r"M = v\,\xi + \mu\,N\,w."
     ),
+    ("swinging face", False): r"N = \frac{\xi}{q}, \qquad M = v\,\xi, \qquad q = \frac{c\cos\psi}{1 + \sigma v}.",
+    ("swinging face", True): (
+        r"N = \frac{\xi}{q + \sigma\mu f}, \qquad M = v\,\xi + \mu\,N\,w, \qquad "
+        r"q = \frac{c\cos\psi}{1 + \sigma v}."
+    ),
 }
-"""Normal force and torque, by whether the follower slides, and whether there is friction at the cam."""
+"""Normal force and torque, by what the force moves, and whether there is friction at the cam."""
 
 
 def forces(solution: Solution) -> list[Block]:
@@ -164,7 +169,7 @@ def forces(solution: Solution) -> list[Block]:
     return [
         rubs if spring.friction else "",
         say("The cam pushes along the normal with $N$, and the torque on the shaft is $M$:"),
-        Equation(NORMAL_FORCE[isinstance(spring.load, SpringLoad), bool(spring.friction)]),
+        Equation(NORMAL_FORCE[spring.moved, bool(spring.friction)]),
         extremes,
         _at_stations(solution, spring),
     ]

@@ -18,7 +18,18 @@ SWINGING_FORMULA = (
     r"\Delta s = \frac{1}{l}\left(\frac{\delta + \Delta r}{\cos\alpha} - \Delta c\,\frac{\sin(\psi - \alpha)}"
     r"{\cos\alpha} - \Delta l\,\tan\alpha\right),\qquad \delta = A\cos(n\varphi + \beta)."
 )
+ON_A_SWINGING_FACE = (
+    r"\Delta s = \frac{1 + \sigma v}{c\cos\psi}\left(\delta - \Delta c\,\sin\psi\right),\qquad "
+    r"\delta = A\cos(n\varphi + \beta)."
+)
 ON_A_FACE = r"\Delta s = \delta = A\cos(n\varphi + \beta)."
+MOVED_BY_ERRORS = {
+    (False, True): SLIDING_FORMULA,
+    (False, False): ON_A_FACE,
+    (True, True): SWINGING_FORMULA,
+    (True, False): ON_A_SWINGING_FACE,
+}
+"""How errors of making move the follower, by whether it swings, and whether it takes a roller."""
 SPREAD_CAPTIONS = {
     "normal": say("A size is normally distributed, with three standard deviations on either side within its zone."),
     "uniform": say("A size is uniformly distributed in its zone."),
@@ -33,7 +44,7 @@ def errors_of_making(solution: Solution) -> list[Block]:
     if design.undercut:
         return [warning(say("The profile is undercut: how errors of making move the follower is not told."))]
     kin = solution.cam.kinematics
-    law = SWINGING_FORMULA if kin.swings else SLIDING_FORMULA if kin.takes_roller else ON_A_FACE
+    law = MOVED_BY_ERRORS[kin.swings, kin.takes_roller]
     first = say(
         "An error of the profile along its normal, $\\delta$, and errors of the sizes move the follower, to the first "
         "order, by"

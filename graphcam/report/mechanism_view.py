@@ -29,6 +29,7 @@ SCENE_DESCRIPTIONS = {
     "stem": say("Cam and translating follower; the normal and the line of motion make the pressure angle."),
     "arm": say("Cam and oscillating follower; the normal and the direction of motion make the pressure angle."),
     "face": say("Cam and flat-faced follower; the normal of the face is its line of motion."),
+    "blade": say("Cam and oscillating flat face; the contact wanders along the face."),
 }
 LIVE_READINGS = ("pressure_angle", "displacement", "velocity")
 """Quantities shown while the cam turns; a flat face has no pressure angle."""
@@ -52,18 +53,19 @@ class TurnPhase:
 class MechanismScene:
     """A mechanism at n + 1 cam angles; the last position is the first again.
 
-    kind : of the follower: a stem with a roller or a knife edge, an arm, a flat face
-    sigma : the sense in which the cam turns;  roller : its radius, 0 for none;  pivot : of the arm
+    kind : of the follower: a stem with a roller or a knife edge, an arm, a flat face, a flat face that swings
+    sigma : the sense in which the cam turns;  roller : its radius, 0 for none;  pivot : of the arm, or of the face
     profile : (m,) the closed profile of the cam as it lies at phi = 0
-    face : how far the face reaches to the left (negative) and to the right
+    face : how far the face reaches to the left (negative) and to the right, or where it begins and ends from its pivot
     phi : (n + 1,) cam angles [rad]
-    trace, contact : (n + 1,) the trace point, or the middle of the face, and where the profile is touched
+    trace, contact : (n + 1,) the trace point, or the middle of the face, or the contact on a face that swings, and
+        where the profile is touched
     motion, normal : (n + 1,) unit directions of the trace point's motion on the rise, and of the normal off the cam
     alpha : (n + 1,) from the motion to the normal, positive in the sense of the rotation [rad]
     s, v : (n + 1,) displacement and velocity [mm, mm/rad; of an arm rad, rad/rad]
     """
 
-    kind: Literal["stem", "arm", "face"]
+    kind: Literal["stem", "arm", "face", "blade"]
     sigma: int
     roller: float
     profile: Points
@@ -78,6 +80,16 @@ class MechanismScene:
     v: Floats
     pivot: complex = 0j
     face: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def swings(self) -> bool:
+        """Whether the follower swings about the pivot."""
+        return self.kind in ("arm", "blade")
+
+    @property
+    def has_face(self) -> bool:
+        """Whether a face touches the profile: then there is no pitch curve beside it."""
+        return self.kind in ("face", "blade")
 
 
 def cam_scene(solution: Solution) -> MechanismScene:
@@ -138,10 +150,10 @@ def mechanism_view(scene: MechanismScene, tell: Tell, decimal: str = ".") -> dic
     tell : translates into the language of the page, whose decimal sign is ``decimal``
     """
     greatest = float(np.abs(scene.trace).max())
-    unit, swings = greatest / 28, scene.kind == "arm"
+    unit, swings = greatest / 28, scene.swings
     ground, top = (_pivot(scene, unit), 0.0) if swings else _guide(scene, unit)
     degree = math.degrees(1.0) if swings else 1.0
-    pitch = None if scene.kind == "face" else _points((scene.trace * np.exp(-1j * scene.sigma * scene.phi))[:-1])
+    pitch = None if scene.has_face else _points((scene.trace * np.exp(-1j * scene.sigma * scene.phi))[:-1])
     stem, face = top + 1.5 * unit - float(scene.trace.imag.min()), (scene.face[0] - 2 * unit, scene.face[1] + 2 * unit)
     sizes = {"unit": unit, "roller": scene.roller, "reach": 0.55 * greatest, "stem": stem}
     live = dict(zip(LIVE_READINGS, (np.degrees(scene.alpha), degree * scene.s, scene.v), strict=True))
@@ -215,7 +227,11 @@ def _box(scene: MechanismScene, data: dict[str, Any], unit: float) -> list[float
     corners += [scene.trace.min() - scene.roller, scene.trace.max() + scene.roller]
     if scene.kind == "face":
         corners += [complex(x, 0) for x in data["sizes"]["face"]]
-    if scene.kind != "arm":
+    if scene.kind == "blade":  # from its pivot to its end
+        way = 1j * scene.normal
+        foot = scene.pivot + ((scene.contact - scene.pivot) * scene.normal.conj()).real * scene.normal
+        corners += [scene.pivot, *(foot + data["sizes"]["face"][1] * way)]
+    if not scene.swings:
         corners.append(scene.trace[np.argmax(scene.trace.imag)] + 1j * data["sizes"]["stem"])
     x, y = np.real(corners), np.imag(corners)
     left, top = float(x.min()) - 2 * unit, -float(y.max()) - 2 * unit

@@ -32,6 +32,7 @@ from graphcam.report.sheet_contents import all_constructions
 from graphcam.report.sheet_data import ADOPTED_LABEL, SPEED_HEADINGS, conditions, data, phases, sizes
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import AnySolution
+from graphcam.solving.division_warnings import disagreement
 from graphcam.solving.solution import Solution
 from graphcam.solving.stress_design import STRESS_MEANING
 from graphcam.solving.tolerance_design import TOLERANCE_MEANING
@@ -116,26 +117,12 @@ def heading(title: TitleTable, drawing: SheetTable) -> list[Block]:
     return [f"# {head}", f"*{drawing.remark}*" if drawing.remark else "", "  \n".join(signed)]
 
 
-ASSIGNMENT_CAPTIONS = {
-    "translating": (
-        say("A disk cam is to move a translating follower with a knife edge by the following motion."),
-        say("A disk cam is to move a translating follower with a roller by the following motion."),
-    ),
-    "oscillating": (
-        say("A disk cam is to move an oscillating follower with a knife edge by the following motion."),
-        say("A disk cam is to move an oscillating follower with a roller by the following motion."),
-    ),
-    "flat-faced": (say("A disk cam is to move a flat-faced follower by the following motion."),) * 2,
-}
-"""The assignment by the kind of follower, without a roller and with one."""
-
-
 def task_data(solution: Solution) -> list[Block]:
     """The chapter on what is given, and what is to be found."""
     roller, given, asked = solution.chain.board.roller_radius != 0, data(solution), conditions(solution)
     rows = tuple((name, say("to be found") if by == ADOPTED_LABEL else value) for name, value, by in given.rows)
     return [
-        ASSIGNMENT_CAPTIONS[solution.task.follower.kind][roller],
+        solution.chain.board.follower.assignment(roller),
         of_sheet(phases(solution)),
         *([of_sheet(asked)] if asked else []),
         Grid(given.title, given.header[:2], rows),
@@ -236,7 +223,7 @@ def jumps_sentence(jumps: list[Jump], symbol: str, of_symbol: str) -> Grid:
 def _result(solution: Solution) -> list[Block]:
     built = [say("{name} {value} ({by})", name=name, value=value, by=by) for name, value, by in sizes(solution)]
     said = say("The cam is made with these sizes: {sizes}.", sizes=and_list(built))
-    return [said, *_face(solution), *map(warning, solution.warnings)]
+    return [said, *_face(solution), *(warning(caution.said) for caution in solution.cautions)]
 
 
 def _face(solution: Solution) -> list[Caption]:
@@ -305,17 +292,9 @@ def errors_of_the_hand(solution: AnySolution) -> list[Chapter]:
 def _verdict(solution: AnySolution) -> list[Caption]:
     """The sentences on which drawn values are within their bounds."""
     quantities = solution.comparison.quantities.values()
-    outside = and_list([q.title for q in quantities if abs(q.error_paper) > q.tolerance_paper])
     unknown = and_list([q.title for q in quantities if math.isfinite(q.error) and math.isnan(q.tolerance_paper)])
-    if outside and solution.chain.pencil.perfect:
-        verdict = say("Outside the bound: {names}; draw such a value with more parts.", names=outside)
-    elif outside:
-        verdict = say(
-            "Outside the bound: {names}; this is the scatter of the drawing errors, which seldom exceeds "
-            "{deviations:g} standard deviations.",
-            names=outside,
-            deviations=DEVIATION_COUNT,
-        )
+    if outside := disagreement(solution.comparison.quantities, solution.chain.pencil):
+        verdict = outside[0]
     elif unknown:
         verdict = say("Every drawn value lies within its bound, where there is one.")
     else:

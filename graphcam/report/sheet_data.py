@@ -112,6 +112,7 @@ def data(solution: Solution) -> Table:
         *_limits(solution),
         *_measured(solution),
         *_by_conditions(solution),
+        *_finer_phases(solution),
     ]
     return data_table(rows, (ADOPTED_LABEL, ""))
 
@@ -154,6 +155,15 @@ def _by_conditions(solution: Solution) -> list[Row]:
         *([(say("cam angle 0 of the conditions at"), degrees(-motion.zero), "")] if motion.zero else []),
         *([(say("lowest s of the conditions"), say("{s:.6g}", s=lowest), "")] if motion.lowest else []),
     ]
+
+
+def _finer_phases(solution: Solution) -> list[Row]:
+    """Rows on the phases that are divided into more parts, because their acceleration is short."""
+    stations, motion = solution.chain.board.stations, solution.chain.board.motion
+    parts = dict(zip(stations.phase[stations.last].tolist(), stations.parts, strict=True))
+    counts = [(phase_title(motion, k), parts[k].stop - parts[k].start) for k in stations.finer]
+    value = say("{n:d} parts, shorter where a changes")
+    return [(say("divisions of {phase}", phase=phase), value.with_values(n=n), "") for phase, n in counts]
 
 
 def _limits(solution: Solution) -> list[Row]:

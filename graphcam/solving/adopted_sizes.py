@@ -275,7 +275,7 @@ def _divisions(chain: Chain, helps: Callable[[Chain], bool]) -> list[Words]:
     given = chain.board.divisions
     for count in (times * given for times in DIVISION_FACTORS if times * given <= MAX_DIVISIONS):
         with suppress(DesignError):
-            if helps(Chain(replace(chain.board, divisions=count))):
+            if helps(Chain(replace(chain.board, divisions=count, finer={}))):
                 return [_key("drawing.divisions", count)]
     return []
 

@@ -18,6 +18,7 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import Rotation, omega_of
 from graphcam.mechanism.arc_motion import ArcMotion
 from graphcam.mechanism.three_arc_cam import ThreeArcCam, three_arc_cam
+from graphcam.solving.division_warnings import disagreement
 from graphcam.solving.shown_solution import FILE_KINDS, ShownSolution, plain_number, plain_quantities, plain_stations
 from graphcam.solving.solution import Solution
 from graphcam.solving.task_board import diagram_room, largest_drawn, profile_paper
@@ -66,8 +67,8 @@ class ArcsSolution(ShownSolution):
 
     @property
     def warnings(self) -> list[str]:
-        """None: a cam of arcs that is not sound is refused."""
-        return []
+        """That drawn and exact do not agree, if so; a cam of arcs that is not sound is refused."""
+        return [self.tell(said) for said in disagreement(self.comparison.quantities, self.chain.pencil)]
 
     @property
     def tell(self) -> Tell:

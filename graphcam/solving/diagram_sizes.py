@@ -6,13 +6,13 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from itertools import count
+from itertools import count, pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats
-from graphcam.given.motion import Motion, Rise
+from graphcam.given.motion import Motion, MovingPhase, Rise
 
 STANDARD_ORDINATES = (80.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
 """Ordinates that are chosen from [mm of paper]."""
@@ -31,6 +31,9 @@ HEIGHT_SHARE_WITH_JERK = 0.75
 """The part of their heights that the diagrams keep where that of the jerk shares their column."""
 PHASE_SAMPLES = 361
 """The number of samples of each phase, however short it is."""
+PIECE_SAMPLES = 9
+"""The number of further samples of a piece of a law that lies between few of these, its middle among them."""
+SHORT_PIECE = PIECE_SAMPLES / PHASE_SAMPLES
 
 
 @dataclass(frozen=True)
@@ -168,9 +171,13 @@ def over_the_turn(motion: Motion) -> tuple[Floats, Floats, Floats]:
 
 
 def _places(motion: Motion) -> tuple[NDArray[np.intp], Floats]:
-    """The phases, and fractions of them, at which the heights are taken."""
-    phase, u = np.meshgrid(np.arange(len(motion.phases)), np.linspace(0.0, 1.0, PHASE_SAMPLES), indexing="ij")
-    return phase.ravel(), u.ravel()
+    """The phases, and fractions of them, at which the heights are taken; pieces that may lie between two have more."""
+    fractions: list[Floats] = []
+    for phase in motion.phases:
+        ends = (0.0, *phase.normalised.edges, 1.0) if isinstance(phase, MovingPhase) else ()
+        short = [np.linspace(*piece, PIECE_SAMPLES) for piece in pairwise(ends) if np.diff(piece) < SHORT_PIECE]
+        fractions.append(np.concatenate([np.linspace(0.0, 1.0, PHASE_SAMPLES), *short]))
+    return np.repeat(np.arange(len(fractions)), [u.size for u in fractions]), np.concatenate(fractions)
 
 
 def _height(values: Floats) -> float:

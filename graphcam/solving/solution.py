@@ -22,6 +22,7 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.profile_spline import ProfileSpline, profile_spline
 from graphcam.solving.adopted_sizes import FaceDesign, adopted_cautions, face_design
+from graphcam.solving.division_warnings import coarse_divisions, disagreement
 from graphcam.solving.shown_solution import FILE_KINDS, ShownSolution, plain_number, plain_quantities, plain_stations
 from graphcam.solving.solution_warnings import (
     Caution,
@@ -70,15 +71,16 @@ class Solution(ShownSolution):
 
     @cached_property
     def warnings(self) -> list[str]:
-        """What is wrong with the adopted cam, as sentences, by the exact side; none if it is sound."""
-        return [self.tell(caution.said) for caution in self.cautions]
+        """What is wrong with the adopted cam or its drawing, as sentences; none if they are sound and agree."""
+        beyond = disagreement(self.comparison.quantities, self.chain.pencil)
+        return [self.tell(said) for said in (*(caution.said for caution in self.cautions), *beyond)]
 
     @cached_property
     def cautions(self) -> list[Caution]:
         """What is wrong with the adopted cam, as captions with the places where it is seen."""
         found = warnings_of(self.cam, self.chain.board, self.comparison.least[0])
         spring = self.spring.cautions if self.spring else ()
-        found += adopted_cautions(self.chain, self.cam, self.face)
+        found += [*coarse_divisions(self.chain), *adopted_cautions(self.chain, self.cam, self.face)]
         stress = self.stress.cautions if self.stress else ()
         scale = title_scale(self.task, self.chain.profile_scale)
         return [

@@ -35,7 +35,7 @@ class Caution:
     said: Caption
     of: Literal[
         "profile", "pressure angle", "prime radius", "roller radius", "face", "contact", "contact stress", "rounding",
-        "unit", "scale",
+        "unit", "scale", "divisions",
     ]  # fmt: skip
     phi: tuple[float, ...] = ()
     alpha: float | None = None
@@ -112,6 +112,8 @@ def angles_exceeded(cam: Cam, board: Board, slack: float) -> Iterator[tuple[str,
     returns : "rise" or "return", the pressure angle, the cam angle there, and the limit
     """
     extremes, limits = cam.extremes(), board.limits
+    if "curvature" in board.follower.conditions:  # which takes the place of the pressure angle
+        return
     for word, (alpha, phi), limit, driven in (
         ("rise", extremes.pressure_angle_rise, limits.rise, 1),
         ("return", extremes.pressure_angle_return, limits.return_, -1),

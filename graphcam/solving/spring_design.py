@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from itertools import product
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -198,6 +198,12 @@ class SpringDesign:
         )
         return {each.name: each for each in drawn if each}
 
+    @property
+    def moved(self) -> Literal["stem", "arm", "swinging face"]:
+        """What the normal force moves: it has a lever of its own there."""
+        kin = self.cam.kinematics
+        return "stem" if not kin.swings else "arm" if kin.takes_roller else "swinging face"
+
     def _contact_diagram(self) -> TurnDiagram:
         """The contact function xi(phi) of Voloder, Cohodar and Karic, with its least value and where it is negative."""
         contact, along = self.contact, self.units[0]
@@ -227,9 +233,7 @@ class SpringDesign:
             say("τ"),
             "",
             curve=self._curve(lambda places: forces.of(places).transmission),
-            caption=(ARM_TRANSMISSION_CAPTION if self.units[0] != "N" else TRANSMISSION_CAPTION).with_values(
-                friction=self.friction
-            ),
+            caption=TRANSMISSION_CAPTIONS[self.moved].with_values(friction=self.friction),
             why=say("The normal makes the angle α with the motion, and friction acts along the profile."),
             marked=((margin, say("{value:.3f}", value=margin.value)),),
         )
@@ -242,7 +246,7 @@ class SpringDesign:
             curve=self._curve(forces.normal),
             caption=say(
                 "N = {formula} is the force along the normal, at {mu:g} N/mm. Its maximum is {greatest}.",
-                formula=normal_formula(self.load, self.friction),
+                formula=NORMAL_FORMULAS[self.moved, bool(self.friction)],
                 greatest=with_unit(self.greatest_normal.value, "N"),
             ),
             why=say("Along the motion only a part of the normal force acts."),
@@ -376,14 +380,21 @@ IDLE_CAPTION = say(
     "With F₀ = 0 the contact force is zero during the whole lower dwell; in practice choose a preload greater than "
     "zero."
 )
-TRANSMISSION_CAPTION = say(
-    "τ = cos α − μ sin α, with μ = {friction:g} at the cam, is the part of the normal force that moves the follower, "
-    "at {mu:g}/mm. Where it falls to zero the follower jams."
-)
-ARM_TRANSMISSION_CAPTION = say(
-    "τ, the lever of the normal force with its friction μ = {friction:g} about the pivot, in lengths of the arm, is "
-    "the part of it that moves the arm, at {mu:g}/mm. Where it falls to zero the arm jams."
-)
+TRANSMISSION_CAPTIONS = {
+    "stem": say(
+        "τ = cos α − μ sin α, with μ = {friction:g} at the cam, is the part of the normal force that moves the "
+        "follower, at {mu:g}/mm. Where it falls to zero the follower jams."
+    ),
+    "arm": say(
+        "τ, the lever of the normal force with its friction μ = {friction:g} about the pivot, in lengths of the arm, "
+        "is the part of it that moves the arm, at {mu:g}/mm. Where it falls to zero the arm jams."
+    ),
+    "swinging face": say(
+        "τ, the lever of the normal force with its friction μ = {friction:g} about the pivot, in distances of the "
+        "contact from there, is the part of it that moves the face, at {mu:g}/mm. Where it falls to zero the face jams."
+    ),
+}
+"""What is said of the transmission coefficient, by what the normal force moves."""
 
 
 def contact_formula(load: SpringLoad | ArmLoad) -> str:
@@ -391,11 +402,15 @@ def contact_formula(load: SpringLoad | ArmLoad) -> str:
     return f"ξ = {_pressing(load)}"
 
 
-def normal_formula(load: SpringLoad | ArmLoad, friction: float) -> str:
-    """The normal force under a load, as a text."""
-    if isinstance(load, SpringLoad):
-        return "ξ/(cos α − μ sin α)" if friction else "ξ/cos α"
-    return "ξ/(l cos α − σμ(l sin α − r))" if friction else "ξ/(l cos α)"
+NORMAL_FORMULAS = {
+    ("stem", False): "ξ/cos α",
+    ("stem", True): "ξ/(cos α − μ sin α)",
+    ("arm", False): "ξ/(l cos α)",
+    ("arm", True): "ξ/(l cos α − σμ(l sin α − r))",
+    ("swinging face", False): "ξ/q",
+    ("swinging face", True): "ξ/(q + σμf)",
+}
+"""The normal force by what it moves, and whether there is friction at the cam."""
 
 
 def _pressing(load: SpringLoad | ArmLoad) -> str:

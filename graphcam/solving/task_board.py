@@ -3,11 +3,13 @@
 import math
 from contextlib import suppress
 from dataclasses import replace
-from functools import singledispatch
+from functools import partial, singledispatch
 
+from graphcam.comparison.chord_readings import finer_parts
 from graphcam.constructions.board import Board, DrawnFollower
 from graphcam.constructions.drawn_arm import MAX_ARM_ON_PAPER, DrawnOscillating, positions_extent
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
+from graphcam.constructions.drawn_swinging_face import DrawnOscillatingFlat
 from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.constructions.views import PROFILE
 from graphcam.drafting.scale import (
@@ -20,16 +22,28 @@ from graphcam.drafting.scale import (
     standard_scale,
 )
 from graphcam.errors import DesignError
-from graphcam.given.follower import Oscillating, omega_of
+from graphcam.given.follower import Oscillating, omega_of, sense
 from graphcam.given.roller_rule import roller_rule
 from graphcam.mechanism.least_radius import minimum_radius
+from graphcam.mechanism.oscillating_flat import check_swing
 from graphcam.sheets.formats import Format
 from graphcam.sheets.layout import profile_room
 from graphcam.sheets.page_space import free_rooms
 from graphcam.solving.diagram_sizes import STANDARD_POLES, DiagramRoom, DrawnHeights, over_the_turn
 from graphcam.tasks.sheet_tables import SheetTable
-from graphcam.tasks.task import DrawingTable, FlatFacedTable, FollowerTable, OscillatingTable, Task, TranslatingTable
+from graphcam.tasks.task import (
+    DrawingTable,
+    FlatFacedTable,
+    FollowerTable,
+    OscillatingFlatTable,
+    OscillatingTable,
+    Task,
+    TranslatingTable,
+)
 from graphcam.words import say
+
+USUAL_DIVISIONS = 12
+"""The parts of a phase where the task leaves them open."""
 
 
 def format_of(drawing: SheetTable) -> Format:
@@ -71,7 +85,7 @@ def board_of(task: Task) -> Board:
     room = room.beside_jerk if drawing.jerk else room
     heights = DrawnHeights(motion, room.degrees_per_mm)
     ordinate, poles = heights.choose(room, page_room(task, heights, follower), drawing.ordinate, drawing.poles)
-    return Board(
+    board = Board(
         motion=motion,
         follower=follower,
         rotation=task.rotation,
@@ -79,7 +93,7 @@ def board_of(task: Task) -> Board:
         prime_radius=task.cam.prime_radius,
         roller_radius=task.follower.roller_radius,
         roller_rule=roller_rule(task.follower.roller_rule),
-        divisions=drawing.divisions,
+        divisions=drawing.divisions or USUAL_DIVISIONS,
         ordinate=ordinate,
         poles=poles,
         mu_phi=Scale(math.radians(room.degrees_per_mm), "rad"),
@@ -88,6 +102,9 @@ def board_of(task: Task) -> Board:
         paper=profile_paper(drawing) if scale is None else replace(profile_paper(drawing), held={PROFILE.name: scale}),
         jerk_pole=heights.jerk_pole(room, ordinate) if drawing.jerk else None,
     )
+    if drawing.divisions is not None:
+        return board
+    return replace(board, finer=finer_parts(motion, board.divisions, partial(board.divided, board.divisions)))
 
 
 def given_profile_scale(drawing: DrawingTable) -> float | None:
@@ -130,6 +147,18 @@ def _(table: OscillatingTable, task: Task) -> DrawnOscillating:
 @drawn_follower.register
 def _(table: FlatFacedTable, task: Task) -> DrawnFlatFaced:
     return DrawnFlatFaced(task.limits.min_curvature_radius or 0.0)
+
+
+@drawn_follower.register
+def _(table: OscillatingFlatTable, task: Task) -> DrawnOscillatingFlat:
+    check_swing(task.motion(), sense(task.rotation))  # which no drawing could show
+    size = complex(2 * table.distance, table.distance)
+    paper = largest_drawn(task.drawing, size, ARM_MARGINS)
+    scale = coarsest_scale(
+        standard_scale(table.distance, MAX_ARM_ON_PAPER, paper.ratios), paper.scale(size, ARM_MARGINS)
+    )
+    least = task.limits.min_curvature_radius or 0.0
+    return DrawnOscillatingFlat(table.distance, table.face_offset, least, scale)
 
 
 DIAGRAM_ROOMS = {
@@ -176,7 +205,7 @@ def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> Dia
     low = heights.motion.lift / mu_s if mu_s else math.inf
     high, pole = diagram.height - DIAGRAM_MARGINS.imag, diagram.width - beside
     # Of few parts velocity and displacement are drawn higher: by so much of a cycloid, less of other laws.
-    part = math.pi / max(task.drawing.divisions, 2)
+    part = math.pi / max(task.drawing.divisions or USUAL_DIVISIONS, 2)
     surplus = (part / math.sin(part)) ** 2
     return DiagramRoom(heights.degrees_per_mm, high, high / surplus, min(high, low) / surplus, pole)
 

@@ -8,6 +8,7 @@ from typing import Any
 from graphcam.errors import DesignError, GraphcamError, TaskError, choice_limit
 from graphcam.language import ENGLISH, Language, language, languages
 from graphcam.studio.task_paths import PATH_PATTERN, steps_of, value_at
+from graphcam.tasks.task import table_of
 from graphcam.tasks.task_file import EXAMPLE_REMEDY
 from graphcam.words import message
 
@@ -77,6 +78,8 @@ FIELDS_BY_QUANTITY: Mapping[str, str] = {
     "poles[1]": "drawing.poles[1]",
     "rounding": "drawing.rounding",
     "face margin": "follower.face_margin",
+    "face offset": "follower.face_offset",
+    "angular velocity of the face": "motion.phases",
     "format": "drawing.format",
     "frame": "drawing.frame",
     "orientation": "drawing.orientation",
@@ -124,7 +127,7 @@ def field_of(error: GraphcamError, task: Mapping[str, Any]) -> str:
         return ""
     field = FIELDS_BY_QUANTITY.get(error.quantity) or _place(error.quantity)
     if error.quantity == "minimum prime radius" and value_at(task, "cam.prime_radius") is not None:
-        return "follower.distance" if value_at(task, "follower.kind") == "oscillating" else "follower.offset"
+        return "follower.distance" if "distance" in table_of(task.get("follower", {})).made_to else "follower.offset"
     if field == "motion.phases" and value_at(task, "motion.table") is not None:
         return "motion.table"
     return field

@@ -27,6 +27,7 @@ NUMBER_FIELDS: dict[str, tuple[Caption, Caption, str]] = {
     "follower.offset": (FOLLOWER, say("Offset e"), "mm"),
     "follower.arm": (FOLLOWER, say("Arm length l"), "mm"),
     "follower.distance": (FOLLOWER, say("Centre distance c"), "mm"),
+    "follower.face_offset": (FOLLOWER, say("Face offset f"), "mm"),
     "follower.roller_radius": (FOLLOWER, say("Roller radius r"), "mm"),
     "cam.prime_radius": (CAM, say("Prime radius r₀"), "mm"),
     "limits.pressure_angle_rise": (LIMITS, say("Permitted pressure angle, rise"), DEGREE_SIGN),

@@ -11,6 +11,7 @@ from typing import Any
 
 from graphcam.constructions.chain import Chain
 from graphcam.errors import DesignError, choice_limit
+from graphcam.given.follower import FlatFaced, Oscillating, OscillatingFlat, Translating
 from graphcam.language import language
 from graphcam.solving.solution import Solution, solve_motion
 from graphcam.studio.angle_predictions import angle_foretold, steepest_foretold
@@ -29,7 +30,11 @@ DIFFERENCE_CAPTIONS = {"mm": say("{size:+.1f} mm"), "deg": say("{size:+.1f}°")}
 MAX_DISTANCE = 1e5
 """A guess lies no farther away [mm]."""
 PREDICTION_KINDS: Mapping[str, tuple[Caption, Callable[[Solution], Prediction], Callable[[Chain], bool]]] = {
-    "centre": (say("The cam centre"), lambda solution: centre_foretold(solution.chain), lambda chain: True),
+    "centre": (
+        say("The cam centre"),
+        lambda solution: centre_foretold(solution.chain),
+        lambda chain: "need" in chain.minimum_radius.readings or "centre" in chain.minimum_radius.acts,
+    ),
     "angle": (
         say("The maximum pressure angle"),
         lambda solution: angle_foretold(solution.chain),
@@ -45,15 +50,31 @@ PREDICTION_KINDS: Mapping[str, tuple[Caption, Callable[[Solution], Prediction], 
 """What can be foretold: its name, the question of a solution, and whether a chain has it."""
 
 
-BASE_TASKS = {"translating": "coursework", "oscillating": "arm", "flat-faced": "flat"}
+BASE_TASKS = {
+    Translating.kind: "coursework",
+    Oscillating.kind: "arm",
+    FlatFaced.kind: "flat",
+    OscillatingFlat.kind: "swinging-face",
+}
 """The built-in task of each kind of follower."""
 DRAWN_LAWS = ("cosine", "cycloidal", "3-4-5", "modified-sine", "rectangular")
 SMOOTH_LAWS = ("cycloidal", "3-4-5", "modified-sine")
 """Laws whose acceleration does not jump: under a flat face a jump hides where the profile is sharpest."""
 SIZE_RANGES: Mapping[str, Mapping[str, Sequence[float | str]]] = {
-    "translating": {"offset": range(-16, 17, 2), "limit": range(25, 38), "lift": range(20, 46, 5), "laws": DRAWN_LAWS},
-    "oscillating": {"limit": range(38, 48), "lift": range(12, 19), "laws": DRAWN_LAWS},
-    "flat-faced": {"curvature": range(5, 13), "lift": range(20, 36, 5), "laws": SMOOTH_LAWS},
+    Translating.kind: {
+        "offset": range(-16, 17, 2),
+        "limit": range(25, 38),
+        "lift": range(20, 46, 5),
+        "laws": DRAWN_LAWS,
+    },
+    Oscillating.kind: {"limit": range(38, 48), "lift": range(12, 19), "laws": DRAWN_LAWS},
+    FlatFaced.kind: {"curvature": range(5, 13), "lift": range(20, 36, 5), "laws": SMOOTH_LAWS},
+    OscillatingFlat.kind: {
+        "face_offset": range(-10, 16, 5),
+        "curvature": range(5, 13),
+        "lift": range(6, 11),
+        "laws": SMOOTH_LAWS,
+    },
 }
 """Ranges in which one would draw the cam oneself."""
 RISE_ANGLES, DWELL_ANGLES, RETURN_ANGLES = range(80, 131, 5), range(20, 61, 5), range(70, 121, 5)
@@ -99,9 +120,10 @@ def seeded_task(kind: str, seed: int) -> dict[str, Any]:
     # Poles and ordinate of the built-in task suit its own angles only.
     task["drawing"] = {key: value for key, value in task["drawing"].items() if key not in ("ordinate", "poles")}
     task["cam"] = {}
-    if kind == "translating":
-        task["follower"]["offset"] = float(draws.one_of(sizes["offset"]))
-    if kind == "flat-faced":
+    for size in ("offset", "face_offset"):
+        if size in sizes:
+            task["follower"][size] = float(draws.one_of(sizes[size]))
+    if "curvature" in sizes:
         task["limits"] = {"min_curvature_radius": float(draws.one_of(sizes["curvature"]))}
     else:
         task["limits"] = {"pressure_angle_rise": float(draws.one_of(sizes["limit"]))}

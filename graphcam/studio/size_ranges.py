@@ -191,8 +191,10 @@ def has_angles(task: Task) -> bool:
 
 
 def lift_of(solution: Solution) -> float:
-    """The greatest lift along the path of the follower [mm]: of an arm an arc."""
-    return solution.cam.motion.lift * sizes_of(solution.task).get("arm", 1.0)
+    """The greatest lift along the path of the follower [mm]: of what swings an arc, on a face below the pivot's end."""
+    sizes = sizes_of(solution.task)
+    lever = sizes.get("arm") or (sizes["distance"] if "face_offset" in sizes else 1.0)
+    return solution.cam.motion.lift * lever
 
 
 def _of_follower(solution: Solution) -> dict[str, SizeRange]:
@@ -206,6 +208,8 @@ def _of_follower(solution: Solution) -> dict[str, SizeRange]:
     )
     if "arm" in follower:
         return roller | _of_arm(solution, step)
+    if "face_offset" in follower:
+        return _of_swinging_face(solution, step)
     most = round_up(max(1.6 * radius, 2 * lift_of(solution)))
     least = max(abs(follower.get("offset") or 0.0), follower.get("roller_radius") or 0.0)
     sizes = roller | {"cam.prime_radius": SizeRange(multiple_above(least, step), most, step)}
@@ -241,6 +245,24 @@ def _of_arm(solution: Solution, step: float) -> dict[str, SizeRange]:
         "follower.arm": arms,
         "follower.distance": distances,
         "cam.prime_radius": SizeRange(least, radii.most, step),
+    }
+
+
+def _of_swinging_face(solution: Solution, step: float) -> dict[str, SizeRange]:
+    """The line of the face passes the cam centre on its side, and its pivot lies beyond it, a few steps away."""
+    distance, radius, f = solution.chain.place, solution.chain.prime_radius, sizes_of(solution.task)["face_offset"]
+    room = TRIANGLE_MARGIN_STEPS * step
+    # Up to where the face at the end of its swing is square to the line of centres.
+    highest = distance * math.cos(solution.cam.motion.lift)
+    steepest = abs(radius + f) / math.cos(solution.cam.motion.lift)
+    return {
+        "follower.distance": SizeRange(multiple_above(steepest + room, step), round_up(2.5 * distance), step),
+        "follower.face_offset": SizeRange(
+            multiple_above(room - radius, step), multiple_below(highest - radius - room, step), step
+        ),
+        "cam.prime_radius": SizeRange(
+            multiple_above(max(0.0, room - f), step), multiple_below(highest - f - room, step), step
+        ),
     }
 
 

@@ -6,6 +6,7 @@ from typing import Any, get_args
 
 from graphcam.constructions.axes import phase_symbol
 from graphcam.constructions.law_names import LAW_TITLES
+from graphcam.given.follower import FlatFaced, Oscillating, OscillatingFlat, Translating
 from graphcam.given.laws import DECLARED_LAWS, LAWS
 from graphcam.given.load_curve import LoadCurve
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY
@@ -29,12 +30,13 @@ from graphcam.studio.size_ranges import (
 )
 from graphcam.tasks.sheet_tables import Format, Frame, plain_data
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
+from graphcam.tasks.task import table_of
 from graphcam.words import Caption, Tell, Words, say, say_in
 
 PENCIL_RANGE = SizeRange(0.0, 0.5, 0.05)
 """Standard deviation of a line [mm]; 0.2 is a careful student's."""
 RATIO_RANGE = SizeRange(0.2, 5.0, 0.1)
-"""The range of the ratio of accelerations of the rectangular law's parts."""
+"""The range of the ratio of accelerations of a law's parts."""
 KIND_NAMES = {"rise": say("rise"), "dwell": say("dwell"), "return": say_in("a phase", "return")}
 SENSE_NAMES = {"cw": say("clockwise"), "ccw": say("anticlockwise")}
 LIFT_NAMES = {"angle": say("angle of the arm, degrees"), "arc": say("arc of its end, mm")}
@@ -207,8 +209,8 @@ def _phases(make: FieldMaker, solution: Solution) -> Field:
         "kind": "phases",
         "phases": rows,
         "laws": [{"value": law, "name": tell(LAW_TITLES[law])} for law in (*LAWS, CONSTANT_VELOCITY)],
-        # Only this law has parts whose accelerations differ.
-        "ratio": RATIO_RANGE.plain() | {"law": next(name for name, law in DECLARED_LAWS.items() if law.has_ratio)},
+        # Only these laws have parts whose accelerations differ.
+        "ratio": RATIO_RANGE.plain() | {"laws": [name for name, law in DECLARED_LAWS.items() if law.has_ratio]},
         "angle": SizeRange(MIN_PHASE_ANGLE, 360.0 - MIN_PHASE_ANGLE * (len(rows) - 1), 1.0).plain()
         | {"unit": DEGREE_SIGN},
         "lift": lifts.plain() | {"unit": _lift_unit(make, solution)},
@@ -231,6 +233,9 @@ def _follower(make: FieldMaker, solution: Solution) -> Iterator[Field]:
         yield make.number("follower.arm")
         yield make.open_number("follower.distance", chain.place)
         yield make.choice("follower.lift", FOLLOWER, say("Lifts of the phases"), LIFT_NAMES.items())
+    if "face_offset" in sizes:
+        yield make.number("follower.distance")
+        yield make.number("follower.face_offset")
     if "roller_radius" in sizes:
         yield make.open_number("follower.roller_radius", chain.roller_radius)
         rules: list[tuple[str, Words]] = [(DEFAULT_RULE, DEFAULT_RULE)]
@@ -272,7 +277,7 @@ def _spring(make: FieldMaker, spring: SpringDesign) -> Iterator[Field]:
 def _drawing(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     """The fields of the draughtsman's choices."""
     board = solution.chain.board
-    yield make.number("drawing.divisions")
+    yield make.open_number("drawing.divisions", board.divisions)
     yield make.open_number("drawing.ordinate", board.ordinate)
     yield from (make.entry("drawing.poles", board.poles, k) for k in (0, 1))
     yield make.choice("drawing.jerk", DRAWING, say("Jerk"), JERK_CHOICES.items())
@@ -288,14 +293,17 @@ def _sheet(make: FieldMaker) -> Iterator[Field]:
 
 
 KINDS: dict[str, Caption] = {
-    "translating": say_in("a kind of follower", "translating"),
-    "oscillating": say_in("a kind of follower", "oscillating"),
-    "flat-faced": say_in("a kind of follower", "flat-faced"),
+    Translating.kind: say_in("a kind of follower", "translating"),
+    Oscillating.kind: say_in("a kind of follower", "oscillating"),
+    FlatFaced.kind: say_in("a kind of follower", "flat-faced"),
+    OscillatingFlat.kind: say_in("a kind of follower", "oscillating flat-faced"),
 }
 ARM_LIFT_RATIO = 4.0
 """An arm about so many times as long as its tip's path swings by some 14 degrees."""
 DEFAULT_ARM = 100.0
 """One whose lifts are angles [mm]."""
+DEFAULT_DISTANCE = 200.0
+"""The centre distance of a face that swings, where no pivot is known [mm]."""
 SIZE_DIGITS = 4
 """Digits of the sizes of a spring that goes with another kind of follower."""
 
@@ -323,14 +331,18 @@ def _table(solution: Solution, kind: str) -> dict[str, Any]:
     # Lifts in mm stay what they are: they are the arc that the tip of the arm describes.
     in_mm = solution.task.follower.column == "s_mm"
     arm = round_up(ARM_LIFT_RATIO * lift_of(solution)) if in_mm else DEFAULT_ARM
-    return {"kind": kind, **{"oscillating": {"arm": arm, "lift": "arc"}}.get(kind, {})}
+    pivots = {
+        Oscillating.kind: {"arm": arm, "lift": "arc" if in_mm else "angle"},
+        OscillatingFlat.kind: {"distance": DEFAULT_DISTANCE},
+    }
+    return {"kind": kind, **pivots.get(kind, {})}
 
 
 def _can_follow(solution: Solution, table: dict[str, Any]) -> bool:
-    """Whether a follower can do what was measured: angles of an arm are nothing for a stem."""
-    measured = solution.task.motion.table
-    in_mm = table.get("lift") != "angle"
-    return measured is None or measured.column == "a" or (measured.column == "s_mm") == in_mm
+    """Whether a follower can do the motion: measured angles are nothing for a stem, millimetres nothing for a face."""
+    measured, present = solution.task.motion.table, solution.task.follower.column
+    column = table_of(table)(**table).column
+    return column == "s_mm" or present == column if measured is None else measured.column in ("a", column)
 
 
 def _changes(solution: Solution, follower: dict[str, Any]) -> dict[str, Any]:
@@ -348,11 +360,12 @@ def _spring_of_kind(solution: Solution, follower: dict[str, Any]) -> dict[str, A
 
     At the end of an arm a mass m and a spring c do what the moment of inertia m l^2 and the torsion spring c l^2 do.
     """
-    spring, swings = solution.task.spring, follower["kind"] == "oscillating"
+    spring, swings = solution.task.spring, table_of(follower).swings
     if spring is None or spring.swings == swings:
         return {}
     present = plain_data(solution.task.follower)
-    lever = float((follower if swings else present)["arm"])
+    pivoted = follower if swings else present
+    lever = float(pivoted.get("arm") or pivoted["distance"])
     said = plain_data(spring)
     kept = {key: said[key] for key in ("acceleration", "friction", "load")}
     if isinstance(spring, SpringTable):

@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, nearest_word_remedy
-from graphcam.given.follower import FOLLOWERS_BY_KIND, Limits
+from graphcam.given.follower import FOLLOWERS_BY_KIND, Kind, Limits
 from graphcam.given.laws import LAWS
 from graphcam.given.plausible_ranges import bounded, check_positive
-from graphcam.sweeps.designs import Designs, Kind
+from graphcam.sweeps.designs import Designs
 from graphcam.sweeps.sweep import computed, usual_limit
 from graphcam.sweeps.sweep_quantities import QUANTITIES
 from graphcam.tasks.task_file import Classes, checked_table, other_file, parse_toml, read_content
@@ -63,6 +63,7 @@ class SpaceCamTable:
     arm: Any = 0.0
     distance: Any = 0.0
     roller_radius: Any = 0.0
+    face_offset: Any = 0.0
 
     def __post_init__(self) -> None:
         for each in fields(self):
@@ -195,7 +196,7 @@ def number_axis(name: str, value: Any) -> NDArray[np.float64]:
     unit = "mm (degrees for an arm)" if name == "lift" else "degrees" if name.endswith("_angle") else "mm"
     for x in values:
         # An offset may be next to nothing; a size that is negative or zero makes no cam, which its row tells.
-        (check_positive if x > 0 and name != "offset" else bounded)(name, x, unit)
+        (check_positive if x > 0 and not name.endswith("offset") else bounded)(name, x, unit)
     return np.array(values, dtype=np.float64)
 
 

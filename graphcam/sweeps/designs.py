@@ -1,14 +1,14 @@
 """Many cams of one kind: rise, dwell, return and dwell, with every size a number or one for each cam."""
 
 from copy import copy
-from dataclasses import dataclass, fields
-from typing import Any, Literal, Self
+from dataclasses import MISSING, dataclass, fields
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, nearest_word_remedy
-from graphcam.given.follower import FOLLOWERS_BY_KIND, Follower, swing_remedy
+from graphcam.given.follower import FOLLOWERS_BY_KIND, Follower, Kind, swing_remedy
 from graphcam.given.laws import LAW_SYNONYMS, LAWS, Floats
 from graphcam.given.motion import CLOSURE_TOLERANCE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
@@ -17,12 +17,16 @@ from graphcam.words import and_chain, bare_caption, say
 
 Part = slice | NDArray[np.integer[Any]] | NDArray[np.bool_]
 _COMMON_SIZES = "lift", "rise_angle", "dwell_angle", "return_angle", "prime_radius"
-_FOLLOWER_SIZES = "offset", "arm", "distance", "roller_radius"
+_FOLLOWER_SIZES = "offset", "arm", "distance", "face_offset", "roller_radius"
 SIZE_NAMES = (*_COMMON_SIZES, *_FOLLOWER_SIZES)
 """The sizes of a design."""
-Kind = Literal["translating", "oscillating", "flat-faced"]
 OWN_SIZE_NAMES = {kind: tuple(size.name for size in fields(follower)) for kind, follower in FOLLOWERS_BY_KIND.items()}
-"""The sizes that not every follower has."""
+"""The sizes of each kind of follower."""
+NEEDED_SIZE_NAMES = {
+    kind: tuple(size.name for size in fields(follower) if size.default in (MISSING, None))
+    for kind, follower in FOLLOWERS_BY_KIND.items()
+}
+"""Those without which a cam of that kind cannot be made."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,9 +40,10 @@ class Designs:
     lift, prime_radius, roller_radius : mm; the lift of an arm is an angle [rad]
     rise_angle, dwell_angle, return_angle : rad; a dwell may be 0
     offset : mm, of a translating follower;  arm, distance : mm, an arm's length and centre distance
+    face_offset : mm, of an oscillating flat face towards the cam centre, from the line through its pivot
     rise_law, return_law : names of :data:`graphcam.LAWS`, or :class:`graphcam.Law` of your own
     rotation : "ccw" or "cw"
-    follower : "translating", "oscillating", or "flat-faced", which has neither offset nor roller
+    follower : the kind: "translating", "oscillating", or "flat-faced" and "oscillating-flat", which have no roller
 
     Raises
     ------
@@ -65,6 +70,7 @@ class Designs:
     return_law: Any = "3-4-5"
     rotation: Any = "ccw"
     follower: Kind = "translating"
+    face_offset: Any = 0.0
 
     def __post_init__(self) -> None:
         for name in SIZE_NAMES:
@@ -87,7 +93,7 @@ class Designs:
             if given and name not in own:
                 found = say("given")
                 raise DesignError(name, found, say("left out for {a} {follower} follower", a=a, follower=self.follower))
-            if not given and name in own and name in ("arm", "distance"):
+            if not given and name in NEEDED_SIZE_NAMES[self.follower]:
                 raise DesignError(name, say("left out"), say("a length in mm, or one for each cam"))
 
     @property
@@ -161,7 +167,7 @@ class Designs:
             if -np.inf < most <= 0:
                 raise DesignError(name, most, limit)
         lift = float(np.min(self.lift, initial=np.inf))
-        if "arm" in OWN_SIZE_NAMES[self.follower] and FULL_TURN < lift < np.inf:
+        if FOLLOWERS_BY_KIND[self.follower].lift_unit == "rad" and FULL_TURN < lift < np.inf:
             remedy = swing_remedy(lift, "swing the arm less")
             raise DesignError("lift", say("{lift:.6g} rad", lift=lift), say("at most a full turn, 2 pi rad"), remedy)
 

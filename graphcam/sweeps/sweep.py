@@ -117,13 +117,14 @@ def sweep(
     if chunk < 1:
         raise DesignError("chunk", chunk, say("at least 1 design"))
     swept = None if load is None else SweptLoad(load, friction)
+    first = Chunk(designs.part(slice(0, 1)), limits or Limits(usual_limit(designs.follower)))
     if swept:
-        swept.check(designs.follower)
+        swept.load_for(first.all_kinematics)
     made = None if errors is None else SweptErrors(errors, coverage)
     limits = limits or Limits(usual_limit(designs.follower))
     compute = partial(computed, quantities=wanted, limits=limits, chunk=chunk, swept=swept, made=made)
     if made:
-        made.check(Chunk(designs.part(slice(0, 1)), limits).all_kinematics, designs.roller_radius)
+        made.check(first.all_kinematics, designs.roller_radius)
     if executor is None:
         return compute(designs)
     out, size = _empty_columns(wanted, len(designs)), CHUNKS_PER_JOB * chunk

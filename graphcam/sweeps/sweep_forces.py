@@ -8,7 +8,7 @@ import numpy as np
 from graphcam.errors import DesignError, check_kind
 from graphcam.given.laws import Floats
 from graphcam.given.load_curve import LoadCurve
-from graphcam.given.spring_load import ArmLoad, FollowerLoad, PlacedArmLoad, SpringLoad
+from graphcam.given.spring_load import ArmLoad, FollowerLoad, SpringLoad
 from graphcam.mechanism.jamming import check_friction, lever_about_cam, transmitted
 from graphcam.mechanism.kinematics import Kinematics, Values, pair_cross
 from graphcam.sweeps.sweep_maxima import Numbers, SoughtQuantity
@@ -34,19 +34,9 @@ class SweptLoad:
             found = say("a table over the turn")
             raise DesignError("load", found, say("a number in a sweep"), say("the cams have other phases"))
 
-    def check(self, follower: str) -> None:
-        """Check that the load fits a kind of follower."""
-        if follower == "oscillating":
-            check_kind("load", self.load, ArmLoad, say("an ArmLoad, for the followers swing"))
-        else:
-            check_kind("load", self.load, SpringLoad, say("a SpringLoad, for the followers slide"))
-
     def load_for(self, kin: Kinematics) -> FollowerLoad:
         """The load beside each of many cams."""
-        if isinstance(self.load, ArmLoad):
-            sizes: Any = kin
-            return PlacedArmLoad(self.load, sizes.arm, sizes.distance, sizes.psi0)
-        return self.load
+        return kin.pressed_by(self.load)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,22 +63,20 @@ class SoughtForce(SoughtQuantity):
     def _moving_force(self, values: Values) -> tuple[Floats, Floats]:
         """What a unit of normal force moves, and its slope; NaN where the follower jams."""
         moved, slope = transmitted(self.kin, values, self.swept.friction, self.roller)
-        return self.kin.reach * np.where(moved > 0, moved, np.nan), self.kin.reach * slope
+        reach, reach_slope = self.kin.reach(values)
+        return reach * np.where(moved > 0, moved, np.nan), reach * slope + reach_slope * moved
 
     def _part(self, values: Values) -> tuple[Floats, Floats]:
-        """What a unit of normal force moves, times |q|, and |q|: one root for each place."""
+        """What a unit of normal force moves, times |q| over the reach, and |q|: one root for each place."""
         along, across = self.kin.seen(values)
         lean = self.kin.leaning * self.swept.friction
         size = np.sqrt(along * along + across * across)
-        moved = np.subtract(along, lean * across)
-        if self.kin.swings:
-            moved = self.kin.reach * moved + lean * self.roller * size
-        return moved, size
+        return np.subtract(along, lean * (across - self.kin.rim(self.roller) * size)), size
 
     def _normal(self, values: Values) -> Floats:
         """The normal force [N], without its slope; NaN where the follower jams."""
         moved, size = self._part(values)
-        force = self.swept.load_for(self.kin).force(values, self.direction)
+        force = self.swept.load_for(self.kin).force(values, self.direction) / self.kin.reach(values)[0]
         return force * size / np.where(moved > 0, moved, np.nan)
 
 
@@ -156,7 +144,7 @@ class Jamming(SoughtForce):
     def reading(self, values: Values) -> Floats:
         """mu sin(alpha) - cos(alpha)."""
         moved, size = self._part(values)
-        return -moved / (self.kin.reach * size)
+        return -moved / size
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:
         """The reading, and what has the sign of its slope, (sin(alpha) + mu cos(alpha)) alpha'."""
@@ -170,18 +158,14 @@ class Rubbing(SoughtForce):
     def reading(self, values: Values) -> Floats:
         """The friction over the force that moves, for mu = 1."""
         along, across = self.kin.seen(values)
-        if not self.kin.swings:
-            return np.divide(across, along)
-        rim = self.roller / self.kin.reach * np.sqrt(along * along + across * across)
+        rim = self.kin.rim(self.roller) * np.sqrt(along * along + across * across)
         return self.kin.leaning * (across - rim) / along
 
     def with_slope(self, values: Values) -> tuple[Floats, Floats]:
         """The reading, and what has the sign of its slope, alpha' (1 - r/l sin(alpha))."""
         q, q1 = self.kin.pressure(values)
-        slope = self.kin.leaning * pair_cross(q, q1)
-        if self.kin.swings:
-            slope = slope * (np.sqrt(q[0] * q[0] + q[1] * q[1]) - self.roller / self.kin.reach * q[1])
-        return self.reading(values), slope
+        left = np.sqrt(q[0] * q[0] + q[1] * q[1]) - self.kin.rim(self.roller) * q[1]
+        return self.reading(values), self.kin.leaning * pair_cross(q, q1) * left
 
 
 SOUGHT_FORCES: dict[str, tuple[type[SoughtForce], int]] = {

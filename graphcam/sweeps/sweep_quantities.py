@@ -159,8 +159,7 @@ class Chunk:
         assert self.swept is not None
         friction, kin, roller = self.swept.friction, self.all_kinematics, self.designs.column("roller_radius")
         steep = kin.steepest(self._lift, self.max_v)
-        rim = roller / kin.reach if kin.swings else 0.0
-        moves = friction * (steep + rim * np.sqrt(1 + steep * steep)) < 1
+        moves = friction * (steep + kin.rim(roller) * np.sqrt(1 + steep * steep)) < 1
         # What this does not prove is sought: few of the cams that one would build.
         (doubtful,) = np.nonzero(~moves & ~np.isnan(steep))
         if friction and doubtful.size:
@@ -227,11 +226,16 @@ class Chunk:
     @cached_property
     def all_kinematics(self) -> Kinematics:
         """The kinematics of all of them."""
-        designs = self.designs
+        designs, kind = self.designs, EXACT_FUNCTIONS[FOLLOWERS_BY_KIND[self.designs.follower]].kinematics
+        lift = np.where(self._speed_with_cam < kind.max_speed_with_cam, self._lift, np.nan)
         sizes = SimpleNamespace(**{name: designs.column(name) for name in OWN_SIZE_NAMES[designs.follower]})
-        return EXACT_FUNCTIONS[FOLLOWERS_BY_KIND[designs.follower]].kinematics.of(
-            sizes, self._prime_radius, designs.sigma, self._lift
-        )
+        return kind.of(sizes, self._prime_radius, designs.sigma, lift)
+
+    @property
+    def _speed_with_cam(self) -> Floats:
+        """The greatest |v| of the motion in the sense of the cam: on its return, or clockwise on its rise."""
+        rise, back = self._peaks(lambda law: law.peak_velocity, 1)
+        return np.where(self.designs.sigma > 0, back, rise)
 
     @property
     def _rises(self) -> tuple[str, int, Floats]:
@@ -260,11 +264,15 @@ class Chunk:
         return {"rise_law": rises, "return_law": [(each.reversed, which) for each, which in returns]}
 
     def _peak(self, coefficient: Callable[[Law], float], power: int) -> Floats:
+        return self._peaks(coefficient, power).max(axis=0)
+
+    def _peaks(self, coefficient: Callable[[Law], float], power: int) -> Floats:
+        """(2, n) the greatest magnitudes of a derivative on the rises, and on the returns."""
         peaks = np.empty((2, len(self.designs)))
         for row, (key, _, angle) in zip(peaks, (self._rises, self._returns), strict=True):
             for each, which in self._laws[key]:
                 row[which] = coefficient(each) * self._lift[which] / angle[which] ** power
-        return peaks.max(axis=0)
+        return peaks
 
 
 def _by_law(laws: NDArray[Any], named: Callable[[str | Law], Law]) -> list[tuple[Law, Numbers | slice]]:

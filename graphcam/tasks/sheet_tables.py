@@ -22,6 +22,7 @@ BUILTIN_NAMES = {
         DEFAULT_NAME,
         say("Cam with an oscillating arm"),
         say("Cam with a flat-faced follower"),
+        say("Cam with an oscillating flat face"),
         say("Cam by a measured motion"),
         say("Cam of three circular arcs"),
     )

@@ -13,7 +13,16 @@ from textwrap import shorten
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from graphcam.errors import DesignError
-from graphcam.given.follower import LIMIT_NAMES, FlatFaced, Limits, Oscillating, Rotation, Translating, sense
+from graphcam.given.follower import (
+    LIMIT_NAMES,
+    FlatFaced,
+    Limits,
+    Oscillating,
+    OscillatingFlat,
+    Rotation,
+    Translating,
+    sense,
+)
 from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
 from graphcam.showing import MAX_WIDTH, value_text
@@ -32,6 +41,8 @@ MAX_DIVISIONS = 1000
 LARGER_RADIUS_REMEDY = say("or a larger cam.prime_radius")
 FACE_ONLY_REMEDY = "only a flat face is limited by it; a roller has its roller_rule"
 NO_FACE_REMEDY = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
+
+SWINGING_FACE_REMEDY = "under a face that swings the curvature limits the cam; give limits.min_curvature_radius"
 
 
 class _FollowerTable:
@@ -168,7 +179,72 @@ class FlatFacedTable(_FollowerTable):
         return FlatFaced()
 
 
-FollowerTable = Annotated[TranslatingTable | OscillatingTable | FlatFacedTable, ByKind()]
+@dataclass(frozen=True)
+class OscillatingFlatTable(_FollowerTable):
+    """``[follower]`` of kind "oscillating-flat"; the phases' lifts are in degrees.
+
+    distance : mm, from the cam centre to the pivot
+    face_offset : mm, of the face from the line through the pivot, towards the cam centre if positive
+    """
+
+    distance: float
+    face_offset: float = 0.0
+    kind: Literal["oscillating-flat"] = "oscillating-flat"
+    roller_radius = 0.0
+    roller_rule = DEFAULT_RULE
+    swings = True
+    made_to = ("distance",)
+    without: ClassVar = {"pressure_angle_rise": SWINGING_FACE_REMEDY, "pressure_angle_return": SWINGING_FACE_REMEDY}
+
+    def __post_init__(self) -> None:
+        check_positive(say("centre distance"), self.distance, "mm")
+        bounded(say("face offset"), self.face_offset, "mm")
+        self()
+
+    @property
+    def lift_unit(self) -> float:
+        """The unit of the phases' lift [rad]: a degree."""
+        return math.radians(1)
+
+    @property
+    def column(self) -> str:
+        """The name of the column of displacements in a measured table."""
+        return "s_deg"
+
+    def __call__(self) -> OscillatingFlat:
+        """The follower."""
+        return OscillatingFlat(self.distance, self.face_offset)
+
+    def check(self, prime_radius: float) -> None:
+        """Refuse a pivot that the face on a given prime radius [mm] cannot have."""
+        together = prime_radius + self.face_offset
+        if not together > 0:
+            limit = say(
+                "greater than {least:g} mm, so that the line through the pivot passes above A", least=-prime_radius
+            )
+            remedy = say("bring the face nearer to its pivot or take a larger cam.prime_radius")
+            raise DesignError("follower.face_offset", self.face_offset, limit, remedy)
+        if not together < self.distance:
+            limit = say("greater than {sum:g} mm, the prime radius and the face offset together", sum=together)
+            remedy = say("move the pivot away or take a smaller cam.prime_radius")
+            raise DesignError("follower.distance", self.distance, limit, remedy)
+
+
+FollowerTable = Annotated[TranslatingTable | OscillatingTable | FlatFacedTable | OscillatingFlatTable, ByKind()]
+FOLLOWER_TABLES: dict[str, type[_FollowerTable]] = {
+    table.kind: table for table in (TranslatingTable, OscillatingTable, FlatFacedTable, OscillatingFlatTable)
+}
+"""The tables of the followers by their kind."""
+
+
+def table_of(follower: Mapping[str, Any]) -> type[_FollowerTable]:
+    """The table of a follower as a file says it, whether it is right or not; the first where its kind is unknown.
+
+    >>> table_of({"kind": "flat-faced"}).__name__, table_of({"kind": 3}).__name__
+    ('FlatFacedTable', 'TranslatingTable')
+    """
+    kind = follower.get("kind")
+    return FOLLOWER_TABLES.get(kind, TranslatingTable) if isinstance(kind, str) else TranslatingTable
 
 
 @dataclass(frozen=True)
@@ -187,7 +263,7 @@ class LimitsTable:
 
     pressure_angle_rise : degrees; None takes the usual one of the follower's kind
     pressure_angle_return : degrees; None is force closure, where the return does not limit the radius
-    min_curvature_radius : mm, of a flat-faced follower's profile
+    min_curvature_radius : mm, of the profile under a flat face
     rest : whether the angle at the lower dwell must keep the limits of the phases beside it too
     """
 
@@ -213,7 +289,7 @@ class LimitsTable:
 class DrawingTable(SheetTable):
     """``[drawing]``: divisions, scales and rounding of the constructions, and the sheet.
 
-    divisions : equal parts per phase
+    divisions : equal parts per phase; None is 12, and more in a phase whose acceleration lasts less than a part
     ordinate : mm on paper, the maximum ordinate of the first rise's acceleration; None is the longest of a round
         series at which the whole diagram keeps to its room on the sheet
     poles : mm on paper, the pole distances of the integrations a to v and v to s; None is 40 at 1 degree a millimetre,
@@ -224,7 +300,7 @@ class DrawingTable(SheetTable):
     jerk : whether the jerk is drawn too, by differentiation of the acceleration diagram
     """
 
-    divisions: int = 12
+    divisions: int | None = None
     ordinate: float | None = None
     poles: tuple[float, float] | None = None
     rounding: float | None = None
@@ -233,7 +309,7 @@ class DrawingTable(SheetTable):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not 1 <= self.divisions <= MAX_DIVISIONS:
+        if self.divisions is not None and not 1 <= self.divisions <= MAX_DIVISIONS:
             raise DesignError("divisions", self.divisions, say("from 1 to {most} parts per phase", most=MAX_DIVISIONS))
         check_positive("ordinate", self.ordinate, "mm on paper")
         for k, pole in enumerate(self.poles or ()):

@@ -32,7 +32,7 @@ from graphcam.tasks.task_remedies import key_remedy, missing_remedy, toml_fault,
 from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.words import Caption, Words, and_chain, bare_caption, say
 
-BUILTIN_TASK_NAMES = ("coursework", "arm", "flat", "measured")
+BUILTIN_TASK_NAMES = ("coursework", "arm", "flat", "swinging-face", "measured")
 """Names of the built-in tasks; "arcs" is one more, a cam of three circular arcs."""
 SIZING_TASK_NAME = "sizing"
 """The name of the built-in task with a table ``[sizing]``."""
@@ -51,9 +51,7 @@ _CLASSES: Classes = {
     ("motion", "parts", "polynomial", "points"): motion_tables.PointTable,
     ("motion", "parts", "spline"): motion_tables.SplineTable,
     ("motion", "parts", "spline", "points"): motion_tables.PointTable,
-    ("follower", "translating"): tables.TranslatingTable,
-    ("follower", "oscillating"): tables.OscillatingTable,
-    ("follower", "flat-faced"): tables.FlatFacedTable,
+    **{("follower", kind): table for kind, table in tables.FOLLOWER_TABLES.items()},
     ("cam",): tables.CamTable,
     ("limits",): tables.LimitsTable,
     ("spring",): spring_tables.SpringTable,
@@ -308,8 +306,9 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
             return TaskError(
                 path, f"{place}.kind", _shown_value(found), say("one of {names}", names=", ".join(tags)), remedy
             )
-        case WrongType((*_, key), expected, choices):
-            remedy = value_remedy(f"{key}", value, choices) or EXAMPLE_REMEDY
+        case WrongType((*where, key), expected, choices):
+            needed = key in _needed_keys(classes.get(_table(tuple(where))))
+            remedy = value_remedy("" if needed else f"{key}", value, choices) or EXAMPLE_REMEDY
             return TaskError(path, place, _shown_value(value), expected, remedy)
         case WrongType(_, expected):
             return TaskError(path, place, _shown_value(value), expected, EXAMPLE_REMEDY)
@@ -338,9 +337,9 @@ def _missing_keys(data: dict[str, Any]) -> list[str]:
 
 
 def _swings(data: dict[str, Any]) -> bool:
-    """Whether a file's follower is an arm, which has a moment of inertia in place of a mass."""
+    """Whether a file's follower turns about a pivot, and has a moment of inertia in place of a mass."""
     follower = data.get("follower")
-    return isinstance(follower, dict) and follower.get("kind") == "oscillating"
+    return isinstance(follower, dict) and tables.table_of(follower).swings
 
 
 def _unknown_key(
@@ -355,6 +354,12 @@ def _unknown_key(
         return TaskError(path, place, _shown_value(value), left_out, say("it is for {names}", names=and_chain(kinds)))
     remedy = key_remedy(key, value, known, data)
     return TaskError(path, place, say("an unknown key"), say("one that is known"), remedy)
+
+
+def _needed_keys(table: type | None) -> list[str]:
+    """The keys without which a table of a file is not whole."""
+    own = () if table is None else dataclasses.fields(table)
+    return [field.name for field in own if field.default is field.default_factory is dataclasses.MISSING]
 
 
 def _keys(table: type) -> list[str]:

@@ -16,6 +16,7 @@ from typing import Any
 from graphcam.errors import TaskError, nearest_word_remedy, suggestion
 from graphcam.given.follower import SENSE_SYNONYMS
 from graphcam.given.laws import LAW_SYNONYMS
+from graphcam.tasks.task import table_of
 from graphcam.words import Words, bare_caption, say
 
 OPTIONAL_KEYS = ("offset", "prime_radius", "roller_radius", "distance")
@@ -44,7 +45,7 @@ def key_remedy(key: str, value: Any, known: Iterable[str], data: Mapping[str, An
 
 def _radius_remedy(key: str, value: Any, follower: Any) -> Words:
     said: Mapping[str, Any] = follower if isinstance(follower, dict) else {}
-    roller = 0 if said.get("kind") == "flat-faced" else said.get("roller_radius")
+    roller = said.get("roller_radius", getattr(table_of(said), "roller_radius", None))
     radius = say("graphcam takes the prime radius, of the pitch curve: prime_radius = {key}", key=key)
     if roller == 0:
         return radius
@@ -77,7 +78,7 @@ def missing_remedy(key: str, data: Mapping[str, Any]) -> Words:
         return ""
     remedy = say('write rotation = "cw" or "ccw", as the cam turns in your task')
     follower = data.get("follower")
-    if not (isinstance(follower, dict) and follower.get("kind") == "translating"):
+    if not (isinstance(follower, dict) and "kind" in follower and "offset" in table_of(follower).sought):
         return remedy
     # The sign of the offset's term in the pressure angle: tan(alpha) = (v - sigma e)/(s0 + s).
     return say(

@@ -35,6 +35,7 @@ GALLERY = {
     "coursework": "A translating roller follower: constant acceleration, the cam turns clockwise.",
     "arm": "An oscillating follower.",
     "flat": "A flat-faced follower.",
+    "swinging-face": "An oscillating flat-faced follower.",
     "measured": "A motion given as a measured table.",
     "arcs": "A cam of three circular arcs.",
     "sizing": "The smallest cam within ranges and limits, by graphcam size.",

@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from over_all import over_all, over_seeds
 from random_tasks import flips, random_arm_task, random_flat_task, random_task
 from test_bounds import outside, stations_outside
 
@@ -69,18 +70,16 @@ def test_no_angle_is_compared_with_the_other_side_and_no_bound_of_a_radius_loses
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("random", [random_task, random_arm_task])
-def test_of_hundreds_of_tasks_none_flips(random):
-    solved = 0
-    for seed in range(60, 360):
-        try:
-            quantities = solve(random(seed)).comparison.quantities
-        except DesignError:
-            continue
-        solved += 1
-        assert not any(flips(quantities[name]) for name in ANGLES), seed
-        assert all(q.tolerance_paper * q.per_mm <= 2 * abs(q.exact) + 1e-6 for q in map(quantities.get, SHARP)), seed
-    assert solved > 250
+@over_seeds(12)
+@over_all("random", [random_task, random_arm_task])
+def test_no_random_task_flips(random, seed):
+    try:
+        quantities = solve(random(60 + seed)).comparison.quantities
+    except DesignError as why:
+        assert why.quantity in {"minimum prime radius", "roller radius"}, why  # noqa: PT017
+        return
+    assert not any(flips(quantities[name]) for name in ANGLES)
+    assert all(q.tolerance_paper * q.per_mm <= 2 * abs(q.exact) + 1e-6 for q in map(quantities.get, SHARP))
 
 
 @each_follower

@@ -36,7 +36,7 @@ def told_against_exact(solution: AnySolution) -> str:
 def acceleration(name: str, u: mpf, ratio: float = 1.0) -> mpf:
     if name == "rectangular":  # its two halves, of which a difference would mix both
         return 2 * (1 + mpf(ratio)) if u < 1 / (1 + mpf(ratio)) else -2 * (1 + 1 / mpf(ratio))
-    return diff(lambda x: reference.lift(name, x), u, 2)
+    return diff(lambda x: reference.lift(name, x, ratio), u, 2)
 
 
 def velocity(name: str, u: mpf, ratio: float = 1.0) -> mpf:
@@ -75,6 +75,12 @@ def holds(name: str, u: Floats, ratio: float = 1.0) -> bool:
 @pytest.mark.parametrize("n", PARTS)
 def test_the_theorem_holds_at_every_division_wherever_corners_fall(name, n):
     assert holds(name, np.linspace(0, 1, n + 1))
+
+
+@pytest.mark.parametrize("name", ["triangular", "cycloidal", "modified-trapezoidal", "modified-sine"])
+@pytest.mark.parametrize("ratio", [0.3, 2.0])
+def test_the_theorem_holds_of_laws_with_unequal_parts(name, ratio):
+    assert all(holds(name, np.linspace(0, 1, n + 1), ratio) for n in (5, 12))
 
 
 @pytest.mark.parametrize("ratio", [1.0, 0.37, 2.3])

@@ -12,6 +12,7 @@ from graphcam.constructions.board import Board
 from graphcam.constructions.chain import AdoptedSizes
 from graphcam.constructions.drawn_arm import MAX_ARM_ON_PAPER, DrawnOscillating
 from graphcam.constructions.drawn_flat_face import DrawnFlatFaced
+from graphcam.constructions.drawn_swinging_face import DrawnOscillatingFlat
 from graphcam.constructions.drawn_translating import DrawnTranslating
 from graphcam.drafting.scale import GOST_2_302, Paper, Scale, standard_scale
 from graphcam.given.follower import Limits
@@ -94,3 +95,12 @@ def flat_board(motion: Motion, least_curvature: float = 8.0, **changes: Any) -> 
     """A board for a flat face with a least permitted radius of curvature [mm], and other ``changes``."""
     board = board_of(motion, **({"rotation": "ccw", "roller_radius": 0.0} | changes))
     return replace(board, follower=DrawnFlatFaced(least_curvature))
+
+
+def swinging_face_board(
+    motion: Motion, distance: float = 150.0, face_offset: float = 10.0, least_curvature: float = 8.0, **changes: Any
+) -> Board:
+    """A board for a flat face on a pivot [mm] with a least permitted radius of curvature, and other ``changes``."""
+    board = board_of(motion, **({"rotation": "ccw", "roller_radius": 0.0} | changes))
+    mu_l = standard_scale(distance, MAX_ARM_ON_PAPER, board.paper.ratios)
+    return replace(board, follower=DrawnOscillatingFlat(distance, face_offset, least_curvature, mu_l))

@@ -10,7 +10,7 @@ from functools import cache
 from itertools import pairwise
 
 import numpy as np
-from golden_random import TASKS as RANDOM
+from golden_random import SOME as RANDOM
 from over_all import over_all
 from replay import Figure, SecondBoard, figure_of, followed, off, written
 
@@ -37,7 +37,7 @@ from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 REPLAYED, ON_THE_FIGURE = 1e-9, 1e-6
 """mm: how far the second board may land beside the first, and a mark beside what its act left."""
 HANDS = gc.Pencil(line=0.2, dividers=0.2, protractor=math.radians(0.5), samples=60, seed=4)
-BUILT_IN = {name: gc.builtin_task(name) for name in ("coursework", "arm", "flat", "measured")}
+BUILT_IN = {name: gc.builtin_task(name) for name in ("coursework", "arm", "flat", "swinging-face", "measured")}
 RUBBING = replace(BUILT_IN["coursework"], speed_rpm=120.0, spring=SpringTable(0.5, 2.0, 150.0, friction=0.15, load=9.0))
 SPRUNG = replace(BUILT_IN["arm"], speed_rpm=90.0, spring=ArmSpringTable(900.0, 4000.0, 3000.0, load=9.0))
 TASKS = BUILT_IN | RANDOM | {"friction at the cam": RUBBING, "an arm's spring": SPRUNG}
@@ -149,7 +149,15 @@ def test_the_constructions_of_every_follower_err_of_their_own():
     """The four built-in tasks, arcs and a spring are all among those that are tried."""
     shown = [*BUILT_IN, *list(RANDOM)[::5], "friction at the cam"]
     tried = {key for name in shown for key in drawn(name)}
-    assert tried >= {*drawn("coursework"), *drawn("arm"), *drawn("flat"), "differentiation", "three_arcs", "arc_roller"}
+    assert tried >= {
+        *drawn("coursework"),
+        *drawn("arm"),
+        *drawn("flat"),
+        *drawn("swinging-face"),
+        "differentiation",
+        "three_arcs",
+        "arc_roller",
+    }
     assert tried >= {"arc_diagrams", "force plan"}
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -109,20 +110,29 @@ def in_bounds(scatter: float, bound: float) -> bool:
     return 0.8 * bound < scatter < bound
 
 
+SPREAD = 0.05
+
+
+@cache
+def scattered(only: Kind | None = None) -> Chain:
+    """The built-in task by many hands that err in every kind of act, or in one."""
+    hands = Pencil(line=SPREAD, dividers=SPREAD, samples=SAMPLES)
+    hands = hands if only is None else replace(hands, only=frozenset({only}))
+    return Chain(coursework("3-4-5"), hands, decided=SIZES)
+
+
 @over_all(("name", "reading"), AMPLIFICATION)
 def test_every_reading_scatters_within_its_bound_and_so_does_every_kind_of_act_in_it(name, reading):
     """The bound is the root of the sum of the squares of what the kinds of acts bring."""
-    parts, sigma = AMPLIFICATION[name, reading], 0.05
-    hands = Pencil(line=sigma, dividers=sigma, samples=SAMPLES)
-    chain = Chain(coursework("3-4-5"), hands, decided=SIZES)
+    parts = AMPLIFICATION[name, reading]
 
-    def amplified(by: Pencil) -> np.ndarray:
-        return np.atleast_1d(np.nanstd(chain.by(by)[name].readings[reading].paper, axis=0)) / sigma
+    def amplified(only: Kind | None = None) -> np.ndarray:
+        return np.atleast_1d(np.nanstd(scattered(only)[name].readings[reading].paper, axis=0)) / SPREAD
 
-    whole = amplified(hands)
+    whole = amplified()
     most = int(np.argmax(whole))
     for kind, bound in parts.items():
-        assert in_bounds(amplified(replace(hands, only=frozenset({kind})))[most], bound), kind
+        assert in_bounds(amplified(kind)[most], bound), kind
     # What is left out is less than a tenth of the variance.
     assert in_bounds(whole[most], math.hypot(*parts.values()) / math.sqrt(0.9))
 

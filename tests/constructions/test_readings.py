@@ -23,7 +23,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.given.spring_load import SpringLoad
 from graphcam.tasks.task_file import builtin_arcs_task, builtin_task
 
-TASKS = ("coursework", "arm", "flat", "measured", "arcs")
+TASKS = ("coursework", "arm", "flat", "swinging-face", "measured", "arcs")
 HANDS = (Pencil(), Pencil(line=0.1, dividers=0.1, protractor=math.radians(0.5), samples=3, seed=4))
 each_task = over_all("task", TASKS)
 each_hand = over_all("pencil", HANDS)
@@ -104,7 +104,7 @@ def test_what_a_construction_says_of_its_readings_some_step_reads():
 def test_the_unit_of_a_reading_is_the_one_that_its_meaning_says(task):
     for construction in drawn(task, HANDS[0]).values():
         for name, meaning in construction.meaning.readings.items():
-            lift = "rad" if task == "arm" else "mm"
+            lift = "rad" if task in ("arm", "swinging-face") else "mm"
             assert construction.readings[name].unit == meaning.unit.replace("lift", lift), (construction.name, name)
 
 

@@ -8,6 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from over_all import over_all
 from random_tasks import random_arm_task, random_task
 
 import graphcam as gc
@@ -36,11 +37,11 @@ def far_away(seed: int) -> Task:
 
 
 TASKS = {
-    **{f"random {seed}": random_task(seed) for seed in range(24)},
-    **{f"offset near r₀ {seed}": near_the_prime_radius(seed, (-1.2, 0.95, -0.8, 1.5)[seed % 4]) for seed in range(12)},
+    **{f"random {seed}": random_task(seed) for seed in range(12)},
+    **{f"offset near r₀ {seed}": near_the_prime_radius(seed, (-1.2, 0.95, -0.8, 1.5)[seed % 4]) for seed in range(8)},
     **{f"far away {seed}": far_away(seed) for seed in range(4)},
 }
-ARMS = {f"arm {seed}": random_arm_task(seed) for seed in range(24)}
+ARMS = {f"arm {seed}": random_arm_task(seed) for seed in range(16)}
 
 
 @cache
@@ -57,10 +58,6 @@ def solved(name: str) -> gc.Solution | None:
 def arm_on_paper(solution: gc.Solution) -> float:
     """The adopted prime radius on the drawing of the arm positions [mm]."""
     return solution.chain.prime_radius / solution.drawn["minimum_radius"].givens.mu_l.per_mm
-
-
-def every(names) -> pytest.MarkDecorator:
-    return pytest.mark.parametrize("name", names)
 
 
 def hatched(region: Construction) -> np.ndarray:
@@ -88,7 +85,7 @@ def keeps_the_limits(solution: gc.Solution) -> bool:
     return not any(re.search("pressure angle|minimum permitted", str(warning)) for warning in solution.warnings)
 
 
-@every([*TASKS, *ARMS])
+@over_all("name", [*TASKS, *ARMS])
 def test_the_cam_centre_found_lies_on_the_edge_of_the_hatching_and_the_adopted_one_in_it(name):
     solution = solved(name)
     if solution is None or not np.isfinite(solution.drawn["minimum_radius"].points["centre"]).all():
@@ -110,7 +107,7 @@ def greatest_angles(solution: gc.Solution, r0: float, e: float) -> tuple[float, 
     return float(alpha[v > 0].max()), float(-alpha[v < 0].min()), float(np.arctan2(sigma * e, np.sqrt(r0**2 - e**2)))
 
 
-@every(TASKS)
+@over_all("name", TASKS)
 def test_from_every_corner_of_the_hatching_the_exact_cam_keeps_the_limits(name):
     """But for the error of the drawing: a corner on the drawn tangent may miss by what the drawn curves do."""
     solution = solved(name)
@@ -132,7 +129,7 @@ def test_from_every_corner_of_the_hatching_the_exact_cam_keeps_the_limits(name):
         assert not limits.rest or rest <= limits.rise + 1e-9
 
 
-@every(TASKS)
+@over_all("name", TASKS)
 def test_the_edges_of_the_hatching_lie_on_the_drawn_lines_or_cut_it_off_below(name):
     solution = solved(name)
     if solution is None:
@@ -159,13 +156,16 @@ def test_most_of_the_tasks_are_solved_within_the_limits():
         assert len(keep) > 0.7 * len(names), keep
 
 
-SMALL = [name for name in ARMS if (solution := solved(name)) and arm_on_paper(solution) < 30]
+def is_small(name: str) -> bool:
+    solution = solved(name)
+    return solution is not None and arm_on_paper(solution) < 30
 
 
-@every(SMALL)
+@over_all("name", ARMS)
 def test_a_cam_centre_near_the_end_of_the_arm_is_shown_enlarged_with_the_region_the_lines_and_both_centres(name):
     solution = solved(name)
-    assert solution is not None
+    if solution is None or not is_small(name):
+        return
     region, measured = solution.drawn["minimum_radius"], solution.drawn["pressure_angle"]
     found, adopted = (
         next(step for step in each.steps() if step.view.name == "cam centre") for each in (region, measured)
@@ -188,7 +188,7 @@ def test_a_cam_centre_near_the_end_of_the_arm_is_shown_enlarged_with_the_region_
 
 
 def test_only_a_small_prime_radius_is_shown_enlarged():
-    assert len(SMALL) >= 3
-    for name in set(ARMS) - set(SMALL):
-        if (solution := solved(name)) is not None:
+    assert sum(map(is_small, ARMS)) >= 3
+    for name in ARMS:
+        if not is_small(name) and (solution := solved(name)) is not None:
             assert all(step.view.name != "cam centre" for each in solution.drawn.values() for step in each.steps())

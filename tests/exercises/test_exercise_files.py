@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 import pytest
+from over_all import over_all
 from russian import english_words
 from translations import CATALOGS, MOST_MISSING, lacking_of_exercises, texts_of
 
@@ -96,8 +97,8 @@ def test_a_wrong_file_gets_one_message(tmp_path, old, new, message):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("language", CATALOGS)
-@pytest.mark.parametrize("name", library())
+@over_all("language", CATALOGS)
+@over_all("name", library())
 def test_what_is_translated_of_an_exercise_of_the_library_has_the_same_places(name, language):
     english, told = texts_of(name, "en"), texts_of(name, language)
     told = {key: text for key, text in told.items() if text != english[key]}

@@ -16,6 +16,7 @@ import hostile_code
 import hostile_grading
 import pytest
 from hostile_grading import CONTROL
+from over_all import over_seeds
 from programs import program
 
 from graphcam.exercises.definition.exercise_file import exercise_path
@@ -29,7 +30,7 @@ ORDINARY = 61_234
 CODE = [*hostile_code.CODE, *hostile_code.MORE_CODE]
 NOTEBOOKS = [*CODE, *hostile.DATA]
 GROUPS = 10
-"""Into so many the cases are dealt, like cards."""
+"""Into so many the cases are dealt, like cards, and each of these into two: for root and for an ordinary user."""
 SAMPLE = CODE[::8]
 
 
@@ -47,19 +48,17 @@ def test_a_sample_of_code_holds_at_l2():
     assert faults(SAMPLE, Level.L2) == []
 
 
-@pytest.mark.parametrize("group", range(GROUPS))
-def test_all_cases_hold_at_l2(group: int):
+@over_seeds(GROUPS)
+def test_all_cases_hold_at_l2_for_root_or_for_an_ordinary_user(seed: int):
+    """With ten seeds more the halves change places."""
     needed()
-    assert faults(NOTEBOOKS[group::GROUPS], Level.L2) == []
-
-
-@pytest.mark.parametrize("group", range(GROUPS))
-def test_all_cases_hold_for_an_ordinary_user(group: int):
-    needed()
+    group = NOTEBOOKS[seed % GROUPS :: GROUPS]
+    turn = seed // GROUPS % 2
+    assert faults(group[turn::2], Level.L2) == []
     with tempfile.TemporaryDirectory(prefix="graphcam-home-", dir="/tmp") as home:
         os.chmod(home, 0o777)  # noqa: PTH101  another user's
         for level in (Level.L0, Level.L2):
-            assert faults(NOTEBOOKS[group::GROUPS], level, ordinary(Path(home))) == []
+            assert faults(group[1 - turn :: 2], level, ordinary(Path(home))) == []
 
 
 def test_what_breaks_out_is_seen():

@@ -107,7 +107,7 @@ def test_texts_do_not_run_into_one_another(paper: str):
 def test_the_room_is_the_same_for_all_and_holds_every_cam(name: str, paper: str):
     exercise = find_exercise(name, paper=paper)
     half, scales, rooms = MARKED_PAPERS[paper].square / 2, set[float](), set[str]()
-    for draw in range(40):
+    for draw in range(12):
         one = drawn(exercise, "Ben", SECRET, draw)
         chain = board_chain(one.task)
         scale = chain.profile_scale.per_mm
@@ -115,7 +115,7 @@ def test_the_room_is_the_same_for_all_and_holds_every_cam(name: str, paper: str)
         pitch, roller = np.abs(chain.inversion.points["pitch"]), one.parameters["roller"]
         assert isinstance(roller, float | int)
         assert pitch.max() + roller / scale <= half - PROFILE_MARGIN + 1e-9
-        if draw % 10 == 0:
+        if draw % 6 == 0:
             _, pages = made(name, paper, "Ben", draw)
             rooms.add(json.dumps([{key: view.room for key, view in page.views.items()} for page in pages]))
     assert len(rooms) == 1
@@ -255,9 +255,8 @@ def test_a_course_on_paper_is_graded_by_the_keys_of_its_paper(tmp_path: Path):
 @EACH
 def test_the_key_has_a_sheet_too(name: str, paper: str):
     exercise = find_exercise(name, paper=paper)
-    for student in ("Anna", "Ben", "Carla"):
-        one, key = issue(exercise, student, SECRET)
-        assert key_sheet(one, Student(student), key).pages
+    one, key = issue(exercise, "Anna", SECRET)
+    assert key_sheet(one, Student("Anna"), key).pages
 
 
 @pytest.mark.parametrize(

@@ -5,16 +5,19 @@ from __future__ import annotations
 import math
 import pickle
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 import pytest
 from mpmath import mp, mpf
+from over_all import over_all
 from scipy.interpolate import BSpline, make_interp_spline
 from scipy.spatial import cKDTree
 
 import graphcam as gc
-from graphcam.given.exact_polynomials import sign_changes, solve_exactly
+from graphcam.given.exact_conditions import as_series, solve_exactly, value_at
 from graphcam.given.impact import acceleration_jumps, velocity_jumps
+from graphcam.given.piecewise_polynomial import PiecewisePolynomial
 from graphcam.given.stations import divide
 
 P, Poly, Spline = gc.MotionPoint, gc.PolynomialPart, gc.SplinePart
@@ -101,7 +104,7 @@ JOINT = 2 * EPS
 """Joints lie at the machine's angles, off the exact ones by half a unit of the last digit at most [rad]."""
 
 
-@pytest.mark.parametrize("name", HARD)
+@over_all("name", HARD)
 def test_values_to_four_eps_of_each_function_at_40_digits(name):
     motion = gc.boundary_motion([made(part) for part in HARD[name]])
     assert motion.zero == 0
@@ -142,7 +145,9 @@ def test_random_conditions_are_met_to_the_last_digits():
             continue
         for point in points:
             for order, number in point.given.items():
-                assert float(part.pieces[0].at(point.place, order)) == pytest.approx(number, rel=1e-15, abs=1e-30)
+                [(_, _, p)], width = part.solution, part.end - part.start
+                found = value_at(p, (point.place - part.start) / width, order) / width**order
+                assert float(found) == pytest.approx(number, rel=1e-15, abs=1e-30)
 
 
 # --- splines ---------------------------------------------------------------------------------------------------------
@@ -156,43 +161,50 @@ def spline_points() -> list[gc.MotionPoint]:
     return [at(k, s=s, **ends.get(k, {})) for k, s in zip(ANGLES, HEIGHTS, strict=True)]
 
 
-@pytest.mark.parametrize("degree", [3, 4, 5, 7])
+@over_all("degree", [3, 4, 5, 7])
 def test_a_spline_is_that_of_scipy_on_the_same_knots(degree):
     part = Spline(spline_points(), degree)
-    inner = [float(piece.start) for piece in part.pieces[1:]]
+    width = part.end - part.start
+    inner = [float(part.start + low * width) for low, _, _ in part.solution[1:]]
     knots = np.array([0.0] * (degree + 1) + inner + [math.pi] * (degree + 1))
     zero = [(1, 0.0), (2, 0.0)]
     theirs = make_interp_spline(np.radians(ANGLES), HEIGHTS, degree, knots, (zero, zero))
-    for piece in part.pieces:
+    for low, high, p in part.solution:
         for y in (0.1, 0.5, 0.9):
-            place = float(piece.start + Fraction(y) * piece.width)
+            place = float(part.start + (low + Fraction(y) * (high - low)) * width)
             for order in range(4):
-                ours = float(piece.at(piece.start + Fraction(y) * piece.width, order))
+                ours = float(value_at(p, Fraction(y), order) / ((high - low) * width) ** order)
                 assert ours == pytest.approx(float(theirs(place, order)), rel=1e-9, abs=1e-9)
+                assert part.polynomials(place)[order] == pytest.approx(ours, rel=1e-12, abs=1e-12)
 
 
-@pytest.mark.parametrize("degree", [2, 3, 5])
+@over_all("degree", [2, 3, 5])
 def test_all_derivatives_below_the_degree_are_continuous_at_the_knots(degree):
     points = spline_points()
     if degree == 2:
         points = [at(0, s=0, v=0), *points[1:-1], at(180, s=30)]
     part = Spline(points, degree)
-    for before, after in zip(part.pieces, part.pieces[1:], strict=False):
-        for order in range(degree):
-            assert float(before.at(before.end, order)) == pytest.approx(float(after.at(after.start, order)), abs=1e-12)
-        jump = float(after.at(after.start, degree) - before.at(before.end, degree))
-        assert abs(jump) > 1e-9
+    for before, after in pairwise(part.solution):
+        for order in range(degree + 1):
+            at_knot = [
+                float(value_at(p, y, order) / ((high - low) * (part.end - part.start)) ** order)
+                for (low, high, p), y in ((before, Fraction(1)), (after, Fraction(0)))
+            ]
+            if order < degree:
+                assert at_knot[0] == pytest.approx(at_knot[1], abs=1e-12)
+            else:
+                assert abs(at_knot[1] - at_knot[0]) > 1e-9
 
 
 def test_without_inner_knots_a_spline_is_the_polynomial():
     points = [at(0, s=0, **REST), at(180, s=30, **REST)]
-    assert Spline(points, 5).pieces == Poly(points).pieces
+    assert Spline(points, 5).solution == Poly(points).solution
 
 
 def test_knots_that_are_given_are_where_the_pieces_join():
     points = spline_points()
     part = Spline(points, 5, np.radians([40, 60, 75, 90, 110, 135]).tolist())
-    assert [round(float(piece.start) / DEG, 9) for piece in part.pieces] == [0, 40, 60, 75, 90, 110, 135]
+    assert [round(180 * float(low), 9) for low, _, _ in part.solution] == [0, 40, 60, 75, 90, 110, 135]
     motion = gc.boundary_motion([part, Poly([at(200, s=30, **REST), at(350, s=0, **REST)])])
     assert np.isin(np.radians([40, 60, 75, 90, 110, 135]).round(12), motion.breaks.round(12)).all()
 
@@ -294,7 +306,7 @@ def test_it_travels_to_other_processes_and_tells_itself():
     assert "by conditions: polynomial of degree 6, spline of degree 5" in repr(motion)
 
 
-@pytest.mark.parametrize("follower", [gc.Translating(5), gc.FlatFaced()])
+@over_all("follower", [gc.Translating(5), gc.FlatFaced()])
 def test_it_stands_wherever_a_motion_does(follower):
     motion = whole()
     cam = gc.Cam(motion, follower, prime_radius=80)
@@ -309,8 +321,8 @@ def test_it_stands_wherever_a_motion_does(follower):
 # --- laws ------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("smooth", [1, 2, 3])
-@pytest.mark.parametrize("blends", [(0.25, 0.25), (0.1, 0.4), (1e-6, 0.3)])
+@over_all("smooth", [1, 2, 3])
+@over_all("blends", [(0.25, 0.25), (0.1, 0.4), (1e-6, 0.3)])
 def test_the_law_of_constant_velocity_passes_the_check_of_laws(blends, smooth):
     law = gc.constant_velocity_law(*blends, smooth)
     assert law.peak_velocity == pytest.approx(2 / (2 - sum(blends)), rel=1e-14)
@@ -327,25 +339,44 @@ def test_a_law_of_several_parts_and_of_a_return():
     assert law.jumps == (0.5,)
 
 
+def test_a_law_of_parts_with_a_gap_between_them_rests_there():
+    parts = [Poly([P(k, s=k / 2, **REST), P(k + 1, s=k / 2 + 1, **REST)]) for k in (0, 2)]
+    f, *derivatives = gc.boundary_law(parts)([1 / 6, 0.4, 0.5, 0.6, 5 / 6])
+    np.testing.assert_allclose(f, [0.25, 0.5, 0.5, 0.5, 0.75], rtol=1e-14)
+    assert not np.any(np.array(derivatives)[:, 1:4])
+
+
 # --- what it is made of ----------------------------------------------------------------------------------------------
 
 
-def test_every_change_of_sign_is_found():
-    half, third = Fraction(1, 2), Fraction(1, 3)
+@pytest.mark.parametrize("size", [1e-30, 1.0, 1e30])
+def test_every_turning_is_found(size):
     for roots in (
-        [half],
-        [third, half],
-        [third, third, half],
-        [Fraction(1, 10**9), 1 - Fraction(1, 10**9)],
-        [half] * 3,
+        [0.5],
+        [1 / 3, 0.5],
+        [1 / 3, 1 / 3, 0.5],
+        [1e-6, 1 - 1e-6],
+        [0.2, 0.201, 0.7],
+        [0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 0.9],
     ):
-        p = [Fraction(1)]
-        for root in roots:
-            p = [low - root * high for low, high in zip([Fraction(0), *p], [*p, Fraction(0)], strict=True)]
-        sign, found = sign_changes(tuple(p))
+        velocity = size * np.polynomial.polynomial.polyfromroots(roots)
+        found = PiecewisePolynomial.of(velocity.tolist(), 0.0, 1.0).integral()
         simple = [root for root in sorted(set(roots)) if roots.count(root) % 2]
-        assert sign == (-1) ** len(roots)
-        assert [abs(a - b) < Fraction(1, 2**80) for a, b in zip(found, simple, strict=True)] == [True] * len(simple)
+        assert found.turnings() == pytest.approx(simple, abs=1e-12)
+        (start, sign), *_ = found.runs()
+        assert (start, sign) == (0.0, (-1) ** len(roots))
+
+
+@pytest.mark.parametrize("power", range(1, 17))
+def test_a_stop_from_which_the_motion_leaves_slowly_is_a_turning_or_none(power):
+    # (y - 1/3)^power over [0, 1]: beside the stop velocity is lost in the rounding of any other series.
+    p = [Fraction(1)]
+    for _ in range(power):
+        p = [low - high / 3 for low, high in zip([Fraction(0), *p], [*p, Fraction(0)], strict=True)]
+    found = as_series([(Fraction(0), Fraction(1), p)], rests=[Fraction(1, 3)])
+    assert found.turnings() == ([pytest.approx(1 / 3, abs=1e-15)] if power % 2 == 0 else [])
+    beside = np.array([1 / 3 - 1e-5, 1 / 3 + 1e-3])
+    assert found(beside)[0] == pytest.approx((beside - 1 / 3) ** power, rel=1e-9)
 
 
 def test_equations_that_contradict_have_no_solution():
@@ -497,21 +528,21 @@ LAWS = {
 }
 
 
-@pytest.mark.parametrize("name", PARTS)
+@over_all("name", PARTS)
 def test_a_part_that_cannot_be_is_told(name):
     make, message = PARTS[name]
     with pytest.raises(gc.DesignError, match=message):
         make()
 
 
-@pytest.mark.parametrize("name", TURNS)
+@over_all("name", TURNS)
 def test_a_turn_that_cannot_be_is_told(name):
     make, message = TURNS[name]
     with pytest.raises(gc.DesignError, match=message):
         gc.boundary_motion(make())
 
 
-@pytest.mark.parametrize("name", LAWS)
+@over_all("name", LAWS)
 def test_a_law_that_cannot_be_is_told(name):
     make, message = LAWS[name]
     with pytest.raises(gc.DesignError, match=message):
@@ -552,7 +583,7 @@ AROUND_0 = {
 }
 
 
-@pytest.mark.parametrize("name", AROUND_0)
+@over_all("name", AROUND_0)
 def test_phases_and_starts_of_what_moves_at_0_are_those_of_the_motion(name):
     motion = gc.boundary_motion(AROUND_0[name])
     starts = np.append(motion.starts, TURN)
@@ -589,7 +620,7 @@ def test_the_cam_of_what_moves_at_0_is_written_as_it_is(name, tmp_path):
     assert cam.undercuts() == []
 
 
-@pytest.mark.parametrize("v", [-19.5, -14])
+@over_all("v", [-19.5, -14])
 def test_where_the_profile_of_what_moves_at_0_crosses_itself_both_branches_pass(v):
     cam = gc.Cam(gc.boundary_motion(moving_at_0(v)), gc.Translating(offset=3, roller_radius=25), prime_radius=30)
     loops = cam.undercuts()

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from numpy.polynomial import Polynomial
+from over_all import over_all
 
 from graphcam.given.extreme_search import SmoothPieces
 
@@ -14,7 +15,7 @@ def close_to(found, wanted, within) -> bool:
     return bool(np.abs(np.asarray(found)[:, None] - np.asarray(wanted)).min(axis=0).max() <= within)
 
 
-@pytest.mark.parametrize("waves", [1, 7, 60, 300, 997])
+@over_all("waves", [1, 7, 60, 300, 997])
 def test_all_crests_and_troughs_of_waves_are_found(waves):
     _, x = ONE.stationary(lambda _, x: np.sin(2 * np.pi * waves * x))
     wanted = (np.arange(2 * waves) + 0.5) / (2 * waves)
@@ -34,7 +35,7 @@ def test_every_root_of_the_slope_of_random_polynomials_is_found():
         assert not steep.size or close_to(x, steep, 1e-6)
 
 
-@pytest.mark.parametrize("gap", [1e-3, 1e-5, 1e-7])
+@over_all("gap", [1e-3, 1e-5, 1e-7])
 def test_two_extremes_beside_one_another_are_both_reached(gap):
     """A crest and a trough of (x - m)^3/3 - gap^2 x."""
     place = 0.377
@@ -45,13 +46,13 @@ def test_two_extremes_beside_one_another_are_both_reached(gap):
     assert np.abs(heights - trough).min() < 1e-17
 
 
-@pytest.mark.parametrize(("place", "width"), [(1e-6, 1e-7), (0.3, 0.01), (1 - 1e-6, 1e-7)])
+@over_all(("place", "width"), [(1e-6, 1e-7), (0.3, 0.01), (1 - 1e-6, 1e-7)])
 def test_a_sharp_peak_is_found_wherever_it_is(place, width):
     _, x = ONE.stationary(lambda _, x: 1 / (1 + ((x - place) / width) ** 2))
     assert close_to(x, [place], 1e-11)
 
 
-@pytest.mark.parametrize("place", [1e-9, 1e-6, 0.3, 1 - 1e-6])
+@over_all("place", [1e-9, 1e-6, 0.3, 1 - 1e-6])
 def test_a_corner_that_nobody_declared_is_told_to_a_part_in_a_thousand_million(place):
     _, corner = ONE.stationary(lambda _, x: -np.abs(x - place))
     assert close_to(corner, [place], 1e-9)
@@ -93,7 +94,7 @@ def test_noise_is_not_divided_without_end():
     assert sum(looked_at) < 3000
 
 
-@pytest.mark.parametrize("root", [1 / 3, 0.5, 0.25, 1e-9])
+@over_all("root", [1 / 3, 0.5, 0.25, 1e-9])
 def test_a_zero_is_found_once_at_least_at_a_seam_too(root):
     _, x = ONE.zeros(lambda _, x: np.exp(3 * x) - np.exp(3 * root))
     assert x == pytest.approx(root, abs=1e-12)

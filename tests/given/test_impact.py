@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import pi
 
 import pytest
+from over_all import over_all
 
 from graphcam.given.impact import acceleration_jumps, velocity_jumps
 from graphcam.given.laws import DWELL_TO_DWELL_LAWS, RISE_FALL_LAWS, law
@@ -20,7 +21,7 @@ def motion_of(name: str) -> Motion:
     return Motion([Rise(30, 1.4, name), Dwell(0.8), Return(30, 1.1, name), Dwell(FULL_TURN - 3.3)])
 
 
-@pytest.mark.parametrize("name", DWELL_TO_DWELL_LAWS)
+@over_all("name", DWELL_TO_DWELL_LAWS)
 def test_kind_of_impact_between_dwells(name):
     motion = motion_of(name)
     assert velocity_jumps(motion) == []
@@ -37,7 +38,7 @@ def test_kind_of_impact_between_dwells(name):
         assert at_ends == [pytest.approx(pair, abs=1e-9) for pair in expected]
 
 
-@pytest.mark.parametrize("ratio", [1e-12, 1e-9, 1e-6, 1e6, 1e12])
+@over_all("ratio", [1e-12, 1e-9, 1e-6, 1e6, 1e12])
 def test_unequal_parts_of_a_rectangular_law_meet_without_a_rigid_impact(ratio):
     rise, back = Rise(30, 1.4, "rectangular", ratio), Return(30, FULL_TURN - 3.4, "rectangular", ratio)
     motion = Motion([Dwell(2.0), rise, back])
@@ -59,7 +60,7 @@ def test_unequal_harmonic_phases_meet_in_a_jump():
     ]
 
 
-@pytest.mark.parametrize("name", RISE_FALL_LAWS)
+@over_all("name", RISE_FALL_LAWS)
 def test_a_rise_and_a_fall_without_a_dwell_between_are_free_of_impact(name):
     """Equal angles: what the rise's acceleration ends with, the fall's begins with."""
     motion = Motion([Rise(30, 1.4, name), Return(30, 1.4, name), Dwell(FULL_TURN - 2.8)])

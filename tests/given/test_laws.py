@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from mpmath import diff, mpf
 from numpy.testing import assert_allclose
+from over_all import over_all
 from reference import EPS, lift
 
 from graphcam.errors import DesignError
@@ -24,7 +25,7 @@ def off_the_breaks(name: str, ratio: float = 1.0) -> np.ndarray:
     return np.array([u for u in SAMPLES if np.abs(u - breaks).min() > 1e-12])
 
 
-@pytest.mark.parametrize("name", LAWS)
+@over_all("name", LAWS)
 def test_value_and_derivatives_are_those_of_the_printed_displacement(name):
     u = off_the_breaks(name)
     computed = np.array(law(name)(u))
@@ -36,13 +37,32 @@ def test_value_and_derivatives_are_those_of_the_printed_displacement(name):
     assert np.all(error.max(axis=1) <= 4 * EPS * np.array(greatest))
 
 
-@pytest.mark.parametrize("ratio", [0.25, 2.0, 7.3])
+@over_all("ratio", [0.25, 2.0, 7.3])
 def test_rectangular_law_with_unequal_parts(ratio):
     u = off_the_breaks("rectangular", ratio)
     exact = np.array([[float(x) for x in reference("rectangular", v, ratio)] for v in u]).T
     assert_allclose(np.array(law("rectangular", ratio)(u)), exact, rtol=1e-14, atol=1e-60)
     ddf = law("rectangular", ratio)([0.0, 1.0])[2]
     assert ddf[0] / -ddf[1] == pytest.approx(ratio, rel=4 * EPS)
+
+
+@pytest.mark.parametrize("name", ["triangular", "cycloidal", "modified-trapezoidal", "modified-sine"])
+@pytest.mark.parametrize("ratio", [0.25, 2.0, 7.3])
+def test_skewed_laws_have_parts_in_the_ratio_of_their_accelerations(name, ratio):
+    u = off_the_breaks(name, ratio)
+    exact = np.array([[float(x) for x in reference(name, v, ratio)] for v in u]).T
+    assert_allclose(np.array(law(name, ratio)(u)), exact, rtol=1e-11, atol=1e-12)
+    unequal, dense = law(name, ratio), law(name, ratio)(np.linspace(0, 1, 20_001))[2]
+    assert dense.max() / -dense.min() == pytest.approx(ratio, rel=1e-3)
+    assert unequal.peak_acceleration == pytest.approx(np.abs(dense).max(), rel=1e-3)
+    assert unequal.peak_velocity == law(name).peak_velocity  # at the end of the accelerating part
+    assert float(unequal(1 / (1 + ratio))[1]) == pytest.approx(unequal.peak_velocity)
+    assert unequal.reversed.ratio == pytest.approx(1 / ratio)
+    for k in (0.05, 0.5, 5.0):
+        for tangent, seen in zip(unequal.tangents, (unequal, unequal.reversed), strict=True):
+            if tangent is not None:
+                f, f1 = seen(np.linspace(0, 1, 20_001), 1)
+                assert tangent(k)[1] == pytest.approx((f1 - f / k).max(), rel=1e-6)
 
 
 RATIOS = [10.0**k for k in range(-12, 13)] + (10 ** np.random.default_rng(12).uniform(-12, 12, 500)).tolist()
@@ -66,7 +86,7 @@ def test_the_parts_of_the_rectangular_law_meet_in_lift_and_velocity_at_every_rat
         assert abs(middle - 1 / (1 + mpf(ratio))) <= EPS
 
 
-@pytest.mark.parametrize("name", POLYNOMIAL)
+@over_all("name", POLYNOMIAL)
 def test_polynomial_laws_keep_their_digits_to_the_very_end(name):
     """The lift and the missing lift, each of its own size: what 1 - f(u) would lose."""
     w = np.concatenate([2.0 ** -np.arange(1, 60), SAMPLES[SAMPLES < 0.5]])
@@ -76,14 +96,14 @@ def test_polynomial_laws_keep_their_digits_to_the_very_end(name):
     assert max(abs(mpf(v) / e - 1) for v, (_, e) in zip(df, exact, strict=True)) <= 4 * EPS
 
 
-@pytest.mark.parametrize("name", ["cycloidal", "modified-sine", "modified-trapezoidal", "cosine"])
+@over_all("name", ["cycloidal", "modified-sine", "modified-trapezoidal", "cosine"])
 def test_trigonometric_laws_keep_their_digits_near_the_start(name):
     u = 2.0 ** -np.arange(4, 60)
     exact = [lift(name, mpf(x)) for x in u]
     assert max(abs(mpf(f) / e - 1) for f, e in zip(law(name)(u)[0], exact, strict=True)) <= 8 * EPS
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("name", "velocity", "acceleration"),
     [  # as printed by Norton, table 2-3 and chapters 2 to 4, and by Chen, table 3-1
         ("rectangular", 2.0, 4.0),
@@ -108,7 +128,7 @@ def test_published_peak_factors(name, velocity, acceleration):
     assert np.abs(ddf).max() == pytest.approx(law(name).peak_acceleration, rel=1e-9)
 
 
-@pytest.mark.parametrize("name", LAWS)
+@over_all("name", LAWS)
 def test_velocity_integrates_to_the_lift_and_acceleration_to_nothing(name):
     nodes, weights = np.polynomial.legendre.leggauss(20)
     ends = np.array([0.0, *law(name).breaks, 1.0])
@@ -123,7 +143,7 @@ def test_velocity_integrates_to_the_lift_and_acceleration_to_nothing(name):
     assert half @ dddf == pytest.approx(ddf[1] - ddf[0] - jumps, abs=1e-11)
 
 
-@pytest.mark.parametrize("name", LAWS)
+@over_all("name", LAWS)
 def test_lift_and_velocity_never_jump_and_acceleration_only_where_the_law_says(name):
     the_law = law(name)
     places = np.array(the_law.edges)
@@ -136,7 +156,7 @@ def test_lift_and_velocity_never_jump_and_acceleration_only_where_the_law_says(n
         assert the_law(u, side="left")[2] > 0 > the_law(u, side="right")[2]
 
 
-@pytest.mark.parametrize("name", LAWS)
+@over_all("name", LAWS)
 def test_some_derivative_jumps_at_every_break_and_none_elsewhere(name):
     """A missing break would spoil the root finding between breaks, an idle one would say a jump where none is."""
     the_law, h = law(name), 1e-5
@@ -148,7 +168,7 @@ def test_some_derivative_jumps_at_every_break_and_none_elsewhere(name):
         assert jumps == (u in the_law.breaks)
 
 
-@pytest.mark.parametrize("name", LAWS)
+@over_all("name", LAWS)
 def test_reversed_law_runs_backwards(name):
     ratio = 3.0 if name == "rectangular" else 1.0
     the_law = law(name, ratio)
@@ -168,7 +188,7 @@ def test_shapes_follow_u_and_derivatives_are_as_many_as_asked():
     assert [x.shape for x in law("cosine")(np.zeros((2, 3)))] == [(2, 3)] * 4
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("name", "ratio", "message"),
     [
         ("cicloidal", 1.0, "law is 'cicloidal'.*did you mean 'cycloidal'"),

@@ -14,6 +14,7 @@ from math import radians
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from over_all import over_all
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
@@ -46,7 +47,7 @@ def table(motion: Motion, phi=DEGREES, decimals: int = 3):
     return np.round(motion(phi)[0], decimals)
 
 
-@pytest.mark.parametrize("law", LAWS)
+@over_all("law", LAWS)
 def test_a_table_of_a_law_gives_the_cam_of_the_law(law):
     """1 degree steps, rounded to 0.001 mm: the pitch curve lies within the tolerance of the exact one."""
     exact = LAWS[law]
@@ -65,7 +66,7 @@ def test_a_table_of_a_law_gives_the_cam_of_the_law(law):
     assert measured.greatest_residual <= measured.tolerance
 
 
-@pytest.mark.parametrize("law", LAWS)
+@over_all("law", LAWS)
 def test_the_derivatives_are_the_law_s_as_far_as_a_table_can_tell(law):
     exact, measured = LAWS[law], measured_motion(DEGREES, table(LAWS[law]), tolerance=0.003)
     errors = [np.max(np.abs(m - e)) / np.max(np.abs(e)) for m, e in zip(measured(DENSE), exact(DENSE), strict=True)]
@@ -73,8 +74,8 @@ def test_the_derivatives_are_the_law_s_as_far_as_a_table_can_tell(law):
     assert errors[2] < 0.03
 
 
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("step", [1.0, 0.25])
+@over_all("law", LAWS)
+@over_all("step", [1.0, 0.25])
 def test_noise_of_a_tenth_of_the_tolerance_stays_out_of_the_acceleration(law, step):
     phi = np.radians(np.arange(0, 360, step))
     noise = 0.001 * np.random.default_rng(3).standard_normal(phi.size)
@@ -96,7 +97,7 @@ def test_the_motion_is_smooth_to_the_third_derivative():
             assert_allclose(values, 0.0, atol=1e-9)
 
 
-@pytest.mark.parametrize("law", LAWS)
+@over_all("law", LAWS)
 def test_the_derivatives_are_derivatives(law):
     """By the theorem of the calculus: from knot to knot v, a, j integrate to s, v, a (Gauss, exact for a quintic)."""
     measured = measured_motion(DEGREES, table(LAWS[law]))
@@ -148,7 +149,7 @@ def test_several_rises_with_a_rest_between():
     assert_allclose(measured(DENSE - measured.zero)[0], exact(DENSE)[0], atol=0.02)
 
 
-@pytest.mark.parametrize("turned", [0, 17, 100, 211, 300])
+@over_all("turned", [0, 17, 100, 211, 300])
 def test_where_a_table_begins_does_not_matter(turned):
     motion = LAWS["cycloidal"]
     phi = DEGREES + radians(turned)
@@ -230,7 +231,7 @@ def test_accelerations_of_a_law_give_its_cam():
 S = table(LAWS["3-4-5"])
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("phi", "s", "row", "words"),
     [
         (DEGREES[::60], S[::60], 5, "number of rows is 6, but must be from 8 to 10000"),
@@ -251,7 +252,7 @@ def test_a_row_that_cannot_be_is_named(phi, s, row, words):
     assert words in str(caught.value)
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("phi", "s", "tolerance", "words"),
     [
         (DEGREES, S, 0.0, "tolerance is 0.0"),
@@ -268,7 +269,7 @@ def test_a_table_that_cannot_be_is_refused(phi, s, tolerance, words):
     assert words in str(caught.value)
 
 
-@pytest.mark.parametrize("row", [1, 2, 3])
+@over_all("row", [1, 2, 3])
 def test_a_row_that_lies_too_low_at_the_foot_of_a_rise_is_no_rest(row):
     rows = np.round(S, 3)
     rows[row] = 0.0
@@ -277,7 +278,7 @@ def test_a_row_that_lies_too_low_at_the_foot_of_a_rise_is_no_rest(row):
     assert motion.greatest_residual <= motion.tolerance
 
 
-@pytest.mark.parametrize("size", [1e-90, 1e-30, 1e6, 1e90])
+@over_all("size", [1e-90, 1e-30, 1e6, 1e90])
 def test_the_unit_of_a_table_does_not_matter(size):
     motion = measured_motion(DEGREES, S * size, 0.01 * size)
     assert motion.lift / size == pytest.approx(measured_motion(DEGREES, S).lift, rel=1e-6)
@@ -300,9 +301,7 @@ print(np.array(motion(np.radians(degrees + 0.5))).tobytes().hex())
 """
 
 
-@pytest.mark.parametrize(
-    "other", [{"OPENBLAS_CORETYPE": "Prescott"}, {"NPY_DISABLE_CPU_FEATURES": "FMA3 AVX2 X86_V3"}], ids=str
-)
+@over_all("other", [{"OPENBLAS_CORETYPE": "Prescott"}, {"NPY_DISABLE_CPU_FEATURES": "FMA3 AVX2 X86_V3"}])
 def test_every_digit_is_that_of_another_processor(other):
     def fitted(**settings: str) -> str:
         command = [sys.executable, "-W", "ignore", "-c", FITTED_ROWS]

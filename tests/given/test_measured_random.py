@@ -8,6 +8,7 @@ from math import radians
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from over_all import over_all, over_seeds
 
 from graphcam.bench.measured_rows import (
     NOISE_DEVIATIONS,
@@ -59,7 +60,7 @@ def test_random_motions_are_told_from_their_tables():
     check(list(sampled_motions(60)))
 
 
-@pytest.mark.parametrize("seed", range(40))
+@over_seeds(12)
 def test_a_table_of_any_noise_and_tolerance_gives_a_motion_or_a_message(seed):
     random = np.random.default_rng([7, seed])
     motion, rows = random_motion(random), int(random.choice([8, 12, 24, 36, 72]))
@@ -82,7 +83,7 @@ def test_rows_that_do_not_climb_between_two_flats_are_no_way_on_which_to_rest():
 NOISY = np.random.default_rng(11).standard_normal(72)
 
 
-@pytest.mark.parametrize("sigmas", [2, 3, 4.5, 20])
+@over_all("sigmas", [2, 3, 4.5, 20])
 def test_round_phases_come_out_round_though_the_tolerance_is_that_of_few_sigmas(sigmas):
     """5-degree rows that scatter by 0.009 mm, and what a student may take for the tolerance: 2 or 3 sigma, or more."""
     parts = [Rise(12, radians(130)), Dwell(radians(50)), Return(12, radians(120)), Dwell(radians(60))]
@@ -93,7 +94,7 @@ def test_round_phases_come_out_round_though_the_tolerance_is_that_of_few_sigmas(
     assert measured.greatest_residual <= measured.tolerance
 
 
-@pytest.mark.parametrize("tolerance", [0.0005, 0.001, 0.002])
+@over_all("tolerance", [0.0005, 0.001, 0.002])
 def test_a_tolerance_below_the_noise_is_told_with_one_that_is_enough(tolerance):
     s = MOTION(DEGREES[::5])[0] + 0.009 * NOISY
     with pytest.raises(
@@ -143,7 +144,7 @@ def test_a_row_beyond_the_noise_is_kept_to_the_tolerance_or_refused():
         measured_motion(DEGREES, s, 0.009)
 
 
-@pytest.mark.parametrize("bump", [0.0, 0.005, 0.012])
+@over_all("bump", [0.0, 0.005, 0.012])
 def test_two_rests_on_a_level_that_noise_cannot_tell_apart_are_one(bump):
     """A bump of less than the tolerance hides, in the middle of a rest, is no leg."""
     s = MOTION(DEGREES)[0]
@@ -154,7 +155,7 @@ def test_two_rests_on_a_level_that_noise_cannot_tell_apart_are_one(bump):
     assert_allclose([phase.angle for phase in measured.phases], np.radians([80, 45, 60, 175]), atol=radians(2))
 
 
-@pytest.mark.parametrize("seed", range(4))
+@over_seeds(4)
 def test_rests_are_found_under_waves_that_are_no_noise_of_rows(seed):
     """Waves of a third of the tolerance, as an integration leaves: neighbouring rows do not scatter by them."""
     random = np.random.default_rng(seed)
@@ -165,7 +166,7 @@ def test_rests_are_found_under_waves_that_are_no_noise_of_rows(seed):
     assert sum(phase.kind == "dwell" for phase in measured.phases) >= 2
 
 
-@pytest.mark.parametrize("power", ["2-3", "3-4-5", "4-5-6-7"])
+@over_all("power", ["2-3", "3-4-5", "4-5-6-7"])
 def test_rests_end_at_the_row_where_the_law_does(power):
     motion = Motion(
         [Rise(30, radians(80), power), Dwell(radians(45)), Return(30, radians(60), power), Dwell(radians(175))]
@@ -179,7 +180,7 @@ def test_rests_end_at_the_row_where_the_law_does(power):
     assert misfit < 2
 
 
-@pytest.mark.parametrize("rows", [8, 12, 18, 36, 72])
+@over_all("rows", [8, 12, 18, 36, 72])
 def test_few_rows_are_enough_for_an_eccentric(rows):
     phi = np.arange(rows) * FULL_TURN / rows
     measured = measured_motion(phi, 10 - 10 * np.cos(phi - 0.3), 0.05)

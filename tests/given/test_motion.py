@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from mpmath import diff, mpf
 from numpy.testing import assert_allclose, assert_array_equal
+from over_all import over_all
 from reference import EPS, displacement
 
 from graphcam.errors import DesignError
@@ -32,8 +33,8 @@ def steps() -> Motion:
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("name", LAWS)
-@pytest.mark.parametrize("turned", [False, True])
+@over_all("name", LAWS)
+@over_all("turned", [False, True])
 def test_velocity_acceleration_and_jerk_are_derivatives_of_the_displacement(name, turned):
     motion = rise_dwell_return_dwell(name)
     if turned:
@@ -112,7 +113,7 @@ def test_nan_stays_nan_in_rises_and_dwells_and_infinity_is_no_angle():
             assert np.isnan(np.array(motion.at(phase, [np.nan, -0.1, 1.1]))).all()
 
 
-@pytest.mark.parametrize("ratio", [0.3, 1.0, 1 / 3, 2.7, 7.0])
+@over_all("ratio", [0.3, 1.0, 1 / 3, 2.7, 7.0])
 def test_the_named_side_holds_at_every_break(ratio):
     """Whatever rounding does to the fraction of a phase, the left value at a jump belongs to the part before it."""
     for k in range(1, 40):
@@ -127,7 +128,7 @@ def test_the_named_side_holds_at_every_break(ratio):
         assert right == pytest.approx(-2 * (1 + 1 / ratio) * 10 / angle**2)
 
 
-@pytest.mark.parametrize("name", LAWS)
+@over_all("name", LAWS)
 def test_sides_agree_except_where_a_derivative_jumps(name):
     motion = rise_dwell_return_dwell(name)
     inside = np.random.default_rng(5).random(500) * FULL_TURN
@@ -157,8 +158,8 @@ def test_tiny_phases_keep_their_values():
     assert np.all(np.diff(motion(np.linspace(0, tiny, 1001))[0]) >= 0)
 
 
-@pytest.mark.parametrize("tiny", [1e-300, 1e-17, 1e-12])
-@pytest.mark.parametrize("place", [1, 3])
+@over_all("tiny", [1e-300, 1e-17, 1e-12])
+@over_all("place", [1, 3])
 def test_a_phase_that_rounding_swallows_is_refused(tiny, place):
     phases = [Rise(30, math.pi / 2), Return(30, FULL_TURN - math.pi / 2)]
     phases.insert(place, Dwell(tiny))
@@ -170,7 +171,7 @@ def test_a_phase_that_rounding_swallows_is_refused(tiny, place):
 # --- what cannot be --------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("make", "message"),
     [
         (lambda: Rise(0.0, 1.0), "lift is 0.0, but must be a finite number greater than 0 mm"),
@@ -210,7 +211,7 @@ def test_motions_that_cannot_be_are_refused_with_reason(make, message):
         make()
 
 
-@pytest.mark.parametrize(("miss", "closes"), [(0.9e-9, True), (-0.9e-9, True), (1.2e-9, False), (-1.2e-9, False)])
+@over_all(("miss", "closes"), [(0.9e-9, True), (-0.9e-9, True), (1.2e-9, False), (-1.2e-9, False)])
 def test_closure_is_judged_to_1e_9(miss, closes):
     def motion():
         return Motion([Rise(3, 3.0), Return(3, FULL_TURN - 3 + miss)])

@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from over_all import over_all
 from scipy.optimize import brentq, minimize_scalar
 
 import graphcam as gc
@@ -166,7 +167,7 @@ def test_the_steepest_tangent_is_found(law, k):
         assert height == pytest.approx(float(f1 - f / k), rel=1e-12)
 
 
-@pytest.mark.parametrize("k", [1e-15, 1e-9, 1e-4])
+@over_all("k", [1e-15, 1e-9, 1e-4])
 def test_the_steepest_tangent_of_a_steep_limit_lies_near_the_start(k):
     """A law that begins as c u^n has it at (n - 1) k."""
     for law, n, c in ((LAWS["smooth"], 5, 126.0), (LAWS["jump"], 2, 1 / M)):
@@ -276,8 +277,8 @@ PLAIN = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", PLAIN)
-@pytest.mark.parametrize("limit", [0.2, 0.5, 1.2])
+@over_all("name", PLAIN)
+@over_all("limit", [0.2, 0.5, 1.2])
 def test_a_built_in_law_written_plainly_has_the_least_radius_of_its_closed_form(name, limit):
     built_in, own = motion_of(name), motion_of(gc.Law("plain", PLAIN[name]))
     for offset in (None, 5.0):
@@ -389,13 +390,13 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("message", WRONG)
+@over_all("message", WRONG)
 def test_what_is_no_law_is_refused(message):
     with pytest.raises(gc.DesignError, match=message):
         WRONG[message]()
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("choices", "message"),
     [
         ({"formulas": lambda u: (u, u)}, r"one that returns 2 values, but must be one that takes an array of u"),
@@ -426,8 +427,8 @@ def test_no_file_names_a_law_of_ones_own():
         task_files(replace(task, motion=replace(task.motion, phases=phases)))
 
 
-@pytest.mark.parametrize("name", gc.LAWS)
-@pytest.mark.parametrize("ratio", [1.0, 2.5])
+@over_all("name", gc.LAWS)
+@over_all("ratio", [1.0, 2.5])
 def test_a_built_in_law_and_its_reverse_would_pass_the_check_that_they_are_spared(name, ratio):
     law = gc.law(name, ratio=ratio if name == "rectangular" else 1.0)
     for built in (law, law.reversed):
@@ -436,7 +437,7 @@ def test_a_built_in_law_and_its_reverse_would_pass_the_check_that_they_are_spare
         replace(law, peaks=(3.0, law.peak_acceleration))
 
 
-@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
+@over_all("law", LAWS.values())
 def test_an_arm_of_the_least_radius_just_keeps_its_limits(law):
     motion = gc.Motion([gc.Rise(0.35, 1.6, law), gc.Dwell(0.7), gc.Return(0.35, 1.3, law), gc.Dwell(2 * PI - 3.6)])
     for distance in (None, 140.0):
@@ -452,7 +453,7 @@ def only_of_arrays(u):
     return f
 
 
-@pytest.mark.parametrize("law", [*LAWS.values(), gc.Law("of arrays", only_of_arrays), *map(gc.law, gc.LAWS)])
+@over_all("law", [*LAWS.values(), gc.Law("of arrays", only_of_arrays), *map(gc.law, gc.LAWS)])
 def test_a_law_at_one_place_is_that_at_many(law):
     u = np.array([0.0, 1e-9, 0.01, *law.edges, 0.3, 0.77, 1 - 1e-9, 1.0])
     for side in ("left", "right"):

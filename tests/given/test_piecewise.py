@@ -6,8 +6,8 @@ import math
 
 import mpmath
 import numpy as np
-import pytest
 from numpy.testing import assert_array_equal
+from over_all import over_all
 from reference import EPS
 
 from graphcam.given.laws import LAWS, law
@@ -22,8 +22,8 @@ def motion_of(name: str) -> Motion:
     return Motion([Rise(30, 1.4, name), Dwell(0.8), Return(30, 1.1, name), Dwell(FULL_TURN - 3.3)])
 
 
-@pytest.mark.parametrize("name", LAWS)
-@pytest.mark.parametrize("side", ["right", "left"])
+@over_all("name", LAWS)
+@over_all("side", ["right", "left"])
 def test_values_do_not_depend_on_order_number_or_chunks(name, side):
     """Bit for bit: sliced, gathered, backwards, in parts that straddle the chunks, and one by one."""
     motion, rng = motion_of(name), np.random.default_rng(1)
@@ -38,14 +38,14 @@ def test_values_do_not_depend_on_order_number_or_chunks(name, side):
         assert_array_equal(np.array(motion(phi[k], side)), sliced[:, k])
 
 
-@pytest.mark.parametrize("name", LAWS)
+@over_all("name", LAWS)
 def test_a_law_too(name):
     u, the_law = np.linspace(-0.1, 1.1, 2 * CHUNK_SIZE), law(name)
     order = np.random.default_rng(2).permutation(u.size)
     assert_array_equal(np.array(the_law(u[order])), np.array(the_law(u))[:, order])
 
 
-@pytest.mark.parametrize("name", LAWS)
+@over_all("name", LAWS)
 def test_what_is_outside_of_a_phase_has_no_value_whatever_its_order(name):
     """Constants of a piece too: the acceleration of the rectangular law, the jerk of many others."""
     u = np.random.default_rng(3).permutation(np.linspace(-0.1, 1.1, 2 * CHUNK_SIZE))
@@ -56,8 +56,8 @@ def test_what_is_outside_of_a_phase_has_no_value_whatever_its_order(name):
         assert_array_equal(np.isnan(row), ~inside)
 
 
-@pytest.mark.parametrize("phases", [4, 2 * CHUNK_SIZE // SLICING_SIZE])
-@pytest.mark.parametrize("side", ["right", "left"])
+@over_all("phases", [4, 2 * CHUNK_SIZE // SLICING_SIZE])
+@over_all("side", ["right", "left"])
 def test_of_few_pieces_and_of_many_each_place_has_its_own(phases, side):
     """Places in any order, breaks among them, against every one alone; two laws, or one in dozens of phases."""
     names = ("trapezoidal", "cosine") if phases == 4 else ("cosine",)

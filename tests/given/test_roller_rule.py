@@ -1,12 +1,13 @@
 from __future__ import annotations
 
 import pytest
+from over_all import over_all
 
 from graphcam.errors import DesignError
 from graphcam.given.roller_rule import DEFAULT_RULE, NAMED_RULES, roller_rule
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("rule", "radii"),
     [  # at rho = 85.34, r0 = 134.8, the numbers of a printed coursework
         ("0.4 r0", [53.92]),
@@ -23,7 +24,7 @@ def test_terms_of_a_rule_in_the_order_written(rule, radii):
     assert all(term.text in rule for term in terms)
 
 
-@pytest.mark.parametrize(
+@over_all(
     "rule", ["", "0.4", "rho", "0.4 r1", "-0.4 r0", "r0 - 3", "min()", "min(0.4 r0", "0.4 r0, 0.7 rho", "nan rho"]
 )
 def test_what_is_no_rule_is_named(rule):
@@ -40,7 +41,7 @@ NAMED = {  # at rho = 85.34, r0 = 134.8, the numbers of a printed coursework, wh
 }
 
 
-@pytest.mark.parametrize("name", NAMED_RULES)
+@over_all("name", NAMED_RULES)
 def test_the_rules_of_the_schools_have_names_and_sources(name):
     terms = roller_rule(name)
     assert [term(rho=85.34, r0=134.8) for term in terms] == pytest.approx(NAMED[name])
@@ -55,7 +56,7 @@ def test_a_mistyped_name_is_told():
         roller_rule("xyz")
 
 
-@pytest.mark.parametrize(
+@over_all(
     "written",
     [
         "min(0.7rho, 0.4r0)", "min(0.7rho,0.4r0)", "min(0,7ρmin; 0,4 r0)", "min(0,7 ρ_min, 0,4 r₀)",
@@ -71,9 +72,7 @@ def test_a_comma_parts_terms_where_these_have_a_meaning():
     assert [str(term.formula_caption) for term in roller_rule("min(rho − 3,5; 0.4 r0)")] == ["ρ − 3.5 mm", "0.4 r₀"]
 
 
-@pytest.mark.parametrize(
-    ("rule", "term"), [("min(0,7р; 0,4 r0)", "0,7р"), ("0.7 roh", "0.7 roh"), ("min(0.7 rho, 0.4)", "0.4")]
-)
+@over_all(("rule", "term"), [("min(0,7р; 0,4 r0)", "0,7р"), ("0.7 roh", "0.7 roh"), ("min(0.7 rho, 0.4)", "0.4")])
 def test_a_term_that_is_none_is_quoted_whole_with_what_to_write(rule, term):
     with pytest.raises(DesignError) as caught:
         roller_rule(rule)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import mpmath
 import numpy as np
-import pytest
 from hypothesis import given, strategies as st
+from over_all import over_all
 from reference import EPS
 
 from graphcam.given.root_finding import roots
@@ -20,7 +20,7 @@ def test_every_function_has_its_own_root(wanted, steepness):
     assert np.all(np.abs(found - targets) <= 8 * EPS * (targets + lost + steepness * targets**2))
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("function", "exact", "low", "high", "steps"),
     [
         (np.cos, mpmath.cos, 1.0, 2.0, 8),

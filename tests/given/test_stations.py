@@ -3,6 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from over_all import over_all
 
 from graphcam.errors import DesignError
 from graphcam.given.laws import LAWS
@@ -14,8 +15,8 @@ def motion_of(name: str, ratio: float = 1.0) -> Motion:
     return Motion([Rise(30, 1.4, name, ratio), Dwell(0.8), Return(30, 1.1, name, ratio), Dwell(FULL_TURN - 3.3)])
 
 
-@pytest.mark.parametrize("name", LAWS)
-@pytest.mark.parametrize("n", [2, 7, 12])
+@over_all("name", LAWS)
+@over_all("n", [2, 7, 12])
 def test_stations_are_the_ends_of_the_parts_of_the_moving_phases(name, n):
     motion = motion_of(name)
     stations = divide(motion, n)
@@ -27,8 +28,8 @@ def test_stations_are_the_ends_of_the_parts_of_the_moving_phases(name, n):
     assert stations.left.size == 2 * n
 
 
-@pytest.mark.parametrize("ratio", [0.2, 1.0, 1.7, 5.0, 40.0])
-@pytest.mark.parametrize("n", [1, 2, 3, 12, 25])
+@over_all("ratio", [0.2, 1.0, 1.7, 5.0, 40.0])
+@over_all("n", [1, 2, 3, 12, 25])
 def test_a_jump_of_the_acceleration_falls_on_a_division(ratio, n):
     stations = divide(motion_of("rectangular", ratio), n)
     for first, second in (stations.pieces[:2], stations.pieces[2:]):
@@ -57,16 +58,14 @@ def test_the_jump_stands_on_its_division_to_the_last_bit_however_often_it_is_div
         assert_allclose(*ordinates, rtol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("ratio", "shares"), [(1.0, (6, 6)), (2.0, (4, 8)), (3.0, (3, 9)), (0.5, (8, 4)), (100.0, (1, 11))]
-)
+@over_all(("ratio", "shares"), [(1.0, (6, 6)), (2.0, (4, 8)), (3.0, (3, 9)), (0.5, (8, 4)), (100.0, (1, 11))])
 def test_parts_are_shared_out_in_proportion(ratio, shares):
     stations = divide(motion_of("rectangular", ratio), 12)
     assert tuple(piece.stop - piece.start - 1 for piece in stations.pieces[:2]) == shares
 
 
-@pytest.mark.parametrize("name", LAWS)
-@pytest.mark.parametrize("n", [1, 4, 7, 12, 25])
+@over_all("name", LAWS)
+@over_all("n", [1, 4, 7, 12, 25])
 def test_on_demand_corners_of_the_acceleration_fall_on_divisions(name, n):
     """Between breaks the parts are equal, none is missing, and smooth curves are faired from jump to jump as before."""
     motion = motion_of(name)
@@ -92,7 +91,7 @@ def test_parts_lie_between_neighbouring_stations_of_one_phase():
         assert stations.left[part].tolist() == list(range(span.start, span.stop - 1))
 
 
-@pytest.mark.parametrize("n", [0, -3])
+@over_all("n", [0, -3])
 def test_a_phase_has_at_least_one_part(n):
     with pytest.raises(DesignError, match=r"divisions is .*1 or more"):
         divide(motion_of("cosine"), n)

@@ -128,15 +128,21 @@ def law_of_polynomials(law) -> list[Sum]:
     out = []
     ends = (0.0, *law.edges, 1.0)
     for piece, begin, end in zip(law.pieces, ends[:-1], ends[1:], strict=True):
-        spline, from_end, middle = piece.formula.keywords["spline"], piece.length < 0, (begin + end) / 2
-        part = int(np.searchsorted(spline.ends, 1 - middle if from_end else middle)) - 1
-        start = mpf(float(spline.ends[part]))
-        # x - start, or from the end 1 - u - start, about its own zero: about u = 0 the terms would be huge and cancel.
-        powers = [mpf(c) * (-1) ** (n * from_end) for n, c in enumerate(spline.coefficients[:, part].tolist())]
-        if from_end:
-            powers = [-c for c in powers]
-            powers[0] += 1
-        out.append(Sum(mpf(end), tuple(powers), origin=1 - start if from_end else start))
+        series, from_end = piece.formula, piece.length < 0
+        low, high = (1 - end, 1 - begin) if from_end else (begin, end)
+        inner = series.ends[(series.ends > low + 1e-12) & (series.ends < high - 1e-12)]
+        cuts = [low, *inner.tolist(), high]
+        for x0, x1 in list(pairwise(cuts))[:: -1 if from_end else 1]:
+            cell = int(np.searchsorted(series.ends[1:-1], (x0 + x1) / 2))
+            anchor = mpf(float(series.anchors[cell]))
+            # About the anchor, or from the end 1 - u: about u = 0 the terms would be huge and cancel.
+            powers = [mpf(c) * (-1) ** (n * from_end) for n, c in enumerate(series.coefficients[:, cell].tolist())]
+            if from_end:
+                powers = [-c for c in powers]
+                powers[0] += 1
+            last = x0 == cuts[0] if from_end else x1 == cuts[-1]
+            upto = mpf(end) if last else 1 - mpf(x0) if from_end else mpf(x1)
+            out.append(Sum(upto, tuple(powers), origin=1 - anchor if from_end else anchor))
     return out
 
 

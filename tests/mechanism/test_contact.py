@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from mpmath import diff, mp, mpf
+from over_all import over_all, over_seeds
 from reference import EPS, displacement
 from test_translating import random_cam
 
@@ -53,7 +54,7 @@ def exact_force(motion: gc.Motion, load: SpringLoad, phi):
     return mpf(load.mass) * second_derivative_by_time + mpf(load.preload) + mpf(load.stiffness) * metre * s
 
 
-@pytest.mark.parametrize("seed", range(20))
+@over_seeds(12)
 def test_no_place_needs_more_than_the_least_preload(seed):
     """Ten thousand places and both sides of all breaks; and the extreme is reached where it is said to be."""
     motion, rng = random_cam(seed).motion, np.random.default_rng(seed)
@@ -140,7 +141,7 @@ def test_the_curve_holds_both_sides_of_every_jump():
     assert curve.force.min() == pytest.approx(contact.least_force().value, rel=1e-12)
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("change", "message"),
     [
         ({"mass": -1.0}, "mass is -1.0, but must be a finite number of 0 kg or more"),

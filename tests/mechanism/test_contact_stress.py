@@ -10,6 +10,7 @@ import test_flat_faced
 import test_oscillating
 import test_translating
 from mpmath import log, mp, mpf, pi, quad, sqrt
+from over_all import over_all, over_seeds
 from reference import ReferenceArm, ReferenceCam, ReferenceFace
 from test_forces import load, steady_cam
 
@@ -29,7 +30,7 @@ def by_shigley(force, width, radius1, radius2, one, other):
         return b, 2 * mpf(force) / (pi * b * mpf(width))
 
 
-@pytest.mark.parametrize("shape", SHAPES)
+@over_all("shape", SHAPES)
 def test_the_formulas_are_those_of_another_book_to_all_digits(shape):
     b, p = by_shigley(1234.5, 17, SHAPES[shape], 15.0, STEEL, BRONZE)
     found = gc.hertz_line_contact(1234.5, 17, SHAPES[shape], 15.0, STEEL[0], BRONZE[0], STEEL[1], BRONZE[1])
@@ -37,7 +38,7 @@ def test_the_formulas_are_those_of_another_book_to_all_digits(shape):
     assert found.peak_pressure == pytest.approx(float(p), rel=1e-14)
 
 
-@pytest.mark.parametrize("shape", SHAPES)
+@over_all("shape", SHAPES)
 def test_the_pressure_closes_the_gap_between_the_bodies(shape):
     """A line load p dx lowers a half plane by -2 p ln|x| (1 - nu^2)/(pi E) (Flamant): in the strip by the gap."""
     radius, roller = SHAPES[shape], 15.0
@@ -65,8 +66,8 @@ KINDS = {
 }
 
 
-@pytest.mark.parametrize("seed", range(4))
-@pytest.mark.parametrize("kind", KINDS)
+@over_all("seed", range(4))
+@over_all("kind", KINDS)
 def test_the_relative_curvature_is_the_sum_of_both_bodies(kind, seed):
     """1/R = 1/(radius of the profile) + 1/(roller), with the radius from the differentiated definition."""
     make, reference = KINDS[kind]
@@ -120,9 +121,9 @@ def stress_of_kind(kind: str, seed: int, friction: float) -> gc.ContactStress:
     return gc.ContactStress(gc.CamForces(steady_cam(seed), load(seed), friction=friction), gc.RollerContact(8))
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.08])
-@pytest.mark.parametrize("seed", range(3))
-@pytest.mark.parametrize("kind", KINDS)
+@over_all("friction", [0.0, 0.08])
+@over_all("seed", range(3))
+@over_all("kind", KINDS)
 def test_no_place_is_stressed_more_than_the_greatest(kind, seed, friction):
     """Of every follower, with friction too, and each of many places by the formulas for one place."""
     stress = stress_of_kind(kind, seed, friction)
@@ -154,7 +155,7 @@ def stress_of(seed: int) -> gc.ContactStress:
     return gc.ContactStress(gc.CamForces(steady_cam(seed), load(seed)), gc.RollerContact(width=12))
 
 
-@pytest.mark.parametrize("seed", range(5))
+@over_seeds(5)
 def test_the_curve_is_hertz_at_each_of_its_places(seed):
     stress = stress_of(seed)
     curve = stress.curve()
@@ -170,7 +171,7 @@ def test_the_curve_is_hertz_at_each_of_its_places(seed):
         assert found == pytest.approx(gc.hertz_line_contact(normal, 12, radius, 5.0).peak_pressure, rel=1e-9)
 
 
-@pytest.mark.parametrize("seed", range(5))
+@over_seeds(5)
 def test_the_contact_where_the_stress_is_greatest(seed):
     """Force, radius and half-width there are those of the formulas for one place."""
     stress = stress_of(seed)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from mpmath import mpf
 from numpy.testing import assert_allclose
+from over_all import over_all, over_seeds, pairs
 from reference import EPS, ReferenceFace, maximum
 
 from graphcam.errors import DesignError
@@ -36,7 +37,7 @@ def random_cam(seed: int) -> Cam:
     return Cam(Motion(phases), FlatFaced(), r0, "ccw" if rng.random() < 0.5 else "cw")
 
 
-@pytest.mark.parametrize("seed", range(30))
+@over_seeds(12)
 def test_random_cams_agree_with_the_differentiated_definition(seed):
     cam, phi = random_cam(seed), np.random.default_rng(seed + 1000).random(8) * FULL_TURN
     exact = ReferenceFace(cam)
@@ -65,7 +66,7 @@ def test_the_published_digits():
 # --- what must hold for every cam ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", range(10))
+@over_seeds(8)
 def test_no_point_of_a_sound_profile_lies_beyond_the_face(seed):
     """The support function: in every position of the cam its highest point just touches the face at r0 + s."""
     cam = random_cam(seed)
@@ -79,7 +80,7 @@ def test_no_point_of_a_sound_profile_lies_beyond_the_face(seed):
         assert turned.imag.max() >= face * (1 - 1e-5)
 
 
-@pytest.mark.parametrize("seed", range(10))
+@over_seeds(8)
 def test_the_contact_stays_on_the_face_and_reaches_its_edges(seed):
     cam, u = random_cam(seed), np.linspace(0, 1, 2001)
     width = face_width(cam.motion, cam.rotation)
@@ -147,8 +148,7 @@ def test_extremes_of_a_flat_face():
 # --- least radius ----------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", LAWS)
-@pytest.mark.parametrize("curvature", [0.0, 8.0])
+@over_all(("name", "curvature"), pairs(LAWS, [0.0, 8.0], 2))
 def test_least_radius_against_the_definition(name, curvature):
     """The least of s + a, by differences of the textbook's displacement; at a jump its values on either side."""
     motion = Motion([Rise(30, 1.7, name), Dwell(0.6), Return(30, 1.4, name), Dwell(FULL_TURN - 3.7)])
@@ -178,7 +178,7 @@ def test_a_slow_motion_needs_no_radius():
     assert minimum_radius(motion, FlatFaced(), curvature=20.0).prime_radius == pytest.approx(5.0, rel=1e-13)
 
 
-@pytest.mark.parametrize("curvature", [-1.0, math.nan, math.inf])
+@over_all("curvature", [-1.0, math.nan, math.inf])
 def test_a_curvature_that_cannot_be_is_refused(curvature):
     motion = Motion([Rise(30, 2.0), Return(30, FULL_TURN - 2)])
     with pytest.raises(DesignError, match=r"minimum radius of curvature is .* 0 mm or more"):

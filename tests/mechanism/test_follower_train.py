@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from over_all import over_all
 from scipy.integrate import solve_ivp
 
 import graphcam as gc
@@ -26,8 +27,8 @@ def changed(**sizes) -> gc.FollowerTrain:
     return gc.FollowerTrain(**given)
 
 
-@pytest.mark.parametrize("damping", [0.0, 0.05, 1.5])
-@pytest.mark.parametrize("law", ["rectangular", "modified-sine", "4-5-6-7"])
+@over_all("damping", [0.0, 0.05, 1.5])
+@over_all("law", ["rectangular", "modified-sine", "4-5-6-7"])
 def test_the_mass_moves_by_its_equation_of_motion(law, damping):
     """m x'' + c (x' - s') + k (x - s) + c_s x = 0 in time, and the two forms of the force on the cam, in SI units."""
     train, motion = changed(damping=damping), motion_of(law)
@@ -50,7 +51,7 @@ def test_the_mass_moves_by_its_equation_of_motion(law, damping):
     np.testing.assert_allclose((after.v - before.v) / (2 * h), now.a, atol=1e-6 * np.abs(now.a).max())
 
 
-@pytest.mark.parametrize("damping", [0.0, 0.02, 3.0])
+@over_all("damping", [0.0, 0.02, 3.0])
 def test_turn_after_turn_is_the_same(damping):
     """Position and velocity close over the turn, in any turn, whatever the damping."""
     follower = gc.VibratingFollower(motion_of("cosine"), changed(damping=damping), 613.0)
@@ -137,8 +138,8 @@ HEAVY = {"spring": 700.0, "damping": 0.4}
 """A return spring and a damper so strong that they pass the cam's velocity on."""
 
 
-@pytest.mark.parametrize("law", ["rectangular", "cosine", "cycloidal", "modified-sine"])
-@pytest.mark.parametrize(("rpm", "sizes"), [(240, {}), (611, {}), (1403, {}), (1403, HEAVY)])
+@over_all("law", ["rectangular", "cosine", "cycloidal", "modified-sine"])
+@over_all(("rpm", "sizes"), [(240, {}), (611, {}), (1403, {}), (1403, HEAVY)])
 def test_no_sample_of_the_force_is_beyond_its_extremes_and_lost_is_where_it_is_negative(law, rpm, sizes):
     follower = gc.VibratingFollower(motion_of(law), changed(preload=120.0, **sizes), rpm)
     least, greatest, lost = follower.least_force(), follower.greatest_force(), follower.lost()
@@ -159,7 +160,7 @@ def test_no_sample_of_the_force_is_beyond_its_extremes_and_lost_is_where_it_is_n
         assert float(follower(end).force) == pytest.approx(0, abs=1e-9 * size)
 
 
-@pytest.mark.parametrize("law", ["rectangular", "cycloidal"])
+@over_all("law", ["rectangular", "cycloidal"])
 def test_the_least_preload_just_keeps_the_follower_on_its_cam(law):
     motion = motion_of(law)
     preload = gc.VibratingFollower(motion, TRAIN, 900).least_preload()
@@ -244,7 +245,7 @@ def test_few_lines_tell_what_was_found():
 # --- what cannot be --------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("change", "message"),
     [
         ({"mass": -0.5}, "mass is -0.5, but must be a finite number greater than 0 kg"),
@@ -262,7 +263,7 @@ def test_trains_that_cannot_be_are_refused_with_reason(change, message):
         changed(**change)
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("train", "rpm", "message"),
     [
         (TRAIN, 0.0, "speed_rpm is 0.0, but must be a finite number greater than 0 rpm"),

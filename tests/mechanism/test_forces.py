@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from over_all import over_all, over_seeds
 from test_translating import random_cam
 
 import graphcam as gc
@@ -29,7 +30,7 @@ def load(seed: int) -> gc.SpringLoad:
 GUIDE = gc.Guide(friction=0.12, overhang=70.0, length=90.0)
 
 
-@pytest.mark.parametrize("seed", range(8))
+@over_seeds(8)
 def test_the_follower_is_in_equilibrium(seed):
     """Forces across and along the motion and moments about the roller's centre, each bearing with its own friction."""
     cam, spring = steady_cam(seed), load(seed)
@@ -56,7 +57,7 @@ def test_the_follower_is_in_equilibrium(seed):
             assert found.friction[i] == pytest.approx(GUIDE.friction * (abs(near) + abs(far)), rel=1e-10, abs=1e-9)
 
 
-@pytest.mark.parametrize("side", ["left", "right"])
+@over_all("side", ["left", "right"])
 def test_forces_are_told_at_cam_angles_as_at_fractions_of_phases(side):
     """At any angle, one turn on or back; where phases meet, the named side is that of the one phase or the other."""
     forces = gc.CamForces(steady_cam(3), load(3), GUIDE)
@@ -77,8 +78,8 @@ def test_forces_are_told_at_cam_angles_as_at_fractions_of_phases(side):
     assert np.isnan(forces.at(math.nan).normal)
 
 
-@pytest.mark.parametrize("guide", [gc.Guide(0.0, 0.0, 1.0), GUIDE])
-@pytest.mark.parametrize("seed", range(10))
+@over_all("guide", [gc.Guide(0.0, 0.0, 1.0), GUIDE])
+@over_all("seed", range(10))
 def test_dense_sampling_never_exceeds_the_greatest_normal_force(seed, guide):
     forces = gc.CamForces(steady_cam(seed), load(seed), guide)
     greatest = forces.greatest_normal()
@@ -90,7 +91,7 @@ def test_dense_sampling_never_exceeds_the_greatest_normal_force(seed, guide):
     assert sampled[: phases.size][places].max() == pytest.approx(greatest.value, rel=1e-2)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@over_seeds(6)
 def test_the_torque_does_the_work_of_the_load(seed):
     """Without friction a whole turn takes no work: the integral of the torque over phi is zero, phase by phase Q ds."""
     forces = gc.CamForces(steady_cam(seed), load(seed))

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from mpmath import mp, mpf
+from over_all import over_all, over_seeds
 from reference import ReferenceCam
 from test_forces import load, steady_cam
 
@@ -48,7 +49,7 @@ def test_planes_and_nearly_fitting_hollows_keep_their_digits():
     assert found == pytest.approx(float(exact), rel=1e-14)
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("change", "message"),
     [
         ({"radius1": -15.0}, "pair of radii is -15 and 15 mm, but must be such that they touch along one line"),
@@ -75,7 +76,7 @@ def stress_of(seed: int, guide: gc.Guide | None = None) -> gc.ContactStress:
     return gc.ContactStress(forces, gc.RollerContact(width=12, young2=70000, poisson2=0.33))
 
 
-@pytest.mark.parametrize("seed", range(6))
+@over_seeds(6)
 def test_the_profile_is_curved_as_the_pitch_curve_less_the_roller(seed):
     """Each place for itself by hertz_line_contact, with the radius of the 50-digit reference's working profile."""
     stress = stress_of(seed)
@@ -95,8 +96,8 @@ def test_the_profile_is_curved_as_the_pitch_curve_less_the_roller(seed):
             assert at.half_width[i] == pytest.approx(one.half_width, rel=1e-9)
 
 
-@pytest.mark.parametrize("guide", [None, gc.Guide(0.12, 70.0, 90.0)])
-@pytest.mark.parametrize("seed", range(10))
+@over_all("guide", [None, gc.Guide(0.12, 70.0, 90.0)])
+@over_all("seed", range(10))
 def test_dense_sampling_never_exceeds_the_greatest_stress(seed, guide):
     stress = stress_of(seed, guide)
     greatest = stress.greatest()

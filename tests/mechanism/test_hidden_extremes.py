@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from over_all import over_all
 from test_proved_extremes import waving_law
 
 import graphcam as gc
@@ -74,7 +75,7 @@ def quantities(motion: Motion):
     yield "jerk", max_jerk(motion), lambda at: np.abs(at.values[3])
 
 
-@pytest.mark.parametrize("maker", MAKERS)
+@over_all("maker", MAKERS)
 def test_no_sample_exceeds_what_is_told(maker):
     motion = MAKERS[maker]()
     phase, u = np.arange(len(motion.phases))[:, None], np.linspace(0, 1, FINE)
@@ -106,7 +107,7 @@ def test_at_a_jump_the_side_is_told():
     assert (rate.phi, rate.side) == (pytest.approx(math.pi / 2, abs=1e-15), "left")
 
 
-@pytest.mark.parametrize("name", ["cycloidal", "3-4-5", "modified-sine", "cosine", "2-3"])
+@over_all("name", ["cycloidal", "3-4-5", "modified-sine", "cosine", "2-3"])
 def test_of_equal_maxima_the_first_is_told(name):
     """Two lifts a turn, the same twice over."""
     half = [Rise(20, 1.0, name), Dwell(0.5), Return(20, 1.0, name), Dwell(math.pi - 2.5)]

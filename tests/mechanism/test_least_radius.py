@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from mpmath import diff, findroot, mpf
+from over_all import over_all, pairs
 from reference import EPS, least_radius, lift
 
 from graphcam.errors import DesignError
@@ -42,15 +43,15 @@ def stairs() -> Motion:
 
 
 MOTIONS = [*(motion_of(name) for name in LAWS), motion_of("rectangular", ratio=2.5), stairs()]
-LABELS = [*LAWS, "rectangular 2.5", "stairs"]
 
 
-@pytest.mark.parametrize("motion", MOTIONS, ids=LABELS)
-@pytest.mark.parametrize(
-    ("rise", "return_", "rest"),
-    [(30, None, True), (30, None, False), (30, 40, True), (35, 70, False), (55, 20, True), (50, 50, False)],
-)
-def test_least_radius_of_the_free_offset(motion, rise, return_, rest):
+FREE = [(30, None, True), (30, None, False), (30, 40, True), (35, 70, False), (55, 20, True), (50, 50, False)]
+GIVEN = [(e, return_) for e in (0.0, 10.0, -10.0, 60.0) for return_ in (None, 45)]
+
+
+@over_all(("motion", "limits"), pairs(MOTIONS, FREE, 2))
+def test_least_radius_of_the_free_offset(motion, limits):
+    rise, return_, rest = limits
     back = None if return_ is None else return_ * DEG
     least = minimum_radius(motion, Translating(), rise=rise * DEG, return_=back, rest=rest)
     exact = least_radius(motion, rise * DEG, back, rest)
@@ -62,22 +63,22 @@ def test_least_radius_of_the_free_offset(motion, rise, return_, rest):
     assert fixed.prime_radius == pytest.approx(least.prime_radius, rel=8 * EPS)
 
 
-@pytest.mark.parametrize("motion", MOTIONS, ids=LABELS)
-@pytest.mark.parametrize("e", [0.0, 10.0, -10.0, 60.0])
-@pytest.mark.parametrize("return_", [None, 45])
-def test_least_radius_of_a_given_offset(motion, e, return_):
+@over_all(("motion", "given"), pairs(MOTIONS, GIVEN))
+def test_least_radius_of_a_given_offset(motion, given):
     """Favourable, unfavourable, and so large that the angle at rest decides."""
+    e, return_ = given
     back = None if return_ is None else return_ * DEG
     least = minimum_radius(motion, Translating(offset=1.5), "cw", return_=back, offset=e)
     assert abs(mpf(least.prime_radius) / least_radius(motion, 30 * DEG, back, True, offset=-e) - 1) <= 1e-13
     assert least.offset == e
 
 
-@pytest.mark.parametrize("motion", MOTIONS, ids=LABELS)
-@pytest.mark.parametrize("rotation", ["ccw", "cw"])
-@pytest.mark.parametrize(("rise", "back"), [(30, 40), (45, 30), (60, 20)])
-def test_a_cam_of_the_least_radius_reaches_its_limit_and_keeps_it(motion, rotation, rise, back):
+@over_all("motion", MOTIONS)
+@over_all("rotation", ["ccw", "cw"])
+@over_all("limits", [(30, 40), (45, 30), (60, 20)])
+def test_a_cam_of_the_least_radius_reaches_its_limit_and_keeps_it(motion, rotation, limits):
     """Sizing for 30 and 40 degrees delivers them, not 30.44; for 45 and 30 not 34.98 where the return ends."""
+    rise, back = limits
     follower = Translating(roller_radius=3)
     for offset in (None, 4.0, -4.0):
         least = minimum_radius(motion, follower, rotation, rise=rise * DEG, return_=back * DEG, offset=offset)
@@ -120,8 +121,7 @@ def test_the_follower_s_own_offset_does_not_count():
     assert len(radii) == 1
 
 
-@pytest.mark.parametrize("limit", [1e-6, 1e-3, 0.1, 89.0, 89.999, 90 - 1e-6])
-@pytest.mark.parametrize("name", LAWS)
+@over_all(("name", "limit"), pairs(LAWS, [1e-6, 1e-3, 0.1, 89.0, 89.999, 90 - 1e-6]))
 def test_limits_near_0_and_90_degrees(name, limit):
     motion = motion_of(name)
     for rest in (True, False):
@@ -134,8 +134,8 @@ def test_without_the_rest_condition_a_large_given_offset_needs_no_height():
     assert (least.prime_radius, least.offset, least.active) == (500.0, 500.0, ())
 
 
-@pytest.mark.parametrize("name", LAWS)
-@pytest.mark.parametrize("k", [1e-9, 1e-3, 0.05, 0.3, 1.0, 50.0])
+@over_all("name", LAWS)
+@over_all("k", [1e-9, 1e-3, 0.05, 0.3, 1.0, 50.0])
 def test_the_tangent_point_is_where_f_prime_less_f_over_k_is_greatest(name, k):
     the_law = law(name, ratio=0.6 if name == "rectangular" else 1.0)
     u, _ = steepest_tangent(the_law, k)
@@ -146,8 +146,8 @@ def test_the_tangent_point_is_where_f_prime_less_f_over_k_is_greatest(name, k):
     assert 0 < u <= fastest
 
 
-@pytest.mark.parametrize("name", ["rectangular", "cosine", "cycloidal", "2-3", "3-4-5", "4-5-6-7", "double-harmonic"])
-@pytest.mark.parametrize("k", [1e-6, 0.05, 0.3, 0.31832, 0.4, 1.0, 50.0, 1e6])
+@over_all("name", ["rectangular", "cosine", "cycloidal", "2-3", "3-4-5", "4-5-6-7", "double-harmonic"])
+@over_all("k", [1e-6, 0.05, 0.3, 0.31832, 0.4, 1.0, 50.0, 1e6])
 def test_the_closed_forms_of_the_steepest_line_to_four_eps(name, k):
     ratio = 0.6 if name == "rectangular" else 1.0
     the_law, best = law(name, ratio), mpf(0)
@@ -171,14 +171,14 @@ def findroot_of_the_slope(name: str, ratio: float, u, k: float) -> list:
     ]
 
 
-@pytest.mark.parametrize("limit", [0.0, 90 * DEG, -0.1, 2.0, math.nan, math.inf])
-@pytest.mark.parametrize("name", ["rise", "return"])
+@over_all("limit", [0.0, 90 * DEG, -0.1, 2.0, math.nan, math.inf])
+@over_all("name", ["rise", "return"])
 def test_limits_lie_strictly_between_0_and_90_degrees(limit, name):
     with pytest.raises(DesignError, match=rf"{name} is .* between 0 and 90 degrees"):
         minimum_radius(motion_of("cosine"), Translating(), **{"rise" if name == "rise" else "return_": limit})
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("make", "message"),
     [
         (lambda m: minimum_radius(m, Translating(), offset=math.nan), "offset is nan"),

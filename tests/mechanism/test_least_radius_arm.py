@@ -11,6 +11,7 @@ import math
 import numpy as np
 import pytest
 from mpmath import acos, atan2, cos, diff, findroot, matrix, mpf, sin
+from over_all import over_all, pairs
 from reference import lift_of, maximum, turned
 from scipy.optimize import minimize
 
@@ -45,7 +46,6 @@ def stairs() -> Motion:
 
 
 MOTIONS = [*(motion_of(name) for name in LAWS), motion_of("rectangular", ratio=2.5), stairs()]
-LABELS = [*LAWS, "rectangular 2.5", "stairs"]
 LIMITS = [(45, None, True), (45, None, False), (45, 45, True), (35, 60, False), (50, 30, True)]
 
 
@@ -107,8 +107,7 @@ def least(motion, rotation, limits, distance=None):
     )  # fmt: skip
 
 
-@pytest.mark.parametrize("limits", LIMITS)
-@pytest.mark.parametrize("k", range(len(MOTIONS)), ids=LABELS)
+@over_all(("k", "limits"), pairs(range(len(MOTIONS)), LIMITS))
 def test_the_pressure_angle_just_reaches_its_limit(k, limits):
     """What binds is at its limit to rounding, nothing is beyond; for the free distance and for one beside it."""
     motion, rotation = MOTIONS[k], ("ccw", "cw")[k % 2]
@@ -122,7 +121,7 @@ def test_the_pressure_angle_just_reaches_its_limit(k, limits):
         assert all(abs(over[name]) <= 1e-14 for name in found.active)
 
 
-@pytest.mark.parametrize("name", LAWS)
+@over_all("name", ["rectangular", "3-4-5", "modified-sine"])
 def test_least_radius_and_distance_to_50_digits_where_rise_and_return_bind(name):
     motion, limits = motion_of(name), (45, 45, True)
     found = least(motion, "ccw", limits)
@@ -137,8 +136,8 @@ def test_least_radius_and_distance_to_50_digits_where_rise_and_return_bind(name)
     assert abs(found.distance / distance - 1) <= 1e-14
 
 
-@pytest.mark.parametrize("name", LAWS)
-@pytest.mark.parametrize("rotation", ["ccw", "cw"])
+@over_all("name", LAWS)
+@over_all("rotation", ["ccw", "cw"])
 def test_least_radius_to_50_digits_where_the_rise_alone_binds(name, rotation):
     """The foot of the perpendicular on the farthest line: each goes through an end of l v, at the limit to a normal."""
     motion, limit = motion_of(name), 45
@@ -187,9 +186,9 @@ def prime_radius(distance, psi0):
     return np.sqrt((distance - ARM) ** 2 + 4 * distance * ARM * np.sin(psi0 / 2) ** 2)
 
 
-@pytest.mark.parametrize("limits", LIMITS)
-@pytest.mark.parametrize("rotation", ["ccw", "cw"])
-@pytest.mark.parametrize("motion", [motion_of("cosine"), stairs()], ids=["cosine", "stairs"])
+@over_all("limits", LIMITS)
+@over_all("rotation", ["ccw", "cw"])
+@over_all("motion", [motion_of("cosine"), stairs()])
 def test_no_cam_of_a_grid_is_smaller(motion, rotation, limits):
     found = least(motion, rotation, limits)
     distance, psi0 = np.meshgrid(np.linspace(40, 260, 111), np.linspace(0, math.pi, 242)[1:-1], indexing="ij")
@@ -205,8 +204,8 @@ def test_no_cam_of_a_grid_is_smaller(motion, rotation, limits):
             assert fixed * (1 - between_stations) <= row.min() <= fixed + 1.3 * ARM * math.pi / 241
 
 
-@pytest.mark.parametrize("rotation", ["ccw", "cw"])
-@pytest.mark.parametrize("name", ["rectangular", "cycloidal", "3-4-5"])
+@over_all("rotation", ["ccw", "cw"])
+@over_all("name", ["rectangular", "cycloidal", "3-4-5"])
 def test_slsqp_on_stations_finds_the_same_and_oversteps_the_limit_between_them(name, rotation):
     motion, limits, sigma = motion_of(name), (45, 40, True), SENSE[rotation]
     found = least(motion, rotation, limits)
@@ -233,8 +232,8 @@ def test_slsqp_on_stations_finds_the_same_and_oversteps_the_limit_between_them(n
 # --- what must hold for every arm ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("motion", MOTIONS, ids=LABELS)
-@pytest.mark.parametrize("rotation", ["ccw", "cw"])
+@over_all("motion", MOTIONS)
+@over_all("rotation", ["ccw", "cw"])
 def test_a_cam_of_the_least_radius_keeps_its_limits(motion, rotation):
     for distance in (None, 150.0, 260.0):
         found = least(motion, rotation, (45, 60, True), distance)
@@ -264,7 +263,7 @@ def test_arms_of_random_motions_and_limits_just_keep_them():
     assert sized > 80
 
 
-@pytest.mark.parametrize("motion", MOTIONS, ids=LABELS)
+@over_all("motion", MOTIONS)
 def test_the_motion_backwards_on_the_disk_turned_back_has_the_same_least_radius(motion):
     mirrored = {"rise": Return, "return": Rise}
     phases = [
@@ -276,8 +275,8 @@ def test_the_motion_backwards_on_the_disk_turned_back_has_the_same_least_radius(
     assert back.distance == pytest.approx(there.distance, rel=1e-13)
 
 
-@pytest.mark.parametrize("limits", LIMITS)
-@pytest.mark.parametrize("rotation", ["ccw", "cw"])
+@over_all("limits", LIMITS)
+@over_all("rotation", ["ccw", "cw"])
 def test_given_the_least_distance_the_radius_is_the_same_and_beside_it_larger(rotation, limits):
     motion = motion_of("modified-sine")
     free = least(motion, rotation, limits)
@@ -313,8 +312,7 @@ def test_without_the_rest_condition_a_large_distance_needs_no_angle_between_arm_
     assert (found.prime_radius, found.distance, found.active) == (300.0, 400.0, ())
 
 
-@pytest.mark.parametrize("limit", [0.01, 1.0, 10.0, 80.0, 89.9, 90 - 1e-6])
-@pytest.mark.parametrize("name", LAWS)
+@over_all(("name", "limit"), pairs(LAWS, [0.01, 1.0, 10.0, 80.0, 89.9, 90 - 1e-6]))
 def test_limits_near_0_and_90_degrees(name, limit):
     """The cam keeps the limit, and one at the same distance of a radius smaller by 1e-6 does not."""
     motion = motion_of(name, swing=min(20, 1.5 * limit))
@@ -326,7 +324,7 @@ def test_limits_near_0_and_90_degrees(name, limit):
     assert max(smaller.values()) > 0
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("make", "message"),
     [
         (lambda: least(motion_of("cosine", swing=90), "ccw", (45, None, True)), "lift is 90 degrees, but .* 90 degr"),

@@ -7,6 +7,7 @@ from math import radians
 import mpmath as mp
 import numpy as np
 import pytest
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.mechanism.made_cam import linear_off
@@ -37,7 +38,7 @@ def cam(kind: str, rotation: str) -> gc.Cam:
 BOTH = [(kind, rotation) for kind in SIZES for rotation in ("ccw", "cw")]
 
 
-@pytest.mark.parametrize(("kind", "rotation"), BOTH)
+@over_all(("kind", "rotation"), BOTH)
 def test_a_cam_without_errors_gives_the_motion_that_it_was_designed_for(kind, rotation):
     designed, phi = cam(kind, rotation), np.linspace(-3.0, 9.0, 200)
     made = gc.MadeCam(designed, gc.Deviations(*WAVES, SIZES[kind]).times(0))(phi)
@@ -45,7 +46,7 @@ def test_a_cam_without_errors_gives_the_motion_that_it_was_designed_for(kind, ro
         assert found == pytest.approx(exact, abs=1e-13 * max(1, np.abs(exact).max()))
 
 
-@pytest.mark.parametrize(("kind", "rotation"), BOTH)
+@over_all(("kind", "rotation"), BOTH)
 def test_what_the_first_order_leaves_is_of_the_second_order(kind, rotation):
     designed, phi = cam(kind, rotation), np.linspace(0.1, 6.2, 60)
     nominal, off = np.array(designed.motion(phi)[:3]), gc.Deviations(*WAVES, SIZES[kind])
@@ -108,7 +109,7 @@ def solved_at_forty_digits(kind: str, phi: mp.mpf, sigma: int) -> mp.mpf:
     return mp.findroot(contact, (phi, mp.mpf(start)), tol=1e-28)[1]
 
 
-@pytest.mark.parametrize(("kind", "sigma"), [("translating", +1), ("translating", -1), ("oscillating", +1)])
+@over_all(("kind", "sigma"), [("translating", +1), ("translating", -1), ("oscillating", +1)])
 def test_the_motion_is_that_of_a_roller_that_touches_the_wavy_profile(kind, sigma):
     """Two circles' worth of geometry at 40 digits knows neither pressure angles nor curvatures nor parallel curves."""
     with mp.workdps(40):
@@ -131,7 +132,7 @@ def test_a_flat_face_lies_on_the_farthest_point_of_the_wavy_profile():
     assert gc.MadeCam(designed, off)(phi)[0] == pytest.approx(highest, abs=1e-8)
 
 
-@pytest.mark.parametrize(("kind", "rotation"), BOTH)
+@over_all(("kind", "rotation"), BOTH)
 def test_velocity_and_acceleration_are_the_derivatives(kind, rotation):
     made, phi, h = gc.MadeCam(cam(kind, rotation), gc.Deviations(*WAVES, SIZES[kind])), np.linspace(0.1, 1.6, 30), 1e-4
     (before, v0, _), (_, v, a), (after, v1, _) = (made(phi + k * h) for k in (-1, 0, 1))

@@ -7,6 +7,7 @@ from math import radians
 
 import numpy as np
 import pytest
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.mechanism import motion_bands as bands_module
@@ -33,8 +34,8 @@ def errors(kind: str, **changed) -> gc.MakingErrors:
     return gc.MakingErrors(**{"waviness": (0.008, 0.001), "harmonics": (3, 24), **roller, **OWN[kind], **changed})
 
 
-@pytest.mark.parametrize("distribution", ["normal", "uniform"])
-@pytest.mark.parametrize("kind", CAMS)
+@over_all("distribution", ["normal", "uniform"])
+@over_all("kind", CAMS)
 def test_the_root_of_the_sum_of_squares_is_the_scatter_of_solved_mechanisms(kind, distribution):
     """The variances of independent errors add; a sample of n misses a standard deviation by its 1/sqrt(2 n) part."""
     samples = 800
@@ -46,7 +47,7 @@ def test_the_root_of_the_sum_of_squares_is_the_scatter_of_solved_mechanisms(kind
     assert (np.maximum(bands.sample.high, -bands.sample.low) < bands.worst * (1 + second_order)).all()
 
 
-@pytest.mark.parametrize("kind", CAMS)
+@over_all("kind", CAMS)
 def test_a_single_wave_fills_its_band_and_no_more(kind):
     """Of a random phase it lies within cos(pi/2 (1 - p)) of its amplitude in the part p of all cams."""
     alone = gc.MakingErrors((0.004,), (24,))
@@ -113,7 +114,7 @@ def test_a_jump_of_the_acceleration_is_met_on_neither_side():
     assert [top.side for top in bands.widest].count("left") >= 1 or bands.widest[2].phi in jumping.breaks
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("kind", "given", "message"),
     [
         ("translating", {"distance": 0.1}, "distance is 0.1, but must be left out: this follower has no such size"),
@@ -146,7 +147,7 @@ def test_the_deepest_waves_that_are_let_pass_can_be_followed():
         gc.motion_bands(cam, gc.MakingErrors((1.02 * deepest,), (40,)))
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("given", "message"),
     [
         ({"samples": 1}, "samples is 1, but must be 2 or more"),
@@ -174,7 +175,7 @@ def test_tolerances_wider_than_the_mechanism_are_told_when_it_is_solved():
         bands.sample  # noqa: B018
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("given", "message"),
     [
         ({}, "waviness is left out, but must be given where no size has a tolerance"),

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from mpmath import acos, mpf
 from numpy.testing import assert_allclose
+from over_all import over_all, over_seeds
 from reference import EPS, ReferenceArm
 
 from graphcam.errors import DesignError
@@ -41,7 +42,7 @@ def points(values: list) -> np.ndarray:
     return np.array([[float(x), float(y)] for x, y in values])
 
 
-@pytest.mark.parametrize("seed", range(30))
+@over_seeds(12)
 def test_random_cams_agree_with_the_differentiated_definition(seed):
     cam, phi = random_cam(seed), np.random.default_rng(seed + 1000).random(8) * FULL_TURN
     exact = ReferenceArm(cam)
@@ -56,7 +57,7 @@ def test_random_cams_agree_with_the_differentiated_definition(seed):
     assert np.all(np.abs(cam.pitch_curvature(phi) - kappa) <= 1e-12 * np.maximum(np.abs(kappa), 1 / size[:, 0]))
 
 
-@pytest.mark.parametrize("excess", [1e-14, 1e-9, 1e-3])
+@over_all("excess", [1e-14, 1e-9, 1e-3])
 def test_nearly_folded_and_nearly_stretched_arms_keep_the_digits_of_their_angle(excess):
     arm, distance = 100.0, 80.0
     for r0 in (20 * (1 + excess), 180 * (1 - excess)):
@@ -105,7 +106,7 @@ def test_a_hand_s_table_of_arc_lifts_scatters_as_a_hand_does():
 # --- what must hold for every cam ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", range(10))
+@over_seeds(8)
 def test_the_turned_cam_swings_the_arm_by_s(seed):
     cam, phi = random_cam(seed), np.linspace(0, FULL_TURN, 100)
     x, y = cam.pitch_curve(phi).T
@@ -116,7 +117,7 @@ def test_the_turned_cam_swings_the_arm_by_s(seed):
     assert np.linalg.norm(cam.pitch_curve(0.0)) == pytest.approx(cam.prime_radius, rel=1e-14)
 
 
-@pytest.mark.parametrize("seed", range(10))
+@over_seeds(8)
 def test_the_roller_touches_its_profile_in_one_point(seed):
     """The profile lies at the roller radius, inside, and its tangent is the pitch curve's: it is the envelope."""
     cam, step = random_cam(seed), 1e-5
@@ -130,7 +131,7 @@ def test_the_roller_touches_its_profile_in_one_point(seed):
     assert np.abs(np.sum(spoke * along, axis=1)).max() <= of_the_difference * cam.prime_radius**2
 
 
-@pytest.mark.parametrize("seed", range(6))
+@over_seeds(6)
 def test_the_same_disk_turned_the_other_way_gives_the_motion_backwards(seed):
     cam, phi = random_cam(seed), np.linspace(0.1, 6.1, 50)
     mirrored = {"rise": Return, "return": Rise}
@@ -144,7 +145,7 @@ def test_the_same_disk_turned_the_other_way_gives_the_motion_backwards(seed):
     assert_allclose(other.pitch_curvature(-phi), cam.pitch_curvature(phi), rtol=1e-11)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@over_seeds(12)
 def test_extremes_are_not_exceeded_and_are_reached(seed):
     cam = random_cam(seed)
     extremes, u = cam.extremes(), np.linspace(0, 1, 4001)
@@ -175,7 +176,7 @@ def test_shapes_and_nan():
 SWING = Motion([Rise(30 * DEG, 2.0), Return(30 * DEG, FULL_TURN - 2)])
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("make", "message"),
     [
         (lambda: Cam(SWING, Oscillating(100), 50.0), "centre distance is left open, but must be given for a cam"),

@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from mpmath import expj, mp, mpc, mpf
+from over_all import over_all
 from reference import EPS
 from scipy.integrate import solve_ivp
 
@@ -35,7 +36,7 @@ def under_a_sine(nu: float, zeta: float, t: float) -> mpf:
     return (forced + first * mp.exp(slow * t) - (start + first) * mp.exp(fast * t)).real
 
 
-@pytest.mark.parametrize("zeta", DAMPINGS)
+@over_all("zeta", DAMPINGS)
 def test_soft_or_stiff_and_with_any_damping_every_digit_is_right(zeta):
     """Rounding alone, 40 eps of the greatest value, from a billionth of a natural period to a billion of them."""
     with mp.workdps(40):
@@ -68,7 +69,7 @@ def test_errors_do_not_grow_over_hundreds_of_stretches():
             assert abs(float(y[0]) - float(under_a_sine(nu, 0.0, t))) <= 4 * EPS * (1 + nu * t)
 
 
-@pytest.mark.parametrize(("name", "zeta", "periods"), [("modified-trapezoidal", 0.07, 5.3), ("rectangular", 1.4, 3.3)])
+@over_all(("name", "zeta", "periods"), [("modified-trapezoidal", 0.07, 5.3), ("rectangular", 1.4, 3.3)])
 def test_steps_of_scipy_come_to_the_same(name, zeta, periods):
     """DOP853 from break to break, which steps and does not know the solution."""
     law, nu = gc.law(name), math.tau * periods
@@ -86,8 +87,8 @@ def test_steps_of_scipy_come_to_the_same(name, zeta, periods):
         assert [y.item(), y1.item()] == pytest.approx(state, abs=1e-9)
 
 
-@pytest.mark.parametrize("zeta", [0.0, 0.05, 1.0, 2.0])
-@pytest.mark.parametrize("periods", [0.7, 12.3, 150.2])
+@over_all("zeta", [0.0, 0.05, 1.0, 2.0])
+@over_all("periods", [0.7, 12.3, 150.2])
 def test_the_work_of_the_forcing_is_stored_or_lost_in_the_damper(zeta, periods):
     """g y' integrates to the energy (y'^2 + nu^2 y^2)/2 at the end and the loss 2 zeta nu y'^2: energy balance."""
     nu = math.tau * periods
@@ -105,7 +106,7 @@ def test_the_work_of_the_forcing_is_stored_or_lost_in_the_damper(zeta, periods):
     assert work == pytest.approx(stored + lost, rel=1e-11, abs=1e-13 * float(np.abs(y1)))
 
 
-@pytest.mark.parametrize("zeta", DAMPINGS)
+@over_all("zeta", DAMPINGS)
 def test_free_vibrations_follow_one_another(zeta):
     """Free for t1 and then for t2 is free for t1 + t2: the semigroup; at 0 nothing has changed."""
     oscillator = Oscillator(np.array([0.3, 2.0, 11.0]), zeta)
@@ -116,8 +117,8 @@ def test_free_vibrations_follow_one_another(zeta):
     np.testing.assert_allclose(oscillator.free(t1 + t2, y, y1), twice, rtol=1e-11, atol=1e-13)
 
 
-@pytest.mark.parametrize("zeta", DAMPINGS)
-@pytest.mark.parametrize("seed", range(3))
+@over_all("zeta", DAMPINGS)
+@over_all("seed", range(3))
 def test_no_sample_of_a_free_vibration_exceeds_its_peak(zeta, seed):
     rng = np.random.default_rng(seed)
     oscillator = Oscillator(rng.uniform(0.5, 5, 20), zeta)
@@ -133,7 +134,7 @@ def test_a_free_vibration_without_damping_has_the_amplitude_of_its_energy():
     assert peak.item() == pytest.approx(math.hypot(0.4, 0.5), rel=1e-14)
 
 
-@pytest.mark.parametrize("nu", [0.5, 17.0, 90.0, 400.0, 1300.0])
+@over_all("nu", [0.5, 17.0, 90.0, 400.0, 1300.0])
 def test_a_forcing_that_is_sharp_is_divided_until_it_is_resolved(nu):
     """A peak that one series of 20 terms cannot follow; against the convolution at 30 digits, soft, stiff, between."""
     drive = Drive(np.array([0.0, 1.0]), lambda t: 1 / (1 + 400 * (t - 0.4) ** 2))
@@ -156,7 +157,7 @@ def test_polynomials_are_followed_by_one_series():
     assert drive.counts(Oscillator(np.array([1e9]), 0.0)).tolist() == [[-1] * len(drive.resolved)]
 
 
-@pytest.mark.parametrize("zeta", [0.0, 0.03, 1.0, 4.0])
+@over_all("zeta", [0.0, 0.03, 1.0, 4.0])
 def test_the_steady_motion_under_a_sine_is_the_known_one(zeta):
     """Amplitude and phase of the forced vibration: S. S. Rao, Mechanical Vibrations, chapter 3."""
     nu = 3.5

@@ -11,6 +11,7 @@ import math
 import numpy as np
 import pytest
 from mpmath import mpf
+from over_all import over_all
 from reference import ReferenceCam, least_radius
 
 from graphcam.errors import DesignError
@@ -30,7 +31,7 @@ def cam_of(offset: float = 10, rotation="ccw", roller: float = 12) -> Cam:
     return Cam(MOTION, Translating(offset, roller), 60, rotation)
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("offset", "rotation", "rise", "back"),
     [
         (10, "ccw", 14.264, -29.014),
@@ -58,7 +59,7 @@ def test_least_radius_of_curvature_at_the_jump_where_the_return_begins():
     assert 1 / before == pytest.approx(math.hypot(10, math.sqrt(3500) + 30), rel=1e-14)  # the dwell's own circle
 
 
-@pytest.mark.parametrize("offset", [10, -10])
+@over_all("offset", [10, -10])
 def test_curvature_sees_the_offset(offset):
     cam, phi = cam_of(offset), np.array([0.3, 1.1, 1.9, 2.9, 3.3, 4.0])
     exact = [float(ReferenceCam(cam).curvature(mpf(float(x)))) for x in phi]
@@ -81,7 +82,7 @@ def test_profile_is_the_envelope_of_the_rollers():
     assert distance.min() >= 12 - 1e-12
 
 
-@pytest.mark.parametrize(("offset", "rotation"), [(10, "ccw"), (10, "cw"), (-10, "ccw"), (-10, "cw")])
+@over_all(("offset", "rotation"), [(10, "ccw"), (10, "cw"), (-10, "ccw"), (-10, "cw")])
 def test_the_cam_lifts_by_the_lift_and_no_more(offset, rotation):
     """A simulation misses the lift by 1.74 mm; an offset applied to r + lift gives 30.283."""
     x, y = cam_of(offset, rotation).pitch_curve(PHI).T
@@ -116,7 +117,7 @@ def test_least_radius_is_exact_not_by_steps():
     assert math.degrees(steepest) == pytest.approx(30, rel=1e-13)
 
 
-@pytest.mark.parametrize("limit", [0.0, 90 * DEG])
+@over_all("limit", [0.0, 90 * DEG])
 def test_limits_of_0_and_90_degrees_are_refused_at_once(limit):
     """One program hangs at 0."""
     with pytest.raises(DesignError, match="permitted pressure angle on the rise"):
@@ -147,7 +148,7 @@ def test_nan_stays_nan_and_never_becomes_0():
             make()
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("make", "quantity"),
     [
         (lambda: cam_of(offset=60), "offset"),

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from intervals import Sum, backwards, greatest, law_of, law_of_polynomials, quantities
 from mpmath import atan, mpf
+from over_all import over_all, over_seeds
 
 import graphcam as gc
 from graphcam.given.laws import LAWS, RISE_FALL_LAWS
@@ -85,7 +86,7 @@ def measured_cam(seed: int) -> gc.Cam:
     return gc.Cam(gc.measured_motion(phi, source(phi)[0], 0.02), follower, r0)
 
 
-@pytest.mark.parametrize("seed", range(9))
+@over_seeds(6)
 def test_no_value_exceeds_the_extremes_of_random_cams(seed):
     check(random_cam(seed))
 
@@ -95,14 +96,8 @@ def test_no_value_exceeds_the_extremes_of_a_measured_motion():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(9, 280))
-def test_no_value_exceeds_the_extremes_of_many_random_cams(seed):
-    check(random_cam(seed))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("seed", range(2, 22))
-def test_no_value_exceeds_the_extremes_of_many_measured_motions(seed):
+@over_seeds(4)
+def test_no_value_exceeds_the_extremes_of_measured_motions(seed):
     check(measured_cam(seed))
 
 
@@ -127,7 +122,7 @@ def waving_law(waves: int, height: float) -> tuple[gc.Law, list[Sum]]:
     return gc.Law(name, formula, trusted=True), [exact]  # it waves too fast for the check of laws
 
 
-@pytest.mark.parametrize(("waves", "height"), [(60, 2e-6), (300, 3e-8)])
+@over_all(("waves", "height"), [(60, 2e-6), (300, 3e-8)])
 def test_waves_much_shorter_than_any_step_of_a_search_hide_no_extreme(waves, height):
     own, exact = waving_law(waves, height)
     motion = Motion([Rise(20, 2.0, own), Dwell(0.5), Return(20, 1.5, own), Dwell(FULL_TURN - 4.0)])
@@ -141,7 +136,7 @@ def test_waves_much_shorter_than_any_step_of_a_search_hide_no_extreme(waves, hei
         check(cam, {own.name: exact})
 
 
-@pytest.mark.parametrize(("first", "second"), [(1e-3, 1e3), (1e3, 1e3), (1e-3, 1e-3)])
+@over_all(("first", "second"), [(1e-3, 1e3), (1e3, 1e3), (1e-3, 1e-3)])
 def test_lopsided_laws_hide_no_extreme(first, second):
     rise, back = Rise(12, 1.4, "rectangular", first), Return(12, 1.1, "rectangular", second)
     check(gc.Cam(Motion([rise, Dwell(0.6), back, Dwell(FULL_TURN - 3.1)]), gc.Translating(-3.0, 5.0), 30.0))

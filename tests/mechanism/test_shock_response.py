@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from mpmath import expj, linspace, mp, mpf
+from over_all import over_all
 from reference import EPS, lift
 
 import graphcam as gc
@@ -31,7 +32,7 @@ def by_fourier(name: str, n: float) -> float:
         return float(omega * abs(1j * omega * expj(omega) + omega**2 * integral))
 
 
-@pytest.mark.parametrize("name", gc.LAWS)
+@over_all("name", gc.LAWS)
 def test_what_is_left_is_the_fourier_transform_of_the_acceleration(name):
     n = np.array([0.05, 1.7])
     found = gc.shock_spectrum(name, n)
@@ -40,7 +41,7 @@ def test_what_is_left_is_the_fourier_transform_of_the_acceleration(name):
     np.testing.assert_allclose(found.amplitude, exact / (math.tau * n) ** 2, rtol=1e-13, atol=1e-14)
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("name", "closed"),
     [
         ("rectangular", lambda n: 16 * np.sin(np.pi * n / 2) ** 2),
@@ -54,7 +55,7 @@ def test_closed_forms_of_the_residual_spectrum(name, closed):
     np.testing.assert_allclose(gc.shock_spectrum(name, n).residual, closed(n), rtol=1e-9, atol=1e-11)
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("name", "zeros"),
     [
         ("cycloidal", [2, 3, 4, 5, 10, 100]),  # not 1: there it is in resonance
@@ -71,7 +72,7 @@ def test_known_ratios_leave_no_vibration(name, zeros):
     assert np.all(found.residual <= 1e-14 * np.array(zeros) * found.peak)
 
 
-@pytest.mark.parametrize("name", SYMMETRIC)
+@over_all("name", SYMMETRIC)
 def test_a_law_whose_second_half_turns_the_first_leaves_nothing_at_even_ratios(name):
     """Its transform has the factor 1 - exp(i Omega/2), which is 2 at odd n: there the two halves add up."""
     law, u = gc.law(name), np.linspace(0.001, 0.499, 97)
@@ -86,7 +87,7 @@ def test_values_at_the_resonances():
     assert gc.shock_spectrum("rectangular", [1, 3, 7]).residual == pytest.approx([16, 16, 16], rel=1e-13)
 
 
-@pytest.mark.parametrize("name", gc.LAWS)
+@over_all("name", gc.LAWS)
 def test_the_vibration_falls_with_the_order_of_the_first_jump(name):
     """What is left, times n^(k - 2), reaches the same height at all n; the k-th derivative is the first to jump.
 
@@ -102,7 +103,7 @@ def left(name: str, n: float) -> float:
     return gc.follower_response(name, n).residual
 
 
-@pytest.mark.parametrize(("name", "jump"), [("cosine", math.pi**2 / 2), ("3-4-5", 60), ("4-5-6-7", 840), ("2-3", 6)])
+@over_all(("name", "jump"), [("cosine", math.pi**2 / 2), ("3-4-5", 60), ("4-5-6-7", 840), ("2-3", 6)])
 def test_the_asymptote_is_that_of_the_jumps_at_both_ends(name, jump):
     """At a ratio where both ends add up: 2 |jump of the k-th derivative| Omega^(2 - k), to the next order in 1/n."""
     greatest = max(left(name, n) for n in 400 + np.linspace(0, 1, 51))
@@ -116,7 +117,7 @@ def test_a_very_soft_follower_stays_behind_and_swings_by_the_whole_lift():
         assert found.residual.item() == pytest.approx((math.tau * 1e-6) ** 2, rel=1e-9)
 
 
-@pytest.mark.parametrize(("name", "jump"), [("double-harmonic", math.pi**2), ("eighth-degree", 5.2683)])
+@over_all(("name", "jump"), [("double-harmonic", math.pi**2), ("eighth-degree", 5.2683)])
 def test_a_dwell_behind_a_law_for_none_leaves_the_vibration_of_its_last_acceleration(name, jump):
     """It is taken off at once; what jumps at the start, the third derivative at the lowest, adds 0.4 % here at most."""
     assert gc.shock_spectrum(name, [300.0, 300.25, 300.5]).residual == pytest.approx([jump] * 3, rel=5e-3)
@@ -134,8 +135,8 @@ def test_a_stiff_follower_is_strained_as_the_rigid_one_by_smooth_laws_only():
 # --- during the rise -------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("zeta", [0.0, 0.08, 1.3])
-@pytest.mark.parametrize("name", gc.LAWS)
+@over_all("zeta", [0.0, 0.08, 1.3])
+@over_all("name", gc.LAWS)
 def test_no_sample_of_the_response_exceeds_the_spectrum(name, zeta):
     u, after = np.linspace(0, 1, 4001), np.linspace(1, 31, 8001)
     ratios = [0.3, 1.1, 6.4]
@@ -150,7 +151,7 @@ def test_no_sample_of_the_response_exceeds_the_spectrum(name, zeta):
             assert least == pytest.approx(greatest, rel=4e-3)
 
 
-@pytest.mark.parametrize("n", [0.4, 2.7, 11.3])
+@over_all("n", [0.4, 2.7, 11.3])
 def test_the_cycloidal_response_is_the_known_one(n):
     """x'' = 2 pi Omega^2/(Omega^2 - 4 pi^2) (sin 2 pi u - sin(Omega u)/n), by undetermined coefficients."""
     u, omega = np.linspace(0, 1, 101), math.tau * n
@@ -268,7 +269,7 @@ def test_a_measured_motion_has_a_spectrum():
 # --- what cannot be --------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("asked", "message"),
     [
         (

@@ -8,6 +8,7 @@ from math import radians
 import mpmath as mp
 import numpy as np
 import pytest
+from over_all import over_all
 
 import graphcam as gc
 
@@ -47,8 +48,8 @@ def angle_and_radius(sizes: dict[str, mp.mpf], sigma: int, phi: mp.mpf) -> tuple
     return alpha, abs(p1) ** 3 / (-sigma * mp.im(mp.conj(p1) * p2))
 
 
-@pytest.mark.parametrize("rotation", ["ccw", "cw"])
-@pytest.mark.parametrize("kind", ["translating", "oscillating"])
+@over_all("rotation", ["ccw", "cw"])
+@over_all("kind", ["translating", "oscillating"])
 def test_pressure_angle_and_curvature_at_forty_digits(kind, rotation):
     sigma = 1 if rotation == "ccw" else -1
     if kind == "translating":
@@ -105,7 +106,7 @@ def radius_cases():
         yield laws, gc.FlatFaced(), "ccw", {"curvature": 5.0}
 
 
-@pytest.mark.parametrize(("laws", "follower", "rotation", "given"), list(radius_cases()))
+@over_all(("laws", "follower", "rotation", "given"), list(radius_cases()))
 def test_the_least_radius_changes_as_differences_say(laws, follower, rotation, given):
     lift = 0.3 if isinstance(follower, gc.Oscillating) else 20.0
 

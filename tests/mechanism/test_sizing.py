@@ -9,6 +9,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.mechanism.sizing import feasible_region, pareto_front
@@ -67,7 +68,7 @@ def sized(name: str) -> gc.SizedCam:
     return SIZED[name]
 
 
-@pytest.mark.parametrize("name", CASES)
+@over_all("name", CASES)
 def test_no_limit_is_exceeded_by_the_exact_extremes(name):
     """By the cam's own extremes, stress and ranges: what another program would look at."""
     (_, load, asked), found = CASES[name], sized(name)
@@ -86,7 +87,7 @@ def test_no_limit_is_exceeded_by_the_exact_extremes(name):
         assert low - 1e-12 <= size <= high + 1e-12
 
 
-@pytest.mark.parametrize("name", CASES)
+@over_all("name", CASES)
 def test_a_smaller_cam_exceeds_a_limit(name):
     """A thousandth of a mm less of prime radius, whatever the neighbouring offset and roller: none is permitted."""
     (motion, load, asked), found = CASES[name], sized(name)
@@ -191,7 +192,7 @@ def test_the_sheet_of_the_region_speaks_russian():
             assert not re.search(r"\d\.\d", text)
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("change", "message"),
     [
         ({"prime_radius": (75, 70)}, "range of the prime radius is 75 to 70 mm"),
@@ -280,7 +281,7 @@ def test_no_cam_of_a_dense_random_sample_dominates_the_front(name, count):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["angle and stress", "spring"])
+@over_all("name", ["angle and stress", "spring"])
 def test_every_cam_of_the_front_has_the_least_stress_of_its_radius(name):
     """An independent search at the radius alone: the best of a grid of offsets and rollers, refined about the best."""
     motion, load, asked = CASES[name]
@@ -313,7 +314,7 @@ def test_one_front_is_that_of_radius_and_width_too():
 MOVES = {"prime radius": "radius", "offset": "offset", "roller radius": "roller", "face width": "width"}
 
 
-@pytest.mark.parametrize("name", CASES)
+@over_all("name", CASES)
 def test_active_limits_are_passed_by_a_move_and_others_are_not(name):
     """A hundred-thousandth of a size in some direction exceeds an active limit; the others are kept in all."""
     found = sized(name)
@@ -447,7 +448,7 @@ def brute_force(motion: gc.Motion, load: gc.SpringLoad, asked: dict) -> tuple[fl
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", CASES)
+@over_all("name", CASES)
 def test_no_cam_of_a_million_is_smaller(name):
     motion, load, asked = CASES[name]
     least, step = brute_force(motion, load, asked)

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from over_all import over_all, over_seeds, pairs
 from scipy.spatial import cKDTree
 from test_undercut import one_loop, random_cam, with_roller
 
@@ -37,7 +38,7 @@ def along(spline: ProfileSpline) -> np.ndarray:
     return spline((ends[:-1, None] + np.diff(ends)[:, None] * np.linspace(0, 1, 41, endpoint=False)).ravel())
 
 
-@pytest.mark.parametrize("seed", range(20))
+@over_seeds(12)
 def test_random_profiles_are_met_within_half_a_micrometre_by_few_control_points(seed):
     cam = random_cam(seed)
     spline = profile_spline(cam, trimmed=True)
@@ -50,7 +51,7 @@ def test_random_profiles_are_met_within_half_a_micrometre_by_few_control_points(
     assert greatest_distance(exact[::50], spline(np.linspace(0, spline.knots[-1], 40_000, endpoint=False))) <= 0.00051
 
 
-@pytest.mark.parametrize("seed", range(20))
+@over_seeds(12)
 def test_it_is_one_clamped_closed_cubic(seed):
     spline = profile_spline(random_cam(seed), trimmed=True)
     knots, control = spline.knots, spline.control
@@ -69,8 +70,8 @@ def gap(spline: ProfileSpline, derivative: int) -> float:
     return float(np.abs(end - start).max())
 
 
-@pytest.mark.parametrize("law", ["3-4-5", "cycloidal", "modified-sine", "triangular", "trapezoidal"])
-@pytest.mark.parametrize("rotation", ["ccw", "cw"])
+@over_all("law", ["3-4-5", "cycloidal", "modified-sine", "triangular", "trapezoidal"])
+@over_all("rotation", ["ccw", "cw"])
 def test_a_cam_without_jumps_is_curvature_continuous_all_around(law, rotation):
     cam = one_loop(law, rotation, -0.3)
     spline = profile_spline(cam)
@@ -104,7 +105,7 @@ def test_only_where_the_acceleration_jumps_are_knots_double():
         assert np.linalg.norm(spline(place + step, 2) - spline(place - step, 2)) > 1e-3
 
 
-@pytest.mark.parametrize("excess", [1e-6, 1e-3, 0.1, 0.3])
+@over_all("excess", [1e-6, 1e-3, 0.1, 0.3])
 def test_a_corner_is_met_exactly(excess):
     cam = one_loop("3-4-5", "ccw", excess)
     (loop,) = cam.undercuts()
@@ -115,7 +116,7 @@ def test_a_corner_is_met_exactly(excess):
     assert greatest_distance(along(spline), cam.trimmed_profile(200_000)) <= 0.0005
 
 
-@pytest.mark.parametrize("share", [1.0, 1 - 1e-9, 1 - 1e-4])
+@over_all("share", [1.0, 1 - 1e-9, 1 - 1e-4])
 def test_a_cusp_and_all_but_a_cusp_are_met(share):
     cam = with_roller(one_loop("cycloidal", "cw", 0.0), share)
     spline = profile_spline(cam)
@@ -129,8 +130,7 @@ def sized(size: float, follower) -> Cam:
     return Cam(Motion(moving), follower, 45 * size)
 
 
-@pytest.mark.parametrize("degree", [2, 3, 4, 5])
-@pytest.mark.parametrize("case", ["tiny", "large", "flat", "arm", "far offset", "cusp", "corner"])
+@over_all(("case", "degree"), pairs(["tiny", "large", "flat", "arm", "far offset", "cusp", "corner"], [2, 3, 4, 5], 2))
 def test_every_degree_meets_hard_profiles_within_half_a_micrometre(case, degree):
     cam = {
         "tiny": lambda: sized(0.02, Translating(0.1, 0.3)),
@@ -154,7 +154,7 @@ def test_every_degree_meets_hard_profiles_within_half_a_micrometre(case, degree)
     assert measured == pytest.approx(spline.deviation, rel=0.05, abs=1e-9 * size)
 
 
-@pytest.mark.parametrize("degree", [2, 3, 4, 5])
+@over_all("degree", [2, 3, 4, 5])
 def test_as_many_control_points_as_asked_for_with_the_error_they_leave(degree):
     """Twice as many leave less by about the power p + 1 of two; a corner takes some, and still the number is kept."""
     for cam in (one_loop("3-4-5", "ccw", -0.3), one_loop("3-4-5", "ccw", 0.1)):
@@ -175,7 +175,7 @@ def test_so_few_control_points_that_the_profile_is_missed_are_no_error():
     assert profile_spline(cam, control_points=12).deviation > 0.05
 
 
-@pytest.mark.parametrize("count", [-1, 3, 2001])
+@over_all("count", [-1, 3, 2001])
 def test_what_no_spline_can_have_is_refused(count):
     with pytest.raises(DesignError, match=rf"control_points is {count}, but must be \d+ to 2000 for this profile"):
         profile_spline(one_loop("3-4-5", "ccw", -0.3), control_points=count)
@@ -183,7 +183,7 @@ def test_what_no_spline_can_have_is_refused(count):
         profile_spline(one_loop("3-4-5", "ccw", -0.3), degree=6)  # pyright: ignore[reportArgumentType]
 
 
-@pytest.mark.parametrize("degree", [2, 3, 4, 5])
+@over_all("degree", [2, 3, 4, 5])
 def test_the_error_falls_by_the_power_of_the_degree_and_one(degree):
     """2^(p + 1) times the accuracy costs twice the parts."""
     cam = one_loop("3-4-5", "ccw", -0.3)
@@ -204,7 +204,7 @@ def test_the_least_deviations_are_kept():
     assert profile_spline(cam, 1e-9, degree=5).deviation <= 1e-9
 
 
-@pytest.mark.parametrize("deviation", [0.0, -1.0, 1e-10, math.nan])
+@over_all("deviation", [0.0, -1.0, 1e-10, math.nan])
 def test_a_deviation_that_cannot_be_kept_is_refused(deviation):
     with pytest.raises(DesignError, match="deviation is"):
         profile_spline(one_loop("3-4-5", "ccw", -0.3), deviation)

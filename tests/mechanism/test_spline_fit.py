@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from numpy.testing import assert_allclose
+from over_all import over_all
 from scipy.interpolate import BSpline, make_lsq_spline
 
 from graphcam.mechanism.spline_fit import Conditions, at_ends, basis, fitted_control_points, solve_banded
@@ -19,7 +19,7 @@ def clamped(degree: int, seed: int) -> np.ndarray:
     return np.sort(np.concatenate([*ends, inner, inner[4:5] if degree > 1 else []]))
 
 
-@pytest.mark.parametrize("degree", DEGREES)
+@over_all("degree", DEGREES)
 def test_the_b_splines_are_those_of_scipy(degree):
     knots, at = clamped(degree, degree), np.linspace(0, 7, 200)
     splines = basis(knots, degree, at)
@@ -32,7 +32,7 @@ def test_the_b_splines_are_those_of_scipy(degree):
         assert_allclose(splines.products[: splines.size - k, k], np.diagonal(products, k), atol=1e-12)
 
 
-@pytest.mark.parametrize(("degree", "derivative"), [(p, k) for p in DEGREES for k in range(3) if k < p])
+@over_all(("degree", "derivative"), [(p, k) for p in DEGREES for k in range(3) if k < p])
 def test_the_derivatives_at_the_ends_are_those_of_scipy(degree, derivative):
     knots = clamped(degree, 10 + degree)
     control = np.random.default_rng(degree).normal(size=knots.size - degree - 1)
@@ -41,7 +41,7 @@ def test_the_derivatives_at_the_ends_are_those_of_scipy(degree, derivative):
     assert_allclose([first @ control, last @ control], spline(np.array([0.0, 7.0]), nu=derivative), rtol=1e-9)
 
 
-@pytest.mark.parametrize("degree", DEGREES)
+@over_all("degree", DEGREES)
 def test_without_need_of_its_conditions_the_fit_is_that_of_scipy(degree):
     """Of conditions that the free fit fulfils anyway."""
     knots, at = clamped(degree, 20 + degree), np.linspace(0, 7, 300)
@@ -52,7 +52,7 @@ def test_without_need_of_its_conditions_the_fit_is_that_of_scipy(degree):
     assert_allclose(found, free.c, atol=1e-11)
 
 
-@pytest.mark.parametrize("degree", DEGREES)
+@over_all("degree", DEGREES)
 def test_conditions_hold_exactly_and_the_rest_is_as_near_as_can_be(degree):
     """The error is orthogonal to every change of the control points that keeps the conditions."""
     knots, at = clamped(degree, 30 + degree), np.linspace(0, 7, 300)
@@ -68,7 +68,7 @@ def test_conditions_hold_exactly_and_the_rest_is_as_near_as_can_be(degree):
     assert_allclose(kept @ shares, 0, atol=1e-11)
 
 
-@pytest.mark.parametrize("degree", DEGREES)
+@over_all("degree", DEGREES)
 def test_a_spline_is_its_own_fit(degree):
     knots, at = clamped(degree, 40 + degree), np.linspace(0, 7, 300)
     random = np.random.default_rng(degree)
@@ -80,7 +80,7 @@ def test_a_spline_is_its_own_fit(degree):
     )
 
 
-@pytest.mark.parametrize("degree", DEGREES)
+@over_all("degree", DEGREES)
 def test_a_banded_system_is_solved_as_a_full_one(degree):
     knots = clamped(degree, 50 + degree)
     bands = basis(knots, degree, np.linspace(0, 7, 300)).products

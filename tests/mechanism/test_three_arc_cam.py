@@ -8,6 +8,7 @@ import mpmath
 import numpy as np
 import pytest
 from mpmath import mpf
+from over_all import over_all
 from three_arcs import CASE, EXAMPLE, given, sound_data
 
 import graphcam as gc
@@ -148,7 +149,7 @@ REASONS = {
 }
 
 
-@pytest.mark.parametrize("name", REASONS)
+@over_all("name", REASONS)
 def test_why_the_first_root_is_not_sound(name):
     change, reason = REASONS[name]
     cam, _ = three_arc_cam(**({"D": (40, 20), "G": (0, 30), "rho1": 5} | change))
@@ -166,7 +167,7 @@ def test_a_straight_flank_is_the_common_tangent():
     assert cam.F.tolist() == [20, 30]
 
 
-@pytest.mark.parametrize("tilt", [1e-3, 1e-6, 1e-9, 1e-12, -1e-12, -1e-6])
+@over_all("tilt", [1e-3, 1e-6, 1e-9, 1e-12, -1e-12, -1e-6])
 def test_a_flank_that_is_almost_straight_keeps_its_f_and_its_curvature(tilt):
     data = {"D": (40, 20), "G": (0, 30), "rho1": 5, "C1": (20, 25 - tilt), "C2": (0, -50)}
     cam, _ = three_arc_cam(**data)
@@ -337,14 +338,14 @@ NO_PROFILE = {
 }
 
 
-@pytest.mark.parametrize("name", WRONG)
+@over_all("name", WRONG)
 def test_data_that_cannot_be(name):
     change, words = WRONG[name]
     with pytest.raises(gc.DesignError, match=words):
         three_arc_cam(**(EXAMPLE | change))
 
 
-@pytest.mark.parametrize("name", NO_PROFILE)
+@over_all("name", NO_PROFILE)
 def test_data_that_give_no_profile(name):
     change, words = NO_PROFILE[name]
     cam, _ = three_arc_cam(**(EXAMPLE | change))
@@ -352,7 +353,7 @@ def test_data_that_give_no_profile(name):
         cam.motion()
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("arguments", "words"),
     [
         ({"roller_radius": -1}, "roller radius is -1"),

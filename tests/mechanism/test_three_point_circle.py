@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+from over_all import over_all
 from reference import EPS
 
 from graphcam.mechanism.three_point_circle import circumradius
@@ -36,7 +37,7 @@ def test_three_points_of_an_ellipse():
     assert radius(t) == pytest.approx(64.156059729381760, rel=4 * EPS)
 
 
-@pytest.mark.parametrize(("unequal", "order"), [(1.0, 2.0), (1.5, 1.0)])
+@over_all(("unequal", "order"), [(1.0, 2.0), (1.5, 1.0)])
 def test_orders_of_convergence(unequal, order):
     """Second order for equal chords, first for unequal ones."""
     t, h = math.pi / 3, 2.0 / 2.0 ** np.arange(6)
@@ -45,8 +46,8 @@ def test_orders_of_convergence(unequal, order):
     assert slope == pytest.approx(order, abs=0.05)
 
 
-@pytest.mark.parametrize("far", [0.0, 1e3, 1e6])
-@pytest.mark.parametrize("h", [1e-1, 1e-3, 1e-5])
+@over_all("far", [0.0, 1e3, 1e6])
+@over_all("h", [1e-1, 1e-3, 1e-5])
 def test_rounding_far_from_the_origin_is_that_of_the_points_alone(far, h):
     r, t = 20.0, np.array([-1.0, 0.0, 1.0]) * h
     points = far + r * np.stack([np.cos(1 + t), np.sin(1 + t)], axis=-1)

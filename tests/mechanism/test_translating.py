@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from mpmath import diff, findroot, mp, mpf
 from numpy.testing import assert_allclose, assert_array_equal
+from over_all import over_all, over_seeds
 from reference import EPS, ReferenceCam
 
 from graphcam.errors import DesignError
@@ -43,7 +44,7 @@ def points(values: list) -> np.ndarray:
     return np.array([[float(x), float(y)] for x, y in values])
 
 
-@pytest.mark.parametrize("seed", range(30))
+@over_seeds(12)
 def test_random_cams_agree_with_the_differentiated_definition(seed):
     cam, phi = random_cam(seed), np.random.default_rng(seed + 1000).random(8) * FULL_TURN
     exact = ReferenceCam(cam)
@@ -58,8 +59,8 @@ def test_random_cams_agree_with_the_differentiated_definition(seed):
     assert np.all(np.abs(cam.pitch_curvature(phi) - kappa) <= 1e-12 * np.maximum(np.abs(kappa), 1 / size[:, 0]))
 
 
-@pytest.mark.parametrize("rotation", ["ccw", "cw"])
-@pytest.mark.parametrize("e", [0.0, 7.0, -7.0])
+@over_all("rotation", ["ccw", "cw"])
+@over_all("e", [0.0, 7.0, -7.0])
 def test_coordinates_to_four_eps(rotation, e):
     """Through the phase and its fraction, which are known exactly, so that only the cam's own rounding counts."""
     motion = Motion([Rise(32, FULL_TURN / 4, "3-4-5"), Return(32, FULL_TURN / 4, "3-4-5"), Dwell(FULL_TURN / 2)])
@@ -83,7 +84,7 @@ def test_offset_near_the_prime_radius_keeps_its_digits():
 # --- what must hold for every cam ------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", range(10))
+@over_seeds(8)
 def test_the_turned_cam_lifts_the_follower_by_s(seed):
     cam, phi = random_cam(seed), np.linspace(0, FULL_TURN, 100)
     x, y = cam.pitch_curve(phi).T
@@ -93,7 +94,7 @@ def test_the_turned_cam_lifts_the_follower_by_s(seed):
     assert_allclose(frame.imag - math.sqrt(r0**2 - e**2), cam.motion(phi)[0], atol=1e-13 * r0)
 
 
-@pytest.mark.parametrize("seed", range(10))
+@over_seeds(8)
 def test_the_roller_touches_its_profile_in_one_point(seed):
     """The profile lies at the roller radius, and its tangent is the pitch curve's: it is the envelope."""
     cam, step = random_cam(seed), 1e-5
@@ -107,7 +108,7 @@ def test_the_roller_touches_its_profile_in_one_point(seed):
     assert np.abs(np.sum(spoke * along, axis=1)).max() <= of_the_difference * cam.prime_radius**2
 
 
-@pytest.mark.parametrize("seed", range(6))
+@over_seeds(6)
 def test_a_mirror_turns_ccw_into_cw_and_the_offset_to_the_other_side(seed):
     cam, phi = random_cam(seed), np.linspace(0, FULL_TURN, 50)
     f = cam.follower
@@ -160,7 +161,7 @@ def test_shapes_and_nan():
 # --- extremes --------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", range(20))
+@over_seeds(12)
 def test_extremes_are_the_greatest_and_their_angles_are_roots(seed):
     cam = random_cam(seed)
     extremes, exact = cam.extremes(), ReferenceCam(cam)
@@ -189,7 +190,7 @@ def check_extreme(cam: Cam, function, found: tuple[float, float]) -> None:
     assert value == pytest.approx(float(function(root)), rel=1e-13)
 
 
-@pytest.mark.parametrize("small", [1e-3, 1e-6])
+@over_all("small", [1e-3, 1e-6])
 def test_extremes_close_to_an_end_of_a_phase_are_not_missed(small):
     """With a tiny height of the cam centre below the start, the greatest angle lies in the first instants."""
     r0 = 1e3 * small
@@ -236,7 +237,7 @@ def test_greatest_velocity_and_acceleration_are_those_of_the_sharpest_phase():
 MOTION = Motion([Rise(30, 2.0), Return(30, FULL_TURN - 2)])
 
 
-@pytest.mark.parametrize(
+@over_all(
     ("make", "message"),
     [
         (
@@ -262,7 +263,7 @@ def test_cams_that_cannot_be_are_refused_with_reason(make, message):
         make()
 
 
-@pytest.mark.parametrize("follower", [Translating(10, 12), Oscillating(80, 100, roller_radius=9), FlatFaced()])
+@over_all("follower", [Translating(10, 12), Oscillating(80, 100, roller_radius=9), FlatFaced()])
 def test_curves_together_are_the_curves_one_by_one_in_any_order_and_chunks(follower):
     swing = 0.4 if isinstance(follower, Oscillating) else 30
     cam = Cam(

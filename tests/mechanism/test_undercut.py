@@ -8,6 +8,7 @@ import tracemalloc
 import numpy as np
 import pytest
 from mpmath import findroot, mp, mpf
+from over_all import over_all, over_seeds
 from reference import ReferenceCam, lift
 from scipy.spatial import cKDTree
 
@@ -51,8 +52,8 @@ def distance(undercut: Undercut, point) -> float:
 # --- one loop, from the smallest on ----------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("rotation", ROTATIONS)
-@pytest.mark.parametrize("excess", EXCESSES)
+@over_all("rotation", ROTATIONS)
+@over_all("excess", EXCESSES)
 def test_crossing_of_a_smooth_loop_against_50_digits(rotation, excess):
     """Two cusps with sqrt(3) between loop and cusps; the corner where the two branches meet in 50 digits."""
     cam = one_loop("4-5-6-7", rotation, excess)
@@ -72,9 +73,9 @@ def test_crossing_of_a_smooth_loop_against_50_digits(rotation, excess):
     assert size / (loop.cusps[1] - loop.cusps[0]) == pytest.approx(math.sqrt(3), rel=2e-3 + math.sqrt(excess))
 
 
-@pytest.mark.parametrize("rotation", ROTATIONS)
-@pytest.mark.parametrize(("law", "r0"), [("rectangular", 30.0), ("cosine", 60.0)])
-@pytest.mark.parametrize("excess", EXCESSES)
+@over_all("rotation", ROTATIONS)
+@over_all(("law", "r0"), [("rectangular", 30.0), ("cosine", 60.0)])
+@over_all("excess", EXCESSES)
 def test_crossing_at_a_jump_against_50_digits(law, r0, rotation, excess):
     """Most sharply bent where the rise ends with a jump: the loop is closed by the arc of the dwell."""
     motion = Motion([Rise(30, 60 * DEG, law), Dwell(120 * DEG), Return(30, 150 * DEG, "3-4-5"), Dwell(30 * DEG)])
@@ -105,9 +106,9 @@ def test_crossing_at_a_jump_against_50_digits(law, r0, rotation, excess):
     assert distance(loop, (point.real, point.imag)) <= 1e-12
 
 
-@pytest.mark.parametrize("law", ["3-4-5", "cosine", "rectangular", "modified-sine"])
-@pytest.mark.parametrize("rotation", ROTATIONS)
-@pytest.mark.parametrize("share", [-5e-13, -1e-15, 0.0, 1e-15, 5e-13])
+@over_all("law", ["3-4-5", "cosine", "rectangular", "modified-sine"])
+@over_all("rotation", ROTATIONS)
+@over_all("share", [-5e-13, -1e-15, 0.0, 1e-15, 5e-13])
 def test_at_the_critical_roller_there_is_a_cusp_within_tolerance(law, rotation, share):
     cam = one_loop(law, rotation, share)
     (cusp,) = cam.undercuts()
@@ -141,7 +142,7 @@ def random_cam(seed: int) -> Cam:
     return with_roller(cam, min(rng.choice([0.5, 0.999, 1.001, 1.1, 1.3, 2, 4]), 0.98 * r0 / largest_roller(cam)))
 
 
-@pytest.mark.parametrize("seed", range(40))
+@over_seeds(12)
 def test_what_is_left_is_a_simple_curve_that_no_roller_reaches_into(seed):
     cam, n = random_cam(seed), 1000
     cut = trimmed_profile(cam.envelope, n)
@@ -184,7 +185,7 @@ def polygon_winds_once(points: np.ndarray, sigma: int) -> bool:
     return round(np.angle(np.roll(z, -1) / z).sum() / FULL_TURN) == -sigma
 
 
-@pytest.mark.parametrize("seed", range(40))
+@over_seeds(12)
 def test_every_backward_stretch_is_lost_and_bounded_by_cusps(seed):
     """The profile runs backwards where rho < r; counted on both sides of every break and between."""
     cam = random_cam(seed)
@@ -203,8 +204,8 @@ def test_every_backward_stretch_is_lost_and_bounded_by_cusps(seed):
     assert bool(lost) == (turns > 0)
 
 
-@pytest.mark.parametrize("share", [1 - 1e-9, 1 + 1e-9])
-@pytest.mark.parametrize("seed", [k for k in range(30) if k % 4 != 3])
+@over_all("share", [1 - 1e-9, 1 + 1e-9])
+@over_all("seed", [k for k in range(30) if k % 4 != 3])
 def test_the_largest_roller_parts_sound_cams_from_undercut_ones(seed, share):
     cam = with_roller(random_cam(seed), 1.0)
     if cam.roller_radius < 0.99 * cam.prime_radius:
@@ -251,7 +252,7 @@ def test_a_flat_face_has_no_largest_roller():
         largest_roller(random_cam(3))
 
 
-@pytest.mark.parametrize("seed", range(6))
+@over_seeds(6)
 def test_a_mirror_mirrors_the_loops(seed):
     cam = with_roller(random_cam(4 * seed), 1.05)
     f = cam.follower
@@ -284,8 +285,8 @@ def sides_of_a_cam(seed: int) -> tuple[np.ndarray, np.ndarray]:
     return points, np.cumsum(np.diff(phi[ahead], prepend=0) > 0.02)
 
 
-@pytest.mark.parametrize("drawn", [scribble, sides_of_a_cam])
-@pytest.mark.parametrize("seed", range(12))
+@over_all("drawn", [scribble, sides_of_a_cam])
+@over_all("seed", range(12))
 def test_the_sides_that_cross_are_those_that_part_each_other_s_ends(drawn, seed):
     """Against every side beside every other one."""
     points, polygon = drawn(seed)

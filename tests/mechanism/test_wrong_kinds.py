@@ -6,6 +6,7 @@ from math import inf, nan, radians
 
 import numpy as np
 import pytest
+from over_all import over_all
 
 import graphcam as gc
 
@@ -60,7 +61,7 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("said", WRONG)
+@over_all("said", WRONG)
 def test_a_wrong_kind_is_told_by_name(said):
     with pytest.raises(gc.DesignError, match=said):
         WRONG[said]()
@@ -106,8 +107,8 @@ NUMBERS = {
 }
 
 
-@pytest.mark.parametrize("value", ["20", [1, 2], np.array([1.0, 2.0]), 1j, nan, inf], ids=repr)
-@pytest.mark.parametrize("quantity", NUMBERS)
+@over_all("value", ["20", [1, 2], np.array([1.0, 2.0]), 1j, nan, inf])
+@over_all("quantity", NUMBERS)
 def test_what_is_no_finite_number_is_told_by_name(quantity, value):
     with pytest.raises(gc.DesignError, match=f"^{quantity} is ") as told:
         NUMBERS[quantity](value)

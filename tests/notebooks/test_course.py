@@ -1,30 +1,27 @@
-"""The course: it runs from a clean kernel without a warning, and its pages need nothing but themselves."""
+"""The scripts of the course and the notebooks beside them; they are executed where the site is built of them."""
 
 from __future__ import annotations
 
-import base64
 import re
 import sys
 
 import jupytext
 import nbformat
 import pytest
-from browsers import opened
-from courses import COURSE, FOLDER, executed, page
+from courses import COURSE, FOLDER
+from over_all import over_all
 
 sys.path.append(str(FOLDER))
 import pair
 
 pytestmark = pytest.mark.slow
 
-LARGEST_PICTURE = 300_000
-"""Bytes of a picture, as a page holds it."""
 PARTS = ("**Aim.**", "**You need**", "**Time:**", "## Background", "## Try it yourself", "## Drawn and exact",
          "## Where the error comes from", "## Questions")  # fmt: skip
 """What every notebook has, in this order; its background may bear a title of its own."""
 
 
-@pytest.mark.parametrize("name", COURSE)
+@over_all("name", COURSE)
 def test_what_a_double_click_opens_is_the_script_without_outputs(name):
     """``python notebooks/pair.py`` writes them again after a change of the scripts."""
     script = FOLDER / f"{name}.py"
@@ -44,7 +41,7 @@ def test_every_script_has_its_notebook_and_nothing_else_is_stored():
     assert found == {"README.md", "pair.py", *(f"{name}{end}" for name in COURSE for end in (".py", ".ipynb"))}
 
 
-@pytest.mark.parametrize("name", COURSE)
+@over_all("name", COURSE)
 def test_a_notebook_has_its_parts_and_asserts_a_number(name):
     notebook = jupytext.read(FOLDER / f"{name}.py")
     text = "\n".join(cell.source for cell in notebook.cells if cell.cell_type == "markdown")
@@ -58,30 +55,3 @@ def test_a_notebook_has_its_parts_and_asserts_a_number(name):
     tried = [cell.source for cell in notebook.cells if "try-it" in cell.metadata.get("tags", ())]
     assert tried
     assert all(re.fullmatch(r"(your_\w+ = None  # .+\n)+(\w+\.check\(your_\w+\)\n?)+", cell) for cell in tried)
-
-
-@pytest.mark.parametrize("name", COURSE)
-def test_a_notebook_runs_and_its_page_stands_alone(name, tmp_path):
-    path = tmp_path / f"{name}.html"
-    path.write_text(page(name), encoding="utf-8")
-    with opened(path) as (shown, wrong):
-        assert shown.title() == name
-        figures = shown.locator("figure img")
-        assert figures.count() >= 4
-        alone = figures.evaluate_all("all => all.filter(i => !i.alt || i.alt.length < 20 || !i.naturalWidth).length")
-        assert alone == 0
-        assert shown.locator("img").count() == figures.count()
-    assert wrong == []
-    pictures = re.findall(r"data:image/[a-z+]+;base64,([^\"]+)", page(name))
-    assert max(len(base64.b64decode(picture)) for picture in pictures) <= LARGEST_PICTURE
-
-
-@pytest.mark.parametrize("name", COURSE)
-def test_the_stills_stand_for_the_sliders(name):
-    bundles = [out.data for cell in executed(name).cells for out in cell.get("outputs", ()) if "data" in out]
-    sliders = [data for data in bundles if "application/vnd.jupyter.widget-view+json" in data]
-    assert sliders
-    for data in sliders:
-        pictures = re.findall(r'src="([^"]+)"', data["text/html"])
-        assert pictures
-        assert all(picture in page(name) for picture in pictures)

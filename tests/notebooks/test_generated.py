@@ -10,6 +10,7 @@ from html import unescape
 import nbformat
 import pytest
 from browsers import opened
+from over_all import over_all
 from programs import program
 from russian import english_words
 from typer.testing import CliRunner
@@ -50,6 +51,9 @@ TASKS = {
     "arcs": gc.builtin_arcs_task(),
 }
 
+EXECUTED = ("spring", "arm, distance left open", "flat with a spring", "measured", "arcs")
+"""Every follower and every construction: the cells of the others are among theirs."""
+
 
 def written(folder, task):
     for name, text in task_files(task).items():
@@ -57,12 +61,12 @@ def written(folder, task):
     return folder
 
 
-@pytest.mark.parametrize("name", TASKS)
+@over_all("name", TASKS)
 def test_the_task_beside_a_notebook_is_the_task(name, tmp_path):
     assert gc.load_task(written(tmp_path, TASKS[name]) / "task.toml") == TASKS[name]
 
 
-@pytest.mark.parametrize("name", TASKS)
+@over_all("name", TASKS)
 def test_every_construction_has_its_chapter(name):
     notebook = write_notebook(TASKS[name])
     nbformat.validate(notebook)
@@ -82,7 +86,7 @@ def in_russian(name):
 NAMES = ("graphcam", "None", "drawing.divisions", r"cam.prime\_radius")
 
 
-@pytest.mark.parametrize("name", TASKS)
+@over_all("name", TASKS)
 def test_a_russian_notebook_has_no_english_word_and_no_decimal_point(name):
     told = [cell.source for cell in write_notebook(in_russian(name)).cells if cell.cell_type == "markdown"]
     text = "\n".join(source for source in told if "```toml" not in source)
@@ -117,7 +121,7 @@ def test_a_title_is_no_markup():
     assert write_notebook(task).cells[0].source.startswith("# Cam \\*A\\* \\<b\\>")
 
 
-@pytest.mark.parametrize("name", TASKS)
+@over_all("name", EXECUTED)
 def test_a_notebook_runs_beside_its_task(name, tmp_path):
     page = to_html(execute(write_notebook(TASKS[name]), written(tmp_path, TASKS[name])), name)
     images = re.findall(r"<img[^>]*>", page)

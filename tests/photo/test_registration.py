@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from over_all import over_all
 from photographed import Camera, folded, page_of, photograph, rolled
 
 from graphcam.photo.pictures import PhotographError
@@ -68,9 +69,7 @@ def test_two_tags_may_be_hidden(hidden):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("degrees", [-15, -8, 4, 15])
-@pytest.mark.parametrize("slope", [0.0, 0.08, 5.0])
-@pytest.mark.parametrize("page", [A3, A4])
+@over_all(("page", "slope", "degrees"), [(A3, 0.0, -15), (A4, 0.08, -8), (A3, 5.0, 4), (A4, 0.0, 15), (A3, 0.08, 15)])
 def test_a_fold_is_registered_or_refused(page, slope, degrees):
     refused = 0
     for place in (-60.0, 0.0, 55.0):
@@ -88,9 +87,9 @@ def test_a_fold_is_registered_or_refused(page, slope, degrees):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("lift", [-8.0, -3.0, 2.0, 8.0])
-@pytest.mark.parametrize("direction", [0.0, 90.0, 35.0])
-@pytest.mark.parametrize("page", [A3, A4])
+@over_all(
+    ("page", "direction", "lift"), [(A3, 0.0, -8.0), (A4, 90.0, -3.0), (A3, 35.0, 2.0), (A4, 0.0, 8.0), (A3, 90.0, 8.0)]
+)
 def test_a_rolled_sheet_is_registered(page, direction, lift):
     for megapixels in (12, 5):
         camera = Camera(page, TILTS[1], size_of(page, megapixels), bend=rolled(lift, direction, page.width))

@@ -1,8 +1,9 @@
-"""What forty photographs, other ones than those of the record, can show of the goals; two files share them."""
+"""What a few photographs, other ones than those of the record, can show of the goals."""
 
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +30,7 @@ def shared_scratch(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "photographs"
 
 
-def photographs(numbers: range, scratch: Path) -> list[Photo]:
+def photographs(numbers: Iterable[int], scratch: Path) -> list[Photo]:
     """What is found out by photographs."""
     return [measured(scene_of(number, SEED, scratch, COURSES), scratch) for number in numbers]
 

@@ -10,16 +10,25 @@ from graphcam.report.documents import scene_of
 from graphcam.report.mechanism_view import mechanism_view
 
 
-@pytest.mark.parametrize("name", ["coursework", "arm", "flat", "measured", "arcs"])
+@pytest.mark.parametrize("name", ["coursework", "arm", "flat", "swinging-face", "measured", "arcs"])
 def test_the_pitch_curve_and_the_profile_stay_in_the_box_over_the_turn(name):
     scene = scene_of(gc.solve(gc.builtin_arcs_task() if name == "arcs" else gc.builtin_task(name)))
     data = mechanism_view(scene, str)
     left, top, width, height = data["box"]
     turn = np.exp(1j * np.linspace(0, 2 * np.pi, 73))
     curves = [np.array(data[key]) @ (1, 1j) for key in ("profile", "pitch") if data[key]]
-    assert len(curves) == (1 if name == "flat" else 2)
+    assert len(curves) == (1 if name in ("flat", "swinging-face") else 2)
     for curve in [*(np.multiply.outer(turn, curve) for curve in curves), scene.trace, scene.contact]:
         assert curve.real.min() > left
         assert curve.real.max() < left + width
         assert -curve.imag.max() > top
         assert -curve.imag.min() < top + height
+
+
+def test_a_face_that_swings_reaches_from_its_pivot_to_the_farthest_contact():
+    scene = scene_of(gc.solve(gc.builtin_task("swinging-face")))
+    foot = scene.pivot - 10.0 * scene.normal  # the offset of the face, towards the cam
+    along = ((scene.contact - foot) * np.conj(1j * scene.normal)).real
+    assert np.abs(foot + along * 1j * scene.normal - scene.contact).max() < 1e-9
+    assert (along.min(), along.max()) == pytest.approx(scene.face, abs=0.01)
+    assert np.abs((scene.motion * np.conj(scene.contact - scene.pivot)).real).max() < 1e-9

@@ -14,10 +14,10 @@ from graphcam.report.note import note
 from graphcam.solving.solve import solve
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.part_table import PartTable
-from graphcam.tasks.task import CamTable, FlatFacedTable, LimitsTable, OscillatingTable
+from graphcam.tasks.task import CamTable, FlatFacedTable, LimitsTable, OscillatingFlatTable, OscillatingTable
 from graphcam.tasks.task_file import builtin_task
 
-ARM, FLAT = builtin_task("arm"), builtin_task("flat")
+ARM, FLAT, ON_PIVOT = (builtin_task(name) for name in ("arm", "flat", "swinging-face"))
 SWINGING = MotionTable(
     (RiseTable(120, 22, "cycloidal"), DwellTable(40), ReturnTable(100, 22, "3-4-5"), DwellTable(100))
 )
@@ -33,6 +33,9 @@ TASKS = {
     "built-in face": (FLAT, None),
     "a face, clockwise": (replace(FLAT, rotation="cw" if FLAT.rotation == "ccw" else "ccw"), None),
     "a face by hand": (FLAT, Pencil(line=0.2, dividers=0.2)),
+    "built-in face on a pivot": (ON_PIVOT, None),
+    "a face on a pivot, clockwise": (replace(ON_PIVOT, rotation="cw", follower=OscillatingFlatTable(150, -8)), None),
+    "a face on a pivot by hand": (ON_PIVOT, Pencil(line=0.2, dividers=0.2)),
 }
 CHAPTERS = (
     "Minimum prime radius",

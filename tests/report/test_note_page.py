@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import pytest
 from chromium import chromium
+from over_all import over_all
 from programs import program
 
 import graphcam as gc
@@ -38,7 +39,7 @@ def spoken(solution, name: str):
     return replace(solution, task=replace(solution.task, drawing=replace(solution.task.drawing, language=name)))
 
 
-@pytest.mark.parametrize("name", NAMES)
+@over_all("name", NAMES)
 def test_every_formula_is_drawn_in_every_language(solutions, name):
     for each in languages():
         note = note_of(spoken(solutions[name], each))
@@ -66,15 +67,21 @@ def foreign_units(name: str) -> re.Pattern[str]:
     return re.compile(rf"(?<![\w\\-])({'|'.join(sorted(known))})(?![\w-])") if known else re.compile(r"(?!)")
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("to", OTHERS)
-def test_units_are_those_of_the_language(solutions, name, to):
+@over_all("name", NAMES)
+@over_all("to", OTHERS)
+def test_units_of_a_note_are_those_of_the_language(solutions, name, to):
+    note, foreign = note_of(spoken(solutions[name], to)), foreign_units(to)
+    assert [note[max(0, m.start() - 30) : m.end() + 10] for m in foreign.finditer(note)] == []
+
+
+@over_all(("name", "to"), [(NAMES[k % len(NAMES)], to) for k, to in enumerate([*OTHERS, *OTHERS])])
+def test_units_of_a_sheet_and_its_player_are_those_of_the_language(solutions, name, to):
     solution = spoken(solutions[name], to)
     contents = contents_of(solution)
     drawing, foreign = drawing_of(contents), foreign_units(to)
     player = player_of(contents, drawing)
     player = re.sub(r"<style.*?</style>|<script(?![^>]*json).*?</script>", "", player, flags=re.DOTALL)
-    texts = {"note": note_of(solution), "player": player, "sheet": "\n".join(text.text for text in drawing.texts)}
+    texts = {"player": player, "sheet": "\n".join(text.text for text in drawing.texts)}
     for what, text in texts.items():
         found = [text[max(0, m.start() - 30) : m.end() + 10] for m in foreign.finditer(text)]
         assert not found, (what, found[:5])

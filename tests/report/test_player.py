@@ -18,8 +18,7 @@ from graphcam.sheets.player import Slide
 
 pytestmark = pytest.mark.slow
 
-MECHANISMS = ("coursework", "arm", "flat", "measured", "arcs", "knife")
-slow = pytest.mark.slow
+MECHANISMS = ("coursework", "arm", "flat", "arcs", "knife")
 each_mechanism = pytest.mark.parametrize("name", MECHANISMS)
 MM = 96 / 25.4
 """CSS pixels in a millimetre."""
@@ -79,7 +78,7 @@ def check_step(page: Page, solved: Solved, k: int) -> None:
     }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", ["arcs", *(pytest.param(n, marks=slow) for n in ("coursework", "measured", "pages"))])
+@pytest.mark.parametrize("name", ["arcs", "measured", "pages"])
 def test_every_step_shows_itself_and_those_before_it(solved, opened, name):
     found = solved(name)
     page = opened(found.file, reduced_motion="reduce")
@@ -196,9 +195,7 @@ def inside_stage(page: Page, element: Locator) -> bool:
     )
 
 
-@pytest.mark.parametrize(
-    "window", [(390, 844), pytest.param((1280, 800), marks=slow), pytest.param((1920, 1080), marks=slow)]
-)
+@pytest.mark.parametrize("window", [(390, 844), (1280, 800), (1920, 1080)])
 def test_the_step_is_looked_at_closely_and_the_sheet_as_a_whole(solved, opened, window):
     found = solved("coursework")
     page = opened(found.file, *window, reduced_motion="reduce")

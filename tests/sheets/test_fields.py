@@ -433,11 +433,11 @@ def test_what_fits_its_field_in_no_standard_letters_is_refused_by_its_name_and_l
     for name in ("author", "name", "document", "organisation"):
         field = "number" if name == "document" else name
         with pytest.raises(
-            DesignError, match=rf"length of title\.{name} is 2000, but must be at most \d+ letters"
+            DesignError, match=rf"length of title\.{name} is 600, but must be at most \d+ letters"
         ) as error:
-            title_block(frame_name, 0j, TitleBlock(**{field: "long " * 400}), 1, 1)
+            title_block(frame_name, 0j, TitleBlock(**{field: "long " * 120}), 1, 1)
         fits = int(re.search(r"most (\d+)", str(error.value))[1])
-        assert title_block(frame_name, 0j, TitleBlock(**{field: ("long " * 400)[:fits]}), 1, 1)
+        assert title_block(frame_name, 0j, TitleBlock(**{field: ("long " * 120)[:fits]}), 1, 1)
 
 
 @pytest.mark.parametrize("tell", [language(name).text for name in languages()], ids=languages())

@@ -6,11 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from over_all import over_all
 from overlaps import overlaps
 
 import graphcam as gc
 from graphcam.report.documents import sheet_of
-from graphcam.sheets.formats import FRAME_MARGINS, ORIENTATIONS
 from graphcam.sheets.model import Page, Text
 from graphcam.sheets.sampling import pieces, sampled
 from graphcam.solving.arcs_solution import AnySolution
@@ -53,15 +53,12 @@ def expected(name: str, frame: str) -> tuple[float, float]:
     return BY_ISO.get(name, TASKS[name]) if frame == "iso" else TASKS[name]
 
 
-EVERY = [
-    pytest.param(name, frame, orientation, marks=[] if name == "coursework" else pytest.mark.slow)
-    for name in TASKS
-    for frame in FRAME_MARGINS
-    for orientation in ORIENTATIONS
-]
+HALVES = [[("gost", "landscape"), ("iso", "portrait")], [("gost", "portrait"), ("iso", "landscape")]]
+"""Of frames and ways to lie; both are tried on each format with each task."""
 
 
-@pytest.mark.parametrize(("name", "frame", "orientation"), EVERY)
+@over_all("name", TASKS)
+@over_all(("frame", "orientation"), HALVES[0])
 def test_a1_takes_everything_on_one_full_page_lying_and_standing(name: str, frame: str, orientation: str) -> None:
     solution, (scale, full) = solved(name, "A1", frame, orientation), expected(name, frame)
     assert 1 / solution.chain.profile_scale.per_mm == scale
@@ -72,7 +69,8 @@ def test_a1_takes_everything_on_one_full_page_lying_and_standing(name: str, fram
     assert min(letters) >= 2.5
 
 
-@pytest.mark.parametrize(("name", "frame", "orientation"), EVERY)
+@over_all("name", TASKS)
+@over_all(("frame", "orientation"), HALVES[1])
 def test_a2_takes_two_full_pages_with_the_profile_as_large_as_on_a1(name: str, frame: str, orientation: str) -> None:
     solution, (scale, full) = solved(name, "A2", frame, orientation), expected(name, frame)
     assert 1 / solution.chain.profile_scale.per_mm == scale

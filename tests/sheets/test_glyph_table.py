@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from matplotlib import get_data_path
 from measured_glyphs import measured_glyphs
+from over_all import over_all
 
 import graphcam as gc
 from graphcam.report.documents import sheet_of
@@ -36,8 +37,7 @@ def test_every_letter_of_an_alphabet_is_in_the_table():
     assert [letter for letter in assigned if glyph_table().face(letter) is None] == []
 
 
-@pytest.mark.parametrize("language", ["en", "ru"])
-@pytest.mark.parametrize("name", TASKS)
+@over_all(("name", "language"), zip(TASKS, ["ru", "en"] * 3, strict=False))
 def test_every_letter_that_is_drawn_is_in_the_table(name, language):
     task = TASKS[name]
     sheet = sheet_of(gc.solve(replace(task, drawing=replace(task.drawing, language=language))))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
+from over_all import over_seeds
 from overlaps import overlaps, place
 
 from graphcam.drafting.marks import Role
@@ -23,7 +24,7 @@ def kinds(*entities: Entity) -> list[str]:
     return [overlap.kind for overlap in overlaps(page(*entities))]
 
 
-@pytest.mark.parametrize("seed", range(6))
+@over_seeds(6)
 def test_many_labels_find_free_places(seed: int) -> None:
     """120 labels on points among bold curves, thin lines and circles."""
     random = np.random.default_rng(seed)

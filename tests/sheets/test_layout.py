@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import combinations
 
 import numpy as np
 import pytest
@@ -19,8 +18,6 @@ from graphcam.sheets.formats import FRAME_MARGINS, SHEET_SIZES, Format
 from graphcam.sheets.layout import compose, profile_room
 from graphcam.sheets.model import Drawing, Stroke, Strokes, Text
 from graphcam.sheets.sampling import box_of
-from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
-from graphcam.tasks.task import TranslatingTable
 from graphcam.tasks.task_file import builtin_task
 
 EVERY = [(paper, frame) for paper in SHEET_SIZES for frame in FRAME_MARGINS]
@@ -137,34 +134,6 @@ def test_a1_parts_the_combined_diagram_from_the_others() -> None:
         if isinstance(e, Strokes) and e.role == Role.SCALE and (e.ends - e.starts)[0].real > 360
     }
     assert len(axes) == 1
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("seed", "paper"), [(k, list(SHEET_SIZES)[k % 4]) for k in range(12)])
-def test_random_tasks_have_no_text_in_the_way(seed: int, paper: str) -> None:
-    random = np.random.default_rng(seed)
-    angles = np.round(20 + 280 * random.dirichlet([3, 2, 3, 3]))
-    lift = float(np.round(10 ** random.uniform(0.3, 2), 1))
-    rise, back = (str(name) for name in random.choice(list(gc.LAWS), 2))
-    phases = (
-        RiseTable(float(angles[0]), lift, rise),
-        DwellTable(float(angles[1])),
-        ReturnTable(float(angles[2]), lift, back),
-        DwellTable(float(360 - angles[:3].sum())),
-    )
-    task = builtin_task()
-    frame, divisions = str(random.choice(["gost", "iso"])), int(random.integers(4, 17))
-    drawing_table = replace(task.drawing.on(paper), frame=frame, divisions=divisions)
-    task = replace(
-        task, rotation=str(random.choice(["cw", "ccw"])), motion=MotionTable(phases), follower=TranslatingTable(),
-        drawing=drawing_table,
-    )  # fmt: skip
-    drawn = sheet_of(gc.solve(task))
-    assert overlaps(drawn) == []
-    for page in drawn.pages:
-        tables = [e for g in page.groups if g.key == "tables" for e in g.entities if isinstance(e, Strokes)]
-        boxes = [box for e in tables if e.role == "table" and (box := box_of([e]))]
-        assert not any(a.meets(b) for a, b in combinations(boxes, 2))
 
 
 def test_a_wide_title_in_a_later_row_moves_the_next_column_aside() -> None:

@@ -9,7 +9,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from test_random_sheets import SHEETS, solved
+from over_all import over_all
+from random_sheets import NAMES, on_sheet
+from scene import SHEETS
 
 import graphcam as gc
 from graphcam.report.documents import contents_of, drawing_of
@@ -18,12 +20,10 @@ from graphcam.solving.arcs_solution import AnySolution
 from graphcam.solving.solution import Solution
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.task import CamTable, DrawingTable, FlatFacedTable, OscillatingTable, Task, TranslatingTable
-from graphcam.tasks.task_file import builtin_arcs_task, builtin_task
+from graphcam.tasks.task_file import builtin_task
 
 RULER = 0.005
 """A length on the sheet is true within this, mm."""
-NAMES = ("coursework", "arm", "flat", "measured", "arcs")
-BUILTIN = [(name, SHEETS[(5 * k + 3 * i) % len(SHEETS)]) for i, name in enumerate(NAMES) for k in range(4)]
 SKETCH = "scheme"
 PRINTED = re.compile(r"(?:(?P<symbol>[^\d=]+?) ?(?:= ?)?)??(?P<number>-?\d+(?:[.,](?P<digits>\d+))?)(?P<degrees>°?)")
 
@@ -71,8 +71,11 @@ def scales(drawn: Drawing) -> dict[str, float]:
 
 
 def check(solution: AnySolution) -> None:
+    check_drawing(solution, drawing_of(contents_of(solution)))
+
+
+def check_drawing(solution: AnySolution, drawn: Drawing) -> None:
     """Every printed length is that of its ends: in mm, in degrees of the axis, or in the view's scale."""
-    drawn = drawing_of(contents_of(solution))
     said, printed = scales(drawn), list(dimensions(solution, drawn))
     assert len(printed) >= 4
     for each in printed:
@@ -128,23 +131,6 @@ def _check_title_blocks(drawn: Drawing) -> None:
         assert machine / drawn_as in [of_views[view] for view in shown & {"profile", "arcs", "roller"} or ratios]
 
 
-def solution_of(name: str, sheet: tuple[str, str, str]) -> AnySolution:
-    task, (paper, frame, lie) = builtin_arcs_task() if name == "arcs" else builtin_task(name), sheet
-    return gc.solve(replace(task, drawing=replace(task.drawing.on(paper), frame=frame, orientation=lie)))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("name", "sheet"), BUILTIN)
-def test_printed_lengths_measure_themselves_on_every_format(name: str, sheet: tuple[str, str, str]) -> None:
-    check(solution_of(name, sheet))
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("number", range(0, 48, 2))
-def test_printed_lengths_of_random_tasks_measure_themselves(number: int) -> None:
-    check(solved(number))
-
-
 def task_of(angles: tuple[float, float], lift: float, follower: object, cam: float | None, sheet: tuple[str, str, str]):
     """A rise and a return of these angles, with dwells between."""
     rest = (360 - sum(angles)) / 2
@@ -168,8 +154,7 @@ HARD = {
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("paper", ["A4", "A3", "A1"])
-@pytest.mark.parametrize("name", HARD)
+@over_all(("name", "paper"), zip(HARD, ("A4", "A3", "A4", "A1", "A4", "A3", "A4", "A3"), strict=True))
 def test_what_is_hard_to_place_is_drawn_to_scales_at_which_it_fits(name: str, paper: str) -> None:
     sheet = next(each for each in SHEETS[len(name) % len(SHEETS) :] + SHEETS if each[0] == paper)
     check(gc.solve(task_of(*HARD[name], sheet)))
@@ -194,8 +179,7 @@ def test_a_given_size_that_fits_no_page_is_named_when_the_sheet_is_drawn(given: 
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("given", ["10:1", "100:1"])
-@pytest.mark.parametrize("paper", ["A1", "A3"])
+@over_all(("given", "paper"), [("10:1", "A1"), ("100:1", "A3")])
 def test_a_profile_scale_that_fits_no_page_is_refused_with_the_largest_that_does(given: str, paper: str) -> None:
     task = builtin_task()
     drawing = replace(task.drawing.on(paper), profile_scale=given)
@@ -234,7 +218,7 @@ def test_drawing_scales_are_those_of_the_frame_s_standard(frame: str) -> None:
     """The built-in flat face stands at 2.5:1 in a GOST frame; ISO 5455 has 2:1."""
     ratios = set[float]()
     for name in NAMES:
-        drawn = drawing_of(contents_of(solution_of(name, ("A1", frame, "landscape"))))
+        drawn = drawing_of(contents_of(on_sheet(name, ("A1", frame, "landscape"))))
         said = scales(drawn)
         ratios |= {said[view] for view in ("profile", "plan", "curvature", "region", "arcs", "roller") if view in said}
     allowed = {0.5, 1.0, 2.0} | ({0.4} if frame == "gost" else set())

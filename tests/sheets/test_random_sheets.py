@@ -1,7 +1,6 @@
-"""A corpus of 60 tasks drawn at random, over all followers, frames, formats, orientations and languages.
+"""Sheets of random tasks and of the built-in ones: nothing is in the way of a text, no text is too small.
 
-Nothing is in the way of a text, no text is too small, every length measures what is written at it, and one station has
-one value wherever it is told.
+Every length measures what is written at it, by the scales that are printed, and pages are well used.
 """
 
 from __future__ import annotations
@@ -9,88 +8,27 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterator
-from contextlib import suppress
 from dataclasses import replace
 from itertools import combinations
 
-import numpy as np
 import pytest
+from over_all import over_seeds
 from overlaps import overlaps
-from random_tasks import random_arm_task, random_flat_task, random_task
+from random_sheets import KINDS, LANGUAGES, built_in, drawn_task, on_sheet, solved
 from scene import SHEETS
+from test_pages import LEAST_USED, SPARSE, check_pages
+from test_paper_lengths import check_drawing
 
 import graphcam as gc
 from graphcam.report.documents import sheet_of
 from graphcam.sheets.model import Angle, Drawing, Length, Strokes, Text
 from graphcam.sheets.sampling import box_of
-from graphcam.solving.arcs_solution import AnySolution
-from graphcam.tasks.arcs_task import ArcsTask
-from graphcam.tasks.task import SpringTable, Task
-from graphcam.tasks.task_file import builtin_arcs_task, builtin_task
+from graphcam.tasks.task_file import builtin_task
 
 pytestmark = pytest.mark.slow
 
 LEAST_HEIGHT = 2.5
 """Of letters by ISO 3098 and GOST 2.304 on these sheets, mm; the printed form of a title block is smaller."""
-LANGUAGES = "en", "ru"
-GIVEN = {"A1": 60.0, "A2": 30.0, "A3": 12.0, "A4": 3.0}
-"""Ordinates that fit the format whatever the return is like, mm."""
-
-
-def arcs_task(seed: int) -> ArcsTask:
-    """The built-in cam of arcs with another dwell and roller."""
-    random, task = np.random.default_rng([seed, 3]), builtin_arcs_task()
-    return replace(
-        task,
-        arcs=replace(task.arcs, dwell=round(random.uniform(0, 90))),
-        follower=replace(task.follower, roller_radius=random.choice([0.0, 5.0, 12.0]).item()),
-        drawing=replace(task.drawing, divisions=int(random.integers(2, 9))),
-    )
-
-
-def measured_task(seed: int) -> Task:
-    random, task = np.random.default_rng([seed, 4]), builtin_task("measured")
-    return replace(
-        task,
-        follower=replace(task.follower, offset=random.choice([None, 0.0, 8.0])),
-        drawing=replace(task.drawing, divisions=int(random.integers(6, 17))),
-    )
-
-
-def spring_task(seed: int) -> Task:
-    random, task = np.random.default_rng([seed, 5]), random_task(seed)
-    spring = SpringTable(round(random.uniform(0.1, 0.5), 2), round(random.uniform(1, 8), 1))
-    return replace(task, speed_rpm=round(random.uniform(50, 300)), spring=spring)
-
-
-KINDS: dict[str, Callable[[int], Task | ArcsTask]] = {
-    "translating": random_task,
-    "arm": random_arm_task,
-    "flat": random_flat_task,
-    "arcs": arcs_task,
-    "measured": measured_task,
-    "spring": spring_task,
-}
-
-
-def drawn_task(number: int, seed: int) -> Task | ArcsTask:
-    """The number-th task: the kinds in turn, each on another sheet; ordinates and poles given or left to the sheet."""
-    task = list(KINDS.values())[number % len(KINDS)](seed)
-    paper, frame, lie = SHEETS[(7 * number) % len(SHEETS)]
-    language = LANGUAGES[number // len(SHEETS) % 2]
-    drawing = replace(task.drawing, format=paper, frame=frame, orientation=lie, language=language)
-    if isinstance(task, Task):
-        drawing = replace(drawing, ordinate=None if number % 3 else GIVEN[paper], poles=None)
-    return replace(task, drawing=drawing)
-
-
-def solved(number: int) -> AnySolution:
-    """The number-th task that some cam solves."""
-    for seed in range(number, number + 5000, 1000):
-        with suppress(gc.DesignError):
-            return gc.solve(drawn_task(number, seed))
-    raise AssertionError("five tasks in a row without a cam")
-
 
 CROWDED = {47: "центральный (e = 0)", 59: "r₀ мин = 35,69"}
 """Texts for which there is no place off every line: among the lines of a region of a few centimetres."""
@@ -146,14 +84,31 @@ def wrong_angles(drawing: Drawing) -> list[tuple[str, float]]:
     return found
 
 
-@pytest.mark.parametrize("number", range(60))
-def test_nothing_is_in_the_way_on_the_sheet_of_a_random_task(number: int) -> None:
-    """Neither on the finished sheet, nor on the blank one, nor on those of one construction each."""
-    solution = solved(number)
-    check(sheet_of(solution), CROWDED.get(number, ""))
-    if number % 12 == 0:
+SOME = (*range(0, 60, 7), *CROWDED)
+"""Numbers with every follower, most sheets and both languages."""
+
+
+@over_seeds(SOME)
+def test_sheets_of_random_tasks(seed: int) -> None:
+    """Nothing is in the way: on the finished sheet, and on some blank ones and those of one construction each."""
+    solution = solved(seed)
+    sheet = sheet_of(solution)
+    check(sheet, CROWDED.get(seed, ""))
+    check_drawing(solution, sheet)
+    assert all(share > 0.4 for share in check_pages(solution, sheet.pages)[:-1])
+    if seed % 56 == 0:
         check(sheet_of(solution, 0))
         check(sheet_of(solution, per_construction=True))
+
+
+@over_seeds(15)
+def test_sheets_of_built_in_tasks(seed: int) -> None:
+    name, sheet = built_in(seed)
+    solution = on_sheet(name, sheet)
+    drawing = sheet_of(solution)
+    check_drawing(solution, drawing)
+    shares = check_pages(solution, drawing.pages)
+    assert all(share >= SPARSE.get((name, *sheet), LEAST_USED) for share in shares[:-1]), shares
 
 
 def test_the_corpus_holds_every_sheet_in_every_language() -> None:
@@ -162,11 +117,10 @@ def test_the_corpus_holds_every_sheet_in_every_language() -> None:
         said = {(each.format, each.frame) for each in tasks if each.language == language}
         assert said == {(paper, frame) for paper, frame, _ in SHEETS}
     assert {(each.format, each.frame, each.orientation) for each in tasks} == set(SHEETS)
-
-
-@pytest.mark.parametrize("number", [0, 21, 50])
-def test_nothing_is_in_the_way_on_some_sheets_of_the_corpus(number: int) -> None:
-    check(sheet_of(solved(number)))
+    assert {number % len(KINDS) for number in SOME} == set(range(len(KINDS)))
+    assert {drawn_task(number, number).drawing.language for number in SOME} == set(LANGUAGES)
+    assert {built_in(number)[1] for number in range(15)} == set(SHEETS)
+    assert len({built_in(number) for number in range(75)}) == 75
 
 
 @pytest.fixture(scope="module")

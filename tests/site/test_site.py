@@ -1,7 +1,11 @@
-"""The site: it builds without a warning, its links lead somewhere, and it asks nothing of the network."""
+"""The site and the course in it: it builds without a warning, its links lead somewhere, it asks nothing of the network.
+
+The notebooks of the course are executed here, once, from a clean kernel.
+"""
 
 from __future__ import annotations
 
+import base64
 import re
 import subprocess
 import sys
@@ -13,7 +17,8 @@ from urllib.parse import unquote, urlsplit
 import nbformat
 import pytest
 from browsers import opened
-from courses import COURSE, executed
+from courses import COURSE, executed, page
+from over_all import over_all
 from pages import ROOT, SITE
 from programs import pyodide_folder
 
@@ -21,6 +26,8 @@ import graphcam as gc
 
 pytestmark = pytest.mark.slow
 
+LARGEST_PICTURE = 300_000
+"""Bytes of a picture, as a page of the course holds it."""
 FETCHED = {"script": "src", "img": "src", "link": "href", "iframe": "src", "source": "src"}
 """What a browser asks for by itself."""
 
@@ -44,7 +51,7 @@ class Links(HTMLParser):
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory) -> Path:
-    """The whole site, of the notebooks as the tests of the course have executed them."""
+    """The whole site, of the notebooks as they are executed."""
     notebooks, out = tmp_path_factory.mktemp("notebooks"), tmp_path_factory.mktemp("site")
     for name in COURSE:
         nbformat.write(executed(name), notebooks / f"{name}.ipynb")
@@ -61,11 +68,11 @@ def build(*options: object) -> None:
 def faults(site: Path) -> Iterator[str]:
     """Links within the site that lead nowhere, and whatever is fetched from elsewhere."""
     pages = {path.resolve(): Links(path) for path in site.rglob("*.html")}
-    for path, page in pages.items():
-        for address in page.links + page.fetched:
+    for path, links in pages.items():
+        for address in links.links + links.fetched:
             to = urlsplit(address)
             if to.scheme in ("http", "https", "data") or to.netloc:
-                if address in page.fetched and to.scheme != "data":
+                if address in links.fetched and to.scheme != "data":
                     yield f"{path.name} fetches {address}"
                 continue
             target = (path.parent / unquote(to.path)).resolve() if to.path else path
@@ -158,12 +165,39 @@ def test_the_summaries_of_the_commands_are_whole(site):
     assert re.findall(r"<li>.*<code.*?</code>: .*\.\.\.</p>", text) == []
 
 
-@pytest.mark.parametrize("page", ["index", "course/04_shaded_region", "reference/index", "how-to/check-my-drawing"])
-def test_a_page_opens_without_a_fault_or_a_request(site, page):
-    with opened(site / f"{page}.html", site) as (shown, wrong):
+@pytest.mark.parametrize("place", ["index", "course/04_shaded_region", "reference/index", "how-to/check-my-drawing"])
+def test_a_page_opens_without_a_fault_or_a_request(site, place):
+    with opened(site / f"{place}.html", site) as (shown, wrong):
         assert shown.locator("h1").count() == 1
-        if page in ("course/04_shaded_region", "reference/index"):
+        if place in ("course/04_shaded_region", "reference/index"):
             # A single small letter is as high as the machine's typeface makes it; the highest formula is not that.
             heights = shown.locator("math").evaluate_all("all => all.map(one => one.getBoundingClientRect().height)")
             assert max(heights) > 10
     assert wrong == []
+
+
+@over_all("name", COURSE)
+def test_a_notebook_runs_without_a_warning_and_its_page_stands_alone(name, tmp_path):
+    path = tmp_path / f"{name}.html"
+    path.write_text(page(name), encoding="utf-8")
+    with opened(path) as (shown, wrong):
+        assert shown.title() == name
+        figures = shown.locator("figure img")
+        assert figures.count() >= 4
+        alone = figures.evaluate_all("all => all.filter(i => !i.alt || i.alt.length < 20 || !i.naturalWidth).length")
+        assert alone == 0
+        assert shown.locator("img").count() == figures.count()
+    assert wrong == []
+    pictures = re.findall(r"data:image/[a-z+]+;base64,([^\"]+)", page(name))
+    assert max(len(base64.b64decode(picture)) for picture in pictures) <= LARGEST_PICTURE
+
+
+@over_all("name", COURSE)
+def test_the_stills_stand_for_the_sliders(name):
+    bundles = [out.data for cell in executed(name).cells for out in cell.get("outputs", ()) if "data" in out]
+    sliders = [data for data in bundles if "application/vnd.jupyter.widget-view+json" in data]
+    assert sliders
+    for data in sliders:
+        pictures = re.findall(r'src="([^"]+)"', data["text/html"])
+        assert pictures
+        assert all(picture in page(name) for picture in pictures)

@@ -16,7 +16,8 @@ from graphcam.comparison.quantities import COMMON_QUANTITIES
 from graphcam.report.sheet_data import data
 from graphcam.tasks.task import CamTable, LimitsTable, OscillatingTable
 
-TASKS = ("arm", "flat")
+TASKS = ("arm", "flat", "swinging-face")
+KINDS = {"arm": "oscillating", "flat": "flat-faced", "swinging-face": "oscillating-flat"}
 KEYS = {"graphcam", "task", "cam", "scales", "quantities", "stations", "files"}
 each_task = pytest.mark.parametrize("name", TASKS)
 
@@ -41,7 +42,7 @@ def test_the_solution_is_strict_json_with_all_its_keys(name):
     again = json.loads(text)
     assert set(again) >= KEYS
     assert set(again["quantities"]) >= set(COMMON_QUANTITIES)
-    assert again["task"]["follower"]["kind"] == {"arm": "oscillating", "flat": "flat-faced"}[name]
+    assert again["task"]["follower"]["kind"] == KINDS[name]
     for quantity in again["quantities"].values():
         assert set(quantity) == {"drawn", "exact", "unit", "error", "error_paper", "tolerance_paper"}
     for station in again["stations"]:
@@ -62,6 +63,10 @@ def test_sizes_are_told_by_the_names_that_the_follower_has():
     assert flat["prime_radius"] == math.ceil(gc.minimum_radius(
         solution_of("flat").cam.motion, gc.FlatFaced(), curvature=8.0).prime_radius)  # fmt: skip
     assert "distance" not in flat
+    face = told("swinging-face")["cam"]
+    assert {key: face[key] for key in ("distance", "face_offset", "rotation")} == {
+        "distance": 120.0, "face_offset": 10.0, "rotation": "ccw"
+    }  # fmt: skip
     assert {key for key, value in flat.items() if value is not None} >= {"prime_radius", "rotation"}
 
 

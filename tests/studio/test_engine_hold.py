@@ -5,6 +5,7 @@ import math
 
 import pytest
 from asking import ask, moved, view_names
+from over_all import over_all
 from studio_tasks import plain_task
 
 from graphcam.sheets.labels import MAX_HOP
@@ -12,11 +13,9 @@ from graphcam.studio.engine import answer
 
 STEP = {"offset": 0.25, "prime radius": 0.25, "phase border": 0.5, "lift": 0.1}
 """How far a hand moves between two pictures [mm or degrees]."""
-DRAGS = [
-    *[("coursework", what) for what in STEP],
-    *[(name, what) for name in ("arm", "flat") for what in ("prime radius", "phase border", "lift")],
-    *[("measured", what) for what in ("offset", "prime radius")],
-]
+DRAGS = [("coursework", "offset"), ("coursework", "phase border"), ("arm", "prime radius"), ("flat", "lift")]
+DRAGS += [("measured", "prime radius")]
+"""Each follower, and each size that can be moved."""
 
 
 def dragged(name, what, view, count=3):
@@ -28,7 +27,7 @@ def dragged(name, what, view, count=3):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "what"), DRAGS)
+@over_all(("name", "what"), DRAGS)
 def test_frame_and_labels_stay_while_a_size_is_moved(name, what):
     for view in view_names(name):
         answers = dragged(name, what, view)
@@ -41,7 +40,7 @@ def test_frame_and_labels_stay_while_a_size_is_moved(name, what):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("name", "what"), DRAGS)
+@over_all(("name", "what"), DRAGS)
 def test_scales_stay_while_a_size_is_moved_and_without_hold_they_go(name, what):
     far = 25 * STEP[what]
     first = ask(moved(name, what, 0.0), "profile")

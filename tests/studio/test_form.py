@@ -13,7 +13,12 @@ from graphcam.studio.task_paths import changed_task, steps_of, value_at
 DRAWN_ELSEWHERE = "title", "part"
 """Tables that change nothing in the construction."""
 
-WITHOUT = {"measured": {"motion.table"}, "flat": {"limits.rest"}, "arcs": {"follower.kind"}}
+WITHOUT = {
+    "measured": {"motion.table"},
+    "flat": {"limits.rest"},
+    "swinging-face": {"limits.rest"},
+    "arcs": {"follower.kind"},
+}
 """What a task says without a choice: a table is a file, a flat face has no angle at rest, arcs have one follower."""
 
 
@@ -69,7 +74,8 @@ def test_the_ends_of_every_range_can_be_typed(name):
 def test_every_kind_of_follower_that_is_offered_can_be_drawn(name):
     task = plain_task(name)
     kinds = next(field for field in form_of(solved(name), str) if field["path"] == "follower.kind")
-    assert len(kinds["choices"]) == 3
+    # A face that swings is offered where the lifts are in degrees already.
+    assert len(kinds["choices"]) == (4 if rebuilt(task).follower.column == "s_deg" else 3)
     for choice in kinds["choices"]:
         other = gc.solve(rebuilt(changed_task(task, choice["changes"])))
         assert other.task.follower.kind == choice["value"]

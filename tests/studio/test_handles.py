@@ -7,6 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from over_all import over_all, over_seeds
 from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
@@ -130,13 +131,12 @@ def assert_nearest_station(name, handle, drawn, other, to):
     assert apart(handle, other, to) <= nearest + 0.01
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("name", BUILT_IN)
+@over_all("name", BUILT_IN)
 def test_values_keep_to_steps_and_ranges(name):
     solution = solved(name)
     for handle in handles(name):
         axes = {axis["path"]: axis for axis in handle["axes"]}
-        for to in pointers(handle, 500):
+        for to in pointers(handle, 60):
             changes = dragged(solution, {"handle": handle["id"], "to": to}, PHI)
             json.dumps(changes, allow_nan=False)
             for path in axes.keys() & changes.keys():
@@ -306,12 +306,7 @@ def draws(name, count, seed):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", BUILT_IN)
-def test_a_drag_never_leads_to_an_error(name):
-    draws(name, 1, 5)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", BUILT_IN)
-def test_no_drag_of_many_leads_to_an_error(name):
-    draws(name, 10, 6)
+@over_seeds(1)
+@over_all("name", BUILT_IN)
+def test_a_drag_never_leads_to_an_error(name, seed):
+    draws(name, 1, 5 + seed)

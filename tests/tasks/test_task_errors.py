@@ -14,6 +14,7 @@ from typer.testing import CliRunner
 from graphcam.cli import app
 from graphcam.cli.shared import INPUT_ERROR_STATUS
 from graphcam.errors import TaskError
+from graphcam.given.laws import LAWS
 from graphcam.language import language, languages
 from graphcam.tasks.task_file import _CLASSES as CLASSES, _keys as keys_of, builtin_text, load_task
 
@@ -198,7 +199,7 @@ def test_the_command_line_says_it_once_and_leaves_nothing(fault, tmp_path):
 
 NAMES = {
     *(key for table in CLASSES.values() for key in keys_of(table)), *(step for place in CLASSES for step in place),
-    "cam", "ccw", "cosine", "FILE", "graphcam", "inf", "init", "min", "nan", "rectangular", "rho", "TOML", "true",
+    "cam", "ccw", "FILE", "graphcam", "inf", "init", "min", "nan", "rho", "TOML", "true", *LAWS,
     "True", "false", "lfit", "limit", "motoin", "ofset", "prime_radus", "speed_prm",
 }  # fmt: skip
 """What a message about the coursework's file may say in Latin letters: keys, values and mistyped ones."""

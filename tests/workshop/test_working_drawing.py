@@ -11,6 +11,7 @@ from pathlib import Path
 import ezdxf
 import numpy as np
 import pytest
+from over_all import over_all
 from overlaps import overlaps
 from random_tasks import random_flat_task
 from typer.testing import CliRunner
@@ -58,21 +59,26 @@ def undercut_task() -> gc.Task:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("language", ["en", "ru"])
-@pytest.mark.parametrize("frame", ["gost", "iso"])
-@pytest.mark.parametrize("name", NAMES)
+@over_all(("frame", "language"), [("gost", "ru"), ("iso", "en")])
+@over_all("name", NAMES)
 def test_no_text_lies_on_a_text_or_on_a_bold_line(name: str, frame: str, language: str) -> None:
     drawing = drawn(name, frame, language)
     assert overlaps(drawing) == []
     assert {(page.width, page.height) for page in drawing.pages} <= FORMATS
 
 
+OTHER_PARTS = [
+    ("coursework", "gost", HUB),
+    ("flat", "iso", PartTable(keyway="none")),
+    ("flat", "gost", PartTable(bore=8, width=60)),
+    ("coursework", "iso", PartTable(table_step=1)),
+]
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("part", [HUB, PartTable(keyway="none"), PartTable(bore=8, width=60), PartTable(table_step=1)])
-@pytest.mark.parametrize("frame", ["gost", "iso"])
-def test_other_parts_are_as_clear(frame: str, part: PartTable) -> None:
-    for name in ("coursework", "flat"):
-        assert overlaps(drawn(name, frame, "ru", part)) == []
+@over_all(("name", "frame", "part"), OTHER_PARTS)
+def test_other_parts_are_as_clear(name: str, frame: str, part: PartTable) -> None:
+    assert overlaps(drawn(name, frame, "ru", part)) == []
 
 
 @pytest.mark.parametrize("size", [0.01, 0.3, 7.0, 400.0])

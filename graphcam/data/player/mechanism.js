@@ -61,12 +61,19 @@ function mechanismOf(picture, mechanism) {
   const placeAt = (degrees) => Math.max(0, Math.min(last, Math.round(degrees / step)));
   const phaseAt = (degrees) => mechanism.phases.findLast((one) => one.start <= degrees) || mechanism.phases[0];
 
-  function follower(trace, direction) {
+  function follower(trace, direction, normal) {
     if (mechanism.kind === "arm") set(rod, line(mechanism.pivot, trace));
     if (mechanism.kind === "stem") set(rod, line(trace, along(trace, direction, sizes.stem)));
     if (mechanism.kind === "face") {
       const [left, right] = sizes.face;
       set(rod, { d: pathOf([[left, trace[1]], [right, trace[1]]]) + pathOf([[0, trace[1]], [0, trace[1] + sizes.stem]]) });
+    }
+    if (mechanism.kind === "blade") {
+      // From the pivot square to the face to its foot on it, and along the face to its end.
+      const angle = (normal + 90) * Math.PI / 180, way = [Math.cos(angle), Math.sin(angle)], pivot = mechanism.pivot;
+      const from = (pivot[0] - trace[0]) * way[0] + (pivot[1] - trace[1]) * way[1];
+      const foot = [trace[0] + from * way[0], trace[1] + from * way[1]];
+      set(rod, { d: pathOf([pivot, foot, along(foot, normal + 90, sizes.face[1])]) });
     }
   }
 
@@ -76,7 +83,7 @@ function mechanismOf(picture, mechanism) {
     cam.setAttribute("transform", `rotate(${mechanism.sigma * phi})`);
     set(roller, { cx: trace[0], cy: trace[1] });
     set(contact, { cx: touch[0], cy: touch[1] });
-    follower(trace, direction);
+    follower(trace, direction, steep);
     set(motion, line(along(trace, direction, -0.3 * reach), along(trace, direction, reach)));
     set(normal, line(touch, along(touch, steep, sizes.roller + reach)));
     const from = along(trace, direction, 0.72 * reach), to = along(trace, steep, 0.72 * reach);

@@ -110,9 +110,9 @@ function phasesOf({ change, slide, release, word, decimal }) {
     const select = make("select", { "data-key": "phase-law" }, field.laws.map((law) =>
       make("option", { value: law.value, text: law.name, selected: law.value === phase.law })));
     const { ratio } = field;
-    // Only one law has parts whose ratio is chosen.
+    // Only some laws have parts whose ratio is chosen.
     select.addEventListener("change", () => change({
-      [`${path}.law`]: select.value, ...(phase.ratio !== undefined && select.value !== ratio?.law ? { [`${path}.ratio`]: null } : {}),
+      [`${path}.law`]: select.value, ...(phase.ratio !== undefined && !ratio?.laws.includes(select.value) ? { [`${path}.ratio`]: null } : {}),
       // Only one has blends.
       ...(phase.blends !== undefined && select.value !== "constant-velocity" ? { [`${path}.blends`]: null } : {}),
     }));
@@ -143,7 +143,7 @@ function phasesOf({ change, slide, release, word, decimal }) {
       phases.length > 1 && numberOf("angle_of_phase", phase.angle, "°", (angle) => angleChanges(phases, chosen, angle)),
       phase.kind !== "dwell" && numberOf("lift", phase.lift, field.lift?.unit || "", (lift) => ({ [`${path}.lift`]: lift })),
       phase.kind !== "dwell" && lawOf(phase, path),
-      phase.law === ratio?.law && numberOf("ratio", phase.ratio ?? 1, "", (value) => ({ [`${path}.ratio`]: value })),
+      ratio?.laws.includes(phase.law) && numberOf("ratio", phase.ratio ?? 1, "", (value) => ({ [`${path}.ratio`]: value })),
       editButtons(phase),
     ].filter(Boolean);
   }
