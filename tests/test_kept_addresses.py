@@ -40,6 +40,14 @@ def as_json(data: object) -> Any:
     return json.loads(json.dumps(data))
 
 
+def as_then(says: Plain) -> Plain:
+    """What a task says, with the divisions that were filled in where it leaves them out: 12, as they are drawn now.
+
+    (More only where an acceleration lasts less than a part; no kept task has one, as the sizes that they keep prove.)
+    """
+    return says if "arcs" in says else says | {"drawing": {"divisions": 12} | says.get("drawing", {})}
+
+
 def task_of(name: str) -> gc.Task | gc.ArcsTask:
     return load_task(KEPT / "tasks" / f"{name}.toml")
 
@@ -83,7 +91,7 @@ def test_there_are_20_task_files_and_30_addresses():
 
 @pytest.mark.parametrize("name", TASKS)
 def test_a_kept_task_file_says_what_it_said(name):
-    assert as_json(task_of(name).to_dict()) == TASKS[name]["says"]
+    assert as_then(as_json(task_of(name).to_dict())) == TASKS[name]["says"]
 
 
 @pytest.mark.parametrize("name", TASKS)
@@ -101,4 +109,5 @@ def test_a_kept_address_of_the_player_opens_what_it_opened(one):
 @pytest.mark.parametrize("one", STUDIO, ids=[one["address"][:24] for one in STUDIO])
 def test_a_kept_address_of_the_studio_opens_what_it_opened(one):
     place = place_of(one["address"], as_json(built_in_tasks()))
-    assert as_json(vars(place)) == one["opens"]
+    opens = as_json(vars(place))
+    assert opens | {"task": as_then(opens["task"])} == one["opens"]

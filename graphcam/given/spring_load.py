@@ -56,8 +56,8 @@ class FollowerLoad(Protocol):
         """
         ...
 
-    def slope(self, values: Values, phi: Floats | float = ...) -> Floats:
-        """The derivative of the load by phi inside a phase."""
+    def slope(self, values: Values) -> Floats:
+        """The derivative of the load by phi inside a phase, under a load that is the same over the turn."""
         ...
 
     def size(self, values: Values) -> Floats:

@@ -34,7 +34,6 @@ NOT_REACHED = {
     "exact counterpart": "a construction of the package itself names its counterpart",
     "reading of *": "a construction of the package itself names its readings",
     "scale": "scales are made of sizes that were checked",
-    "phases[*].angle": "starts are derived from the angles of the phases; they disagree in a maker of one's own only",
     "stations of the displacement": "the package divides the turn of a measured motion itself",
     "side": "named by the package itself",
     "number of points": "only an export asks for a number of points",
