@@ -44,7 +44,7 @@ def built_in() -> Mapping[str, Task | ArcsTask]:
     """Every built-in task by its name.
 
     >>> [*built_in()]
-    ['coursework', 'arm', 'flat', 'measured', 'arcs']
+    ['coursework', 'arm', 'flat', 'swinging-face', 'measured', 'arcs']
     """
     return {name: builtin_task(name) for name in BUILTIN_TASK_NAMES} | {"arcs": builtin_arcs_task()}
 

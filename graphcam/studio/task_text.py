@@ -25,7 +25,7 @@ def built_in_tasks() -> dict[str, dict[str, Any]]:
     """The tasks that come with graphcam, by their names; nobody changes them.
 
     >>> list(built_in_tasks())
-    ['coursework', 'arm', 'flat', 'measured', 'arcs']
+    ['coursework', 'arm', 'flat', 'swinging-face', 'measured', 'arcs']
     """
     return {name: plain_task(builtin_task(name)) for name in BUILTIN_TASK_NAMES} | {
         ARCS_TASK: plain_task(builtin_arcs_task())

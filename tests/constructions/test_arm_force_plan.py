@@ -18,6 +18,7 @@ from graphcam.constructions.arm_force_plan import arm_force_plan
 from graphcam.drafting.acts import Act
 from graphcam.drafting.marks import Arrow, Label, Line, Role
 from graphcam.drafting.pencil import Pencil
+from graphcam.given.spring_load import PlacedArmLoad
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.task import CamTable, DrawingTable, OscillatingTable, Task
 
@@ -50,7 +51,7 @@ def test_load_contact_force_and_reaction_are_in_equilibrium(rotation, load):
     """At every station, of rise and return: l F cos(alpha) is the torque of the drawn s, v, a."""
     chain = solved(rotation).chain
     angles, integrated = chain["pressure_angle"], chain["integration"]
-    placed = load.placed(125.0, 150.0, float(angles.readings["psi0"].value), 0.3)
+    placed = PlacedArmLoad(load, 125.0, 150.0, float(angles.readings["psi0"].value))
     for k in range(1, chain.board.stations.u.size - 1):
         plan = plan_of(load, k, rotation=rotation)
         alpha = float(angles.readings["alpha"].paper[k])

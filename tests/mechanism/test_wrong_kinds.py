@@ -21,7 +21,9 @@ DESIGNS = gc.Designs(lift=12, rise_angle=1.0, return_angle=1.0, prime_radius=[50
 POINTS = [gc.MotionPoint(0, s=0, v=0, a=0), gc.MotionPoint(1, s=1, v=0, a=0)]
 NONE = np.zeros(0)
 WRONG = {
-    "follower is of the kind int, but must be a Translating, Oscillating or FlatFaced": lambda: gc.Cam(MOTION, 40, 10),
+    "follower is of the kind int, but must be a Translating, Oscillating, FlatFaced or OscillatingFlat": lambda: gc.Cam(
+        MOTION, 40, 10
+    ),
     "the rise is of the kind str, but must be an angle in rad; 30 degrees are": lambda: gc.Limits("30"),
     "load is an ArmLoad, but must be that load in its place beside the cam; take": lambda: gc.Contact(
         MOTION, gc.ArmLoad(2000, 300, 5000)
@@ -52,7 +54,7 @@ WRONG = {
         0.8, 600, 5, gc.spring_preload(MOTION, 0.8, 600, 5)
     ),
     "follower is of the kind str, but must be a Translating": lambda: gc.minimum_radius(MOTION, "flat-faced"),
-    "sizes is 'ofset', but must be one of roller_radius, offset, distance, arm; did you mean 'offset'": lambda: (
+    "sizes is 'ofset', but must be one of roller_radius, offset, distance, .*; did you mean 'offset'": lambda: (
         gc.Deviations((), NONE, {"ofset": 0.05})
     ),
     "sizes is 'arm', but must be a size of the translating follower; known are offset, roller_radius": lambda: (
