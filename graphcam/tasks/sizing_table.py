@@ -5,9 +5,10 @@ from typing import Literal
 
 from graphcam.errors import DesignError, check_number
 from graphcam.given.plausible_ranges import bounded, check_positive
+from graphcam.tasks.units import Length
 from graphcam.words import say
 
-RangeTable = float | tuple[float, float]
+RangeTable = Length | tuple[Length, Length]
 """A range [mm], or the one size that is permitted."""
 
 
