@@ -9,6 +9,7 @@ import json
 import math
 import pickle
 import re
+from collections import Counter
 from collections.abc import Iterator
 from decimal import Decimal
 from importlib.resources import files
@@ -24,7 +25,8 @@ from graphcam.cli.shared import INPUT_ERROR_STATUS
 from graphcam.errors import TaskError
 from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.variant import fill_in
-from graphcam.report.documents import contents_of, note_of
+from graphcam.report.documents import contents_of, note_of, sheet_of
+from graphcam.sheets.model import Curve, Stroke
 from graphcam.studio.sizes_form import form_of
 from graphcam.studio.task_paths import changed_task, steps_of, value_at
 from graphcam.studio.task_text import opened_task, plain_task
@@ -262,10 +264,12 @@ def in_inches(text: str) -> str:
     return re.sub(lengths, lambda found: f'{found[1]} = "{Decimal(found[2]) / Decimal("25.4")} in"', text)
 
 
-def drawn(solution: Any) -> list[str]:
-    """What is drawn on the sheets of a solution, without texts and frames of tables."""
-    entities = [each for page in sheet_of(solution).pages for group in page.groups for each in group.entities]
-    return sorted(repr(each.points.round(9).tolist()) for each in entities if isinstance(each, Stroke))
+def on_sheet(solution: Any) -> tuple[Counter[bytes], Counter[str]]:
+    """The strokes and curves on the sheets of a solution, and their texts."""
+    drawing = sheet_of(solution)
+    entities = [each for page in drawing.pages for group in page.groups for each in group.entities]
+    lines = Counter(each.points.round(9).tobytes() for each in entities if isinstance(each, Stroke | Curve))
+    return lines, Counter(each.text for each in drawing.texts)
 
 
 def loaded(text: str, folder: Path) -> Any:
@@ -281,9 +285,14 @@ def test_a_task_in_inches_has_the_same_sheet_and_note_but_for_one_line(name, tmp
     assert in_inches(text) != text
     assert changed.task == given.task
     assert json.dumps(changed.to_dict()) == json.dumps(given.to_dict())
+    (lines, texts), (lines_given, texts_given) = map(on_sheet, (changed, given))
+    assert lines == lines_given
+    assert sum(lines.values()) >= 30
+    row = ["units in the task file", "1 in = 25.4 mm", "given"]
+    assert (texts - texts_given, texts_given - texts) == (Counter(row), Counter())
     sheets = [contents_of(solution) for solution in (changed, given)]
     (data, *others), (data_given, *others_given) = (sheet.givens for sheet in sheets)
-    assert [str(words) for words in data.rows[-1]] == ["units in the task file", "1 in = 25.4 mm", "given"]
+    assert [str(words) for words in data.rows[-1]] == row
     assert data.rows[:-1] == data_given.rows
     assert (others, sheets[0].results) == (others_given, sheets[1].results)
     lines = [[re.sub(r"[ |-]+", " ", line) for line in note_of(each).splitlines()] for each in (changed, given)]
