@@ -106,7 +106,9 @@ class FieldMaker:
 
     def number(self, path: str) -> Field:
         """A number that always stands in the task."""
-        group, name = NUMBER_FIELDS[path]
+        return self._number(path, *NUMBER_FIELDS[path])
+
+    def _number(self, path: str, group: Caption, name: Caption) -> Field:
         return {
             "path": path,
             "group": self.tell(group),
@@ -114,7 +116,7 @@ class FieldMaker:
             "unit": self.unit(unit_at(path)),
             "kind": "number",
             "value": value_at(self.said, path),
-            **self.span(path),
+            **self.ranges[path].plain(),
         }
 
     def open_number(self, path: str, adopted: float | None) -> Field:
@@ -130,15 +132,7 @@ class FieldMaker:
         """A coordinate of a point of the arcs, with what was found if the point may be left out."""
         path = f"arcs.{name}"
         called = say("{point}, {axis}", point=POINT_NAMES[name], axis=AXIS_NAMES[k])
-        field: Field = {
-            "path": f"{path}[{k}]",
-            "group": self.tell(CAM),
-            "name": self.tell(called),
-            "unit": self.unit(unit_at(path)),
-            "kind": "number",
-            "value": value_at(self.said, f"{path}[{k}]"),
-            **self.span(f"{path}[{k}]"),
-        }
+        field = self._number(f"{path}[{k}]", CAM, called)
         freed = dict.fromkeys(must_agree(arcs, name))
         if adopted is None:
             return field | {"first": freed}
@@ -165,7 +159,3 @@ class FieldMaker:
     def unit(self, unit: str) -> str:
         """A unit in the language of the page."""
         return self.tell(printed_unit(unit))
-
-    def span(self, path: str) -> dict[str, float]:
-        """The range of a number."""
-        return self.ranges[path].plain()

@@ -43,7 +43,7 @@ class SizingTable:
                 raise DesignError(name, found, limit, say("exchange the two"))
             for end in (low, high):
                 if name == "offset":
-                    _finite(name, end)
+                    check_number(name, end, say("a finite number of mm"))
                     bounded(name, end, "mm")
                 else:
                     check_positive(name, end, "mm")
@@ -63,7 +63,3 @@ class SizingTable:
 
 RANGE_KEYS = "prime_radius", "base_radius", "offset", "roller_radius", "width"
 """The keys of the table that are ranges."""
-
-
-def _finite(name: str, value: float) -> None:
-    check_number(name, value, say("a finite number of mm"))

@@ -333,6 +333,15 @@ def test_the_studio_opens_it_and_its_form_holds_millimetres():
     assert (offset["value"], offset["unit"], phases[0]["lift"]) == (-10.0, "mm", 30.0)
 
 
+@pytest.mark.parametrize(("name", "unit"), [
+    ("translating", "mm"), ("arm", "°"), ("arm by its arc", "mm"), ("flat", "mm"), ("swinging face", "°"),
+])  # fmt: skip
+def test_the_form_has_the_unit_of_the_lift(name, unit):
+    data = builtin("swinging-face") if name == "swinging face" else TASKS[name]
+    (phases,) = (each for each in form_of(gc.solve(task_from(data)), str) if each["path"] == "motion.phases")
+    assert phases["lift"]["unit"] == unit
+
+
 def test_the_tolerance_of_a_table_may_have_a_unit(tmp_path):
     heights = [0, 1, 3, 5, 6, 5, 3, 1, 0.5]
     rows = "phi_deg,s_mm\n" + "".join(f"{45 * k},{s}\n" for k, s in enumerate(heights))
