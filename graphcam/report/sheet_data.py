@@ -135,7 +135,7 @@ def data_table(task: Task | ArcsTask, rows: Sequence[Row], found: Sequence[Words
 def _file_units(task: Task | ArcsTask) -> list[Row]:
     """Rows on the units in which a task's file gives numbers, where they are others than graphcam's own."""
     used = dict.fromkeys((given.own, given.unit) for _, given in numbers_in_units(task) if given.own != given.unit)
-    said = say("1 {unit} = {factor:.10g} {own}")
+    said = say("1 {unit} = {factor:.7g} {own}")
     values = [said.with_values(unit=printed_unit(n), own=printed_unit(own), factor=UNITS[own][n]) for own, n in used]
     return [("" if k else say("units in the task file"), value, GIVEN_LABEL) for k, value in enumerate(values)]
 
