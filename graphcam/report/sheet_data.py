@@ -171,9 +171,11 @@ def _limits(solution: Solution) -> list[Row]:
     if "pressure_angle" not in solution.drawn:
         return [(say("permitted radius of curvature"), mm(least or 0), LIMIT_LABEL)]
     back = degrees(limits.return_) if limits.return_ else say("force closure")
+    sharp = [] if least is None else [(say("permitted radius of curvature"), mm(least), LIMIT_LABEL)]
     return [
         (say("permitted angle, rise"), degrees(limits.rise), LIMIT_LABEL),
         (say("permitted angle, return"), back, LIMIT_LABEL),
+        *sharp,
     ]
 
 

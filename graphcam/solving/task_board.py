@@ -23,7 +23,6 @@ from graphcam.drafting.scale import (
 )
 from graphcam.errors import DesignError
 from graphcam.given.follower import Oscillating, omega_of, sense
-from graphcam.given.roller_rule import roller_rule
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.oscillating_flat import check_swing
 from graphcam.sheets.formats import Format
@@ -92,7 +91,8 @@ def board_of(task: Task) -> Board:
         limits=task.limits(),
         prime_radius=task.cam.prime_radius,
         roller_radius=task.follower.roller_radius,
-        roller_rule=roller_rule(task.follower.roller_rule),
+        roller_rule=task.roller_terms,
+        min_profile_radius=task.limits.min_curvature_radius if "roller" in follower.constructions else None,
         divisions=drawing.divisions or USUAL_DIVISIONS,
         ordinate=ordinate,
         poles=poles,

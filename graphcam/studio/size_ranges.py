@@ -267,9 +267,10 @@ def _of_swinging_face(solution: Solution, step: float) -> dict[str, SizeRange]:
 
 
 def _of_limits(task: Task) -> dict[str, SizeRange]:
+    profile = {"limits.min_curvature_radius": SizeRange(0.5, 50.0, 0.5)}
     if not has_angles(task):
-        return {"limits.min_curvature_radius": SizeRange(0.5, 50.0, 0.5)}
-    return {f"limits.pressure_angle_{way}": SizeRange(*ANGLE_RANGE, 1.0) for way in ("rise", "return")}
+        return profile
+    return profile | {f"limits.pressure_angle_{way}": SizeRange(*ANGLE_RANGE, 1.0) for way in ("rise", "return")}
 
 
 def _of_drawing(solution: Solution) -> dict[str, SizeRange]:

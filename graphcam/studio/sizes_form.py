@@ -246,9 +246,8 @@ def _follower(make: FieldMaker, solution: Solution) -> Iterator[Field]:
 
 def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     """What the cam must keep to, and the spring and the material if there are such."""
-    if not has_angles(solution.task):
-        yield make.open_number("limits.min_curvature_radius", None)
-    else:
+    yield make.open_number("limits.min_curvature_radius", None)
+    if has_angles(solution.task):
         yield make.number("limits.pressure_angle_rise")
         yield make.open_number("limits.pressure_angle_return", None)
         yield make.choice("limits.rest", LIMITS, say("Angle in the lower dwell"), DWELL_LIMIT_CHOICES.items())

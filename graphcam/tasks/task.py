@@ -24,7 +24,7 @@ from graphcam.given.follower import (
     sense,
 )
 from graphcam.given.plausible_ranges import bounded, check_positive
-from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
+from graphcam.given.roller_rule import DEFAULT_RULE, Candidate, roller_rule
 from graphcam.showing import MAX_WIDTH, value_text
 from graphcam.tasks.dataclass_reader import ByKeys, ByKind
 from graphcam.tasks.material_table import MaterialTable
@@ -39,7 +39,6 @@ from graphcam.words import say
 MAX_DIVISIONS = 1000
 """The maximum number of parts of a phase; more cannot be drawn apart."""
 LARGER_RADIUS_REMEDY = say("or a larger cam.prime_radius")
-FACE_ONLY_REMEDY = "only a flat face is limited by it; a roller has its roller_rule"
 NO_FACE_REMEDY = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
 
 SWINGING_FACE_REMEDY = "under a face that swings the curvature limits the cam; give limits.min_curvature_radius"
@@ -49,7 +48,7 @@ class _FollowerTable:
     """The properties of ``[follower]`` that a task uses; each kind states what differs from a stem with a roller."""
 
     roller_radius: float | None
-    without: ClassVar[Mapping[str, str]] = {"min_curvature_radius": FACE_ONLY_REMEDY}
+    without: ClassVar[Mapping[str, str]] = {}
     """The limits that this follower does not have, each with the remedy."""
     swings: ClassVar[bool] = False
     """Whether the follower turns about a pivot, so that its spring exerts a moment."""
@@ -263,7 +262,7 @@ class LimitsTable:
 
     pressure_angle_rise : degrees; None takes the usual one of the follower's kind
     pressure_angle_return : degrees; None is force closure, where the return does not limit the radius
-    min_curvature_radius : mm, of the profile under a flat face
+    min_curvature_radius : mm, of the working profile, convex parts only under a roller; None is no limit
     rest : whether the angle at the lower dwell must keep the limits of the phases beside it too
     """
 
@@ -440,6 +439,19 @@ class Task:
         if self.limits.pressure_angle_rise is None and "pressure_angle_rise" not in self.follower.without:
             limits = dataclasses.replace(self.limits, pressure_angle_rise=self.follower().usual_limit_deg)
             object.__setattr__(self, "limits", limits)
+
+    @property
+    def roller_terms(self) -> tuple[Candidate, ...]:
+        """The terms of the rule for the roller radius, and what the permitted curvature of the profile leaves.
+
+        >>> import graphcam as gc
+        >>> sharp = dataclasses.replace(gc.builtin_task(), limits=LimitsTable(min_curvature_radius=4.0))
+        >>> [term.text for term in sharp.roller_terms]
+        ['0.7 rho', '0.4 r0', 'rho - 4']
+        """
+        least = self.limits.min_curvature_radius
+        profile = [] if least is None else [Candidate(f"rho - {least:g}", "rho", margin=least)]
+        return (*roller_rule(self.follower.roller_rule), *profile)
 
     def to_dict(self) -> dict[str, Any]:
         """The task with the keys of its file, as plain lists, numbers and text; what is open is left out.

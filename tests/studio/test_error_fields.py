@@ -239,7 +239,7 @@ WRONG = [
     ("coursework", {"motion.phases[1].angle": -5}, "motion.phases[1].angle"),
     ("coursework", {"motion.phases[0].law": "cubic"}, "motion.phases[0].law"),
     ("coursework", {"limits.pressure_angle_rise": 95.0}, "limits.pressure_angle_rise"),
-    ("coursework", {"limits.min_curvature_radius": 5.0}, "limits.min_curvature_radius"),
+    ("coursework", {"limits.min_curvature_radius": -5.0}, "limits.min_curvature_radius"),
     ("coursework", {"follower.roller_rule": "rho / 2"}, "follower.roller_rule"),
     ("coursework", {"follower.roller_rule": "rho - 5000"}, "follower.roller_rule"),
     ("coursework", {"drawing.divisions": 0}, "drawing.divisions"),
