@@ -37,6 +37,7 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import LIMIT_NAMES
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
+from graphcam.given.outline_motion import OutlineMotion
 from graphcam.words import and_chain, say
 
 PHASE_ANGLES_ROOM = complex(58.0, 44.0)
@@ -80,7 +81,7 @@ class Chain(Drawings):
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the follower's constructions, and of those asked for, for a measured motion, and added."""
-        measured = ("differentiation",) if isinstance(self.board.motion, MeasuredMotion) else ()
+        measured = ("differentiation",) if isinstance(self.board.motion, MeasuredMotion | OutlineMotion) else ()
         drawn = list(self.board.follower.constructions)
         if self.board.jerk_pole is not None:
             drawn.insert(drawn.index("integration") + 1, "jerk")

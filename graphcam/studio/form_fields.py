@@ -23,6 +23,12 @@ UNIT_CAPTIONS = {
 
 NUMBER_FIELDS: dict[str, tuple[Caption, Caption, str]] = {
     "motion.tolerance": (MOTION, say("Tolerance of the fit"), "mm"),
+    "motion.radii.base_radius": (CAM, say("Base radius"), "mm"),
+    "motion.radii.flank_radius": (CAM, say("Flank radius"), "mm"),
+    "motion.radii.nose_radius": (CAM, say("Nose radius"), "mm"),
+    "motion.radii.lift": (CAM, say("Lift"), "mm"),
+    "motion.radii.ascent": (CAM, say("Angle of ascent"), DEGREE_SIGN),
+    "motion.radii.dwell": (CAM, say("Upper dwell"), DEGREE_SIGN),
     "speed_rpm": (MOTION, say("Speed"), "rpm"),
     "follower.offset": (FOLLOWER, say("Offset e"), "mm"),
     "follower.arm": (FOLLOWER, say("Arm length l"), "mm"),

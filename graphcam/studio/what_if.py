@@ -79,7 +79,7 @@ def _of_motion(task: Task) -> dict[str, float | None]:
     """The design of a cam whose follower moves by laws, or as it was measured."""
     motion, given = task.motion(), task.follower
     least, place = _exact_least_radius(task)
-    r0 = least if task.cam.prime_radius is None else task.cam.prime_radius
+    r0 = least if task.prime_radius is None else task.prime_radius
     # The pitch curve does not depend on the roller, which the rule takes from it.
     cam = Cam(motion, _follower(task, place), r0, task.rotation)
     extremes = cam.extremes()
@@ -104,7 +104,7 @@ def _exact_least_radius(task: Task) -> tuple[float, float]:
             asked |= {"curvature": sharpest} | ({"offset": least.place} if "offset" in asked else {})
             least = minimum_radius(task.motion(), placed, task.rotation, **asked)
     except DesignError:
-        if task.cam.prime_radius is None:
+        if task.prime_radius is None:
             raise
         return math.nan, math.nan
     return least.prime_radius, least.place

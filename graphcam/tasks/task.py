@@ -23,6 +23,7 @@ from graphcam.given.follower import (
     Translating,
     sense,
 )
+from graphcam.given.outline_motion import OutlineMotion
 from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.roller_rule import DEFAULT_RULE, Candidate, roller_rule
 from graphcam.showing import MAX_WIDTH, value_text
@@ -41,6 +42,15 @@ MAX_DIVISIONS = 1000
 LARGER_RADIUS_REMEDY = say("or a larger cam.prime_radius")
 NO_FACE_REMEDY = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
 
+GIVEN_CAM_KEYS = {
+    "roller radius": "follower.roller_radius",
+    "offset": "follower.offset",
+    "centre distance": "follower.distance",
+    "base_radius": "arcs.base_radius",
+    "flank_radius": "arcs.flank_radius",
+    "follower": "follower.kind",
+}
+"""The keys of what a follower of a given cam may lack, by their quantities."""
 SWINGING_FACE_REMEDY = "under a face that swings the curvature limits the cam; give limits.min_curvature_radius"
 
 
@@ -364,6 +374,7 @@ class Task:
     def __repr__(self) -> str:
         other = f"measured, {self.motion.table.file}" if self.motion.table else ""
         other = other or ", ".join(f"{part.kind} of {len(part.points)} points" for part in self.motion.parts or ())
+        other = other or ("given by its radii" if self.motion.radii else "")
         phases = ", ".join(f"{phase.kind} {phase.angle:g}°" for phase in self.motion.phases or ())
         turns = f"turns {self.rotation}" + (f" at {self.speed_rpm:g} rpm" if self.speed_rpm else "")
         rows = f"{turns}, {self.follower.kind} follower", shorten(other or phases, MAX_WIDTH, placeholder=" ...")
@@ -436,9 +447,33 @@ class Task:
             quantity = say("motion.table (column)")
             raise DesignError(quantity, motion.table.column, say("{column} for this follower", column=column), remedy)
         object.__setattr__(self, "motion", motion)
+        if motion.radii is not None:
+            self._inform_of_given_cam(motion)
         if self.limits.pressure_angle_rise is None and "pressure_angle_rise" not in self.follower.without:
             limits = dataclasses.replace(self.limits, pressure_angle_rise=self.follower().usual_limit_deg)
             object.__setattr__(self, "limits", limits)
+
+    def _inform_of_given_cam(self, motion: MotionTable) -> None:
+        """Set the follower that a given cam moves, and check that it has all its sizes and can follow."""
+        if self.cam.prime_radius is not None:
+            limit, remedy = say("left out where the cam is given"), say("it is the base radius and the roller together")
+            raise DesignError("cam.prime_radius", self.cam.prime_radius, limit, remedy)
+        if self.follower.roller_radius is None:
+            limit = say("given where the cam is given")
+            raise DesignError("follower.roller_radius", say("missing"), limit, say("0 is a knife edge"))
+        if isinstance(self.follower, TranslatingTable) and self.follower.offset is None:
+            object.__setattr__(self, "follower", replace(self.follower, offset=0.0))
+        object.__setattr__(motion, "follows", (self.follower(), self.rotation))
+        try:
+            motion()
+        except DesignError as error:
+            raise DesignError(GIVEN_CAM_KEYS.get(error.quantity, error.args[0]), *error.args[1:]) from None
+
+    @property
+    def prime_radius(self) -> float | None:
+        """The prime radius [mm] that is given, or that a given cam has; None is open."""
+        motion = self.motion() if self.motion.radii else None
+        return motion.prime_radius if isinstance(motion, OutlineMotion) else self.cam.prime_radius
 
     @property
     def roller_terms(self) -> tuple[Candidate, ...]:
