@@ -4,6 +4,7 @@ from .drafting.ink import Construction as Construction, Reading as Reading, Step
 from .drafting.pencil import Pencil as Pencil
 from .drafting.scale import Scale as Scale
 from .errors import DesignError as DesignError, GraphcamError as GraphcamError, TaskError as TaskError
+from .given.arc_outline import ArcOutline as ArcOutline, cam_by_radii as cam_by_radii
 from .given.boundary_motion import BoundaryMotion as BoundaryMotion, boundary_motion as boundary_motion
 from .given.boundary_parts import MotionPoint as MotionPoint, PolynomialPart as PolynomialPart, SplinePart as SplinePart
 from .given.follower import (
@@ -24,6 +25,7 @@ from .given.measured import (
 )
 from .given.motion import Dwell as Dwell, Motion as Motion, Return as Return, Rise as Rise, cam_angle as cam_angle
 from .given.motion_law import Law as Law
+from .given.outline_motion import OutlineMotion as OutlineMotion, outline_motion as outline_motion
 from .given.polynomial_law import boundary_law as boundary_law, constant_velocity_law as constant_velocity_law
 from .given.roller_contact import RollerContact as RollerContact
 from .given.spline_law import sampled_law as sampled_law

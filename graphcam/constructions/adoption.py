@@ -1,8 +1,9 @@
 """Adopting sizes as in a design office: round numbers, as far as the drawn region has any."""
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from itertools import zip_longest
 
 import numpy as np
 
@@ -73,6 +74,24 @@ def nearest_multiple(stretches: Floats, wanted: float, step: float) -> float | N
 
 
 @dataclass(frozen=True)
+class Trial:
+    """A prime radius that was tried for the curvature of the profile, with what a hand without error reads [mm].
+
+    rho : of the sharpest bend of the pitch curve;  needed : by the roller and the permitted radius of the profile
+    """
+
+    prime_radius: float
+    place: float
+    rho: float
+    needed: float
+
+    @property
+    def lacking(self) -> float:
+        """How much larger rho should be; 0 where it is large enough, or where no bend can be read."""
+        return max(0.0, self.needed - self.rho) if self.rho < math.inf else 0.0
+
+
+@dataclass(frozen=True)
 class Adoption:
     """How the prime radius and the follower's place came about [mm].
 
@@ -82,6 +101,7 @@ class Adoption:
     given : whether the task gives the prime radius
     rounding : sizes are adopted in multiples of this
     proposed : the least prime radius at the place that the region proposes; None where the task gives it
+    trials : the prime radii that were tried for the curvature of the profile, where it is limited
     """
 
     prime_radius: float
@@ -91,6 +111,7 @@ class Adoption:
     given: bool
     rounding: float
     proposed: float | None = None
+    trials: tuple[Trial, ...] = ()
 
 
 def nothing_adopted() -> Adoption | None:
@@ -117,7 +138,10 @@ def adoption_step(adopted: Adoption, symbol: str, mu: float, view: View) -> Step
     """
     on_paper = say("On paper r₀ is {r0:g}/{mu:.5g} = {paper:.2f} mm.")
     on_paper = on_paper.with_values(r0=adopted.prime_radius, mu=mu, paper=adopted.prime_radius / mu)
-    parts = [Part(sequence([*_of_the_radius(adopted, symbol), on_paper], " "))]
+    by_angles = adopted.trials[0].prime_radius if adopted.trials else adopted.prime_radius
+    told = [*_of_the_radius(replace(adopted, prime_radius=by_angles), symbol)]
+    *parts, last = [Part(sequence(told, " ")), *(Part(_of_trial(*pair)) for pair in _with_next(adopted.trials))]
+    parts.append(Part(sequence([last.caption, on_paper], " ")))
     if adopted.found is not None:
         place = say("The value found, {symbol} = {found:.5g} mm, is rounded to {place:g} mm.")
         parts.insert(0, Part(place.with_values(symbol=symbol, found=adopted.found, place=adopted.place)))
@@ -125,6 +149,27 @@ def adoption_step(adopted: Adoption, symbol: str, mu: float, view: View) -> Step
     if adopted.given:
         why = say("The limits are satisfied only if the given radius is not smaller than the minimum permitted one.")
     return Step(say("The adopted prime radius"), tuple(parts), view, (), why=why)
+
+
+def _with_next(trials: Sequence[Trial]) -> list[tuple[Trial, Trial | None]]:
+    return [*zip_longest(trials, trials[1:])]
+
+
+def _of_trial(trial: Trial, following: Trial | None) -> Caption:
+    """A sentence on a radius that is tried for the curvature, and on the next if it is too small."""
+    if following is None:
+        said = say(
+            "With r₀ = {r0:g} mm the sharpest bend of the pitch curve has ρ = {rho:.4g} mm; {needed:g} mm suffice."
+        )
+        return said.with_values(r0=trial.prime_radius, rho=trial.rho, needed=trial.needed)
+    said = say(
+        "Draw the pitch curve for r₀ = {r0:g} mm on another sheet: its sharpest bend has ρ = {rho:.4g} mm, but the "
+        "roller and the permitted radius of the profile take {needed:g} mm. Add what is lacking, {lacking:.4g} mm, to "
+        "r₀, and round it up to {next:g} mm."
+    )
+    return said.with_values(
+        r0=trial.prime_radius, rho=trial.rho, needed=trial.needed, lacking=trial.lacking, next=following.prime_radius
+    )
 
 
 def _of_the_radius(adopted: Adoption, symbol: str) -> list[Caption]:

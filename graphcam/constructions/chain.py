@@ -13,6 +13,7 @@ from graphcam.constructions.acceleration import acceleration_diagram
 from graphcam.constructions.adoption import (
     ROUNDING_SLACK,
     Adoption,
+    Trial,
     lies_in,
     multiple,
     nearest_multiple,
@@ -36,6 +37,7 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import LIMIT_NAMES
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
+from graphcam.given.outline_motion import OutlineMotion
 from graphcam.words import and_chain, say
 
 PHASE_ANGLES_ROOM = complex(58.0, 44.0)
@@ -44,6 +46,8 @@ FURTHER_MULTIPLES = 5
 """So many multiples of the rounding from the least radius on are tried: a round one is not worth a much larger cam."""
 FINER_ROUNDINGS = (1.0, 0.1, 0.01, 0.001)
 """The parts of the rounding that a size is a multiple of, where the region has no room for a rounder one."""
+MAX_TRIALS = 30
+"""So many prime radii are tried for the curvature of the profile."""
 PERFECT_PENCIL = Pencil()
 """The hand on whose drawing the decisions rest."""
 
@@ -77,7 +81,7 @@ class Chain(Drawings):
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the follower's constructions, and of those asked for, for a measured motion, and added."""
-        measured = ("differentiation",) if isinstance(self.board.motion, MeasuredMotion) else ()
+        measured = ("differentiation",) if isinstance(self.board.motion, MeasuredMotion | OutlineMotion) else ()
         drawn = list(self.board.follower.constructions)
         if self.board.jerk_pole is not None:
             drawn.insert(drawn.index("integration") + 1, "jerk")
@@ -240,10 +244,11 @@ class Chain(Drawings):
         board, region = self.board, self.perfect.minimum_radius
         found = None if board.follower.place is not None else float(region.value(board.follower.place_name))
         least, given = float(region.value("prime_radius")), board.prime_radius is not None
+        trials = () if self.decided else self.perfect.trials
         if found is None:
-            return Adoption(self.prime_radius, self.place, least, None, given, self.rounding)
+            return Adoption(self.prime_radius, self.place, least, None, given, self.rounding, trials=trials)
         there = float(self.perfect._least_radius(self.place).value("prime_radius"))
-        return Adoption(self.prime_radius, self.place, there, found, given, self.rounding, proposed=least)
+        return Adoption(self.prime_radius, self.place, there, found, given, self.rounding, least, trials)
 
     def adopted_if_any(self) -> Adoption | None:
         """How the prime radius and the place came about; None where the region cannot be read."""
@@ -252,8 +257,46 @@ class Chain(Drawings):
         except DesignError:
             return None
 
-    @cached_property
+    @property
     def _adopted(self) -> tuple[float, float]:
+        """Prime radius and place [mm]: as the pressure angles permit, and larger if the profile would be too sharp."""
+        return (self.trials[-1].prime_radius, self.trials[-1].place) if self.trials else self._by_angles
+
+    @cached_property
+    def trials(self) -> tuple[Trial, ...]:
+        """The prime radii that are tried one after another, the last of which leaves the profile blunt enough.
+
+        None where the curvature of the profile is not limited, or the task gives the prime radius.
+        """
+        board = self.board
+        if board.min_profile_radius is None or board.prime_radius is not None:
+            return ()
+        trials = [self._tried(*self._by_angles)]
+        while lacking := trials[-1].lacking:
+            radius, place = trials[-1].prime_radius + lacking, trials[-1].place
+            radius = multiple(steps_up(radius, self.rounding), self.rounding)
+            places = self._places(radius)
+            if board.follower.place is None:
+                place = nearest_multiple(places, place, self.rounding) or place
+            if len(trials) == MAX_TRIALS or not lies_in(places, place, self.rounding):
+                limit = say("so small that some prime radius has it within the permitted pressure angles")
+                remedy = say("lengthen the centre distance, take a smaller roller, or permit larger pressure angles")
+                raise DesignError("limits.min_curvature_radius", board.min_profile_radius, limit, remedy)
+            trials.append(self._tried(radius, place))
+        return tuple(trials)
+
+    def _tried(self, radius: float, place: float) -> Trial:
+        """The pitch curve with these sizes, drawn by a perfect hand on another sheet, and its sharpest bend."""
+        same = {name: drawn for name, drawn in self.perfect.lying.items() if name in ("acceleration", "integration")}
+        other = replace(self.perfect, decided=AdoptedSizes(radius, place, 0.0), done=same)
+        roller = self.board.roller_radius
+        if roller is None:  # the rule leaves the profile blunt enough, if it leaves a roller at all
+            roller = 0.0 if float(other.roller.value("roller_radius")) >= self.rounding else self.rounding
+        needed = roller + (self.board.min_profile_radius or 0.0)
+        return Trial(radius, place, float(other.curvature.value("rho")), needed)
+
+    @cached_property
+    def _by_angles(self) -> tuple[float, float]:
         """Prime radius and place [mm]: round numbers that go with one another on the region, where it has any."""
         radius, place = self.board.prime_radius, self.board.follower.place
         if radius is not None and place is not None:

@@ -46,15 +46,19 @@ def _draw(drawn: Construction[SchemeGivens]) -> list[Step]:
     return [Step(say("Kinematic diagram and data"), (Part(said),), SCHEME, marks, given=marks, why=REASON)]
 
 
+PROFILE_LIMIT = say("The radius of curvature of the profile is to be at least {least:g} mm.")
+
+
 def data_sentences(board: Board) -> list[Caption]:
     """Sentences on what the task gives and asks for."""
-    follower, r0 = board.follower, board.prime_radius
+    follower, r0, least = board.follower, board.prime_radius, board.min_profile_radius
     phases = sequence([_phase(board.motion, k, follower.unit) for k in range(len(board.motion.phases))], "; ")
     return [
         *follower.described(board.rotation, board.roller_radius),
         *([] if r0 is None else [say("The prime radius is r₀ = {radius:g} mm.", radius=r0)]),
         say("One turn of the cam: {phases}.", phases=phases),
         follower.limited(board.limits),
+        *([] if least is None else [PROFILE_LIMIT.with_values(least=least)]),
         say("To be found: {sizes}.", sizes=and_list(_open_sizes(board))),
     ]
 

@@ -11,7 +11,7 @@ LAW_TITLES: Mapping[str, Caption] = {
     str(title): title
     for title in (
         *(law.title for law in DECLARED_LAWS.values()),
-        *(say("constant-velocity"), say("measured"), say("polynomial"), say("spline")),
+        *(say("constant-velocity"), say("measured"), say("given cam"), say("polynomial"), say("spline")),
     )
 }
 """What the laws are called; one that is not among them, as one of one's own, by its name."""

@@ -1,11 +1,12 @@
-"""The minimum prime radius that keeps the pressure angle, or of a flat-faced follower the curvature, within its limits.
+"""The minimum prime radius that keeps the pressure angle, and the profile's curvature, within their limits.
 
 Each follower's stands in a file of its own: :mod:`~graphcam.mechanism.least_radius_translating`,
 :mod:`~graphcam.mechanism.least_radius_arm`, :mod:`~graphcam.mechanism.flat_faced` and
-:mod:`~graphcam.mechanism.oscillating_flat`.
+:mod:`~graphcam.mechanism.oscillating_flat`; what a roller adds in :mod:`~graphcam.mechanism.least_radius_curvature`.
 """
 
 import math
+from dataclasses import replace
 from typing import overload
 
 from graphcam.errors import DesignError, check_kind
@@ -24,8 +25,11 @@ from graphcam.given.motion import Motion
 from graphcam.mechanism.flat_faced import FlatMinimumRadius
 from graphcam.mechanism.followers import EXACT_FUNCTIONS, LeastRadius
 from graphcam.mechanism.least_radius_arm import ArmMinimumRadius
+from graphcam.mechanism.least_radius_curvature import sharp_enough
 from graphcam.mechanism.least_radius_translating import MinimumRadius
 from graphcam.words import say
+
+PLACE_TITLES = {"offset": say("offset"), "distance": say("centre distance")}
 
 
 @overload
@@ -71,7 +75,7 @@ def minimum_radius(
     rest: bool = True,
     curvature: float | None = None,
 ) -> LeastRadius:
-    """The minimum prime radius for permitted pressure angles, or, under a flat face, for a permitted curvature.
+    """The minimum prime radius for permitted pressure angles, for a permitted curvature of the profile, or for both.
 
     Parameters
     ----------
@@ -83,8 +87,9 @@ def minimum_radius(
     offset : e [mm] of a translating follower if it is given; None leaves it free
     rest : whether the angle in the lower dwell, for an arm in both, must also satisfy the limits of the phases that
         end there, so that |alpha| satisfies them all the way
-    curvature : the minimum permitted radius of curvature [mm] of the profile under a flat face; None is 0, where the
-        profile has a cusp, which a cam can only approach
+    curvature : the minimum permitted radius of curvature [mm] of the profile.  Under a flat face None is 0, where the
+        profile has a cusp, which a cam can only approach; under a roller or a knife edge, with the follower's own
+        ``roller_radius``, None is no limit, and a limit needs the offset or the centre distance
 
     Without the rest condition a given offset larger than M needs no height at all; the radius returned is then the
     offset itself, which a cam can only approach, and no line binds.  The same holds for an arm that only has to reach:
@@ -93,8 +98,8 @@ def minimum_radius(
     Raises
     ------
     DesignError : a limit is not between 0 and 90 degrees or an arm cannot satisfy it (its lift is too large for any
-        radius, or for the given distance), a length is not finite, or an offset or a curvature is given for a follower
-        that has none
+        radius, or for the given distance), a length is not finite, an offset is given for a follower that has none, or
+        a curvature where the place is to be found
 
     >>> import graphcam as gc
     >>> motion = gc.Motion([gc.Rise(30, math.pi / 2, "cosine"), gc.Return(30, math.pi / 2, "cosine"),
@@ -108,13 +113,16 @@ def minimum_radius(
     check_kind("motion", motion, Motion)
     check_kind("follower", follower, FOLLOWER_CLASSES)
     sigma, exact = sense(rotation), EXACT_FUNCTIONS[type(follower)]
-    if curvature is not None and exact.condition != "curvature":
-        limit = say("left out")
-        raise DesignError("curvature", curvature, limit, say("only a flat face limits the radius by the curvature"))
     if offset is not None and exact.condition != "offset":
         raise DesignError("offset", offset, say("left out"), say("only a translating follower has an offset"))
     limits = Limits(math.radians(follower.usual_limit_deg) if rise is None else rise, return_, rest)
-    condition = offset if curvature is None else curvature
-    if condition is None:
-        return exact.least_radius(motion, follower, sigma, limits)
-    return exact.least_radius(motion, follower, sigma, limits, condition)
+    condition = curvature if exact.condition == "curvature" else offset
+    least = exact.least_radius(motion, follower, sigma, limits, *([] if condition is None else [condition]))
+    if curvature is None or isinstance(least, FlatMinimumRadius):
+        return least
+    place = {"offset": offset, "distance": getattr(follower, "distance", None)}[least.place_name]
+    if place is None:
+        remedy = say("give the {place} too", place=PLACE_TITLES[least.place_name])
+        raise DesignError("curvature", curvature, say("left out where the place is to be found"), remedy)
+    placed = replace(follower, **{least.place_name: place})
+    return sharp_enough(motion, placed, sigma, limits, least, curvature)

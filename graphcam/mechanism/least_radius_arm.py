@@ -27,7 +27,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -165,7 +165,7 @@ class ArmMinimumRadius:
 
     prime_radius: float
     distance: float
-    active: tuple[Line, ...]
+    active: tuple[Line | Literal["curvature"], ...]
     place_name = "distance"
 
     @property

@@ -17,6 +17,7 @@ Source: the shaded region of the textbooks on the theory of machines, written as
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,11 +38,11 @@ GROWING_PLACES = 0.3 * 4.0 ** np.arange(60)
 
 @dataclass(frozen=True)
 class MinimumRadius:
-    """The minimum permitted prime radius and its offset [mm]; ``active`` names the active lines."""
+    """The minimum permitted prime radius and its offset [mm]; ``active`` names the active lines, or the curvature."""
 
     prime_radius: float
     offset: float
-    active: tuple[Line, ...]
+    active: tuple[Line | Literal["curvature"], ...]
     place_name = "offset"
 
     @property

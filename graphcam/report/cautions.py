@@ -74,11 +74,11 @@ def sensitivity(solution: Solution) -> Iterator[Block]:
 
 
 def permitted_bend(solution: Solution) -> Iterator[Block]:
-    """The paragraph on the minimum radius of curvature under a flat face, beside the permitted one."""
+    """The paragraph on the minimum radius of curvature of the profile, beside the permitted one."""
     least = solution.task.limits.min_curvature_radius
-    if "pressure_angle" in solution.drawn or least is None:
+    if least is None:
         return
-    if float(solution.drawn["curvature"].value("rho")) < least - LAST_DIGIT:
+    if float(solution.drawn["curvature"].value("rho")) - solution.cam.roller_radius < least - LAST_DIGIT:
         yield warning(say("At least {least:g} mm is required: the condition is not satisfied.", least=least))
     else:
         yield say("At least {least:g} mm is required: the condition is satisfied.", least=least)

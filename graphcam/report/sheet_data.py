@@ -10,6 +10,7 @@ from graphcam.drafting.scale import printed_unit, unit
 from graphcam.given.boundary_motion import BoundaryMotion
 from graphcam.given.boundary_parts import DERIVATIVE_NAMES
 from graphcam.given.measured import MeasuredMotion
+from graphcam.given.outline_motion import OutlineMotion
 from graphcam.report.markdown import number
 from graphcam.sheets.tables import Table
 from graphcam.solving.adopted_sizes import FaceDesign
@@ -23,6 +24,7 @@ Row = tuple[Words, Words, Words]
 """Name, value and origin of a quantity."""
 DRAWN_AND_EXACT_TITLE = say("Drawn and exact")
 GIVEN_LABEL, ADOPTED_LABEL, LIMIT_LABEL = say("given"), say("adopted"), say("limit")
+FOUND_LABEL = say("found")
 SPEED_HEADINGS: Mapping[str, tuple[Caption, ...]] = {
     "mm": (say("t, s"), say("v, m/s"), say("a, m/s²")),
     "rad": (say("t, s"), say("v, rad/s"), say("a, rad/s²")),
@@ -115,6 +117,7 @@ def data(solution: Solution) -> Table:
         *_limits(solution),
         *_measured(solution),
         *_by_conditions(solution),
+        *_given_cam(solution),
         *_finer_phases(solution),
     ]
     return data_table(task, rows, (ADOPTED_LABEL, ""))
@@ -169,6 +172,27 @@ def _by_conditions(solution: Solution) -> list[Row]:
     ]
 
 
+def _given_cam(solution: Solution) -> list[Row]:
+    """Rows on the radii of a given cam; the one that follows from the others is found."""
+    motion, radii = solution.chain.board.motion, solution.task.motion.radii
+    if radii is None or not isinstance(motion, OutlineMotion):
+        return []
+    cam, given = motion.outline, vars(radii)
+    base: Row = say("base radius"), mm(cam.base_radius), GIVEN_LABEL
+    nose: Row = say("nose radius"), mm(cam.nose_radius), GIVEN_LABEL if given["nose_radius"] else FOUND_LABEL
+    if cam.is_eccentric:
+        return [base, (say("radius of the eccentric circle"), mm(cam.nose_radius), FOUND_LABEL)]
+    flank = mm(cam.flank_radius) if cam.has_arcs else say("straight")
+    ascent = GIVEN_LABEL if given["ascent"] else FOUND_LABEL
+    return [
+        base,
+        (say("flank radius"), flank, GIVEN_LABEL if given["flank_radius"] else FOUND_LABEL),
+        nose,
+        (say("distance of the nose's centre"), mm(cam.nose_distance), FOUND_LABEL),
+        (say("angle of ascent"), degrees(cam.ascent), ascent),
+    ]
+
+
 def _finer_phases(solution: Solution) -> list[Row]:
     """Rows on the phases that are divided into more parts, because their acceleration is short."""
     stations, motion = solution.chain.board.stations, solution.chain.board.motion
@@ -183,9 +207,11 @@ def _limits(solution: Solution) -> list[Row]:
     if "pressure_angle" not in solution.drawn:
         return [(say("permitted radius of curvature"), mm(least or 0), LIMIT_LABEL)]
     back = degrees(limits.return_) if limits.return_ else say("force closure")
+    sharp = [] if least is None else [(say("permitted radius of curvature"), mm(least), LIMIT_LABEL)]
     return [
         (say("permitted angle, rise"), degrees(limits.rise), LIMIT_LABEL),
         (say("permitted angle, return"), back, LIMIT_LABEL),
+        *sharp,
     ]
 
 

@@ -101,8 +101,12 @@ def adopted_cautions(chain: Chain, cam: Cam, face: FaceDesign | None = None) -> 
 
 def _satisfies(cam: Cam, board: Board, slack: float) -> bool:
     """Whether a cam satisfies every limit of the task but for ``slack`` [degrees, mm]."""
+    rho = cam.extremes().min_convex_radius[0]
     sharpest = board.follower.conditions.get("curvature")
-    if sharpest is not None and cam.extremes().min_convex_radius[0] < sharpest - slack:
+    if sharpest is None and board.min_profile_radius is not None:
+        roller = _by_rule(board, cam) if board.roller_radius is None else board.roller_radius
+        sharpest = board.min_profile_radius + max(roller, 0.0)
+    if sharpest is not None and rho < sharpest - slack:
         return False
     return not any(angles_exceeded(cam, board, slack))
 
@@ -116,7 +120,10 @@ def _radius(chain: Chain, cam: Cam) -> Iterator[Caution]:
     if decided or _satisfies(cam, board, PRINT_ROUNDING):
         return
     radius, least = chain.prime_radius, _exact_least_radius(chain)
-    if board.prime_radius is None and least > radius:
+    if board.prime_radius is None and least > radius and chain.trials:
+        said = say("The prime radius of {radius:g} mm{there} is smaller than the exact minimum, {least:.5g} mm.")
+        said = said.with_values(least=least)
+    elif board.prime_radius is None and least > radius:
         drawn = chain.adopted().least
         said = say(
             "The adopted prime radius of {radius:g} mm is smaller than the exact minimum{there}, {least:.5g} mm: the "
@@ -140,7 +147,7 @@ def _place_words(chain: Chain) -> Words:
     name = chain.board.follower.place_name
     return (
         PLACE_CAPTIONS[name].with_values(place=chain.place)
-        if name in PLACE_CAPTIONS and "curvature" not in _limit_arguments(chain)
+        if name in PLACE_CAPTIONS and "curvature" not in chain.board.follower.conditions
         else ""
     )
 
@@ -154,13 +161,16 @@ PLACE_CAPTIONS = {
 def _limit_arguments(chain: Chain) -> dict[str, Any]:
     """What the exact least radius is asked for at the adopted place."""
     asked = asdict(chain.board.limits) | dict(chain.board.follower.conditions)
+    if chain.board.min_profile_radius is not None:
+        asked["curvature"] = chain.board.min_profile_radius
     return asked | ({"offset": chain.place} if "offset" in asked else {})
 
 
 def _exact_least_radius(chain: Chain) -> float:
     """The exact least prime radius at the adopted place [mm]; NaN where that satisfies no limits."""
     board = chain.board
-    follower = board.follower.built(chain.place, 0.0)
+    # A roller that is open is smaller where the profile would be too sharp.
+    follower = board.follower.built(chain.place, board.roller_radius or 0.0)
     with suppress(DesignError):
         return minimum_radius(board.motion, follower, board.rotation, **_limit_arguments(chain)).prime_radius
     return math.nan

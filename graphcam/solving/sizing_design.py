@@ -14,7 +14,6 @@ from graphcam import __version__
 from graphcam.constructions.adoption import multiple, steps_up, usual_rounding
 from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
-from graphcam.given.roller_rule import roller_rule
 from graphcam.given.spring_load import SpringLoad
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.contact import least_preload
@@ -219,7 +218,7 @@ def _problem(task: Task, table: SizingTable) -> SizingProblem:
         material.permitted_stress,
         asked.rise,
         asked.return_,
-        roller_rule(follower.roller_rule),
+        task.roller_terms,
         material(),
         spring.friction,
     )

@@ -46,7 +46,7 @@ def warnings_of(cam: Cam, board: Board, least_prime_radius: float) -> list[Cauti
 
     cam : as it was adopted;  board : what was given;  least_prime_radius : the exact one of the task [mm]
     """
-    return [*_undercut(cam), *_limits(cam, board), *_prime_radius(board, least_prime_radius)]
+    return [*_undercut(cam), *_limits(cam, board), *_too_sharp(cam, board), *_prime_radius(board, least_prime_radius)]
 
 
 def _undercut(cam: Cam) -> Iterator[Caution]:
@@ -104,6 +104,14 @@ def _limits(cam: Cam, board: Board) -> Iterator[Caution]:
     for word, alpha, phi, limit in angles_exceeded(cam, board, PRINT_ROUNDING):
         values = {"alpha": abs(math.degrees(alpha)), "phi": _degrees(phi), "limit": math.degrees(limit)}
         yield Caution(replace(EXCEEDED_WARNINGS[word], values=values), "pressure angle", (phi,), alpha)
+
+
+def _too_sharp(cam: Cam, board: Board) -> Iterator[Caution]:
+    rho, phi = cam.extremes().min_convex_radius
+    least = board.min_profile_radius
+    if least is not None and rho - cam.roller_radius < least - PRINT_ROUNDING:
+        said = say("The radius of curvature of the profile falls to {rho:.2f} mm at {phi}; {least:g} mm are required.")
+        yield Caution(said.with_values(rho=rho - cam.roller_radius, phi=_degrees(phi), least=least), "profile", (phi,))
 
 
 def angles_exceeded(cam: Cam, board: Board, slack: float) -> Iterator[tuple[str, float, float, float]]:

@@ -23,7 +23,6 @@ from graphcam.drafting.scale import (
 )
 from graphcam.errors import DesignError
 from graphcam.given.follower import Oscillating, omega_of, sense
-from graphcam.given.roller_rule import roller_rule
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.oscillating_flat import check_swing
 from graphcam.sheets.formats import Format
@@ -90,9 +89,10 @@ def board_of(task: Task) -> Board:
         follower=follower,
         rotation=task.rotation,
         limits=task.limits(),
-        prime_radius=task.cam.prime_radius,
+        prime_radius=task.prime_radius,
         roller_radius=task.follower.roller_radius,
-        roller_rule=roller_rule(task.follower.roller_rule),
+        roller_rule=task.roller_terms,
+        min_profile_radius=task.limits.min_curvature_radius if "roller" in follower.constructions else None,
         divisions=drawing.divisions or USUAL_DIVISIONS,
         ordinate=ordinate,
         poles=poles,
@@ -198,7 +198,7 @@ def page_room(task: Task, heights: DrawnHeights, follower: DrawnFollower) -> Dia
     """
     beside = heights.turn + POLE_MARGIN
     diagram = max(papers(task.drawing, complex(beside + STANDARD_POLES[0], 0.0)), key=lambda paper: paper.height)
-    size = follower.extent(heights.values, task.limits(), task.rotation, task.cam.prime_radius)
+    size = follower.extent(heights.values, task.limits(), task.rotation, task.prime_radius)
     # So many units of the lift for a millimetre of paper let the combined diagram into one of the rooms.
     free = [complex(paper.width, paper.height) - DIAGRAM_MARGINS for paper in papers(task.drawing, DIAGRAM_MARGINS)]
     mu_s = min(max(size.real / each.real, size.imag / each.imag) for each in free)
@@ -251,7 +251,7 @@ ARM_MARGINS = complex(40.0, 62.0)
 
 def _scale_of_positions(task: Task, arm: Oscillating) -> Scale:
     """The largest standard scale at which the arm is no longer than usual and its positions fit a page."""
-    limits, radius = task.limits(), task.cam.prime_radius
+    limits, radius = task.limits(), task.prime_radius
     centres = [] if radius is None or arm.distance is None else [(radius, arm.distance)]
     # Where the drawing will find the cam centre is computed, for no other end than to leave room for it.
     with suppress(DesignError):

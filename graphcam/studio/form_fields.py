@@ -19,6 +19,12 @@ LIMITS, SPRING, MATERIAL, DRAWING = say("Limits"), say("Spring"), say("Material"
 DEGREE_SIGN = "°"
 NUMBER_FIELDS: dict[str, tuple[Caption, Caption]] = {
     "motion.tolerance": (MOTION, say("Tolerance of the fit")),
+    "motion.radii.base_radius": (CAM, say("Base radius")),
+    "motion.radii.flank_radius": (CAM, say("Flank radius")),
+    "motion.radii.nose_radius": (CAM, say("Nose radius")),
+    "motion.radii.lift": (CAM, say("Lift")),
+    "motion.radii.ascent": (CAM, say("Angle of ascent")),
+    "motion.radii.dwell": (CAM, say("Upper dwell")),
     "speed_rpm": (MOTION, say("Speed")),
     "follower.offset": (FOLLOWER, say("Offset e")),
     "follower.arm": (FOLLOWER, say("Arm length l")),

@@ -141,7 +141,7 @@ def arms(solution: Solution) -> SizeRange:
 
 def _all_open(solution: Solution) -> bool:
     """Whether prime radius and centre distance are both left open."""
-    return solution.task.cam.prime_radius is None and sizes_of(solution.task)["distance"] is None
+    return solution.task.prime_radius is None and sizes_of(solution.task)["distance"] is None
 
 
 def _fixed_sizes(solution: Solution) -> Changes:

@@ -116,6 +116,9 @@ def _(solution: Solution) -> dict[str, SizeRange]:
         }
         found |= {f"material.{name}": _usual_range(value) for name, value in sized.items()}
         found |= {f"material.poisson_{body}": SizeRange(0.0, 0.5, 0.01) for body in ("cam", "follower")}
+    for path, size in given_radii(solution.task):
+        usual = SizeRange(0.0, 180.0, 1.0) if path.endswith(("ascent", "dwell")) else _usual_range(abs(size))
+        found[path] = usual if size >= 0 else SizeRange(-usual.most, -usual.least, usual.step)
     if solution.task.motion.table is not None:
         found["motion.tolerance"] = SizeRange(0.002, 0.2, 0.001)
     return _widened_ranges(found, solution.task)
@@ -185,6 +188,17 @@ def sizes_of(task: Task) -> dict[str, Any]:
     return {field.name: getattr(task.follower, field.name) for field in fields(task.follower)}
 
 
+def given_radii(task: Task) -> list[tuple[str, float]]:
+    """The sizes of a given cam that are numbers, by their paths; a straight flank is none.
+
+    >>> import graphcam as gc
+    >>> given_radii(gc.builtin_task())
+    []
+    """
+    said = plain_data(task.motion.radii) if task.motion.radii else {}
+    return [(f"motion.radii.{name}", size) for name, size in said.items() if isinstance(size, float | int)]
+
+
 def has_angles(task: Task) -> bool:
     """Whether the follower has a pressure angle; if not, the curvature of the profile limits the cam."""
     return "pressure_angle_rise" not in task.follower.without
@@ -199,7 +213,7 @@ def lift_of(solution: Solution) -> float:
 
 def _of_follower(solution: Solution) -> dict[str, SizeRange]:
     """The sizes of cam and follower: all that leave room for one another."""
-    follower, given = sizes_of(solution.task), solution.task.cam.prime_radius
+    follower, given = sizes_of(solution.task), solution.task.prime_radius
     radius, step = solution.chain.prime_radius, step_for(lift_of(solution))
     roller = (
         {"follower.roller_radius": SizeRange(0.0, multiple_below(radius, step), step)}
@@ -235,7 +249,7 @@ def _of_arm(solution: Solution, step: float) -> dict[str, SizeRange]:
     """An arm must reach the prime circle; what is found follows the other sizes."""
     follower = sizes_of(solution.task)
     arm, distance, radius = follower["arm"], solution.chain.place, solution.chain.prime_radius
-    closed = solution.task.cam.prime_radius is not None and follower["distance"] is not None
+    closed = solution.task.prime_radius is not None and follower["distance"] is not None
     free = SizeRange(step, round_up(2.5 * arm), step)
     arms, distances, radii = (
         third_side(*sides, step) if closed else free for sides in ((distance, radius), (arm, radius), (arm, distance))
@@ -267,9 +281,10 @@ def _of_swinging_face(solution: Solution, step: float) -> dict[str, SizeRange]:
 
 
 def _of_limits(task: Task) -> dict[str, SizeRange]:
+    profile = {"limits.min_curvature_radius": SizeRange(0.5, 50.0, 0.5)}
     if not has_angles(task):
-        return {"limits.min_curvature_radius": SizeRange(0.5, 50.0, 0.5)}
-    return {f"limits.pressure_angle_{way}": SizeRange(*ANGLE_RANGE, 1.0) for way in ("rise", "return")}
+        return profile
+    return profile | {f"limits.pressure_angle_{way}": SizeRange(*ANGLE_RANGE, 1.0) for way in ("rise", "return")}
 
 
 def _of_drawing(solution: Solution) -> dict[str, SizeRange]:

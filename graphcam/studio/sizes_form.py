@@ -21,6 +21,7 @@ from graphcam.studio.size_ranges import (
     MAX_PHASES,
     MIN_PHASE_ANGLE,
     SizeRange,
+    given_radii,
     has_angles,
     lift_of,
     ranges,
@@ -179,6 +180,8 @@ def _motion(make: FieldMaker, solution: Solution) -> Iterator[Field]:
         yield make.number("motion.tolerance") | {"unit": _lift_unit(make, solution)}
     elif solution.task.motion.phases is not None:
         yield _phases(make, solution)
+    for name, _ in given_radii(solution.task):
+        yield make.number(name)
     yield make.choice("rotation", MOTION, say("Rotation of the cam"), SENSE_NAMES.items())
     yield make.open_number("speed_rpm", None)
 
@@ -241,14 +244,14 @@ def _follower(make: FieldMaker, solution: Solution) -> Iterator[Field]:
         rules: list[tuple[str, Words]] = [(DEFAULT_RULE, DEFAULT_RULE)]
         rules += [(name, f"{each.rule} ({name})") for name, each in NAMED_RULES.items()]
         yield make.choice("follower.roller_rule", FOLLOWER, say("Rule for the roller"), rules)
-    yield make.open_number("cam.prime_radius", chain.prime_radius)
+    if solution.task.motion.radii is None:
+        yield make.open_number("cam.prime_radius", chain.prime_radius)
 
 
 def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     """What the cam must keep to, and the spring and the material if there are such."""
-    if not has_angles(solution.task):
-        yield make.open_number("limits.min_curvature_radius", None)
-    else:
+    yield make.open_number("limits.min_curvature_radius", None)
+    if has_angles(solution.task):
         yield make.number("limits.pressure_angle_rise")
         yield make.open_number("limits.pressure_angle_return", None)
         yield make.choice("limits.rest", LIMITS, say("Angle in the lower dwell"), DWELL_LIMIT_CHOICES.items())

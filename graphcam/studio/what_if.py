@@ -12,7 +12,6 @@ from graphcam.drafting.scale import UNITS
 from graphcam.errors import DesignError, GraphcamError
 from graphcam.given.follower import Follower
 from graphcam.given.measured import MeasuredMotion
-from graphcam.given.roller_rule import roller_rule
 from graphcam.language import language
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.least_radius import minimum_radius
@@ -80,7 +79,7 @@ def _of_motion(task: Task) -> dict[str, float | None]:
     """The design of a cam whose follower moves by laws, or as it was measured."""
     motion, given = task.motion(), task.follower
     least, place = _exact_least_radius(task)
-    r0 = least if task.cam.prime_radius is None else task.cam.prime_radius
+    r0 = least if task.prime_radius is None else task.prime_radius
     # The pitch curve does not depend on the roller, which the rule takes from it.
     cam = Cam(motion, _follower(task, place), r0, task.rotation)
     extremes = cam.extremes()
@@ -89,7 +88,7 @@ def _of_motion(task: Task) -> dict[str, float | None]:
     if not has_angles(task):
         return found
     rise, back = (math.degrees(abs(each)) for each, _ in (extremes.pressure_angle_rise, extremes.pressure_angle_return))
-    by_rule = min(term(rho=rho, r0=r0) for term in roller_rule(given.roller_rule))
+    by_rule = min(term(rho=rho, r0=r0) for term in task.roller_terms)
     roller = by_rule if given.roller_radius is None else given.roller_radius
     return found | {"pressure_angle_rise": rise, "pressure_angle_return": back, "roller_radius": roller}
 
@@ -100,8 +99,12 @@ def _exact_least_radius(task: Task) -> tuple[float, float]:
     asked: dict[str, Any] = {"rise": limits.rise, "return_": limits.return_, "rest": limits.rest, **_condition(task)}
     try:
         least = minimum_radius(task.motion(), task.follower(), task.rotation, **asked)
+        if has_angles(task) and (sharpest := task.limits.min_curvature_radius) is not None:
+            placed = replace(task.follower(), **{least.place_name: least.place})
+            asked |= {"curvature": sharpest} | ({"offset": least.place} if "offset" in asked else {})
+            least = minimum_radius(task.motion(), placed, task.rotation, **asked)
     except DesignError:
-        if task.cam.prime_radius is None:
+        if task.prime_radius is None:
             raise
         return math.nan, math.nan
     return least.prime_radius, least.place
@@ -288,9 +291,10 @@ def _limits(solution: AnySolution) -> dict[str, float | None]:
     limits = solution.task.limits
     if not has_angles(solution.task):
         return {"curvature_radius": limits.min_curvature_radius or 0.0}
-    permitted = solution.task.limits()
-    back = permitted.return_
-    return {
+    permitted, sharpest = solution.task.limits(), limits.min_curvature_radius
+    back, roller = permitted.return_, solution.chain.board.roller_radius
+    profile = {} if sharpest is None or roller is None else {"curvature_radius": roller + sharpest}
+    return profile | {
         "pressure_angle_rise": math.degrees(permitted.rise),
         "pressure_angle_return": None if back is None else math.degrees(back),
     }

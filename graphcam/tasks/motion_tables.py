@@ -7,15 +7,18 @@ from functools import lru_cache
 from typing import Annotated, Any, ClassVar, Literal
 
 from graphcam.errors import DesignError
+from graphcam.given.arc_outline import ArcOutline, Straight, cam_by_radii
 from graphcam.given.boundary_motion import BoundaryMotion, boundary_motion
 from graphcam.given.boundary_parts import DERIVATIVE_NAMES, MotionPoint, PolynomialPart, SplinePart
+from graphcam.given.follower import FlatFaced, Follower, Rotation
 from graphcam.given.motion import FULL_TURN, NEAR_TURN_SHARE, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
+from graphcam.given.outline_motion import OutlineMotion, outline_motion
 from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law
 from graphcam.given.table_file import CurveTable
 from graphcam.tasks.dataclass_reader import ByKind, ByName
-from graphcam.tasks.units import LIFT, Acceleration, Angle, Jerk, Lift, Velocity
+from graphcam.tasks.units import LIFT, Acceleration, Angle, Jerk, Length, Lift, Velocity
 from graphcam.words import Words, say
 
 ANGLE_CLOSURE = 1e-9
@@ -173,6 +176,40 @@ PhaseTable = Annotated[RiseTable | DwellTable | ReturnTable, ByKind()]
 
 
 @dataclass(frozen=True)
+class RadiiTable:
+    """``[arcs]`` of a given cam of base circle, flank and nose, whose motion is asked for.
+
+    base_radius, nose_radius, lift : mm
+    flank_radius : mm, negative of a hollow flank, or "straight" for a tangent cam
+    ascent, dwell : degrees from the start of the flank to the apex, and for which the follower is held up
+
+    Three of flank_radius, nose_radius, lift and ascent are given, or lift alone for an eccentric cam.
+    """
+
+    base_radius: Length
+    flank_radius: Length | Straight | None = None
+    nose_radius: Length | None = None
+    lift: Length | None = None
+    ascent: Angle | None = None
+    dwell: Angle = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("base_radius", "flank_radius", "nose_radius", "lift"):
+            if isinstance(size := getattr(self, name), float | int):
+                bounded(name, abs(size), "mm")
+        for name in ("ascent", "dwell"):
+            if not 0 <= (angle := getattr(self, name) or 0.0) < 360:
+                raise DesignError(name, angle, say("at least 0 and less than 360 degrees"))
+        self()
+
+    def __call__(self) -> ArcOutline:
+        """The outline of the cam."""
+        ascent = None if self.ascent is None else math.radians(self.ascent)
+        dwell = math.radians(self.dwell)
+        return cam_by_radii(self.base_radius, self.flank_radius, self.nose_radius, self.lift, ascent, dwell)
+
+
+@dataclass(frozen=True)
 class MotionTable:
     """``[motion]``: the phases of one revolution, in order, or parts by conditions, or the table of a measured motion.
 
@@ -180,20 +217,24 @@ class MotionTable:
         longest dwell takes up
     parts : polynomials and splines through points, in place of phases; where they leave a gap the follower rests
     table : of a measured motion, in place of phases; a file gives the name of a CSV file beside it
+    radii : of a given cam, in place of phases; a file gives them as a table ``[arcs]``
     tolerance : mm (degrees for an arm), how far the motion may pass the table; None is 0.01
 
-    ``lift_unit`` is what one unit of lift is in the API: 1 mm, or for an arm 1 degree or 1 mm of arc in radians; the
-    task sets it.
+    ``lift_unit`` is what one unit of lift is in the API: 1 mm, or for an arm 1 degree or 1 mm of arc in radians; it and
+    ``follows``, the follower that a given cam moves and its sense of rotation, are set by the task.
     """
 
     phases: tuple[PhaseTable, ...] | None = None
     table: CurveTable | None = None
     tolerance: Lift | None = None
     parts: tuple[PartOfMotion, ...] | None = None
+    radii: RadiiTable | None = None
     lift_unit: float = field(default=1.0, init=False, repr=False, compare=False)
+    follows: tuple[Follower, Rotation] = field(default=(FlatFaced(), "ccw"), init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        ways = {"phases": self.phases, "table": self.table and self.table.file, "parts": self.parts}
+        table = self.table and self.table.file
+        ways = {"phases": self.phases, "table": table, "parts": self.parts, "radii": self.radii}
         given = [name for name, value in ways.items() if value is not None]
         if not given:
             raise DesignError("phases", say("missing"), say("given"))
@@ -210,7 +251,8 @@ class MotionTable:
             turn = math.fsum(phase.angle for phase in self.phases)
             if abs(turn - 360) > ROUNDED_CLOSURE:
                 raise DesignError(say("sum of the phase angles"), turn, say("360 degrees"), _remedy(turn, self.phases))
-        self()
+        if self.radii is None:
+            self()
 
     @property
     def closed(self) -> tuple[int, float] | None:
@@ -229,6 +271,8 @@ class MotionTable:
             return self.table(self.tolerance, self.lift_unit)
         if self.parts is not None:
             return _by_conditions(self.parts, self.lift_unit)
+        if self.radii is not None:
+            return _of_given_cam(self.radii, *self.follows)
         return _motion(tuple(self.phases or ()), self.lift_unit)
 
 
@@ -273,6 +317,11 @@ def _motion(tables: tuple[PhaseTable, ...], unit: float) -> Motion:
         closed[k] = replace(closed[k], angle=closed[k].angle + missing)
     phases: list[Phase] = [table(unit) for table in closed]
     return Motion(phases)
+
+
+@lru_cache(maxsize=16)
+def _of_given_cam(radii: RadiiTable, follower: Follower, rotation: Rotation) -> OutlineMotion:
+    return outline_motion(radii(), follower, rotation)
 
 
 @lru_cache(maxsize=16)

@@ -23,8 +23,9 @@ from graphcam.given.follower import (
     Translating,
     sense,
 )
+from graphcam.given.outline_motion import OutlineMotion
 from graphcam.given.plausible_ranges import bounded, check_positive
-from graphcam.given.roller_rule import DEFAULT_RULE, roller_rule
+from graphcam.given.roller_rule import DEFAULT_RULE, Candidate, roller_rule
 from graphcam.showing import MAX_WIDTH, value_text
 from graphcam.tasks.dataclass_reader import ByKeys, ByKind
 from graphcam.tasks.material_table import MaterialTable
@@ -40,9 +41,17 @@ from graphcam.words import say
 MAX_DIVISIONS = 1000
 """The maximum number of parts of a phase; more cannot be drawn apart."""
 LARGER_RADIUS_REMEDY = say("or a larger cam.prime_radius")
-FACE_ONLY_REMEDY = "only a flat face is limited by it; a roller has its roller_rule"
 NO_FACE_REMEDY = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
 
+GIVEN_CAM_KEYS = {
+    "roller radius": "follower.roller_radius",
+    "offset": "follower.offset",
+    "centre distance": "follower.distance",
+    "base_radius": "arcs.base_radius",
+    "flank_radius": "arcs.flank_radius",
+    "follower": "follower.kind",
+}
+"""The keys of what a follower of a given cam may lack, by their quantities."""
 SWINGING_FACE_REMEDY = "under a face that swings the curvature limits the cam; give limits.min_curvature_radius"
 
 
@@ -50,7 +59,7 @@ class _FollowerTable:
     """The properties of ``[follower]`` that a task uses; each kind states what differs from a stem with a roller."""
 
     roller_radius: float | None
-    without: ClassVar[Mapping[str, str]] = {"min_curvature_radius": FACE_ONLY_REMEDY}
+    without: ClassVar[Mapping[str, str]] = {}
     """The limits that this follower does not have, each with the remedy."""
     swings: ClassVar[bool] = False
     """Whether the follower turns about a pivot, so that its spring exerts a moment."""
@@ -264,7 +273,7 @@ class LimitsTable:
 
     pressure_angle_rise : degrees; None takes the usual one of the follower's kind
     pressure_angle_return : degrees; None is force closure, where the return does not limit the radius
-    min_curvature_radius : mm, of the profile under a flat face
+    min_curvature_radius : mm, of the working profile, convex parts only under a roller; None is no limit
     rest : whether the angle at the lower dwell must keep the limits of the phases beside it too
     """
 
@@ -366,6 +375,7 @@ class Task:
     def __repr__(self) -> str:
         other = f"measured, {self.motion.table.file}" if self.motion.table else ""
         other = other or ", ".join(f"{part.kind} of {len(part.points)} points" for part in self.motion.parts or ())
+        other = other or ("given by its radii" if self.motion.radii else "")
         phases = ", ".join(f"{phase.kind} {phase.angle:g}°" for phase in self.motion.phases or ())
         turns = f"turns {self.rotation}" + (f" at {self.speed_rpm:g} rpm" if self.speed_rpm else "")
         rows = f"{turns}, {self.follower.kind} follower", shorten(other or phases, MAX_WIDTH, placeholder=" ...")
@@ -439,9 +449,46 @@ class Task:
             raise DesignError(quantity, motion.table.column, say("{column} for this follower", column=column), remedy)
         check_turning(motion, turning=column == "s_deg", path="motion")
         object.__setattr__(self, "motion", motion)
+        if motion.radii is not None:
+            self._inform_of_given_cam(motion)
         if self.limits.pressure_angle_rise is None and "pressure_angle_rise" not in self.follower.without:
             limits = dataclasses.replace(self.limits, pressure_angle_rise=self.follower().usual_limit_deg)
             object.__setattr__(self, "limits", limits)
+
+    def _inform_of_given_cam(self, motion: MotionTable) -> None:
+        """Set the follower that a given cam moves, and check that it has all its sizes and can follow."""
+        if self.cam.prime_radius is not None:
+            limit, remedy = say("left out where the cam is given"), say("it is the base radius and the roller together")
+            raise DesignError("cam.prime_radius", self.cam.prime_radius, limit, remedy)
+        if self.follower.roller_radius is None:
+            limit = say("given where the cam is given")
+            raise DesignError("follower.roller_radius", say("missing"), limit, say("0 is a knife edge"))
+        if isinstance(self.follower, TranslatingTable) and self.follower.offset is None:
+            object.__setattr__(self, "follower", replace(self.follower, offset=0.0))
+        object.__setattr__(motion, "follows", (self.follower(), self.rotation))
+        try:
+            motion()
+        except DesignError as error:
+            raise DesignError(GIVEN_CAM_KEYS.get(error.quantity, error.args[0]), *error.args[1:]) from None
+
+    @property
+    def prime_radius(self) -> float | None:
+        """The prime radius [mm] that is given, or that a given cam has; None is open."""
+        motion = self.motion() if self.motion.radii else None
+        return motion.prime_radius if isinstance(motion, OutlineMotion) else self.cam.prime_radius
+
+    @property
+    def roller_terms(self) -> tuple[Candidate, ...]:
+        """The terms of the rule for the roller radius, and what the permitted curvature of the profile leaves.
+
+        >>> import graphcam as gc
+        >>> sharp = dataclasses.replace(gc.builtin_task(), limits=LimitsTable(min_curvature_radius=4.0))
+        >>> [term.text for term in sharp.roller_terms]
+        ['0.7 rho', '0.4 r0', 'rho - 4']
+        """
+        least = self.limits.min_curvature_radius
+        profile = [] if least is None else [Candidate(f"rho - {least:g}", "rho", margin=least)]
+        return (*roller_rule(self.follower.roller_rule), *profile)
 
     def to_dict(self) -> dict[str, Any]:
         """The task with the keys of its file, as plain lists, numbers and text; what is open is left out.

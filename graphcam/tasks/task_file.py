@@ -48,6 +48,7 @@ _CLASSES: Classes = {
     ("motion", "phases", "rise"): motion_tables.RiseTable,
     ("motion", "phases", "dwell"): motion_tables.DwellTable,
     ("motion", "phases", "return"): motion_tables.ReturnTable,
+    ("motion", "radii"): motion_tables.RadiiTable,
     ("motion", "parts", "polynomial"): motion_tables.PolynomialTable,
     ("motion", "parts", "polynomial", "points"): motion_tables.PointTable,
     ("motion", "parts", "spline"): motion_tables.SplineTable,
@@ -269,7 +270,13 @@ def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]
 
 def _task(path: str, data: dict[str, Any], whole: dict[str, Any]) -> Task | ArcsTask:
     """The task that ``whole`` describes; errors use the words of the file's ``data``."""
-    if "arcs" in data:
+    arcs = data.get("arcs")
+    if isinstance(arcs, dict) and "base_radius" in arcs and "D" not in arcs and "motion" not in data:
+        # The radii of a given cam are a motion, of which ``[arcs]`` is the table.
+        whole = {"rotation": "ccw", **whole, "motion": {"radii": arcs}}
+        del whole["arcs"]
+        return checked_table(Task, _CLASSES, path, data, whole)
+    if arcs is not None:
         return checked_table(ArcsTask, _CLASSES_OF_ARCS, path, data, whole)
     return checked_table(Task, _CLASSES, path, data, whole)
 
@@ -393,6 +400,8 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
 def _look_up(data: Any, place: Place) -> tuple[str, Any]:
     """The written form of a place, such as ``motion.phases[2].angle``, and the value there (None if there is none)."""
     name = ""
+    if place[:2] == ("motion", "radii") and "arcs" in data:
+        place = ("arcs", *place[2:])
     for step in place:
         if isinstance(step, int):
             name += f"[{step}]"

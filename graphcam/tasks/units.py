@@ -126,8 +126,8 @@ def numbers_in_units(table: Any, path: str = "") -> Iterator[tuple[str, InUnit]]
         for k, part in enumerate(table):  # pyright: ignore[reportUnknownVariableType, reportUnknownArgumentType]
             yield from numbers_in_units(part, f"{path}[{k}]")
     elif dataclasses.is_dataclass(table):
-        for each in dataclasses.fields(table):
-            yield from numbers_in_units(getattr(table, each.name), f"{path}.{each.name}".lstrip("."))
+        for name in (each.name for each in dataclasses.fields(table) if each.init):
+            yield from numbers_in_units(getattr(table, name), f"{path}.{name}".lstrip("."))
 
 
 def mark_at(hint: Any, steps: Sequence[int | str]) -> HeldIn | None:

@@ -4,6 +4,7 @@ The test draws a few cams; ``python tests/mechanism/test_kept_limits.py --cases 
 """
 
 import argparse
+import dataclasses
 import math
 import sys
 from itertools import pairwise
@@ -105,7 +106,67 @@ def faults_of_case(seed, case):
 
 def faults_of_cases(cases, seed):
     """The faults of many random cams, by case."""
-    return {case: found for case in range(cases) if (found := faults_of_case(seed, case))}
+    return {case: found for case in range(cases) if (found := faults_of_case(seed, case) + sharp_faults(seed, case))}
+
+
+def curvatures_of(motion, follower, sigma, radius):
+    """kappa (n,) of the pitch curve over the turn, densely, the ends of the phases from both sides."""
+    phases = [motion.at(k, np.linspace(0, 1, 2001)) for k in range(len(motion.phases))]
+    s, v, a = (np.concatenate(each) for each in list(zip(*phases, strict=True))[:3])
+    if isinstance(follower, gc.Translating):
+        # The pitch point seen from the cam is (e + i (s0 + s)) exp(-i sigma phi): twice differentiated by phi.
+        z, z1, z2 = follower.offset + 1j * (math.sqrt(radius**2 - follower.offset**2) + s), 1j * v, 1j * a
+    else:
+        arm, distance = follower.arm, follower.distance
+        psi = math.acos((arm**2 + distance**2 - radius**2) / (2 * arm * distance)) + s
+        # The pivot at c from the cam centre; the arm leans back to it by psi.
+        z = distance - arm * np.exp(-1j * psi)
+        z1, z2 = (distance - z) * 1j * v, (distance - z) * (1j * a + v * v)
+    first, second = z1 - 1j * sigma * z, z2 - 2j * sigma * z1 - z
+    return -sigma * (first.conj() * second).imag / np.abs(first) ** 3
+
+
+def sharp_faults(seed, case):
+    """What is wrong with the minimum under a random roller, or none, whose profile has a permitted curvature too."""
+    rng = np.random.default_rng([seed, case, 1])
+    limits, swing = gc.Limits(math.radians(rng.choice([30, 40, 50]))), None if rng.random() < 0.6 else 100.0
+    motion = random_motion(rng, rng.uniform(5, 40) if swing is None else rng.uniform(0.1, 0.6))
+    roller, sharpest, rotation = (
+        rng.choice([0.0, 5.0, 15.0]),
+        rng.choice([0.0, 2.0, 10.0]),
+        str(rng.choice(["ccw", "cw"])),
+    )
+    try:
+        free = gc.minimum_radius(
+            motion, gc.Translating() if swing is None else gc.Oscillating(swing), rotation, limits.rise
+        )
+        place = free.place * rng.uniform(0.5, 1.2 if swing is None else 1.5)
+        follower = gc.Translating(place, roller) if swing is None else gc.Oscillating(swing, place, roller)
+        given = {"rise": limits.rise, **({"offset": place} if swing is None else {})}
+        steep = gc.minimum_radius(motion, follower, rotation, **given).prime_radius
+    except gc.DesignError:
+        return []
+    needed, sigma = roller + sharpest, +1 if rotation == "ccw" else -1
+
+    def permitted(radius):
+        sharp = curvatures_of(motion, follower, sigma, radius).max() * needed <= 1
+        return sharp and kept(motion, swing, sigma, radius, [place], limits).all()
+
+    try:
+        least = gc.minimum_radius(motion, follower, rotation, curvature=sharpest, **given)
+    except gc.DesignError:
+        radii = np.linspace(steep, swing + place, 100)[1:-1]
+        return ["refused, though a prime radius is permitted"] if any(permitted(radius) for radius in radii) else []
+    edge = dataclasses.replace(follower, roller_radius=0.0)  # a roller as large as the base circle is approached only
+    rho, faults = gc.Cam(motion, edge, least.prime_radius, rotation).extremes().min_convex_radius[0], []
+    if rho < needed * (1 - EXCESS):
+        faults.append(f"rho is {rho:.9f} mm of {needed:g}")
+    if least.active == ("curvature",) and not math.isclose(rho, needed, rel_tol=EXCESS):
+        faults.append(f"rho is {rho:.9f} mm, larger than {needed:g}")
+    smaller = np.linspace(steep, least.prime_radius * (1 - SMALLER), 40)
+    if least.prime_radius * (1 - SMALLER) > steep and any(permitted(radius) for radius in smaller):
+        faults.append(f"less than {least.prime_radius:.6f} mm would do")
+    return faults
 
 
 def test_the_minimum_radius_keeps_all_limits_and_no_smaller_one_does():

@@ -56,7 +56,19 @@ NOT_REACHED = {
     "range of the *": "sizing stands in Python and in exercises only",
     "sizes": "deviations stand in Python only",
     **dict.fromkeys(
-        ("motion", "phase", "follower", "cam", "guide", "forces", "contact", "deviations", "task", "parts[*]"),
+        (
+            "motion",
+            "outline",
+            "phase",
+            "follower",
+            "cam",
+            "guide",
+            "forces",
+            "contact",
+            "deviations",
+            "task",
+            "parts[*]",
+        ),
         "kinds of arguments are checked in Python only",
     ),
     "damping": "elastic followers stand in Python only",
@@ -201,6 +213,10 @@ def test_fields_agree_with_those_of_task_files():
 def test_fields_are_in_the_form():
     """What is shown beside a field must find it."""
     shown = {field["path"] for name in BUILT_IN for field in form_of(solved(name), str)}
+    radii = {"base_radius": 12, "nose_radius": 1.2, "lift": 7}
+    for other in ({"flank_radius": 36}, {"ascent": 68}):
+        given = rebuilt({"rotation": "ccw", "motion": {"radii": radii | other}, "follower": {"kind": "flat-faced"}})
+        shown |= {field["path"] for field in form_of(gc.solve(given), str)}
     of_no_field = {"motion.table", "spring", "drawing.rounding", "drawing.orientation", "follower.face_margin"}
     materials = {f"material.{key.name}" for key in fields(MaterialTable)}
     spring = {"mass", "stiffness", "preload", "acceleration", "friction", "load"}
@@ -239,7 +255,7 @@ WRONG = [
     ("coursework", {"motion.phases[1].angle": -5}, "motion.phases[1].angle"),
     ("coursework", {"motion.phases[0].law": "cubic"}, "motion.phases[0].law"),
     ("coursework", {"limits.pressure_angle_rise": 95.0}, "limits.pressure_angle_rise"),
-    ("coursework", {"limits.min_curvature_radius": 5.0}, "limits.min_curvature_radius"),
+    ("coursework", {"limits.min_curvature_radius": -5.0}, "limits.min_curvature_radius"),
     ("coursework", {"follower.roller_rule": "rho / 2"}, "follower.roller_rule"),
     ("coursework", {"follower.roller_rule": "rho - 5000"}, "follower.roller_rule"),
     ("coursework", {"drawing.divisions": 0}, "drawing.divisions"),

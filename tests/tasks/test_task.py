@@ -223,10 +223,6 @@ def test_angles_that_close_in_degrees_close_in_radians(phases):
         (lambda: Task("cw", UP_AND_DOWN, TranslatingTable(-50), cam=CamTable(50)), "follower.offset"),
         (lambda: Task("cw", UP_AND_DOWN, OscillatingTable(9, 9, 50), cam=CamTable(50)), "follower.roller_radius"),
         (
-            lambda: Task("cw", UP_AND_DOWN, TranslatingTable(), limits=LimitsTable(min_curvature_radius=8)),
-            "limits.min_curvature_radius",
-        ),
-        (
             lambda: Task("cw", UP_AND_DOWN, FlatFacedTable(), limits=LimitsTable(pressure_angle_rise=30)),
             "limits.pressure_angle_rise",
         ),

@@ -1,0 +1,338 @@
+"""What a cam of arcs does to a follower: s, v, a and j in closed form on every arc, and the motion over the turn.
+
+The trace point (the centre of a roller, or the knife edge) keeps the distance R, that of the arc and the roller
+together, from the centre C of the arc, which turns with the cam: C = C0 exp(i sigma phi).  So a translating follower at
+the offset e stands at
+
+    y = Im C + sqrt(R^2 - (e - Re C)^2),
+
+and an arm of the length l about a pivot at c at the angle psi, where w = c - C and
+
+    Re(w exp(i psi)) = (|w|^2 + l^2 - R^2)/(2 l).
+
+On a straight part with the outward normal n, at the distance p from the cam centre, e Re n + y Im n = p; and for an arm
+w = l n and the right side c Re n - p.  Under a flat face y = Im C + R.  Each is differentiated three times.
+"""
+
+import cmath
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import groupby, pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from graphcam.errors import DesignError, check_kind
+from graphcam.given.arc_outline import Arc, ArcOutline
+from graphcam.given.extreme_search import SmoothPieces
+from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
+from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, Return, Rise, wrap
+from graphcam.given.motion_law import Law
+from graphcam.words import say
+
+Values = tuple[Floats, Floats, Floats, Floats]
+"""s, v, a and j."""
+OUTLINE_LAW = "given cam"
+"""The name of the law of what a given cam does."""
+CHECKED_PLACES = 65
+"""Places of an arc at which the pressure angle is looked at."""
+MOST_STEEP = 1e3
+"""So many prime radii per radian no follower moves that is not about to jam."""
+JOINED = 1e-7
+"""By so much of its maximum the displacement, or the velocity, may seem to jump where one part follows another."""
+SAME_PLACE = 1e-9
+"""Cam angles [rad] nearer to one another are the same: a turning that is found twice, or where a part begins."""
+STILL = 1e-12
+"""An arc whose centre is nearer to the cam centre than this part of the prime radius is about the cam centre."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class OutlineMotion(Motion):
+    """The motion that a given cam gives a follower; made by :func:`outline_motion`.
+
+    Attributes
+    ----------
+    outline : the cam
+    prime_radius : of the pitch curve [mm], the base radius and the roller together
+    """
+
+    outline: ArcOutline
+    prime_radius: float
+
+    def _summary(self) -> str:
+        return f"{super()._summary()}, by a given cam"
+
+
+def outline_motion(outline: ArcOutline, follower: Follower, rotation: Rotation = "ccw") -> OutlineMotion:
+    """What a cam of base circle, flank and nose does to a follower; it turns so that the flank OA comes first.
+
+    follower : a :class:`~graphcam.Translating`, an :class:`~graphcam.Oscillating` with its distance, or a
+        :class:`~graphcam.FlatFaced`
+
+    Raises
+    ------
+    DesignError : the follower does not reach the cam all around: its pressure angle comes to 90 degrees, its roller is
+        larger than a hollow, or a flat face would meet a straight or hollow flank
+
+    >>> import graphcam as gc
+    >>> cam = gc.cam_by_radii(base_radius=28, flank_radius="straight", lift=15, ascent=math.radians(70))
+    >>> motion = outline_motion(cam, gc.Translating(roller_radius=16))
+    >>> [round(math.degrees(phase.angle), 4) for phase in motion.phases]
+    [70.0, 70.0, 220.0]
+    >>> s, v, a, j = motion([0.0, math.radians(70)])
+    >>> (a * (600 * math.pi / 30) ** 2 / 1000).round(2).tolist()
+    [173.71, -146.67]
+    """
+    check_kind("outline", outline, ArcOutline)
+    track = _track(outline, follower, sense(rotation))
+    edges = _edges(track)
+    _check_contact(track, edges)
+    legs = _legs(track, _split(track, edges))
+    return OutlineMotion([_phase(track, leg) for leg in legs], outline, track.prime_radius)
+
+
+class _Track(NamedTuple):
+    """The arcs for the trace point, and how it stands on one.
+
+    arcs : with radii and points of the trace point, turned to where they lie at phi = 0
+    position : where the trace point is at a distance from the cam centre; of a flat face the direction of its normal
+    stand : (arc, phi) to s and its derivatives
+    by_normal : whether a part begins where its normal, and not its first point, lies as ``position`` tells
+    """
+
+    arcs: Sequence[Arc]
+    sigma: int
+    prime_radius: float
+    lift: float
+    position: Callable[[float], complex]
+    stand: Callable[[Arc, Floats], Values]
+    by_normal: bool = False
+
+
+def _track(outline: ArcOutline, follower: Follower, sigma: int) -> _Track:
+    if isinstance(follower, FlatFaced):
+        return _under_face(outline, sigma)
+    if not isinstance(follower, Translating | Oscillating):
+        limit, remedy = say("a stem, an arm, or a flat face on a stem"), say("take another follower")
+        raise DesignError("follower", say("a face that swings"), limit, remedy)
+    roller = follower.roller_radius
+    if outline.flank_radius < 0 and not roller < -outline.flank_radius:
+        limit = say("less than {most:g} mm, the radius of the hollow flank", most=-outline.flank_radius)
+        raise DesignError(say("roller radius"), roller, limit, say("take a smaller roller or a flatter flank"))
+    r0 = outline.base_radius + roller
+    if isinstance(follower, Translating):
+        e = follower.offset
+        if not abs(e) < r0:
+            limit = say("less than the prime radius of {radius:g} mm in magnitude", radius=r0)
+            raise DesignError("offset", e, limit, say("take a smaller offset"))
+        lowest = math.sqrt((r0 - e) * (r0 + e))
+
+        def position(radius: float) -> complex:
+            return complex(e, math.sqrt(max(radius * radius - e * e, 0.0)))
+
+        def stand(arc: Arc, phi: Floats) -> Values:
+            return _on_guide(arc, phi, sigma, e, lowest)
+    else:
+        c, arm = _distance(follower), follower.arm
+        if not abs(c - arm) < r0 < c + arm:
+            limit = say("between {least:g} and {most:g} mm, so that the arm reaches", least=abs(c - arm), most=c + arm)
+            raise DesignError("base_radius", outline.base_radius, limit, say("change the arm or its distance"))
+
+        def position(radius: float) -> complex:
+            cosine = (c * c + arm * arm - radius * radius) / (2 * c * arm)
+            return c - arm * cmath.exp(-1j * math.acos(min(max(cosine, -1.0), 1.0)))
+
+        start = -cmath.phase((c - position(r0)) / arm)
+
+        def stand(arc: Arc, phi: Floats) -> Values:
+            return _on_arm(arc, phi, sigma, c, follower.arm, start)
+
+    turned = position(r0) / r0
+    arcs = [_placed(arc, turned, sigma, roller) for arc in outline.arcs()]
+    return _Track(arcs, sigma, r0, outline.lift, position, stand)
+
+
+def _distance(follower: Oscillating) -> float:
+    if follower.distance is None:
+        raise DesignError(
+            say("centre distance"), say("missing"), say("given"), say("the given cam stands at some distance")
+        )
+    return follower.distance
+
+
+def _under_face(outline: ArcOutline, sigma: int) -> _Track:
+    if not outline.is_eccentric and not 0 < outline.flank_radius < math.inf:
+        limit, remedy = say("rounded outwards under a flat face"), say("take a roller, or a flank of a large radius")
+        found = say("straight") if outline.flank_radius > 0 else say("hollow")
+        raise DesignError("flank_radius", found, limit, remedy)
+    base = outline.base_radius
+    arcs = [_placed(arc, 1j, sigma, 0.0) for arc in outline.arcs()]
+
+    def stand(arc: Arc, phi: Floats) -> Values:
+        y, y1, y2, y3 = (turned.imag for turned in _turning(arc.centre, phi, sigma))
+        return y + (arc.radius - base), y1, y2, y3
+
+    return _Track(arcs, sigma, base, outline.lift, lambda _: 1j, stand, by_normal=True)
+
+
+def _placed(arc: Arc, turned: complex, sigma: int, roller: float) -> Arc:
+    """The arc for the trace point of a roller, seen at phi = 0; of a cam that turns clockwise its mirror image."""
+
+    def seen(z: complex) -> complex:
+        return turned * (z if sigma > 0 else z.conjugate())
+
+    point, outward = seen(arc.point + roller * arc.outward), seen(arc.outward)
+    return Arc(seen(arc.centre), arc.radius + roller, seen(arc.normal), point, outward)
+
+
+# --- a follower on an arc --------------------------------------------------------------------------------------------
+
+
+def _turning(z: complex, phi: Floats, sigma: int) -> list[np.ndarray]:
+    """A point that turns with the cam, and its first three derivatives by phi."""
+    turned = z * np.exp(1j * sigma * phi)
+    return [turned, 1j * sigma * turned, -turned, -1j * sigma * turned]
+
+
+def _on_guide(arc: Arc, phi: Floats, sigma: int, e: float, lowest: float) -> Values:
+    if math.isinf(arc.radius):
+        n, n1, n2, n3 = _turning(arc.normal, phi, sigma)
+        p = (arc.point * arc.outward.conjugate()).real
+        y = (p - e * n.real) / n.imag
+        y1 = (-e * n1.real - y * n1.imag) / n.imag
+        y2 = (-e * n2.real - 2 * y1 * n1.imag - y * n2.imag) / n.imag
+        y3 = (-e * n3.real - 3 * (y2 * n1.imag + y1 * n2.imag) - y * n3.imag) / n.imag
+        return y - lowest, y1, y2, y3
+    c, c1, c2, c3 = _turning(arc.centre, phi, sigma)
+    x, x1, x2, x3 = e - c.real, -c1.real, -c2.real, -c3.real
+    q = np.sign(arc.radius) * np.sqrt(arc.radius * arc.radius - x * x)
+    q1 = -x * x1 / q
+    q2 = -(x1 * x1 + x * x2 + q1 * q1) / q
+    q3 = -(3 * x1 * x2 + x * x3 + 3 * q1 * q2) / q
+    return c.imag + q - lowest, c1.imag + q1, c2.imag + q2, c3.imag + q3
+
+
+def _on_arm(arc: Arc, phi: Floats, sigma: int, distance: float, arm: float, start: float) -> Values:
+    if math.isinf(arc.radius):
+        p = (arc.point * arc.outward.conjugate()).real
+        w, w1, w2, w3 = (arm * n for n in _turning(arc.normal, phi, sigma))
+        right = [distance / arm * z.real for z in (w, w1, w2, w3)]
+        right[0] = right[0] - p
+    else:
+        c, c1, c2, c3 = _turning(arc.centre, phi, sigma)
+        w, w1, w2, w3 = distance - c, -c1, -c2, -c3
+        # |w|^2 = distance^2 + |C|^2 - 2 distance Re C
+        square = distance * distance + abs(arc.centre) ** 2 + arm * arm - arc.radius * arc.radius
+        right = [-distance * z.real / arm for z in (c, c1, c2, c3)]
+        right[0] = right[0] + square / (2 * arm)
+    beyond = np.arccos(right[0] / np.abs(w))
+    psi = np.angle(np.exp(1j * (np.sign(arc.radius) * beyond - np.angle(w))))
+    turn = np.exp(1j * psi)
+    lever = (w * turn).imag
+    psi1 = ((w1 * turn).real - right[1]) / lever
+    psi2 = (((w2 + 2j * psi1 * w1 - psi1**2 * w) * turn).real - right[2]) / lever
+    third = w3 + 3j * (psi2 * w1 + psi1 * w2) - 3 * psi1 * (psi2 * w + psi1 * w1) - 1j * psi1**3 * w
+    psi3 = ((third * turn).real - right[3]) / lever
+    return psi - start, psi1, psi2, psi3
+
+
+# --- the motion over the turn ----------------------------------------------------------------------------------------
+
+
+def _edges(track: _Track) -> list[float]:
+    """The cam angles [rad] at which the parts begin, and the end of the turn."""
+    found: list[float] = []
+    for arc in track.arcs:
+        seen = arc.outward if track.by_normal else arc.point
+        place = track.position(abs(arc.point))
+        found.append(float(wrap(track.sigma * cmath.phase(place / seen))))
+    found[0] = 0.0
+    if not all(a < b for a, b in pairwise([*found, FULL_TURN])):
+        degrees = ", ".join(f"{math.degrees(angle):.4g}" for angle in found)
+        limit = say("growing, so that the follower touches one part after the other")
+        quantity = say("cam angles of the parts")
+        raise DesignError(quantity, say("{degrees} degrees", degrees=degrees), limit, say("take a smaller roller"))
+    return [*found, FULL_TURN]
+
+
+class _Stretch(NamedTuple):
+    """A part of the turn on one arc, over which the follower moves one way."""
+
+    arc: Arc
+    start: float
+    end: float
+    direction: int
+
+
+def _split(track: _Track, edges: Sequence[float]) -> list[_Stretch]:
+    """The turn, divided where another part begins and where the follower turns."""
+    found: list[_Stretch] = []
+    for arc, (start, end) in zip(track.arcs, pairwise(edges), strict=True):
+        if abs(arc.centre) <= STILL * track.prime_radius and math.isfinite(arc.radius):
+            found.append(_Stretch(arc, start, end, 0))
+            continue
+        pieces = SmoothPieces(np.array([start]), np.array([end]))
+        _, turning = pieces.zeros(lambda _, phi, arc=arc: track.stand(arc, phi)[1])
+        ends = [start, *(phi for phi in sorted(turning.tolist()) if phi < end - SAME_PLACE), end]
+        for low, high in ((low, high) for low, high in pairwise(ends) if high - low > SAME_PLACE):
+            velocity = float(track.stand(arc, np.array((low + high) / 2))[1])
+            found.append(_Stretch(arc, low, high, 1 if velocity > 0 else -1))
+    return found
+
+
+def _check_contact(track: _Track, edges: Sequence[float]) -> None:
+    """Check that the follower stays on the cam: on every part it stands somewhere, and nowhere jumps to the next."""
+    with np.errstate(invalid="ignore", divide="ignore"):
+        on = [
+            np.array(track.stand(arc, np.linspace(start, end, CHECKED_PLACES)))[:2]
+            for arc, (start, end) in zip(track.arcs, pairwise(edges), strict=True)
+        ]
+    largest = max(float(np.abs(values).max()) for values in on)
+    jumps = [np.abs(before[:, -1] - after[:, 0]).max() for before, after in zip(on, [*on[1:], on[0]], strict=True)]
+    if not (largest < MOST_STEEP * track.prime_radius and max(jumps) < JOINED * largest):
+        limit = say("less than 90 degrees")
+        remedy = say("enlarge the base radius, lift less, or take a larger ascent")
+        raise DesignError(say("pressure angle"), say("90 degrees or more"), limit, remedy)
+
+
+def _legs(track: _Track, stretches: list[_Stretch]) -> list[list[_Stretch]]:
+    """The phases: what moves one way, from where the follower begins to rise."""
+    if stretches[0].direction < 0 or len(track.arcs) == 1:  # it turns inside a part: begin where it is lowest
+        lowest = next(k for k, each in enumerate(stretches) if each.direction > 0 and stretches[k - 1].direction < 0)
+        stretches = [*stretches[lowest:], *stretches[:lowest]]
+    grouped = [list(group) for _, group in groupby(stretches, key=lambda each: each.direction)]
+    if len(grouped) > 1 and grouped[0][0].direction == grouped[-1][0].direction:
+        grouped[0] = [*grouped.pop(), *grouped[0]]
+    return grouped
+
+
+def _phase(track: _Track, leg: list[_Stretch]) -> Phase:
+    angle = math.fsum(each.end - each.start for each in leg)
+    direction = leg[0].direction
+    if not direction:
+        return Dwell(angle)
+    first, last = leg[0], leg[-1]
+    low = float(track.stand(first.arc, np.array(first.start))[0])
+    high = float(track.stand(last.arc, np.array(last.end))[0])
+    lift, begins = abs(high - low), np.cumsum([0.0, *(each.end - each.start for each in leg)])
+    # Counted from the beginning of the leg, which may run through the end of the turn.
+    formulas = [
+        _formula(track, each, begin, angle, low, direction * lift)
+        for each, begin in zip(leg, begins.tolist(), strict=False)
+    ]
+    law = Law(OUTLINE_LAW, formulas, tuple((begins[1:-1] / angle).tolist()), trusted=True)
+    return (Rise if direction > 0 else Return)(lift, angle, law)
+
+
+def _formula(
+    track: _Track, stretch: _Stretch, begin: float, angle: float, low: float, change: float
+) -> Callable[[Floats], Values]:
+    """f and its derivatives by the fraction u of the phase, on one stretch of it."""
+
+    def formula(u: Floats) -> Values:
+        s, v, a, j = track.stand(stretch.arc, stretch.start + (np.asarray(u) * angle - begin))
+        return (s - low) / change, v * (angle / change), a * (angle**2 / change), j * (angle**3 / change)
+
+    return formula
