@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from graphcam.errors import check_number
-from graphcam.words import Caption, say
+from graphcam.words import Caption, Words, say
 
 Ratios = tuple[float, ...]
 """Drawing scales, paper over machine, the largest first."""
@@ -135,7 +135,7 @@ UNITS: Mapping[str, Caption] = {
         *(say("mm"), say("mm/rad"), say("mm/rad²"), say("mm/rad³"), say("rad"), say("rad/rad"), say("rad/rad²")),
         *(say("rad/rad³"), say("deg"), say("m/s³"), say("rad/s³")),
         *(say("mm of paper"), say("m"), say("s"), say("m/s"), say("m/s²"), say("rad/s"), say("rad/s²"), say("N")),
-        *(say("N·mm"), say("N/mm"), say("N·mm/rad"), say("MPa")),
+        *(say("N·mm"), say("N/mm"), say("N·mm/rad"), say("MPa"), say("rpm"), say("kg"), say("kg·mm²")),
         *(say("µm"), say("µm/rad"), say("mrad"), say("mrad/rad"), say("mrad/rad²")),
         *(say("mm/mm"), say("(mm/rad)/mm"), say("(mm/rad²)/mm")),
     )
@@ -143,6 +143,16 @@ UNITS: Mapping[str, Caption] = {
 
 NEGLIGIBLE_SIZE = 0.005
 """A length on paper [mm], or an angle [degrees], of less is written as 0.00: it is neither set nor told."""
+
+
+def printed_unit(typed: str) -> Words:
+    """A unit as it is printed, by its name as it is typed in a file.
+
+    >>> str(printed_unit("kg mm^2")), printed_unit("uin")
+    ('kg·mm²', 'µin')
+    """
+    printed = typed.replace(" ", "·").replace("^2", "²").replace("^3", "³").replace("u", "µ")
+    return UNITS.get(printed, printed)
 
 
 def unit(name: str) -> Caption:

@@ -75,7 +75,7 @@ def _data(solution: ArcsSolution) -> Table:
         (say("rotation"), sense_caption(solution.rotation), ADOPTED_LABEL),
         *_at_speed(solution),
     ]
-    return data_table(rows, (DRAWN_LABEL,))
+    return data_table(task, rows, (DRAWN_LABEL,))
 
 
 def _at_speed(solution: ArcsSolution) -> list[Row]:

@@ -6,7 +6,7 @@ from itertools import product
 from graphcam.comparison.quantities import Quantity
 from graphcam.constructions.axes import degrees, phase_title, sense_caption
 from graphcam.constructions.law_names import LAW_TITLES, law_title
-from graphcam.drafting.scale import unit
+from graphcam.drafting.scale import printed_unit, unit
 from graphcam.given.boundary_motion import BoundaryMotion
 from graphcam.given.boundary_parts import DERIVATIVE_NAMES
 from graphcam.given.measured import MeasuredMotion
@@ -15,6 +15,9 @@ from graphcam.report.markdown import number
 from graphcam.sheets.tables import Table
 from graphcam.solving.adopted_sizes import FaceDesign
 from graphcam.solving.solution import Solution
+from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.task import Task
+from graphcam.tasks.units import UNITS, numbers_in_units
 from graphcam.words import Caption, Words, say, sequence
 
 Row = tuple[Words, Words, Words]
@@ -117,7 +120,7 @@ def data(solution: Solution) -> Table:
         *_given_cam(solution),
         *_finer_phases(solution),
     ]
-    return data_table(rows, (ADOPTED_LABEL, ""))
+    return data_table(task, rows, (ADOPTED_LABEL, ""))
 
 
 def speed(rpm: float | None) -> list[Row]:
@@ -125,10 +128,19 @@ def speed(rpm: float | None) -> list[Row]:
     return [(say("speed"), say("{rpm:g} rpm", rpm=rpm), GIVEN_LABEL)] if rpm else []
 
 
-def data_table(rows: Sequence[Row], found: Sequence[Words]) -> Table:
-    """The table of rows; a worksheet leaves those values empty whose origin is one of ``found``."""
+def data_table(task: Task | ArcsTask, rows: Sequence[Row], found: Sequence[Words]) -> Table:
+    """The table of rows, and the units of the task's file; a worksheet leaves values empty that are by ``found``."""
+    rows = [*rows, *_file_units(task)]
     answers = frozenset((row, 1) for row, (_, _, by) in enumerate(rows) if by in found)
     return Table(say("Data"), (say("quantity"), say("value"), ""), tuple(rows), answers)
+
+
+def _file_units(task: Task | ArcsTask) -> list[Row]:
+    """Rows on the units in which a task's file gives numbers, where they are others than graphcam's own."""
+    used = dict.fromkeys((given.own, given.unit) for _, given in numbers_in_units(task) if given.own != given.unit)
+    said = say("1 {unit} = {factor:.10g} {own}")
+    values = [said.with_values(unit=printed_unit(n), own=printed_unit(own), factor=UNITS[own][n]) for own, n in used]
+    return [("" if k else say("units in the task file"), value, GIVEN_LABEL) for k, value in enumerate(values)]
 
 
 def _measured(solution: Solution) -> list[Row]:

@@ -2,68 +2,64 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
+from graphcam.drafting.scale import printed_unit
 from graphcam.studio.size_ranges import SizeRange
-from graphcam.studio.task_paths import value_at
-from graphcam.tasks.arcs_task import ArcsTable
+from graphcam.studio.task_paths import steps_of, value_at
+from graphcam.tasks.arcs_task import ArcsTable, ArcsTask
+from graphcam.tasks.task import Task
+from graphcam.tasks.units import mark_at
 from graphcam.words import Caption, Tell, Words, say
 
 Field = dict[str, Any]
 MOTION, FOLLOWER, CAM = say("Motion"), say("Follower"), say("Cam")
 LIMITS, SPRING, MATERIAL, DRAWING = say("Limits"), say("Spring"), say("Material"), say("Drawing")
 DEGREE_SIGN = "°"
-UNIT_CAPTIONS = {
-    str(unit): unit
-    for unit in (
-        *(say("rpm"), say("kg"), say("N/mm"), say("N"), say("mm"), say("MPa")),
-        *(say("kg·mm²"), say("rad/s²"), say("N·mm"), say("N·mm/rad")),
-    )
+NUMBER_FIELDS: dict[str, tuple[Caption, Caption]] = {
+    "motion.tolerance": (MOTION, say("Tolerance of the fit")),
+    "motion.radii.base_radius": (CAM, say("Base radius")),
+    "motion.radii.flank_radius": (CAM, say("Flank radius")),
+    "motion.radii.nose_radius": (CAM, say("Nose radius")),
+    "motion.radii.lift": (CAM, say("Lift")),
+    "motion.radii.ascent": (CAM, say("Angle of ascent")),
+    "motion.radii.dwell": (CAM, say("Upper dwell")),
+    "speed_rpm": (MOTION, say("Speed")),
+    "follower.offset": (FOLLOWER, say("Offset e")),
+    "follower.arm": (FOLLOWER, say("Arm length l")),
+    "follower.distance": (FOLLOWER, say("Centre distance c")),
+    "follower.face_offset": (FOLLOWER, say("Face offset f")),
+    "follower.roller_radius": (FOLLOWER, say("Roller radius r")),
+    "cam.prime_radius": (CAM, say("Prime radius r₀")),
+    "limits.pressure_angle_rise": (LIMITS, say("Permitted pressure angle, rise")),
+    "limits.pressure_angle_return": (LIMITS, say("Permitted pressure angle, return")),
+    "limits.min_curvature_radius": (LIMITS, say("Minimum radius of curvature of the profile")),
+    "spring.mass": (SPRING, say("Moving mass")),
+    "spring.stiffness": (SPRING, say("Stiffness c")),
+    "spring.preload": (SPRING, say("Preload F₀")),
+    "spring.inertia": (SPRING, say("Moment of inertia J")),
+    "spring.acceleration": (SPRING, say("Angular acceleration ε")),
+    "spring.friction": (SPRING, say("Friction at the cam μ")),
+    "spring.load": (SPRING, say("Load P")),
+    "spring.at.arm": (SPRING, say("Spring from the pivot")),
+    "spring.at.anchor[0]": (SPRING, say("Anchor of the spring, x")),
+    "spring.at.anchor[1]": (SPRING, say("Anchor of the spring, y")),
+    "material.width": (MATERIAL, say("Width of the contact")),
+    "material.young_cam": (MATERIAL, say("Modulus of elasticity E₁, cam")),
+    "material.young_follower": (MATERIAL, say("Modulus of elasticity E₂, follower")),
+    "material.poisson_cam": (MATERIAL, say("Poisson's ratio ν₁, cam")),
+    "material.poisson_follower": (MATERIAL, say("Poisson's ratio ν₂, follower")),
+    "material.permitted_stress": (MATERIAL, say("Permitted contact stress")),
+    "drawing.divisions": (DRAWING, say("Divisions of a phase")),
+    "drawing.ordinate": (DRAWING, say("Maximum ordinate of the first rise")),
+    "drawing.poles[0]": (DRAWING, say("Pole distance H₁")),
+    "drawing.poles[1]": (DRAWING, say("Pole distance H₂")),
+    "pencil": (DRAWING, say("Error of the pencil")),
+    "arcs.rho1": (CAM, say("Radius of the first arc ρ₁")),
+    "arcs.dwell": (MOTION, say("Upper dwell")),
 }
-
-NUMBER_FIELDS: dict[str, tuple[Caption, Caption, str]] = {
-    "motion.tolerance": (MOTION, say("Tolerance of the fit"), "mm"),
-    "motion.radii.base_radius": (CAM, say("Base radius"), "mm"),
-    "motion.radii.flank_radius": (CAM, say("Flank radius"), "mm"),
-    "motion.radii.nose_radius": (CAM, say("Nose radius"), "mm"),
-    "motion.radii.lift": (CAM, say("Lift"), "mm"),
-    "motion.radii.ascent": (CAM, say("Angle of ascent"), DEGREE_SIGN),
-    "motion.radii.dwell": (CAM, say("Upper dwell"), DEGREE_SIGN),
-    "speed_rpm": (MOTION, say("Speed"), "rpm"),
-    "follower.offset": (FOLLOWER, say("Offset e"), "mm"),
-    "follower.arm": (FOLLOWER, say("Arm length l"), "mm"),
-    "follower.distance": (FOLLOWER, say("Centre distance c"), "mm"),
-    "follower.face_offset": (FOLLOWER, say("Face offset f"), "mm"),
-    "follower.roller_radius": (FOLLOWER, say("Roller radius r"), "mm"),
-    "cam.prime_radius": (CAM, say("Prime radius r₀"), "mm"),
-    "limits.pressure_angle_rise": (LIMITS, say("Permitted pressure angle, rise"), DEGREE_SIGN),
-    "limits.pressure_angle_return": (LIMITS, say("Permitted pressure angle, return"), DEGREE_SIGN),
-    "limits.min_curvature_radius": (LIMITS, say("Minimum radius of curvature of the profile"), "mm"),
-    "spring.mass": (SPRING, say("Moving mass"), "kg"),
-    "spring.stiffness": (SPRING, say("Stiffness c"), "N/mm"),
-    "spring.preload": (SPRING, say("Preload F₀"), "N"),
-    "spring.inertia": (SPRING, say("Moment of inertia J"), "kg·mm²"),
-    "spring.acceleration": (SPRING, say("Angular acceleration ε"), "rad/s²"),
-    "spring.friction": (SPRING, say("Friction at the cam μ"), ""),
-    "spring.load": (SPRING, say("Load P"), "N"),
-    "spring.at.arm": (SPRING, say("Spring from the pivot"), "mm"),
-    "spring.at.anchor[0]": (SPRING, say("Anchor of the spring, x"), "mm"),
-    "spring.at.anchor[1]": (SPRING, say("Anchor of the spring, y"), "mm"),
-    "material.width": (MATERIAL, say("Width of the contact"), "mm"),
-    "material.young_cam": (MATERIAL, say("Modulus of elasticity E₁, cam"), "MPa"),
-    "material.young_follower": (MATERIAL, say("Modulus of elasticity E₂, follower"), "MPa"),
-    "material.poisson_cam": (MATERIAL, say("Poisson's ratio ν₁, cam"), ""),
-    "material.poisson_follower": (MATERIAL, say("Poisson's ratio ν₂, follower"), ""),
-    "material.permitted_stress": (MATERIAL, say("Permitted contact stress"), "MPa"),
-    "drawing.divisions": (DRAWING, say("Divisions of a phase"), ""),
-    "drawing.ordinate": (DRAWING, say("Maximum ordinate of the first rise"), "mm"),
-    "drawing.poles[0]": (DRAWING, say("Pole distance H₁"), "mm"),
-    "drawing.poles[1]": (DRAWING, say("Pole distance H₂"), "mm"),
-    "pencil": (DRAWING, say("Error of the pencil"), "mm"),
-    "arcs.rho1": (CAM, say("Radius of the first arc ρ₁"), "mm"),
-    "arcs.dwell": (MOTION, say("Upper dwell"), DEGREE_SIGN),
-}
-"""Group, name and unit of the numbers by their paths."""
+"""Group and name of the numbers by their paths."""
 POINT_NAMES = {
     "D": say("Point D, end of the rise"),
     "G": say("Point G, where the second and third arcs meet"),
@@ -72,6 +68,20 @@ POINT_NAMES = {
     "C2": say("Centre C₂ of the second arc"),
 }
 AXIS_NAMES = ("x", "y")
+
+
+@cache
+def unit_at(path: str) -> str:
+    """The unit of the number at a path of a task; empty if it has none.
+
+    >>> unit_at("limits.pressure_angle_rise"), unit_at("spring.at.anchor[0]"), unit_at("material.poisson_cam")
+    ('°', 'mm', '')
+    """
+    steps = steps_of(path)
+    if path == "pencil":
+        return "mm"
+    mark = mark_at(Task, steps) or mark_at(ArcsTask, steps)
+    return "" if mark is None else DEGREE_SIGN if mark.own == "deg" else str(printed_unit(mark.own))
 
 
 def must_agree(arcs: ArcsTable, name: str) -> list[str]:
@@ -102,15 +112,17 @@ class FieldMaker:
 
     def number(self, path: str) -> Field:
         """A number that always stands in the task."""
-        group, name, unit = NUMBER_FIELDS[path]
+        return self._number(path, *NUMBER_FIELDS[path])
+
+    def _number(self, path: str, group: Caption, name: Caption) -> Field:
         return {
             "path": path,
             "group": self.tell(group),
             "name": self.tell(name),
-            "unit": self.unit(unit),
+            "unit": self.unit(unit_at(path)),
             "kind": "number",
             "value": value_at(self.said, path),
-            **self.span(path),
+            **self.ranges[path].plain(),
         }
 
     def open_number(self, path: str, adopted: float | None) -> Field:
@@ -126,15 +138,7 @@ class FieldMaker:
         """A coordinate of a point of the arcs, with what was found if the point may be left out."""
         path = f"arcs.{name}"
         called = say("{point}, {axis}", point=POINT_NAMES[name], axis=AXIS_NAMES[k])
-        field: Field = {
-            "path": f"{path}[{k}]",
-            "group": self.tell(CAM),
-            "name": self.tell(called),
-            "unit": self.unit("mm"),
-            "kind": "number",
-            "value": value_at(self.said, f"{path}[{k}]"),
-            **self.span(f"{path}[{k}]"),
-        }
+        field = self._number(f"{path}[{k}]", CAM, called)
         freed = dict.fromkeys(must_agree(arcs, name))
         if adopted is None:
             return field | {"first": freed}
@@ -160,8 +164,4 @@ class FieldMaker:
 
     def unit(self, unit: str) -> str:
         """A unit in the language of the page."""
-        return self.tell(UNIT_CAPTIONS.get(unit, unit))
-
-    def span(self, path: str) -> dict[str, float]:
-        """The range of a number."""
-        return self.ranges[path].plain()
+        return self.tell(printed_unit(unit))

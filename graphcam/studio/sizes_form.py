@@ -177,7 +177,7 @@ def _arcs(make: FieldMaker, solution: ArcsSolution) -> Iterator[Field]:
 
 def _motion(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     if solution.task.motion.table is not None:
-        yield make.number("motion.tolerance")
+        yield make.number("motion.tolerance") | {"unit": _lift_unit(make, solution)}
     elif solution.task.motion.phases is not None:
         yield _phases(make, solution)
     for name, _ in given_radii(solution.task):
@@ -222,7 +222,7 @@ def _phases(make: FieldMaker, solution: Solution) -> Field:
 
 
 def _lift_unit(make: FieldMaker, solution: Solution) -> str:
-    return DEGREE_SIGN if sizes_of(solution.task).get("lift") == "angle" else make.unit("mm")
+    return DEGREE_SIGN if solution.task.follower.column == "s_deg" else make.unit("mm")
 
 
 def _follower(make: FieldMaker, solution: Solution) -> Iterator[Field]:

@@ -7,6 +7,7 @@ from typing import Any
 from graphcam.given.table_file import CurveTable, table_from_text
 from graphcam.studio.views_request import optional_value, task_data, task_in
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.motion_tables import tolerance_in
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import BUILTIN_TASK_NAMES, builtin_arcs_task, builtin_task, parse_toml
 from graphcam.tasks.task_writer import TASK_FILE, task_files
@@ -118,6 +119,5 @@ def _with_table(data: Plain, files: Mapping[str, Any]) -> Plain:
     name = motion.get("table") if isinstance(motion, dict) else None
     if not isinstance(motion, dict) or not isinstance(name, str) or not isinstance(files.get(name), str):
         return data
-    tolerance = motion.get("tolerance")
-    table = table_from_text(files[name], name, name, tolerance if isinstance(tolerance, int | float) else None)
+    table = table_from_text(files[name], name, name, tolerance_in(motion))
     return {**data, "motion": {**motion, "table": plain_table(table)}}

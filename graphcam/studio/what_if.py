@@ -19,7 +19,7 @@ from graphcam.mechanism.three_arc_cam import three_arc_cam
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.shown_solution import plain_number
 from graphcam.solving.solution import Solution
-from graphcam.studio.form_fields import DRAWING, NUMBER_FIELDS, POINT_NAMES, must_agree
+from graphcam.studio.form_fields import DRAWING, NUMBER_FIELDS, POINT_NAMES, must_agree, unit_at
 from graphcam.studio.held_solutions import held_solution
 from graphcam.studio.size_ranges import MIN_PHASE_ANGLE, SizeRange, has_angles, ranges, round_up, sizes_of, step_for
 from graphcam.studio.task_paths import changed_task, value_at
@@ -190,8 +190,8 @@ def swept_sizes(solution: AnySolution) -> dict[str, tuple[Caption, SizeRange, st
     """The sizes that can be swept, by their paths: name, range and unit."""
     found = ranges(solution)
     sizes = {
-        path: (name, found[path], unit)
-        for path, (group, name, unit) in NUMBER_FIELDS.items()
+        path: (name, found[path], unit_at(path))
+        for path, (group, name) in NUMBER_FIELDS.items()
         if path in found and path not in UNSWEPT_PATHS and group is not DRAWING
     }
     return sizes | (_of_points(solution) if isinstance(solution, ArcsSolution) else _phase_sizes(solution))

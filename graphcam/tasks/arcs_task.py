@@ -11,11 +11,12 @@ from graphcam.given.three_arcs import ThreeArcs
 from graphcam.showing import parts_text
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain_data
+from graphcam.tasks.units import Angle, Length, Speed
 from graphcam.words import say
 
 MAX_PARTS = 200
 """The maximum number of parts of an arc; more cannot be drawn apart."""
-XY = tuple[float, float]
+XY = tuple[Length, Length]
 
 
 @dataclass(frozen=True)
@@ -27,11 +28,11 @@ class ArcsTable:
 
     D: XY
     G: XY
-    rho1: float
+    rho1: Length
     A: XY | None = None
     C1: XY | None = None
     C2: XY | None = None
-    dwell: float = 0.0
+    dwell: Angle = 0.0
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.dwell) and 0 <= self.dwell < 360):
@@ -51,7 +52,7 @@ class ArcsTable:
 class RollerTable:
     """``[follower]``: a central translating follower; roller_radius : mm, 0 for a knife edge."""
 
-    roller_radius: float = 0.0
+    roller_radius: Length = 0.0
     kind: Literal["translating"] = "translating"
 
     def __post_init__(self) -> None:
@@ -93,7 +94,7 @@ class ArcsTask:
 
     arcs: ArcsTable
     follower: RollerTable = field(default_factory=RollerTable)
-    speed_rpm: float | None = None
+    speed_rpm: Speed | None = None
     title: TitleTable = field(default_factory=TitleTable)
     drawing: ArcsDrawingTable = field(default_factory=ArcsDrawingTable)
     part: PartTable | None = None

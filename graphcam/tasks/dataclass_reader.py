@@ -1,9 +1,10 @@
 """Dataclasses out of plain tables: each field is read as its type hint says, and every fault is told with its place.
 
-It is strict: no text stands for a number, no number for a switch, nothing is infinite, nothing unknown is passed over.
-What a hint may be: ``float``, ``int``, ``str``, ``bool``, a ``Literal``, ``Any``, a dataclass, a tuple of fixed or of
-any length, a mapping of texts, one of several of these, and with :class:`ByKind` or :class:`ByKeys` one of several
-dataclasses.
+It is strict: text stands for a number only with its unit, no number for a switch, nothing is infinite, nothing unknown
+is passed over.
+What a hint may be: ``float``, a type of :mod:`graphcam.tasks.units`, ``int``, ``str``, ``bool``, a ``Literal``,
+``Any``, a dataclass, a tuple of fixed or of any length, a mapping of texts, one of several of these, and with
+:class:`ByKind` or :class:`ByKeys` one of several dataclasses.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from functools import cache, reduce
 from typing import Annotated, Any, Literal, TypeVar, Union, cast, get_args, get_origin, get_type_hints
 
 from graphcam.errors import DesignError
+from graphcam.tasks.units import HeldIn, InUnit
 from graphcam.words import Words, or_list, say
 
 Place = tuple[int | str, ...]
@@ -62,12 +64,13 @@ class UnknownKind:
 class WrongType:
     """The fault of a value that is not of the field's type; ``expected`` is what the file must give.
 
-    choices : the permitted words, where these are few
+    choices : the permitted words, where these are few;  remedy : empty where nothing better is known
     """
 
     place: Place
     expected: Words
     choices: tuple[str, ...] = field(default=(), repr=False)
+    remedy: Words = field(default="", repr=False)
 
 
 @dataclass(frozen=True)
@@ -134,6 +137,8 @@ def _dataclass_reader(kind: type) -> Reader:
 def _reader(hint: Any) -> Reader:
     origin, parts = get_origin(hint), get_args(hint)
     if origin is Annotated:
+        if isinstance(parts[1], HeldIn):
+            return _unit_reader(parts[1])
         marks = [type(mark) for mark in parts[1:]]
         return (
             _reader(str)
@@ -164,6 +169,20 @@ def _number(said: Any, place: Place, faults: list[Fault]) -> Any:
     except OverflowError:
         number = math.inf
     return number if math.isfinite(number) else faults.append(WrongType(place, say("a finite number")))
+
+
+def _unit_reader(unit: HeldIn) -> Reader:
+    """The reader of a number that may be text with its unit."""
+
+    def read(said: Any, place: Place, faults: list[Fault]) -> Any:
+        if not isinstance(said, str):
+            return _number(said, place, faults)
+        number = unit.number(said)
+        if isinstance(number, InUnit):
+            return number
+        return faults.append(WrongType(place, unit.expected, remedy=number))
+
+    return read
 
 
 def _whole_number(said: Any, place: Place, faults: list[Fault]) -> Any:
@@ -226,8 +245,9 @@ def _closest_faults(found: list[list[Fault]], place: Place) -> list[Fault]:
     best = max(found, key=lambda faults: len(faults[0].place))
     if len(found) == 1 or best[0].place != place:
         return best
-    expected = (fault.expected for faults in found if isinstance(fault := faults[0], WrongType))
-    return [WrongType(place, reduce(lambda first, last: or_list([first, last]), expected))]
+    wrong = [fault for faults in found if isinstance(fault := faults[0], WrongType)]
+    expected = reduce(lambda first, last: or_list([first, last]), (fault.expected for fault in wrong))
+    return [WrongType(place, expected, remedy=next((fault.remedy for fault in wrong if fault.remedy), ""))]
 
 
 def _kind_reader(classes: tuple[type, ...]) -> Reader:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from graphcam.errors import DesignError
 from graphcam.given.plausible_ranges import check_positive
 from graphcam.given.roller_contact import STEEL_POISSON_RATIO, STEEL_YOUNG_MODULUS, RollerContact
+from graphcam.tasks.units import Length, Stress
 from graphcam.words import say
 
 
@@ -25,12 +26,12 @@ class MaterialTable:
     RollerContact(width=15, young1=206000.0, young2=206000.0, poisson1=0.3, poisson2=0.3)
     """
 
-    width: float
-    young_cam: float = STEEL_YOUNG_MODULUS
-    young_follower: float = STEEL_YOUNG_MODULUS
+    width: Length
+    young_cam: Stress = STEEL_YOUNG_MODULUS
+    young_follower: Stress = STEEL_YOUNG_MODULUS
     poisson_cam: float = STEEL_POISSON_RATIO
     poisson_follower: float = STEEL_POISSON_RATIO
-    permitted_stress: float | None = None
+    permitted_stress: Stress | None = None
 
     def __post_init__(self) -> None:
         check_positive("width", self.width, "mm")

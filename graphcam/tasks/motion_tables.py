@@ -1,12 +1,13 @@
 """The table ``[motion]`` of a task file: phases in degrees and mm, parts by conditions, or a measured motion."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from typing import Annotated, Any, ClassVar, Literal
 
 from graphcam.errors import DesignError
-from graphcam.given.arc_outline import ArcOutline, cam_by_radii
+from graphcam.given.arc_outline import ArcOutline, Straight, cam_by_radii
 from graphcam.given.boundary_motion import BoundaryMotion, boundary_motion
 from graphcam.given.boundary_parts import DERIVATIVE_NAMES, MotionPoint, PolynomialPart, SplinePart
 from graphcam.given.follower import FlatFaced, Follower, Rotation
@@ -17,6 +18,7 @@ from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law
 from graphcam.given.table_file import CurveTable
 from graphcam.tasks.dataclass_reader import ByKind, ByName
+from graphcam.tasks.units import LIFT, Acceleration, Angle, Jerk, Length, Lift, Velocity
 from graphcam.words import Words, say
 
 ANGLE_CLOSURE = 1e-9
@@ -41,11 +43,11 @@ class PointTable:
     s : mm (degrees for an arm);  v, a, j : its derivatives by the cam angle in radians
     """
 
-    angle: float
-    s: float | None = None
-    v: float | None = None
-    a: float | None = None
-    j: float | None = None
+    angle: Angle
+    s: Lift | None = None
+    v: Velocity | None = None
+    a: Acceleration | None = None
+    j: Jerk | None = None
 
     def __post_init__(self) -> None:
         _check_angle(self.angle)
@@ -81,7 +83,7 @@ class SplineTable:
 
     points: tuple[PointTable, ...]
     degree: int = 5
-    knots: tuple[float, ...] | None = None
+    knots: tuple[Angle, ...] | None = None
     kind: Literal["spline"] = "spline"
 
     def __post_init__(self) -> None:
@@ -115,7 +117,7 @@ def _spline(table: SplineTable, unit: float) -> SplinePart:
 class DwellTable:
     """A phase of rest over ``angle`` degrees."""
 
-    angle: float
+    angle: Angle
     kind: Literal["dwell"] = "dwell"
 
     def __post_init__(self) -> None:
@@ -128,8 +130,8 @@ class DwellTable:
 
 @dataclass(frozen=True)
 class _MovingTable:
-    angle: float
-    lift: float
+    angle: Angle
+    lift: Lift
     law: Annotated[str | Law, ByName()]
     ratio: float = 1.0
     blends: tuple[float, float] | None = None
@@ -184,12 +186,12 @@ class RadiiTable:
     Three of flank_radius, nose_radius, lift and ascent are given, or lift alone for an eccentric cam.
     """
 
-    base_radius: float
-    flank_radius: Any = None
-    nose_radius: float | None = None
-    lift: float | None = None
-    ascent: float | None = None
-    dwell: float = 0.0
+    base_radius: Length
+    flank_radius: Length | Straight | None = None
+    nose_radius: Length | None = None
+    lift: Length | None = None
+    ascent: Angle | None = None
+    dwell: Angle = 0.0
 
     def __post_init__(self) -> None:
         for name in ("base_radius", "flank_radius", "nose_radius", "lift"):
@@ -224,7 +226,7 @@ class MotionTable:
 
     phases: tuple[PhaseTable, ...] | None = None
     table: CurveTable | None = None
-    tolerance: float | None = None
+    tolerance: Lift | None = None
     parts: tuple[PartOfMotion, ...] | None = None
     radii: RadiiTable | None = None
     lift_unit: float = field(default=1.0, init=False, repr=False, compare=False)
@@ -272,6 +274,17 @@ class MotionTable:
         if self.radii is not None:
             return _of_given_cam(self.radii, *self.follows)
         return _motion(tuple(self.phases or ()), self.lift_unit)
+
+
+def tolerance_in(motion: Mapping[str, Any]) -> float | None:
+    """The tolerance in a file's table ``[motion]``; None where there is none, or no number.
+
+    >>> tolerance_in({"tolerance": "5 um"}), tolerance_in({"tolerance": "small"})
+    (0.005, None)
+    """
+    said = motion.get("tolerance")
+    read = LIFT.number(said) if isinstance(said, str) else said
+    return read if isinstance(read, int | float) else None
 
 
 def _remedy(turn: float, phases: tuple[PhaseTable, ...]) -> Words:

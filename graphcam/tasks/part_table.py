@@ -6,6 +6,7 @@ from typing import Literal, get_args
 from graphcam.errors import DesignError
 from graphcam.given.plausible_ranges import check_positive
 from graphcam.tasks.sheet_tables import check_choice
+from graphcam.tasks.units import Density, Feed, Length, Roughness
 from graphcam.words import say
 
 Keyway = Literal["din6885", "gost23360", "none"]
@@ -43,22 +44,22 @@ class PartTable:
     graphcam.errors.DesignError: hub_length is missing, but must be given where there is hub_diameter; ...
     """
 
-    bore: float | None = None
+    bore: Length | None = None
     keyway: Keyway | None = None
-    width: float | None = None
-    hub_diameter: float | None = None
-    hub_length: float | None = None
+    width: Length | None = None
+    hub_diameter: Length | None = None
+    hub_length: Length | None = None
     material: str | None = None
-    density: float = 7850.0
+    density: Density = 7850.0
     hardness: str = "45...50 HRC"
-    profile_roughness: float = 0.8
-    bore_roughness: float = 1.6
-    roughness: float = 3.2
-    profile_tolerance: float | None = None
+    profile_roughness: Roughness = 0.8
+    bore_roughness: Roughness = 1.6
+    roughness: Roughness = 3.2
+    profile_tolerance: Length | None = None
     bore_tolerance: BoreTolerance = "H7"
-    cutter_radius: float | None = None
+    cutter_radius: Length | None = None
     table_step: TableStep = 5
-    feed: float = 100.0
+    feed: Feed = 100.0
     spline_degree: SplineDegree = 3
     spline_control_points: int | None = None
 

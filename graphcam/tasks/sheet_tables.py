@@ -7,6 +7,7 @@ from typing import Any, Literal, Self, get_args
 from graphcam.errors import DesignError, choice_limit
 from graphcam.given.motion_law import Law
 from graphcam.language import ENGLISH, language, languages
+from graphcam.tasks.units import InUnit
 from graphcam.words import Tell, say
 
 Format = Literal["A1", "A2", "A3", "A4"]
@@ -103,6 +104,8 @@ def plain_data(value: Any) -> Any:
         return [plain_data(item) for item in value]  # pyright: ignore[reportUnknownVariableType]
     if isinstance(value, Law):
         return value.name
+    if isinstance(value, InUnit):
+        return float(value)
     if not dataclasses.is_dataclass(value):
         return value
     keys = [item.name for item in dataclasses.fields(value) if item.init]

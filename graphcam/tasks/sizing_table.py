@@ -5,9 +5,10 @@ from typing import Literal
 
 from graphcam.errors import DesignError, check_number
 from graphcam.given.plausible_ranges import bounded, check_positive
+from graphcam.tasks.units import Length
 from graphcam.words import say
 
-RangeTable = float | tuple[float, float]
+RangeTable = Length | tuple[Length, Length]
 """A range [mm], or the one size that is permitted."""
 
 
@@ -42,7 +43,7 @@ class SizingTable:
                 raise DesignError(name, found, limit, say("exchange the two"))
             for end in (low, high):
                 if name == "offset":
-                    _finite(name, end)
+                    check_number(name, end, say("a finite number of mm"))
                     bounded(name, end, "mm")
                 else:
                     check_positive(name, end, "mm")
@@ -62,7 +63,3 @@ class SizingTable:
 
 RANGE_KEYS = "prime_radius", "base_radius", "offset", "roller_radius", "width"
 """The keys of the table that are ranges."""
-
-
-def _finite(name: str, value: float) -> None:
-    check_number(name, value, say("a finite number of mm"))

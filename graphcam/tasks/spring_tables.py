@@ -7,9 +7,21 @@ from graphcam.errors import DesignError, check_number
 from graphcam.given.load_curve import Load, LoadCurve
 from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.spring_load import ArmLoad, ArmSpring, SpringLoad
+from graphcam.tasks.units import (
+    Angle,
+    AngularAcceleration,
+    ArmPreload,
+    ArmStiffness,
+    Force,
+    Inertia,
+    Length,
+    Mass,
+    Stiffness,
+    check_turning,
+)
 from graphcam.words import say
 
-LoadTable = float | tuple[tuple[float, float], ...]
+LoadTable = Force | tuple[tuple[Angle, Force], ...]
 """A load in N, or rows of a cam angle in degrees and a load in N, from 0 to 360 degrees."""
 
 
@@ -62,10 +74,10 @@ class SpringTable:
     load : N, what presses on the follower besides: a number, or rows [[degrees, N], ...] from 0 to 360 degrees
     """
 
-    mass: float
-    stiffness: float
-    preload: float | None = None
-    acceleration: float = 0.0
+    mass: Mass
+    stiffness: Stiffness
+    preload: Force | None = None
+    acceleration: AngularAcceleration = 0.0
     friction: float = 0.0
     load: LoadTable = 0.0
     swings = False
@@ -89,8 +101,8 @@ class ArmSpringPlace:
     anchor : mm, (x, y) of the spring's other end in the frame, whose origin is the cam centre
     """
 
-    arm: float
-    anchor: tuple[float, float]
+    arm: Length
+    anchor: tuple[Length, Length]
 
     def __post_init__(self) -> None:
         if self.arm == 0:
@@ -119,10 +131,10 @@ class ArmSpringTable:
     at : where a spring acts on the arm; None is a torsion spring about the pivot
     """
 
-    inertia: float
-    stiffness: float
-    preload: float | None = None
-    acceleration: float = 0.0
+    inertia: Inertia
+    stiffness: ArmStiffness
+    preload: ArmPreload | None = None
+    acceleration: AngularAcceleration = 0.0
     friction: float = 0.0
     load: LoadTable = 0.0
     at: ArmSpringPlace | None = None
@@ -131,6 +143,7 @@ class ArmSpringTable:
     def __post_init__(self) -> None:
         check_positive("inertia", self.inertia, "kg mm^2")
         units = ("N mm/rad", "N mm") if self.at is None else ("N/mm", "N")
+        check_turning(self, turning=self.at is None)
         _check_common(self.stiffness, units[0], self.preload, units[1])
         _check_turning(self.acceleration, self.friction, self.load)
 

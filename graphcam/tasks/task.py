@@ -35,6 +35,7 @@ from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, check_ch
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 from graphcam.tasks.tolerances_table import TolerancesTable
+from graphcam.tasks.units import Angle, Length, Speed, check_turning
 from graphcam.words import say
 
 MAX_DIVISIONS = 1000
@@ -99,8 +100,8 @@ class TranslatingTable(_FollowerTable):
     roller_rule : see :func:`graphcam.given.roller_rule.roller_rule`
     """
 
-    offset: float | None = None
-    roller_radius: float | None = None
+    offset: Length | None = None
+    roller_radius: Length | None = None
     roller_rule: str = DEFAULT_RULE
     kind: Literal["translating"] = "translating"
     sought = "offset", "roller_radius"
@@ -134,9 +135,9 @@ class OscillatingTable(_FollowerTable):
     lift : what the phases' lifts are, "angle" in degrees or "arc" in mm along the path of the trace point
     """
 
-    arm: float
-    distance: float | None = None
-    roller_radius: float | None = None
+    arm: Length
+    distance: Length | None = None
+    roller_radius: Length | None = None
     roller_rule: str = DEFAULT_RULE
     lift: Literal["angle", "arc"] = "angle"
     kind: Literal["oscillating"] = "oscillating"
@@ -173,7 +174,7 @@ class FlatFacedTable(_FollowerTable):
     face_margin : mm, of the face beyond the contact on each side; None adopts no face
     """
 
-    face_margin: float | None = None
+    face_margin: Length | None = None
     kind: Literal["flat-faced"] = "flat-faced"
     roller_radius = 0.0
     roller_rule = DEFAULT_RULE
@@ -196,8 +197,8 @@ class OscillatingFlatTable(_FollowerTable):
     face_offset : mm, of the face from the line through the pivot, towards the cam centre if positive
     """
 
-    distance: float
-    face_offset: float = 0.0
+    distance: Length
+    face_offset: Length = 0.0
     kind: Literal["oscillating-flat"] = "oscillating-flat"
     roller_radius = 0.0
     roller_rule = DEFAULT_RULE
@@ -260,7 +261,7 @@ def table_of(follower: Mapping[str, Any]) -> type[_FollowerTable]:
 class CamTable:
     """``[cam]``: the prime radius in mm; None is open: the minimum one is found, and rounded up."""
 
-    prime_radius: float | None = None
+    prime_radius: Length | None = None
 
     def __post_init__(self) -> None:
         check_positive(say("prime radius"), self.prime_radius, "mm")
@@ -276,9 +277,9 @@ class LimitsTable:
     rest : whether the angle at the lower dwell must keep the limits of the phases beside it too
     """
 
-    pressure_angle_rise: float | None = None
-    pressure_angle_return: float | None = None
-    min_curvature_radius: float | None = None
+    pressure_angle_rise: Angle | None = None
+    pressure_angle_return: Angle | None = None
+    min_curvature_radius: Length | None = None
     rest: bool = True
 
     def __post_init__(self) -> None:
@@ -310,9 +311,9 @@ class DrawingTable(SheetTable):
     """
 
     divisions: int | None = None
-    ordinate: float | None = None
-    poles: tuple[float, float] | None = None
-    rounding: float | None = None
+    ordinate: Length | None = None
+    poles: tuple[Length, Length] | None = None
+    rounding: Length | None = None
     jerk: bool = False
     profile_scale: str | None = None
 
@@ -360,7 +361,7 @@ class Task:
     rotation: Rotation
     motion: MotionTable
     follower: FollowerTable
-    speed_rpm: float | None = None
+    speed_rpm: Speed | None = None
     title: TitleTable = field(default_factory=TitleTable)
     cam: CamTable = field(default_factory=CamTable)
     limits: LimitsTable = field(default_factory=LimitsTable)
@@ -446,6 +447,7 @@ class Task:
             remedy = say("measure what the follower does, and name the column so")
             quantity = say("motion.table (column)")
             raise DesignError(quantity, motion.table.column, say("{column} for this follower", column=column), remedy)
+        check_turning(motion, turning=column == "s_deg", path="motion")
         object.__setattr__(self, "motion", motion)
         if motion.radii is not None:
             self._inform_of_given_cam(motion)

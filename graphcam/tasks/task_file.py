@@ -30,6 +30,7 @@ from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_remedies import key_remedy, missing_remedy, toml_fault, value_remedy
 from graphcam.tasks.tolerances_table import TolerancesTable
+from graphcam.tasks.units import numbers_in_units
 from graphcam.words import Caption, Words, and_chain, bare_caption, say
 
 BUILTIN_TASK_NAMES = ("coursework", "arm", "flat", "swinging-face", "measured")
@@ -147,7 +148,7 @@ def other_file(kind: Words, example: Words) -> Generator[None]:
 
 
 def task_of(path: str, data: dict[str, Any]) -> Task:
-    """The task in a table of a TOML file; ``path`` is for the messages.
+    """The task in a table of a TOML file, without texts with units; ``path`` is for the messages.
 
     Raises
     ------
@@ -156,6 +157,9 @@ def task_of(path: str, data: dict[str, Any]) -> Task:
     task = _task(path, data, data)
     if not isinstance(task, Task):
         raise TaskError(path, "arcs", say("a table"), say("left out"), say("this takes a task with phases of motion"))
+    for place, number in numbers_in_units(task):
+        remedy = say("only task files may have units")
+        raise TaskError(path, place, number.text, say("a number (without quotes)"), remedy)
     return task
 
 
@@ -253,12 +257,12 @@ def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]
     motion = data.get("motion")
     if not isinstance(motion, dict) or "table" not in motion:
         return data
-    name, tolerance = motion["table"], motion.get("tolerance")
+    name = motion["table"]
     if not isinstance(name, str):
         expected = say("text in quotes")
         raise TaskError(path, "motion.table", _shown_value(name), expected, say("name the CSV file of the table"))
     try:
-        table = read_table(folder / name, name, tolerance if isinstance(tolerance, int | float) else None)
+        table = read_table(folder / name, name, motion_tables.tolerance_in(motion))
     except MissingFileError:
         raise MissingFileError(name, say("check motion.table"), where=say("beside {path}", path=path)) from None
     return {**data, "motion": {**motion, "table": dataclasses.asdict(table)}}
@@ -313,9 +317,9 @@ def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault)
             return TaskError(
                 path, f"{place}.kind", _shown_value(found), say("one of {names}", names=", ".join(tags)), remedy
             )
-        case WrongType((*where, key), expected, choices):
+        case WrongType((*where, key), expected, choices, known):
             needed = key in _needed_keys(classes.get(_table(tuple(where))))
-            remedy = value_remedy("" if needed else f"{key}", value, choices) or EXAMPLE_REMEDY
+            remedy = known or value_remedy("" if needed else f"{key}", value, choices) or EXAMPLE_REMEDY
             return TaskError(path, place, _shown_value(value), expected, remedy)
         case WrongType(_, expected):
             return TaskError(path, place, _shown_value(value), expected, EXAMPLE_REMEDY)

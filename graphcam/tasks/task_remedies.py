@@ -17,6 +17,7 @@ from graphcam.errors import TaskError, nearest_word_remedy, suggestion
 from graphcam.given.follower import SENSE_SYNONYMS
 from graphcam.given.laws import LAW_SYNONYMS
 from graphcam.tasks.task import table_of
+from graphcam.tasks.units import UNITS
 from graphcam.words import Words, bare_caption, say
 
 OPTIONAL_KEYS = ("offset", "prime_radius", "roller_radius", "distance")
@@ -191,7 +192,8 @@ def _value(line: str, place: Words) -> LineFault | None:
         if word in _BOOLEAN_SPELLINGS:
             remedy = say("write {word}", word=_BOOLEAN_SPELLINGS[word])
             return say("{place}: the switch", place=place), bare_caption(word), say("true or false"), remedy
-        if number := _VALUE_WITH_UNIT_PATTERN.fullmatch(word):
+        number = _VALUE_WITH_UNIT_PATTERN.fullmatch(word)
+        if number and (number[2] in UNITS or not any(number[2] in units for units in UNITS.values())):
             limit, remedy = say("written without its unit"), say("write {word}", word=number[1])
             return say("{place}: the number", place=place), bare_caption(word), limit, remedy
         if "'" not in word and '"' not in word:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from graphcam.errors import DesignError
 from graphcam.given.making_errors import TOLERANCED_SIZES, Distribution, MakingErrors, deviations_within
 from graphcam.given.plausible_ranges import check_positive
+from graphcam.tasks.units import Length
 from graphcam.words import say
 
 
@@ -25,12 +26,12 @@ class TolerancesTable:
     {'waviness 24': 0.005, 'offset': 0.025}
     """
 
-    waviness: tuple[float, ...] = ()
+    waviness: tuple[Length, ...] = ()
     harmonics: tuple[int, ...] = ()
-    roller_diameter: float | None = None
-    offset: float | None = None
-    distance: float | None = None
-    arm: float | None = None
+    roller_diameter: Length | None = None
+    offset: Length | None = None
+    distance: Length | None = None
+    arm: Length | None = None
     distribution: Distribution = "normal"
     coverage: float = 0.95
 

@@ -17,6 +17,7 @@ from graphcam.errors import TaskError
 from graphcam.given.laws import LAWS
 from graphcam.language import language, languages
 from graphcam.tasks.task_file import _CLASSES as CLASSES, _keys as keys_of, builtin_text, load_task
+from graphcam.tasks.units import UNITS
 
 WHOLE = builtin_text("coursework") + "\n[cam]\nprime_radius = 50\n"
 RISE = '{ kind = "rise", angle = 80, lift = 30, law = "rectangular" }'
@@ -200,6 +201,7 @@ def test_the_command_line_says_it_once_and_leaves_nothing(fault, tmp_path):
 NAMES = {
     *(key for table in CLASSES.values() for key in keys_of(table)), *(step for place in CLASSES for step in place),
     "cam", "ccw", "FILE", "graphcam", "inf", "init", "min", "nan", "rho", "TOML", "true", *LAWS,
+    *(unit for units in UNITS.values() for unit in units),
     "True", "false", "lfit", "limit", "motoin", "ofset", "prime_radus", "speed_prm",
 }  # fmt: skip
 """What a message about the coursework's file may say in Latin letters: keys, values and mistyped ones."""

@@ -22,6 +22,9 @@ LAST = '  { kind = "dwell", angle = 175 },\n'
 ROLLER = "# roller_radius = 12"
 
 
+LENGTH = "a number of mm (without quotes), or text with its unit: mm, cm, m, um, in, mil, thou, ft"
+
+
 def refusal(tmp_path: Path, before: str, after: str, *more: tuple[str, str]) -> TaskError:
     """What is said of the coursework with something else in it."""
     text = TASK
@@ -104,7 +107,7 @@ def test_letters_of_another_case_or_alphabet_are_named(before, after, remedy, tm
 )
 def test_a_size_that_is_to_be_found_is_left_out(before, after, tmp_path):
     error = refusal(tmp_path, before, after)
-    assert error.expected == "a number (without quotes)"
+    assert error.expected == LENGTH
     assert error.remedy == "or leave it out to let it be found"
 
 
