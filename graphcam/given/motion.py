@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, check_kind, check_number
-from graphcam.given.laws import Floats, Side, law, law_of_return
+from graphcam.given.laws import Floats, Side, canonical_law, law, law_of_return
 from graphcam.given.motion_law import Law
 from graphcam.given.piecewise import Piece, Piecewise, chunks, dwell_formula, in_phase
 from graphcam.showing import Plottable, value_text
@@ -112,6 +112,7 @@ class MovingPhase:
         )
         remedy = swapped if self.lift <= FULL_TURN else in_degrees
         _check_turn(self.angle, remedy)
+        object.__setattr__(self, "law", canonical_law(self.law))
         _ = self.normalised  # says at once if there is no such law
 
     @cached_property

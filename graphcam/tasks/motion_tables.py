@@ -8,6 +8,7 @@ from typing import Annotated, ClassVar, Literal
 from graphcam.errors import DesignError
 from graphcam.given.boundary_motion import BoundaryMotion, boundary_motion
 from graphcam.given.boundary_parts import DERIVATIVE_NAMES, MotionPoint, PolynomialPart, SplinePart
+from graphcam.given.laws import canonical_law
 from graphcam.given.motion import FULL_TURN, NEAR_TURN_SHARE, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.given.plausible_ranges import bounded, check_positive
@@ -136,6 +137,7 @@ class _MovingTable:
     def __post_init__(self) -> None:
         check_positive("angle", self.angle, "degrees")
         check_positive("lift", self.lift, "mm (degrees for an arm)")
+        object.__setattr__(self, "law", canonical_law(self.law))
         if self.blends is not None and self.law != CONSTANT_VELOCITY:
             left_out = say("left out for the law '{law}'", law=getattr(self.law, "name", self.law))
             remedy = say("they are those of '{constant_velocity}'", constant_velocity=CONSTANT_VELOCITY)
