@@ -263,7 +263,7 @@ def _blow_parts(motion: Motion) -> Iterator[Part]:
         (True, say("At {places} the velocity jumps: there the acceleration is infinite, and an arrow stands for it.")),
         (False, say("At {places} the acceleration is too short and too high to be drawn: an arrow stands for it.")),
     ):
-        if places := dict.fromkeys(blow.phi for blow in motion.blows if np.isinf(blow.acceleration) == how):
+        if places := dict.fromkeys(blow.phi % FULL_TURN for blow in motion.blows if np.isinf(blow.acceleration) == how):
             yield Part(said.with_values(places=and_list([degrees(phi) for phi in places])))
 
 

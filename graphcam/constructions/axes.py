@@ -72,7 +72,7 @@ def station_names(stations: Stations) -> list[str]:
     numbers, twins = _numbers_of_stations(stations)
     signs = {0: "", 1: "⁺", -1: "⁻"}
     return [
-        f"{number}{signs[way]}" + "′" * phase
+        f"{number}{'′' * phase}{signs[way]}"
         for number, way, phase in zip(numbers, twins, stations.moving.tolist(), strict=True)
     ]
 

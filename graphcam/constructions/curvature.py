@@ -227,6 +227,8 @@ def _draw(curved: Curved) -> list[Step]:
     detail = detail_of(curved)
     if detail is None:
         title, why = say("Curvature at the sharpest point"), say("Three points on a line lie on no circle.")
+        if curved.givens.inverted.givens.integrated.givens.motion.corners:
+            why = say("No circle fits a corner.")
         return [Step(title, (Part(_unreadable(curved)),), PROFILE, (), why=why)]
     return [_chords(curved, detail), _bisected(curved, detail), _measured(curved, detail), _on_profile(curved)]
 

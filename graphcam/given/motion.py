@@ -287,7 +287,7 @@ class Motion(Plottable):
     @property
     def corners(self) -> list[float]:
         """The cam angles [rad] of the blows in which v falls: there the cam has a corner."""
-        return [blow.phi for blow in self.blows if blow.acceleration < 0]
+        return [*dict.fromkeys(blow.phi for blow in self.blows if blow.acceleration < 0)]
 
     def in_blow(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> NDArray[np.bool_]:
         """Whether fractions u of phases lie in a blow, where the velocity jumps; where it ends, as the side has it."""
@@ -307,12 +307,12 @@ class Motion(Plottable):
         """The phase whose acceleration sets the scale of a drawing, and its maximum.
 
         The first rise; where its velocity jumps, so that it has none that could be drawn, the first phase that has one;
-        else the first rise again, with the mean velocity over the angle in place of the acceleration.
+        else the first rise again, with the acceleration of the rectangular law.
 
         >>> import graphcam as gc
         >>> uniform = gc.constant_velocity_law(0, 0)
         >>> gc.Motion([gc.Rise(30, 2.0, uniform), gc.Return(30, FULL_TURN - 2, uniform)]).reference
-        (0, 7.5)
+        (0, 30.0)
         """
         moving = [(k, phase) for k, phase in enumerate(self.phases) if isinstance(phase, MovingPhase)]
         rises_first = sorted(moving, key=lambda each: each[1].direction < 0)
@@ -320,7 +320,7 @@ class Motion(Plottable):
         for k, phase in (rise, *moving):
             if phase.steady_acceleration > 0:
                 return k, phase.steady_acceleration
-        return rise[0], rise[1].lift / rise[1].angle ** 2
+        return rise[0], 4 * rise[1].lift / rise[1].angle ** 2
 
     @property
     def directions(self) -> Floats:

@@ -154,7 +154,8 @@ class _MovingTable:
 class RiseTable(_MovingTable):
     """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees, by a law of graphcam or of your own.
 
-    blends : of the law "constant-velocity", the fractions of the phase that its blends take; None is a quarter each
+    blends : of the law "constant-velocity", the fractions of the phase that its blends take; of 0 the velocity jumps;
+        None is a quarter each
     """
 
     kind: Literal["rise"] = "rise"
