@@ -25,7 +25,7 @@ MAX_BLEND_ORDER = 3
 """Blends are smooth to this derivative at most: the jerk is continuous."""
 MIN_STEADY_SHARE = 1e-6
 """The constant velocity lasts at least this part of the phase."""
-MAX_BLOW = 0.002
+MAX_BLOW = 0.001
 """A blend over less than this part of the phase is a blow, whose acceleration is too short and too high to be drawn."""
 
 
