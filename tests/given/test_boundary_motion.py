@@ -520,7 +520,7 @@ LAWS = {
     ),
     "a negative blend": (
         lambda: gc.constant_velocity_law(-0.1),
-        r"blends\[0\] is -0.1, but must be from 1e-06 to less",
+        r"blends\[0\] is -0.1, but must be from 0 to less",
     ),
     "a whole blend": (lambda: gc.constant_velocity_law(0.2, 1.0), r"blends\[1\] is 1.0"),
     "no way between": (lambda: gc.constant_velocity_law(0.5, 0.5), "blends is 0.5 and 0.5, but must be less than 1"),

@@ -96,7 +96,7 @@ TASKS = {
     "measured": builtin("measured"),
     "given cam": {
         "rotation": "ccw", "follower": {"kind": "flat-faced"},
-        "motion": {"radii": {"base_radius": 12.0, "flank_radius": 36.0, "nose_radius": 1.5, "lift": 7.0, "dwell": 20.0}},
+        "motion": {"radii": {"base_radius": 12.0, "flank_radius": 36.0, "nose_radius": 1.5, "lift": 7.0, "dwell": 20.0}},  # noqa: E501
     },
     "given tangent cam": {
         "rotation": "ccw", "follower": {"kind": "translating", "offset": 2.0, "roller_radius": 8.0},
