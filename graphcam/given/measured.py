@@ -79,6 +79,11 @@ class MeasuredMotion(Motion):
     measured: Floats
     tolerance: float
 
+    @property
+    def origin(self) -> float:
+        """The cam angle [rad] of the table at which the first phase begins."""
+        return self.zero
+
     def _summary(self) -> str:
         begins = math.degrees(self.zero)
         shifted = f", from {begins:.4g}° of the table" if abs(begins) >= MIN_SHOWN_SHIFT else ""

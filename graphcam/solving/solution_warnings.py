@@ -9,8 +9,11 @@ from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.scale import Scale, ratio_from_text, ratio_text
 from graphcam.errors import DesignError
+from graphcam.given.motion import Motion
 from graphcam.mechanism.cam import Cam, largest_roller
+from graphcam.mechanism.turn_extremes import PlaceQuantity
 from graphcam.mechanism.undercut import Undercut
+from graphcam.mechanism.within_rows import rows_tell
 from graphcam.tasks.task import Task
 from graphcam.words import Caption, say, sequence
 
@@ -46,7 +49,19 @@ def warnings_of(cam: Cam, board: Board, least_prime_radius: float) -> list[Cauti
 
     cam : as it was adopted;  board : what was given;  least_prime_radius : the exact one of the task [mm]
     """
-    return [*_undercut(cam), *_limits(cam, board), *_prime_radius(board, least_prime_radius)]
+    return [*_undercut(cam), *_limits(cam, board), *_prime_radius(cam, board, least_prime_radius)]
+
+
+def beside_rows(motion: Motion, said: Caption, quantity: PlaceQuantity) -> Caption:
+    """What is said, as a fact only if the quantity is negative for every motion that the rows of a table permit."""
+    if rows_tell(motion, quantity):
+        return said
+    return say("As the table is smoothed, though its rows do not tell it within their tolerance: {said}", said=said)
+
+
+def profile_speed(cam: Cam) -> PlaceQuantity:
+    """The speed along the profile at places, which is negative where an undercut makes it run backwards."""
+    return lambda places: cam.kinematics.speed(places.values, cam.roller_radius)
 
 
 def _undercut(cam: Cam) -> Iterator[Caution]:
@@ -57,7 +72,7 @@ def _undercut(cam: Cam) -> Iterator[Caution]:
         if cam.kinematics.takes_roller:
             remedy = say("Take a roller well below {radius} mm.", radius=_rounded_down(largest_roller(cam)))
         said = say("The profile cannot be cut: its undercut consists of loops that cannot be told apart. {remedy}")
-        yield Caution(said.with_values(remedy=remedy), "profile")
+        yield Caution(beside_rows(cam.motion, said.with_values(remedy=remedy), profile_speed(cam)), "profile")
         return
     if not lost:
         return
@@ -69,7 +84,10 @@ def _undercut(cam: Cam) -> Iterator[Caution]:
     said = say("The profile cannot be cut {cause}: it is undercut {where}. {remedy}")
     where = sequence([_undercut_place(part) for part in lost], "; ")
     corners = tuple(part.crossing[0] for part in lost)
-    yield Caution(said.with_values(cause=too_large, where=where, remedy=_remedy(cam, lost)), "profile", corners)
+    said = said.with_values(cause=too_large, where=where, remedy=_remedy(cam, lost))
+    if all(part.cusps for part in lost):
+        said = beside_rows(cam.motion, said, profile_speed(cam))
+    yield Caution(said, "profile", corners)
 
 
 def _undercut_place(part: Undercut) -> Caption:
@@ -123,11 +141,15 @@ def angles_exceeded(cam: Cam, board: Board, slack: float) -> Iterator[tuple[str,
             yield word, alpha, phi, limit
 
 
-def _prime_radius(board: Board, least: float) -> Iterator[Caution]:
+def _prime_radius(cam: Cam, board: Board, least: float) -> Iterator[Caution]:
     given = board.prime_radius
     if given is not None and given < least - PRINT_ROUNDING:
         said = say("The given prime radius of {given:g} mm is smaller than the minimum permitted one, {least:.2f} mm.")
-        yield Caution(said.with_values(given=given, least=least), "prime radius")
+        said = said.with_values(given=given, least=least)
+        if "curvature" in board.follower.conditions:
+            permitted, speed = board.follower.conditions["curvature"] or 0.0, profile_speed(cam)
+            said = beside_rows(cam.motion, said, lambda places: speed(places) - permitted)
+        yield Caution(said, "prime radius")
 
 
 def unit_slips(task: Task) -> Iterator[Caution]:

@@ -7,7 +7,7 @@ from math import radians
 
 import numpy as np
 import pytest
-from measured_tables import outcomes
+from measured_tables import lobe, lobe_outcome, outcomes
 from numpy.testing import assert_allclose
 from over_all import over_all, over_seeds
 
@@ -263,3 +263,20 @@ def test_a_run_out_of_less_than_the_tolerance_is_no_motion(tolerance):
         assert_allclose(dwells[0] + np.degrees(measured.zero), [100, 160], atol=4)
         assert [p.kind for p in measured.phases if p.direction] == ["rise", "return"]
         assert_allclose(np.degrees([p.angle for p in measured.phases if p.direction]), 100, atol=3)
+
+
+def test_of_lobes_of_arcs_none_is_said_to_be_undercut_but_those_that_are():
+    counts = [lobe_outcome(3, k) for k in range(8)]
+    assert sum(count["smoothed"] for count in counts) > 0
+    assert sum(count["false"] for count in counts) == 0
+    assert sum(count["told"] for count in counts) >= 6
+
+
+def test_the_radii_of_curvature_of_a_lobe_are_those_of_its_arcs():
+    phi = np.radians(np.arange(0, 360, 0.01))
+    s = lobe(phi, 11.0, 0.5, 14.0, 40.0)
+    rho = 11 + s + np.gradient(np.gradient(s, phi), phi)
+    off = np.abs(rho[:, None] - [11.0, 0.5, 40.0]).min(axis=1)
+    # But for the rows beside the four joints.
+    assert np.sum(off > 1e-3) < 30
+    assert all(np.sum(np.abs(rho - radius) < 1e-3) > 1000 for radius in (11.0, 0.5, 40.0))
