@@ -333,6 +333,11 @@ class Motion(Plottable):
         ends = [*self.starts.tolist(), FULL_TURN]
         return [(phase.kind, *span) for phase, span in zip(self.phases, pairwise(ends), strict=True)]
 
+    @property
+    def origin(self) -> float:
+        """The cam angle [rad], of what the motion was made of, at which its first phase begins; 0 for given phases."""
+        return 0.0
+
     def __repr__(self) -> str:
         last = "motion(phi) gives s, v, a and j at phi in rad; .plot() draws them"
         return value_text(f"{type(self).__name__} {self._summary()}", map(_in_words, self.phases), last)

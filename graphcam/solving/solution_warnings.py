@@ -10,8 +10,11 @@ from graphcam.constructions.chain import Chain
 from graphcam.drafting.scale import Scale, ratio_from_text, ratio_text
 from graphcam.errors import DesignError
 from graphcam.given.impact import velocity_jumps
+from graphcam.given.motion import Motion
 from graphcam.mechanism.cam import Cam, largest_roller
+from graphcam.mechanism.turn_extremes import PlaceQuantity
 from graphcam.mechanism.undercut import Undercut
+from graphcam.mechanism.within_rows import rows_tell
 from graphcam.tasks.task import Task
 from graphcam.words import Caption, and_list, say, sequence
 
@@ -54,7 +57,7 @@ def warnings_of(cam: Cam, board: Board, least_prime_radius: float) -> list[Cauti
         *_undercut(cam),
         *_limits(cam, board),
         *_too_sharp(cam, board),
-        *_prime_radius(board, least_prime_radius),
+        *_prime_radius(cam, board, least_prime_radius),
     ]
 
 
@@ -90,6 +93,18 @@ def _rounded_corner(cam: Cam, lost: Undercut) -> Caption | None:
     return said.with_values(phi=_degrees(at[0]), start=_degrees(start), end=_degrees(end), off=off)
 
 
+def beside_rows(motion: Motion, said: Caption, quantity: PlaceQuantity) -> Caption:
+    """What is said, as a fact only if the quantity is negative for every motion that the rows of a table permit."""
+    if rows_tell(motion, quantity):
+        return said
+    return say("As the table is smoothed, though its rows do not tell it within their tolerance: {said}", said=said)
+
+
+def profile_speed(cam: Cam) -> PlaceQuantity:
+    """The speed along the profile at places, which is negative where an undercut makes it run backwards."""
+    return lambda places: cam.kinematics.speed(places.values, cam.roller_radius)
+
+
 def _undercut(cam: Cam) -> Iterator[Caution]:
     try:
         lost = cam.undercuts()
@@ -98,7 +113,7 @@ def _undercut(cam: Cam) -> Iterator[Caution]:
         if cam.kinematics.takes_roller:
             remedy = say("Take a roller well below {radius} mm.", radius=_rounded_down(largest_roller(cam)))
         said = say("The profile cannot be cut: its undercut consists of loops that cannot be told apart. {remedy}")
-        yield Caution(said.with_values(remedy=remedy), "profile")
+        yield Caution(beside_rows(cam.motion, said.with_values(remedy=remedy), profile_speed(cam)), "profile")
         return
     rounded = {k: said for k, part in enumerate(lost) if (said := _rounded_corner(cam, part))}
     yield from (Caution(said, "profile", lost[k].crossing[:1]) for k, said in rounded.items())
@@ -112,7 +127,10 @@ def _undercut(cam: Cam) -> Iterator[Caution]:
     said = say("The profile cannot be cut {cause}: it is undercut {where}. {remedy}")
     where = sequence([_undercut_place(part) for part in lost], "; ")
     corners = tuple(part.crossing[0] for part in lost)
-    yield Caution(said.with_values(cause=too_large, where=where, remedy=_remedy(cam, lost)), "profile", corners)
+    said = said.with_values(cause=too_large, where=where, remedy=_remedy(cam, lost))
+    if all(part.cusps for part in lost):
+        said = beside_rows(cam.motion, said, profile_speed(cam))
+    yield Caution(said, "profile", corners)
 
 
 def _undercut_place(part: Undercut) -> Caption:
@@ -174,11 +192,15 @@ def angles_exceeded(cam: Cam, board: Board, slack: float) -> Iterator[tuple[str,
             yield word, alpha, phi, limit
 
 
-def _prime_radius(board: Board, least: float) -> Iterator[Caution]:
+def _prime_radius(cam: Cam, board: Board, least: float) -> Iterator[Caution]:
     given = board.prime_radius
     if given is not None and given < least - PRINT_ROUNDING:
         said = say("The given prime radius of {given:g} mm is smaller than the minimum permitted one, {least:.2f} mm.")
-        yield Caution(said.with_values(given=given, least=least), "prime radius")
+        said = said.with_values(given=given, least=least)
+        if "curvature" in board.follower.conditions:
+            permitted, speed = board.follower.conditions["curvature"] or 0.0, profile_speed(cam)
+            said = beside_rows(cam.motion, said, lambda places: speed(places) - permitted)
+        yield Caution(said, "prime radius")
 
 
 def unit_slips(task: Task) -> Iterator[Caution]:

@@ -23,8 +23,8 @@ from graphcam.given.follower import (
     Translating,
     sense,
 )
-from graphcam.given.outline_motion import OutlineMotion
 from graphcam.given.impact import NO_FORCE, velocity_jumps
+from graphcam.given.outline_motion import OutlineMotion
 from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.roller_rule import DEFAULT_RULE, Candidate, roller_rule
 from graphcam.showing import MAX_WIDTH, value_text
