@@ -26,3 +26,13 @@ def cross(a: Vectors | complex, b: Vectors | complex) -> NDArray[np.float64]:
     15.0
     """
     return np.asarray(a.real * b.imag - a.imag * b.real)
+
+
+def turned(points: NDArray[np.float64], by: complex) -> NDArray[np.float64]:
+    """Points (..., 2) turned about the origin by a unit vector; by 1, every digit stays.
+
+    >>> turned(np.array([[2.0, 1.0]]), 1j).tolist()
+    [[-1.0, 2.0]]
+    """
+    x, y = points[..., 0], points[..., 1]
+    return points if by == 1 else np.stack([by.real * x - by.imag * y, by.imag * x + by.real * y], axis=-1)

@@ -65,8 +65,10 @@ def chord_readings(motion: Motion, stations: Stations) -> ChordReadings:
     phase, left, u = stations.phase, stations.left, stations.u
     angle = motion.angles[phase]
     widths = np.diff(u)[left] * angle[left]
-    steps = widths * motion.at(phase[left], (u[left] + u[left + 1]) / 2)[2]
     exact_s, exact_v = motion.at(phase, u)[:2]
+    # In a blow v is laid off.
+    middles = motion.at(phase[left], (u[left] + u[left + 1]) / 2)[2]
+    steps = np.where(stations.blows, exact_v[left + 1] - exact_v[left], widths * middles)
     v, s, permitted = np.zeros_like(u), np.zeros_like(u), np.ones((2, len(stations.phases)))
     own = np.ones(len(stations.phases))
     index = phase[stations.last]
@@ -133,7 +135,7 @@ def _halved(law: Law, cuts: Floats) -> Floats:
     (f, f1), widths, middles = law(cuts, 1), np.diff(cuts), (cuts[:-1] + cuts[1:]) / 2
     off_v = np.abs(widths * law(middles)[2] - np.diff(f1)) / (MAX_V_SHARE * law.peak_velocity)
     off_s = np.abs(widths * (f1[:-1] + f1[1:]) / 2 - np.diff(f)) / MAX_S_SHARE
-    off = np.maximum(off_v, off_s)
+    off = np.where((middles > law.steady[0]) & (middles < law.steady[1]), np.maximum(off_v, off_s), 0.0)
     worst = np.argsort(-off, kind="stable")[: MAX_FINER_PARTS - widths.size]
     return np.sort([*cuts, *middles[worst[off[worst] > HALVED_SHARE * off.max()]]])
 

@@ -121,7 +121,9 @@ class Comparison:
         board, extremes = self.drawn.board, self.cam.extremes()
         least, place = self.least
         rho = extremes.min_convex_radius[0]
-        by_rule = min(term(rho=rho, r0=self.cam.prime_radius) for term in board.roller_rule)
+        # A corner limits no roller: none can follow it.
+        limiting = math.inf if board.motion.corners else rho
+        by_rule = min(term(rho=limiting, r0=self.cam.prime_radius) for term in board.roller_rule)
         return {
             "max_v": max_velocity(board.motion),
             "max_a": max_acceleration(board.motion),

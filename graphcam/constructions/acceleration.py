@@ -1,8 +1,9 @@
 """The acceleration diagram, drawn in a scale that is not yet known.
 
-The greatest ordinate of the first rise is chosen.  The lift of a phase goes as y F^2/C, so for the displacement to come
-back to the axis every other ordinate must be y = y1 (C h/F^2)/(C1 h1/F1^2).  Which acceleration a millimetre means is
-known only after two integrations, when the known lift fixes the scale.
+The greatest ordinate of the first rise is chosen, or of the first phase that has one: where the velocity jumps the
+acceleration is infinite, or as good as that, and an arrow stands for it.  The lift of a phase goes as y F^2/C, so for
+the displacement to come back to the axis every other ordinate must be y = y1 (C h/F^2)/(C1 h1/F1^2).  Which
+acceleration a millimetre means is known only after two integrations, when the known lift fixes the scale.
 """
 
 from __future__ import annotations
@@ -17,7 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.constructions.axes import (
+    ARROW_OVERHANG,
+    MIN_INFINITE_ARROW,
     degrees,
+    height_range,
     joined_parts,
     number_labels,
     part_titles,
@@ -34,7 +38,7 @@ from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
 from graphcam.drafting.hand import Hand, distance_between, errorless_hand
 from graphcam.drafting.ink import Construction, Part, Step, say
-from graphcam.drafting.marks import Dimension, Role, Segments
+from graphcam.drafting.marks import Arrow, Dimension, Label, Mark, Role, Segments
 from graphcam.drafting.meaning import LIFT, MU_PHI, Formula, Meaning, ReadingMeaning, Symbol, Values
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale
@@ -56,15 +60,15 @@ def _ordinate_values(diagram: AccelerationDiagram) -> Values:
     """The formula's values for every ordinate that follows from the chosen one, phase by phase."""
     stations, greatest = diagram.givens.stations, diagram.first("greatest").tolist()
     phases, index = moving_phases(diagram.givens.motion, stations), stations.phase[stations.last].tolist()
-    first = next(k for k, phase in enumerate(phases) if phase.direction > 0)
+    first = index.index(diagram.givens.motion.reference[0])
 
     def terms(k: int, of: str) -> dict[str, Any]:
         """The values that the lift of phase ``k`` is proportional to; ``of`` ends their names."""
         phase = phases[k]
-        law = {f"C{of}": phase.normalised.peak_acceleration, f"h{of}": phase.lift}
+        law = {f"C{of}": phase.normalised.steady_acceleration, f"h{of}": phase.lift}
         return {**law, f"k{of}": index[k] + 1, f"angle{of}": float(np.degrees(phase.angle)), f"y{of}": greatest[k]}
 
-    yield from (terms(k, "") | terms(first, "1") for k in range(len(phases)) if k != first)
+    yield from (terms(k, "") | terms(first, "1") for k in range(len(phases)) if k != first and greatest[k])
 
 
 FORMULAS = (
@@ -127,16 +131,16 @@ def acceleration_diagram(
     Points: the stations on the ``axis``, the ``plotted`` ordinates there, and those on the ``near side`` of a jump.
     """
     hand, phases = Hand(pencil, MEANING), moving_phases(motion, stations)
-    steepness = np.array([p.normalised.peak_acceleration * p.lift / p.angle**2 for p in phases])
-    first_rise = next(k for k, phase in enumerate(phases) if phase.direction > 0)
-    greatest = ordinate * steepness / steepness[first_rise]
+    _, reference = motion.reference
+    greatest = ordinate * np.array([phase.steady_acceleration for phase in phases]) / reference
 
     origin, u, left = hand.given("origin"), stations.u, stations.left
     turn = hand.lay_off("turn", origin, RIGHT, FULL_TURN / mu_phi.per_mm)
     axis, begins = _station_ticks(hand, origin, stations, mu_phi), [span.start for span in stations.phases]
 
     def ordinates(u: Floats, phase: NDArray[np.intp], side: Side = "right") -> Floats:
-        return ordinate / steepness[first_rise] * motion.at(phase, u, side)[2]
+        drawn = np.where(motion.in_blow(phase, u, side), 0.0, motion.at(phase, u, side)[2])
+        return ordinate / reference * drawn
 
     tops = hand.lay_off("greatest", axis[begins], UP, greatest)
     after, before = ordinates(u, stations.phase), ordinates(u, stations.phase, "left")
@@ -186,8 +190,12 @@ def equal_parts(stations: Stations) -> Caption:
 
 
 def _shape(phase: MovingPhase, u: Floats, side: Side = "right") -> Floats:
-    """The given ordinates of a law as fractions of its greatest; a return begins downwards."""
-    return phase.direction * phase.normalised(u, side=side)[2] / phase.normalised.peak_acceleration
+    """The given ordinates of a law as fractions of its greatest, none in a blow; a return begins downwards."""
+    greatest, (low, high) = phase.normalised.steady_acceleration, phase.normalised.steady
+    if not greatest:
+        return np.zeros_like(u)
+    shape = phase.direction * phase.normalised(u, side=side)[2] / greatest
+    return np.where((u < low) | (u > high), 0.0, shape)
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -206,11 +214,18 @@ def _draw(diagram: AccelerationDiagram) -> list[Step]:
     laws = [_LawOverPhase(*each) for each in moving]
     curves = [law.drawn(errorless_hand(diagram), k) for k, law in enumerate(laws)]
     lines = tuple(curve.line(Role.RESULT) for curve in curves)
+    reach = _reach(motion, np.concatenate([curve.shown.imag for curve in curves]))
     shape = say("The maximum ordinate of a phase is known now, and all others are in proportion to it.")
     return [
-        _axis(diagram, np.concatenate([curve.shown.imag for curve in curves])),
+        _axis(diagram, reach),
         _ordinates(diagram, laws, curves),
-        Step(say("Acceleration by the law"), _law_parts(laws, curves), ACCELERATION, lines, why=shape),
+        Step(
+            say("Acceleration by the law"),
+            (*_law_parts(laws, curves), *_blow_parts(motion)),
+            ACCELERATION,
+            (*lines, *_arrows(diagram, reach)),
+            why=shape,
+        ),
         _middle_ordinates(diagram),
     ]
 
@@ -228,6 +243,39 @@ def _law_parts(laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> tuple[
             "“{section}”. Ordinates above the axis are positive."
         ).with_values(section=say("Velocity and acceleration by differentiation"))
     return introduced_parts(told, [Part(law.told(), (curve,)) for law, curve in zip(laws, curves, strict=True)])
+
+
+def _reach(motion: Motion, heights: Floats) -> Floats:
+    """The heights of the curves with those of the arrows for an acceleration that cannot be drawn [mm of paper]."""
+    low, high = height_range(heights)
+    tips = {
+        max(high + ARROW_OVERHANG, MIN_INFINITE_ARROW)
+        if blow.acceleration > 0
+        else min(low - ARROW_OVERHANG, -MIN_INFINITE_ARROW)
+        for blow in motion.blows
+    }
+    return np.append(heights, [*tips])
+
+
+def _blow_parts(motion: Motion) -> Iterator[Part]:
+    """The parts that say where an arrow stands for the acceleration."""
+    for how, said in (
+        (True, say("At {places} the velocity jumps: there the acceleration is infinite, and an arrow stands for it.")),
+        (False, say("At {places} the acceleration is too short and too high to be drawn: an arrow stands for it.")),
+    ):
+        if places := dict.fromkeys(blow.phi % FULL_TURN for blow in motion.blows if np.isinf(blow.acceleration) == how):
+            yield Part(said.with_values(places=and_list([degrees(phi) for phi in places])))
+
+
+def _arrows(diagram: AccelerationDiagram, reach: Floats) -> Iterator[Mark]:
+    """The arrows with the sign of infinity, or with the acceleration; of two blows at one place one."""
+    low, high = height_range(reach)
+    for phi, acceleration in dict.fromkeys(diagram.givens.motion.blows):
+        foot = complex(phi / diagram.givens.mu_phi.per_mm)
+        tip = foot + UP * (high if acceleration > 0 else low)
+        text = "∞" if np.isinf(acceleration) else say("{a:.3g}", a=abs(acceleration))
+        yield Arrow(foot, tip, Role.LIMIT)
+        yield Label(tip, text, towards=1 + 0j)
 
 
 def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
@@ -257,22 +305,31 @@ def _axis(diagram: AccelerationDiagram, heights: Floats) -> Step:
 
 
 def _ordinates(diagram: AccelerationDiagram, laws: Sequence[_LawOverPhase], curves: Sequence[Drawn]) -> Step:
-    chosen = next(k for k, law in enumerate(laws) if law.phase.direction > 0)
-    numbers = [say("{c:.5g} ({phase})", c=law.phase.normalised.peak_acceleration, phase=law.title) for law in laws]
+    moving = diagram.givens.stations.phase[diagram.givens.stations.last].tolist()
+    chosen = moving.index(diagram.givens.motion.reference[0])
+    title = say("Ordinates of the phases")
+    if not laws[chosen].greatest:
+        none = say("The velocity is constant between its jumps: no phase has an ordinate of the acceleration.")
+        why = say("Then nothing can be integrated from the acceleration: the velocity is laid off by the law.")
+        return Step(title, (Part(none),), ACCELERATION, (), ("greatest",), why=why)
+    having = [k for k, law in enumerate(laws) if law.greatest]
+    numbers = [
+        say("{c:.5g} ({phase})", c=laws[k].phase.normalised.steady_acceleration, phase=laws[k].title) for k in having
+    ]
     choice = say("Choose {y:.1f} mm for the maximum ordinate of {phase}; its scale is found at the end.")
     others = say(
         "The others follow from y = y₁·(C·h/φ²)/(C₁·h₁/φ₁²), with lift h and angle φ of the phase and C = aₘₐₓ·φ²/h "
         "of its law, here {numbers}."
     ).with_values(numbers=sequence(numbers))
-    marks = tuple(_dimension(diagram, k, law, curve) for k, (law, curve) in enumerate(zip(laws, curves, strict=True)))
+    marks = tuple(_dimension(diagram, k, laws[k], curves[k]) for k in having)
     ends = diagram.acts["greatest"].first
     first = Part(choice.with_values(phase=laws[chosen].title, y=laws[chosen].greatest), (ends[[chosen]],))
-    reckoned = [Part(laws[k].reckoned(laws[chosen]), (ends[[k]],)) for k in range(len(laws)) if k != chosen]
+    reckoned = [Part(laws[k].reckoned(laws[chosen]), (ends[[k]],)) for k in having if k != chosen]
     why = say(
         "The lift of a phase is proportional to y·φ²/C, so the displacement returns to the axis only if the "
         "ordinates are in this ratio."
     )
-    title, parts = say("Ordinates of the phases"), (first, *introduced_parts(others, reckoned))
+    parts = first, *introduced_parts(others, reckoned)
     return Step(title, parts, ACCELERATION, marks, ("greatest",), why=why)
 
 
@@ -288,7 +345,7 @@ class _LawOverPhase:
     def branches(self) -> Iterator[tuple[Floats, Floats]]:
         """Places on the axis and ordinates [mm] between jumps and corners; of a straight branch its ends alone."""
         law = self.phase.normalised
-        for first, last in pairwise((0.0, *sorted((*law.jumps, *law.corners)), 1.0)):
+        for first, last in pairwise(sorted({0.0, *law.jumps, *law.corners, *law.steady, 1.0})):
             u = np.linspace(first, last, 97)
             height = self.greatest * np.append(_shape(self.phase, u[:-1]), _shape(self.phase, u[-1:], "left"))
             straight = np.abs(height - np.linspace(height[0], height[-1], u.size)).max() < SAME_ORDINATE * self.greatest
@@ -303,6 +360,8 @@ class _LawOverPhase:
 
     def told(self) -> Caption:
         """A sentence with the ordinates that the curve is drawn through."""
+        if not self.greatest:
+            return say("Over {phase} the acceleration is zero: draw it along the axis.", phase=self.title)
         branches = list(self.branches())
         curved = any(x.size > 2 for x, _ in branches)
         branches = [(x, y) if x.size == 2 else (x[::PLOTTED_STEP], y[::PLOTTED_STEP]) for x, y in branches]
@@ -316,7 +375,7 @@ class _LawOverPhase:
     def reckoned(self, first: _LawOverPhase) -> Caption:
         """How the maximum ordinate follows from the chosen one, less the factors that are equal in both phases."""
         ours, theirs = self.phase, first.phase
-        c, c1 = ours.normalised.peak_acceleration, theirs.normalised.peak_acceleration
+        c, c1 = ours.normalised.steady_acceleration, theirs.normalised.steady_acceleration
         factors = [
             *([say("{c:.5g}/{c1:.5g}", c=c, c1=c1)] if not isclose(c, c1) else []),
             *([say("{h:.5g}/{h1:.5g}", h=ours.lift, h1=theirs.lift)] if not isclose(ours.lift, theirs.lift) else []),
@@ -365,7 +424,9 @@ def _divided_phase(diagram: AccelerationDiagram, k: int) -> Iterator[Part]:
     motion, stations, ordinates = diagram.givens.motion, diagram.givens.stations, diagram.first("middles")
     x, span, own = diagram.first("axis").real, stations.phases[k], stations.parts[k]
     runs: list[tuple[int, int]] = []
-    for start, stop in ((s.start, s.stop - 1) for s in stations.stretches if span.start <= s.start < span.stop):
+    blows = stations.left[stations.blows]
+    stretches = (s for s in stations.stretches if span.start <= s.start < span.stop and s.start not in blows)
+    for start, stop in ((s.start, s.stop - 1) for s in stretches):
         first = runs[-1][0] if runs else start
         # Stretches whose parts are as wide as the last ones' go on with these.
         if runs and abs((x[stop] - x[start]) / (stop - start) - (x[first + 1] - x[first])) < SAME_LENGTH:
@@ -383,7 +444,7 @@ def _divided_phase(diagram: AccelerationDiagram, k: int) -> Iterator[Part]:
     values = {"phase": title, "cuts": and_list(cut), "first": names[0], "last": names[-1]}
     yield Part(divided.with_values(**values), (diagram.acts["axis"].first[span],))
     heights: list[list[int]] = []
-    for part in range(own.start, own.stop):
+    for part in np.arange(own.start, own.stop)[~stations.blows[own]].tolist():
         if heights and abs(ordinates[part] - ordinates[heights[-1][0]]) < SAME_LENGTH:
             heights[-1].append(part)
         else:

@@ -26,6 +26,8 @@ NUMBER_ROOM = 4.5, 6.0
 """Stations are named that stand at least so far apart [mm of paper]; where some have names of two digits, so far."""
 NAMED_STATION_STEPS = (1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30, 40, 50)
 """Every how many stations may be named."""
+MIN_INFINITE_ARROW, ARROW_OVERHANG = 14.0, 5.0
+"""An arrow for an infinite value is at least so long, and so much longer than the curve is high [mm of paper]."""
 SAME_LEVEL = 1e-6
 """Levels that differ by less than this part of the lift are one."""
 LEVEL_DIGITS = 9
@@ -59,13 +61,33 @@ def sense_caption(rotation: Rotation) -> Caption:
 def station_names(stations: Stations) -> list[str]:
     """The stations' names: 0, 1, 2 ... in the first moving phase, 0′, 1′ ... in the second, and so on.
 
+    Where the velocity jumps, two stations stand at one place; the one on the moving side is 0⁺, or 12⁻.
+
     >>> from math import pi
     >>> import graphcam as gc
     >>> from graphcam.given.stations import divide
     >>> station_names(divide(gc.Motion([gc.Rise(30, pi), gc.Return(30, pi)]), 2))
     ['0', '1', '2', '0′', '1′', '2′']
     """
-    return [f"{k}" + "′" * phase for phase, span in enumerate(stations.phases) for k in range(span.stop - span.start)]
+    numbers, twins = _numbers_of_stations(stations)
+    signs = {0: "", 1: "⁺", -1: "⁻"}
+    return [
+        f"{number}{'′' * phase}{signs[way]}"
+        for number, way, phase in zip(numbers, twins, stations.moving.tolist(), strict=True)
+    ]
+
+
+def _numbers_of_stations(stations: Stations) -> tuple[list[int], list[int]]:
+    """The number of each station in its phase, and on which side of a blow it stands: 1 behind it, -1 before it."""
+    numbers, sides = list[int](), list[int]()
+    for parts in stations.parts:
+        blows = stations.blows[parts].tolist()
+        counted = [0, *np.cumsum(~stations.blows[parts]).tolist()]
+        numbers += counted
+        behind = (blow and not number for blow, number in zip([False, *blows], counted, strict=True))
+        before = (blow and number > 0 for blow, number in zip([*blows, False], counted, strict=True))
+        sides += [int(after) - int(ahead) for after, ahead in zip(behind, before, strict=True)]
+    return numbers, sides
 
 
 def part_names(stations: Stations) -> list[str]:
@@ -78,7 +100,7 @@ def part_names(stations: Stations) -> list[str]:
     ['1', '2', '1′', '2′']
     """
     names = station_names(stations)
-    return [names[k + 1] for k in stations.left]
+    return [names[k + 1].replace("⁻", "") for k in stations.left]
 
 
 def joined_parts(parts: Iterable[int], stations: Stations) -> str:
@@ -324,15 +346,21 @@ def numbered_stations(points: Points, stations: Stations) -> list[int]:
     ([0, 5, 6, 11], [0, 1, 2, 3, 4, 5])
     """
     found: list[int] = []
-    for span in stations.phases:
-        parts = span.stop - span.start - 1
-        between = np.abs(np.diff(points[span]))
+    numbers, sides = (np.array(each) for each in _numbers_of_stations(stations))
+    for span, own in zip(stations.phases, stations.parts, strict=True):
+        parts = int(numbers[span.stop - 1])
+        between = np.abs(np.diff(points[span]))[~stations.blows[own]]
         # A covered touch point is none.
         spacing = float(np.nanmedian(between)) if np.isfinite(between).any() else 0.0
         every = next((k for k in NAMED_STATION_STEPS if k * spacing >= NUMBER_ROOM[parts >= 10]), parts)
         # The last one before the end would stand too near to it.
-        found += [span.start + k for k in range(0, parts, every) if k == 0 or parts - k >= every]
-        found.append(span.start + parts)
+        named = {*(k for k in range(0, parts, every) if k == 0 or parts - k >= every), parts}
+        # Of two stations at one place that at rest is named.
+        found += [
+            k
+            for k in range(span.start, span.stop)
+            if numbers[k] in named and not (sides[k] and abs(points[k] - points[k - sides[k]]) < NUMBER_ROOM[0])
+        ]
     return found
 
 

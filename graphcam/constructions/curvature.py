@@ -12,7 +12,7 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.constructions.axes import phase_symbol, station_names
+from graphcam.constructions.axes import degrees, phase_symbol, station_names
 from graphcam.constructions.profile_view import Inverted
 from graphcam.constructions.sharpest_bend import centres_of, dwell_arcs, neighbours, sharpest_of, turns_a_corner
 from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
@@ -36,7 +36,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.follower import sense
 from graphcam.given.motion import FULL_TURN
-from graphcam.words import Words, sequence
+from graphcam.words import Words, and_list, sequence
 
 
 @dataclass(frozen=True, eq=False)
@@ -227,6 +227,8 @@ def _draw(curved: Curved) -> list[Step]:
     detail = detail_of(curved)
     if detail is None:
         title, why = say("Curvature at the sharpest point"), say("Three points on a line lie on no circle.")
+        if curved.givens.inverted.givens.integrated.givens.motion.corners:
+            why = say("No circle fits a corner.")
         return [Step(title, (Part(_unreadable(curved)),), PROFILE, (), why=why)]
     return [_chords(curved, detail), _bisected(curved, detail), _measured(curved, detail), _on_profile(curved)]
 
@@ -383,6 +385,12 @@ def _on_profile(curved: Curved) -> Step:
 
 def _unreadable(curved: Curved) -> Caption:
     """A sentence on why there is no radius."""
+    if corners := curved.givens.inverted.givens.integrated.givens.motion.corners:
+        said = say(
+            "At {places} the velocity falls at once: there the pitch curve has a corner, whose radius of curvature is "
+            "zero. It limits no roller, for none follows it: the roller rounds the corner."
+        )
+        return said.with_values(places=and_list([degrees(phi) for phi in corners]))
     if np.ravel(curved.givens.corner)[0]:
         return say(
             "The curvature cannot be read: next to a dwell the curve turns by more than 45° within one part, so "

@@ -33,6 +33,7 @@ _CURVE_WITH_CORNERS = say(
     "Draw the curve through the points from jump to jump and from corner to corner of the acceleration: with the ruler "
     "where they lie on one line, elsewhere with the French curve."
 )
+CORNER = say("at {first} it has a corner")
 CONTINUOUS_TANGENT = say("at {first} the tangent is continuous")
 _DWELL_CAPTION = say("In the dwells draw it horizontally with the T-square.")
 
@@ -47,13 +48,15 @@ def curve_over_phi(
     stations, names = givens.stations, station_names(givens.stations)
     begins = {span.start for span in stations.phases}
     straight, lines, rows = [_on_one_line(curve.shown[piece]) for piece in stations.pieces], list[Line](), list[Row]()
-    either = any(straight) and not all(straight)
+    either, blows = any(straight) and not all(straight), stations.left[stations.blows]
     for piece, by_ruler in zip(stations.pieces, straight, strict=True):
         tool = [RULER if by_ruler else FRENCH_CURVE] if either else []
         # A phase with stations moves.
         phase = givens.motion.phases[int(stations.phase[piece.start])]
-        jumps = isinstance(phase, MovingPhase) and float(stations.u[piece.start]) in phase.normalised.jumps
-        meeting = met if jumps else CONTINUOUS_TANGENT
+        place, law = float(stations.u[piece.start]), phase.normalised if isinstance(phase, MovingPhase) else None
+        meeting = met if law and place in law.jumps else CORNER if law and place in law.steady else CONTINUOUS_TANGENT
+        if piece.start in blows and np.ptp(curve.shown[piece].imag) < STRAIGHTNESS:
+            continue  # what does not jump has no width in a blow
         corner = [] if piece.start in begins else [meeting.with_values(first=names[piece.start])]
         faired = hand.fair(name, curve.first, [piece])
         ends = stretch_caption(names[piece.start], names[piece.stop - 1])

@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+from numpy.typing import NDArray
 
-from graphcam.constructions.acceleration import AccelerationDiagram
+from graphcam.constructions.acceleration import AccelerationDiagram, moving_phases
 from graphcam.constructions.axes import (
     SUBSCRIPTS,
     first_at_height,
@@ -23,7 +24,7 @@ from graphcam.constructions.axes import (
     pole_marks,
     station_names,
 )
-from graphcam.constructions.curve_over_phi import CONTINUOUS_TANGENT, curve_over_phi
+from graphcam.constructions.curve_over_phi import CONTINUOUS_TANGENT, CORNER, curve_over_phi
 from graphcam.constructions.graduation import graduated_at_speed, graduation_marks, time_scale_caption
 from graphcam.constructions.pole_scales import PoleTerms, pole_formula
 from graphcam.constructions.turn_board import TurnGivens
@@ -49,12 +50,14 @@ from graphcam.drafting.scale import NEGLIGIBLE_SIZE, unit
 from graphcam.drafting.telling import introduced_parts
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
-from graphcam.given.motion import Motion
+from graphcam.given.motion import Motion, MovingPhase
 from graphcam.given.stations import Stations
 from graphcam.words import sequence
 
 AXIS_NUMBER_DISTANCE = 6.0
 """Points of s so near to the axis [mm of paper] are called by the numbers there."""
+SAME_HEIGHT = 1e-9
+"""Ordinates that differ by less than this part of the greatest are equally high."""
 NEGLIGIBLE_DISPLACEMENT = 1e-9
 """A displacement of less, as part of what the greatest ordinate gives over the phase, is rounding."""
 
@@ -69,6 +72,35 @@ class IntegrationGivens(TurnGivens):
     diagram: AccelerationDiagram
     poles: tuple[float, float]
     lowest: bool = False
+
+    def integrated_parts(self, index: int) -> NDArray[np.bool_]:
+        """(p,) the parts that the first or second integration has a ray for: there is none in a blow.
+
+        Nor is there one in a phase without any acceleration between its blows, whose v is laid off.
+        """
+        stations = self.stations
+        still = np.array([p.direction and not p.steady_acceleration for p in self.motion.phases if p.direction])
+        return ~stations.blows & ~(still[stations.moving[stations.left]] & (index == 1))
+
+    def highest_ordinate(self, drawn: Floats) -> Floats:
+        """The maximum of the phases' ordinates (..., k), or of a blow, which is calculated [mm of paper]."""
+        highest = max((abs(blow.acceleration) for blow in self.motion.blows), default=0.0)
+        return np.maximum(np.max(drawn, axis=-1), self.ordinate * highest / self.motion.reference[1])
+
+    def velocity_jumps(self) -> Floats:
+        """(m,) by how much the velocities of the blows so far raise v at the stations [mm of paper].
+
+        mu_v = mu_a mu_phi H1, and mu_a follows from the chosen ordinate.
+        """
+        stations, left = self.stations, self.stations.left
+        v = self.motion.at(stations.phase, stations.u)[1]
+        jumps = np.zeros(stations.u.size)
+        jumps[left + 1] = np.where(stations.blows, v[left + 1] - v[left], 0.0)
+        raised = np.cumsum(jumps)
+        # Every phase begins at rest.
+        starts = np.array([span.start for span in stations.phases])
+        mu_v = self.motion.reference[1] / self.ordinate * self.mu_phi.per_mm * self.poles[0]
+        return (raised - raised[starts][stations.moving]) / mu_v
 
 
 Integrated = Construction[IntegrationGivens]
@@ -167,7 +199,10 @@ def integration(
 
     # Every phase starts and ends at rest, so a velocity left at its end is taken up by turning the base line.
     a_heights, polygons = _integrated(hand, givens, 1, hand.carry(diagram.readings["middles"]), uprights, origin)
-    v_chords = hand.take("v_chords", polygons)
+    if stations.blows.any():  # where the velocity jumps, it is laid off
+        v_chords = hand.raised("v_chords", polygons, calculated_setting(givens.velocity_jumps))
+    else:
+        v_chords = hand.take("v_chords", polygons)
     v = hand.lay_off(
         "v_curve", axis, UP, calculated_setting(partial(_above_base, givens), distance_between(axis, v_chords, UP))
     )
@@ -198,7 +233,8 @@ def integration(
         distance_between(down, origin, UP),
     )
     hand.read("max_v", calculated_setting(np.maximum, *ends), mu_v)
-    hand.read("max_a", calculated_setting(partial(np.max, axis=-1), hand.carry(diagram.readings["greatest"])), mu_a)
+    tallest = calculated_setting(givens.highest_ordinate, hand.carry(diagram.readings["greatest"]))
+    hand.read("max_a", tallest, mu_a)
     hand.read("closing_v", distance_between(axis[stations.last], v_chords[stations.last], UP), mu_v, rounded=False)
     hand.read("closing_s", closing, mu_s, rounded=False)
     projected = {"a_projected": middles.points.real + a_heights.points}
@@ -269,7 +305,11 @@ def _top(motion: Motion, stations: Stations) -> int:
 
 
 def _draw(c: Integrated) -> list[Step]:
-    passes = [step for run in _INTEGRATIONS for step in (_draw_rays(c, run), _draw_chords(c, run), _draw_curve(c, run))]
+    passes = list[Step]()
+    for run in _INTEGRATIONS:
+        # Where the velocity is constant between its jumps there is nothing to integrate.
+        rays = [_draw_rays(c, run)] if c.givens.integrated_parts(run.index).any() else []
+        passes += [*rays, _draw_chords(c, run), _draw_curve(c, run)]
     return [*passes, *_draw_scales(c)]
 
 
@@ -305,10 +345,10 @@ _OF_CHORDS = say(
     "share one ray."
 )
 _CORNERS_REASON = say("The slope of v is the acceleration: v has a corner where it jumps, and is smooth elsewhere.")
+_CORNER_OF_S_REASON = say("The slope of s is the velocity: where that jumps s has a corner, and is smooth elsewhere.")
 _SMOOTH_REASON = say("The slope of s is the velocity, which never jumps, so adjoining pieces of s share a tangent.")
-_CORNER = say("at {first} it has a corner")
 _INTEGRATIONS = (
-    _Integrating(1, ACCELERATION, VELOCITY, ("a", "v"), _ORDINATES_CAPTION, _AT_REST, _CORNERS_REASON, _CORNER),
+    _Integrating(1, ACCELERATION, VELOCITY, ("a", "v"), _ORDINATES_CAPTION, _AT_REST, _CORNERS_REASON, CORNER),
     _Integrating(2, VELOCITY, DISPLACEMENT, ("v", "s"), _OF_CHORDS, _SHARED_OUT, _SMOOTH_REASON, CONTINUOUS_TANGENT),
 )
 
@@ -316,11 +356,12 @@ _INTEGRATIONS = (
 def _draw_rays(c: Integrated, run: _Integrating) -> Step:
     """The step that draws the pole, and of all rays each that falls on no other."""
     stations, distance, (source, target) = c.givens.stations, c.givens.poles[run.index - 1], run.symbols
+    used = c.givens.integrated_parts(run.index)
     pole, levelled, rays = (c.acts[name] for name in (f"P{run.index}", f"heights for {target}", f"rays of {target}"))
     height, farthest = levelled.shown.imag, c.first(f"{source}_projected").real
     alike = first_at_height(height)
-    kept = np.unique(alike).tolist()
-    same = [np.flatnonzero(alike == k).tolist() for k in kept]
+    kept = np.unique(alike[used]).tolist()
+    same = [np.flatnonzero((alike == k) & used).tolist() for k in kept]
     # Their projections are drawn once too, from the farthest ordinate.
     reach = np.array([farthest[parts].max() for parts in same])
     projected, names = levelled.first[kept], [joined_parts(parts, stations) for parts in same]
@@ -371,7 +412,8 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
         *number_labels(polygon, stations, _outward_directions(y, stations), far),
     )
     # The fourth chord is worked in full, or the first one after it that climbs.
-    climbing = np.flatnonzero(np.abs(np.diff(y)[stations.left]) >= NEGLIGIBLE_SIZE)
+    integrated = c.givens.integrated_parts(run.index)
+    climbing = np.flatnonzero((np.abs(np.diff(y)[stations.left]) >= NEGLIGIBLE_SIZE) & integrated)
     part = int(climbing[min(np.searchsorted(climbing, 3), climbing.size - 1)]) if climbing.size else 0
     k, names = int(stations.left[part]) + 1, station_names(stations)
     width = polygon.shown.real[k] - polygon.shown.real[k - 1]
@@ -387,11 +429,35 @@ def _draw_chords(c: Integrated, run: _Integrating) -> Step:
         "A chord with the slope y/H climbs by y·Δx/H, the area of its part divided by H, so chords set end to end "
         "add up the area under {source}."
     ).with_values(source=source)
+    if run.index == 1 and c.givens.motion.blows:
+        said = sequence([*([said] if integrated.any() else []), _laid_off(c)], " ")
     chords = Part(said, rows=tuple(row for k in range(len(stations.phases)) for row in _chord_rows(c, run, k)))
     checks = tuple(_ordinates(c, run))
     checks = introduced_parts(run.closing.with_values(left=left), checks) if left > NEGLIGIBLE_SIZE else checks
     title = say("Chords parallel to the rays: {target}", target=target)
+    if not integrated.any():
+        title, why = say("The velocity by the law"), say("A velocity that jumps has no acceleration to be integrated.")
     return Step(title, (chords, *checks), run.target, (*axes, *marks), given=axes, why=why, under=under)
+
+
+def _laid_off(c: Integrated) -> Caption:
+    """The sentences on the velocities that jump, which are laid off."""
+    (k, reference), h1 = c.givens.motion.reference, c.givens.poles[0]
+    phases = moving_phases(c.givens.motion, c.givens.stations)
+    blown = next(phase for phase in phases if any(phase.normalised.blows))
+    v = float(np.max(np.abs(c.givens.velocity_jumps()[c.givens.stations.phases[phases.index(blown)]])))
+    first = c.givens.motion.phases[k]
+    title = phase_title(c.givens.motion, c.givens.motion.phases.index(blown))
+    said = say(
+        "Where the velocity jumps lay off its jump, upright: {v:.2f} mm on {phase}, and of others in proportion to "
+        "h/φ. This length is chosen; its scale is found at the end."
+    )
+    if isinstance(first, MovingPhase) and first.steady_acceleration:
+        said = say(
+            "Where the velocity jumps, lay off its jump, upright: of {phase} {v:.2f} mm = y₁·(f′·h/φ)/((C₁·h₁/φ₁²)·"
+            "μᵩ·H₁), with the y₁ = {y:.1f} mm that was chosen, and of others in proportion."
+        )
+    return said.with_values(v=v, phase=title, y=c.givens.ordinate, h1=h1, reference=reference)
 
 
 def _outward_directions(y: Floats, stations: Stations) -> Points:
@@ -408,13 +474,23 @@ def _chord_rows(c: Integrated, run: _Integrating, phase: int) -> Iterator[Row]:
         start = _START_CAPTIONS[0 if abs(y[span.start]) < NEGLIGIBLE_SIZE else 1 if phase else 2]
         title = say("Start of {phase}", phase=phase_title(c.givens.motion, int(stations.phase[span.start])))
         yield Row(title, start.with_values(y=y[span.start], name=names[span.start]), (polygon.first[[span.start]],))
+    blows = (stations.left[stations.blows] + 1).tolist()
     for k in range(span.start + 1, span.stop):
         rise = y[k] - y[k - 1]
+        if k in blows:
+            if run.index == 1:
+                title = say("From {first} to {last}", first=names[k - 1], last=names[k])
+                yield Row(
+                    title, _JUMP_CAPTIONS[int(rise > 0)].with_values(jump=abs(rise)), (polygon.first[[k - 1, k]],)
+                )
+            continue
         change = _CHORD_CAPTIONS[0 if abs(rise) < NEGLIGIBLE_SIZE else 1 if rise > 0 else 2].with_values(rise=abs(rise))
         # The first chord of v starts at rest, where the phase does.
         first = k == span.start + 1 and run.index == 1
         said = say("{change} from {before} on the axis", before=names[k - 1], change=change) if first else change
-        yield Row(say("Chord {name}", name=names[k]), said, (polygon.first[[k - 1, k] if first else [k]],))
+        yield Row(
+            say("Chord {name}", name=names[k].replace("⁻", "")), said, (polygon.first[[k - 1, k] if first else [k]],)
+        )
 
 
 _START_CAPTIONS = (
@@ -422,6 +498,7 @@ _START_CAPTIONS = (
     say("carry the end of the previous phase, {y:.2f} mm high, horizontally to vertical {name}"),
     say("vertical {name}; the axis, through the lowest dwell, will lie {y:.2f} mm below"),
 )
+_JUMP_CAPTIONS = say("v falls {jump:.2f} mm at once"), say("v rises {jump:.2f} mm at once")
 _CHORD_CAPTIONS = say("is horizontal"), say("climbs {rise:.2f} mm"), say("falls {rise:.2f} mm")
 
 
@@ -432,7 +509,8 @@ def _ordinates(c: Integrated, run: _Integrating) -> Iterator[Part]:
     fastest = np.abs(c.acts["v_curve"].shown.imag)
     for span in stations.phases:
         first, last = span.start, span.stop - 1
-        k = first + int(np.argmax(fastest[span]))
+        highest = np.flatnonzero(fastest[span] > (1 - SAME_HEIGHT) * np.max(fastest[span]))
+        k = first + int(highest[highest.size // 2])
         off = (curve.shown - polygon.shown).imag[[first, last]]
         # What is nothing has no sign.
         y, end = (float(np.round(curve.shown.imag[each], 2)) + 0.0 for each in (k, last))
@@ -459,7 +537,8 @@ _RESIDUAL_CAPTIONS = (
 def _draw_curve(c: Integrated, run: _Integrating) -> Step:
     target = run.symbols[1]
     lines, parts = curve_over_phi(c.givens, errorless_hand(c), target, c.acts[f"{target}_curve"], run.met)
-    return Step(say("Curve of {target}", target=target), parts, run.target, lines, why=run.joined)
+    why = _CORNER_OF_S_REASON if run.index == 2 and c.givens.motion.blows else run.joined
+    return Step(say("Curve of {target}", target=target), parts, run.target, lines, why=why)
 
 
 def _draw_scales(c: Integrated) -> Iterator[Step]:
@@ -477,6 +556,8 @@ def _draw_scales(c: Integrated) -> Iterator[Step]:
         "a": say("Divide by μᵩ·H₁: μₐ = {mu_v:.5g}/({mu_phi:.5g}·{h1:.6g}) = {mu_a:.5g} ({unit}/rad²)/mm."),
     }
     yield _scale(c, "s", known.with_values(**values), top, (height,))
+    if not c.first("a").any() and c.givens.motion.blows:  # of arrows there is no scale
+        del through["a"]
     for name, said in through.items():
         yield _scale(c, name, said.with_values(**values))
 

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphcam.constructions.axes import (
+    ARROW_OVERHANG,
+    MIN_INFINITE_ARROW,
     degrees,
     height_names,
     height_range,
@@ -46,9 +48,6 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.stations import Stations
 from graphcam.words import sequence
-
-MIN_INFINITE_ARROW, ARROW_OVERHANG = 14.0, 5.0
-"""An arrow for an infinite jerk is at least so long, and so much longer than the curve is high [mm of paper]."""
 
 GRADUATION_OFFSET = 6.0
 """The graduation stands so far beside an arrow at the end of the turn [mm of paper]."""

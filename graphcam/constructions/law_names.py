@@ -24,7 +24,7 @@ def law_name(law: Law) -> Words:
     >>> str(law_name(gc.law("cosine"))), str(law_name(gc.law("3-4-5")))
     ('cosine', '3-4-5')
     """
-    return LAW_TITLES.get(law.name, law.name)
+    return say("uniform velocity") if all(law.velocity_jumps) else LAW_TITLES.get(law.name, law.name)
 
 
 def law_title(motion: Motion, k: int) -> Words:

@@ -24,11 +24,11 @@ from graphcam.drafting.hand import Direction, Hand, distance_between, errorless_
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, Words, say
 from graphcam.drafting.marks import AngleMark, Arc, Arrow, Dots, Label, Line, Mark, Role, Segments
 from graphcam.drafting.meaning import ReadingConvergence, ReadingMeaning
-from graphcam.drafting.scale import Scale
+from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Scale
 from graphcam.drafting.telling import FRENCH_CURVE, circle_caption, stretch_caption
 from graphcam.given.follower import Rotation, sense
 from graphcam.given.motion import FULL_TURN, Motion
-from graphcam.given.stations import Stations
+from graphcam.given.stations import Stations, falling_blows
 from graphcam.words import say_in, sequence
 
 
@@ -116,7 +116,7 @@ def position_words(inverted: Inverted) -> dict[str, Words]:
 
 def _step_of(motion: Motion, stations: Stations, span: slice) -> Caption:
     """A caption of the angles from station to station in a moving phase: its stretches may be divided differently."""
-    steps = np.diff(stations.phi[span])
+    steps = np.diff(stations.phi[span])[~stations.blows[stations.parts[stations.phases.index(span)]]]
     new = np.append(True, ~np.isclose(np.diff(steps), 0.0))
     symbol = phase_symbol(motion, int(stations.phase[span.start]))
     each = [_turn(step) for step in steps[new]]
@@ -166,28 +166,39 @@ def piecewise_curve(name: str, inverted: Inverted, points: Drawn) -> PiecewiseCu
     # Where a phase has lost all its points there is no piece of it.
     left = [(k, piece, whole[a:b]) for (k, piece), (a, b) in zip(pieces, pairwise(ends), strict=True) if a < b]
     rows = tuple(_piece_row(inverted, k, piece, at) for k, piece, at in left)
-    return PiecewiseCurve(whole, rows, any(piece.act.kind is Kind.LAY_OFF for _, piece, _ in left))
+    return PiecewiseCurve(whole, rows, any(k is not None and piece.act.kind is Kind.LAY_OFF for k, piece, _ in left))
 
 
-def _pieces(name: str, inverted: Inverted, points: Drawn) -> list[tuple[int, Drawn]]:
-    """The pieces of a closed curve in order, each with the number of its phase."""
+def _pieces(name: str, inverted: Inverted, points: Drawn) -> list[tuple[int | None, Drawn]]:
+    """The pieces of a closed curve in order, each with the number of its phase; None of an arc in a hollow corner."""
     hand, integrated = errorless_hand(inverted), inverted.givens.integrated
     motion, stations, sigma = integrated.givens.motion, integrated.givens.stations, sense(inverted.givens.rotation)
     spans = {int(stations.phase[span.start]): span for span in stations.phases}
-    centre, found = hand.given("cam centre"), list[tuple[int, Drawn]]()
-    missing = np.isnan(points.points)
+    centre, found = hand.given("cam centre"), list[tuple[int | None, Drawn]]()
+    missing, blows = np.isnan(points.points), stations.left[stations.blows].tolist()
+    edges = {k for ends in falling_blows(motion, stations) for k in ends}
+    turning = [j for j in blows if abs(points.points[j + 1] - points.points[j]) > NEGLIGIBLE_SIZE]
+    off = np.angle(points.points * inverted.acts["pitch"].first.points.conj())
     at, since = missing.size - 1, stations.phi[-1] - FULL_TURN  # the end of the motion before
     for k, phase in enumerate(motion.phases):
         if k in spans:
             span = spans[k]
             pieces = [p for p in stations.pieces if span.start <= p.start < span.stop - 1]
             kept = [np.flatnonzero(~missing[piece]) + piece.start for piece in pieces]
-            found += [(k, hand.fair(f"{name} {k}", points[places], [slice(None)])) for places in kept]
+            found += [
+                (None, _about_roller(hand, f"{name} at {piece.start}", inverted, points, piece.start))
+                if piece.start in turning
+                else (k, hand.fair(f"{name} {k}", points[places], [slice(None)]))
+                for piece, places in zip(pieces, kept, strict=True)
+            ]
             at, since = span.stop - 1, stations.phi[span.stop - 1]
         else:
-            turns = motion.starts[k] - since + np.linspace(0, phase.angle, max(2, round(phase.angle / ARC_STEP)))
             # Where the point before the dwell is missing, the one after it lies on the same arc.
             after = (at + 1) % missing.size
+            # An edge stands beside the ray of its station.
+            beyond, before = (sigma * off[j] if j in edges else 0.0 for j in (at, after))
+            steps = max(2, round(phase.angle / ARC_STEP))
+            turns = motion.starts[k] - since + np.linspace(0, phase.angle - before + beyond, steps)
             end, back = (after, (stations.phi[after] - since) % FULL_TURN) if missing[at] else (at, 0.0)
             ray = hand.join(f"ray to the dwell {k}", centre, points[end])
             rays = hand.protractor(f"rays of the dwell {k}", centre, ray, sigma * (back - turns))
@@ -195,9 +206,21 @@ def _pieces(name: str, inverted: Inverted, points: Drawn) -> list[tuple[int, Dra
     return found
 
 
-def _piece_row(inverted: Inverted, k: int, piece: Drawn, drawn: Drawn) -> Row:
+def _about_roller(hand: Hand, name: str, inverted: Inverted, points: Drawn, at: int) -> Drawn:
+    """The arc about the roller's centre in a hollow corner, where the contact passes from one point to another."""
+    centre, ends = inverted.acts["pitch"].first[at], points[[at, at + 1]]
+    first, last = (hand.join(f"ray to {name}", centre, ends[j]) for j in (0, 1))
+    turn = float(np.angle(last.directions * np.conj(first.directions)))
+    rays = hand.protractor(f"rays of {name}", centre, first, np.linspace(0, turn, max(2, round(abs(turn) / ARC_STEP))))
+    return hand.lay_off(name, centre, rays, distance_between(centre, ends[0]))
+
+
+def _piece_row(inverted: Inverted, k: int | None, piece: Drawn, drawn: Drawn) -> Row:
     """The row of a piece of a closed curve: from which station to which it is drawn, and with which instrument."""
     motion, stations = inverted.givens.integrated.givens.motion, inverted.givens.integrated.givens.stations
+    if k is None:
+        arc = say("compass, an arc about the point of the pitch curve")
+        return Row(say("In the hollow corner"), arc, (drawn,))
     phase = phase_title(motion, k)
     if piece.act.kind is Kind.FAIR:
         names, at = station_names(stations), piece.act.takes["points"].index

@@ -68,8 +68,10 @@ def dwell_arcs(motion: Motion, stations: Stations) -> list[tuple[int, Floats]]:
 def _vanishes(motion: Motion, phases: NDArray[np.intp], u: float) -> NDArray[np.bool_]:
     """Whether the acceleration of phases is zero at the end u; true for a dwell."""
     ends = [motion.phases[k] for k in phases]
+    # In a blow there is no rest.
     greatest = [
-        p.normalised.peak_acceleration * p.lift / p.angle**2 if isinstance(p, MovingPhase) else 0.0 for p in ends
+        (-1.0 if p.normalised.blows[int(u)] else p.peak_acceleration) if isinstance(p, MovingPhase) else 0.0
+        for p in ends
     ]
     return np.abs(motion.at(phases, u)[2]) <= NO_ACCELERATION * np.array(greatest)
 
@@ -114,7 +116,8 @@ CORNER_ANGLE = math.radians(45)
 def turns_a_corner(inverted: Inverted) -> NDArray[np.bool_]:
     """Whether the pitch curve turns inwards by more than can be read between the end of a phase and the next point.
 
-    Where the follower rests the curve runs square to the ray from the cam centre.
+    It does where the velocity falls at once.  Where the follower rests the curve runs square to the ray from the cam
+    centre.
     """
     stations, pitch = inverted.givens.integrated.givens.stations, inverted.points["pitch"]
     ends = np.array([[span.start, span.stop - 1] for span in stations.phases]).ravel()
@@ -123,4 +126,7 @@ def turns_a_corner(inverted: Inverted) -> NDArray[np.bool_]:
     chord, along = following - end, -sense(inverted.givens.rotation) * onwards * UP * end
     # The chord of an arc about the cam centre leaves it by half of what the cam has turned.
     by_turning = np.abs(np.angle(following * end.conj())) / 2
-    return np.any((dot(chord, end) < 0) & (np.abs(np.angle(chord * along.conj())) > by_turning + CORNER_ANGLE), axis=-1)
+    falls = bool(inverted.givens.integrated.givens.motion.corners)
+    return falls | np.any(
+        (dot(chord, end) < 0) & (np.abs(np.angle(chord * along.conj())) > by_turning + CORNER_ANGLE), axis=-1
+    )

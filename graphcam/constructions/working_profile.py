@@ -23,11 +23,12 @@ from graphcam.drafting.telling import STATION, circle_caption, introduced_parts,
 from graphcam.given.follower import sense
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
-from graphcam.given.stations import Stations
-from graphcam.words import say_in, say_many, sequence
+from graphcam.given.stations import Stations, falling_blows
+from graphcam.words import and_list, say_in, say_many, sequence
 
 TOUCH_ROUNDING = 1e-9
 """A touch point this little inside another circle, as a fraction of its radius, still lies on it: rounding."""
+SIDES = "one side", "other side"
 HAND_ERRORS = 3.0
 """So many of a hand's errors may set a point inside a circle that only touches it."""
 
@@ -87,7 +88,18 @@ def working_profile(
     tremble = HAND_ERRORS * math.hypot(pencil.line, pencil.dividers)
     covered = _covered(found.points, pitch.points, radius * (1 - TOUCH_ROUNDING) - tremble)
     nowhere, at = hand.given("nowhere", [np.nan]), np.arange(stations.u.size)
-    touch = hand.take("touch", found, nowhere, which=np.where(covered, at.size, at))
+    which = np.where(covered, at.size, at)
+    if roller and (corners := falling_blows(inverted.givens.integrated.givens.motion, stations)):
+        # What lies beyond the edge in which both sides of a corner meet is left out.
+        ends = np.array(corners)
+        sides = [
+            hand.parallel(f"{side} of the edges", tangents[k], found[k]) for side, k in zip(SIDES, ends.T, strict=True)
+        ]
+        nowhere = hand.take("edges", nowhere, hand.cross("edges", *sides, flat=True))
+        for k, (first, last) in enumerate(corners):
+            covered[..., first : last + 1] = False
+            which[..., first : last + 1] = at.size + 1 + k
+    touch = hand.take("touch", found, nowhere, which=which)
     dropped = hand.take("covered", found, nowhere, which=np.where(covered, at, at.size))
     hand.read("radius", distance_between(hand.given("cam centre"), touch), mu_l)
     _measure_dwells(hand, inverted, touch)
@@ -140,10 +152,12 @@ def _tangents(stations: Stations, sigma: int, pitch: Points) -> Points:
     along[..., ends] = -UP * sigma * unit(pitch[..., ends])
     # No circle is drawn across a jump of the acceleration, where the curvature jumps too: the circles of the pieces on
     # either side end there, and a chord makes equal angles with the tangents at its two ends.
+    blows = stations.left[stations.blows]
     for jump in sorted({p.start for p in stations.pieces} - {span.start for span in stations.phases}):
-        before = unit(pitch[..., jump] - pitch[..., jump - 1])
-        after = unit(pitch[..., jump + 1] - pitch[..., jump])
-        along[..., jump] = unit(before**2 * along[..., jump - 1].conj() + after**2 * along[..., jump + 1].conj())
+        # Across a blow, in which the curve turns at one point, there is no chord.
+        beside = [jump - 1] if jump in blows else [jump + 1] if jump - 1 in blows else [jump - 1, jump + 1]
+        chords = [(unit(pitch[..., k] - pitch[..., jump]), along[..., k]) for k in beside]
+        along[..., jump] = unit(sum(chord**2 * tangent.conj() for chord, tangent in chords))
     return along
 
 
@@ -237,6 +251,18 @@ def _envelope(profile: Profile) -> Step:
     if not profile.givens.roller_radius:
         joined = say("Without a roller the curve is the working profile itself: draw over it with a thick line.")
         why = say("There is no roller between the cam and the points that were found.")
+    integrated = profile.givens.inverted.givens.integrated.givens
+    if edges := [first for first, _ in falling_blows(integrated.motion, integrated.stations)]:
+        corner = say_many(
+            "At station {names} the pitch curve has a corner: the tangents at the contact points on both sides of it "
+            "meet in an edge of the profile, and what lies beyond is left out.",
+            "At stations {names} the pitch curve has corners: the tangents at the contact points on both sides of each "
+            "meet in an edge of the profile, and what lies beyond is left out.",
+            len(edges),
+            names=and_list([_names(profile)[k].replace("⁻", "") for k in edges]),
+        )
+        if profile.givens.roller_radius:
+            parts.append(Part(corner, (profile.acts["touch"].first[edges],)))
     if lost.size:
         marks.append(covered[lost].dots(Role.LIMIT))
         parts.append(Part(_undercut([_names(profile)[k] for k in lost]), (covered[lost],)))

@@ -39,6 +39,11 @@ class BoundaryMotion(Motion):
     lowest: float
     _series: PiecewisePolynomial
 
+    @property
+    def origin(self) -> float:
+        """The cam angle [rad] of the parts at which the first phase begins."""
+        return self.zero
+
     def __post_init__(self) -> None:
         super().__post_init__()
         object.__setattr__(self, "_series", self._series.with_breaks(self.starts))

@@ -8,6 +8,8 @@ Two of them are for a rise and a fall without a dwell between: the acceleration 
 begins with the same.
 """
 
+import re
+import unicodedata
 from collections.abc import Mapping
 from functools import lru_cache
 
@@ -46,13 +48,30 @@ LAW_SYNONYMS: Mapping[str, tuple[str, ...]] = {
 """Other names of the laws by the law's name; those of the catalogs among them."""
 
 
+def _plain_words(name: str) -> str:
+    """A name without its capitals, hyphens and brackets."""
+    return " ".join(re.findall(r"\w+", unicodedata.normalize("NFKC", name).casefold().replace("ё", "е")))
+
+
+_BY_PLAIN_WORDS = {_plain_words(word): name for name, words in LAW_SYNONYMS.items() for word in (name, *words)}
+
+
+def canonical_law(name: str | Law) -> str | Law:
+    """The name in graphcam of a law that textbooks call so; another name, or a law of your own, as it is.
+
+    >>> [canonical_law(name) for name in ("UARM", "Simple Harmonic", "равноускоренный", "3–4–5", "cicloidal")]
+    ['rectangular', 'cosine', 'rectangular', '3-4-5', 'cicloidal']
+    """
+    return _BY_PLAIN_WORDS.get(_plain_words(name), name) if isinstance(name, str) else name
+
+
 def law(name: str | Law, ratio: float = 1.0) -> Law:
     """The normalised motion law of that name; a law of your own is returned as it is.
 
     Parameters
     ----------
-    name : one of :data:`LAWS`, or "constant-velocity" with blends of a quarter, or a
-        :class:`~graphcam.given.motion_law.Law`
+    name : one of :data:`LAWS`, or what a textbook calls it, such as "SHM" or "parabolic"; "constant-velocity" has
+        blends of a quarter; or a :class:`~graphcam.given.motion_law.Law`
     ratio : nu = |a1|/|a2|, first part's acceleration over the second's, of a law that may have unequal parts.  It is
         kept as nearly as the place u = 1/(1 + nu) between the parts is a number of the machine
 
@@ -69,6 +88,7 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
     >>> gc.law("trapezoidal").corners, gc.law("modified-trapezoidal").corners
     ((0.125, 0.375, 0.625, 0.875), ())
     """
+    name = canonical_law(name)
     if name == CONSTANT_VELOCITY:
         name = constant_velocity_law()
     own = isinstance(name, Law)
@@ -98,7 +118,7 @@ def law_of_return(name: str | Law, ratio: float = 1.0) -> Law:
     (5.2683, True)
     """
     found = law(name, ratio)
-    return found.reversed if name in RISE_FALL_LAWS else found
+    return found.reversed if canonical_law(name) in RISE_FALL_LAWS else found
 
 
 @lru_cache(maxsize=256)

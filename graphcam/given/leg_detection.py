@@ -43,7 +43,9 @@ END_POWERS, POWER_PENALTIES = np.array([2, 3, 4]), np.array([1.4, 0.0, 3.6])
 TRIED_PLACES, SEARCH_ROUNDS = 13, 7
 """Places tried at a time, and rounds in which they close in on the best one and its neighbours."""
 MIN_EVIDENCE = 16.0
-"""A rest takes at least so much from the sum of squares [variances of the noise] that a turning leaves."""
+"""A rest takes at least so much from the sum of squares [variances of the noise] that a turning leaves, ..."""
+FLAT_PENALTIES, LONG_REST_SHARE = np.array([0.0, 8.0, 14.0]), 0.2
+"""... to which a flat turning adds this by its powers, beside a rest over such a part of the rows or more."""
 ROW_SNAP = 4.0
 """A rest ends at a row if that adds no more than this to the sum of squares [variances of the noise]."""
 NEGLIGIBLE_ANGLE, SINGULAR_DETERMINANT = 1e-9, 1e-12
@@ -115,16 +117,20 @@ def find_stop(rows: StopRows, shortest: float) -> StopInterval:
     """
     variance = rows.noise**2
     freedom = variance * max(rows.x.size - 7, 1)
-    turning, place, powers = _best_turning(rows)
+    turnings, places, powers = _best_turnings(rows)
     resting, (before, after), left_by = _best_dwell(rows)
-    if not resting + MIN_EVIDENCE * variance < turning or before + after < shortest:
-        place = place if np.isfinite(turning) else 0.0
-        return StopInterval(place, place, powers, turning / freedom)
+    long = before + after >= LONG_REST_SHARE * (rows.x[-1] - rows.x[0])
+    prices = ordered_sum(FLAT_PENALTIES[powers - END_POWERS[0]]) if long else 0.0
+    best = int(np.argmin(turnings + prices * variance))
+    if not resting + MIN_EVIDENCE * variance < (turnings + prices * variance)[best] or before + after < shortest:
+        turning = float(turnings[best])
+        place = float(places[best]) if np.isfinite(turning) else 0.0
+        return StopInterval(place, place, (int(powers[best, 0]), int(powers[best, 1])), turning / freedom)
     return StopInterval(-before, after, left_by, resting / freedom)
 
 
-def _best_turning(rows: StopRows) -> tuple[float, float, tuple[int, int]]:
-    """The least sum of squares of a motion that turns at one place, the place, and its powers."""
+def _best_turnings(rows: StopRows) -> tuple[Floats, Floats, NDArray[np.intp]]:
+    """The least sums of squares (n,) of a motion that turns at one place, the places, and all powers (n, 2)."""
     before, after = (powers.ravel() for powers in np.meshgrid(END_POWERS, END_POWERS))
     low, high = np.full(before.size, -rows.reach[0]), np.full(before.size, rows.reach[1])
     squares = centre = low
@@ -138,8 +144,7 @@ def _best_turning(rows: StopRows) -> tuple[float, float, tuple[int, int]]:
         best = together.reshape(places.shape).argmin(axis=0)
         squares = together.reshape(places.shape).min(axis=0)
         low, centre, high = _closer(places, best)
-    k = int(np.argmin(squares))
-    return float(squares[k]), float(centre[k]), (int(before[k]), int(after[k]))
+    return squares, centre, np.stack([before, after], axis=1)
 
 
 def _best_dwell(rows: StopRows) -> tuple[float, list[float], tuple[int, int]]:

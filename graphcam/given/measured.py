@@ -41,6 +41,8 @@ MISFIT_FACTOR = 7.0
 """Stops that are off by more than so many times the noise are not explained by it."""
 SCATTER_FACTOR = 1.25
 """Stops that are off by more than so many times the noise scatter by more, where the rows do."""
+RUN_OUT_FACTOR = 3.0
+"""A run-out moves the ends of a rest by so many times what it moves its middle half."""
 NOISE_WINDOW, ROWS_PER_PART = 7, 30
 """Rows through which a polynomial is laid to see the noise, and those of a part of the turn."""
 NORMAL_MEDIAN = 0.6745
@@ -76,6 +78,11 @@ class MeasuredMotion(Motion):
     phi: Floats
     measured: Floats
     tolerance: float
+
+    @property
+    def origin(self) -> float:
+        """The cam angle [rad] of the table at which the first phase begins."""
+        return self.zero
 
     def _summary(self) -> str:
         begins = math.degrees(self.zero)
@@ -122,7 +129,8 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     from neighbouring rows and is at most tolerance/4.5, or what the dwells show.  So give a tolerance of 4.5 times the
     scatter of the table, or more: if it is smaller, noise becomes motion; if it is larger, small motions are not seen.
     Where dwells are off their level by more than such noise explains, as with waves or after an integration,
-    tolerance/4.5 is used instead.  Ends of phases are found as exactly as the noise permits: with the 4-5-6-7 law they
+    tolerance/4.5 is used instead.  What moves smoothly by less than twice the tolerance, as the run-out of a base
+    circle, is a dwell.  Ends of phases are found as exactly as the noise permits: with the 4-5-6-7 law they
     are hidden for several degrees.
 
     A motion begins where a phase begins, but a table may begin anywhere, and noise moves the end of a dwell: the cam
@@ -154,6 +162,17 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
         limit = say("at least {smallest:g}", smallest=MIN_TOLERANCE)
         raise DesignError("tolerance", tolerance, limit, say("give what the table was measured to"))
     phi, s = check_rows(phi, s, tolerance)
+    legs, noise, advice = _legs(phi, s, tolerance)
+    start = legs[0].start
+    shifted = start + (phi - start) % FULL_TURN
+    order = np.argsort(shifted)
+    fitted = fit(shifted[order], s[order], legs, tolerance, noise, advice)
+    phases, zero, level = _phases(fitted, legs)
+    return MeasuredMotion(phases, zero, phi, s - level, tolerance)
+
+
+def _legs(phi: Floats, s: Floats, tolerance: float) -> tuple[list[Leg], float, Words]:
+    """The legs of a table, the standard deviation of its rows, and what to do about a tolerance that is too small."""
     least, scatter = MIN_NOISE * float(np.ptp(s)), _scatter(phi, s)
     most = max(tolerance / NOISE_TOLERANCE, least)
     noise, advice = min(max(scatter, least), most), _remedy(tolerance, scatter)
@@ -166,12 +185,29 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
         # A tolerance of less than 4.5 times the scatter: the rests tell the noise, or else noise would move their ends.
         noise = min(noise * misfit, scatter)
         legs, _ = find_legs(phi, s, tolerance, noise, advice)
-    start = legs[0].start
-    shifted = start + (phi - start) % FULL_TURN
-    order = np.argsort(shifted)
-    fitted = fit(shifted[order], s[order], legs, tolerance, noise, advice)
-    phases, zero, level = _phases(fitted, legs)
-    return MeasuredMotion(phases, zero, phi, s - level, tolerance)
+    elif noise < most:
+        # A smooth run-out moves where the follower rests, by less than the tolerance.
+        coarse, _ = find_legs(phi, s, tolerance, most, advice)
+        run_out = _run_out(phi, s, coarse)
+        if run_out > SCATTER_FACTOR * noise:
+            noise = min(RUN_OUT_FACTOR * run_out, most)
+            legs, _ = find_legs(phi, s, tolerance, noise, advice)
+            if len(_rests(coarse)) > len(_rests(legs)):
+                legs, noise = coarse, most
+    return legs, noise, advice
+
+
+def _rests(legs: list[Leg]) -> list[tuple[float, float]]:
+    """Where the follower rests between legs, from and to [rad]."""
+    pairs = zip(legs, [*legs[1:], legs[0].a_turn_later], strict=True)
+    return [(leg.end, following.start) for leg, following in pairs if leg.to_rest]
+
+
+def _run_out(phi: Floats, s: Floats, legs: list[Leg]) -> float:
+    """The standard deviation of the rows about the level of a rest, in the middle half of the least steady one."""
+    middles = [(start + (end - start) / 4, (end - start) / 2) for start, end in _rests(legs)]
+    rows = [s[(phi - start) % FULL_TURN <= angle] for start, angle in middles]
+    return max([float(np.std(row)) for row in rows if row.size], default=0.0)
 
 
 def integrated_motion(phi: ArrayLike, a: ArrayLike, tolerance: float = DEFAULT_TOLERANCE) -> IntegratedMotion:

@@ -5,13 +5,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, check_kind, check_number
-from graphcam.given.laws import Floats, Side, law, law_of_return
+from graphcam.given.laws import Floats, Side, canonical_law, law, law_of_return
 from graphcam.given.motion_law import Law
 from graphcam.given.piecewise import Piece, Piecewise, chunks, dwell_formula, in_phase
 from graphcam.showing import Plottable, value_text
@@ -112,12 +112,23 @@ class MovingPhase:
         )
         remedy = swapped if self.lift <= FULL_TURN else in_degrees
         _check_turn(self.angle, remedy)
+        object.__setattr__(self, "law", canonical_law(self.law))
         _ = self.normalised  # says at once if there is no such law
 
     @cached_property
     def normalised(self) -> Law:
         """The phase's law on [0, 1]: the one of that name, or the given one."""
         return law(self.law, self.ratio)
+
+    @property
+    def peak_acceleration(self) -> float:
+        """The maximum |a| [mm/rad^2; of an arm 1/rad], infinite where the velocity jumps."""
+        return self.normalised.peak_acceleration * self.lift / self.angle**2
+
+    @property
+    def steady_acceleration(self) -> float:
+        """The maximum |a| between blows [mm/rad^2; of an arm 1/rad], which can be drawn."""
+        return self.normalised.steady_acceleration * self.lift / self.angle**2
 
 
 @dataclass(frozen=True)
@@ -161,6 +172,13 @@ class Return(MovingPhase):
 
 
 Phase = Rise | Dwell | Return
+
+
+class Blow(NamedTuple):
+    """Where v jumps, or as good as jumps: the cam angle [rad], and the maximum a there with its sign [mm/rad^2]."""
+
+    phi: float
+    acceleration: float
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -249,6 +267,61 @@ class Motion(Plottable):
         """The maximum displacement [mm]."""
         return float(self.levels.max())
 
+    @cached_property
+    def blows(self) -> tuple[Blow, ...]:
+        """The blows, in which v jumps or as good as jumps, in order.
+
+        >>> import graphcam as gc
+        >>> uniform = gc.constant_velocity_law(0, 0)
+        >>> gc.Motion([gc.Rise(30, 2.0, uniform), gc.Return(30, FULL_TURN - 2, "cosine")]).blows
+        (Blow(phi=0.0, acceleration=inf), Blow(phi=2.0, acceleration=-inf))
+        """
+        return tuple(
+            Blow(float(start) + phase.angle * end, phase.direction * (1 - 2 * end) * phase.peak_acceleration)
+            for start, phase in zip(self.starts, self.phases, strict=True)
+            if isinstance(phase, MovingPhase)
+            for end, blow in enumerate(phase.normalised.blows)
+            if blow
+        )
+
+    @property
+    def corners(self) -> list[float]:
+        """The cam angles [rad] of the blows in which v falls: there the cam has a corner."""
+        return [*dict.fromkeys(blow.phi for blow in self.blows if blow.acceleration < 0)]
+
+    def in_blow(self, phase: ArrayLike, u: ArrayLike, side: Side = "right") -> NDArray[np.bool_]:
+        """Whether fractions u of phases lie in a blow, where the velocity jumps; where it ends, as the side has it."""
+        low, high = self._steady[np.asarray(phase, dtype=np.intp)].T
+        u = np.asarray(u)
+        return (u < low) | (u >= high) if side == "right" else (u <= low) | (u > high)
+
+    @cached_property
+    def _steady(self) -> Floats:
+        """(k, 2) between which fractions of each phase there is no blow."""
+        steady = [phase.normalised.steady if isinstance(phase, MovingPhase) else (0.0, 1.0) for phase in self.phases]
+        low, high = np.array(steady).T
+        return np.stack([np.where(low > 0, low, -np.inf), np.where(high < 1, high, np.inf)], axis=1)
+
+    @cached_property
+    def reference(self) -> tuple[int, float]:
+        """The phase whose acceleration sets the scale of a drawing, and its maximum.
+
+        The first rise; where its velocity jumps, so that it has none that could be drawn, the first phase that has one;
+        else the first rise again, with the acceleration of the rectangular law.
+
+        >>> import graphcam as gc
+        >>> uniform = gc.constant_velocity_law(0, 0)
+        >>> gc.Motion([gc.Rise(30, 2.0, uniform), gc.Return(30, FULL_TURN - 2, uniform)]).reference
+        (0, 30.0)
+        """
+        moving = [(k, phase) for k, phase in enumerate(self.phases) if isinstance(phase, MovingPhase)]
+        rises_first = sorted(moving, key=lambda each: each[1].direction < 0)
+        rise = rises_first[0]
+        for k, phase in (rise, *moving):
+            if phase.steady_acceleration > 0:
+                return k, phase.steady_acceleration
+        return rise[0], 4 * rise[1].lift / rise[1].angle ** 2
+
     @property
     def directions(self) -> Floats:
         """(k,) the direction of each phase: +1 of a rise, -1 of a return, 0 of a dwell."""
@@ -259,6 +332,11 @@ class Motion(Plottable):
         """The kind of every phase, and the cam angles [rad] from which and to which it lasts."""
         ends = [*self.starts.tolist(), FULL_TURN]
         return [(phase.kind, *span) for phase, span in zip(self.phases, pairwise(ends), strict=True)]
+
+    @property
+    def origin(self) -> float:
+        """The cam angle [rad], of what the motion was made of, at which its first phase begins; 0 for given phases."""
+        return 0.0
 
     def __repr__(self) -> str:
         last = "motion(phi) gives s, v, a and j at phi in rad; .plot() draws them"

@@ -7,6 +7,7 @@ just begun, the lift still missing, the velocity) keeps all its digits there, wh
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import InitVar, dataclass, field
@@ -27,6 +28,9 @@ Tangent = Callable[[float], tuple[float, float]]
 _OfNumber = Callable[[float], Sequence[Any]]
 JUMP_SHARE = 1e-6
 """A jump of the acceleration, or of its slope, is reported that exceeds this part of the maximum acceleration."""
+JUMP_BLEND = 2.0**-24
+"""A velocity that jumps is computed with a blend over this part of the phase: so the cam has its corner, as an arc, and
+no value but the acceleration differs from that of the jump by more than about this part."""
 ACCURACY = 1e-9
 """What a law gives of itself is true to this; intervals around a maximum value are narrowed to it."""
 DERIVATIVE_ACCURACY = 1e-7
@@ -54,6 +58,8 @@ class Law:
         is that of the law seen from its end.  None has the place found
     trusted : it is known to be a law, so the check is omitted, which takes some milliseconds
     seams : those edges at which no derivative jumps: the formulas of either side only look from different ends
+    blows : the fractions of the phase at its start and its end in which the velocity jumps, or as good as jumps; they
+        are too short to be drawn.  0 is none
 
     Raises
     ------
@@ -80,6 +86,7 @@ class Law:
     tangents: tuple[Tangent | None, Tangent | None] = field(default=(None, None), repr=False)
     trusted: InitVar[bool] = False
     seams: tuple[float, ...] = field(default=(), repr=False)
+    blows: tuple[float, float] = field(default=(0.0, 0.0), repr=False)
     pieces: tuple[Piece, ...] = field(init=False, repr=False)
     """the pieces between 0, the edges and 1"""
 
@@ -157,8 +164,31 @@ class Law:
 
     @cached_property
     def peak_acceleration(self) -> float:
-        """C_a = max |f''|, so a_max = C_a h/F^2."""
+        """C_a = max |f''|, so a_max = C_a h/F^2; infinite where the velocity jumps."""
+        if any(self.velocity_jumps):
+            return math.inf
         return self.peaks[1] if self.peaks else self._max_derivative(2)
+
+    @property
+    def steady(self) -> tuple[float, float]:
+        """The fractions between which the acceleration can be drawn: 0 and 1 but for blows."""
+        return self.blows[0], 1 - self.blows[1]
+
+    @property
+    def velocity_jumps(self) -> tuple[bool, bool]:
+        """Whether the velocity jumps at the start, and at the end: the acceleration is infinite there."""
+        start, end = (0 < blow <= JUMP_BLEND for blow in self.blows)
+        return start, end
+
+    @cached_property
+    def steady_acceleration(self) -> float:
+        """The maximum |f''| between the blows; that of the whole law where there are none.
+
+        >>> import graphcam as gc
+        >>> gc.constant_velocity_law(0, 0).steady_acceleration, gc.law("3-4-5").steady_acceleration
+        (0.0, 5.773502691896258)
+        """
+        return self._max_derivative(2, self.steady) if any(self.blows) else self.peak_acceleration
 
     @cached_property
     def peak_jerk(self) -> float:
@@ -186,7 +216,7 @@ class Law:
     def _jumping(self, order: int) -> tuple[float, ...]:
         edges = np.array(self.edges)
         before, after = (self(edges, side=side)[order] for side in ("left", "right"))
-        return tuple(edges[np.abs(after - before) > JUMP_SHARE * self.peak_acceleration].tolist())
+        return tuple(edges[np.abs(after - before) > JUMP_SHARE * self.steady_acceleration].tolist())
 
     @cached_property
     def reversed(self) -> Law:
@@ -202,13 +232,15 @@ class Law:
         ahead, back = self.tangents
         turned, ratio = (formulas[::-1], edges, False, 1 - self.middle), 1 / self.ratio
         seams = tuple(1 - u for u in self.seams)
-        return Law(self.name, *turned, ratio, self.peaks, (back, ahead), trusted=True, seams=seams)
+        ends = (back, ahead), self.blows[::-1]
+        return Law(self.name, *turned, ratio, self.peaks, ends[0], trusted=True, seams=seams, blows=ends[1])
 
     # --- what a law must keep to --------------------------------------------------------------------------------------
 
-    def _max_derivative(self, order: int) -> float:
+    def _max_derivative(self, order: int, between: tuple[float, float] = (0.0, 1.0)) -> float:
         """The maximum magnitude of a derivative, of both sides of a jump, to full precision."""
-        ends = np.array([0.0, *self.edges, 1.0])
+        low, high = between
+        ends = np.array([low, *(u for u in self.edges if low < u < high), high])
         at_ends = np.abs([*self(ends[:-1])[order], *self(ends[1:], side="left")[order]])
         pieces = SmoothPieces(ends[:-1], ends[1:])
         _, u = pieces.stationary(lambda _, u: self(u)[order], None, at_ends.max(keepdims=True), np.abs)

@@ -11,7 +11,7 @@ import numpy as np
 from graphcam.errors import DesignError, check_kind
 from graphcam.given.boundary_joints import joined_parts
 from graphcam.given.boundary_parts import MotionPoint, Part, PolynomialPart, SplinePart
-from graphcam.given.motion_law import Law
+from graphcam.given.motion_law import JUMP_BLEND, Law
 from graphcam.given.piecewise_polynomial import PiecewisePolynomial
 from graphcam.words import say
 
@@ -23,11 +23,15 @@ JUMP = 1e-9
 """A derivative jumps by more than this part of its greatest value."""
 MAX_BLEND_ORDER = 3
 """Blends are smooth to this derivative at most: the jerk is continuous."""
-MIN_BLEND_SHARE = 1e-6
-"""A blend shorter than this part of the phase is a blow."""
+MIN_STEADY_SHARE = 1e-6
+"""The constant velocity lasts at least this part of the phase."""
+MAX_BLOW = 0.001
+"""A blend over less than this part of the phase is a blow, whose acceleration is too short and too high to be drawn."""
 
 
-def leg_law(name: str, leg: PiecewisePolynomial, *, trusted: bool = True) -> tuple[float, Law]:
+def leg_law(
+    name: str, leg: PiecewisePolynomial, *, trusted: bool = True, blows: tuple[float, float] = (0.0, 0.0)
+) -> tuple[float, Law]:
     """The signed lift of what leads from rest to rest, and its normalised law.
 
     Those of the first half are series in u, those of the second in 1 - u, so that little lift keeps its digits.
@@ -56,7 +60,7 @@ def leg_law(name: str, leg: PiecewisePolynomial, *, trusted: bool = True) -> tup
     formulas = [shared[k] for k in np.cumsum([0, *jumps]).tolist()]
     edges, middle_edge = ((places - start) / angle).tolist(), (middle - start) / angle
     seams = (middle_edge,) if seamed else ()
-    return lift, Law(name, formulas, edges, middle=middle_edge, trusted=trusted, seams=seams)
+    return lift, Law(name, formulas, edges, middle=middle_edge, trusted=trusted, seams=seams, blows=blows)
 
 
 def boundary_law(parts: Sequence[Part] | Sequence[MotionPoint], name: str = "by conditions") -> Law:
@@ -108,30 +112,30 @@ def constant_velocity_law(start: float = 0.25, end: float = 0.25, smooth: int = 
 
     Parameters
     ----------
-    start, end : fractions of the phase that the first and the last blend take, together less than 1
+    start, end : fractions of the phase that the first and the last blend take, together less than 1; of 0 the velocity
+        jumps, which is the uniform velocity of the textbooks
     smooth : the order of the highest continuous derivative of the lift: 1 velocity, 2 acceleration, 3 jerk
 
     Raises
     ------
-    DesignError : a blend is too short, they leave nothing between them, or there are no such blends
+    DesignError : a blend is negative, they leave nothing between them, or there are no such blends
 
     >>> import graphcam as gc
     >>> gc.constant_velocity_law(0.25, 0.25).at(0.5)
     [0.5, 1.3333333333333333, 0.0, 0.0]
     """
     for place, part in enumerate((start, end)):
-        if not MIN_BLEND_SHARE <= part < 1:
+        if not 0 <= part < 1:
             remedy = say("give the fraction of the phase that the blend takes")
-            raise DesignError(
-                f"blends[{place}]", part, say("from {least:g} to less than 1", least=MIN_BLEND_SHARE), remedy
-            )
-    if not 1 - (start + end) >= MIN_BLEND_SHARE:
+            raise DesignError(f"blends[{place}]", part, say("from 0 to less than 1"), remedy)
+    if not 1 - (start + end) >= MIN_STEADY_SHARE:
         remedy = say("shorten them: the constant velocity takes what they leave")
         found = say("{start:g} and {end:g}", start=start, end=end)
         raise DesignError("blends", found, say("less than 1 together"), remedy)
     if smooth not in range(1, MAX_BLEND_ORDER + 1):
         limit = say("1 (velocity), 2 (acceleration) or {smoothest} (jerk continuous)", smoothest=MAX_BLEND_ORDER)
         raise DesignError("smooth", smooth, limit)
+    start, end = max(start, JUMP_BLEND), max(end, JUMP_BLEND)
     v = 2 / (2 - start - end)
     velocity = (0, 1), (0, 0, 3, -2), (0, 0, 0, 10, -15, 6)
     # The lift of a blend over its length: the integral of its velocity, 1/2 at the end.
@@ -139,4 +143,5 @@ def constant_velocity_law(start: float = 0.25, end: float = 0.25, smooth: int = 
     up = blend.seen(0.0, 1 / start, 0.0, 1 / (v * start))
     line = PiecewisePolynomial.of([v * start / 2, v], start, 1 - end)
     back = blend.seen(1 / end, -1 / end, 1 / (v * end), -1 / (v * end))
-    return leg_law(CONSTANT_VELOCITY, PiecewisePolynomial.joined([up, line, back]))[1]
+    blows = (start if start < MAX_BLOW else 0.0, end if end < MAX_BLOW else 0.0)
+    return leg_law(CONSTANT_VELOCITY, PiecewisePolynomial.joined([up, line, back]), blows=blows)[1]

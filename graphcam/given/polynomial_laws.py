@@ -63,6 +63,7 @@ POLYNOMIAL_2_3 = DeclaredLaw(
     title=say("2-3"),
     synonyms=(
         *("cubic", "linearly decreasing acceleration", "equally decreasing acceleration", "uniformly decreasing"),
+        *("linearly (equally) decreasing acceleration", "равномерно (линейно) убывающее ускорение"),
         *("равномерно убывающее ускорение", "линейно убывающее ускорение", "равномерно убывающий", "линейно убывающий"),
         *("полином 2-3", "đa thức 2-3", "2-3 多项式"),
     ),

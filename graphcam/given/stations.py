@@ -28,6 +28,7 @@ class Stations:
         neighbours inside a phase share the station there
     stretches : slices of equal parts, which may be shorter than the pieces; neighbours share a station too
     left : (p,) station at which each part begins; it ends at ``left + 1``
+    blows : (p,) whether a part is a blow, so that it has no width that could be drawn
     refine : into how many each of the divisions was divided again, 1 for a drawing as it was asked for
     finer : the phases that have more parts than the others, because their acceleration is short
     """
@@ -39,6 +40,7 @@ class Stations:
     pieces: tuple[slice, ...]
     stretches: tuple[slice, ...]
     left: NDArray[np.intp]
+    blows: NDArray[np.bool_]
     refine: int = 1
     finer: tuple[int, ...] = ()
 
@@ -82,6 +84,8 @@ def divide(
 
     finer : the cuts u, both ends of the phase among them, of phases by their index that are not divided equally
 
+    A blow, in which the velocity jumps, is a part of its own beside the ``divisions``.
+
     Raises
     ------
     DesignError : divisions is less than 1
@@ -112,11 +116,13 @@ def divide(
             continue
         law = part.normalised
         # Where the stretches of equal parts begin and end.
-        ends = (0.0, *sorted((*law.jumps, *(law.corners if at_corners else ()))), 1.0)
-        runs, apart = zip(pairwise(ends), _shares(ends, divisions), strict=True), (*law.jumps, 1.0)
+        blows = _ends_of_blows(law)
+        apart = (*law.jumps, *blows, 1.0)
+        ends = (0.0, *sorted({*apart, *(law.corners if at_corners else ())}))
+        runs = zip(pairwise(ends), _shares(ends, divisions + len(blows)), strict=True)
         if k in finer:
             # Across a short acceleration no hand fairs a curve: the line on either side of it is nearly straight.
-            apart = (*law.jumps, *law.corners, 1.0)
+            apart = (*apart, *law.corners)
             runs = _runs(finer[k], apart)
         first = begun = len(u)
         u.append(0.0)
@@ -134,8 +140,33 @@ def divide(
     angles = np.array([part.angle for part in motion.phases])
     left = np.concatenate([np.arange(s.start, s.stop - 1) for s in phases])
     phi = motion.starts[phase_of] + fraction * angles[phase_of]
-    made = phase_of, fraction, phi, tuple(phases), tuple(pieces), tuple(stretches), left, refine
+    blows = motion.in_blow(phase_of[left], (fraction[left] + fraction[left + 1]) / 2)
+    made = phase_of, fraction, phi, tuple(phases), tuple(pieces), tuple(stretches), left, blows, refine
     return Stations(*made, tuple(finer))
+
+
+def falling_blows(motion: Motion, stations: Stations) -> list[tuple[int, int]]:
+    """The first and the last station of each place where the velocity falls at once: the cam has a corner there.
+
+    >>> import graphcam as gc
+    >>> uniform = gc.constant_velocity_law(0, 0)
+    >>> heart = gc.Motion([gc.Rise(30, np.pi, uniform), gc.Return(30, np.pi, uniform)])
+    >>> falling_blows(heart, divide(heart, 2))
+    [(3, 6)]
+    """
+    v, starts, found = motion.at(stations.phase, stations.u)[1], stations.left, list[tuple[int, int]]()
+    for first in starts[stations.blows & (v[starts + 1] < v[starts])].tolist():
+        # Where no dwell lies between them, two phases meet in one corner.
+        if found and found[-1][1] + 1 == first and stations.phi[first] - stations.phi[first - 1] < EQUAL_WIDTH:
+            found[-1] = found[-1][0], first + 1
+        else:
+            found.append((first, first + 1))
+    return found
+
+
+def _ends_of_blows(law: Law) -> tuple[float, ...]:
+    """The inner places u where a blow ends or begins."""
+    return tuple(u for u in law.steady if 0 < u < 1)
 
 
 def cuts_at_corners(law: Law, divisions: int) -> Floats:
@@ -146,8 +177,9 @@ def cuts_at_corners(law: Law, divisions: int) -> Floats:
     [0.0, 0.125, 0.375, 0.625, 0.875, 1.0]
     """
     corners = law.corners if len(law.jumps) + len(law.corners) < MAX_FINER_PARTS else ()
-    ends = (0.0, *sorted((*law.jumps, *corners)), 1.0)
-    shares = zip(pairwise(ends), _shares(ends, divisions), strict=True)
+    blows = _ends_of_blows(law)
+    ends = (0.0, *sorted({*law.jumps, *corners, *blows}), 1.0)
+    shares = zip(pairwise(ends), _shares(ends, divisions + len(blows)), strict=True)
     return np.append(np.concatenate([np.linspace(*ends, n, endpoint=False) for ends, n in shares]), 1.0)
 
 

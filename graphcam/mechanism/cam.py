@@ -142,6 +142,11 @@ class Cam(Plottable):
         """The profile as a curve, with its loops."""
         return Envelope(self.motion, self.kinematics, self.roller_radius)
 
+    @property
+    def table_turn(self) -> complex:
+        """What turns points x + i y so that cam angle 0 is that of a measured table, or of the parts of a motion."""
+        return complex(np.exp(-1j * self.sigma * self.motion.origin))
+
     def __repr__(self) -> str:
         sizes = [f"{name.replace('_', ' ')} {size:.6g} mm" for name, size in asdict(self.follower).items()]
         phases = [f"{kind} {math.degrees(end - start):.6g}°" for kind, start, end in self.motion.timing]

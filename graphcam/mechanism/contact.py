@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError, check_kind
+from graphcam.given.impact import check_finite_acceleration
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.root_finding import roots
@@ -107,6 +108,7 @@ def least_preload(cam: Cam, load: SpringLoad | ArmLoad) -> SpringPreload:
 
 def _least_preload(motion: Motion, load: FollowerLoad) -> SpringPreload:
     """sup -(Q - w F0)/w, with w the force per preload."""
+    check_finite_acceleration(motion)
 
     def needed(places: Places) -> Floats:
         weight, _ = load.leverage(places.values)
@@ -140,6 +142,7 @@ class Contact:
 
     def __post_init__(self) -> None:
         check_kind("motion", self.motion, Motion, remedy=say("of a cam take cam.motion"))
+        check_finite_acceleration(self.motion)
         if isinstance(self.load, ArmLoad):
             remedy = say("take CamForces(cam, load).pressing")
             raise DesignError("load", say("an ArmLoad"), say("that load in its place beside the cam"), remedy)

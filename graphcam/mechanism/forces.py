@@ -46,6 +46,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, check_kind
+from graphcam.given.impact import check_finite_acceleration
 from graphcam.given.laws import Floats, Side
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.spring_load import ArmLoad, FollowerLoad, Guide, SpringLoad
@@ -179,6 +180,7 @@ class CamForces:
 
     def __post_init__(self) -> None:
         check_kind("cam", self.cam, Cam)
+        check_finite_acceleration(self.cam.motion)
         check_kind("guide", self.guide, Guide, remedy=say("friction between cam and follower is friction=..."))
         check_friction(self.friction)
         _ = self.pressing  # says at once what does not fit

@@ -17,8 +17,10 @@ measured, and where it is missed there come more.
 The curvature jumps where the acceleration does; the profile has a corner where an undercut has left one, or a cusp.
 """
 
+from __future__ import annotations
+
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Literal, get_args
 
@@ -32,6 +34,7 @@ from graphcam.mechanism.envelope import Envelope, Indices
 from graphcam.mechanism.kinematics import Complexes
 from graphcam.mechanism.spline_fit import Conditions, at_ends, basis, fitted_control_points
 from graphcam.mechanism.undercut import LostStretch, kept_arcs, lost_parts
+from graphcam.plane_vectors import turned
 from graphcam.words import and_chain, or_list, say
 
 Degree = Literal[2, 3, 4, 5]
@@ -141,6 +144,10 @@ class ProfileSpline:
         from scipy.interpolate import BSpline
 
         return BSpline(self.knots, self.control, self.degree)(np.asarray(at, dtype=np.float64), nu=derivative)
+
+    def turned(self, by: complex) -> ProfileSpline:
+        """The spline turned about the cam centre by the unit vector."""
+        return replace(self, control=turned(self.control, by))
 
 
 def profile_spline(

@@ -30,6 +30,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError
+from graphcam.given.impact import NO_FORCE, check_finite_acceleration
 from graphcam.given.laws import Floats, law as law_of
 from graphcam.given.motion import FULL_TURN, Motion, MovingPhase
 from graphcam.given.motion_law import Law
@@ -91,8 +92,12 @@ def event_of(law: str | Law | AnyMotion) -> Event:
     (1.0, 1.0)
     """
     if isinstance(law, Motion | ArcMotion):
+        if isinstance(law, Motion):
+            check_finite_acceleration(law)
         return _of_motion(law)
     found = law_of(law)
+    if any(found.velocity_jumps):
+        raise DesignError("law", found.name, say("one of continuous velocity"), NO_FORCE)
 
     def lift(u: Floats) -> tuple[Floats, Floats, Floats]:
         f, f1, f2 = found(u, 2)
@@ -126,7 +131,7 @@ def _of_motion(motion: AnyMotion) -> Event:
         met = [motion.phases[(first + k) % len(phases)] for k in range(count)]
         moving = [phase for phase in met if isinstance(phase, MovingPhase)]
         name = moving[0].normalised.name if count == 1 else name
-        peak = max(phase.normalised.peak_acceleration * phase.lift / phase.angle**2 for phase in moving)
+        peak = max(phase.peak_acceleration for phase in moving)
     else:
         peak = motion.max_acceleration()[0]
     drive = Drive((edges - start) / angle, lambda u: -lift(u)[2])

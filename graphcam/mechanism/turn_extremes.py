@@ -293,7 +293,7 @@ def max_acceleration(motion: Motion) -> float:
     >>> max_acceleration(gc.Motion([gc.Rise(30, 2.0, "rectangular"), gc.Return(30, 2 * pi - 2, "rectangular")]))
     30.0
     """
-    return max(p.normalised.peak_acceleration * p.lift / p.angle**2 for p in motion.phases if not isinstance(p, Dwell))
+    return max(p.peak_acceleration for p in motion.phases if not isinstance(p, Dwell))
 
 
 def max_jerk(motion: Motion) -> float:

@@ -32,6 +32,8 @@ CROSSING_TOLERANCE = 1e-12
 """How far the two branches may be apart at their crossing, as part of the prime radius."""
 SETTLED_STEP = 0.01
 """Greatest last step of a crossing's cam angles, as part of their difference: rounding leaves so much in tiny loops."""
+BLOW_ANGLE = 1e-6
+"""A piece of the motion over less of the cam angle [rad] is a blow."""
 MIN_LOOP_ANGLE = 1e-6
 """A curve without cusps needs more than this angle [rad] to come back to itself."""
 PROFILE_SAMPLES = 1500
@@ -116,14 +118,28 @@ def trimmed_profile(envelope: Envelope, n: int) -> CutProfile:
     if n < least:
         raise DesignError(say("number of points"), n, say("{least} or more for this profile", least=least))
     # One point where each arc begins, the others shared out by the arcs' angles.
-    shares = np.cumsum([0.0, *(end - begin for begin, end in arcs)])
+    knots, turned = _turning(envelope)
+    bounds = arcs if turned is knots else [tuple(np.interp(arc, knots, turned).tolist()) for arc in arcs]
+    shares = np.cumsum([0.0, *(end - begin for begin, end in bounds)])
     counts = 1 + np.diff(np.round(shares / shares[-1] * (n - len(arcs))).astype(int))
-    phi = np.concatenate([np.linspace(*arc, count, endpoint=False) for arc, count in zip(arcs, counts, strict=True)])
+    steps = [np.linspace(*arc, count, endpoint=False) for arc, count in zip(bounds, counts, strict=True)]
+    phi = np.concatenate(steps)
+    phi = phi if turned is knots else np.interp(phi, turned, knots)
     points = envelope.point(phi, envelope.piece(phi))
     corner = np.zeros(n, dtype=bool)
     corner[np.cumsum(counts)[:-1]] = True
     points[corner] = [part.at for part in lost]
     return CutProfile(wrap(phi), np.stack([points.real, points.imag], axis=-1), corner)
+
+
+def _turning(envelope: Envelope) -> tuple[Floats, Floats]:
+    """Cam angles, and what they come to where a blow, in which the profile turns at one place, counts by its turn."""
+    edges = envelope.edges
+    width, piece = np.diff(edges), np.arange(edges.size - 1)
+    if np.all(width >= BLOW_ANGLE):
+        return edges, edges
+    turn = np.angle(envelope.tangent(edges[1:], piece) * np.conj(envelope.tangent(edges[:-1], piece)))
+    return edges, edges[0] + np.append(0.0, np.cumsum(np.where(width < BLOW_ANGLE, np.abs(turn), width)))
 
 
 def kept_arcs(envelope: Envelope, lost: list[LostStretch]) -> list[tuple[float, float]]:

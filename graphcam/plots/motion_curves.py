@@ -74,12 +74,18 @@ def plot(motion: PhasedMotion, on: Axes | Figure | None = None) -> Axes:
     return axes
 
 
+JUMP_WIDTH = 1e-6
+"""Over less of the cam angle [rad] the velocity jumps: what its derivatives are there is infinite, and not shown."""
+
+
 def _curves(motion: PhasedMotion) -> tuple[Floats, Floats]:
     """Cam angles (n,) [rad] over the turn, those of jumps twice, and (4, n) the values of s, v, a, j there."""
     ends = np.append(motion.breaks, FULL_TURN)
     phi = np.linspace(ends[:-1], ends[1:], PIECE_POINTS, axis=1)
     right, left = np.array(motion(phi[:, :-1])), np.array(motion(phi[:, -1:], "left"))
-    return phi.ravel(), np.concatenate([right, left], axis=2).reshape(4, -1)
+    values = np.concatenate([right, left], axis=2)
+    values[2:, np.diff(ends) < JUMP_WIDTH] = np.nan
+    return phi.ravel(), values.reshape(4, -1)
 
 
 def _name_phases(diagram: Axes, motion: PhasedMotion) -> None:

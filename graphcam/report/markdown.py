@@ -46,6 +46,8 @@ def numbers(**values: float) -> dict[str, Caption]:
 
 def general(value: float, digits: int = 6) -> Caption:
     """A number with so many significant digits, without needless zeros."""
+    if math.isinf(value):
+        return say("∞")
     return say("{value:.{digits}g}", value=value, digits=digits)
 
 

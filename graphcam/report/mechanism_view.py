@@ -16,7 +16,9 @@ from graphcam.drafting.ink import Caption, Points, say
 from graphcam.drafting.scale import unit as unit_of
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN
 from graphcam.mechanism.cam import Cam
+from graphcam.plane_vectors import turned
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.solving.shown_solution import plain_number
 from graphcam.solving.solution import Solution
@@ -101,15 +103,20 @@ def cam_scene(solution: Solution) -> MechanismScene:
     ('stem', (-10+42.8486j), 721)
     """
     cam, phi = solution.cam, _turn()
-    values = cam.motion(phi)
+    origin = cam.motion.origin
+    values = cam.motion(phi - origin)
     shown, normal = cam.kinematics.appearance(cam.motion, values), cam.kinematics.normal(values)
     contact = cam.kinematics.point(values) - cam.roller_radius * normal
-    starts = [*cam.motion.starts.tolist(), 2 * math.pi]
+    starts = origin + np.array([*cam.motion.starts.tolist(), FULL_TURN])
+    # A phase that reaches over the table's 0 is shown at both ends of the turn.
     phases = tuple(
-        TurnPhase(phase_title(cam.motion, k), phase_symbol(cam.motion, k), start, end)
-        for k, (start, end) in enumerate(pairwise(starts))
+        TurnPhase(phase_title(cam.motion, k), phase_symbol(cam.motion, k), max(start, 0.0), min(end, FULL_TURN))
+        for turn in (FULL_TURN, 0.0, -FULL_TURN)
+        for k, (start, end) in enumerate(pairwise((starts + turn).tolist()))
+        if max(start, 0.0) < min(end, FULL_TURN)
     )
-    profile, alpha = _outline(cam, contact, phi), cam.pressure_angle(phi)
+    phases = tuple(sorted(phases, key=lambda phase: phase.start))
+    profile, alpha = _outline(cam, contact, phi), cam.pressure_angle(phi - origin)
     points, (s, v, *_) = (shown.trace, contact, shown.motion, normal), values
     placed = shown.pivot, shown.face
     return MechanismScene(shown.kind, cam.sigma, cam.roller_radius, profile, phases, phi, *points, alpha, s, v, *placed)
@@ -118,7 +125,7 @@ def cam_scene(solution: Solution) -> MechanismScene:
 def _outline(cam: Cam, contact: Points, phi: Floats) -> Points:
     """The profile (m,) that is cut; where none can be cut, the whole envelope with its loops."""
     try:
-        points = cam.trimmed_profile(POSITION_COUNT)
+        points = turned(cam.trimmed_profile(POSITION_COUNT), cam.table_turn)
     except DesignError:
         return (contact * np.exp(-1j * cam.sigma * phi))[:-1]
     return points[:, 0] + 1j * points[:, 1]

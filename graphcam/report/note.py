@@ -158,13 +158,15 @@ SPEED_NUMBERS = (
 """The formula with numbers for time, maximum velocity and maximum acceleration of a phase."""
 
 
+def _greatest(value: float) -> Caption:
+    """A maximum over a phase: a dash in a dwell; infinite is the acceleration where the velocity jumps."""
+    return general(value) if math.isinf(value) else number(value or math.nan, 3)
+
+
 def _at_speed(solution: Solution) -> list[Block]:
     motion, rpm, of_lift = solution.cam.motion, solution.task.speed_rpm or 0.0, solution.chain.board.follower.unit
     speeds = solution.comparison.phases(rpm)
-    rows = [
-        (phase_title(motion, k), number(p.time, 4), *(number(x or math.nan, 3) for x in p.greatest))
-        for k, p in enumerate(speeds)
-    ]
+    rows = [(phase_title(motion, k), number(p.time, 4), *map(_greatest, p.greatest)) for k, p in enumerate(speeds)]
     k, first = next((k, phase) for k, phase in enumerate(motion.phases) if isinstance(phase, MovingPhase))
     omega, law = general(omega_of(rpm), 5), first.normalised
     values = {
@@ -175,8 +177,8 @@ def _at_speed(solution: Solution) -> list[Block]:
         "cv": general(law.peak_velocity, 5),
         "ca": general(law.peak_acceleration, 5),
         "time": number(speeds[k].time, 4),
-        "v": number(speeds[k].max_velocity, 3),
-        "a": number(speeds[k].max_acceleration, 3),
+        "v": _greatest(speeds[k].max_velocity),
+        "a": _greatest(speeds[k].max_acceleration),
     }
     said = say(
         "At $n = {rpm:g}$ rpm the cam turns with $\\omega = 2\\pi n/60 = {omega}$ rad/s. A phase with the "

@@ -10,6 +10,7 @@ from graphcam.drafting.scale import printed_unit, unit
 from graphcam.given.boundary_motion import BoundaryMotion
 from graphcam.given.boundary_parts import DERIVATIVE_NAMES
 from graphcam.given.measured import MeasuredMotion
+from graphcam.given.motion import FULL_TURN
 from graphcam.given.outline_motion import OutlineMotion
 from graphcam.report.markdown import number
 from graphcam.sheets.tables import Table
@@ -219,12 +220,18 @@ def phases(solution: Solution) -> Table:
     """The table of the phases of the motion; an arm's lift is an angle."""
     motion, swings = solution.cam.motion, solution.chain.board.follower.unit == "rad"
     lifts = [degrees(phase.lift) if swings else say("{lift:g}", lift=phase.lift) for phase in motion.phases]
+    begins = (motion.starts + motion.origin) % FULL_TURN
     rows = tuple(
-        (phase_title(motion, k), degrees(phase.angle), lifts[k] if phase.lift else "", law_title(motion, k))
+        (
+            *(phase_title(motion, k), *([degrees(begins[k])] if motion.origin else []), degrees(phase.angle)),
+            *(lifts[k] if phase.lift else "", law_title(motion, k)),
+        )
         for k, phase in enumerate(motion.phases)
     )
+    # Where the table's cam angle 0 lies inside a phase, the diagrams begin elsewhere.
+    from_ = [say("from, of the table")] if motion.origin else []
     lift = say("lift") if swings else say("lift, mm")
-    return Table(say("Motion"), (say("phase"), say("angle"), lift, say("law")), rows)
+    return Table(say("Motion"), (say("phase"), *from_, say("angle"), lift, say("law")), rows)
 
 
 def phases_at_speed(solution: Solution) -> Table:

@@ -233,6 +233,8 @@ def _key(name: str, value: float) -> Caption:
 
 def _roller(chain: Chain, cam: Cam) -> Iterator[Caution]:
     board, adopted = chain.board, chain.roller_radius
+    if board.motion.corners:  # of which no roller keeps clear
+        return
     if board.roller_radius is not None or not cam.kinematics.takes_roller:
         return
     rho = cam.extremes().min_convex_radius[0]

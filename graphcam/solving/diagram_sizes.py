@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.given.laws import Floats
-from graphcam.given.motion import Motion, MovingPhase, Rise
+from graphcam.given.motion import Motion, MovingPhase
 
 STANDARD_ORDINATES = (80.0, 60.0, 50.0, 40.0, 30.0, 25.0, 20.0, 15.0, 12.0, 10.0, 8.0, 6.0, 5.0)
 """Ordinates that are chosen from [mm of paper]."""
@@ -88,8 +88,7 @@ class DrawnHeights:
     @cached_property
     def unit(self) -> tuple[float, float, float]:
         """Acceleration, velocity and displacement at an ordinate and poles of 1 mm."""
-        rise = next(phase for phase in self.motion.phases if isinstance(phase, Rise))
-        mu_a = rise.normalised.peak_acceleration * rise.lift / rise.angle**2
+        _, mu_a = self.motion.reference
         mu_phi = math.radians(self.degrees_per_mm)
         s, v, a = map(_height, self.values)
         # mu_v = mu_a mu_phi H1, mu_s = mu_v mu_phi H2.
@@ -98,7 +97,8 @@ class DrawnHeights:
     def largest_ordinate(self, most: DiagramRoom, poles: tuple[float, float]) -> float:
         """The largest at which no diagram exceeds a room."""
         (a, v, s), (first, second) = self.unit, poles
-        return min(most.a / a, most.v * first / v, most.s * first * second / s)
+        # Where the velocity jumps in every phase, no acceleration is drawn.
+        return min(most.a / a if a else math.inf, most.v * first / v, most.s * first * second / s)
 
     def choose(
         self,
@@ -121,8 +121,7 @@ class DrawnHeights:
 
     def jerk_pole(self, room: DiagramRoom, ordinate: float) -> float:
         """The longest pole of a round series at which the jerk keeps to the room of the velocity."""
-        rise = next(phase for phase in self.motion.phases if isinstance(phase, Rise))
-        mu_a = rise.normalised.peak_acceleration * rise.lift / rise.angle**2 / ordinate
+        mu_a = self.motion.reference[1] / ordinate
         phase, u = _places(self.motion)
         sides = np.concatenate([self.motion.at(phase, u, side)[3] for side in ("right", "left")])
         # A pole of 1 mm cuts off the slope of the acceleration on paper.
@@ -132,7 +131,10 @@ class DrawnHeights:
 
     def _chosen_ordinate(self, room: DiagramRoom, most: DiagramRoom) -> float:
         """The largest of a round series at which the acceleration keeps to its room."""
-        a, _, _ = self.unit
+        a, v, s = self.unit
+        if not a:  # the velocity jumps in every phase, and is what is laid off
+            pole = DEFAULT_POLE / self.degrees_per_mm
+            return next(y for y in _ordinates() if y * v <= room.v * pole and y * s <= room.s * pole**2)
         # Rather than a very small ordinate a diagram that is higher than usual.
         usual = (y for y in STANDARD_ORDINATES if y * a <= (most if y == STANDARD_ORDINATES[-1] else room).a)
         return next(usual, None) or next(y for y in _ordinates() if y * a <= most.a)
@@ -166,8 +168,10 @@ class DrawnHeights:
 
 @lru_cache(maxsize=16)  # because an arm's scale is chosen by it too
 def over_the_turn(motion: Motion) -> tuple[Floats, Floats, Floats]:
-    """s, v and a at many places of every phase."""
-    return motion.at(*_places(motion))[:3]
+    """s, v and a at many places of every phase; in a blow, which is not drawn, a is 0."""
+    phase, u = _places(motion)
+    s, v, a, _ = motion.at(phase, u)
+    return s, v, np.where(motion.in_blow(phase, u), 0.0, a)
 
 
 def _places(motion: Motion) -> tuple[NDArray[np.intp], Floats]:

@@ -139,20 +139,26 @@ class Solution(ShownSolution):
         part = self.task.part or PartTable()
         degree, count = part.spline_degree, part.spline_control_points
         try:
-            return profile_spline(self.cam, degree=degree, control_points=count, trimmed=True)
+            spline = profile_spline(self.cam, degree=degree, control_points=count, trimmed=True)
         except DesignError as error:
             if error.quantity != "control_points":
                 raise
             raise DesignError("part.spline_control_points", count, error.args[2], say("or leave it out")) from None
+        return spline.turned(self.cam.table_turn)
 
     def to_dict(self) -> dict[str, Any]:
         """The solution as plain data for strict JSON: angles in degrees, None where a value does not apply."""
         sizes = self.chain.board.follower.sizes(self.chain.place, self.cam.roller_radius)
         follower = {size.name: size.value for size in sizes}
+        origin = self.cam.motion.origin
         return {
             "graphcam": __version__,
             "task": self.task.to_dict(),
             "cam": {"prime_radius": self.cam.prime_radius, **follower, "rotation": self.cam.rotation},
+            "phases": [
+                {"kind": kind, "begins_deg": math.degrees(start + origin), "ends_deg": math.degrees(end + origin)}
+                for kind, start, end in self.cam.motion.timing
+            ],
             "scales": self.scales,
             "quantities": plain_quantities(self.comparison.quantities),
             "stations": self._stations(),

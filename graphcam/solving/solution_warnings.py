@@ -9,11 +9,17 @@ from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.scale import Scale, ratio_from_text, ratio_text
 from graphcam.errors import DesignError
+from graphcam.given.impact import velocity_jumps
+from graphcam.given.motion import Motion
 from graphcam.mechanism.cam import Cam, largest_roller
+from graphcam.mechanism.turn_extremes import PlaceQuantity
 from graphcam.mechanism.undercut import Undercut
+from graphcam.mechanism.within_rows import rows_tell
 from graphcam.tasks.task import Task
-from graphcam.words import Caption, say, sequence
+from graphcam.words import Caption, and_list, say, sequence
 
+SAME_ANGLE = 1e-6
+"""Cam angles that differ by less [rad] are one."""
 PRINT_ROUNDING = 0.005
 """mm or degrees: what differs by less does not differ in print."""
 ENLARGE_REMEDY = say("Enlarge the prime radius.")
@@ -35,7 +41,7 @@ class Caution:
     said: Caption
     of: Literal[
         "profile", "pressure angle", "prime radius", "roller radius", "face", "contact", "contact stress", "rounding",
-        "unit", "scale", "divisions",
+        "unit", "scale", "divisions", "velocity",
     ]  # fmt: skip
     phi: tuple[float, ...] = ()
     alpha: float | None = None
@@ -46,7 +52,57 @@ def warnings_of(cam: Cam, board: Board, least_prime_radius: float) -> list[Cauti
 
     cam : as it was adopted;  board : what was given;  least_prime_radius : the exact one of the task [mm]
     """
-    return [*_undercut(cam), *_limits(cam, board), *_too_sharp(cam, board), *_prime_radius(board, least_prime_radius)]
+    return [
+        *_jumps(cam),
+        *_undercut(cam),
+        *_limits(cam, board),
+        *_too_sharp(cam, board),
+        *_prime_radius(cam, board, least_prime_radius),
+    ]
+
+
+def _jumps(cam: Cam) -> Iterator[Caution]:
+    """The sentences on a velocity that jumps, and on what the follower does where the cam has a corner by it."""
+    if not (jumps := velocity_jumps(cam.motion)):
+        return
+    said = say(
+        "At {places} the velocity jumps: there the acceleration and the force are infinite, and the law cannot be "
+        "integrated from the acceleration, so v and s are drawn as the law gives them. Such a cam is only fit for slow "
+        "turning; blends of the law make it fit for speed."
+    )
+    yield Caution(said.with_values(places=and_list([_degrees(jump.phi) for jump in jumps])), "velocity")
+    falls = and_list([_degrees(jump.phi) for jump in jumps if jump.size < 0])
+    if cam.kinematics.takes_roller and not cam.roller_radius and any(jump.size < 0 for jump in jumps):
+        edge = say("The profile has an edge at {places}, which wears the more since a knife edge runs over it.")
+        yield Caution(edge.with_values(places=falls), "velocity")
+
+
+def _rounded_corner(cam: Cam, lost: Undercut) -> Caption | None:
+    """The sentence on a roller that rolls over the edge of the profile at a jump of the velocity; None elsewhere."""
+    at = [
+        jump.phi for jump in velocity_jumps(cam.motion) if any(abs(jump.phi - phi) < SAME_ANGLE for phi in lost.cusps)
+    ]
+    if not at or not cam.roller_radius:
+        return None
+    corner, (start, end, x, y) = cam.pitch_curve(at[0]), lost.crossing
+    off = math.dist(corner, (x, y)) - cam.roller_radius
+    said = say(
+        "At {phi} the pitch curve has a corner that no roller can follow: from {start} to {end} the roller rolls over "
+        "the edge of the profile and rounds the corner, by {off:.2f} mm."
+    )
+    return said.with_values(phi=_degrees(at[0]), start=_degrees(start), end=_degrees(end), off=off)
+
+
+def beside_rows(motion: Motion, said: Caption, quantity: PlaceQuantity) -> Caption:
+    """What is said, as a fact only if the quantity is negative for every motion that the rows of a table permit."""
+    if rows_tell(motion, quantity):
+        return said
+    return say("As the table is smoothed, though its rows do not tell it within their tolerance: {said}", said=said)
+
+
+def profile_speed(cam: Cam) -> PlaceQuantity:
+    """The speed along the profile at places, which is negative where an undercut makes it run backwards."""
+    return lambda places: cam.kinematics.speed(places.values, cam.roller_radius)
 
 
 def _undercut(cam: Cam) -> Iterator[Caution]:
@@ -57,9 +113,11 @@ def _undercut(cam: Cam) -> Iterator[Caution]:
         if cam.kinematics.takes_roller:
             remedy = say("Take a roller well below {radius} mm.", radius=_rounded_down(largest_roller(cam)))
         said = say("The profile cannot be cut: its undercut consists of loops that cannot be told apart. {remedy}")
-        yield Caution(said.with_values(remedy=remedy), "profile")
+        yield Caution(beside_rows(cam.motion, said.with_values(remedy=remedy), profile_speed(cam)), "profile")
         return
-    if not lost:
+    rounded = {k: said for k, part in enumerate(lost) if (said := _rounded_corner(cam, part))}
+    yield from (Caution(said, "profile", lost[k].crossing[:1]) for k, said in rounded.items())
+    if not (lost := [part for k, part in enumerate(lost) if k not in rounded]):
         return
     too_large = (
         say("with a roller of {radius:g} mm", radius=cam.roller_radius)
@@ -69,7 +127,10 @@ def _undercut(cam: Cam) -> Iterator[Caution]:
     said = say("The profile cannot be cut {cause}: it is undercut {where}. {remedy}")
     where = sequence([_undercut_place(part) for part in lost], "; ")
     corners = tuple(part.crossing[0] for part in lost)
-    yield Caution(said.with_values(cause=too_large, where=where, remedy=_remedy(cam, lost)), "profile", corners)
+    said = said.with_values(cause=too_large, where=where, remedy=_remedy(cam, lost))
+    if all(part.cusps for part in lost):
+        said = beside_rows(cam.motion, said, profile_speed(cam))
+    yield Caution(said, "profile", corners)
 
 
 def _undercut_place(part: Undercut) -> Caption:
@@ -131,11 +192,15 @@ def angles_exceeded(cam: Cam, board: Board, slack: float) -> Iterator[tuple[str,
             yield word, alpha, phi, limit
 
 
-def _prime_radius(board: Board, least: float) -> Iterator[Caution]:
+def _prime_radius(cam: Cam, board: Board, least: float) -> Iterator[Caution]:
     given = board.prime_radius
     if given is not None and given < least - PRINT_ROUNDING:
         said = say("The given prime radius of {given:g} mm is smaller than the minimum permitted one, {least:.2f} mm.")
-        yield Caution(said.with_values(given=given, least=least), "prime radius")
+        said = said.with_values(given=given, least=least)
+        if "curvature" in board.follower.conditions:
+            permitted, speed = board.follower.conditions["curvature"] or 0.0, profile_speed(cam)
+            said = beside_rows(cam.motion, said, lambda places: speed(places) - permitted)
+        yield Caution(said, "prime radius")
 
 
 def unit_slips(task: Task) -> Iterator[Caution]:

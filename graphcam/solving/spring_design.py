@@ -24,7 +24,7 @@ from graphcam.mechanism.jamming import jamming_margin
 from graphcam.mechanism.turn_extremes import Places, TurnCurve, ValueAt, over_turn, places_in, smooth_pieces
 from graphcam.sheets.tables import Table
 from graphcam.showing import parts_text
-from graphcam.solving.solution_warnings import Caution
+from graphcam.solving.solution_warnings import Caution, beside_rows
 from graphcam.solving.turn_diagrams import TurnDiagram, at_side, plain_place, turn_diagrams
 from graphcam.words import Words, and_list, sequence
 
@@ -135,7 +135,7 @@ class SpringDesign:
             needed=with_unit(_rounded_up(self.needed), preload),
             given=say("{value:.12g} {unit}", value=self.load.preload, unit=unit(preload)),
         )
-        yield Caution(said, "contact", tuple(start for start, _ in lost))
+        yield Caution(beside_rows(self.cam.motion, said, self.forces.normal), "contact", tuple(s for s, _ in lost))
 
     @property
     def units(self) -> tuple[str, str, str]:

@@ -20,7 +20,7 @@ from graphcam.mechanism.turn_extremes import TurnCurve, ValueAt
 from graphcam.sheets.tables import Table
 from graphcam.showing import parts_text
 from graphcam.solving.shown_solution import plain_number
-from graphcam.solving.solution_warnings import Caution
+from graphcam.solving.solution_warnings import Caution, beside_rows, profile_speed
 from graphcam.solving.spring_design import PLAIN_POINTS, Row, with_unit
 from graphcam.solving.turn_diagrams import TurnDiagram, at_side, plain_place, turn_diagrams
 from graphcam.tasks.material_table import MaterialTable
@@ -132,6 +132,8 @@ class StressDesign:
             return
         if self.greatest is None:
             said = say("No contact stress is permitted: {why}.", why=NO_STRESS_REASONS[str(self.without)])
+            if self.without == "undercut":
+                said = beside_rows(self.forces.cam.motion, said, profile_speed(self.forces.cam))
             yield Caution(said, "contact stress")
             return
         said = say(
@@ -143,6 +145,8 @@ class StressDesign:
             width=rounded_up(self.least_width or 0.0),
             sizes=ENLARGED_SIZES[self.forces.cam.kinematics.takes_roller],
         )
+        limit = self.material.permitted_stress or math.inf
+        said = beside_rows(self.forces.cam.motion, said, lambda places: limit**2 - self.stress.squared_pressure(places))
         yield Caution(said, "contact stress", (self.greatest.phi,))
 
     @property

@@ -18,7 +18,6 @@ from graphcam.constructions.pressure_angle import shown_station
 from graphcam.constructions.views import REGION
 from graphcam.drafting.ink import Construction
 from graphcam.errors import DesignError
-from graphcam.given.motion import Motion, Rise
 from graphcam.sheets.labels import LabelPlace
 from graphcam.sheets.model import Box
 from graphcam.solving.arcs_solution import AnySolution, solve_arcs
@@ -260,13 +259,13 @@ def held_board(board: Board, task: Task, hold: DragHold) -> Board:
     held = hold.diagrams
     if held is None or held.asked != (task.drawing.ordinate, task.drawing.poles):
         return board
-    return replace(board, ordinate=held.ordinate * (peak_of(board.motion) / held.peak), poles=held.poles)
+    return replace(board, ordinate=held.ordinate * (board.motion.reference[1] / held.peak), poles=held.poles)
 
 
 def diagrams_of(solution: Solution) -> HeldDiagrams:
     """What the diagrams of a solution keep."""
     board, asked = solution.chain.board, solution.task.drawing
-    return HeldDiagrams(board.ordinate, peak_of(board.motion), board.poles, (asked.ordinate, asked.poles))
+    return HeldDiagrams(board.ordinate, board.motion.reference[1], board.poles, (asked.ordinate, asked.poles))
 
 
 def station_of(drawn: Mapping[str, Construction]) -> int | None:
@@ -284,15 +283,3 @@ def scales_of(solution: AnySolution, shown: dict[str, float]) -> dict[str, float
         return {name: scale for name, scale in shown.items() if is_usable_scale(scale)}
     of_diagrams = {name: scale["per_mm"] for name, scale in solution.scales.items() if name != "phi"}
     return {name: scale for name, scale in {**shown, **of_diagrams}.items() if is_usable_scale(scale)}
-
-
-def peak_of(motion: Motion) -> float:
-    """The greatest acceleration of the first rise [lift/rad²].
-
-    >>> import graphcam as gc
-    >>> from math import pi
-    >>> round(peak_of(gc.Motion([gc.Rise(30, 1.0, "rectangular"), gc.Return(30, 2 * pi - 1, "rectangular")])), 9)
-    120.0
-    """
-    rise = next(phase for phase in motion.phases if isinstance(phase, Rise))
-    return rise.normalised.peak_acceleration * rise.lift / rise.angle**2

@@ -129,7 +129,7 @@ def _warning(solution: Solution, caution: Caution, spoken: Language) -> dict[str
     at = _place(solution, caution) if view else None
     return {
         "text": spoken.text(caution.said),
-        "limit": caution.of not in ("rounding", "unit", "scale", "divisions"),
+        "limit": caution.of not in ("rounding", "unit", "scale", "divisions", "velocity"),
         "of": caution.of,
         "view": view,
         "at": None if at is None else [round(at.real, 2), round(-at.imag, 2)],

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, nearest_word_remedy
 from graphcam.given.follower import FOLLOWERS_BY_KIND, Follower, Kind, swing_remedy
-from graphcam.given.laws import LAW_SYNONYMS, LAWS, Floats
+from graphcam.given.laws import LAW_SYNONYMS, LAWS, Floats, canonical_law
 from graphcam.given.motion import CLOSURE_TOLERANCE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.cam import Cam
@@ -202,7 +202,9 @@ def _choices(name: str, values: Any, known: tuple[str, ...], own: type | tuple[(
     """Names that are known, or objects of your own."""
     array = np.asarray(values)
     for word in dict.fromkeys(array.ravel().tolist()):
-        if not isinstance(word, own) and word not in known:
+        if (meant := canonical_law(word)) != word:
+            array = np.where(array == word, meant, array)
+        if not isinstance(word, own) and meant not in known:
             raise DesignError(
                 name, word, say("a name that graphcam knows"), nearest_word_remedy(str(word), known, LAW_SYNONYMS)
             )

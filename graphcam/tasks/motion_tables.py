@@ -11,6 +11,7 @@ from graphcam.given.arc_outline import ArcOutline, Straight, cam_by_radii
 from graphcam.given.boundary_motion import BoundaryMotion, boundary_motion
 from graphcam.given.boundary_parts import DERIVATIVE_NAMES, MotionPoint, PolynomialPart, SplinePart
 from graphcam.given.follower import FlatFaced, Follower, Rotation
+from graphcam.given.laws import canonical_law
 from graphcam.given.motion import FULL_TURN, NEAR_TURN_SHARE, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.given.outline_motion import OutlineMotion, outline_motion
@@ -141,6 +142,7 @@ class _MovingTable:
     def __post_init__(self) -> None:
         check_positive("angle", self.angle, "degrees")
         check_positive("lift", self.lift, "mm (degrees for an arm)")
+        object.__setattr__(self, "law", canonical_law(self.law))
         if self.blends is not None and self.law != CONSTANT_VELOCITY:
             left_out = say("left out for the law '{law}'", law=getattr(self.law, "name", self.law))
             remedy = say("they are those of '{constant_velocity}'", constant_velocity=CONSTANT_VELOCITY)
@@ -157,7 +159,8 @@ class _MovingTable:
 class RiseTable(_MovingTable):
     """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees, by a law of graphcam or of your own.
 
-    blends : of the law "constant-velocity", the fractions of the phase that its blends take; None is a quarter each
+    blends : of the law "constant-velocity", the fractions of the phase that its blends take; of 0 the velocity jumps;
+        None is a quarter each
     """
 
     kind: Literal["rise"] = "rise"

@@ -23,6 +23,7 @@ from graphcam.given.follower import (
     Translating,
     sense,
 )
+from graphcam.given.impact import NO_FORCE, velocity_jumps
 from graphcam.given.outline_motion import OutlineMotion
 from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.roller_rule import DEFAULT_RULE, Candidate, roller_rule
@@ -65,6 +66,8 @@ class _FollowerTable:
     """Whether the follower turns about a pivot, so that its spring exerts a moment."""
     sought: ClassVar[tuple[str, ...]] = ()
     """The sizes for which ranges may be given; a follower without any cannot be sized."""
+    takes_corners: ClassVar[bool] = True
+    """Whether it runs over a corner of the cam; a flat face can touch none."""
     made_to: ClassVar[tuple[str, ...]] = ("roller_diameter", "offset")
     """The sizes of this kind of follower that may have a tolerance."""
 
@@ -176,6 +179,7 @@ class FlatFacedTable(_FollowerTable):
 
     face_margin: Length | None = None
     kind: Literal["flat-faced"] = "flat-faced"
+    takes_corners = False
     roller_radius = 0.0
     roller_rule = DEFAULT_RULE
     made_to = ()
@@ -200,6 +204,7 @@ class OscillatingFlatTable(_FollowerTable):
     distance: Length
     face_offset: Length = 0.0
     kind: Literal["oscillating-flat"] = "oscillating-flat"
+    takes_corners = False
     roller_radius = 0.0
     roller_rule = DEFAULT_RULE
     swings = True
@@ -395,6 +400,21 @@ class Task:
             reason = say("without a force there is no contact stress")
             raise DesignError("spring", say("missing"), say("given where there is a material"), reason)
         self._check_sizing()
+        self._check_blows()
+
+    def _check_blows(self) -> None:
+        """Refuse what a velocity that jumps leaves no sense."""
+        motion = self.motion()
+        if self.drawing.jerk and motion.blows:
+            limit = say("false where the velocity jumps")
+            raise DesignError("drawing.jerk", True, limit, say("there the acceleration itself is infinite"))
+        if motion.corners and not self.follower.takes_corners:
+            found = say(
+                "a motion whose velocity falls at once at {phi:.6g} degrees", phi=math.degrees(motion.corners[0])
+            )
+            limit = say("one of continuous velocity for a follower of kind {kind}", kind=self.follower.kind)
+            remedy = say("the cam has a corner there, which no flat face can touch: give law blends, or take a roller")
+            raise DesignError("motion", found, limit, remedy)
 
     def _check_sizing(self) -> None:
         """Refuse ranges without the limits that they need, and sizes with neither a range nor a value."""
@@ -425,6 +445,8 @@ class Task:
         if self.speed_rpm is None:
             limit = say("given where there is a spring")
             raise DesignError("speed_rpm", say("missing"), limit, say("inertia grows with the speed"))
+        if velocity_jumps(self.motion()):
+            raise DesignError("spring", say("given"), say("left out where the velocity jumps"), NO_FORCE)
         if self.follower.swings and not self.spring.swings:
             remedy = say("give spring.inertia in kg mm^2, about the pivot")
             raise DesignError("spring.mass", getattr(self.spring, "mass", None), say("left out for an arm"), remedy)

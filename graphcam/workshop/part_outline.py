@@ -62,24 +62,29 @@ class Span(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class EnvelopeSpan:
-    """A smooth part of a cam's profile, over the cam angle."""
+    """A smooth part of a cam's profile, over the cam angle.
+
+    turn : the unit vector by which it is turned about the cam centre
+    """
 
     envelope: Envelope
     piece: int
     begin: float
     end: float
+    turn: complex = 1 + 0j
 
     def point(self, at: Floats) -> Complexes:
         """The points (n,) in cam coordinates [mm]."""
-        return self.envelope.point(at, np.full(at.shape, self.piece))
+        return self.turn * self.envelope.point(at, np.full(at.shape, self.piece))
 
     def velocity(self, at: Floats) -> Complexes:
         """The derivatives (n,) of the points by the cam angle [mm/rad]."""
-        return self.envelope.velocity(at, np.full(at.shape, self.piece))
+        return self.turn * self.envelope.velocity(at, np.full(at.shape, self.piece))
 
     def normal(self, at: Floats) -> Complexes:
         """The unit normals (n,), away from the cam."""
-        return 1j * self.envelope.kinematics.sigma * self.envelope.tangent(at, np.full(at.shape, self.piece))
+        tangent = self.envelope.tangent(at, np.full(at.shape, self.piece))
+        return 1j * self.envelope.kinematics.sigma * self.turn * tangent
 
 
 @dataclass(frozen=True, eq=False)
@@ -266,25 +271,25 @@ def of_cam(cam: Cam) -> Outline:
     >>> round(outline.least_radius, 4), round(outline.greatest_radius, 4), round(outline.area, 1)
     (38.0, 67.6203, 9138.5)
     """
-    envelope, sense = cam.envelope, -cam.sigma
+    envelope, sense, turn = cam.envelope, -cam.sigma, cam.table_turn
     lost = lost_parts(envelope)
     arcs = kept_arcs(envelope, lost)
     spans: list[Span] = []
     for k, (begin, end) in enumerate(arcs):
         cuts = sorted({begin, end, *(x for x in envelope.edges.tolist() if begin < x < end)})
-        spans += [EnvelopeSpan(envelope, int(envelope.piece((a + b) / 2)), a, b) for a, b in pairwise(cuts)]
+        spans += [EnvelopeSpan(envelope, int(envelope.piece((a + b) / 2)), a, b, turn) for a, b in pairwise(cuts)]
         if k < len(lost):
-            spans.append(_corner(envelope, lost[k], sense))
-    first = envelope.edges[0] + (-envelope.edges[0]) % FULL_TURN
-    met = complex(envelope.point(first, envelope.piece(first)))
+            spans.append(_corner(envelope, lost[k], sense, turn))
+    first = envelope.edges[0] + (-cam.motion.origin - envelope.edges[0]) % FULL_TURN
+    met = turn * complex(envelope.point(first, envelope.piece(first)))
     return Outline(tuple(spans), float(np.angle(met)), sense, not any(part.begin < first < part.end for part in lost))
 
 
-def _corner(envelope: Envelope, lost: LostStretch, sense: int) -> CornerSpan:
+def _corner(envelope: Envelope, lost: LostStretch, sense: int, turned: complex) -> CornerSpan:
     before = complex(envelope.tangent(lost.begin, envelope.piece(lost.begin, "left")))
     behind = complex(envelope.tangent(lost.end, envelope.piece(lost.end)))
     turn = abs(float(np.angle(behind / before)))
-    return CornerSpan(lost.at, 1j * envelope.kinematics.sigma * before, sense, turn)
+    return CornerSpan(turned * lost.at, 1j * envelope.kinematics.sigma * turned * before, sense, turn)
 
 
 def _of_arcs(solution: ArcsSolution) -> Outline:

@@ -11,9 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
+from graphcam.given.motion import wrap
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.profile_spline import ProfileSpline
 from graphcam.mechanism.undercut import CutProfile, trimmed_profile
+from graphcam.plane_vectors import turned
 
 PROFILE_POINTS = 720
 """The number of points on the profile, one for each half degree of the cam angle."""
@@ -41,10 +43,15 @@ def write_curves(
         kind: write for kind, write in (("profile_csv", _write_csv), ("profile_xyz", _write_xyz)) if kind in kinds
     }
     if tables:
-        cut = trimmed_profile(cam.envelope, PROFILE_POINTS)
+        cut = _from_table_zero(cam, trimmed_profile(cam.envelope, PROFILE_POINTS))
         for kind, write in tables.items():
             write(cut, folder / wanted[kind])
     return wanted
+
+
+def _from_table_zero(cam: Cam, cut: CutProfile) -> CutProfile:
+    """The profile with the cam angles of the table that the motion was made of, and turned so."""
+    return CutProfile(wrap(cut.phi + cam.motion.origin), turned(cut.points, cam.table_turn), cut.corner)
 
 
 def _write_csv(cut: CutProfile, path: Path) -> None:

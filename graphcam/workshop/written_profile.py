@@ -90,7 +90,7 @@ def _part_table(part: dict[str, Any]) -> PartTable:
 
 def _spline(cam: Cam, table: PartTable) -> ProfileSpline:
     degree, count = table.spline_degree, table.spline_control_points
-    return profile_spline(cam, degree=degree, control_points=count, trimmed=True)
+    return profile_spline(cam, degree=degree, control_points=count, trimmed=True).turned(cam.table_turn)
 
 
 def _texts(cam: Cam, spline: ProfileSpline | None, table: PartTable, name: str, wanted: set[str]) -> dict[str, str]:

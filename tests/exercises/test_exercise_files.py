@@ -79,7 +79,7 @@ def test_the_text_names_every_parameter_of_the_task(name):
         ('"cosine", ', '"cosine", "sinus", ', r"parameters\.law_up\.choices\[\d\] is 'sinus', but must be"),
         ("decimals = 1", "decimal = 1", "unknown key"),
         ("marks = 2", "marks = 0", "marks is 0"),
-        ('law = "{law_up}"', 'law = "sine"', "law is 'sine'"),
+        ('law = "{law_up}"', 'law = "sawtooth"', "law is 'sawtooth'"),
         ("[sheet]", "[sheet", r"line \d+ is .\[sheet., but must be TOML"),
     ],
 )

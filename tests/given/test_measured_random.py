@@ -7,6 +7,7 @@ from math import radians
 
 import numpy as np
 import pytest
+from measured_tables import lobe, lobe_outcome, outcomes
 from numpy.testing import assert_allclose
 from over_all import over_all, over_seeds
 
@@ -230,3 +231,52 @@ def test_the_band_is_that_of_the_squares():
     band = forms.normal_matrix(weights, 7, 7)
     assert_allclose(band, [[matrix[i + k, i] if i + k < 7 else 0.0 for i in range(7)] for k in range(7)], atol=1e-12)
     assert_allclose(forms.transposed(weights, 7), dense.T @ weights)
+
+
+def test_of_random_tables_with_noise_and_run_out_no_dwell_is_lost_or_false():
+    """A sample of ``python tests/given/measured_tables.py``."""
+    for table, count in outcomes(14, seed=2):
+        assert not count["lost"] + count["false"] + count["refused"], (table.law, table.kind, table.step)
+        assert count["found"] == len(table.dwells)
+
+
+@over_all("law", ["rectangular", "cosine", "3-4-5", "cycloidal"])
+def test_a_dwell_is_found_under_noise_of_a_hundredth_of_the_lift(law):
+    motion = Motion([Rise(20, radians(112), law), Return(20, radians(186), law), Dwell(radians(62))])
+    for seed in range(3):
+        noise = np.random.default_rng(seed).normal(0, 0.2, 360)
+        measured = measured_motion(DEGREES, motion(DEGREES)[0] + noise, 6.75 * 0.2)
+        kinds = [phase.kind for phase in measured.phases]
+        assert "dwell" in kinds
+        assert [kind for kind in kinds if kind != "dwell"] == ["rise", "return"]
+
+
+@over_all("tolerance", [0.03, 0.1, 0.5])
+def test_a_run_out_of_less_than_the_tolerance_is_no_motion(tolerance):
+    """An eccentricity of 10 micrometres over the whole turn, in rows of four decimals."""
+    motion = Motion([Rise(30, radians(100)), Dwell(radians(60)), Return(30, radians(100)), Dwell(radians(100))])
+    for phase in (0.0, 1.0, 2.5, 4.0):
+        rows = np.round(motion(DEGREES)[0] + 0.01 * np.sin(DEGREES + phase), 4)
+        measured = measured_motion(DEGREES, rows, tolerance)
+        # A dwell may reach over the beginning of the turn.
+        dwells = [np.degrees([a, b]) % 360 for kind, a, b in measured.timing if kind == "dwell" and b - a > 0.1]
+        assert_allclose(dwells[0] + np.degrees(measured.zero), [100, 160], atol=4)
+        assert [p.kind for p in measured.phases if p.direction] == ["rise", "return"]
+        assert_allclose(np.degrees([p.angle for p in measured.phases if p.direction]), 100, atol=3)
+
+
+def test_of_lobes_of_arcs_none_is_said_to_be_undercut_but_those_that_are():
+    counts = [lobe_outcome(3, k) for k in range(8)]
+    assert sum(count["smoothed"] for count in counts) > 0
+    assert sum(count["false"] for count in counts) == 0
+    assert sum(count["told"] for count in counts) >= 6
+
+
+def test_the_radii_of_curvature_of_a_lobe_are_those_of_its_arcs():
+    phi = np.radians(np.arange(0, 360, 0.01))
+    s = lobe(phi, 11.0, 0.5, 14.0, 40.0)
+    rho = 11 + s + np.gradient(np.gradient(s, phi), phi)
+    off = np.abs(rho[:, None] - [11.0, 0.5, 40.0]).min(axis=1)
+    # But for the rows beside the four joints.
+    assert np.sum(off > 1e-3) < 30
+    assert all(np.sum(np.abs(rho - radius) < 1e-3) > 1000 for radius in (11.0, 0.5, 40.0))

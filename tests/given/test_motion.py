@@ -181,7 +181,7 @@ def test_a_phase_that_rounding_swallows_is_refused(tiny, place):
         (lambda: Return(3.0, 0.0), "angle is 0.0, but must be a finite number greater than 0 rad"),
         (lambda: Dwell(-1.0), "angle is -1.0"),
         (lambda: Dwell(math.nan), "angle is nan"),
-        (lambda: Rise(3.0, 1.0, "cosin"), "did you mean 'cosine'"),
+        (lambda: Rise(3.0, 1.0, "cosinn"), "did you mean 'cosine'"),
         (lambda: Motion([]), "motion is without a rise, but must be one with a rise and a return; add a rise"),
         (lambda: Motion([Dwell(FULL_TURN)]), "motion is without a rise"),
         (lambda: Motion([Rise(1e-10, FULL_TURN)]), "motion is without a return"),  # whose lift alone would close

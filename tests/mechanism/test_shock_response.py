@@ -282,7 +282,7 @@ def test_a_measured_motion_has_a_spectrum():
         ({"damping": -0.1}, "damping is -0.1, but must be a ratio to the critical damping from 0 to 10; 2 % is 0.02"),
         ({"damping": math.nan}, "damping is nan"),
         ({"damping": 20}, "damping is 20"),
-        ({"law": "cycloid"}, "did you mean 'cycloidal'?"),
+        ({"law": "cicloid"}, "did you mean 'cycloidal'?"),
     ],
 )
 def test_what_cannot_be_is_refused_with_reason(asked, message):

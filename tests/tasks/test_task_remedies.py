@@ -12,9 +12,11 @@ import graphcam as gc
 from graphcam.cli import app
 from graphcam.errors import TaskError
 from graphcam.given.follower import SENSE_SYNONYMS
-from graphcam.given.laws import LAW_SYNONYMS
+from graphcam.given.laws import LAW_SYNONYMS, canonical_law, law_of_return
 from graphcam.language import language, languages
-from graphcam.tasks.task_file import builtin_text, load_task
+from graphcam.tasks.motion_tables import RiseTable
+from graphcam.tasks.task_file import builtin_task, builtin_text, load_task
+from graphcam.tasks.task_writer import task_files
 
 TASK = builtin_text("coursework")
 RISE = 'law = "rectangular" },\n  { kind = "dwell", angle = 45'
@@ -41,24 +43,58 @@ def refusal(tmp_path: Path, before: str, after: str, *more: tuple[str, str]) -> 
 @pytest.mark.parametrize(
     ("called", "name"),
     [
-        ("simple harmonic", "cosine"),
-        ("Simple Harmonic", "cosine"),
-        ("косинусоидальный", "cosine"),
-        ("косинусный", "cosine"),
-        ("синусоидальный", "cycloidal"),
-        ("余弦加速度(简谐)", "cosine"),
-        ("余弦加速度（简谐）", "cosine"),
-        ("cycloid", "cycloidal"),
-        ("parabolic", "rectangular"),
-        ("double harmonic", "double-harmonic"),
         ("cicloidal", "cycloidal"),
+        ("simple harmonics", "cosine"),
+        ("равноускоренная", "rectangular"),
     ],
 )
-def test_a_law_by_another_name_is_suggested_and_not_taken(called, name, tmp_path):
+def test_a_mistyped_law_is_suggested_and_not_taken(called, name, tmp_path):
     error = refusal(tmp_path, RISE, RISE.replace("rectangular", called))
     assert (error.value, error.remedy) == (called, f"did you mean '{name}'?")
     with pytest.raises(gc.DesignError, match=re.escape(f"did you mean '{name}'?")):
         gc.law(called)
+
+
+@pytest.mark.parametrize(
+    ("called", "name"),
+    [
+        ("simple harmonic", "cosine"),
+        ("SHM", "cosine"),
+        ("shm", "cosine"),
+        ("косинусный", "cosine"),
+        ("余弦加速度（简谐）", "cosine"),
+        ("Cycloid", "cycloidal"),
+        ("Parabolic", "rectangular"),
+        ("UARM", "rectangular"),
+        ("gravity", "rectangular"),
+        ("Равноускоренный", "rectangular"),
+        ("double harmonic", "double-harmonic"),
+        ("linearly decreasing acceleration", "2-3"),
+        ("Equally decreasing acceleration", "2-3"),
+        ("linearly (equally) decreasing acceleration", "2-3"),
+        ("равномерно убывающее ускорение", "2-3"),
+        ("линейно убывающее ускорение", "2-3"),
+        ("видоизмененный синусоидальный", "modified-sine"),
+        ("3–4–5", "3-4-5"),
+        ("uniform velocity", "constant-velocity"),
+        ("Constant Velocity", "constant-velocity"),
+        *((word, name) for name, words in LAW_SYNONYMS.items() for word in words),
+    ],
+)
+def test_a_law_is_known_by_its_names_and_told_by_its_own(called, name):
+    assert gc.law(called) == gc.law(name)
+    assert gc.Rise(30, 1.0, called) == gc.Rise(30, 1.0, name)
+    table = RiseTable(120.0, 30.0, called)
+    assert (table.law, table) == (name, RiseTable(120.0, 30.0, name))
+    assert law_of_return(called) == law_of_return(name)
+
+
+def test_a_task_file_says_a_law_as_a_textbook_and_is_told_by_graphcam(tmp_path):
+    path = tmp_path / "q.toml"
+    path.write_text(TASK.replace("rectangular", "UARM"), encoding="utf-8")
+    task = load_task(path)
+    assert task == builtin_task("coursework")
+    assert "UARM" not in task_files(task)["task.toml"]
 
 
 @pytest.mark.parametrize("spoken", [name for name in languages() if name != "en"])
@@ -69,8 +105,9 @@ def test_the_caption_of_every_law_suggests_the_law(spoken):
 
 def test_the_words_for_laws_are_those_of_laws_and_no_two_laws_share_one():
     assert {*LAW_SYNONYMS} == {*gc.LAWS, "constant-velocity"}
-    words = [word.casefold() for called in LAW_SYNONYMS.values() for word in called]
-    assert len(words) == len(set(words))
+    words = [(word.casefold(), name) for name, called in LAW_SYNONYMS.items() for word in called]
+    assert len(words) == len({word for word, _ in words})
+    assert [canonical_law(word) for word, _ in words] == [name for _, name in words]
 
 
 @pytest.mark.parametrize(("called", "name"), [(word, name) for name, words in SENSE_SYNONYMS.items() for word in words])

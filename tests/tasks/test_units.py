@@ -94,14 +94,14 @@ TASKS = {
     "swinging face by conditions": builtin("swinging-face", motion={"parts": PARTS}),
     "conditions": builtin("coursework", motion={"parts": PARTS}),
     "measured": builtin("measured"),
-    "radii": builtin(
-        "flat", motion={"radii": {"base_radius": 30.0, "flank_radius": 120.0, "nose_radius": 10.0, "lift": 12.0}}
-    ),
-    "radii of a tangent cam": builtin(
-        "coursework",
-        motion={"radii": {"base_radius": 28.0, "ascent": 70.0, "lift": 15.0, "flank_radius": "straight", "dwell": 9.0}},
-        follower={"kind": "translating", "roller_radius": 12.5},
-    ),
+    "given cam": {
+        "rotation": "ccw", "follower": {"kind": "flat-faced"},
+        "motion": {"radii": {"base_radius": 12.0, "flank_radius": 36.0, "nose_radius": 1.5, "lift": 7.0, "dwell": 20.0}},  # noqa: E501
+    },
+    "given tangent cam": {
+        "rotation": "ccw", "follower": {"kind": "translating", "offset": 2.0, "roller_radius": 8.0},
+        "motion": {"radii": {"base_radius": 28.0, "flank_radius": "straight", "lift": 15.0, "ascent": 70.0}},
+    },
     "arcs": builtin_arcs_task().to_dict() | {"speed_rpm": 90.0},
 }  # fmt: skip
 """Tasks in which every number that has a unit stands at least once."""
