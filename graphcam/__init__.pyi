@@ -4,9 +4,9 @@ from .drafting.ink import Construction as Construction, Reading as Reading, Step
 from .drafting.pencil import Pencil as Pencil
 from .drafting.scale import Scale as Scale
 from .errors import DesignError as DesignError, GraphcamError as GraphcamError, TaskError as TaskError
-from .given.arc_outline import ArcOutline as ArcOutline, cam_by_radii as cam_by_radii
 from .given.boundary_motion import BoundaryMotion as BoundaryMotion, boundary_motion as boundary_motion
 from .given.boundary_parts import MotionPoint as MotionPoint, PolynomialPart as PolynomialPart, SplinePart as SplinePart
+from .given.cam_by_radii import ArcOutline as ArcOutline, cam_by_radii as cam_by_radii
 from .given.follower import (
     FlatFaced as FlatFaced,
     Limits as Limits,

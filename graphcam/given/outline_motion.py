@@ -18,13 +18,14 @@ import cmath
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import singledispatch
 from itertools import groupby, pairwise
 from typing import NamedTuple
 
 import numpy as np
 
 from graphcam.errors import DesignError, check_kind
-from graphcam.given.arc_outline import Arc, ArcOutline
+from graphcam.given.cam_by_radii import ArcOutline, OutlineArc
 from graphcam.given.extreme_search import SmoothPieces
 from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
 from graphcam.given.laws import Floats
@@ -86,7 +87,7 @@ def outline_motion(outline: ArcOutline, follower: Follower, rotation: Rotation =
     [173.71, -146.67]
     """
     check_kind("outline", outline, ArcOutline)
-    track = _track(outline, follower, sense(rotation))
+    track = _track(follower, outline, sense(rotation))
     edges = _edges(track)
     _check_contact(track, edges)
     legs = _legs(track, _split(track, edges))
@@ -102,89 +103,91 @@ class _Track(NamedTuple):
     by_normal : whether a part begins where its normal, and not its first point, lies as ``position`` tells
     """
 
-    arcs: Sequence[Arc]
+    arcs: Sequence[OutlineArc]
     sigma: int
     prime_radius: float
-    lift: float
     position: Callable[[float], complex]
-    stand: Callable[[Arc, Floats], Values]
+    stand: Callable[[OutlineArc, Floats], Values]
     by_normal: bool = False
 
 
-def _track(outline: ArcOutline, follower: Follower, sigma: int) -> _Track:
-    if isinstance(follower, FlatFaced):
-        return _under_face(outline, sigma)
-    if not isinstance(follower, Translating | Oscillating):
-        limit, remedy = say("a stem, an arm, or a flat face on a stem"), say("take another follower")
-        raise DesignError("follower", say("a face that swings"), limit, remedy)
-    roller = follower.roller_radius
-    if outline.flank_radius < 0 and not roller < -outline.flank_radius:
-        limit = say("less than {most:g} mm, the radius of the hollow flank", most=-outline.flank_radius)
-        raise DesignError(say("roller radius"), roller, limit, say("take a smaller roller or a flatter flank"))
-    r0 = outline.base_radius + roller
-    if isinstance(follower, Translating):
-        e = follower.offset
-        if not abs(e) < r0:
-            limit = say("less than the prime radius of {radius:g} mm in magnitude", radius=r0)
-            raise DesignError("offset", e, limit, say("take a smaller offset"))
-        lowest = math.sqrt((r0 - e) * (r0 + e))
-
-        def position(radius: float) -> complex:
-            return complex(e, math.sqrt(max(radius * radius - e * e, 0.0)))
-
-        def stand(arc: Arc, phi: Floats) -> Values:
-            return _on_guide(arc, phi, sigma, e, lowest)
-    else:
-        c, arm = _distance(follower), follower.arm
-        if not abs(c - arm) < r0 < c + arm:
-            limit = say("between {least:g} and {most:g} mm, so that the arm reaches", least=abs(c - arm), most=c + arm)
-            raise DesignError("base_radius", outline.base_radius, limit, say("change the arm or its distance"))
-
-        def position(radius: float) -> complex:
-            cosine = (c * c + arm * arm - radius * radius) / (2 * c * arm)
-            return c - arm * cmath.exp(-1j * math.acos(min(max(cosine, -1.0), 1.0)))
-
-        start = -cmath.phase((c - position(r0)) / arm)
-
-        def stand(arc: Arc, phi: Floats) -> Values:
-            return _on_arm(arc, phi, sigma, c, follower.arm, start)
-
-    turned = position(r0) / r0
-    arcs = [_placed(arc, turned, sigma, roller) for arc in outline.arcs()]
-    return _Track(arcs, sigma, r0, outline.lift, position, stand)
+@singledispatch
+def _track(follower: Follower, outline: ArcOutline, sigma: int) -> _Track:
+    """How a follower stands on the arcs: the one place that asks which it is."""
+    limit, remedy = say("a stem, an arm, or a flat face on a stem"), say("take another follower")
+    raise DesignError("follower", say("a face that swings"), limit, remedy)
 
 
-def _distance(follower: Oscillating) -> float:
-    if follower.distance is None:
-        raise DesignError(
-            say("centre distance"), say("missing"), say("given"), say("the given cam stands at some distance")
-        )
-    return follower.distance
+@_track.register
+def _(follower: Translating, outline: ArcOutline, sigma: int) -> _Track:
+    r0, e = outline.base_radius + follower.roller_radius, follower.offset
+    if not abs(e) < r0:
+        limit = say("less than the prime radius of {radius:g} mm in magnitude", radius=r0)
+        raise DesignError("offset", e, limit, say("take a smaller offset"))
+    lowest = math.sqrt((r0 - e) * (r0 + e))
+
+    def position(radius: float) -> complex:
+        return complex(e, math.sqrt(max(radius * radius - e * e, 0.0)))
+
+    def stand(arc: OutlineArc, phi: Floats) -> Values:
+        return _on_guide(arc, phi, sigma, e, lowest)
+
+    return _Track(_for_roller(outline, follower.roller_radius, position(r0) / r0, sigma), sigma, r0, position, stand)
 
 
-def _under_face(outline: ArcOutline, sigma: int) -> _Track:
+@_track.register
+def _(follower: Oscillating, outline: ArcOutline, sigma: int) -> _Track:
+    r0, c, arm = outline.base_radius + follower.roller_radius, follower.distance, follower.arm
+    if c is None:
+        remedy = say("the given cam stands at some distance")
+        raise DesignError(say("centre distance"), say("missing"), say("given"), remedy)
+    if not abs(c - arm) < r0 < c + arm:
+        limit = say("between {least:g} and {most:g} mm, so that the arm reaches", least=abs(c - arm), most=c + arm)
+        raise DesignError("base_radius", outline.base_radius, limit, say("change the arm or its distance"))
+
+    def position(radius: float) -> complex:
+        cosine = (c * c + arm * arm - radius * radius) / (2 * c * arm)
+        return c - arm * cmath.exp(-1j * math.acos(min(max(cosine, -1.0), 1.0)))
+
+    start = -cmath.phase((c - position(r0)) / arm)
+
+    def stand(arc: OutlineArc, phi: Floats) -> Values:
+        return _on_arm(arc, phi, sigma, c, arm, start)
+
+    return _Track(_for_roller(outline, follower.roller_radius, position(r0) / r0, sigma), sigma, r0, position, stand)
+
+
+@_track.register
+def _(follower: FlatFaced, outline: ArcOutline, sigma: int) -> _Track:
     if not outline.is_eccentric and not 0 < outline.flank_radius < math.inf:
         limit, remedy = say("rounded outwards under a flat face"), say("take a roller, or a flank of a large radius")
         found = say("straight") if outline.flank_radius > 0 else say("hollow")
         raise DesignError("flank_radius", found, limit, remedy)
     base = outline.base_radius
-    arcs = [_placed(arc, 1j, sigma, 0.0) for arc in outline.arcs()]
 
-    def stand(arc: Arc, phi: Floats) -> Values:
+    def stand(arc: OutlineArc, phi: Floats) -> Values:
         y, y1, y2, y3 = (turned.imag for turned in _turning(arc.centre, phi, sigma))
         return y + (arc.radius - base), y1, y2, y3
 
-    return _Track(arcs, sigma, base, outline.lift, lambda _: 1j, stand, by_normal=True)
+    return _Track(_for_roller(outline, 0.0, 1j, sigma), sigma, base, lambda _: 1j, stand, by_normal=True)
 
 
-def _placed(arc: Arc, turned: complex, sigma: int, roller: float) -> Arc:
+def _for_roller(outline: ArcOutline, roller: float, turned: complex, sigma: int) -> list[OutlineArc]:
+    """The arcs for the trace point of a roller, where they lie at phi = 0."""
+    if outline.flank_radius < 0 and not roller < -outline.flank_radius:
+        limit = say("less than {most:g} mm, the radius of the hollow flank", most=-outline.flank_radius)
+        raise DesignError(say("roller radius"), roller, limit, say("take a smaller roller or a flatter flank"))
+    return [_placed(arc, turned, sigma, roller) for arc in outline.arcs()]
+
+
+def _placed(arc: OutlineArc, turned: complex, sigma: int, roller: float) -> OutlineArc:
     """The arc for the trace point of a roller, seen at phi = 0; of a cam that turns clockwise its mirror image."""
 
     def seen(z: complex) -> complex:
         return turned * (z if sigma > 0 else z.conjugate())
 
     point, outward = seen(arc.point + roller * arc.outward), seen(arc.outward)
-    return Arc(seen(arc.centre), arc.radius + roller, seen(arc.normal), point, outward)
+    return OutlineArc(seen(arc.centre), arc.radius + roller, seen(arc.normal), point, outward)
 
 
 # --- a follower on an arc --------------------------------------------------------------------------------------------
@@ -196,7 +199,7 @@ def _turning(z: complex, phi: Floats, sigma: int) -> list[np.ndarray]:
     return [turned, 1j * sigma * turned, -turned, -1j * sigma * turned]
 
 
-def _on_guide(arc: Arc, phi: Floats, sigma: int, e: float, lowest: float) -> Values:
+def _on_guide(arc: OutlineArc, phi: Floats, sigma: int, e: float, lowest: float) -> Values:
     if math.isinf(arc.radius):
         n, n1, n2, n3 = _turning(arc.normal, phi, sigma)
         p = (arc.point * arc.outward.conjugate()).real
@@ -214,7 +217,7 @@ def _on_guide(arc: Arc, phi: Floats, sigma: int, e: float, lowest: float) -> Val
     return c.imag + q - lowest, c1.imag + q1, c2.imag + q2, c3.imag + q3
 
 
-def _on_arm(arc: Arc, phi: Floats, sigma: int, distance: float, arm: float, start: float) -> Values:
+def _on_arm(arc: OutlineArc, phi: Floats, sigma: int, distance: float, arm: float, start: float) -> Values:
     if math.isinf(arc.radius):
         p = (arc.point * arc.outward.conjugate()).real
         w, w1, w2, w3 = (arm * n for n in _turning(arc.normal, phi, sigma))
@@ -257,28 +260,28 @@ def _edges(track: _Track) -> list[float]:
     return [*found, FULL_TURN]
 
 
-class _Stretch(NamedTuple):
+class _OneWay(NamedTuple):
     """A part of the turn on one arc, over which the follower moves one way."""
 
-    arc: Arc
+    arc: OutlineArc
     start: float
     end: float
     direction: int
 
 
-def _split(track: _Track, edges: Sequence[float]) -> list[_Stretch]:
+def _split(track: _Track, edges: Sequence[float]) -> list[_OneWay]:
     """The turn, divided where another part begins and where the follower turns."""
-    found: list[_Stretch] = []
+    found: list[_OneWay] = []
     for arc, (start, end) in zip(track.arcs, pairwise(edges), strict=True):
         if abs(arc.centre) <= STILL * track.prime_radius and math.isfinite(arc.radius):
-            found.append(_Stretch(arc, start, end, 0))
+            found.append(_OneWay(arc, start, end, 0))
             continue
         pieces = SmoothPieces(np.array([start]), np.array([end]))
         _, turning = pieces.zeros(lambda _, phi, arc=arc: track.stand(arc, phi)[1])
         ends = [start, *(phi for phi in sorted(turning.tolist()) if phi < end - SAME_PLACE), end]
         for low, high in ((low, high) for low, high in pairwise(ends) if high - low > SAME_PLACE):
             velocity = float(track.stand(arc, np.array((low + high) / 2))[1])
-            found.append(_Stretch(arc, low, high, 1 if velocity > 0 else -1))
+            found.append(_OneWay(arc, low, high, 1 if velocity > 0 else -1))
     return found
 
 
@@ -297,7 +300,7 @@ def _check_contact(track: _Track, edges: Sequence[float]) -> None:
         raise DesignError(say("pressure angle"), say("90 degrees or more"), limit, remedy)
 
 
-def _legs(track: _Track, stretches: list[_Stretch]) -> list[list[_Stretch]]:
+def _legs(track: _Track, stretches: list[_OneWay]) -> list[list[_OneWay]]:
     """The phases: what moves one way, from where the follower begins to rise."""
     if stretches[0].direction < 0 or len(track.arcs) == 1:  # it turns inside a part: begin where it is lowest
         lowest = next(k for k, each in enumerate(stretches) if each.direction > 0 and stretches[k - 1].direction < 0)
@@ -308,7 +311,7 @@ def _legs(track: _Track, stretches: list[_Stretch]) -> list[list[_Stretch]]:
     return grouped
 
 
-def _phase(track: _Track, leg: list[_Stretch]) -> Phase:
+def _phase(track: _Track, leg: list[_OneWay]) -> Phase:
     angle = math.fsum(each.end - each.start for each in leg)
     direction = leg[0].direction
     if not direction:
@@ -327,7 +330,7 @@ def _phase(track: _Track, leg: list[_Stretch]) -> Phase:
 
 
 def _formula(
-    track: _Track, stretch: _Stretch, begin: float, angle: float, low: float, change: float
+    track: _Track, stretch: _OneWay, begin: float, angle: float, low: float, change: float
 ) -> Callable[[Floats], Values]:
     """f and its derivatives by the fraction u of the phase, on one stretch of it."""
 

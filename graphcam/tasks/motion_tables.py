@@ -7,9 +7,9 @@ from functools import lru_cache
 from typing import Annotated, Any, ClassVar, Literal
 
 from graphcam.errors import DesignError
-from graphcam.given.arc_outline import ArcOutline, Straight, cam_by_radii
 from graphcam.given.boundary_motion import BoundaryMotion, boundary_motion
 from graphcam.given.boundary_parts import DERIVATIVE_NAMES, MotionPoint, PolynomialPart, SplinePart
+from graphcam.given.cam_by_radii import ArcOutline, Straight, cam_by_radii
 from graphcam.given.follower import FlatFaced, Follower, Rotation
 from graphcam.given.laws import canonical_law
 from graphcam.given.motion import FULL_TURN, NEAR_TURN_SHARE, Dwell, Motion, Phase, Return, Rise

@@ -77,6 +77,11 @@ class _FollowerTable:
         return tuple(name for name in self.made_to if name != "roller_diameter" or self.roller_radius != 0)
 
     @property
+    def placed(self) -> Self:
+        """The table with its place on a given cam: a stem whose offset is open is central."""
+        return self
+
+    @property
     def lift_unit(self) -> float:
         """The unit of the phases' lift in the API [mm or rad]."""
         return 1.0
@@ -118,6 +123,11 @@ class TranslatingTable(_FollowerTable):
     def __call__(self) -> Translating:
         """The follower; an open offset and an open roller radius are 0: a central follower, a knife edge."""
         return Translating(self.offset or 0.0, self.roller_radius or 0.0)
+
+    @property
+    def placed(self) -> Self:
+        """The table with an offset."""
+        return replace(self, offset=self.offset or 0.0)
 
     def check(self, prime_radius: float) -> None:
         """Refuse sizes that leave no room on a given prime radius [mm], the offset first."""
@@ -485,8 +495,7 @@ class Task:
         if self.follower.roller_radius is None:
             limit = say("given where the cam is given")
             raise DesignError("follower.roller_radius", say("missing"), limit, say("0 is a knife edge"))
-        if isinstance(self.follower, TranslatingTable) and self.follower.offset is None:
-            object.__setattr__(self, "follower", replace(self.follower, offset=0.0))
+        object.__setattr__(self, "follower", self.follower.placed)
         object.__setattr__(motion, "follows", (self.follower(), self.rotation))
         try:
             motion()

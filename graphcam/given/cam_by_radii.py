@@ -29,7 +29,7 @@ SIZE_NAMES = ("flank_radius", "nose_radius", "lift", "ascent")
 """The sizes of which three are given beside the base radius."""
 
 
-class Arc(NamedTuple):
+class OutlineArc(NamedTuple):
     """A part of the outline, as it lies where the rise begins, with the start of the flank on the positive axis.
 
     centre : complex [mm], of an arc;  radius : mm, negative of a hollow one, inf of a straight part
@@ -75,26 +75,26 @@ class ArcOutline:
         """Whether it is one circle about another point than the cam centre."""
         return self.ascent == FULL_TURN / 2
 
-    def arcs(self) -> Sequence[Arc]:
+    def arcs(self) -> Sequence[OutlineArc]:
         """Its parts in the order in which the rise meets them, on a cam that turns counter-clockwise."""
         base, nose, d = self.base_radius, self.nose_radius, self.nose_distance
         if self.is_eccentric:
-            return [Arc(complex(-d), nose, 0j, complex(base), 1 + 0j)]
+            return [OutlineArc(complex(-d), nose, 0j, complex(base), 1 + 0j)]
         apex, back = _turned(-self.ascent), _turned(-self.ascent - self.dwell)
         mirror, centre = apex * back, complex(base - self.flank_radius) if self.has_arcs else 0j
         leaving = self.leaving_normal
         outer = base + self.lift
         parts = [
-            Arc(centre, self.flank_radius, 1 + 0j, complex(base), 1 + 0j),
-            Arc(d * apex, nose, 0j, d * apex + nose * leaving, leaving),
+            OutlineArc(centre, self.flank_radius, 1 + 0j, complex(base), 1 + 0j),
+            OutlineArc(d * apex, nose, 0j, d * apex + nose * leaving, leaving),
         ]
         if self.dwell:
-            parts += [Arc(0j, outer, 0j, outer * apex, apex), Arc(d * back, nose, 0j, outer * back, back)]
+            parts += [OutlineArc(0j, outer, 0j, outer * apex, apex), OutlineArc(d * back, nose, 0j, outer * back, back)]
         point, outward = (mirror * each.conjugate() for each in (d * apex + nose * leaving, leaving))
         return [
             *parts,
-            Arc(mirror * centre.conjugate(), self.flank_radius, mirror, point, outward),
-            Arc(0j, base, 0j, base * mirror, mirror),
+            OutlineArc(mirror * centre.conjugate(), self.flank_radius, mirror, point, outward),
+            OutlineArc(0j, base, 0j, base * mirror, mirror),
         ]
 
     @property
