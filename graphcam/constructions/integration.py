@@ -79,7 +79,8 @@ class IntegrationGivens(TurnGivens):
         Nor is there one in a phase without any acceleration between its blows, whose v is laid off.
         """
         stations = self.stations
-        still = np.array([p.direction and not p.steady_acceleration for p in self.motion.phases if p.direction])
+        moving = moving_phases(self.motion, stations)
+        still = np.array([not phase.steady_acceleration for phase in moving])
         return ~stations.blows & ~(still[stations.moving[stations.left]] & (index == 1))
 
     def highest_ordinate(self, drawn: Floats) -> Floats:

@@ -81,6 +81,7 @@ def working_profile(
     hand, mu_l = Hand(pencil, MEANING), inverted.givens.mu_l.per_mm
     stations, sigma, radius = inverted.givens.integrated.givens.stations, sense(inverted.givens.rotation), roller / mu_l
     found = pitch = hand.earlier_places(inverted, "pitch")
+    tangents = None
     if roller:
         tangents = hand.tangents_at("tangents", pitch, partial(_tangents, stations, sigma))
         circles = hand.circle("roller circles", pitch, radius)
@@ -89,7 +90,8 @@ def working_profile(
     covered = _covered(found.points, pitch.points, radius * (1 - TOUCH_ROUNDING) - tremble)
     nowhere, at = hand.given("nowhere", [np.nan]), np.arange(stations.u.size)
     which = np.where(covered, at.size, at)
-    if roller and (corners := falling_blows(inverted.givens.integrated.givens.motion, stations)):
+    corners = falling_blows(inverted.givens.integrated.givens.motion, stations)
+    if tangents and corners:
         # What lies beyond the edge in which both sides of a corner meet is left out.
         ends = np.array(corners)
         sides = [
@@ -156,8 +158,8 @@ def _tangents(stations: Stations, sigma: int, pitch: Points) -> Points:
     for jump in sorted({p.start for p in stations.pieces} - {span.start for span in stations.phases}):
         # Across a blow, in which the curve turns at one point, there is no chord.
         beside = [jump - 1] if jump in blows else [jump + 1] if jump - 1 in blows else [jump - 1, jump + 1]
-        chords = [(unit(pitch[..., k] - pitch[..., jump]), along[..., k]) for k in beside]
-        along[..., jump] = unit(sum(chord**2 * tangent.conj() for chord, tangent in chords))
+        chords = [unit(pitch[..., k] - pitch[..., jump]) ** 2 * along[..., k].conj() for k in beside]
+        along[..., jump] = unit(np.sum(chords, axis=0))
     return along
 
 

@@ -232,8 +232,9 @@ class Law:
         ahead, back = self.tangents
         turned, ratio = (formulas[::-1], edges, False, 1 - self.middle), 1 / self.ratio
         seams = tuple(1 - u for u in self.seams)
-        ends = (back, ahead), self.blows[::-1]
-        return Law(self.name, *turned, ratio, self.peaks, ends[0], trusted=True, seams=seams, blows=ends[1])
+        first, last = self.blows
+        blows, tangents = (last, first), (back, ahead)
+        return Law(self.name, *turned, ratio, self.peaks, tangents, trusted=True, seams=seams, blows=blows)
 
     # --- what a law must keep to --------------------------------------------------------------------------------------
 

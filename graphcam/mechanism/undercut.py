@@ -119,10 +119,10 @@ def trimmed_profile(envelope: Envelope, n: int) -> CutProfile:
         raise DesignError(say("number of points"), n, say("{least} or more for this profile", least=least))
     # One point where each arc begins, the others shared out by the arcs' angles.
     knots, turned = _turning(envelope)
-    bounds = arcs if turned is knots else [tuple(np.interp(arc, knots, turned).tolist()) for arc in arcs]
+    bounds = np.array(arcs) if turned is knots else np.interp(np.array(arcs), knots, turned)
     shares = np.cumsum([0.0, *(end - begin for begin, end in bounds)])
     counts = 1 + np.diff(np.round(shares / shares[-1] * (n - len(arcs))).astype(int))
-    steps = [np.linspace(*arc, count, endpoint=False) for arc, count in zip(bounds, counts, strict=True)]
+    steps = [np.linspace(a, b, count, endpoint=False) for (a, b), count in zip(bounds, counts, strict=True)]
     phi = np.concatenate(steps)
     phi = phi if turned is knots else np.interp(phi, turned, knots)
     points = envelope.point(phi, envelope.piece(phi))

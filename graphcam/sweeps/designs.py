@@ -202,7 +202,7 @@ def _choices(name: str, values: Any, known: tuple[str, ...], own: type | tuple[(
     """Names that are known, or objects of your own."""
     array = np.asarray(values)
     for word in dict.fromkeys(array.ravel().tolist()):
-        if (meant := canonical_law(word)) != word:
+        if isinstance(meant := canonical_law(word), str) and meant != word:
             array = np.where(array == word, meant, array)
         if not isinstance(word, own) and meant not in known:
             raise DesignError(

@@ -162,7 +162,7 @@ def test_a_fault_of_a_part_is_told_with_its_place(tmp_path, name):
         ({"law": '"constant-velosity"'}, "motion.phases[0].blends", "left out constant-velosity"),
         ({"law": '"constant-velosity"', "blends": ""}, "motion.phases[0].law", "did you mean 'constant-velocity'"),
         ({"blends": "[0.6, 0.4]"}, "motion.phases[0].blends", "less than 1 together"),
-        ({"blends": "[0, 0.4]"}, "motion.phases[0].blends[0]", "0 from 1e-06"),
+        ({"blends": "[-0.1, 0.4]"}, "motion.phases[0].blends[0]", "-0.1 from 0"),
         ({"blends": "[0.2]"}, "motion.phases[0].blends[1]", "missing"),
         ({"ratio": "2"}, "motion.phases[0].ratio", "2 constant-velocity rectangular"),
     ],
