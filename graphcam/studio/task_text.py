@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
-from graphcam.given.table_file import CurveTable, table_from_text
+from graphcam.given.table_file import CurveTable, Turn, table_from_text
 from graphcam.studio.views_request import optional_value, task_data, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.task import Task
@@ -119,5 +119,6 @@ def _with_table(data: Plain, files: Mapping[str, Any]) -> Plain:
     if not isinstance(motion, dict) or not isinstance(name, str) or not isinstance(files.get(name), str):
         return data
     tolerance = motion.get("tolerance")
-    table = table_from_text(files[name], name, name, tolerance if isinstance(tolerance, int | float) else None)
+    tolerance = tolerance if isinstance(tolerance, int | float) else None
+    table = table_from_text(files[name], name, name, tolerance, Turn.given_in(motion))
     return {**data, "motion": {**motion, "table": plain_table(table)}}
