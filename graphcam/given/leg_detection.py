@@ -22,7 +22,7 @@ from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.reproducible_sums import ordered_sum
-from graphcam.words import Words, say
+from graphcam.words import say
 
 MIN_LEG_LIFT = 2.0
 """A rise or return of less than this many tolerances is not told from noise."""
@@ -247,12 +247,11 @@ class _LevelRows:
         return replace(self, first=self.first + rows, last=self.last + rows)
 
 
-def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float, advice: Words = "") -> tuple[list[Leg], float]:
+def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float) -> tuple[list[Leg], float]:
     """The legs of a table over one turn, in order, and how many times more than the noise their stops are off at most.
 
     phi, s : (n,) cam angles [rad] that grow over less than a turn, and the displacements there
     noise : the standard deviation of the displacements
-    advice : what to do about a tolerance that is too small
 
     Raises
     ------
@@ -277,7 +276,7 @@ def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float, advice: Wo
     apart = all(a.last < b.first for a, b in pairwise([*flats, flats[0].shifted(s.size)]))
     if not apart or len(turnings) > MAX_TURNINGS:
         limit = say("greater than the noise that turns the table {turnings} times", turnings=len(turnings))
-        raise DesignError("tolerance", tolerance, limit, advice)
+        raise DesignError("tolerance", tolerance, limit)
     flats = _with_intermediate_dwells(around, rows, flats, noise, MIN_LEG_LIFT * tolerance)
     gap = FULL_TURN / s.size
     neighbours = zip([flats[-1].shifted(-s.size), *flats], flats, [*flats[1:], flats[0].shifted(s.size)], strict=False)

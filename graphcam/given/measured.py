@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from graphcam.errors import DesignError, check_number
 from graphcam.given.laws import Floats
-from graphcam.given.leg_detection import Leg, find_legs
+from graphcam.given.leg_detection import MIN_LEG_LIFT, Leg, find_legs
 from graphcam.given.monotone_spline import fit
 from graphcam.given.motion import FULL_TURN, NEAR_TURN_SHARE, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.piecewise_polynomial import PiecewisePolynomial
@@ -43,6 +43,14 @@ SCATTER_FACTOR = 1.25
 """Stops that are off by more than so many times the noise scatter by more, where the rows do."""
 RUN_OUT_FACTOR = 3.0
 """A run-out moves the ends of a rest by so many times what it moves its middle half."""
+TRIED_TOLERANCES, TOLERANCE_STEP = 12, 1.4
+"""So many tolerances are tried in place of one that is too small, each so many times the one before."""
+NEIGHBOURS, OUTLIER_FACTOR = 3, 10.0
+"""Rows on either side that say where a row lies, and how far one that is off lies beside all others."""
+MAX_FALL_SHARE = 0.6
+"""A part of the lift; what moves by more from the last row to the first does not return."""
+TURNS_SHARE = 0.05
+"""What moves back by less than this part of the lift goes one way only."""
 NOISE_WINDOW, ROWS_PER_PART = 7, 30
 """Rows through which a polynomial is laid to see the noise, and those of a part of the turn."""
 NORMAL_MEDIAN = 0.6745
@@ -162,39 +170,54 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
         limit = say("at least {smallest:g}", smallest=MIN_TOLERANCE)
         raise DesignError("tolerance", tolerance, limit, say("give what the table was measured to"))
     phi, s = check_rows(phi, s, tolerance)
-    legs, noise, advice = _legs(phi, s, tolerance)
+    try:
+        return _measured(phi, s, tolerance)
+    except DesignError as error:
+        if error.quantity != "tolerance":
+            raise
+        raise DesignError(*error.args[:3], _remedy(phi, s, tolerance)) from None
+
+
+def _measured(phi: Floats, s: Floats, tolerance: float) -> MeasuredMotion:
+    """The motion through rows that may be.
+
+    Raises
+    ------
+    DesignError : of the quantity "tolerance", where that is too small
+    """
+    legs, noise = _legs(phi, s, tolerance)
     start = legs[0].start
     shifted = start + (phi - start) % FULL_TURN
     order = np.argsort(shifted)
-    fitted = fit(shifted[order], s[order], legs, tolerance, noise, advice)
+    fitted = fit(shifted[order], s[order], legs, tolerance, noise)
     phases, zero, level = _phases(fitted, legs)
     return MeasuredMotion(phases, zero, phi, s - level, tolerance)
 
 
-def _legs(phi: Floats, s: Floats, tolerance: float) -> tuple[list[Leg], float, Words]:
-    """The legs of a table, the standard deviation of its rows, and what to do about a tolerance that is too small."""
+def _legs(phi: Floats, s: Floats, tolerance: float) -> tuple[list[Leg], float]:
+    """The legs of a table, and the standard deviation of its rows."""
     least, scatter = MIN_NOISE * float(np.ptp(s)), _scatter(phi, s)
     most = max(tolerance / NOISE_TOLERANCE, least)
-    noise, advice = min(max(scatter, least), most), _remedy(tolerance, scatter)
-    legs, misfit = find_legs(phi, s, tolerance, noise, advice)
+    noise = min(max(scatter, least), most)
+    legs, misfit = find_legs(phi, s, tolerance, noise)
     if misfit > MISFIT_FACTOR and noise < most:
         # The rows err in other ways than each for itself, so the tolerance must say by how much.
         noise = most
-        legs, _ = find_legs(phi, s, tolerance, noise, advice)
+        legs, _ = find_legs(phi, s, tolerance, noise)
     elif misfit > SCATTER_FACTOR and noise < scatter:
         # A tolerance of less than 4.5 times the scatter: the rests tell the noise, or else noise would move their ends.
         noise = min(noise * misfit, scatter)
-        legs, _ = find_legs(phi, s, tolerance, noise, advice)
+        legs, _ = find_legs(phi, s, tolerance, noise)
     elif noise < most:
         # A smooth run-out moves where the follower rests, by less than the tolerance.
-        coarse, _ = find_legs(phi, s, tolerance, most, advice)
+        coarse, _ = find_legs(phi, s, tolerance, most)
         run_out = _run_out(phi, s, coarse)
         if run_out > SCATTER_FACTOR * noise:
             noise = min(RUN_OUT_FACTOR * run_out, most)
-            legs, _ = find_legs(phi, s, tolerance, noise, advice)
+            legs, _ = find_legs(phi, s, tolerance, noise)
             if len(_rests(coarse)) > len(_rests(legs)):
                 legs, noise = coarse, most
-    return legs, noise, advice
+    return legs, noise
 
 
 def _rests(legs: list[Leg]) -> list[tuple[float, float]]:
@@ -281,14 +304,36 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
     last = phi.size - 1
     if span > FULL_TURN + ANGLE_ROUNDING or FULL_TURN - span > MAX_GAP_RATIO * widest:
         limit, remedy = say("360 degrees, or a step less"), _turn_remedy(span)
+        if math.isfinite(closes_to) and _is_rise(values):
+            remedy = _return_remedy(phi)
         raise RowError(last, say("turn that the rows cover"), _degrees(span), limit, remedy)
-    if span < FULL_TURN - ANGLE_ROUNDING:
-        return phi, values
-    if abs(values[-1] - values[0]) > closes_to:
+    falls = abs(float(values[-1] - values[0])) > MAX_FALL_SHARE * float(np.ptp(values)) and _is_rise(values)
+    closed = span >= FULL_TURN - ANGLE_ROUNDING
+    if abs(values[-1] - values[0]) > closes_to and (closed or falls):
         limit = say("{values:g} as in the first, a turn before", values=values[0])
-        remedy = say("end where the turn began, or leave the last row out")
+        remedy = _return_remedy(phi) if falls else say("end where the turn began, or leave the last row out")
         raise RowError(last, say("last row"), say("{values:g}", values=values[-1]), limit, remedy)
-    return phi[:-1], values[:-1]
+    if closed:
+        phi, values = phi[:-1], values[:-1]
+    if math.isfinite(closes_to):
+        _check_single_row(phi, values, closes_to)
+    return phi, values
+
+
+def _is_rise(values: Floats) -> bool:
+    """Whether the rows go one way only, but for dwells."""
+    steps = np.diff(values)
+    ways = float(np.sum(np.maximum(steps, 0))), float(np.sum(np.maximum(-steps, 0)))
+    return min(ways) < TURNS_SHARE * float(np.ptp(values))
+
+
+def _return_remedy(phi: Floats) -> Words:
+    """What to do about rows that only rise."""
+    told = say(
+        "from {first} to {last} the rows only rise or only fall: add those of the way back, or write "
+        "motion.symmetric = true if it is the same in mirror image"
+    )
+    return told.with_values(first=_degrees(phi[0]), last=_degrees(phi[-1]))
 
 
 def _turn_remedy(span: float) -> Words:
@@ -306,18 +351,49 @@ def _degrees(angle: float) -> Caption:
     return say("{degrees:.10g} degrees", degrees=math.degrees(angle))
 
 
-def _remedy(tolerance: float, scatter: float) -> Words:
-    """What to do about a tolerance that is too small: give what the scatter of the rows asks for, if that is more."""
-    asked = NOISE_TOLERANCE * scatter
-    if not asked > tolerance:
-        return say("give a greater tolerance, or a table with less noise")
-    digit = 10.0 ** (math.floor(math.log10(asked)) - 1)
-    enough = f"{math.ceil(asked / digit) * digit:.2g}"
-    times = NOISE_TOLERANCE
-    told = say(
-        "give a greater tolerance, as {enough}, {times:g} times what the rows scatter by, or a table with less noise"
-    )
-    return told.with_values(enough=enough, times=times)
+def _remedy(phi: Floats, s: Floats, tolerance: float) -> Words:
+    """What to do about a tolerance that is too small: give the first of those tried with which there is a motion."""
+    enough = max(tolerance, NOISE_TOLERANCE * _scatter(phi, s))
+    for _ in range(TRIED_TOLERANCES):
+        digit = 10.0 ** (math.floor(math.log10(enough)) - 1)
+        enough = math.ceil(enough / digit) * digit
+        try:
+            if enough > tolerance:
+                _measured(phi, s, float(f"{enough:.2g}"))
+                return say("give a greater tolerance, as {enough}, or a table with less noise", enough=f"{enough:.2g}")
+        except DesignError as error:
+            if error.quantity != "tolerance":
+                break
+        enough *= TOLERANCE_STEP
+    return say("give a table with less noise")
+
+
+def _check_single_row(phi: Floats, s: Floats, tolerance: float) -> None:
+    """Refuse a row alone off the others: if it lay where its neighbours say, they would all be right.
+
+    Raises
+    ------
+    RowError : there is such a row
+    """
+    off = s - _by_neighbours(phi, s)
+    k = int(np.argmax(np.abs(off)))
+    moved = s.copy()
+    moved[k] -= off[k]
+    near = (k + np.arange(-NEIGHBOURS, NEIGHBOURS + 1)) % s.size
+    left = np.abs(moved - _by_neighbours(phi, moved))[near].max()
+    if abs(off[k]) > max(MIN_LEG_LIFT * tolerance, OUTLIER_FACTOR * max(float(left), _scatter(phi, s))):
+        limit = say("about {there:.4g}, as the rows on both sides say", there=moved[k])
+        raise RowError(k, say("row"), say("{row:g}", row=s[k]), limit, say("measure it again, or leave it out"))
+
+
+def _by_neighbours(phi: Floats, s: Floats) -> Floats:
+    """(n,) what three rows on either side of each say of it: the value there of the polynomial through them."""
+    steps = [k for k in range(-NEIGHBOURS, NEIGHBOURS + 1) if k]
+    x = np.stack([(np.roll(phi, k) - phi + math.pi) % FULL_TURN - math.pi for k in steps])
+    rows = np.stack([np.roll(s, k) for k in steps])
+    apart = x[None, :] - x[:, None]  # x_j - x_i
+    factors = np.where(apart == 0, 1.0, x[None, :] / np.where(apart == 0, 1.0, apart))
+    return ordered_sum((rows * np.prod(factors, axis=1)).T)
 
 
 def _scatter(phi: Floats, s: Floats) -> float:

@@ -32,7 +32,7 @@ from graphcam.given.leg_detection import Leg
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.piecewise_polynomial import PiecewisePolynomial
 from graphcam.given.reproducible_sums import ordered_sum
-from graphcam.words import Words, say
+from graphcam.words import say
 
 DEGREE = 5
 MIN_INTERVALS, MAX_INTERVALS, INTERVALS_PER_ROW = 12, 180, 3.0
@@ -115,15 +115,12 @@ def _sums_by_place(places: NDArray[np.intp], values: Floats, size: int) -> Float
     return sums
 
 
-def fit(
-    phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float, advice: Words = ""
-) -> PiecewisePolynomial:
+def fit(phi: Floats, s: Floats, legs: list[Leg], tolerance: float, noise: float) -> PiecewisePolynomial:
     """The most likely periodic spline that keeps every row to the tolerance, over three turns.
 
     phi, s : (n,) cam angles [rad] within the turn that begins with the first leg, in order, and displacements
     legs : from :func:`~graphcam.given.leg_detection.find_legs`
     noise : the standard deviation of the displacements
-    advice : what to do about a tolerance that is too small
 
     Raises
     ------
@@ -138,7 +135,7 @@ def fit(
             return fitted
         counts[off > tolerance] *= PULL_FACTOR
     limit = say("more than {max:.3g}, what the best spline leaves at a row", max=off.max())
-    raise DesignError("tolerance", tolerance, limit, advice)
+    raise DesignError("tolerance", tolerance, limit)
 
 
 # --- the coefficients around the turn --------------------------------------------------------------------------------

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
-from graphcam.given.table_file import CurveTable, table_from_text
+from graphcam.given.table_file import CurveTable, Turn, table_from_text
 from graphcam.studio.views_request import optional_value, task_data, task_in
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.motion_tables import tolerance_in
@@ -119,5 +119,5 @@ def _with_table(data: Plain, files: Mapping[str, Any]) -> Plain:
     name = motion.get("table") if isinstance(motion, dict) else None
     if not isinstance(motion, dict) or not isinstance(name, str) or not isinstance(files.get(name), str):
         return data
-    table = table_from_text(files[name], name, name, tolerance_in(motion))
+    table = table_from_text(files[name], name, name, tolerance_in(motion), Turn.given_in(motion))
     return {**data, "motion": {**motion, "table": plain_table(table)}}

@@ -17,7 +17,7 @@ from graphcam.given.motion_law import Law
 from graphcam.given.outline_motion import OutlineMotion, outline_motion
 from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law
-from graphcam.given.table_file import CurveTable
+from graphcam.given.table_file import CurveTable, Turn
 from graphcam.tasks.dataclass_reader import ByKind, ByName
 from graphcam.tasks.units import LIFT, Acceleration, Angle, Jerk, Length, Lift, Velocity
 from graphcam.words import Words, say
@@ -222,6 +222,8 @@ class MotionTable:
     table : of a measured motion, in place of phases; a file gives the name of a CSV file beside it
     radii : of a given cam, in place of phases; a file gives them as a table ``[arcs]``
     tolerance : mm (degrees for an arm), how far the motion may pass the table; None is 0.01
+    symmetric : whether the table is half of the cam: it goes back in mirror image, and dwells for the rest of the turn
+    per_cam_degree : degrees of the table's angle for one of the cam: 2 for crank degrees of a four-stroke engine
 
     ``lift_unit`` is what one unit of lift is in the API: 1 mm, or for an arm 1 degree or 1 mm of arc in radians; it and
     ``follows``, the follower that a given cam moves and its sense of rotation, are set by the task.
@@ -232,6 +234,8 @@ class MotionTable:
     tolerance: Lift | None = None
     parts: tuple[PartOfMotion, ...] | None = None
     radii: RadiiTable | None = None
+    symmetric: bool | None = None
+    per_cam_degree: float | None = None
     lift_unit: float = field(default=1.0, init=False, repr=False, compare=False)
     follows: tuple[Follower, Rotation] = field(default=(FlatFaced(), "ccw"), init=False, repr=False, compare=False)
 
@@ -250,6 +254,10 @@ class MotionTable:
             left_out = say("left out where there is no table")
             raise DesignError("tolerance", self.tolerance, left_out, say("{given} are kept exactly", given=given[0]))
         bounded("tolerance", self.tolerance, "mm (degrees for an arm)")
+        check_positive("per_cam_degree", self.per_cam_degree, "degrees")
+        for name, value in (("symmetric", self.symmetric), ("per_cam_degree", self.per_cam_degree)):
+            if value is not None and self.table is None:
+                raise DesignError(name, value, say("left out where there is no table"), say("delete it"))
         if self.phases is not None:
             turn = math.fsum(phase.angle for phase in self.phases)
             if abs(turn - 360) > ROUNDED_CLOSURE:
@@ -271,7 +279,7 @@ class MotionTable:
     def __call__(self) -> Motion:
         """The motion, in radians and mm (an arm's lift in radians too)."""
         if self.table is not None:
-            return self.table(self.tolerance, self.lift_unit)
+            return self.table(self.tolerance, self.lift_unit, Turn(bool(self.symmetric), self.per_cam_degree or 1.0))
         if self.parts is not None:
             return _by_conditions(self.parts, self.lift_unit)
         if self.radii is not None:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from graphcam.errors import DesignError, MissingFileError, TaskError, choice_limit, unreadable_error
-from graphcam.given.table_file import read_table
+from graphcam.given.table_file import Turn, read_table
 from graphcam.tasks import arcs_task as arcs, motion_tables, spring_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
 from graphcam.tasks.dataclass_reader import (
@@ -262,7 +262,7 @@ def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]
         expected = say("text in quotes")
         raise TaskError(path, "motion.table", _shown_value(name), expected, say("name the CSV file of the table"))
     try:
-        table = read_table(folder / name, name, motion_tables.tolerance_in(motion))
+        table = read_table(folder / name, name, motion_tables.tolerance_in(motion), Turn.given_in(motion))
     except MissingFileError:
         raise MissingFileError(name, say("check motion.table"), where=say("beside {path}", path=path)) from None
     return {**data, "motion": {**motion, "table": dataclasses.asdict(table)}}

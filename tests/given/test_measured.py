@@ -243,6 +243,15 @@ S = table(LAWS["3-4-5"])
         (DEGREES[:300], S[:300], 299, "299 degrees, but must be 360 degrees, or a step less"),
         (DEGREES * 1.01, S, 359, "360 degrees"),
         ([*DEGREES, FULL_TURN], [*S, 0.5], 360, "0.5, but must be 0 as in the first"),
+        (
+            DEGREES[:81],
+            S[:81],
+            80,
+            "from 0 degrees to 80 degrees the rows only rise or only fall: add those of the way",
+        ),
+        (DEGREES[:360:10], np.linspace(0, 30, 36), 35, "last row is 30, but must be 0 as in the first"),
+        (DEGREES, np.where(DEGREES[40] == DEGREES, S + 1, S), 40, "as the rows on both sides say; measure it again"),
+        (DEGREES, np.where(DEGREES[250] == DEGREES, S - 0.1, S), 250, "row is -0.1, but must be about 0, as the rows"),
     ],
 )
 def test_a_row_that_cannot_be_is_named(phi, s, row, words):
@@ -267,6 +276,16 @@ def test_a_table_that_cannot_be_is_refused(phi, s, tolerance, words):
     with pytest.raises(DesignError) as caught:
         measured_motion(phi, s, tolerance)
     assert words in str(caught.value)
+
+
+@over_all(("noise", "step"), [(0.005, 1.0), (0.02, 1.0), (0.02, 5.0), (0.15, 5.0)])
+def test_the_tolerance_that_a_message_names_is_enough(noise, step):
+    phi = np.radians(np.arange(0, 360, step))
+    rows = LAWS["cycloidal"](phi)[0] + noise * np.random.default_rng(3).standard_normal(phi.size)
+    with pytest.raises(DesignError, match=r"give a greater tolerance, as (?P<enough>[\d.e-]+),") as caught:
+        measured_motion(phi, rows, noise / 5)
+    enough = float(str(caught.value).partition("tolerance, as ")[2].partition(",")[0])
+    assert measured_motion(phi, rows, enough).greatest_residual <= enough
 
 
 @over_all("row", [1, 2, 3])

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from over_all import over_all
 from typer.testing import CliRunner
 
 import graphcam
@@ -22,6 +23,7 @@ from graphcam.given.motion import FULL_TURN, Dwell, Motion, Return, Rise
 from graphcam.given.table_file import CurveTable, read_table
 from graphcam.tasks.motion_tables import MotionTable
 from graphcam.tasks.task_file import builtin_task, builtin_text, load_task
+from graphcam.tasks.task_writer import task_files
 
 TASK = builtin_text("measured")
 DEGREES = np.arange(360)
@@ -111,6 +113,65 @@ def test_an_arm_s_table_may_be_of_its_arc_in_mm(tmp_path):
     arm = TASK.replace('kind = "translating"\noffset = 10', 'kind = "oscillating"\narm = 125\nlift = "arc"')
     motion = load_task(place(tmp_path, task=arm)).motion()
     assert 125 * motion.lift == pytest.approx(30, abs=0.01)
+
+
+HALF = Motion([Rise(10, math.radians(70)), Return(10, math.radians(70)), Dwell(math.radians(220))])
+
+
+@over_all(
+    ("header", "per_degree", "per_mm", "fields"),
+    [
+        ("phi_deg,s_mm", 1, 1, "symmetric = true"),
+        ("phi_deg,s_in", 2, 1 / 25.4, "symmetric = true\nper_cam_degree = 2"),
+        ("phi_rad,s_thou", math.radians(1), 1000 / 25.4, "symmetric = true"),
+        ("phi_rad,s_mm", math.radians(2), 1, "symmetric = true\nper_cam_degree = 2.0"),
+    ],
+)
+def test_half_a_cam_is_mirrored_in_any_unit(header, per_degree, per_mm, fields, tmp_path):
+    """A rise over 70 degrees, typed up to the nose: the rest of the turn is a dwell."""
+    degrees = np.arange(0, 71.0)
+    rows = zip((degrees * per_degree).tolist(), (HALF(np.radians(degrees))[0] * per_mm).tolist(), strict=True)
+    text = header + "\n" + "".join(f"{phi!r},{value:.6f}\n" for phi, value in rows)
+    path = place(tmp_path, text, TASK.replace("tolerance", f"{fields}\ntolerance"))
+    task = load_task(path)
+    motion = task.motion()
+    phi = np.linspace(0, FULL_TURN, 2001)
+    assert np.max(np.abs(motion(phi - motion.zero)[0] - HALF(phi)[0])) <= 0.01
+    assert [phase.kind for phase in motion.phases if phase.angle > 0.01] == ["rise", "return", "dwell"]
+    # Written and read again it is the same: the table stays half of the cam.
+    for name, content in task_files(task).items():
+        (tmp_path / name).write_text(content, encoding="utf-8")
+    again = load_task(tmp_path / "task.toml")
+    assert again == task
+    assert np.max(np.abs(again.motion()(phi)[0] - motion(phi)[0])) == 0
+
+
+def test_crank_degrees_are_two_of_the_cam(tmp_path):
+    rows = zip(2 * DEGREES, EXACT(np.radians(DEGREES))[0], strict=True)
+    task = load_task(place(tmp_path, csv(rows=rows), TASK.replace("tolerance", "per_cam_degree = 2\ntolerance")))
+    assert np.max(np.abs(task.motion()(np.radians(DEGREES))[0] - EXACT(np.radians(DEGREES))[0])) <= 0.01
+
+
+@over_all(
+    ("fields", "said"),
+    [
+        ("symmetric = true", "half of the cam is 359 degrees, but must be at most 180 degrees"),
+        ("per_cam_degree = 2", "line 361: turn that the rows cover is 179.5 degrees"),
+        ("per_cam_degree = 0", "motion.per_cam_degree is 0, but must be a finite number greater than 0"),
+        ("per_cam_degree = true", "motion.per_cam_degree is true"),
+        ("symmetric = 1", "motion.symmetric is 1"),
+    ],
+)
+def test_a_part_of_a_turn_that_cannot_be_is_refused(fields, said, tmp_path):
+    with pytest.raises(TaskError) as caught:
+        load_task(place(tmp_path, task=TASK.replace("tolerance", f"{fields}\ntolerance")))
+    assert said in str(caught.value)
+
+
+def test_phases_are_not_mirrored():
+    for fields in ({"symmetric": True}, {"per_cam_degree": 2.0}):
+        with pytest.raises(DesignError, match="left out where there is no table"):
+            MotionTable(graphcam.builtin_task("coursework").motion.phases, **fields)
 
 
 def test_a_table_may_carry_a_byte_order_mark_blanks_and_windows_line_ends(tmp_path):
