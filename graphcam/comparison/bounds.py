@@ -141,12 +141,13 @@ class Bounds:
 class Shares:
     """What makes one reading scatter; of several values, that which scatters most.
 
-    deviation : standard deviation [mm of paper; an angle that was measured itself: rad]
+    deviation, bias : standard deviation, and how far the mean is off [mm of paper; an angle that was measured: rad]
     of : parts of the variance by the kind of act
     together : the part that errors of several kinds bring together only; with the others it makes 1
     """
 
     deviation: float
+    bias: float
     of: Mapping[Kind, float]
     together: float
 
@@ -191,9 +192,10 @@ class ErrorBudget:
         kinds, left = variances[1:, most], rest[most]
         with np.errstate(invalid="ignore"):
             parts, together = kinds / (kinds.sum() + left), left / (kinds.sum() + left)
-        deviation = float(np.sqrt(variances[0, most])) / self.perfect[construction].readings[reading].per_mm
+        per_mm, mean = self.perfect[construction].readings[reading].per_mm, off[0].mean(axis=0).filled(0.0)
+        deviation, bias = float(np.sqrt(variances[0, most])) / per_mm, float(mean[most]) / per_mm
         alone = [kind for kind in self.hands if kind]
-        return Shares(deviation, dict(zip(alone, parts.tolist(), strict=True)), float(together))
+        return Shares(deviation, bias, dict(zip(alone, parts.tolist(), strict=True)), float(together))
 
     def _deviations(self, hands: Redrawable, construction: str, reading: str) -> Floats:
         """How far every hand is off (samples, m), in machine units; of angles the turn that is less than half a one."""
