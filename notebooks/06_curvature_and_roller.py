@@ -144,7 +144,7 @@ assert abs(rho.exact - 29.718) < 0.001
 assert abs(rho.error_paper) <= rho.tolerance_paper
 
 # %% [markdown]
-# The drawn radius is off by about a millimetre, more than anything else on the sheet, and on the *unsafe* side. Why?
+# The drawn radius is off by a third of a millimetre, more than anything else on the sheet, and on the *unsafe* side. Why?
 #
 # ## Where the error comes from
 #
@@ -161,12 +161,13 @@ sigma, rho_on_paper = 0.2, 60.0
 table(("chord h, mm", "scatter of ρ, %"), [(f"{h}", 100 * 6**0.5 * sigma * rho_on_paper / h**2) for h in (5, 10, 15, 20, 30)], digits=1)
 
 # %% [markdown]
-# With chords of 13 mm, as in our drawing, a pencil of 0.2 mm gives a scatter of 17 %. With chords of 5 mm the radius is pure chance. **Take
-# points 20 to 30 mm apart, and state on the sheet how far apart they were.** The best distance balances the two: $h \approx
-# 2.33\,(\sigma/|\kappa''|)^{1/4}$.
+# With chords of 11 mm, as on our sheet, which is drawn without errors, a pencil of 0.2 mm would give a scatter of 23 %. With chords of 5 mm
+# the radius is pure chance. **Take points 20 to 30 mm apart, and state on the sheet how far apart they were.** The best distance balances
+# the two: $h \approx 2.33\,(\sigma/|\kappa''|)^{1/4}$. Drawn with a pencil, the sheet steps off a part of the phase that goes with the fourth
+# root of the line, and without one it says which part to take by hand.
 #
-# Our task has a third source: the minimum radius is a *one-sided limit* at the jump of the acceleration. The three points must stay on one
-# side of it, so the middle one cannot lie at the sharpest point itself; that error falls only in proportion to the step.
+# In our task the sharpest point is the end of a phase, where the curvature jumps: on the other side of it lies the arc of the dwell. But there
+# the follower rests, so that the curve runs square to the ray from $A$. One side is enough: the third point is its mirror image in the ray.
 #
 # ## Questions
 #

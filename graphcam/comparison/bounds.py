@@ -1,9 +1,9 @@
 """How far a drawn value may be off: by the number of parts, and by the hand.
 
 The number of parts: the same construction is drawn again with every part divided in two, three and five, and a value
-may be off by two and a half times the greatest change.  An error that falls as 1/n^p changes by at least (1 - 5^-p)
-of itself, so that covers it for every p from 1 on; several redrawings catch values whose error does not fall evenly,
-such as maxima.
+may be off by two and a half times the greatest change among these drawings.  An error that falls as 1/n^p changes by
+at least (1 - 5^-p) of itself, so that covers it for every p from 1 on; several redrawings catch values whose error does
+not fall evenly, such as maxima, or is small in the first of them by chance.
 
 The hand: the same construction is drawn by many hands with the same pencil, and a value may be off by their bias and
 three standard deviations.
@@ -19,6 +19,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import combinations
 from typing import Any, Protocol
 
 import numpy as np
@@ -122,13 +123,17 @@ class Bounds:
     def _of(self, construction: str, reading: str, rank: Rank = np.positive, *, stations: bool = False) -> Floats:
         """The bound of the ranks in machine units, shaped like one drawing's reading; NaN where nothing is readable."""
         here: Floats = rank(np.asarray(self.perfect[construction].value(reading)))
-        changes: list[Floats] = []
+        drawings = [here]
         for k, drawing in zip(REFINEMENTS, self.finer, strict=True):
             finer = rank(np.asarray(drawing[construction].value(reading)))
             if stations:  # a phase's stations stand k apart among its finer ones
                 finer = np.concatenate([finer[span][::k] for span in drawing.spans])
-            # Infinite in both is no change.
-            changes.append(np.abs(np.subtract(finer, here, out=np.zeros_like(here), where=finer != here)))
+            drawings.append(finer)
+        # Infinite in both is no change.
+        changes = [
+            np.where(np.isnan(here), np.nan, np.abs(np.subtract(b, a, out=np.zeros_like(a), where=b != a)))
+            for a, b in combinations(drawings, 2)
+        ]
         # fmax, because too fine parts may leave a reading unreadable: then the other redrawings speak.
         change = CHANGE_TO_ERROR_FACTOR * np.fmax.reduce(changes)
         if self.hands is None:
@@ -141,12 +146,13 @@ class Bounds:
 class Shares:
     """What makes one reading scatter; of several values, that which scatters most.
 
-    deviation : standard deviation [mm of paper; an angle that was measured itself: rad]
+    deviation, bias : standard deviation, and how far the mean is off [mm of paper; an angle that was measured: rad]
     of : parts of the variance by the kind of act
     together : the part that errors of several kinds bring together only; with the others it makes 1
     """
 
     deviation: float
+    bias: float
     of: Mapping[Kind, float]
     together: float
 
@@ -191,9 +197,10 @@ class ErrorBudget:
         kinds, left = variances[1:, most], rest[most]
         with np.errstate(invalid="ignore"):
             parts, together = kinds / (kinds.sum() + left), left / (kinds.sum() + left)
-        deviation = float(np.sqrt(variances[0, most])) / self.perfect[construction].readings[reading].per_mm
+        per_mm, mean = self.perfect[construction].readings[reading].per_mm, off[0].mean(axis=0).filled(0.0)
+        deviation, bias = float(np.sqrt(variances[0, most])) / per_mm, float(mean[most]) / per_mm
         alone = [kind for kind in self.hands if kind]
-        return Shares(deviation, dict(zip(alone, parts.tolist(), strict=True)), float(together))
+        return Shares(deviation, bias, dict(zip(alone, parts.tolist(), strict=True)), float(together))
 
     def _deviations(self, hands: Redrawable, construction: str, reading: str) -> Floats:
         """How far every hand is off (samples, m), in machine units; of angles the turn that is less than half a one."""

@@ -1,26 +1,37 @@
 """Curvature of the pitch curve by three points, at its sharpest place.
 
-The perpendicular bisectors of two neighbouring chords meet in the centre of the circle through the three points.  In a
-dwell the pitch curve is an arc about the cam centre; its ends and its middle are three such points.
+The perpendicular bisectors of two neighbouring chords meet in the centre of the circle through the three points.  They
+are stepped off along the drawn curve, so far apart that the line's own errors do not bend it.  In a dwell the pitch
+curve is an arc about the cam centre; its ends and its middle are three such points.
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import product
+from itertools import accumulate, product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.constructions.axes import degrees, phase_symbol, station_names
 from graphcam.constructions.profile_view import Inverted
-from graphcam.constructions.sharpest_bend import centres_of, dwell_arcs, neighbours, sharpest_of, turns_a_corner
+from graphcam.constructions.sharpest_bend import (
+    CURVE_PLACES,
+    Stretch,
+    dwell_arcs,
+    share_of_phase,
+    sharpest_of,
+    steps_along,
+    stretches_of,
+    turns_a_corner,
+)
 from graphcam.constructions.views import CURVATURE, PROFILE, at_scale
 from graphcam.drafting.acts import Drawn
-from graphcam.drafting.euclid import RIGHT, UP
+from graphcam.drafting.euclid import RIGHT, UP, centre_of_circle
 from graphcam.drafting.hand import BISECTION_SHARE, Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
-from graphcam.drafting.marks import Arc, Label, Line, Mark, Role
+from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
 from graphcam.drafting.meaning import (
     RHO,
     ComparedReading,
@@ -35,8 +46,9 @@ from graphcam.drafting.meaning import (
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import ratio_text, standard_scale
 from graphcam.given.follower import sense
+from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
-from graphcam.words import Words, and_list, sequence
+from graphcam.words import and_list, sequence
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,10 +85,6 @@ LEAST_CURVATURE = {
 """The least radius of curvature, however it is found."""
 
 
-def _three_points(_: object) -> tuple[Words, ...]:
-    return say("before B"), "B", say("after B")
-
-
 def _radius_values(curved: Curved) -> Values:
     """The formula's values: OB and the radius that it measures, where one is readable."""
     rho, mu = float(curved.value("rho")), curved.readings["rho"].per_mm
@@ -102,7 +110,7 @@ MEANING = Meaning(
         "Three close points of a curve determine the circle that fits it best. The minimum radius of curvature "
         "limits the roller."
     ),
-    {**LEAST_CURVATURE, "phi": ReadingMeaning(say("cam angles φ"), "φ", "rad", over=_three_points)},
+    {**LEAST_CURVATURE, "phi": ReadingMeaning(say("cam angle φ of B"), "φ", "rad")},
     FORMULAS,
 )
 
@@ -117,7 +125,7 @@ PROFILE_MEANING = replace(
 
 
 def curvature(inverted: Inverted, pencil: Pencil, *, profile: bool = False) -> Curved:
-    """Find the sharpest convex place among three neighbouring points of a smooth piece, and the arcs of the dwells.
+    """Find the sharpest convex place among three points along the drawn curve, and the arcs of the dwells.
 
     Readings: besides ``rho`` and ``phi`` the ``rho_candidates`` (..., 2), of moving phases and of rests, infinite
     where nothing is convex.  NaN where no bend is readable, and of the moving phases and of rho where the curve turns a
@@ -131,16 +139,20 @@ def curvature(inverted: Inverted, pencil: Pencil, *, profile: bool = False) -> C
         hand.given("cam centre"),
         hand.given("nowhere", [np.nan]),
     )
-    rests, angles = _dwell_arcs(hand, inverted, pitch, centre)
-    places, corner = hand.take("places", pitch, rests, nowhere), turns_a_corner(inverted)
+    stretches = stretches_of(inverted)
+    curve, axis = _drawn_curve(hand, inverted, stretches, pitch, centre)
+    rests, beyond = _dwell_arcs(hand, inverted, pitch, centre)
+    places, corner = hand.take("places", curve, rests, nowhere), turns_a_corner(inverted)
     # The eye takes one place of the moving phases and one of the rests.
-    of_rests = inverted.points["pitch"].shape[-1] + np.arange(rests.points.shape[-1]).reshape(-1, 3)
-    candidates = neighbours(inverted), np.broadcast_to(of_rests, (*rests.points.shape[:-1], *of_rests.shape))
-    seen = [sharpest_of(inverted, places.points, triples) for triples in candidates]
+    of_rests = curve.points.shape[-1] + np.arange(rests.points.shape[-1]).reshape(-1, 3)
+    share = share_of_phase(max(pencil.line, pencil.dividers))
+    moving = steps_along(inverted, stretches, curve.points, share)
+    resting = np.broadcast_to(of_rests, (*moving.shape[:-2], *of_rests.shape))
+    seen = [sharpest_of(inverted, places.points, triples) for triples in (moving, resting)]
     at, looks = np.stack([triple for triple, _ in seen], axis=-2), np.stack([radius for _, radius in seen], axis=-1)
     # Where nothing rests no arc is near, seen from any place.
     at[..., 1, :] = np.where(np.isnan(looks[..., 1:]), 0, at[..., 1, :])
-    names = ("before B", "B", "after B")
+    names = ("P", "B", "Q")
     before, b, after = (hand.take(name, places, which=at[..., k]) for k, name in enumerate(names))
     bisectors = hand.bisect("first bisectors", before, b), hand.bisect("second bisectors", b, after)
     met = hand.cross("crossings", *bisectors, flat=integrated.givens.stations.refine > 1)
@@ -156,9 +168,14 @@ def curvature(inverted: Inverted, pencil: Pencil, *, profile: bool = False) -> C
     chosen = np.where(unread[..., None], places.points.shape[-1] - 1, chosen)
     triple = hand.take("triple", places, which=chosen)
     o = hand.take("centre", centres, nowhere, which=np.where(unread, 2, best)[..., None])[0]
-    # On the axis the place has its station's mark; it is carried down to the scale of degrees, where it is read.
-    marks, degrees_axis = hand.take("cam angles", angles, nowhere, which=chosen), hand.given("degrees", along=RIGHT)
-    phi = distance_between(hand.given("start of the turn"), hand.project("on the degrees", marks, degrees_axis), RIGHT)
+    # On the axis the place has its own mark; it is carried down to the scale of degrees, where it is read.
+    marks, degrees_axis = (
+        hand.take("cam angles", axis, beyond, nowhere, which=_on_axis(stretches, chosen[..., 1:2])),
+        hand.given("degrees", along=RIGHT),
+    )
+    phi = distance_between(
+        hand.given("start of the turn"), hand.project("on the degrees", marks, degrees_axis)[0], RIGHT
+    )
     hand.read("rho", distance_between(triple[1], o), mu_l)
     hand.read("rho_candidates", distance_between(b, centres), mu_l, "mm")
     in_radians = partial(np.multiply, integrated.givens.mu_phi.per_mm)
@@ -166,8 +183,48 @@ def curvature(inverted: Inverted, pencil: Pencil, *, profile: bool = False) -> C
     return hand.finished(CurvatureGivens(inverted, corner, profile), _draw, {"triple": triple, "centre": o})
 
 
+def _drawn_curve(
+    hand: Hand, inverted: Inverted, stretches: Sequence[Stretch], pitch: Drawn, centre: Drawn
+) -> tuple[Drawn, Drawn]:
+    """The drawn curve with its images beyond the ends of the phases, and the marks of its own places on the axis."""
+    axis, none = hand.earlier_places(inverted.givens.integrated.givens.diagram, "axis"), np.empty(0, dtype=np.intp)
+    if not stretches:
+        return hand.take("drawn curve", pitch, which=none), hand.take("places on the axis", axis, which=none)
+    images = [image for stretch in stretches for image in stretch.images]
+    ends = [end for stretch in stretches for end in (stretch.stations.start, stretch.stations.stop - 1)]
+    count, of = pitch.points.shape[-1], np.concatenate(images)
+    rays = hand.join("rays to the ends", centre, pitch[np.repeat(ends, [image.size for image in images])])
+    beyond = hand.mirrored("beyond the ends", pitch[of], rays)
+    # Before each stretch, its own stations, after it.
+    firsts = count + np.cumsum([0, *(image.size for image in images)])
+    rows, pieces, first = list[NDArray[np.intp]](), list[slice](), 0
+    for k, stretch in enumerate(stretches):
+        own = np.arange(stretch.stations.start, stretch.stations.stop)
+        row = np.concatenate([np.arange(*firsts[2 * k : 2 * k + 2]), own, np.arange(*firsts[2 * k + 1 : 2 * k + 3])])
+        rows.append(row)
+        pieces.append(slice(first, first + row.size))
+        first += row.size
+    points = hand.take("points of the curve", pitch, beyond, which=np.concatenate(rows))
+    own_pieces = [stretch.stations for stretch in stretches]
+    return hand.fair("drawn curve", points, pieces), hand.fair("places on the axis", axis, own_pieces)
+
+
+def _on_axis(stretches: Sequence[Stretch], places: NDArray[np.intp]) -> NDArray[np.intp]:
+    """The numbers on the axis, which has no images, of own places of the curve, of the rests, or of none."""
+    lengths = [stretch.own.stop - stretch.own.start for stretch in stretches]
+    shifts = [
+        first - stretch.own.start for stretch, first in zip(stretches, accumulate(lengths, initial=0), strict=False)
+    ]
+    numbers = np.concatenate(
+        [np.arange(stretch.count) + shift for stretch, shift in zip(stretches, shifts, strict=True)]
+        + [np.empty(0, dtype=np.intp)]
+    )
+    rests = places - numbers.size
+    return np.where(rests < 0, numbers[np.minimum(rests, -1)] if numbers.size else 0, rests + sum(lengths))
+
+
 def _dwell_arcs(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> tuple[Drawn, Drawn]:
-    """Three points on the arc of each dwell, and the places of all points on the axis of the cam angle."""
+    """Three points on the arc of each dwell, and their places on the axis of the cam angle."""
     integrated = inverted.givens.integrated.givens
     resting = dwell_arcs(integrated.motion, integrated.stations)
     last = np.array([after for after, _ in resting], dtype=np.intp)
@@ -177,7 +234,7 @@ def _dwell_arcs(hand: Hand, inverted: Inverted, pitch: Drawn, centre: Drawn) -> 
     rays = hand.protractor("rays of the rests", centre, ends, -sense(inverted.givens.rotation) * turns)
     axis = hand.earlier_places(integrated.diagram, "axis")
     beyond = hand.lay_off("rests on the axis", axis[last][each], RIGHT, turns / integrated.mu_phi.per_mm)
-    return hand.cross("rests", rays, arcs[each]), hand.take("axis", axis, beyond)
+    return hand.cross("rests", rays, arcs[each]), beyond
 
 
 # --- the steps -------------------------------------------------------------------------------------------------------
@@ -234,27 +291,22 @@ def _draw(curved: Curved) -> list[Step]:
 
 
 def _chords(curved: Curved, detail: Detail) -> Step:
-    (before, after), triple = _neighbours_named(curved), detail.triple
+    triple, place = detail.triple, _place(curved)
     first, second = np.abs(np.diff(triple.shown))
-    phi, points = curved.first("phi"), say("B and both ends of the arc")
-    if before:
-        points = say("{before}, B and {after}", before=before, after=after)
-    said = say(
-        "Find the sharpest outward bend of the pitch curve and call this point B: here {place}, at φ = "
-        "{phi:.1f}°. Copy {points} with dividers to a free part of the sheet, {copied}."
+    names = ("", "B", "") if place.resting else ("P", "B", "Q")
+    found = say(
+        "Find the sharpest outward bend of the pitch curve and call this point B: here {place}, at φ = {phi:.1f}°."
     )
     if curved.givens.profile:
-        said = say(
-            "Find the sharpest outward bend of the profile and call this point B: here {place}, at φ = {phi:.1f}°. "
-            "Copy {points} with dividers to a free part of the sheet, {copied}."
+        found = say(
+            "Find the sharpest outward bend of the profile and call this point B: here {place}, at φ = {phi:.1f}°."
         )
-    said = said.with_values(
-        place=_place(curved), phi=np.degrees(phi[1] % FULL_TURN), points=points, copied=_copied(detail)
-    )
-    joined = say(
-        "Join them with a ruler: the chords measure {first:.2f} mm and {second:.2f} mm. They span {step:.3g}° of the "
-        "cam angle."
-    ).with_values(first=first, second=second, step=np.degrees(phi[2] - phi[0]))
+    found = found.with_values(place=place.caption, phi=np.degrees(curved.value("phi") % FULL_TURN))
+    copied = say("Copy {points} with dividers to a free part of the sheet, {copied}.")
+    points = say("B and both ends of the arc") if place.resting else say("P, B and Q")
+    copied = copied.with_values(points=points, copied=_copied(detail))
+    joined = say("Join them with a ruler: the chords measure {first:.2f} mm and {second:.2f} mm.")
+    joined = joined.with_values(first=first, second=second)
     more = [ONLY_RESTS] if np.isnan(curved.first("rho_candidates")[0]) else []
     why = say(
         "The circle through three points is found by two of its chords, and it is smallest where the curve bends most."
@@ -262,8 +314,9 @@ def _chords(curved: Curved, detail: Detail) -> Step:
     chords = detail.hand.join("chords", triple[:2], triple[1:])
     marks = (
         *(chords.segments(Role.CURVE), triple.dots()),
-        *(triple[k].label(name, -detail.hub.place) for k, name in enumerate((before, "B", after))),
+        *(triple[k].label(name, -detail.hub.place) for k, name in enumerate(names)),
     )
+    said = sequence([found, *place.steps, copied], " ")
     parts = Part(said, (triple,)), Part(sequence([joined, *more], " "), (chords,))
     return Step(say("Chords at the sharpest point"), parts, detail.view, marks, ("phi",), why=why)
 
@@ -278,51 +331,88 @@ def _copied(detail: Detail) -> Caption:
 
 
 def _missed(curved: Curved) -> list[Caption]:
-    """Sentences on the error of so short chords, and on what chords twice as wide read; none in the arc of a dwell.
+    """Sentences on the error of such chords, and on what those for a pencil read; none in the arc of a dwell.
 
     A hand that misses every point by sigma scatters rho by the root of six times sigma rho/h^2, on chords h: nine
     hands of ten read it within four times sigma rho/h^2.
     """
     places, mu_l = curved.acts["triple"].first, curved.givens.inverted.givens.mu_l.per_mm
     chords, rho = np.abs(np.diff(places.shown)), float(curved.value("rho"))
-    chord = float(chords.mean())
-    missed = 4 * CAREFUL_ERROR * rho / mu_l / chord**2
-    if _chosen_places(curved)[1] >= curved.givens.inverted.acts["pitch"].shown.size:
+    if _place(curved).resting:
         return []
     said = say(
         "If every point may be off by {careful:g} mm, ρ may be off by {missed}: 4 × {careful:g} mm × ρ/h², with "
         "h = ({first:.2f} + {second:.2f})/2 = {chord:.1f} mm and ρ = {rho:.1f} mm on the profile."
     ).with_values(
-        careful=CAREFUL_ERROR, missed=_percent(missed), chord=chord, rho=rho / mu_l, first=chords[0], second=chords[1]
+        careful=CAREFUL_ERROR,
+        missed=_percent(_share_missed(chords, rho / mu_l)),
+        chord=float(chords.mean()),
+        rho=rho / mu_l,
+        first=chords[0],
+        second=chords[1],
     )
-    wide = _twice_as_wide(curved)
+    small = too_small_on_paper(curved)
+    wide = _for_a_pencil(curved)
     if wide is None:
-        return [said]
-    names, other = wide
+        return [said, *small]
+    parts, other = wide
+    longer, radius = np.abs(np.diff(other)), _radius_through(curved, other)
     wider = say(
-        "Chords twice as long, over {names}, err by a quarter of that, but the curvature changes along them: "
-        "they give ρ = {other:.1f} mm instead of {rho:.1f} mm. {advice}"
+        "For drawing by hand step off {parts} instead: with chords of {chord:.1f} mm ρ may be off by {missed}, and "
+        "they give ρ = {other:.1f} mm instead of {rho:.1f} mm, because the curvature changes along them."
     )
-    by_hand, keep = say("For drawing by hand the longer chords are better."), say("So the short chords are better.")
-    advice = by_hand if abs(other - rho) < 0.75 * missed * rho else keep
-    return [said, wider.with_values(names=sequence(names), other=other, rho=rho, advice=advice)]
+    missed = _percent(_share_missed(longer, radius / mu_l))
+    return [
+        said,
+        wider.with_values(parts=parts, chord=float(longer.mean()), missed=missed, other=radius, rho=rho),
+        *small,
+    ]
+
+
+LEAST_READABLE_RADIUS = 10.0
+"""A smaller radius of curvature cannot be told by three points [mm of paper]."""
+
+
+def too_small_on_paper(curved: Curved) -> list[Caption]:
+    """The sentence on a radius of curvature that is too small on paper; none where it can be told, or of a rest."""
+    paper = float(curved.value("rho")) / curved.givens.inverted.givens.mu_l.per_mm
+    if not paper < LEAST_READABLE_RADIUS or _place(curved).resting:
+        return []
+    said = say(
+        "On paper ρ is only {paper:.1f} mm: at this scale it cannot be told by three points, because chords that are "
+        "short enough for so sharp a bend are too short for a pencil. Draw the place at a larger scale."
+    )
+    return [said.with_values(paper=paper)]
+
+
+def _share_missed(chords: Floats, rho: float) -> float:
+    """The part of ρ that nine careful hands of ten miss it by; both on paper [mm]."""
+    return 4 * CAREFUL_ERROR * rho / float(chords.mean()) ** 2
 
 
 def _percent(part: float) -> Caption:
     return say("{part:.0f} %", part=100 * part) if part < 1 else say("more than ρ itself")
 
 
-def _twice_as_wide(curved: Curved) -> tuple[list[str], float] | None:
-    """The stations of chords twice as wide on the same smooth piece, and the radius [mm] that they read."""
-    inverted, (i, k, j) = curved.givens.inverted, _chosen_places(curved)
-    stations, pitch, step = inverted.givens.integrated.givens.stations, inverted.acts["pitch"].shown, k - i
-    pieces = [piece for piece in stations.pieces if piece.start <= i < j < piece.stop]
-    # About B, or with one of its neighbours in the middle.
-    wide = [np.array([m - 2 * step, m, m + 2 * step]) for m in (k, j, i)]
-    for at in (at for at in wide for piece in pieces if piece.start <= at[0] and at[2] < piece.stop):
-        radius = float(np.abs(centres_of(inverted, pitch[at]) - pitch[at[1]])) * inverted.givens.mu_l.per_mm
-        return None if np.isnan(radius) else ([station_names(stations)[each] for each in at], radius)
-    return None
+def _radius_through(curved: Curved, points: Points) -> float:
+    """The radius [mm] of the circle through three points of the paper."""
+    return float(np.abs(centre_of_circle(*points) - points[1])) * curved.givens.inverted.givens.mu_l.per_mm
+
+
+def _for_a_pencil(curved: Curved) -> tuple[Caption, Points] | None:
+    """How far apart a careful hand steps the points off, and where they lie; None where they lie so far apart."""
+    inverted, curve = curved.givens.inverted, curved.acts["drawn curve"].first.shown
+    stretches = stretches_of(inverted)
+    steps = steps_along(inverted, stretches, curve, share_of_phase(CAREFUL_ERROR))
+    at, radius = sharpest_of(inverted, np.append(curve, np.nan), steps)
+    if not np.isfinite(radius) or at[1] - at[0] <= np.diff(_chosen_places(curved))[0]:
+        return None
+    return _parts_caption(int(at[1] - at[0])), curve[at]
+
+
+def _parts_caption(places: int) -> Caption:
+    """How many parts so many places of the drawn curve are."""
+    return say("{parts:g} parts", parts=places / CURVE_PLACES)
 
 
 def _bisected(curved: Curved, detail: Detail) -> Step:
@@ -400,28 +490,56 @@ def _unreadable(curved: Curved) -> Caption:
 
 
 def _chosen_places(curved: Curved) -> list[int]:
-    """The three places that were taken: numbers of stations, then of places of the dwells."""
+    """The three places that were taken: numbers of places of the drawn curve, then of the dwells."""
     return np.atleast_2d(curved.acts["triple"].act.takes["which"])[0].tolist()
 
 
-def _place(curved: Curved) -> Caption:
-    integrated, k = curved.givens.inverted.givens.integrated.givens, _chosen_places(curved)[1]
+@dataclass(frozen=True)
+class ToldPlace:
+    """Where B lies, and how the points beside it are found.
+
+    resting : whether it lies on the arc of a rest
+    """
+
+    caption: Caption
+    steps: tuple[Caption, ...]
+    resting: bool
+
+
+def _place(curved: Curved) -> ToldPlace:
+    integrated = curved.givens.inverted.givens.integrated.givens
     motion, stations = integrated.motion, integrated.stations
-    names = station_names(stations)
-    if k < len(names):
-        return say("station {name}", name=names[k])
-    last, turns = dwell_arcs(motion, stations)[(k - len(names)) // 3]
+    names, (before, at, after) = station_names(stations), _chosen_places(curved)
+    first = 0
+    for stretch in stretches_of(curved.givens.inverted):
+        if at < first + stretch.count:
+            place = stretch.stations.start + (at - first - stretch.own.start) / CURVE_PLACES
+            low = math.floor(place)
+            caption = say("station {name}", name=names[low])
+            if low < place:
+                caption = say("between the stations {before} and {after}", before=names[low], after=names[low + 1])
+            told = [
+                say(
+                    "On the drawn curve step off {parts} before and after it, to P and Q.",
+                    parts=_parts_caption(after - at),
+                )
+            ]
+            image = say(
+                "At station {name} the follower is at rest and the curve runs square to the ray from A, so take it to "
+                "go on beyond as its mirror image in this ray: {point} is the image of the point of the curve there."
+            )
+            if before < first + stretch.own.start:
+                told.append(image.with_values(name=names[stretch.stations.start], point="P"))
+            elif after >= first + stretch.own.stop:
+                told.append(image.with_values(name=names[stretch.stations.stop - 1], point="Q"))
+            return ToldPlace(caption, tuple(told), resting=False)
+        first += stretch.count
+    last, turns = dwell_arcs(motion, stations)[(at - first) // 3]
     if turns[1]:  # no stations in dwells
         dwell = (int(stations.phase[last]) + 1) % len(motion.phases)
-        return say("the middle of a dwell ({symbol})", symbol=phase_symbol(motion, dwell))
+        return ToldPlace(say("the middle of a dwell ({symbol})", symbol=phase_symbol(motion, dwell)), (), resting=True)
     resting = say("station {name}, where the follower is at rest for an instant, on an arc about the cam centre")
-    return resting.with_values(name=names[last])
-
-
-def _neighbours_named(curved: Curved) -> tuple[str, str]:
-    """The names of the places beside the middle one; empty in a dwell."""
-    names, (i, _, j) = station_names(curved.givens.inverted.givens.integrated.givens.stations), _chosen_places(curved)
-    return (names[i], names[j]) if j < len(names) else ("", "")
+    return ToldPlace(resting.with_values(name=names[last]), (), resting=True)
 
 
 Bisected = tuple[list[Mark], tuple[Drawn, ...]]

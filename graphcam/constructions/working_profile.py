@@ -12,7 +12,7 @@ from graphcam.constructions.axes import low_dwell_symbol, phase_kind, station_na
 from graphcam.constructions.profile_view import Inverted, piecewise_curve
 from graphcam.constructions.roller import Rolled, laid_off_on_ob
 from graphcam.constructions.views import PROFILE
-from graphcam.drafting.acts import Drawn
+from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import UP, tangent_of_circle, unit
 from graphcam.drafting.hand import Hand, calculated_setting, distance_between, errorless_hand
 from graphcam.drafting.ink import Caption, Construction, Part, Row, Step, say
@@ -290,37 +290,52 @@ def _undercut(lost: Sequence[str]) -> Caption:
 
 
 def _angles(profile: Profile) -> Step:
-    """The step of the pressure angles that the finished profile shows, beside those found without it."""
-    marks, rows = list[Mark](), list[Row]()
-    measured, apart = profile.givens.measured, 0.0
+    """The step of the pressure angles on the finished profile, beside those found without it."""
+    marks, rows, measured = list[Mark](), list[Row](), profile.givens.measured
     for found in _normals(profile):
         name, degrees = _names(profile)[found.at], abs(math.degrees(found.angle))
-        shown = say("{alpha:.1f}°", alpha=degrees)
+        shown = say("I {distance:.1f} mm from A, {alpha:.1f}°", distance=found.distance, alpha=degrees)
         if measured is not None:
             planned = abs(math.degrees(measured.first("alpha")[found.at]))
-            shown = say("{alpha:.1f}° ({planned:.1f}° in the diagram)", alpha=degrees, planned=planned)
-            apart = max(apart, abs(degrees - planned))
+            shown = say(
+                "I {distance:.1f} mm from A, {alpha:.1f}° ({planned:.1f}° in the diagram)",
+                distance=found.distance,
+                alpha=degrees,
+                planned=planned,
+            )
         marks += found.marks
         rows.append(Row(STATION.with_values(name=name), shown, found.draws))
     title = say("Pressure angles on the profile")
-    why = say("The roller presses along the common normal, which runs through its centre.")
     if not rows:
         none = say(
             "All contact points of the moving phases lie inside other circles: no pressure angle can be measured."
         )
+        why = say("The roller presses along the common normal, which runs through its centre.")
         return Step(title, (Part(none),), PROFILE, (), why=why)
-    said = say(
-        "In each moving phase, at the station where the pressure angle has its maximum, join the contact point to the "
-        "point of the pitch curve and continue beyond it; draw there the line on which the follower moves, and measure "
-        "the angle between them with a protractor."
+    centre = say(
+        "In each moving phase, at the station where the pressure angle has its maximum, lay off the velocity v from A, "
+        "at the scale of the profile and square to the line on which the follower moves, on the rise {side} as seen "
+        "along its motion and on the return to the other side: it ends in I, the instant centre of cam and "
+        "follower."
     )
-    if apart >= SAME_ANGLE:
-        differ = say(
-            "Where the two angles differ, it is because the diagram uses the velocity at the station itself, while the "
-            "normal here is found from the neighbouring points."
+    sides = say("to its left"), say("to its right")
+    if "pivots" in profile.givens.inverted.acts:
+        centre = say(
+            "In each moving phase, at the station where the pressure angle has its maximum, mark I, the instant centre "
+            "of cam and follower, on the line of centres, on the rise {side} and on the return the other way: its "
+            "distances from A and from the pivot are as v to 1."
         )
-        said = sequence([said, differ], " ")
-    return Step(title, (Part(said, rows=tuple(rows)),), PROFILE, tuple(marks), why=why)
+        sides = say("beyond A"), say("between A and the pivot")
+    drawn = say(
+        "Draw the line from I through the point of the pitch curve: it is the common normal, and the contact point "
+        "lies on it. Draw the line on which the follower moves, and measure the angle between them with a protractor."
+    )
+    centre = centre.with_values(side=sides[profile.givens.inverted.givens.rotation == "ccw"])
+    why = say(
+        "In the instant centre cam and follower have the same velocity, so that the common normal runs through it; the "
+        "contact points show this line only as well as the curve is drawn."
+    )
+    return Step(title, (Part(sequence([centre, drawn], " "), rows=tuple(rows)),), PROFILE, tuple(marks), why=why)
 
 
 DWELL_ARC_SHARE = 0.82
@@ -361,44 +376,68 @@ def _arcs_of_dwells(profile: Profile) -> Iterator[Step]:
     yield Step(say("Angle of the lower dwell"), tuple(parts), PROFILE, tuple(marks), why=why)
 
 
-SAME_ANGLE = 0.05
-"""Angles that differ by less are read as the same [degrees]."""
-
-
 @dataclass(frozen=True, eq=False)
 class ShownAngle:
-    """A pressure angle [rad] on the profile at a station, its marks, and what they are of."""
+    """A pressure angle [rad] on the profile at a station, its marks, and what they are of.
+
+    distance : of the instant centre from the cam centre [mm of paper]
+    """
 
     at: int
     angle: float
+    distance: float
     marks: tuple[Mark, ...]
     draws: tuple[Drawn, ...]
 
 
 def _normals(profile: Profile) -> Iterator[ShownAngle]:
-    """The profile's normal and the follower's line, where the angle between them is largest in each moving phase.
+    """The normal and the follower's line, where the angle between them is largest in each moving phase.
 
-    None where the whole phase is covered.
+    None where the contact points of the whole phase are covered.
     """
     hand, inverted = errorless_hand(profile), profile.givens.inverted
     motion, pitch, touch = inverted.acts["motion"].first, inverted.acts["pitch"].first, profile.acts["touch"].first
-    normals = hand.join("normals", touch, pitch)
+    centres = _instant_centres(hand, inverted)
+    normals = hand.join("normals", centres, pitch)
     alpha = hand.angle("pressure angles", motion, normals)
     lines, beyond = (hand.lay_off(f"far on {d.act.name}", pitch, d, ANGLE_ARC_RADIUS + 4) for d in (motion, normals))
     for span in inverted.givens.integrated.givens.stations.phases:
-        angles = np.abs(alpha.paper[span])
+        angles = np.where(np.isnan(touch.points[span]), np.nan, np.abs(alpha.paper[span]))
         if np.isnan(angles).all():
             continue
         at = int(span.start + np.nanargmax(angles))
-        direction, angle = float(np.angle(motion.directions[at])), float(alpha.paper[at])
+        direction, angle, centre = float(np.angle(motion.directions[at])), float(alpha.paper[at]), centres[at]
         start, end = sorted((direction, direction + angle))
         said, index = say("{alpha:.1f}°", alpha=abs(np.degrees(angle))), normals[at].index
         marks = (
             lines[at].line_from(pitch[at], Role.CONSTRUCTION),
-            Line(np.array([touch[at].place, beyond[at].place]), Role.LIMIT, of=normals.act, index=index.repeat(2)),
+            Line(np.array([centre.place, beyond[at].place]), Role.LIMIT, of=normals.act, index=index.repeat(2)),
             AngleMark(pitch[at].place, ANGLE_ARC_RADIUS, start, end, said, of=normals.act, index=index),
+            *(centre.dots(Role.LIMIT), centre.label("I", centre.place - pitch[at].place)),
         )
-        yield ShownAngle(at, angle, marks, (normals[at], beyond[at], lines[at]))
+        draws = (centre, normals[at], beyond[at], lines[at])
+        yield ShownAngle(at, angle, float(abs(centre.place)), marks, draws)
+
+
+def _instant_centres(hand: Hand, inverted: Inverted) -> Drawn:
+    """The instant centres of cam and follower at the stations, as the cam is drawn.
+
+    Square to the motion of a stem they lie v from the cam centre; on the line of centres of an arm AI : IC is v : 1.
+    """
+    integrated, sigma, pivots = inverted.givens.integrated, sense(inverted.givens.rotation), inverted.acts.get("pivots")
+    a, v, read = hand.given("cam centre"), integrated.first("v"), integrated.readings["v"]
+    if pivots is None:
+        factor = read.per_mm / inverted.givens.mu_l.per_mm
+        velocity = Setting(v * factor, reading=read, factor=factor)
+        return hand.lay_off("instant centres", a, inverted.acts["motion"].first.turned(-UP * sigma), velocity)
+    velocity, centres = Setting(v * read.per_mm, reading=read, factor=read.per_mm), hand.join("AC", a, pivots.first)
+    divided = calculated_setting(partial(_from_cam_centre, sigma), velocity, distance_between(a, pivots.first))
+    return hand.lay_off("instant centres", a, centres, divided)
+
+
+def _from_cam_centre(sigma: int, velocity: Floats, distance: Floats) -> Floats:
+    """How far the instant centre lies from the cam centre towards the pivot of an arm."""
+    return distance * velocity / (velocity + sigma)
 
 
 ANGLE_ARC_RADIUS = 26.0

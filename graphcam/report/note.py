@@ -282,7 +282,8 @@ def errors_of_the_hand(solution: AnySolution) -> list[Chapter]:
         return []
     meaning = say(
         "The scatter is the standard deviation on the paper over {count} drawings with the same pencil; of "
-        "several values the one that scatters most is given. The other columns show the share of its variance, "
+        "several values the one that scatters most is given. The bias is how far their mean lies from the drawing "
+        "without errors. The other columns show the share of its variance, "
         "in percent, due to each kind of operation. “Together” is the share that errors of several kinds cause "
         "only in combination, for example when they make the eye choose another point.",
         count=pencil.samples or HAND_COUNT,

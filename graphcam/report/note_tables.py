@@ -167,12 +167,12 @@ NEGLIGIBLE_SHARE = 0.005
 
 
 def budget_table(drawn: Chain | ArcChain, pencil: Pencil) -> tuple[tuple[Words, ...], list[tuple[Words, ...]]]:
-    """Header and rows of a table: for every reading its scatter, then the shares of kinds of acts in percent.
+    """Header and rows of a table: for every reading its scatter and bias, then the shares of kinds of acts in percent.
 
     >>> import graphcam as gc
     >>> header, rows = budget_table(gc.solve(gc.builtin_arcs_task()).chain, gc.Pencil.of(0.2))
     >>> [str(cell) for cell in header][:4], str(rows[0][1])
-    (['reading', 'scatter', 'verticals', 'lengths laid off'], '0.32 mm')
+    (['reading', 'scatter', 'bias', 'verticals'], '0.32 mm')
     """
     budget = ErrorBudget(drawn, pencil)
     told = [
@@ -181,11 +181,12 @@ def budget_table(drawn: Chain | ArcChain, pencil: Pencil) -> tuple[tuple[Words, 
         for reading in construction.meaning.readings
     ]
     kinds = [kind for kind in SHARE_SOURCES if any(_share(shares, kind) >= NEGLIGIBLE_SHARE for *_, shares in told)]
-    header = (say("reading"), say("scatter"), *(SHARE_SOURCES[kind] for kind in kinds))
+    header = (say("reading"), say("scatter"), say("bias"), *(SHARE_SOURCES[kind] for kind in kinds))
     return header, [
         (
             say("{construction}: {reading}", construction=c.meaning.title, reading=c.meaning.reading(reading).title),
             _scatter(c, reading, shares.deviation),
+            _scatter(c, reading, shares.bias),
             *(number(100 * share, 0) if (share := _share(shares, kind)) >= NEGLIGIBLE_SHARE else "" for kind in kinds),
         )
         for c, reading, shares in told

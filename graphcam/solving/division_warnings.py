@@ -1,4 +1,4 @@
-"""What is said of divisions that are too coarse for the acceleration, and of drawn values beyond their bounds."""
+"""What is said of divisions that are too coarse for the acceleration, and of what cannot be told on the paper."""
 
 from collections.abc import Iterator, Mapping
 from functools import partial
@@ -9,6 +9,8 @@ from graphcam.comparison.quantities import Quantity
 from graphcam.constructions.axes import phase_title
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
+from graphcam.constructions.curvature import CurvatureGivens, too_small_on_paper
+from graphcam.drafting.ink import Construction
 from graphcam.drafting.pencil import Pencil
 from graphcam.solving.adopted_sizes import MAX_DIVISIONS
 from graphcam.solving.solution_warnings import Caution
@@ -45,6 +47,12 @@ def _remedy(board: Board) -> Caption:
     if enough is None:
         return say("No number of parts that is drawn by hand suffices: let the acceleration last longer.")
     return say("Take drawing.divisions = {n}.", n=enough)
+
+
+def unreadable_bend(drawn: Mapping[str, Construction]) -> list[Caption]:
+    """The sentence on a radius of curvature that three points cannot tell at the scale of the profile."""
+    curved = drawn["curvature"]
+    return too_small_on_paper(curved) if isinstance(curved.givens, CurvatureGivens) else []
 
 
 def disagreement(quantities: Mapping[str, Quantity], pencil: Pencil) -> list[Caption]:

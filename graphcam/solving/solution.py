@@ -22,7 +22,7 @@ from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.profile_spline import ProfileSpline, profile_spline
 from graphcam.solving.adopted_sizes import FaceDesign, adopted_cautions, face_design
-from graphcam.solving.division_warnings import coarse_divisions, disagreement
+from graphcam.solving.division_warnings import coarse_divisions, disagreement, unreadable_bend
 from graphcam.solving.shown_solution import FILE_KINDS, ShownSolution, plain_number, plain_quantities, plain_stations
 from graphcam.solving.solution_warnings import (
     Caution,
@@ -72,7 +72,7 @@ class Solution(ShownSolution):
     @cached_property
     def warnings(self) -> list[str]:
         """What is wrong with the adopted cam or its drawing, as sentences; none if they are sound and agree."""
-        beyond = disagreement(self.comparison.quantities, self.chain.pencil)
+        beyond = [*unreadable_bend(self.drawn), *disagreement(self.comparison.quantities, self.chain.pencil)]
         return [self.tell(said) for said in (*(caution.said for caution in self.cautions), *beyond)]
 
     @cached_property

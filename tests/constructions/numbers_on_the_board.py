@@ -26,7 +26,6 @@ import numpy as np
 from random_tasks import random_arm_task, random_flat_task, random_task
 
 import graphcam as gc
-from graphcam.constructions.axes import station_names
 from graphcam.constructions.curvature import CAREFUL_ERROR
 from graphcam.drafting.act_order import ActPlaces, FollowedBoard, sources, visible_places
 from graphcam.drafting.acts import Act, Drawn, Kind, Setting
@@ -508,7 +507,7 @@ def not_on_the_board(solution: Any, judged: Judged = unknown) -> Iterator[tuple[
             own = measured(board, [*before, *pieces], marks, board.scales)
             if len(places) == 1:
                 before += [ActPlaces(each.act, (*each.index.tolist(),)) for each in places[0].draws]
-            own.add(_through_named(construction, words), "lengths")
+            own.add(_stepped_off(construction, words), "lengths")
             own.add(_read_again(construction), "lengths")
             if name != "scheme":
                 for found in judged(words, data.joined(board.read, own), symbols):
@@ -521,16 +520,22 @@ def _read_again(construction: Construction) -> list[float]:
     return [adopted.least] if adopted is not None else []
 
 
-def _through_named(construction: Construction, words: Words) -> list[float]:
-    """The radius [mm] of the circle through the three stations that a sentence names, from their distances."""
-    named = re.search(r"over (\S+), (\S+), (\S+?),", str(words))
-    if named is None or construction.name != "curvature":
+def _stepped_off(construction: Construction, words: Words) -> list[float]:
+    """The eighths of parts that a sentence steps off; of other points so far apart the chord and the radius [mm]."""
+    told = re.search(r"step off ([\d.]+) parts( instead)?", str(words))
+    if told is None or construction.name != "curvature":
         return []
-    inverted = construction.givens.inverted
-    stations = station_names(inverted.givens.integrated.givens.stations)
-    a, b, c = (inverted.acts["pitch"].shown[stations.index(each)] for each in named.groups())
-    area = abs(((b - a).conjugate() * (c - a)).imag) / 2
-    return [abs(a - b) * abs(b - c) * abs(c - a) / (4 * area) * inverted.givens.mu_l.per_mm]
+    apart, inverted, curve = round(8 * float(told[1])), construction.givens.inverted, construction.acts["drawn curve"]
+    found, ways, first = [(math.inf, 0.0)], -1 if inverted.givens.rotation == "ccw" else 1, 0
+    for piece in curve.act.takes["pieces"] if told[2] else ():
+        places = curve.first.shown[first : first + 8 * (piece.stop - piece.start - 1) + 1].tolist()
+        first += len(places)
+        for a, b, c in zip(places, places[apart:], places[2 * apart :], strict=False):
+            turned = ways * ((b - a).conjugate() * (c - b)).imag
+            if turned > 0:
+                found.append((abs(a - b) * abs(b - c) * abs(c - a) / (2 * turned), (abs(a - b) + abs(b - c)) / 2))
+    radius, chord = min(found)
+    return [apart / 8, *([chord, radius * inverted.givens.mu_l.per_mm] if told[2] else [])]
 
 
 def _taken(board: Board) -> dict[Act, list[Act]]:

@@ -389,15 +389,18 @@ def _where(p: complex, d: complex, q: complex, e: complex, *, flat: bool = False
 
 
 def _on_the_other_side(shown: Figure, axis: Figure) -> Figure:
-    """As far beyond the foot of the perpendicular on the line, and with its directions the same."""
-    q, d = axis.points[0], (axis.along or [])[0]
+    """As far beyond the foot of the perpendicular on the line, or each on its own, and with its directions the same."""
+    lines = axis.along or []
 
-    def over(p: complex) -> complex:
+    def over(p: complex, q: complex, d: complex) -> complex:
         """The image of one place."""
         return 2 * _where(q, d, p, d * 1j) - p
 
-    along = None if shown.along is None else [over(q + way) - q for way in shown.along]
-    return Figure([over(p) for p in shown.points], along, shown.radius, shown.single and axis.single)
+    points = [over(*row) for row in _rows(shown.points, axis.points, lines)]
+    along = None
+    if shown.along is not None:
+        along = [over(q + way, q, d) - q for way, q, d in _rows(shown.along, axis.points, lines)]
+    return Figure(points, along, shown.radius, shown.single and axis.single)
 
 
 def _line_and_circle(p: complex, d: complex, centre: complex, radius: float) -> complex:

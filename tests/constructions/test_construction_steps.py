@@ -176,16 +176,18 @@ def test_the_captions_carry_the_numbers_of_the_built_in_task():
             *("0.6 mm × 1 = 0.6 mm here", "station 4: 11.11 mm × 0.6 = 6.67 mm", "In the dwell φ₂: compass 73.5 mm"),
         ],
         "curvature": [
-            "station 1′",
-            "enlarged to 2 times its size, at 2:1",
-            "OB measures 61.49 mm",
-            "ρ = 30.743 mm",
-            "may be off by 43 %",
+            "here station 0′, at φ = 125.0°",
+            "step off 0.875 parts before and after it",
+            "P is the image of the point of the curve there",
+            "OB measures 60.07 mm",
+            "ρ = 30.036 mm",
+            "may be off by 56 %",
+            "step off 1.75 parts instead: with chords of 11.4 mm ρ may be off by 14 %, and they give ρ = 30.3 mm",
         ],
         "roller": ["0.4 r₀ = 17.60 mm"],
         "working_profile": [
             *("Round 17.60 mm down to 17 mm", "Set the compass to 17.0 mm (r = 17 mm at 1:1)"),
-            *("Station 6: 29.7° (29.7° in the diagram)", "Station 6′: 49.5° (49.3° in the diagram)"),
+            *("29.7° (29.7° in the diagram)", "I 57.3 mm from A, 49.3° (49.3° in the diagram)"),
         ],
     }
     for name, parts in expected.items():
@@ -206,8 +208,8 @@ def test_a_place_of_the_sharpest_bend_inside_a_dwell_is_named_so():
     moving, resting = chain["curvature"].readings["rho_candidates"].value
     caption = str(chain["curvature"].steps()[0].caption)
     assert ("the middle of a dwell" in caption) == bool(resting < moving)
-    shallow = Chain(board_of(motion_of((30, 180, "3-4-5"), (-30, 120, "3-4-5")), divisions=2, prime_radius=200.0))
-    assert "the middle of a dwell" in str(shallow["curvature"].steps()[0].caption)
+    slow = board_of(motion_of((30, 160, "3-4-5"), (-30, 160, "3-4-5")), offset=0.0, prime_radius=15.0)
+    assert "the middle of a dwell" in str(Chain(slow)["curvature"].steps()[0].caption)
 
 
 def test_where_the_moving_phases_have_too_few_points_only_the_rests_are_compared_and_it_is_said():

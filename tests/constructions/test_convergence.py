@@ -159,7 +159,7 @@ def test_the_greatest_pressure_angle_is_within_its_constant_over_n_squared(law, 
     assert 0.8 * constant_deg < scaled.max() < constant_deg
 
 
-@over_all(("law", "constant"), [("cycloidal", 240), ("3-4-5", 260)])
+@over_all(("law", "constant"), [("cycloidal", 160), ("3-4-5", 180)])
 def test_the_least_radius_of_curvature_inside_a_smooth_part_is_within_its_constant_over_n_squared(law, constant):
     exact = cam_of(law).extremes().min_convex_radius_moving[0]
     errors = [drawn(law, n)["curvature"].readings["rho_candidates"].value[0] - exact for n in FINER]

@@ -141,7 +141,6 @@ def row_of(task: str, construction: str, name: str) -> ReadingRow:
         ("coursework", "acceleration.greatest", ["maximum (return φ₃) = 88.89"]),
         ("coursework", "acceleration.middles", ["minimum (part 1′) = -88.89", "maximum (part 7′) = 88.89"]),
         ("coursework", "integration.closing_v", ["maximum (rise φ₁) = 0"]),
-        ("coursework", "curvature.phi", ["maximum (after B) = 135"]),
         ("coursework", "roller.candidates", ["minimum (0.4 r₀) = 17.6"]),
         ("arm", "roller.candidates", ["minimum (given) = 15"]),
         ("measured", "differentiation.v", ["minimum (φ = 183.8°) = -35.6", "maximum (φ = 48.75°) = 32.1"]),
