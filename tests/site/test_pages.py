@@ -426,6 +426,14 @@ def test_the_sized_cam_of_the_page_is_held_back_by_both_limits_and_its_message_i
     assert " ".join(f"graphcam: {error.value}".split()) in " ".join(text_of(page).split())
 
 
+def test_the_given_cam_of_the_page_moves_its_followers_as_it_says(tmp_path):
+    page = "how-to/analyse-a-given-cam.md"
+    first, roller, *_ = followed(page, tmp_path).splitlines()
+    assert first == "nose 20.203 mm, its centre 22.797 mm from the cam's"
+    start, apex = ast.literal_eval(roller)
+    assert f"begins with {start} mm/s² and has −{-apex} mm/s² at the apex" in text_of(page)
+
+
 def test_the_cam_of_the_page_is_designed_in_python_as_it_says(tmp_path):
     """The printed lines are those of the page, and the table and the profile are those of the cam."""
     page = "how-to/design-in-python.md"
