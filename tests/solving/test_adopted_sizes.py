@@ -146,12 +146,12 @@ def test_a_radius_that_only_rounding_up_made_large_enough_is_not_told():
 def test_a_roller_larger_than_the_rule_permits_is_told():
     task = Task(
         "cw",
-        motion(24.6, "cycloidal", "cycloidal", angles=(80, 45, 75, 160)),
+        motion(25.0, "cycloidal", "cycloidal", angles=(80, 45, 75, 160)),
         OscillatingTable(100.0),
         drawing=DrawingTable("A1"),
     )
     (said,) = warned(task, "roller radius")
-    assert "larger than the rule permits, 10.373 mm" in said
+    assert "larger than the rule permits, 10.663 mm" in said
     assert named(said) == [{"drawing.divisions": 24}, {"follower.roller_radius": 10}]
 
 
