@@ -28,7 +28,7 @@ def cross(a: Vectors | complex, b: Vectors | complex) -> NDArray[np.float64]:
     return np.asarray(a.real * b.imag - a.imag * b.real)
 
 
-def turned(points: NDArray[np.float64], by: complex) -> NDArray[np.float64]:
+def turned(points: NDArray[np.floating[Any]], by: complex) -> NDArray[np.floating[Any]]:
     """Points (..., 2) turned about the origin by a unit vector; by 1, every digit stays.
 
     >>> turned(np.array([[2.0, 1.0]]), 1j).tolist()

@@ -98,9 +98,7 @@ def test_round_phases_come_out_round_though_the_tolerance_is_that_of_few_sigmas(
 @over_all("tolerance", [0.0005, 0.001, 0.002])
 def test_a_tolerance_below_the_noise_is_told_with_one_that_is_enough(tolerance):
     s = MOTION(DEGREES[::5])[0] + 0.009 * NOISY
-    with pytest.raises(
-        DesignError, match=r"give a greater tolerance, as .*, 4\.5 times what the rows scatter by"
-    ) as caught:
+    with pytest.raises(DesignError, match=r"give a greater tolerance, as [\d.e-]+, or a table") as caught:
         measured_motion(DEGREES[::5], s, tolerance)
     enough = float(caught.value.remedy.split(" as ")[1].split(",")[0])
     assert measured_motion(DEGREES[::5], s, enough).greatest_residual <= enough
@@ -141,7 +139,7 @@ def test_a_row_beyond_the_noise_is_kept_to_the_tolerance_or_refused():
     s[40] += 0.01
     assert measured_motion(DEGREES, s, 0.009).greatest_residual <= 0.009
     s[40] += 0.1
-    with pytest.raises(DesignError, match="what the best spline leaves"):
+    with pytest.raises(DesignError, match="as the rows on both sides say"):
         measured_motion(DEGREES, s, 0.009)
 
 

@@ -14,7 +14,7 @@ from graphcam.solving.solve import solve
 from graphcam.tasks.task import CamTable, LimitsTable, Task, TranslatingTable
 from graphcam.tasks.task_file import builtin_task
 
-TOP = {"graphcam", "task", "cam", "scales", "quantities", "stations", "low_dwells", "warnings", "files"}
+TOP = {"graphcam", "task", "cam", "phases", "scales", "quantities", "stations", "low_dwells", "warnings", "files"}
 QUANTITIES = {
     "max_v": "mm/rad", "max_a": "mm/rad²", "minimum_prime_radius": "mm", "minimum_offset": "mm",
     "max_pressure_angle_rise_deg": "deg", "max_pressure_angle_return_deg": "deg", "min_pitch_curvature_radius": "mm",
@@ -47,6 +47,8 @@ def test_keys(document):
     assert document["graphcam"] == graphcam.__version__
     assert document["task"] == builtin_task().to_dict()
     assert document["cam"].keys() == {"prime_radius", "offset", "roller_radius", "rotation"}
+    ends = [(phase["begins_deg"], phase["ends_deg"]) for phase in document["phases"]]
+    assert np.allclose(ends, [(0, 80), (80, 125), (125, 185), (185, 360)])
     assert document["scales"].keys() == {"phi", "s", "v", "a", "t", "v_at_speed", "a_at_speed"}
     assert {name: q["unit"] for name, q in document["quantities"].items()} == QUANTITIES
     for quantity in document["quantities"].values():
