@@ -175,7 +175,7 @@ def measured_motion(phi: ArrayLike, s: ArrayLike, tolerance: float = DEFAULT_TOL
     except DesignError as error:
         if error.quantity != "tolerance":
             raise
-        raise DesignError(*error.args[:3], _remedy(phi, s, tolerance)) from None
+        raise DesignError("tolerance", tolerance, error.args[2], _remedy(phi, s, tolerance)) from None
 
 
 def _measured(phi: Floats, s: Floats, tolerance: float) -> MeasuredMotion:
