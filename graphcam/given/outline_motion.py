@@ -23,6 +23,7 @@ from itertools import groupby, pairwise
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, check_kind
 from graphcam.given.cam_by_radii import ArcOutline, OutlineArc
@@ -169,7 +170,10 @@ def _(follower: FlatFaced, outline: ArcOutline, sigma: int) -> _Track:
         y, y1, y2, y3 = (turned.imag for turned in _turning(arc.centre, phi, sigma))
         return y + (arc.radius - base), y1, y2, y3
 
-    return _Track(_for_roller(outline, 0.0, 1j, sigma), sigma, base, lambda _: 1j, stand, by_normal=True)
+    def upwards(_: float) -> complex:
+        return 1j
+
+    return _Track(_for_roller(outline, 0.0, 1j, sigma), sigma, base, upwards, stand, by_normal=True)
 
 
 def _for_roller(outline: ArcOutline, roller: float, turned: complex, sigma: int) -> list[OutlineArc]:
@@ -193,7 +197,7 @@ def _placed(arc: OutlineArc, turned: complex, sigma: int, roller: float) -> Outl
 # --- a follower on an arc --------------------------------------------------------------------------------------------
 
 
-def _turning(z: complex, phi: Floats, sigma: int) -> list[np.ndarray]:
+def _turning(z: complex, phi: Floats, sigma: int) -> list[NDArray[np.complex128]]:
     """A point that turns with the cam, and its first three derivatives by phi."""
     turned = z * np.exp(1j * sigma * phi)
     return [turned, 1j * sigma * turned, -turned, -1j * sigma * turned]

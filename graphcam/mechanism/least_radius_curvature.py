@@ -8,12 +8,11 @@ distance, until rho of the sharpest place is the roller radius and the permitted
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TypeVar
 
 import numpy as np
 
 from graphcam.errors import DesignError, check_number
-from graphcam.given.follower import Limits, Oscillating, Translating
+from graphcam.given.follower import Follower, Limits
 from graphcam.given.motion import Motion
 from graphcam.given.root_finding import roots
 from graphcam.mechanism.followers import kinematics
@@ -23,7 +22,6 @@ from graphcam.mechanism.least_radius_translating import MinimumRadius
 from graphcam.mechanism.turn_extremes import highest_places
 from graphcam.words import say
 
-Least = TypeVar("Least", MinimumRadius, ArmMinimumRadius)
 GROWTH = 1.05
 """The factor between prime radii that are tried, until the profile is nowhere too sharp."""
 MAX_GROWTH = 1e6
@@ -33,8 +31,13 @@ ANGLE_ROUNDING = 1e-9
 
 
 def sharp_enough(
-    motion: Motion, follower: Translating | Oscillating, sigma: int, limits: Limits, least: Least, curvature: float
-) -> Least:
+    motion: Motion,
+    follower: Follower,
+    sigma: int,
+    limits: Limits,
+    least: MinimumRadius | ArmMinimumRadius,
+    curvature: float,
+) -> MinimumRadius | ArmMinimumRadius:
     """The minimum prime radius at which the working profile, too, is nowhere sharper than permitted.
 
     follower : with its place, which stays;  least : what its pressure angles need;  curvature : permitted radius [mm]
@@ -53,7 +56,7 @@ def sharp_enough(
     (19.0661, 32.0781, ('curvature',))
     """
     check_number(say("minimum radius of curvature"), curvature, say("a finite length of 0 mm or more"), least=0)
-    needed = follower.roller_radius + curvature
+    needed = float(getattr(follower, "roller_radius", 0.0)) + curvature
     if not needed:  # a knife edge, and the pitch curve may come to a point
         return least
 

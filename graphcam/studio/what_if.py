@@ -99,7 +99,7 @@ def _exact_least_radius(task: Task) -> tuple[float, float]:
     asked: dict[str, Any] = {"rise": limits.rise, "return_": limits.return_, "rest": limits.rest, **_condition(task)}
     try:
         least = minimum_radius(task.motion(), task.follower(), task.rotation, **asked)
-        if has_angles(task) and (sharpest := task.limits.min_curvature_radius) is not None:
+        if least.place_name and (sharpest := task.limits.min_curvature_radius) is not None:
             placed = replace(task.follower(), **{least.place_name: least.place})
             asked |= {"curvature": sharpest} | ({"offset": least.place} if "offset" in asked else {})
             least = minimum_radius(task.motion(), placed, task.rotation, **asked)

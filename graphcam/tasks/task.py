@@ -500,7 +500,7 @@ class Task:
         try:
             motion()
         except DesignError as error:
-            raise DesignError(GIVEN_CAM_KEYS.get(error.quantity, error.args[0]), *error.args[1:]) from None
+            raise DesignError(GIVEN_CAM_KEYS.get(str(error.quantity)) or error.args[0], *error.args[1:]) from None
 
     @property
     def prime_radius(self) -> float | None:
