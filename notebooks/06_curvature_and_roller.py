@@ -167,7 +167,7 @@ table(("chord h, mm", "scatter of ρ, %"), [(f"{h}", 100 * 6**0.5 * sigma * rho_
 # root of the line, and without one it says which part to take by hand.
 #
 # In our task the sharpest point is the end of a phase, where the curvature jumps: on the other side of it lies the arc of the dwell. But there
-# the follower rests, so that the curve runs square to the ray from $A$. One side is enough: the third point is its mirror image in the ray.
+# the follower dwells, so that the curve runs square to the ray from $A$. One side is enough: the third point is its mirror image in the ray.
 #
 # ## Questions
 #

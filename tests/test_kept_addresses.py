@@ -23,6 +23,8 @@ from graphcam.studio.address import place_of
 from graphcam.studio.task_text import built_in_tasks
 from graphcam.tasks.task_file import load_task
 
+ADDED = {"10.5/2": [["working_profile", "instant centres", [19]]]}
+"""What a place draws besides what it drew: the normal at the profile goes through the instant centre."""
 KEPT = Path(__file__).parent / "data" / "kept"
 Plain = dict[str, Any]
 
@@ -103,7 +105,10 @@ def test_a_kept_task_is_drawn_as_it_was(name):
 
 @pytest.mark.parametrize("one", PLAYER, ids=[f"{one['task']}#{one['address']}" for one in PLAYER])
 def test_a_kept_address_of_the_player_opens_what_it_opened(one):
-    assert opened(one["task"], one["address"]) == one["opens"]
+    now = opened(one["task"], one["address"])
+    for added in ADDED.get(one["address"], []):
+        now["draws"].remove(added)
+    assert now == one["opens"]
 
 
 @pytest.mark.parametrize("one", STUDIO, ids=[one["address"][:24] for one in STUDIO])

@@ -450,12 +450,12 @@ def _laid_off(c: Integrated) -> Caption:
     first = c.givens.motion.phases[k]
     title = phase_title(c.givens.motion, c.givens.motion.phases.index(blown))
     said = say(
-        "Where the velocity jumps lay off its jump, upright: {v:.2f} mm on {phase}, and of others in proportion to "
+        "Where the velocity jumps lay off its jump, vertically: {v:.2f} mm on {phase}, and of others in proportion to "
         "h/φ. This length is chosen; its scale is found at the end."
     )
     if isinstance(first, MovingPhase) and first.steady_acceleration:
         said = say(
-            "Where the velocity jumps, lay off its jump, upright: of {phase} {v:.2f} mm = y₁·(f′·h/φ)/((C₁·h₁/φ₁²)·"
+            "Where the velocity jumps, lay off its jump, vertically: of {phase} {v:.2f} mm = y₁·(f′·h/φ)/((C₁·h₁/φ₁²)·"
             "μᵩ·H₁), with the y₁ = {y:.1f} mm that was chosen, and of others in proportion."
         )
     return said.with_values(v=v, phase=title, y=c.givens.ordinate, h1=h1, reference=reference)

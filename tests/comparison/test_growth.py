@@ -101,7 +101,7 @@ def test_calls_and_memory_of_a_comparison_grow_in_proportion_to_the_phases(follo
     assert comparison_of(follower, 2).quantities  # the first one imports what it needs
     few, many = slopes(calls_of)
     assert many == pytest.approx(few, rel=0.1)
-    assert many < 400
+    assert many < 800  # half of them step the three points along the curve of a phase
     few, many = slopes(memory_of)
     assert many == pytest.approx(few, rel=0.1)
 

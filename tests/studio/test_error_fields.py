@@ -253,7 +253,7 @@ WRONG = [
     ("coursework", {"motion.phases[0].angle": 81}, "motion.phases"),
     ("coursework", {"motion.phases[0].lift": 31}, "motion.phases"),
     ("coursework", {"motion.phases[1].angle": -5}, "motion.phases[1].angle"),
-    ("coursework", {"motion.phases[0].law": "cubic"}, "motion.phases[0].law"),
+    ("coursework", {"motion.phases[0].law": "quartic"}, "motion.phases[0].law"),
     ("coursework", {"limits.pressure_angle_rise": 95.0}, "limits.pressure_angle_rise"),
     ("coursework", {"limits.min_curvature_radius": -5.0}, "limits.min_curvature_radius"),
     ("coursework", {"follower.roller_rule": "rho / 2"}, "follower.roller_rule"),

@@ -56,7 +56,8 @@ def test_the_sized_task_is_drawn_and_keeps_what_was_asked(tmp_path):
     task = gc.load_task(tmp_path / "sized" / "sized.toml")
     assert task == sizing.sized_task
     solution = gc.solve(task)
-    assert list(solution.warnings) == []
+    # A bend of less than 10 mm on paper is drawn, and told to be too sharp for a pencil.
+    assert [said for said in solution.warnings if not said.startswith("On paper ρ is only")] == []
     assert (solution.cam.prime_radius, solution.cam.roller_radius) == (94, 15)
     assert solution.stress.permitted
     assert solution.stress.greatest.value == pytest.approx(sizing.adopted.stress, rel=1e-12)
