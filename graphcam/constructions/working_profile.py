@@ -409,11 +409,15 @@ def _normals(profile: Profile) -> Iterator[ShownAngle]:
         direction, angle, centre = float(np.angle(motion.directions[at])), float(alpha.paper[at]), centres[at]
         start, end = sorted((direction, direction + angle))
         said, index = say("{alpha:.1f}°", alpha=abs(np.degrees(angle))), normals[at].index
+        # An instant centre may lie far off the paper: then the normal is drawn towards it.
+        towards, place = centre.place - pitch[at].place, pitch[at].place
+        near = abs(towards) <= FARTHEST_CENTRE * abs(place)
+        inner = centre.place if near else place + towards / abs(towards) * abs(place)
         marks = (
             lines[at].line_from(pitch[at], Role.CONSTRUCTION),
-            Line(np.array([centre.place, beyond[at].place]), Role.LIMIT, of=normals.act, index=index.repeat(2)),
-            AngleMark(pitch[at].place, ANGLE_ARC_RADIUS, start, end, said, of=normals.act, index=index),
-            *(centre.dots(Role.LIMIT), centre.label("I", centre.place - pitch[at].place)),
+            Line(np.array([inner, beyond[at].place]), Role.LIMIT, of=normals.act, index=index.repeat(2)),
+            AngleMark(place, ANGLE_ARC_RADIUS, start, end, said, of=normals.act, index=index),
+            *((centre.dots(Role.LIMIT), centre.label("I", towards)) if near else ()),
         )
         draws = (centre, normals[at], beyond[at], lines[at])
         yield ShownAngle(at, angle, float(abs(centre.place)), marks, draws)
@@ -437,8 +441,13 @@ def _instant_centres(hand: Hand, inverted: Inverted) -> Drawn:
 
 def _from_cam_centre(sigma: int, velocity: Floats, distance: Floats) -> Floats:
     """How far the instant centre lies from the cam centre towards the pivot of an arm."""
-    return distance * velocity / (velocity + sigma)
+    apart = velocity + sigma
+    return distance * velocity / np.where(apart == 0, PARALLEL, apart)
 
 
+FARTHEST_CENTRE = 2.0
+"""An instant centre is shown that is no farther from the pitch curve than so many radii of it."""
+PARALLEL = 1e-9
+"""Where cam and arm turn alike the instant centre is infinitely far: the normal is parallel to the line of centres."""
 ANGLE_ARC_RADIUS = 26.0
 """Radius of the arcs that show a pressure angle on the profile [mm]."""

@@ -275,7 +275,7 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
     """
     try:
         phi, values = np.asarray(phi, dtype=np.float64), np.asarray(values, dtype=np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise DesignError("table", say("not of numbers"), say("a list of cam angles and one of values")) from None
     if phi.ndim != 1 or phi.shape != values.shape:
         shapes = say("{shape} and {shape2}", shape=phi.shape, shape2=values.shape)

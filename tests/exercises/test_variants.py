@@ -152,7 +152,7 @@ def test_parameters_are_the_same_on_every_machine_and_version():
 
 ISSUED = {
     "acceleration-and-scales": [3, 1, 1],
-    "curvature-and-roller": [6, 0, 0],
+    "curvature-and-roller": [1, 0, 0],
     "differentiation": [9, 2, 0],
     "integration": [4, 1, 8],
     "inversion-arm": [0, 0, 3],
