@@ -277,6 +277,7 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
         phi, values = np.asarray(phi, dtype=np.float64), np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
         raise DesignError("table", say("not of numbers"), say("a list of cam angles and one of values")) from None
+    closes_to = min(closes_to, float(np.finfo(np.float64).max))  # a whole number of a file may be larger
     if phi.ndim != 1 or phi.shape != values.shape:
         shapes = say("{shape} and {shape2}", shape=phi.shape, shape2=values.shape)
         quantity = say("shapes of the table's columns")
