@@ -47,8 +47,8 @@ _NUMPY_PATTERN = re.compile(r"numpy-[^-]+-.*\.(whl|tar\.gz)")
 UNUSED_FOLDERS = frozenset({"tests", "testing", "fft", "f2py", "include", "_examples", "_pyinstaller", "pkgconfig"})
 UNUSED_ENDINGS = (".pyi", ".pxd", ".pyx", ".h", ".c", ".a", "RECORD")
 """Endings of NumPy's files for tests, compilers, type checkers or installers, and transforms that no drawing needs."""
-ROOMS_ABOVE = frozenset({"__main__.py", "cli", "exercises", "notebooks", "bench", "plots"})
-"""The rooms of graphcam that the studio stands below, so that its engine cannot import them."""
+ROOMS_ABOVE = frozenset({"__main__.py", "cli", "exercises", "notebooks", "bench", "plots", "photo"})
+"""The rooms of graphcam that the studio stands below, and that of photographs, which serves exercises alone."""
 KEPT_ENDINGS = frozenset({".py", ".pyi", ".json", ".po", ".toml", ".csv"})
 """Kinds of files of graphcam that the engine reads; pages, scripts and fonts are not for it."""
 ENGINE_LIBRARIES = ("lazy_loader", "tomli_w", "typing_extensions")
