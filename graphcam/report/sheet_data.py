@@ -12,6 +12,7 @@ from graphcam.given.boundary_parts import DERIVATIVE_NAMES
 from graphcam.given.measured import MeasuredMotion
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.outline_motion import OutlineMotion
+from graphcam.given.point_outline import TracedMotion
 from graphcam.report.markdown import number
 from graphcam.sheets.tables import Table
 from graphcam.solving.adopted_sizes import FaceDesign
@@ -153,8 +154,9 @@ def _measured(solution: Solution) -> list[Row]:
     swings = solution.chain.board.follower.unit == "rad"
     greatest, rms = motion.greatest_residual / lift_unit, motion.rms_residual / lift_unit
     residual = say("{greatest:.2g}, rms {rms:.2g}", greatest=greatest, rms=rms)
+    what = say("points of the cam") if isinstance(motion, TracedMotion) else say("table of the motion")
     return [
-        (say("table of the motion"), table.file, GIVEN_LABEL),
+        (what, table.file, GIVEN_LABEL),
         (say("tolerance"), degrees(motion.tolerance) if swings else mm(motion.tolerance), GIVEN_LABEL),
         (say("residual"), residual, ""),
         *([(say("cam angle 0 of the table at"), degrees(-motion.zero), "")] if motion.zero else []),

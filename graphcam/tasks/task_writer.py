@@ -16,7 +16,7 @@ TASK_FILE = "task.toml"
 
 
 def task_files(task: Task | ArcsTask) -> dict[str, str]:
-    """The contents of a task's files by their names: TOML, and the table of a measured motion.
+    """The contents of a task's files by their names: TOML, and the table of a motion or of points of a cam.
 
     Raises
     ------
@@ -37,7 +37,8 @@ def task_files(task: Task | ArcsTask) -> dict[str, str]:
     if table is not None:
         name = said["motion"]["table"] = PurePath(table.file).name
         rows = "".join(f"{phi!r},{value!r}\n" for phi, value in table.rows)
-        tables[name] = f"phi_deg,{table.column}\n{rows}"
+        head = "x_mm,y_mm" if table.column == "outline" else f"phi_deg,{table.column}"
+        tables[name] = f"{head}\n{rows}"
     return {TASK_FILE: tomli_w.dumps(said), **tables}
 
 
