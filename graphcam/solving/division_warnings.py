@@ -43,7 +43,9 @@ def _remedy(board: Board) -> Caption:
     finer = {} if board.finer else finer_parts(board.motion, TRIED_DIVISIONS[0], left_out)
     if finer and not chord_readings(board.motion, left_out(finer)).too_coarse:
         said = say("Leave the number of parts open.")
-        return said if enough is None else say("Divide each phase into {n} parts, or leave their number open.", n=enough)
+        if enough is not None:
+            said = say("Divide each phase into {n} parts, or leave their number open.", n=enough)
+        return said
     if enough is None:
         return say("No number of parts that is drawn by hand suffices: let the acceleration last longer.")
     return say("Divide each phase into {n} parts.", n=enough)
