@@ -34,6 +34,8 @@ SPEED_HEADINGS: Mapping[str, tuple[Caption, ...]] = {
 """Headings for a phase at a speed, by the unit of the lift: its time, and the maxima of v and a."""
 
 
+HAND_READING = 10
+"""A hand reads the paper so much coarser than the finest scale shows: to 0.1 mm."""
 MAX_SHEET_ROWS = 16
 """The maximum number of rows of a table on the sheet; a longer one stands in the note only."""
 TITLE_IN_MM, TITLE_IN_DEGREES = (
@@ -270,7 +272,7 @@ def comparison(quantities: Mapping[str, Quantity], title: Caption = DRAWN_AND_EX
     rows = tuple(
         (
             sequence([q.title, unit(q.unit)]),
-            *(number(value, digits(q.per_mm)) for value in (q.drawn, q.exact)),
+            *(number(value, digits(HAND_READING * abs(q.per_mm))) for value in (q.drawn, q.exact)),
             *(number(q.error_paper, sign=True), number(q.tolerance_paper)),
         )
         for q in quantities.values()
