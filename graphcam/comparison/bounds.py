@@ -16,16 +16,17 @@ errors do together, such as making the eye choose another place.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
 from graphcam.drafting.acts import Kind
-from graphcam.drafting.ink import Construction
+from graphcam.drafting.ink import Construction, Reading
 from graphcam.drafting.meaning import Rank
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.slips import SLIPS
@@ -43,6 +44,39 @@ HAND_COUNT = 400
 """How many hands draw for the scatter; its own relative error is 1/sqrt(2 HAND_COUNT), about 4 %."""
 ARITHMETIC_ERROR = 1e-9
 """What rounding of the arithmetic may move on the paper [mm]."""
+CAREFUL_PENCIL = Pencil.of(0.2, samples=HAND_COUNT)
+"""The hands whose answers are called right."""
+HONEST_SHARE = 0.99
+"""The share of their answers that is."""
+HALF_DIVISION, HALF_DEGREE = 0.5, math.radians(0.5)
+"""How far a reading may be off by the rule [mm of paper], and by the protractor [rad]."""
+
+
+class HonestRange(NamedTuple):
+    """Between which values answers lie that were honestly drawn, or computed."""
+
+    low: float
+    high: float
+
+
+def honest_range(perfect: Reading, hands: Reading, exact: float = math.nan) -> HonestRange:
+    """The range of the honest answers for one reading [machine units].
+
+    perfect, hands : the reading by a hand without error, and by many of :data:`CAREFUL_PENCIL`
+    exact : the exact value, where there is one
+
+    >>> from graphcam.drafting.ink import reading
+    >>> honest_range(reading(50.0, 0.5, "mm"), reading([48.0, 48.0], 0.5, "mm"), exact=25.2)
+    HonestRange(low=24.0, high=25.45)
+    """
+    value, is_angle = float(perfect.value), perfect.unit == "rad" and perfect.per_mm == 1
+    read = HALF_DEGREE if is_angle else HALF_DIVISION * abs(perfect.per_mm)
+    off = hands.value - value
+    off = off[np.isfinite(off)]
+    off = np.remainder(off + FULL_TURN / 2, FULL_TURN) - FULL_TURN / 2 if is_angle else off
+    ends = value + np.quantile(off, [(1 - HONEST_SHARE) / 2, (1 + HONEST_SHARE) / 2]) if off.size else [value, value]
+    low, high = np.nanmin([ends[0], value - read, exact - read]), np.nanmax([ends[1], value + read, exact + read])
+    return HonestRange(float(low), float(high))
 
 
 class Redrawable(Protocol):
@@ -89,6 +123,19 @@ class Bounds:
         if pencil.perfect:
             return None
         return self.drawn.redrawn(pencil=replace(pencil, samples=pencil.samples or HAND_COUNT))
+
+    @cached_property
+    def careful(self) -> Redrawable:
+        """The drawing by many careful hands, whatever pencil drew."""
+        return self.drawn.redrawn(pencil=CAREFUL_PENCIL)
+
+    def honest(self, construction: str, reading: str, place: int | None, factor: float, exact: float) -> HonestRange:
+        """The range of the honest answers for a reading, or for one of several, in a unit other than the machine's.
+
+        factor : how many of the unit make a machine unit; exact : in the unit
+        """
+        perfect, hands = (by[construction].readings[reading].at(place) for by in (self.perfect, self.careful))
+        return HonestRange(*sorted(factor * end for end in honest_range(perfect, hands, exact / factor)))
 
     def of(self, construction: str, reading: str) -> Floats:
         """How far the reading may be off, on the paper it was read from [mm; an angle: rad]."""
