@@ -26,7 +26,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from graphcam.drafting.acts import Kind
-from graphcam.drafting.ink import Construction, Reading
+from graphcam.drafting.ink import Construction
 from graphcam.drafting.meaning import Rank
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.slips import SLIPS
@@ -48,8 +48,9 @@ CAREFUL_PENCIL = Pencil.of(0.2, samples=HAND_COUNT)
 """The hands whose answers are called right."""
 HONEST_SHARE = 0.99
 """The share of their answers that is."""
-HALF_DIVISION, HALF_DEGREE = 0.5, math.radians(0.5)
-"""How far a reading may be off by the rule [mm of paper], and by the protractor [rad]."""
+HALF_DIVISION, HALF_DEGREE = 0.5, 0.5
+"""How far a reading may be off by the rule [mm of paper], and by the protractor [degrees]."""
+DEGREES_PER_RADIAN = math.degrees(1.0)
 
 
 class HonestRange(NamedTuple):
@@ -59,24 +60,25 @@ class HonestRange(NamedTuple):
     high: float
 
 
-def honest_range(perfect: Reading, hands: Reading, exact: float = math.nan) -> HonestRange:
-    """The range of the honest answers for one reading [machine units].
+def honest_range(drawn: float, hands: Floats, per_mm: float, exact: float = math.nan) -> HonestRange:
+    """The range of the honest answers for one reading.
 
-    perfect, hands : the reading by a hand without error, and by many of :data:`CAREFUL_PENCIL`
-    exact : the exact value, where there is one
+    drawn, hands, exact : the values by a hand without error, by many of :data:`CAREFUL_PENCIL`, and computed
+    per_mm : the scale of the paper, or the degrees in a radian for what is measured with a protractor
 
-    >>> from graphcam.drafting.ink import reading
-    >>> honest_range(reading(50.0, 0.5, "mm"), reading([48.0, 48.0], 0.5, "mm"), exact=25.2)
+    >>> honest_range(25.0, np.array([24.0, 24.0, np.nan]), 0.5, exact=25.2)
     HonestRange(low=24.0, high=25.45)
     """
-    value, is_angle = float(perfect.value), perfect.unit == "rad" and perfect.per_mm == 1
-    read = HALF_DEGREE if is_angle else HALF_DIVISION * abs(perfect.per_mm)
-    off = hands.value - value
-    off = off[np.isfinite(off)]
-    off = np.remainder(off + FULL_TURN / 2, FULL_TURN) - FULL_TURN / 2 if is_angle else off
-    ends = value + np.quantile(off, [(1 - HONEST_SHARE) / 2, (1 + HONEST_SHARE) / 2]) if off.size else [value, value]
-    low, high = np.nanmin([ends[0], value - read, exact - read]), np.nanmax([ends[1], value + read, exact + read])
-    return HonestRange(float(low), float(high))
+    read = HALF_DEGREE if math.isclose(per_mm, DEGREES_PER_RADIAN) else HALF_DIVISION * abs(per_mm)
+    readable, half = hands[np.isfinite(hands)], (1 - HONEST_SHARE) / 2
+    ends = np.quantile(readable, [half, 1 - half]) if readable.size else [drawn]
+    near = [drawn - read, drawn + read, exact - read, exact + read, *ends]
+    return HonestRange(float(np.nanmin(near)), float(np.nanmax(near)))
+
+
+def turned_near(angles: Floats, angle: float) -> Floats:
+    """Angles [rad], less the full turns that part them from one."""
+    return angle + np.remainder(angles - angle + FULL_TURN / 2, FULL_TURN) - FULL_TURN / 2
 
 
 class Redrawable(Protocol):
@@ -129,13 +131,10 @@ class Bounds:
         """The drawing by many careful hands, whatever pencil drew."""
         return self.drawn.redrawn(pencil=CAREFUL_PENCIL)
 
-    def honest(self, construction: str, reading: str, place: int | None, factor: float, exact: float) -> HonestRange:
-        """The range of the honest answers for a reading, or for one of several, in a unit other than the machine's.
-
-        factor : how many of the unit make a machine unit; exact : in the unit
-        """
+    def by_hands(self, construction: str, reading: str, place: int | None = None) -> Floats:
+        """A reading, or one of several, by every careful hand (samples,)."""
         perfect, hands = (by[construction].readings[reading].at(place) for by in (self.perfect, self.careful))
-        return HonestRange(*sorted(factor * end for end in honest_range(perfect, hands, exact / factor)))
+        return turned_near(hands.value, float(perfect.value)) if perfect.unit == "rad" else hands.value
 
     def of(self, construction: str, reading: str) -> Floats:
         """How far the reading may be off, on the paper it was read from [mm; an angle: rad]."""
@@ -255,4 +254,4 @@ class ErrorBudget:
         with np.errstate(invalid="ignore"):
             off: Any = read.value - here.value
         off = off.reshape(len(off), -1)
-        return np.remainder(off + FULL_TURN / 2, FULL_TURN) - FULL_TURN / 2 if here.unit == "rad" else off
+        return turned_near(off, 0.0) if here.unit == "rad" else off

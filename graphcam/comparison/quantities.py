@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from graphcam.comparison.bounds import Bounds, HonestRange
+from graphcam.comparison.bounds import DEGREES_PER_RADIAN, Bounds, HonestRange, honest_range
 from graphcam.comparison.double_integration import proved_bounds
 from graphcam.comparison.phase_speeds import PhaseAtSpeed, at_speed
 from graphcam.constructions.board import Board
@@ -37,7 +37,7 @@ class Quantity:
     tolerance_paper : how far the drawn value may lie off [mm of paper], estimated from redrawings in more parts and by
         the same pencil
     proved_paper : the same, proved beforehand for a hand without error; NaN where no theorem tells it
-    draw_honest : gives the range of the honest answers [unit], for which many hands draw; None without a reading
+    draw_by_hands : gives the values by many careful hands, in the unit; None where there is no reading
     """
 
     name: str
@@ -48,7 +48,7 @@ class Quantity:
     per_mm: float
     tolerance_paper: float
     proved_paper: float = math.nan
-    draw_honest: Callable[[], HonestRange] | None = field(default=None, repr=False, compare=False)
+    draw_by_hands: Callable[[], Floats] | None = field(default=None, repr=False, compare=False)
 
     @property
     def exists(self) -> bool:
@@ -65,10 +65,15 @@ class Quantity:
         """The error on the paper [mm]."""
         return self.error / self.per_mm
 
+    @cached_property
+    def by_hands(self) -> Floats:
+        """The values that many careful hands read [unit], drawn when they are asked for; none without a reading."""
+        return self.draw_by_hands() if self.draw_by_hands else np.array([])
+
     @property
     def honest(self) -> HonestRange:
-        """The range of the honest answers [unit]: of careful hands, and of who computes; NaN without a reading."""
-        return self.draw_honest() if self.draw_honest else HonestRange(math.nan, math.nan)
+        """The range of the honest answers [unit]: of who draws with care, and of who computes."""
+        return honest_range(self.drawn, self.by_hands, self.per_mm, self.exact)
 
     @property
     def is_beyond_bound(self) -> bool:
@@ -223,12 +228,16 @@ def _quantity(
     else:
         bound = float(bounds.of(construction.name, said.sides or reading)[side])
     drawn = factor * float(construction.value(said.sides or reading)[side])
-    asked = construction.name, said.sides or reading, *(side or (None,)), factor, exact[counterpart]
-    draw_honest = partial(bounds.honest, *asked)
+    asked = construction.name, said.sides or reading, side[0] if side else None
     title = said.title or construction.meaning.reading(reading).title
     per_mm = factor * read.per_mm
+    by_hands = partial(_by_hands, bounds, asked, factor)
     beforehand = proved.get(said.name, math.nan) / abs(per_mm)
-    return Quantity(said.name, title, drawn, exact[counterpart], unit, per_mm, bound, beforehand, draw_honest)
+    return Quantity(said.name, title, drawn, exact[counterpart], unit, per_mm, bound, beforehand, by_hands)
+
+
+def _by_hands(bounds: Bounds, asked: tuple[str, str, int | None], factor: float) -> Floats:
+    return factor * bounds.by_hands(*asked)
 
 
 def told_unit(reading: Reading) -> tuple[float, str]:
@@ -241,7 +250,6 @@ def side_of(extreme: float) -> int:
     return 0 if extreme >= 0 else 1
 
 
-DEGREES_PER_RADIAN = math.degrees(1.0)
 COMMON_QUANTITIES: Mapping[str, str] = {
     **dict.fromkeys(("minimum_prime_radius", "minimum_offset", "roller_radius"), "mm"),
     **dict.fromkeys(("max_pressure_angle_rise_deg", "max_pressure_angle_return_deg"), "deg"),

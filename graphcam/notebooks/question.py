@@ -109,10 +109,10 @@ class Question:
         """
         read = draw(Pencil())
         size, unit = told_unit(read)
-        low, high = honest_range(read, draw(CAREFUL_PENCIL), exact / size)
+        value = size * float(read.value)
         paper = {} if read.per_mm == 1 else {str(PAPER_LENGTH_HINT): float(read.paper)}
-        honest = HonestRange(size * low, size * high)
-        return cls._within(honest, size * float(read.value), unit, look, {**paper, **(mistakes or {})})
+        honest = honest_range(value, size * draw(CAREFUL_PENCIL).value, size * read.per_mm, exact)
+        return cls._within(honest, value, unit, look, {**paper, **(mistakes or {})})
 
     @classmethod
     def about(cls, quantity: Quantity, tell: Tell = str) -> Question:

@@ -189,7 +189,7 @@ def test_honest_drawings_are_right_and_mistakes_get_their_hints(name):
     assert len(asked) > 3
     for quantity in asked:
         question = Question.about(quantity)
-        construction, reading_, place, factor, _ = quantity.draw_honest.args
+        _, (construction, reading_, place), factor = quantity.draw_by_hands.args
         drawn = factor * np.ravel(hands.drawn[construction].readings[reading_].at(place).value)
         right = [question.check(float(x)).status == "right" for x in drawn[np.isfinite(drawn)]]
         assert np.mean(right) >= 0.95, quantity.name
