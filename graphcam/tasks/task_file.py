@@ -25,6 +25,7 @@ from graphcam.tasks.dataclass_reader import (
     read_dataclass,
 )
 from graphcam.tasks.material_table import MaterialTable
+from graphcam.tasks.outline_file import outline_from_dxf
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.task import Task
@@ -88,7 +89,7 @@ _KEYS_BY_QUANTITY = {
     "the table's lift": "table",
 }
 """Keys of the file by the quantity of a design error, where the two differ."""
-OUTLINE_KEYS = ("file", "tolerance")
+OUTLINE_KEYS = ("file", "tolerance", "layer")
 """The keys of a table ``[outline]``, which stands for a motion with the table of a given cam."""
 _MAX_SHOWN_LENGTH = 60
 """The maximum number of characters of a value in a message."""
@@ -265,7 +266,10 @@ def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]
     if not isinstance(name, str):
         raise TaskError(path, key, _shown_value(name), say("text in quotes"), say("name the CSV file of the table"))
     try:
-        table = read_table(folder / name, name, motion_tables.tolerance_in(motion), Turn.given_in(motion))
+        if key == "outline.file" and name.lower().endswith(".dxf"):
+            table = outline_from_dxf(folder / name, name, motion.pop("layer", None))
+        else:
+            table = read_table(folder / name, name, motion_tables.tolerance_in(motion), Turn.given_in(motion))
     except MissingFileError:
         raise MissingFileError(name, say("check {key}", key=key), where=say("beside {path}", path=path)) from None
     if key == "outline.file" and table.column != "outline":
@@ -287,7 +291,12 @@ def _of_outline(path: str, outline: dict[str, Any], data: dict[str, Any]) -> dic
             remedy = key_remedy(key, value, OUTLINE_KEYS, data)
             raise TaskError(path, f"outline.{key}", say("an unknown key"), say("one that is known"), remedy)
     if "file" not in outline:
-        raise TaskError(path, "outline.file", say("missing"), say("given"), say("name the file of the cam's points"))
+        remedy = say("name the file of the cam's points, CSV or DXF")
+        raise TaskError(path, "outline.file", say("missing"), say("given"), remedy)
+    layer, drawn = outline.get("layer", ""), str(outline["file"]).lower().endswith(".dxf")
+    if "layer" in outline and not (isinstance(layer, str) and drawn):
+        limit = say("the name of a layer, with a DXF file alone")
+        raise TaskError(path, "outline.layer", _shown_value(layer), limit, say("delete it"))
     return {"table": outline["file"], **{key: value for key, value in outline.items() if key != "file"}}
 
 

@@ -6,9 +6,9 @@ from typing import Any
 
 from graphcam.drafting.ink import Caption, say
 from graphcam.drafting.scale import plain_unit
+from graphcam.errors import UnreadableError
 from graphcam.exercises.definition.exercise import AskedAnswer
 from graphcam.exercises.reading.answer_values import MINUS_SIGN, decimal, short_text
-from graphcam.exercises.reading.regular_file import UnreadableError
 
 NUMBER = rf"[-+{MINUS_SIGN}]?(?:0|[1-9]\d{{0,14}})(?:[.,]\d{{1,15}})?"
 UNIT = r"[^\W\d_][^\s#=\"'\[\]\\,]{0,19}|[°(][^\s#=\"'\[\]\\,]{0,19}"
