@@ -36,7 +36,7 @@ class Role(StrEnum):
     AXIS = "axis"  # thin, dash-dot: centre lines, the line of motion
     HIDDEN = "hidden"  # thin, dashed: alternatives that are not taken
     SCALE = "scale"  # thin: coordinate axes with their divisions
-    CURVE = "curve"  # medium: plotted and faired curves
+    CURVE = "curve"  # thin and black: plotted and faired curves
     LIMIT = "limit"  # medium, the accent: lines at a limit, and what binds
     RESULT = "result"  # bold: what the construction was drawn for
 

@@ -29,22 +29,18 @@ from graphcam.sheets.label_candidates import Floats, LabelText
 from graphcam.sheets.mark_entities import Drawn
 from graphcam.sheets.model import ArcEntity, Box, Circles, Entity, Stroke, Strokes, Text
 from graphcam.sheets.sampling import box_around, box_of, corners, linework, pieces, sampled, spans_in_box
-from graphcam.sheets.styles import BOLD, MEDIUM, STYLES_BY_ROLE, THIN
+from graphcam.sheets.styles import BOLD, STYLES_BY_ROLE, THIN
 
 CELL_SIDE = 0.5
 """The side of a cell of the raster [mm]."""
 TEXT_MARGIN = 0.45
 """The free margin around a text [mm]."""
-TEXT_COST, BOLD_LINE_COST, MEASURE_COST, MEDIUM_LINE_COST, THIN_LINE_COST, HATCH_COST = (
-    2000.0,
-    200.0,
-    80.0,
-    80.0,
-    2.0,
-    0.4,
-)
-"""Costs of a cell with another text, a bold line, a dimension, leader or axis, lighter lines, or hatching."""
-ROLE_COSTS: Mapping[str, float] = {Role.HATCH: HATCH_COST, Role.DIMENSION: MEASURE_COST, Role.SCALE: MEASURE_COST}
+TEXT_COST, BOLD_LINE_COST, MEASURE_COST, THIN_LINE_COST, HATCH_COST = 2000.0, 200.0, 80.0, 2.0, 0.4
+"""Costs of a cell with another text, a bold line, a dimension, curve or axis, construction lines, or hatching."""
+ROLE_COSTS: Mapping[str, float] = {
+    Role.HATCH: HATCH_COST,
+    **dict.fromkeys((Role.DIMENSION, Role.SCALE, Role.CURVE, Role.LIMIT, "gauge", "table"), MEASURE_COST),
+}
 """Costs by role, where they do not follow from the width of its lines."""
 HATCHING_MARGIN = 0.8
 """The free margin in the hatching around a text [mm]."""
@@ -245,10 +241,7 @@ def _cell_numbers(along: NDArray[np.floating[Any]], count: int) -> NDArray[np.in
 
 
 def _line_cost(role: str) -> float:
-    if role in ROLE_COSTS:
-        return ROLE_COSTS[role]
-    width = STYLES_BY_ROLE[role].width
-    return BOLD_LINE_COST if width >= BOLD else MEDIUM_LINE_COST if width >= MEDIUM else THIN_LINE_COST
+    return ROLE_COSTS.get(role, BOLD_LINE_COST if STYLES_BY_ROLE[role].width >= BOLD else THIN_LINE_COST)
 
 
 def _grid(corner: complex, along: complex, up: complex) -> Points:
