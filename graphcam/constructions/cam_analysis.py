@@ -382,7 +382,7 @@ def displacement_step(drawn: Analysis, said: Caption, why: Caption, marks: Seque
             return say("{s:.2f}°", s=float(np.degrees(s[n])))
         return say("{paper:.2f} mm × {mu:.5g} = {s:.2f} mm", paper=float(s[n]), mu=per_mm, s=float(s[n]) * per_mm)
 
-    part = run(said.with_values(k=k, s=measured(k)), STATION, _stations(drawn), *draws, settings=measured)
+    part = run(said.with_values(k=f"{k}", s=measured(k)), STATION, _stations(drawn), *draws, settings=measured)
     return Step(say("Displacements measured"), (part,), view_of(drawn), tuple(marks), ("s", "lift"), why=why)
 
 
@@ -463,7 +463,7 @@ def angles_step(drawn: Analysis) -> Step:
         "In every position hold a mirror across the pitch curve, and turn it until the curve runs into its image "
         "without a corner: it stands on the normal, which runs through the centre of the arc. Measure its angle with "
         "the line on which the follower moves, by protractor: {alpha} at position {k}."
-    ).with_values(k=k, alpha=measured(k))
+    ).with_values(k=f"{k}", alpha=measured(k))
     part = run(said, STATION, _stations(drawn), tangents, settings=measured)
     top = say(
         "The maximum lies at the top of the parabola through three angles that follow one another: {rise:.2f}° on the "
