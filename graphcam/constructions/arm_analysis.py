@@ -23,18 +23,18 @@ def arm_analysis(givens: AnalysisGivens, arm: float, pencil: Pencil) -> Analysis
     Readings: ``s``, ``lift``, ``alpha``, the phase angles [rad].
     """
     hand, mu_l = Hand(pencil, MEANING, givens.unit), givens.mu_l.per_mm
-    curve, prime = cam_analysis.lay_cam(hand, givens)
+    points, curve, prime = cam_analysis.lay_cam(hand, givens)
     circle = hand.circle("pivot circle", hand.given("cam centre"), givens.place / mu_l)
     pivots = hand.cross("pivots", cam_analysis.inverted_positions(hand, givens, RIGHT), circle)
     arcs = hand.circle("arcs of the arm", pivots, arm / mu_l)
     # To the left of the way from the cam centre to the pivot: above the line of centres.
     starts, places = (
         hand.cross("starts", prime, arcs, flat=True),
-        hand.meet("places", arcs, curve, givens.outline.pieces),
+        hand.meet("places", arcs, curve),
     )
     arms = hand.join("arms", pivots, places)
     s = hand.carry(hand.angle("s", hand.join("arms at rest", pivots, starts), arms, -1))
-    rays, on_joints = _on_joints(hand, givens, curve, arm / mu_l)
+    rays, on_joints = _on_joints(hand, givens, points, arm / mu_l)
     angles = cam_analysis.measure_phases(hand, givens, s, RIGHT, rays)
     cam_analysis.read_lift(hand, givens, s, 1.0)
     motion = hand.perpendicular("motion", arms.turned(-1), places)
@@ -42,11 +42,13 @@ def arm_analysis(givens: AnalysisGivens, arm: float, pencil: Pencil) -> Analysis
     return hand.finished(givens, _draw, {"starts": starts, "places": places})
 
 
-def _on_joints(hand: Hand, givens: AnalysisGivens, curve: Drawn, arm: float) -> tuple[Drawn, Drawn] | tuple[None, None]:
+def _on_joints(
+    hand: Hand, givens: AnalysisGivens, points: Drawn, arm: float
+) -> tuple[Drawn, Drawn] | tuple[None, None]:
     """The rays to the pivot, and the line of motion, when the arm stands on the joints."""
     if not (at := cam_analysis.joints(givens)).size:
         return None, None
-    on = hand.take("places on the joints", curve, which=at)
+    on = hand.take("places on the joints", points, which=at)
     pivots = hand.cross("pivots on the joints", hand.circle("arcs to the pivot", on, arm), hand.acts["pivot circle"])
     motion = hand.perpendicular("lines on the joints", hand.join("arms on the joints", on, pivots), on)
     return hand.join("rays to the joints", hand.given("cam centre"), pivots), motion

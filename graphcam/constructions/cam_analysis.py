@@ -46,6 +46,8 @@ LINES_FROM = 0.25
 """The positions of a line through the cam centre are drawn from this part of the prime radius on, for it is crowded."""
 
 
+OUTLINE, PITCH_CURVE = "line of the outline", "line of the pitch curve"
+"""The names of the curves that the outline and the pitch curve are."""
 ON_A_STATION = 1e-6
 """A joint nearer to a station than this part of their distance lies on it."""
 
@@ -113,16 +115,17 @@ MEANING = Meaning(
 # --- acts ------------------------------------------------------------------------------------------------------------
 
 
-def lay_cam(hand: Hand, givens: AnalysisGivens) -> tuple[Drawn, Drawn]:
-    """The outline on the paper, with the curve on which the trace point runs, and the prime circle."""
+def lay_cam(hand: Hand, givens: AnalysisGivens) -> tuple[Drawn, Drawn, Drawn]:
+    """Points of the outline, or under a roller of the pitch curve, the curve through them, and the prime circle."""
     laid, mu_l = givens.outline, givens.mu_l.per_mm
-    outline = curve = hand.given("outline", laid.points / mu_l, laid.normals)
+    points, count = hand.given("outline", laid.points / mu_l), laid.points.size - 1
+    normals, faired = hand.given("normals", laid.points / mu_l, laid.normals), hand.fair(OUTLINE, points, laid.pieces)
     if givens.roller_radius:
-        count = laid.points.size - 1
-        circles = hand.circle("roller circles", outline[:-1], givens.roller_radius / mu_l)
-        touched = hand.cross("farthest out", outline[:-1], circles)
-        curve = hand.take("pitch curve", touched, which=np.arange(count + 1) % count)
-    return curve, profile_view.prime_circle(hand, givens.prime_radius, givens.mu_l)
+        circles = hand.circle("roller circles", points[:-1], givens.roller_radius / mu_l)
+        touched = hand.cross("farthest out", normals[:-1], circles)
+        points = hand.take("pitch points", touched, which=np.arange(count + 1) % count)
+        faired = hand.fair(PITCH_CURVE, points, laid.pieces)
+    return points, faired, profile_view.prime_circle(hand, givens.prime_radius, givens.mu_l)
 
 
 def inverted_positions(hand: Hand, givens: AnalysisGivens, base: Direction) -> Drawn:
@@ -248,7 +251,7 @@ def measure_angles(
     normals = hand.tangents_at("tangents", places).turned(UP * sense(givens.rotation))
     measured = [hand.carry(hand.angle("alpha", motion, normals, sigma)), s]
     if on_joints is not None and angles is not None:
-        there = hand.tangents_at("normals at the joints", hand.acts["outline"][joints(givens)])
+        there = hand.tangents_at("normals at the joints", hand.acts["normals"][joints(givens)])
         measured += [hand.carry(hand.angle("alpha on the joints", on_joints, there, sigma)), angles]
     for way, direction in (("rise", 1), ("return", -1)):
         both = calculated_setting(partial(_extremes, givens.phi, direction), *measured)
@@ -294,8 +297,7 @@ KNIFE_EDGE = say("Under a knife edge the outline is itself the pitch curve.")
 def cam_steps(drawn: Analysis) -> list[Step]:
     """The steps of the given outline, and of the pitch curve under a roller."""
     givens, mu_l, view = drawn.givens, drawn.givens.mu_l.per_mm, view_of(drawn)
-    hand, outline = errorless_hand(drawn), drawn.acts["outline"]
-    line = hand.fair("line of the outline", outline.first, givens.outline.pieces)
+    outline, line = drawn.acts["outline"], drawn.acts[OUTLINE].first
     reach = _outer_radius(drawn)
     sigma, arrow = sense(givens.rotation), 0.6 * float(np.abs(outline.shown).min())
     centre = drawn.acts["cam centre"]
@@ -322,9 +324,7 @@ def cam_steps(drawn: Analysis) -> list[Step]:
 
 
 def _pitch_step(drawn: Analysis) -> Step:
-    givens, hand = drawn.givens, errorless_hand(drawn)
-    circles = drawn.acts["roller circles"].first
-    curve = hand.fair("line of the pitch curve", drawn.acts["pitch curve"].first, givens.outline.pieces)
+    givens, circles, curve = drawn.givens, drawn.acts["roller circles"].first, drawn.acts[PITCH_CURVE].first
     each = say_in("drawn", "circles of the roller about points of the outline, close to one another")
     said = circle_caption(each, "r", givens.roller_radius, givens.mu_l.per_mm)
     joined = say(
@@ -332,7 +332,7 @@ def _pitch_step(drawn: Analysis) -> Step:
         "centre of the roller runs."
     )
     why = say("Where the roller touches the outline, its centre is the roller's radius away along the normal.")
-    outward = np.angle(drawn.acts["outline"].first.directions).tolist()
+    outward = np.angle(drawn.acts["normals"].first.directions).tolist()
     arcs = [_outer_arc(circles[k], outward[k]) for k in range(circles.shown.size)]
     marks = (*arcs, curve.line(Role.CURVE))
     parts = Part(said, (circles,)), Part(joined, (curve,))
@@ -371,6 +371,11 @@ def circles_step(drawn: Analysis, title: Caption, more: Sequence[Part] = (), mar
     return Step(title, parts, view_of(drawn), (circle.drawn_circle(Role.CONSTRUCTION), *marks), why=why)
 
 
+def _without_minus_zero(value: float, digits: int = 2) -> float:
+    """A value, or zero where it is told as zero: as a rule shows it."""
+    return value if round(value, digits) else 0.0
+
+
 def displacement_step(drawn: Analysis, said: Caption, why: Caption, marks: Sequence[Mark], *draws: Drawn) -> Step:
     """The step in which the displacements are measured, position by position."""
     s, per_mm = drawn.first("s"), drawn.readings["s"].per_mm
@@ -379,8 +384,9 @@ def displacement_step(drawn: Analysis, said: Caption, why: Caption, marks: Seque
 
     def measured(n: int) -> Caption:
         if angle:
-            return say("{s:.2f}°", s=float(np.degrees(s[n])))
-        return say("{paper:.2f} mm × {mu:.5g} = {s:.2f} mm", paper=float(s[n]), mu=per_mm, s=float(s[n]) * per_mm)
+            return say("{s:.2f}°", s=_without_minus_zero(math.degrees(s[n])))
+        paper = _without_minus_zero(float(s[n]))
+        return say("{paper:.2f} mm × {mu:.5g} = {s:.2f} mm", paper=paper, mu=per_mm, s=paper * per_mm)
 
     part = run(said.with_values(k=f"{k}", s=measured(k)), STATION, _stations(drawn), *draws, settings=measured)
     return Step(say("Displacements measured"), (part,), view_of(drawn), tuple(marks), ("s", "lift"), why=why)
@@ -393,18 +399,14 @@ def _rounded(angle: float) -> Caption:
 
 def _outer_radius(drawn: Analysis) -> float:
     """The radius of the arcs of the phase angles: outside the curve on which the trace point runs [mm of paper]."""
-    curve = drawn.acts.get("pitch curve", drawn.acts["outline"])
+    curve = drawn.acts.get("pitch points", drawn.acts["outline"])
     return float(np.nanmax(np.abs(curve.shown))) + PHASE_ARC_OFFSET
 
 
 def phases_step(drawn: Analysis) -> Step:
     """The step in which the phase angles are read."""
-    givens, angles = drawn.givens, drawn.value("phase_angles")
-    rows = [
-        Row(phase_title(givens.motion, k), _rounded(angle), ())
-        for k, angle in enumerate(angles.tolist())
-        if np.isfinite(angle)
-    ]
+    angles = drawn.value("phase_angles")
+    rows = [Row(_phase_caption(drawn, k), "", ()) for k, angle in enumerate(angles.tolist()) if np.isfinite(angle)]
     marks, lines = _phase_marks(drawn) if np.isfinite(angles).all() else ((), ())
     said = say(
         "Read the phase angles. Where the outline begins or ends an arc about A, a dwell begins or ends: bring the "
@@ -456,7 +458,7 @@ def angles_step(drawn: Analysis) -> Step:
     )
 
     def measured(k: int) -> Caption:
-        return say("{alpha:.1f}°", alpha=float(np.degrees(alpha[k])))
+        return say("{alpha:.1f}°", alpha=_without_minus_zero(math.degrees(alpha[k]), 1))
 
     k = int(np.argmax(np.abs(alpha)))
     said = say(

@@ -34,15 +34,15 @@ def face_analysis(givens: AnalysisGivens, pencil: Pencil) -> Analysis:
     Readings: ``s``, ``lift`` [mm], the phase angles [rad]; the pressure angle is zero.
     """
     hand, mu_l = Hand(pencil, MEANING), givens.mu_l.per_mm
-    curve, prime = cam_analysis.lay_cam(hand, givens)
+    points, _, prime = cam_analysis.lay_cam(hand, givens)
     motion = hand.take("motion", cam_analysis.inverted_positions(hand, givens, UP))
-    starts, faces = hand.cross("starts", motion, prime), hand.tangent("faces", curve, givens.outline.pieces, motion)
+    starts, faces = hand.cross("starts", motion, prime), hand.tangent("faces", points, givens.outline.pieces, motion)
     feet = hand.cross("feet", faces, motion)
     s = distance_between(starts, feet, motion)
     hand.read("s", s, mu_l)
     rays = None
     if (at := cam_analysis.joints(givens)).size:
-        on = hand.take("places on the joints", hand.acts["outline"], which=at)
+        on = hand.take("places on the joints", hand.acts["normals"], which=at)
         rays = hand.parallel("rays to the joints", on, hand.given("cam centre"))
     cam_analysis.measure_phases(hand, givens, s, UP, rays)
     cam_analysis.read_lift(hand, givens, s, mu_l)

@@ -20,8 +20,8 @@ def stem_analysis(givens: AnalysisGivens, pencil: Pencil) -> Analysis:
 
     Readings: ``s``, ``lift`` [mm], ``alpha``, the phase angles [rad].
     """
-    hand, mu_l, e, pieces = Hand(pencil, MEANING), givens.mu_l.per_mm, givens.place, givens.outline.pieces
-    curve, prime = cam_analysis.lay_cam(hand, givens)
+    hand, mu_l, e = Hand(pencil, MEANING), givens.mu_l.per_mm, givens.place
+    points, curve, prime = cam_analysis.lay_cam(hand, givens)
     base = RIGHT * np.sign(e) if e else UP
     if e:
         hand.circle("offset circle", hand.given("cam centre"), abs(e) / mu_l)
@@ -30,21 +30,21 @@ def stem_analysis(givens: AnalysisGivens, pencil: Pencil) -> Analysis:
     if e:
         feet = hand.lay_off("feet", rays, rays, abs(e) / mu_l)
         motion = hand.take("motion", hand.perpendicular("tangents to the circle", rays.turned(np.sign(e)), feet))
-    starts, places = hand.cross("starts", motion, prime), hand.meet("places", motion, curve, pieces)
+    starts, places = hand.cross("starts", motion, prime), hand.meet("places", motion, curve)
     s = distance_between(starts, places, motion)
     hand.read("s", s, mu_l)
-    rays, on_joints = _on_joints(hand, givens, curve)
+    rays, on_joints = _on_joints(hand, givens, points)
     angles = cam_analysis.measure_phases(hand, givens, s, base, rays)
     cam_analysis.read_lift(hand, givens, s, mu_l)
     cam_analysis.measure_angles(hand, givens, motion, places, s, sense(givens.rotation), on_joints, angles)
     return hand.finished(givens, _draw, {"starts": starts, "places": places})
 
 
-def _on_joints(hand: Hand, givens: AnalysisGivens, curve: Drawn) -> tuple[Drawn, Drawn] | tuple[None, None]:
+def _on_joints(hand: Hand, givens: AnalysisGivens, points: Drawn) -> tuple[Drawn, Drawn] | tuple[None, None]:
     """The rays to the line of the stem, to its feet where it is offset, and the line, when it stands on the joints."""
     if not (at := cam_analysis.joints(givens)).size:
         return None, None
-    centre, on = hand.given("cam centre"), hand.take("places on the joints", curve, which=at)
+    centre, on = hand.given("cam centre"), hand.take("places on the joints", points, which=at)
     if not givens.place:
         rays = hand.join("rays to the joints", centre, on)
         return rays, rays

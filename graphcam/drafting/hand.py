@@ -247,8 +247,8 @@ class Hand:
             found = (euclid.crossing if flat else euclid.readable_crossing)(p, d, q, e)
         return self._record_act(Kind.CROSS, name, {"one": one, "other": other, "flat": flat}, found)
 
-    def meet(self, name: str, one: Drawn, plotted: Drawn, pieces: Sequence[slice]) -> Drawn:
-        """Where rays, or circles about places, meet a curve faired through points, each farthest out; with its ways.
+    def meet(self, name: str, one: Drawn, faired: Drawn) -> Drawn:
+        """Where rays, or circles about places, meet a curve that was faired, each farthest out; with its directions.
 
         Of circles those meetings count that lie left of the way from the origin to their centres.
         """
@@ -256,7 +256,8 @@ class Hand:
             reach = curve.along_rays(one.points, euclid.unit(one.directions))
         else:
             reach = curve.on_circles(one.points, one.radius)
-        takes = {"one": one, "points": plotted, "pieces": tuple(pieces)}
+        plotted, pieces = faired.act.takes["points"], faired.act.takes["pieces"]
+        takes = {"one": one, "curve": faired}
         return self._record_act(Kind.CROSS, name, takes, *curve.meeting(plotted.points, pieces, reach))
 
     # --- compass and protractor --------------------------------------------------------------------------------------

@@ -296,9 +296,11 @@ class SecondBoard:
         rows = _rows(heights, line.points, line.along)
         return Figure([q + d / abs(d) * h for h, q, d in rows], single=one and line.single)
 
-    def _cross(self, one: Any, other: Any = None, flat: bool = False, points: Any = None, pieces: Any = ()) -> Figure:
-        if points is not None:
-            return self._meet(self._taken(one), self._taken(points).points, [slice(*each["slice"]) for each in pieces])
+    def _cross(self, one: Any, other: Any = None, flat: bool = False, curve: Any = None) -> Figure:
+        if curve is not None:
+            faired = self.rows[curve["act"]]["takes"]
+            pieces = [slice(*each["slice"]) for each in faired["pieces"]]
+            return self._meet(self._taken(one), self._taken(faired["points"]).points, pieces)
         a, b = self._taken(one), self._taken(other)
         single = a.single and b.single
         if a.radius is not None:
