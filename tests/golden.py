@@ -1,4 +1,4 @@
-"""What the built-in tasks read and draw, as plain data, to hold against what they read and drew before.
+"""What the built-in tasks and a given cam read and draw, as plain data, to hold against what they read and drew before.
 
 ``python tests/golden.py`` writes ``tests/golden.json`` anew: where a value, a mark or a caption is meant to change.
 Of a mark or an entity stand what it is, its texts, and three sums of its coordinates, of which at least one changes
@@ -19,7 +19,9 @@ from graphcam.drafting.marks import Mark, Region
 from graphcam.words import Caption
 
 FILE = Path(__file__).with_name("golden.json")
-TASKS = Path(gc.__file__).parent / "data" / "tasks"
+BUILT_IN = Path(gc.__file__).parent / "data" / "tasks"
+TASKS = {path.stem: path for path in (*sorted(BUILT_IN.glob("*.toml")), Path(__file__).with_name("given-cam.toml"))}
+"""The built-in tasks, and one of a given cam, by name."""
 
 
 def numbers(values: Any) -> list[float]:
@@ -98,8 +100,8 @@ def totals(entities: list[Any]) -> list[Any]:
 
 
 def solved(name: str) -> dict[str, Any]:
-    """All of one built-in task."""
-    solution = gc.solve(gc.load_task(TASKS / f"{name}.toml"))
+    """All of one task."""
+    solution = gc.solve(gc.load_task(TASKS[name]))
     return {
         "constructions": {name: construction(drawn) for name, drawn in solution.drawn.items()},
         "quantities": solution.to_dict()["quantities"],
@@ -129,5 +131,5 @@ def differences(before: Any, now: Any, tolerance: float, where: str = "") -> lis
 
 
 if __name__ == "__main__":
-    text = json.dumps({path.stem: solved(path.stem) for path in sorted(TASKS.glob("*.toml"))}, ensure_ascii=False)
+    text = json.dumps({name: solved(name) for name in TASKS}, ensure_ascii=False)
     FILE.write_text(text + "\n", encoding="utf-8")

@@ -20,7 +20,7 @@ READINGS, MARKS = 1e-12, 1e-9
 BEFORE = json.loads(FILE.read_text(encoding="utf-8"))
 
 
-@pytest.fixture(scope="module", params=sorted(path.stem for path in TASKS.glob("*.toml")))
+@pytest.fixture(scope="module", params=sorted(TASKS))
 def task(request):
     return request.param, json.loads(json.dumps(solved(request.param)))
 

@@ -148,6 +148,8 @@ class Comparison:
             "min_pitch_curvature_radius": rho,
             "roller_radius": by_rule if board.roller_radius is None else board.roller_radius,
             **self.cam.kinematics.face_ends(board.motion),
+            "lift": math.degrees(board.motion.lift) if board.follower.unit == "rad" else board.motion.lift,
+            "rise_deg": math.degrees(board.motion.phases[0].angle),
             # Of these the errors are followed over the number of parts; they are not told.
             "max_pressure_angle_rise": extremes.pressure_angle_rise[0],
             "min_moving_curvature_radius": extremes.min_convex_radius_moving[0],

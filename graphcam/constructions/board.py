@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import Self
 
 from graphcam.constructions.axes import degrees
+from graphcam.constructions.cam_analysis import AnalysisGivens
 from graphcam.constructions.curvature import curvature
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Mark
@@ -82,6 +83,10 @@ class DrawnFollower(ABC):
 
         Points, and acts of these names: ``starts`` on the prime circle, ``pitch``, and directions of the ``motion``.
         """
+
+    def analysis(self, givens: AnalysisGivens, pencil: Pencil) -> Construction:
+        """What a given cam does: reading ``s``, the displacement at equal parts of the turn."""
+        raise NotImplementedError
 
     def curvature(self, drawn: Mapping[str, Construction], pencil: Pencil) -> Construction:
         """The least radius of curvature, from what is drawn; readings ``rho`` and ``rho_candidates`` [mm]."""

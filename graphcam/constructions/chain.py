@@ -9,6 +9,8 @@ import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+import numpy as np
+
 from graphcam.constructions.acceleration import acceleration_diagram
 from graphcam.constructions.adoption import (
     ROUNDING_SLACK,
@@ -22,7 +24,8 @@ from graphcam.constructions.adoption import (
 )
 from graphcam.constructions.angle_diagram import angle_diagram
 from graphcam.constructions.board import Board
-from graphcam.constructions.differentiation import measured_differentiation
+from graphcam.constructions.cam_analysis import AnalysisGivens
+from graphcam.constructions.differentiation import given_cam_differentiation, measured_differentiation
 from graphcam.constructions.drawings import Drawings, DrawnOnce
 from graphcam.constructions.integration import integration
 from graphcam.constructions.jerk import jerk
@@ -35,8 +38,10 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest_scale, standard_scale
 from graphcam.errors import DesignError
 from graphcam.given.follower import LIMIT_NAMES
+from graphcam.given.laid_outline import laid_outline
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
+from graphcam.given.motion import FULL_TURN
 from graphcam.given.outline_motion import OutlineMotion
 from graphcam.words import and_chain, say
 
@@ -81,8 +86,10 @@ class Chain(Drawings):
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the follower's constructions, and of those asked for, for a measured motion, and added."""
-        measured = ("differentiation",) if isinstance(self.board.motion, MeasuredMotion | OutlineMotion) else ()
+        measured = ("differentiation",) if isinstance(self.board.motion, MeasuredMotion) else ()
         drawn = list(self.board.follower.constructions)
+        if isinstance(self.board.motion, OutlineMotion):  # what is asked of a given cam comes first
+            drawn[1:1] = ["analysis", "differentiation"]
         if self.board.jerk_pole is not None:
             drawn.insert(drawn.index("integration") + 1, "jerk")
         return (*drawn, *measured, *self.further)
@@ -91,6 +98,19 @@ class Chain(Drawings):
     def scheme(self) -> Construction:
         """The kinematic diagram and the data."""
         return scheme(self.board, self.pencil)
+
+    @DrawnOnce
+    def analysis(self) -> Construction:
+        """What a given cam does, by the positions of its follower."""
+        board, motion = self.board, self.board.motion
+        assert isinstance(motion, OutlineMotion)
+        parts = board.divisions * len(motion.phases) * board.refine
+        phi = FULL_TURN * np.arange(parts) / parts
+        sizes = self.prime_radius, self.roller_radius, self.place
+        outline = laid_outline(motion, FULL_TURN / parts)
+        unit = board.follower.unit
+        givens = AnalysisGivens(outline, motion, board.rotation, *sizes, phi, self.profile_scale, unit)
+        return board.follower.analysis(givens, self.pencil)
 
     @DrawnOnce
     def acceleration(self) -> Construction:
@@ -119,6 +139,10 @@ class Chain(Drawings):
         """
         board = self.board
         first, second = board.poles  # of the integrations, which differentiation turns round
+        if isinstance(board.motion, OutlineMotion):
+            return given_cam_differentiation(
+                self.analysis, board.motion.lift, board.mu_phi, (second, first), self.pencil
+            )
         parts = board.divisions * len(board.motion.phases) * board.refine
         # Readings scale with the drawn lift, so the scale is that of a hand without error: one for all samples.
         mu_s = Scale(float(self.perfect.integration.readings["s"].scale), board.follower.unit)

@@ -36,9 +36,9 @@ from graphcam.drafting import telling
 from graphcam.drafting.acts import Drawn, Setting
 from graphcam.drafting.euclid import RIGHT, UP, division_points
 from graphcam.drafting.hand import Hand, calculated_setting, distance_between, errorless_hand
-from graphcam.drafting.ink import Caption, Construction, Part, Step, View, say
+from graphcam.drafting.ink import Caption, Construction, Part, Reading, Step, View, say
 from graphcam.drafting.marks import Line, Mark, Points, Role, Segments
-from graphcam.drafting.meaning import Formula, Meaning, ReadingMeaning, Symbol
+from graphcam.drafting.meaning import ComparedReading, Formula, Meaning, ReadingMeaning, Symbol
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, unit
 from graphcam.errors import DesignError
@@ -53,6 +53,10 @@ MIN_STATIONS = 4
 """Stations: with fewer no acceleration has a neighbour."""
 TANGENT_HALF_LENGTH = 12.0
 """Half the length of a drawn tangent [mm of paper]."""
+MAX_LIFT = 50.0
+"""The lift is drawn as large as it fits under this height [mm of paper]."""
+ENLARGEMENTS, DEGREES_PER_MM = (1, 2, 3, 4, 5, 10), (0.1, 0.2, 0.25, 0.5, 1, 2, 5)
+"""So many times a length is stepped off in the diagram of the displacement; and the scales of an angle there."""
 CROSS_HALF_WIDTH, ROWS_ROOM = 0.6, 2.5
 """Half the width of a cross at a row, and how far apart crosses stand at least [mm of paper]."""
 
@@ -123,6 +127,29 @@ MEANING = Meaning(
 )
 
 
+GIVEN_CAM_MEANING = replace(
+    MEANING,
+    why=say(
+        "The displacement that was measured on the cam, differentiated: a parallel to each chord through the pole cuts "
+        "off the velocity in the middle of the interval. Differentiation amplifies every drawing error, and where the "
+        "acceleration jumps the chords round the jump off."
+    ),
+    readings={
+        **MEANING.readings,
+        "max_v": replace(
+            MEANING.readings["max_v"],
+            compared=(ComparedReading("measured_max_v", say("measured maximum v"), exact="max_v"),),
+        ),
+        "max_a": replace(
+            MEANING.readings["max_a"],
+            compared=(ComparedReading("measured_max_a", say("measured maximum a"), exact="max_a"),),
+        ),
+    },
+    scales_found_by="",
+)
+"""Of the differentiation of what a given cam does."""
+
+
 def measured_differentiation(
     motion: Motion, parts: int, mu_phi: Scale, mu_s: Scale, poles: tuple[float, float], pencil: Pencil
 ) -> Construction[DifferentiationGivens]:
@@ -140,9 +167,26 @@ def measured_differentiation(
     return differentiation(x, s, mu_phi, mu_s, poles, pencil, turn=turn, rows=rows)
 
 
+def given_cam_differentiation(
+    analysis: Construction, lift: float, mu_phi: Scale, poles: tuple[float, float], pencil: Pencil
+) -> Construction[DifferentiationGivens]:
+    """Differentiate the displacements that were measured on a given cam, by chords.
+
+    analysis : with the reading ``s`` at equal parts of the turn
+    lift : about [mm or rad], for the scale of the diagram
+    """
+    s, phi = analysis.readings["s"], analysis.givens.phi
+    # As the dividers take them, or so many times: an angle in a round number of degrees a millimetre.
+    steps = np.radians(DEGREES_PER_MM) if s.unit == "rad" else s.per_mm / np.array(ENLARGEMENTS)
+    fits = steps[lift / steps <= MAX_LIFT]
+    mu_s = Scale(float(fits.min() if fits.size else steps.max()), s.unit)
+    turn, meaning = FULL_TURN / mu_phi.per_mm, GIVEN_CAM_MEANING
+    return differentiation(phi / mu_phi.per_mm, s, mu_phi, mu_s, poles, pencil, turn=turn, meaning=meaning)
+
+
 def differentiation(
     x: Floats,
-    s: Floats,
+    s: Floats | Reading,
     mu_phi: Scale,
     mu_s: Scale,
     poles: tuple[float, float],
@@ -151,16 +195,18 @@ def differentiation(
     turn: float | None = None,
     by: By = "chords",
     rows: Points | None = None,
+    meaning: Meaning = MEANING,
 ) -> Construction[DifferentiationGivens]:
     """Differentiate a drawn displacement twice.
 
-    x, s : (n,) stations on the axis of the cam angle, growing, and ordinates there [mm of paper]
+    x, s : (n,) stations on the axis of the cam angle, growing, and ordinates there [mm of paper], or what was read
     mu_phi, mu_s : scales of the axes [rad/mm; mm/mm or, of an arm, rad/mm]
     poles : H1 (displacement to velocity) and H2 (velocity to acceleration) [mm of paper]
     turn : length of one revolution [mm of paper] of a cyclic diagram, which goes on after the last station with the
         first; None for a diagram that ends there
     by : "chords", or "tangents" with a mirror ruler; the intervals may be unequal
     rows : (m,) places [mm of paper] of a table that the displacement smooths, to be shown beside it
+    meaning : what the construction says of itself
 
     Readings besides those of the meaning: ``v_at`` and ``a_at``, the cam angles that they belong to; ``rise`` and
     ``run`` of every chord or tangent of s.
@@ -177,14 +223,15 @@ def differentiation(
     >>> drawn.readings["v_at"].paper.tolist()
     [5.0, 15.0, 25.0, 35.0, 45.0]
     """
-    x, s = np.asarray(x, dtype=np.float64), np.asarray(s, dtype=np.float64)
-    _check(x, s, turn)
-    hand, shown = Hand(pencil, MEANING, mu_s.unit), {} if rows is None else {"rows": rows}
+    hand, shown = Hand(pencil, meaning, mu_s.unit), {} if rows is None else {"rows": rows}
+    ordinates = hand.carry(s, s.per_mm / mu_s.per_mm) if isinstance(s, Reading) else np.asarray(s, dtype=np.float64)
+    x, count = np.asarray(x, dtype=np.float64), (s.paper if isinstance(s, Reading) else np.asarray(s)).shape[-1:]
+    _check(x, count, turn)
     givens = DifferentiationGivens(x, mu_phi, mu_s, poles, turn, by, **shown)
     origin = hand.given("origin")
     if rows is not None:
         hand.given("rows", np.asarray(rows))
-    plotted = hand.lay_off("s", hand.lay_off("stations", origin, RIGHT, x), UP, s)
+    plotted = hand.lay_off("s", hand.lay_off("stations", origin, RIGHT, x), UP, ordinates)
     (start, end), v = _derived(hand, givens, 1, plotted, _extended_curve(hand, turn, plotted))
     v_on = _extended_curve(hand, turn, v)
     _, a = _derived(hand, givens, 2, v, v_on)
@@ -200,9 +247,9 @@ def differentiation(
     return hand.finished(givens, _draw, {"s": plotted, "v": v, "a": a})
 
 
-def _check(x: Floats, s: Floats, turn: float | None) -> None:
+def _check(x: Floats, count: tuple[int, ...], turn: float | None) -> None:
     checked = say("stations of the displacement")
-    if x.ndim != 1 or x.shape != s.shape or x.size < MIN_STATIONS:
+    if x.ndim != 1 or x.shape != count or x.size < MIN_STATIONS:
         raise DesignError(checked, x.size, say("{least} or more, each with its ordinate", least=MIN_STATIONS))
     if not np.all(np.diff(x) > 0):
         raise DesignError(checked, say("not in order"), say("growing along the axis"), say("sort them"))

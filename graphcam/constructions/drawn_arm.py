@@ -7,6 +7,7 @@ from typing import Self
 
 import numpy as np
 
+from graphcam.constructions.arm_analysis import arm_analysis
 from graphcam.constructions.arm_force_plan import arm_force_plan
 from graphcam.constructions.arm_inversion import arm_inversion
 from graphcam.constructions.arm_limit_lines import ARM_OVERHANG_FACTOR
@@ -15,14 +16,8 @@ from graphcam.constructions.arm_positions import cam_centre
 from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
 from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.board import DrawnFollower, FollowerLoads, FollowerSize, Values, roller_sentences
-from graphcam.constructions.kinematic_sketch import (
-    bearing,
-    edge,
-    link,
-    low_point,
-    plain_cam,
-    size,
-)
+from graphcam.constructions.cam_analysis import AnalysisGivens
+from graphcam.constructions.kinematic_sketch import bearing, edge, link, low_point, plain_cam, size
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
@@ -85,6 +80,10 @@ class DrawnOscillating(DrawnFollower):
     ) -> Construction:
         """The pitch curve, from the pivots on their circle."""
         return arm_inversion(integrated, rotation, r0, self.arm, place, mu_l, pencil)
+
+    def analysis(self, givens: AnalysisGivens, pencil: Pencil) -> Construction:
+        """The angles of the arm, by its arcs about the inverted pivots."""
+        return arm_analysis(givens, self.arm, pencil)
 
     def force_plan(
         self, drawn: Mapping[str, Construction], load: FollowerLoads, pencil: Pencil, friction: float = 0.0

@@ -7,6 +7,8 @@ import numpy as np
 
 from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.board import DrawnFollower, FollowerSize, Values
+from graphcam.constructions.cam_analysis import AnalysisGivens
+from graphcam.constructions.face_analysis import face_analysis
 from graphcam.constructions.flat_inversion import flat_inversion
 from graphcam.constructions.flat_minimum_radius import flat_curvature, flat_least_radius
 from graphcam.constructions.kinematic_sketch import BASE_RADIUS, guided_stem, plain_cam
@@ -60,6 +62,10 @@ class DrawnFlatFaced(DrawnFollower):
     ) -> Construction:
         """The profile, as the envelope of the face's positions."""
         return flat_inversion(integrated, rotation, r0, mu_l, pencil)
+
+    def analysis(self, givens: AnalysisGivens, pencil: Pencil) -> Construction:
+        """The displacements by the face, brought to the outline square to every ray."""
+        return face_analysis(givens, pencil)
 
     def curvature(self, drawn: Mapping[str, Construction], pencil: Pencil) -> Construction:
         """The minimum radius of curvature, from the displacement over the acceleration."""

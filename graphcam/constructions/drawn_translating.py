@@ -8,12 +8,14 @@ import numpy as np
 
 from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.board import DrawnFollower, FollowerLoads, Values, roller_sentences
+from graphcam.constructions.cam_analysis import AnalysisGivens
 from graphcam.constructions.force_plan import force_plan
 from graphcam.constructions.friction_plan import friction_plan
 from graphcam.constructions.inversion import inversion
 from graphcam.constructions.kinematic_sketch import edge, guided_stem, low_point, offset_marks, plain_cam
 from graphcam.constructions.minimum_radius import least_radius
 from graphcam.constructions.pressure_angle import pressure_angle
+from graphcam.constructions.stem_analysis import stem_analysis
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Mark
 from graphcam.drafting.pencil import Pencil
@@ -60,6 +62,10 @@ class DrawnTranslating(DrawnFollower):
     ) -> Construction:
         """The pitch curve, from tangents of the offset circle."""
         return inversion(integrated, rotation, r0, place, mu_l, pencil)
+
+    def analysis(self, givens: AnalysisGivens, pencil: Pencil) -> Construction:
+        """The displacements from the prime circle to the pitch curve, along the inverted lines of the stem."""
+        return stem_analysis(givens, pencil)
 
     def force_plan(
         self, drawn: Mapping[str, Construction], load: FollowerLoads, pencil: Pencil, friction: float = 0.0

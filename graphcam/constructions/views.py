@@ -27,6 +27,7 @@ PLAN = View("plan", say("Velocity plan"), across="plan", up="plan")
 PROFILE = View(
     "profile", say("Cam profile by inversion"), across="cam x", up="cam y", scale=say("Cam profile, {ratio}"), main=True
 )
+ANALYSIS = View("analysis", say("Given cam"), across="analysis x", up="analysis y")
 CURVATURE = View("curvature", say("Centre of curvature"), across="detail x", up="detail y")
 SCHEME = View("scheme", say("Kinematic diagram"), across="scheme x", up="scheme y")
 REGION = View("region", say("Arm positions: the minimum radius"), across="region x", up="region y")

@@ -1,15 +1,22 @@
 """Plotted points and the curve that a hand fairs through them: a parabola through three neighbouring points."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
-from graphcam.plane_vectors import dot
+from graphcam.plane_vectors import cross, dot
 
 PLACE_DECIMALS = 6
 """Places that differ by less [decimals of mm] are one."""
+HALVINGS = 50
+"""So often a chord of a curve is halved to find where a line meets it."""
+
+Distances = NDArray[np.floating[Any]]
+Reach = Callable[[Points], tuple[Distances, Distances]]
+"""Of places how far each lies beside a line or a circle, with a sign, and how far out on it, NaN where it ends."""
 
 
 def farthest_point(points: Points, direction: Points | complex) -> Points:
@@ -40,6 +47,7 @@ def farthest_on_pieces(points: Points, pieces: Sequence[slice], direction: Point
     (2+1j)
     """
     direction = np.asarray(direction / np.abs(direction))[..., None]
+    points = np.broadcast_to(points, np.broadcast_shapes(points.shape, direction.shape))
     first, last = _ends(pieces, points.shape[-1])
     best = _highest(dot(direction, points), first, last)
     plotted = np.take_along_axis(points, best, -1)
@@ -114,14 +122,82 @@ def faired_line(points: Points, between: int = 8) -> Points:
     """
     if points.shape[-1] < 3:
         return points
-    # One point beyond either end, on the parabola through the last three.
-    before = 3 * points[..., :1] - 3 * points[..., 1:2] + points[..., 2:3]
-    after = 3 * points[..., -1:] - 3 * points[..., -2:-1] + points[..., -3:-2]
-    p = np.concatenate([before, points, after], axis=-1)[..., None]
     t: Points = np.arange(between) / between + 0j
-    a, b, c, d = p[..., :-3, :], p[..., 1:-2, :], p[..., 2:-1, :], p[..., 3:, :]
-    first = b + t * (c - a) / 2 + t * t * (a - 2 * b + c) / 2
-    second = b + t * (4 * c - 3 * b - d) / 2 + t * t * (b - 2 * c + d) / 2
-    blended = (1 - t) * first + t * second
+    blended = _blended(_neighbours(points)[..., None, :], t)
     line: list[Points] = [blended.reshape(*points.shape[:-1], -1), points[..., -1:]]
     return np.concatenate(line, axis=-1)
+
+
+def _neighbours(points: Points) -> Points:
+    """The four points (..., n - 1, 4) about every part between plotted points (..., n): its ends, and one beyond each.
+
+    Beyond either end of the curve it lies on the parabola through the last three.
+    """
+    before = 3 * points[..., :1] - 3 * points[..., 1:2] + points[..., 2:3]
+    after = 3 * points[..., -1:] - 3 * points[..., -2:-1] + points[..., -3:-2]
+    p = np.concatenate([before, points, after], axis=-1)
+    return np.stack([p[..., :-3], p[..., 1:-2], p[..., 2:-1], p[..., 3:]], axis=-1)
+
+
+def _blended(four: Points, t: Points | NDArray[np.float64]) -> Points:
+    """The places at fractions t of parts by their four points (..., 4): the two parabolas, blended into one another."""
+    a, b, c, d = np.moveaxis(four, -1, 0)
+    first = b + t * (c - a) / 2 + t * t * (a - 2 * b + c) / 2
+    second = b + t * (4 * c - 3 * b - d) / 2 + t * t * (b - 2 * c + d) / 2
+    return (1 - t) * first + t * second
+
+
+def along_rays(start: Points, way: Points) -> Reach:
+    """How places lie beside rays (..., k) of unit directions, and how far along them."""
+
+    def reach(places: Points) -> tuple[Distances, Distances]:
+        from_start = places - start[..., None]
+        along = dot(way[..., None], from_start)
+        return cross(way[..., None], from_start), np.where(along >= 0, along, np.nan)
+
+    return reach
+
+
+def on_circles(centre: Points, radius: Distances) -> Reach:
+    """How places lie beside circles (..., k), and how far from the origin, left of the way from it to the centres."""
+
+    def reach(places: Points) -> tuple[Distances, Distances]:
+        left = cross(centre[..., None], places) > 0
+        return np.abs(places - centre[..., None]) - radius[..., None], np.where(left, np.abs(places), np.nan)
+
+    return reach
+
+
+def meeting(points: Points, pieces: Sequence[slice], reach: Reach) -> tuple[Points, Points]:
+    """Where each of k lines or circles meets a faired curve farthest out, and how the curve runs there.
+
+    points : (..., m) plotted;  reach : of places (..., k, n), or (..., 1, n)
+
+    Returns
+    -------
+    places and directions (..., k); NaN where none is met
+
+    >>> x = np.arange(-3.0, 4.0)
+    >>> upright = along_rays(np.array([0.5 - 9j]), np.array([1j]))
+    >>> place, way = meeting(x + 1j * (4 - x**2), [slice(0, 7)], upright)
+    >>> complex(np.round(place, 9).item()), complex(np.round(way, 9).item())
+    ((0.5+3.75j), (1-1j))
+    """
+    parts = np.concatenate([_neighbours(points[..., piece]) for piece in pieces], axis=-2)[..., None, :, :]
+    (before, near), (after, far) = reach(parts[..., 1]), reach(parts[..., 2])
+    with np.errstate(invalid="ignore", divide="ignore"):
+        share = np.where(before == after, 0.0, before / (before - after))
+        out = np.where(before * after <= 0, near + share * (far - near), np.nan)
+    best = np.argmax(np.where(np.isnan(out), -np.inf, out), axis=-1)[..., None]
+    met = np.isfinite(np.take_along_axis(out, best, -1)[..., 0])
+    four = np.take_along_axis(np.broadcast_to(parts, (*out.shape, 4)), best[..., None], -2)
+    begin = np.take_along_axis(before, best, -1)
+    low, high = np.zeros(begin.shape), np.ones(begin.shape)
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        beyond = reach(_blended(four, middle))[0] * begin <= 0
+        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+    a, b, c, d = np.moveaxis(four, -1, 0)
+    along = (c - a) / 2 + low * (2 * a - 5 * b + 4 * c - d) + low**2 * 1.5 * (3 * b - a - 3 * c + d)
+    places, ways = _blended(four, low)[..., 0], along[..., 0]
+    return np.where(met, places, np.nan), np.where(met, ways, np.nan)

@@ -247,6 +247,19 @@ class Hand:
             found = (euclid.crossing if flat else euclid.readable_crossing)(p, d, q, e)
         return self._record_act(Kind.CROSS, name, {"one": one, "other": other, "flat": flat}, found)
 
+    def meet(self, name: str, one: Drawn, faired: Drawn) -> Drawn:
+        """Where rays, or circles about places, meet a curve that was faired, each farthest out; with its directions.
+
+        Of circles those meetings count that lie left of the way from the origin to their centres.
+        """
+        if one.radius is None:
+            reach = curve.along_rays(one.points, euclid.unit(one.directions))
+        else:
+            reach = curve.on_circles(one.points, one.radius)
+        plotted, pieces = faired.act.takes["points"], faired.act.takes["pieces"]
+        takes = {"one": one, "curve": faired}
+        return self._record_act(Kind.CROSS, name, takes, *curve.meeting(plotted.points, pieces, reach))
+
     # --- compass and protractor --------------------------------------------------------------------------------------
 
     def circle(self, name: str, centre: Drawn, radius: Length) -> Drawn:
@@ -280,24 +293,26 @@ class Hand:
     # --- curves ------------------------------------------------------------------------------------------------------
 
     def tangent(self, name: str, points: Drawn, pieces: Sequence[slice], inward: Direction) -> Drawn:
-        """The line square to ``inward`` that touches a curve, faired piece by piece, from its far side.
+        """The lines square to ``inward`` that touch a curve, faired piece by piece, from its far side.
 
-        The line is moved along until it touches: it is off across itself, and where it touches along it.
+        A line is moved along until it touches: it is off across itself, and where it touches along it.
         """
-        direction = _way(inward)[0]
+        direction, sampled = _way(inward)
+        plotted = points.points[..., None, :] if direction.ndim > sampled else points.points
         touch = self._with_place_errors(
-            Kind.TANGENT, "across", curve.farthest_on_pieces(points.points, pieces, direction), direction
+            Kind.TANGENT, "across", curve.farthest_on_pieces(plotted, pieces, direction), direction
         )
         touch = self._with_place_errors(Kind.TANGENT, "along", touch, direction * euclid.UP)
         takes = {"points": points, "pieces": tuple(pieces), "inward": inward}
         return self._record_act(Kind.TANGENT, name, takes, touch, direction * euclid.UP)
 
-    def tangents_at(self, name: str, points: Drawn, rule: Callable[[Points], Points]) -> Drawn:
+    def tangents_at(self, name: str, points: Drawn, rule: Callable[[Points], Points] | None = None) -> Drawn:
         """The tangents of a plotted curve at all its points, by a mirror set across it: off by an angle and a line.
 
-        rule : the directions that the eye sees, from the points and their neighbours
+        rule : the directions that the eye sees, from the points and their neighbours; None where the points are some
+            of a curve and have them
         """
-        along = rule(points.points)
+        along = rule(points.points) if rule else points.directions
         along = euclid.turned_direction(along, self._with_angle_errors(Kind.TANGENT, np.zeros(along.shape)))
         beside = self._with_place_errors(Kind.TANGENT, "across", points.points, along * euclid.UP)
         return self._record_act(Kind.TANGENT, name, {"points": points, "rule": rule}, beside, along)

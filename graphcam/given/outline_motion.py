@@ -20,7 +20,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import singledispatch
 from itertools import groupby, pairwise
-from typing import NamedTuple, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 
@@ -59,10 +59,19 @@ class OutlineMotion(Motion):
     ----------
     outline : the cam
     prime_radius : of the pitch curve [mm], the base radius and the roller together
+    follower, rotation : what it moves, and the sense in which it turns
+    arcs : the parts of the pitch curve, of a flat face those of the cam, where they lie at phi = 0
     """
 
     outline: ArcOutline
     prime_radius: float
+    follower: Follower
+    rotation: Rotation
+    arcs: Sequence[OutlineArc]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """What another process needs: the laws of the phases are formulas, which are made again."""
+        return outline_motion, (self.outline, self.follower, self.rotation)
 
     def _summary(self) -> str:
         return f"{super()._summary()}, by a given cam"
@@ -112,7 +121,12 @@ def outline_motion(
     edges = _edges(track)
     _check_contact(track, edges)
     legs = _legs(track, _split(track, edges))
-    return OutlineMotion([_phase(track, leg) for leg in legs], outline, track.prime_radius)
+    turn = cmath.exp(1j * track.sigma * legs[0][0].start)
+    arcs = [
+        OutlineArc(turn * arc.centre, arc.radius, turn * arc.normal, turn * arc.point, turn * arc.outward)
+        for arc in track.arcs
+    ]
+    return OutlineMotion([_phase(track, leg) for leg in legs], outline, track.prime_radius, follower, rotation, arcs)
 
 
 class _Track(NamedTuple):

@@ -12,10 +12,11 @@ import json
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
+from scipy.optimize import brentq
 
 from graphcam.drafting.acts import Act, Drawn, Setting
 from graphcam.drafting.ink import Construction, Reading
@@ -295,7 +296,11 @@ class SecondBoard:
         rows = _rows(heights, line.points, line.along)
         return Figure([q + d / abs(d) * h for h, q, d in rows], single=one and line.single)
 
-    def _cross(self, one: Any, other: Any, flat: bool) -> Figure:
+    def _cross(self, one: Any, other: Any = None, flat: bool = False, curve: Any = None) -> Figure:
+        if curve is not None:
+            faired = self.rows[curve["act"]]["takes"]
+            pieces = [slice(*each["slice"]) for each in faired["pieces"]]
+            return self._meet(self._taken(one), self._taken(faired["points"]).points, pieces)
         a, b = self._taken(one), self._taken(other)
         single = a.single and b.single
         if a.radius is not None:
@@ -307,6 +312,20 @@ class SecondBoard:
             return Figure([_line_and_circle(*row) for row in rows], single=single)
         rows = _rows(a.points, ways, b.points, b.along or [])
         return Figure([_where(*row, flat=flat) for row in rows], single=single)
+
+    def _meet(self, one: Figure, points: list[complex], pieces: list[slice]) -> Figure:
+        """Where rays, or circles left of the way from the origin to their centres, leave a faired curve."""
+        found: list[tuple[complex, complex]] = []
+        for k, at in enumerate(one.points):
+            if one.radius is None:
+                assert one.along is not None
+                way = one.along[k] / abs(one.along[k])
+                found.append(_leaves(points, pieces, partial(_by_ray, at, way), partial(_along_ray, at, way)))
+            else:
+                found.append(
+                    _leaves(points, pieces, partial(_by_circle, at, one.radius[k]), partial(_left_of_centre, at))
+                )
+        return Figure([place for place, _ in found], [way for _, way in found])
 
     def _circle(self, centre: Any, radius: Any) -> Figure:
         a, (amount, one) = self._taken(centre), self._lengths(radius)
@@ -330,11 +349,13 @@ class SecondBoard:
         if rule is not None:
             seen = np.asarray(self.formulas[rule["formula"]](np.array(shown.points)))
             return Figure(shown.points, [complex(d) for d in seen])
-        (way,), _ = self._direction(inward)
-        way = way / abs(way)
-        tops = [_farthest(shown.points[slice(*piece["slice"])], way) for piece in pieces]
-        touch = max(tops, key=lambda p: round(_part(p, way), 6))
-        return Figure([touch], [way * 1j], None, single=True)
+        if inward is None:
+            return shown
+        ways, single = self._direction(inward)
+        ways = [way / abs(way) for way in ways]
+        found = [[_farthest(shown.points[slice(*piece["slice"])], way) for piece in pieces] for way in ways]
+        touch = [max(tops, key=lambda p: round(_part(p, way), 6)) for tops, way in zip(found, ways, strict=True)]
+        return Figure(touch, [way * 1j for way in ways], None, single=single)
 
     def _fair(self, points: Any, pieces: Any, parts: int) -> Figure:
         plotted = self._taken(points)
@@ -442,20 +463,62 @@ def _farthest(points: list[complex], way: complex) -> complex:
     return before * t * (t - 1) / 2 + at * (1 - t * t) + after * t * (t + 1) / 2
 
 
-def _smooth(points: list[complex], parts: int) -> list[complex]:
-    """Between two points the mean, weighted by nearness, of the two parabolas through them and either neighbour."""
+def _by_ray(at: complex, way: complex, place: complex) -> float:
+    return way.real * (place - at).imag - way.imag * (place - at).real
+
+
+def _along_ray(at: complex, way: complex, place: complex) -> float:
+    return _part(place - at, way) if _part(place - at, way) >= 0 else math.nan
+
+
+def _by_circle(centre: complex, radius: float, place: complex) -> float:
+    return abs(place - centre) - radius
+
+
+def _left_of_centre(centre: complex, place: complex) -> float:
+    return abs(place) if cmath.phase(place / centre) > 0 else math.nan
+
+
+def _leaves(
+    points: list[complex], pieces: list[slice], beside: Callable[[complex], float], out: Callable[[complex], float]
+) -> tuple[complex, complex]:
+    """The farthest place at which a faired curve is met, by false position, and how it runs there, by a difference."""
+    best, where = -math.inf, None
+    for piece in pieces:
+        row = points[piece]
+        for k in range(len(row) - 1):
+            a, b = beside(row[k]), beside(row[k + 1])
+            share = a / (a - b) if a != b else 0.0
+            far = out(row[k]) * (1 - share) + out(row[k + 1]) * share
+            if a * b <= 0 and far > best:
+                best, where = far, (row, k)
+    if where is None:
+        return NOWHERE, NOWHERE
+    row, k = where
+
+    t = float(brentq(lambda t: beside(_blend(row, k, t)), 0.0, 1.0, xtol=1e-15))
+    step = 1e-5
+    return _blend(row, k, t), (_blend(row, k, t + step) - _blend(row, k, t - step)) / (2 * step)
+
+
+def _blend(points: list[complex], k: int, t: float) -> complex:
+    """Between point k and the next the mean, weighted by nearness, of the parabolas through them and a neighbour."""
     n = len(points)
-    if n < 3:
-        return points
 
     def parabola(k: int, t: float) -> complex:
         """Through the points k - 1, k and k + 1, at the place k + t; beyond an end the last three are used."""
         k, t = (1, t + k - 1) if k < 1 else (n - 2, t + k - n + 2) if k > n - 2 else (k, t)
         return points[k - 1] * t * (t - 1) / 2 + points[k] * (1 - t * t) + points[k + 1] * t * (t + 1) / 2
 
-    places = [(k, i / parts) for k in range(n - 1) for i in range(parts)]
-    line = [parabola(k, t) * (1 - t) + parabola(k + 1, t - 1) * t for k, t in places]
-    return [*line, points[-1]]
+    return parabola(k, t) * (1 - t) + parabola(k + 1, t - 1) * t
+
+
+def _smooth(points: list[complex], parts: int) -> list[complex]:
+    """A curve through points, in so many chords from each to the next."""
+    n = len(points)
+    if n < 3:
+        return points
+    return [*(_blend(points, k, i / parts) for k in range(n - 1) for i in range(parts)), points[-1]]
 
 
 BOARD = 100.0

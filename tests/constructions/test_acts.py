@@ -33,6 +33,7 @@ from graphcam.drafting.marks import (
 )
 from graphcam.errors import DesignError
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
+from graphcam.tasks.task_file import task_from
 
 REPLAYED, ON_THE_FIGURE = 1e-9, 1e-6
 """mm: how far the second board may land beside the first, and a mark beside what its act left."""
@@ -40,9 +41,21 @@ HANDS = gc.Pencil(line=0.2, dividers=0.2, protractor=math.radians(0.5), samples=
 BUILT_IN = {name: gc.builtin_task(name) for name in ("coursework", "arm", "flat", "swinging-face", "measured")}
 RUBBING = replace(BUILT_IN["coursework"], speed_rpm=120.0, spring=SpringTable(0.5, 2.0, 150.0, friction=0.15, load=9.0))
 SPRUNG = replace(BUILT_IN["arm"], speed_rpm=90.0, spring=ArmSpringTable(900.0, 4000.0, 3000.0, load=9.0))
-TASKS = BUILT_IN | RANDOM | {"friction at the cam": RUBBING, "an arm's spring": SPRUNG}
+ROUNDED = {"base_radius": 30, "flank_radius": 120, "nose_radius": 10, "lift": 12}
+GIVEN_CAMS = {
+    f"a given cam, {name}": task_from({"arcs": arcs, "follower": follower, **more})
+    for name, arcs, follower, more in (
+        ("central", {"base_radius": 28, "ascent": 67, "lift": 15, "flank_radius": "straight"},
+         {"kind": "translating", "offset": 0, "roller_radius": 16}, {}),
+        ("offset", ROUNDED | {"dwell": 20}, {"kind": "translating", "offset": -8, "roller_radius": 6},
+         {"rotation": "cw"}),
+        ("arm", ROUNDED, {"kind": "oscillating", "arm": 80, "distance": 95, "roller_radius": 10}, {}),
+        ("flat", ROUNDED, {"kind": "flat-faced"}, {"rotation": "cw"}),
+    )
+}  # fmt: skip
+TASKS = BUILT_IN | RANDOM | {"friction at the cam": RUBBING, "an arm's spring": SPRUNG} | GIVEN_CAMS
 EVERY = over_all("name", TASKS)
-SHOWN = over_all("name", [*BUILT_IN, *list(RANDOM)[::5], "friction at the cam", "an arm's spring"])
+SHOWN = over_all("name", [*BUILT_IN, *GIVEN_CAMS, *list(RANDOM)[::5], "friction at the cam", "an arm's spring"])
 
 
 @cache
