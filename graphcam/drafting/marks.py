@@ -127,12 +127,16 @@ class Arrow(Left):
 
 @dataclass(frozen=True)
 class Label(Left):
-    """A name or a number beside ``at``; the sheet finds it a free place, first in the direction ``towards``."""
+    """A name or a number beside ``at``; the sheet finds it a free place, first in the direction ``towards``.
+
+    along : how far a line runs level to the right from ``at``, which the text had better interrupt [mm]
+    """
 
     at: complex
     text: Words
     towards: complex = 1 + 1j
     small: bool = False
+    along: float = 0.0
 
 
 @dataclass(frozen=True)
