@@ -38,11 +38,10 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest_scale, standard_scale
 from graphcam.errors import DesignError
 from graphcam.given.follower import LIMIT_NAMES
-from graphcam.given.laid_outline import laid_outline
+from graphcam.given.laid_outline import GivenCamMotion, laid_outline
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
 from graphcam.given.motion import FULL_TURN
-from graphcam.given.outline_motion import OutlineMotion
 from graphcam.words import and_chain, say
 
 PHASE_ANGLES_ROOM = complex(58.0, 44.0)
@@ -86,13 +85,14 @@ class Chain(Drawings):
     @property
     def names(self) -> tuple[str, ...]:
         """The names of the follower's constructions, and of those asked for, for a measured motion, and added."""
-        measured = ("differentiation",) if isinstance(self.board.motion, MeasuredMotion) else ()
-        drawn = list(self.board.follower.constructions)
-        if isinstance(self.board.motion, OutlineMotion):  # what is asked of a given cam comes first
+        motion, drawn = self.board.motion, list(self.board.follower.constructions)
+        if isinstance(motion, GivenCamMotion):  # what is asked of a given cam comes first
             drawn[1:1] = ["analysis", "differentiation"]
+        elif isinstance(motion, MeasuredMotion):
+            drawn.append("differentiation")
         if self.board.jerk_pole is not None:
             drawn.insert(drawn.index("integration") + 1, "jerk")
-        return (*drawn, *measured, *self.further)
+        return (*drawn, *self.further)
 
     @DrawnOnce
     def scheme(self) -> Construction:
@@ -103,7 +103,7 @@ class Chain(Drawings):
     def analysis(self) -> Construction:
         """What a given cam does, by the positions of its follower."""
         board, motion = self.board, self.board.motion
-        assert isinstance(motion, OutlineMotion)
+        assert isinstance(motion, GivenCamMotion)
         parts = board.divisions * len(motion.phases) * board.refine
         phi = FULL_TURN * np.arange(parts) / parts
         sizes = self.prime_radius, self.roller_radius, self.place
@@ -139,7 +139,7 @@ class Chain(Drawings):
         """
         board = self.board
         first, second = board.poles  # of the integrations, which differentiation turns round
-        if isinstance(board.motion, OutlineMotion):
+        if isinstance(board.motion, GivenCamMotion):
             return given_cam_differentiation(
                 self.analysis, board.motion.lift, board.mu_phi, (second, first), self.pencil
             )

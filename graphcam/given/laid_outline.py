@@ -3,6 +3,7 @@
 import cmath
 import math
 from dataclasses import dataclass
+from functools import singledispatch
 from itertools import pairwise
 
 import numpy as np
@@ -10,8 +11,10 @@ from numpy.typing import NDArray
 
 from graphcam.given.cam_by_radii import OutlineArc
 from graphcam.given.follower import sense
+from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
 from graphcam.given.outline_motion import STILL, OutlineMotion
+from graphcam.given.point_outline import TracedMotion
 
 MIN_ARC_PARTS = 4
 """An arc, or a straight part, is divided into so many parts at least."""
@@ -33,8 +36,15 @@ class LaidOutline:
     dwells: tuple[int, ...] = ()
 
 
-def laid_outline(motion: OutlineMotion, step: float) -> LaidOutline:
+GivenCamMotion = OutlineMotion | TracedMotion
+"""A motion that a given cam makes."""
+
+
+@singledispatch
+def laid_outline(motion: GivenCamMotion, step: float) -> LaidOutline:
     """The outline of a given cam where the motion begins, at places between which the normal turns by about a step.
+
+    Of a cam through points these are as many in every phase as steps of the cam angle, and a phase is a piece.
 
     step : rad
 
@@ -44,6 +54,11 @@ def laid_outline(motion: OutlineMotion, step: float) -> LaidOutline:
     >>> len(laid.pieces), laid.dwells, complex(laid.points[4].round(4))
     (4, (3,), (21.4222+28j))
     """
+    raise TypeError(type(motion))
+
+
+@laid_outline.register
+def _(motion: OutlineMotion, step: float) -> LaidOutline:
     roller, sigma = motion.prime_radius - motion.outline.base_radius, sense(motion.rotation)
     points, normals, pieces, dwells = list[complex](), list[complex](), list[slice](), list[int]()
     for number, (arc, following) in enumerate(pairwise([*motion.arcs, motion.arcs[0]])):
@@ -60,6 +75,24 @@ def laid_outline(motion: OutlineMotion, step: float) -> LaidOutline:
             dwells.append(number)
     closed, around = (np.array([*each, each[0]]) for each in (points, normals))
     return LaidOutline(closed, around, tuple(pieces), tuple(dwells))
+
+
+@laid_outline.register
+def _(motion: TracedMotion, step: float) -> LaidOutline:
+    phi, pieces, dwells = list[Floats](), list[slice](), list[int]()
+    first = 0
+    for number, (_, start, end) in enumerate(motion.timing):
+        parts = max(MIN_ARC_PARTS, math.ceil((end - start) / step))
+        pieces.append(slice(first, first + parts + 1))
+        phi.append(np.linspace(start, end, parts, endpoint=False))
+        first += parts
+        if not motion.directions[number]:
+            dwells.append(number)
+    place = motion.touched(np.append(np.concatenate(phi), FULL_TURN))
+    turned = cmath.exp(1j * sense(motion.rotation) * motion.zero)
+    points, normals = turned * motion.outline(place)[0], turned * motion.outline.outward(place)
+    points[-1], normals[-1] = points[0], normals[0]
+    return LaidOutline(points, normals, tuple(pieces), tuple(dwells))
 
 
 def _turn(arc: OutlineArc, following: OutlineArc, sigma: int) -> float:
