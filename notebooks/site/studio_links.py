@@ -27,6 +27,7 @@ TASKS: Mapping[str, tuple[str, str, Mapping[str, Any]]] = {
     "10_coursework": ("coursework", "profile", {}),
     "11_stress_below_the_surface": ("coursework", "profile", {}),
     "12_cycloidal_at_speed": ("coursework", "acceleration", SMOOTH),
+    "13_given_cam": ("arcs", "profile", {}),
 }  # fmt: skip
 """For each notebook the built-in task, the view that it is about, and what it changes of the task."""
 
