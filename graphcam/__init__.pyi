@@ -26,6 +26,11 @@ from .given.measured import (
 from .given.motion import Dwell as Dwell, Motion as Motion, Return as Return, Rise as Rise, cam_angle as cam_angle
 from .given.motion_law import Law as Law
 from .given.outline_motion import OutlineMotion as OutlineMotion, outline_motion as outline_motion
+from .given.point_outline import (
+    PointOutline as PointOutline,
+    TracedMotion as TracedMotion,
+    cam_through_points as cam_through_points,
+)
 from .given.polynomial_law import boundary_law as boundary_law, constant_velocity_law as constant_velocity_law
 from .given.roller_contact import RollerContact as RollerContact
 from .given.spline_law import sampled_law as sampled_law

@@ -306,3 +306,18 @@ def nearest_word_remedy(word: str, known: Iterable[str], called: Mapping[str, It
     """
     known = list(known)
     return suggestion(word, known, called) or say("known are {names}", names=", ".join(known))
+
+
+class UnreadableError(Exception):
+    """A stranger's file, or a submission, that cannot be read; ``why`` is the sentence that says so.
+
+    >>> print(UnreadableError(say("{name} is empty", name="answers.toml")))
+    answers.toml is empty
+    """
+
+    def __init__(self, why: Caption) -> None:
+        super().__init__(why)
+        self.why = why
+
+    def __str__(self) -> str:
+        return str(self.why)

@@ -24,8 +24,12 @@
 from math import degrees
 
 import numpy as np
+from IPython.display import Markdown
 
 import graphcam as gc
+from graphcam.drafting.hand import Hand, distance_between
+from graphcam.drafting.ink import say
+from graphcam.drafting.meaning import Meaning, ReadingMeaning
 from graphcam.notebooks import Question, changed, show_steps, table
 
 # %% [markdown]
@@ -53,7 +57,8 @@ from graphcam.notebooks import Question, changed, show_steps, table
 # the radius $|e|$. So divide the offset circle, not the prime circle, and draw tangents.
 
 # %%
-solution = gc.solve(gc.builtin_task())
+task = gc.load_task("task.toml")
+solution = gc.solve(task)
 show_steps(solution.drawn["inversion"], within=solution)
 
 # %% [markdown]
@@ -63,6 +68,20 @@ show_steps(solution.drawn["inversion"], within=solution)
 # - **Laying $s$ off from the offset circle.** The foot of the tangent is at the height 0, the lowest position of the trace point at
 #   the height $s_0$: where the tangent meets the *prime circle*. From there $s$ is laid off.
 #
+# **The same in three lines.** A turn is a product with a complex number, so all stations are inverted at once:
+
+# %%
+s = solution.drawn["integration"].readings["s"].value
+phi = solution.drawn["acceleration"].points["axis"].real * float(solution.drawn["acceleration"].readings["base"].scale)
+sigma, e, r0 = {"ccw": 1, "cw": -1}[task.rotation], solution.cam.follower.offset, solution.cam.prime_radius
+pitch_points = (e + 1j * (np.sqrt(r0**2 - e**2) + s)) * np.exp(-1j * sigma * phi)
+read = solution.drawn["inversion"].readings
+print(f"farthest from the points of the drawing: {np.abs(pitch_points - (read['x'].value + 1j * read['y'].value)).max():.1e} mm")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert np.abs(pitch_points - (read["x"].value + 1j * read["y"].value)).max() < 1e-9
+
+# %% [markdown]
 # The working profile comes last: circles of the roller radius about points of the pitch curve, and their inner envelope.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
@@ -81,18 +100,15 @@ show_steps(arm.drawn["inversion"], within=arm)
 
 # %% [markdown]
 # The polar angle of a point of the pitch curve is **not** the cam angle: the trace point moves on an arc about the pivot and drifts
-# sideways while it rises. Plotting the radius over the cam angle shifts the points by degrees; a published table has that error, up
-# to 3.6°.
+# sideways while it rises. Plotting the radius over the cam angle shifts the points by degrees:
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 read = arm.drawn["inversion"].readings
-stations = arm.chain.board.stations
-start = float(read["polar_angle"].value[0])
-turned = np.unwrap(read["polar_angle"].value - start)
-rise = arm.chain.spans[0]
-table(("station", "cam angle φ, °", "polar angle from the start, °", "difference, °"), [
-    (f"{k}", degrees(stations.phi[k]), abs(degrees(turned[k])), abs(degrees(turned[k])) - degrees(stations.phi[k]))
-    for k in range(rise.start, rise.stop, 2)
+phi = arm.drawn["acceleration"].points["axis"].real * float(arm.drawn["acceleration"].readings["base"].scale)
+turned = np.abs(np.degrees(np.unwrap(read["polar_angle"].value - float(read["polar_angle"].value[0]))))
+parts = phi.size // 2 - 1
+table(("station of the rise", "cam angle φ, °", "polar angle from the start, °", "difference, °"), [
+    (f"{k}", degrees(phi[k]), turned[k], turned[k] - degrees(phi[k])) for k in range(0, parts + 1, 2)
 ], digits=2)
 
 # %% [markdown]
@@ -118,19 +134,31 @@ show_steps(flat.drawn["minimum_radius"], within=flat)
 # %% [markdown]
 # ## Try it yourself
 #
-# The coursework cam: clockwise, $r_0 = 44$ mm, $e = -10$ mm, drawn at 2:1. At station 6 of the rise ($\varphi = 40°$) the displacement is
+# Another cam: it turns **clockwise**, $r_0 = 50$ mm, $e = -30$ mm, and is drawn at **2:1**. At $\varphi = 40°$ the displacement is
 # 15 mm. How far from the cam centre is the point of the pitch curve, **on your paper**? And in which direction do the numbers run?
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-inversion = solution.drawn["inversion"]
-distance = Question(
-    2 * float(inversion.readings["radius"].value[6]), 1.0, "mm of paper", "point 3: where does s start?",
-    {"that is the machine's distance; the profile is drawn at 2:1": float(inversion.readings["radius"].value[6]),
-     "s was laid off from the offset circle": 2 * np.hypot(10, 15), "s was added to r₀ as if the follower were central": 2 * 59.0},
+MEANING = Meaning("one_point", say("One point"), say("The frame is turned."), {"radius": ReadingMeaning(say("distance"), "R", "mm of paper")})
+
+
+def drawn_distance(pencil):
+    hand = Hand(pencil, MEANING)
+    centre = hand.given("A")
+    ray = hand.protractor("ray", centre, -1 + 0j, np.radians(40))
+    foot = hand.lay_off("foot", centre, ray, 60.0)
+    tangent = hand.perpendicular("tangent", hand.join("radius", foot, centre), foot)
+    lowest = hand.cross("lowest place", tangent, hand.circle("prime circle", centre, 100.0))
+    return hand.read("radius", distance_between(centre, hand.lay_off("point", lowest, tangent, 30.0)), 1.0)
+
+
+distance = Question.by(
+    drawn_distance, "point 3: where does s start?",
+    {"that is the machine's distance; the profile is drawn at 2:1": float(np.hypot(30, 55)),
+     "s was laid off from the offset circle": 2 * float(np.hypot(30, 15)), "s was added to r₀ as if the follower were central": 2 * 65.0},
 )
 sense = Question(
-    1.0, 0.01, "+1 or −1", "the background: which way does the frame travel round the fixed cam?",
-    {"that is the sense in which the cam turns": -1.0},
+    1, 0.01, "+1 or −1", "the background: which way does the frame travel round the fixed cam?",
+    {"that is the sense in which the cam turns": -1}, found_by="counting",
 )
 
 # %% tags=["try-it"]
@@ -148,10 +176,10 @@ sense.check(your_sense)
 
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-with_roller = changed(gc.builtin_task(), {"cam.prime_radius": 44.0, "follower.roller_radius": 10.0})
+with_roller = changed(task, {"cam.prime_radius": solution.cam.prime_radius, "follower.roller_radius": solution.cam.roller_radius})
 gc.studio(with_roller, view="profile", stills={
-    **{f"prime radius, mm: {radius}": {"cam.prime_radius": radius} for radius in (30, 60)},
-    "offset, mm: 10": {"follower.offset": 10},
+    **{f"prime radius, mm: {radius:g}": {"cam.prime_radius": radius} for radius in (r0 + 10, r0 + 30)},
+    f"offset, mm: {-e:g}": {"follower.offset": -e},
 })
 
 # %% [markdown]
@@ -161,26 +189,32 @@ gc.studio(with_roller, view="profile", stills={
 
 # %%
 drawn, exact = solution.comparison.drawn_stations, solution.comparison.exact_stations
-shown = range(0, 13, 3)
+shown = range(0, s.size // 2, 3)
 table(("station", "x drawn", "x exact", "y drawn", "y exact"), [
     (f"{k}", float(drawn["x"][k]), float(exact.pitch[k][0]), float(drawn["y"][k]), float(exact.pitch[k][1])) for k in shown
 ])
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 pitch = np.stack([drawn["x"], drawn["y"]], axis=-1)
-assert np.abs(pitch - exact.pitch).max() < 1e-9
-assert abs(float(np.hypot(*exact.pitch[0])) - 44) < 1e-9
-assert abs(np.abs(degrees(turned[rise][-1])) - 75) > 1
+assert abs(float(np.hypot(*exact.pitch[0])) - r0) < 1e-9
+off = np.hypot(*(pitch - exact.pitch).T)
+assert np.allclose(off, np.abs(drawn["s"] - exact.values[0]), atol=1e-9)
+assert np.abs(turned[: parts + 1] - np.degrees(phi[: parts + 1])).max() > 1
+assert abs(distance.value - 2 * np.hypot(30, 55)) < 1e-9
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+hands = gc.solve(task, gc.Pencil.of(0.2, samples=400, seed=1)).drawn["inversion"].readings
+scatter = max(float(hands[name].value.std(axis=0).max()) for name in "xy")
+Markdown(f"The points are off by up to {off.max():.3f} mm, each by exactly as much as its displacement is: inversion itself has no error of the method. "
+         f"By a pencil of 0.2 mm they scatter by {scatter:.2f} mm to either side.")
 
 # %% [markdown]
-# For constant acceleration the displacements carry no error of the method, so an ideal pencil reproduces the
-# curve exactly.
 #
 # ## Where the error comes from
 #
 # 1. **From the displacements**: whatever error notebook 2 left in $s$ goes into the profile in full, times the
 #    scale.
-# 2. **From the division of the circle**: a protractor set wrongly by half a degree moves a point of a 60 mm radius by 0.5 mm *along* the
+# 2. **From the division of the circle**: a protractor set wrongly by half a degree moves a point at 60 mm from the centre by 0.5 mm *along* the
 #    curve, which matters only where the curve is steep. Set each angle off from the start, not from the previous one: errors of steps add.
 # 3. **From tangents**: the point of contact on a circle of 10 mm is badly defined; draw the radius first and the tangent square to
 #    it.

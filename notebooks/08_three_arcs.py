@@ -21,9 +21,13 @@
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 import numpy as np
+from IPython.display import Markdown
 
 import graphcam as gc
-from graphcam.notebooks import Question, compared, show_steps, table
+from graphcam.drafting.hand import Hand, distance_between
+from graphcam.drafting.ink import say
+from graphcam.drafting.meaning import Meaning, ReadingMeaning
+from graphcam.notebooks import Question, changed, compared, show_steps, table
 
 # %% [markdown]
 # ## Background
@@ -77,21 +81,36 @@ show_steps(solution.drawn["arc_diagrams"], 1, 2, within=solution)
 # %% [markdown]
 # ## Try it yourself
 #
-# In the drawing of the task the first centre lies on the line $OD$. Suppose the task had left it out: $D(51.68,\ 18.81)$, $\rho_1 = 17$ mm. Where is
-# $C_1$?
+# Another flank ends in $D(45,\ 33)$ mm on its outer circle, with $\rho_1 = 26$ mm. Draw it at 1:1. Where is $C_1$?
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-away = np.array([51.68, 18.81])
-c1 = away * (1 - 17 / np.hypot(*away))
-centre_x = Question(
-    float(c1[0]), 0.5, "mm", "the theorem: O, C₁ and D on one line",
-    {"the centre lies inside, towards O": float((away * (1 + 17 / np.hypot(*away)))[0]), "that is y": float(c1[1]), "ρ₁ is laid off along OD, not along x": 51.68 - 17},
-)
-centre_y = Question(float(c1[1]), 0.5, "mm", "the theorem: O, C₁ and D on one line", {"ρ₁ is laid off along OD, not along y": 18.81 - 17, "that is x": float(c1[0])})
-lift = Question(
-    float(np.hypot(*away)) - 40, 0.5, "mm", "the two circles about O",
-    {"the lift is the difference of the radii, not the outer radius": float(np.hypot(*away)), "A lies on the base circle, whose radius is OA": float(np.hypot(*away)) - 17},
-)
+away = np.array([45.0, 33.0])
+outer = float(np.hypot(*away))
+c1 = away * (1 - 26 / outer)
+MEANING = Meaning("first_centre", say("First centre"), say("The centres lie on one line."),
+                  {"x": ReadingMeaning(say("place across"), "x", "mm"), "y": ReadingMeaning(say("height"), "y", "mm"), "lift": ReadingMeaning(say("lift"), "h", "mm")})
+
+
+def drawn_on_line(name):
+    def draw(pencil):
+        hand = Hand(pencil, MEANING)
+        o = hand.given("O")
+        across, up = hand.erect("axis across", o, 1 + 0j), hand.erect("axis up", o, 1j)
+        d = hand.lay_off("D", hand.lay_off("below D", o, 1 + 0j, away[0]), 1j, away[1])
+        if name == "lift":
+            base = hand.lay_off("on the base circle", o, hand.join("OD", o, d), 40.0)
+            return hand.read("lift", distance_between(base, d), 1.0)
+        c = hand.lay_off("C1", d, hand.join("DO", d, o), 26.0)
+        return hand.read(name, distance_between(c, hand.project("foot", c, up if name == "x" else across)), 1.0)
+    return draw
+
+
+look = "the theorem: O, C₁ and D on one line"
+centre_x = Question.by(drawn_on_line("x"), look, {
+    "the centre lies inside, towards O": float((away * (1 + 26 / outer))[0]), "that is y": float(c1[1]), "ρ₁ is laid off along OD, not along x": 45.0 - 26})
+centre_y = Question.by(drawn_on_line("y"), look, {"ρ₁ is laid off along OD, not along y": 33.0 - 26, "that is x": float(c1[0])})
+lift = Question.by(drawn_on_line("lift"), "the two circles about O", {
+    "the lift is the difference of the radii, not the outer radius": outer, "A lies on the base circle, whose radius is OA": outer - 26})
 
 # %% tags=["try-it"]
 your_x = None  # mm
@@ -117,8 +136,27 @@ gc.studio(task, view="acceleration", stills={
     f"roller radius, mm: {radius}": {"follower.roller_radius": radius} for radius in (0, 20)})
 
 # %% [markdown]
-# A larger roller makes the rods longer. The large step at $F$, where the short rod takes over, shrinks; the others hardly change, and none vanishes.
-#
+# A larger roller makes the rods longer. What does that do to the steps of the acceleration at the joints?
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+steps = {}
+for radius in (0.0, 10.0, 20.0):
+    read = gc.solve(changed(task, {"follower.roller_radius": radius})).drawn["arc_roller"].readings
+    a = {name: float(np.ravel(read[f"a_{name}"].value)[0]) for name in ("A", "G_before", "G_after", "F_before", "F_after", "D")}
+    steps[radius] = a["A"], a["G_after"] - a["G_before"], a["F_after"] - a["F_before"], -a["D"]
+table(("roller radius, mm", "step at A, mm/rad²", "at G", "at F", "at D"), [(f"{radius:g}", *row) for radius, row in steps.items()], digits=1)
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+change = [100 * (abs(last) / abs(first) - 1) for first, last in zip(steps[0.0], steps[20.0], strict=True)]
+Markdown("From no roller to one of 20 mm the steps at A and G grow, by "
+         f"{change[0]:.0f} and {change[1]:.0f} %; those at F and D, where the short rod ends and begins, shrink, by {-change[2]:.0f} and {-change[3]:.0f} %. None vanishes.")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert change[0] > 0 < change[1]
+assert change[2] < 0 > change[3]
+assert all(abs(step) > 5 for row in steps.values() for step in row)  # four soft impacts
+
+# %% [markdown]
 # ## Drawn and exact
 
 # %%
@@ -134,8 +172,19 @@ assert [root.sound for root in solution.roots] == [True, False]
 #
 # ## Where the error comes from
 #
-# From lines that cross at a flat angle. The bisector of $PC_1$ and the line $C_2G$ meet at a small angle; there a pencil line of 0.2 mm becomes a millimetre or more in the
-# position of $C_3$. It does less harm than it seems: $C_3$ slides *along* the line through $G$, and the arc still passes through $G$ with the right tangent. Check $F$: it must
+# From lines that cross at a flat angle. The bisector of $PC_1$ and the line $C_2G$ meet at a small angle:
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+places = {name: np.array([solution.comparison.quantities[f"{name}_{axis}"].by_hands for axis in "xy"]) for name in ("C1", "C3", "F")}
+scatter = {name: float(np.sqrt(xy.var(axis=1).sum())) for name, xy in places.items()}
+table(("place", "scatter by a pencil of 0.2 mm, mm"), [*scatter.items()], digits=2)
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert scatter["C3"] > 2 * scatter["C1"]
+assert scatter["C3"] > scatter["F"]
+
+# %% [markdown]
+# It does less harm than it seems: $C_3$ slides *along* the line through $G$, and the arc still passes through $G$ with the right tangent. Check $F$: it must
 # lie on both arcs.
 #
 # ## Questions

@@ -19,7 +19,7 @@
 # **You need** notebooks 1 to 6. On paper: A1 or two sheets of A3. **Time:** this reading 40 minutes; the sheet an afternoon.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-
+from IPython.display import Markdown
 
 import graphcam as gc
 from graphcam.notebooks import (
@@ -47,13 +47,13 @@ from graphcam.report.documents import sheet_of
 # | **decision** | $\rho_{\min}$, $r_0$, the rule | $r$ rounded down | 6 |
 # | working profile | pitch curve, $r$ | the cam | 5, 6 |
 #
-# Each line uses only what was given or read off before. The two *decisions* are different from readings: as in a design office the drawing proposes 43.28 mm and the
+# Each line uses only what was given or read off before. The two *decisions* are different from readings: as in a design office the drawing proposes 43.28 mm, say, and the
 # engineer adopts 44 mm, and from there on everything is drawn for 44 mm. Radii are rounded **up**, rollers **down**: always to the safe side.
 #
 # ## The sheet
 
 # %%
-task = gc.builtin_task()
+task = gc.load_task("task.toml")
 solution = gc.solve(task)
 picture_of_page(sheet_of(solution).pages[0], "The finished coursework sheet: three diagrams one under the other with their poles, beside the displacement the combined "
                 "diagram with the shaded region, the cam profile with its inversion lines, tables and title block.", "The finished sheet")
@@ -68,8 +68,9 @@ picture_of_page(sheet_of(solution).pages[0], "The finished coursework sheet: thr
 show_steps(solution.drawn["integration"], 7, 8, 9, within=solution)
 show_steps(solution.drawn["minimum_radius"], 5, within=solution)
 
-# %% [markdown]
-# The drawing proposes the minimum radius; the next whole millimetre is adopted and used from here on. The pressure angle of the adopted cam is then a little better than the limit:
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+proposed = float(solution.drawn["minimum_radius"].value("prime_radius"))
+Markdown(f"The drawing proposes {proposed:.2f} mm; {solution.cam.prime_radius:g} mm is adopted and used from here on.")
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 show_steps(solution.drawn["pressure_angle"], 1, 2, within=solution, on=solution.drawn["minimum_radius"])
@@ -81,22 +82,34 @@ show_steps(solution.drawn["working_profile"], 1, 4, 5, within=solution)
 # %% [markdown]
 # ## Try it yourself
 #
-# A task of your own: the coursework motion, but the follower stands **right** of the centre, $e = +10$ mm, and the cam turns **anticlockwise**. Which minimum
-# radius will you find? (Think before you draw: notebook 3.) The rule is $\min(0.7\,\rho,\ 0.4\,r_0)$; which radius is adopted, and which roller?
+# A task of your own: the same motion, but the cam turns the **other way** and the follower stands on the **other side** of the centre. Which minimum radius will you find? (Think
+# before you draw: notebook 3.) Then two decisions. The drawing of a colleague proposes $r_0 = 52.37$ mm, and $\rho = 29.6$ mm; the rule for the roller is
+# $\min(0.7\,\rho,\ 0.4\,r_0)$. Which radius is adopted, in whole millimetres, and which roller?
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-mirrored = gc.solve(changed(task, {"follower.offset": 10.0, "rotation": "ccw"}))
-wrong_side = gc.solve(changed(task, {"follower.offset": 10.0}))
-least = Question.of(
-    mirrored.drawn["minimum_radius"].readings["prime_radius"], "notebook 3: rotation and offset enter only as their product",
-    {"the offset lies on the favourable side of this cam": float(wrong_side.drawn["minimum_radius"].value("prime_radius"))},
+other_way = {"cw": "ccw", "ccw": "cw"}[task.rotation]
+offset = solution.cam.follower.offset
+mirrored = gc.solve(changed(task, {"follower.offset": -offset, "rotation": other_way}))
+wrong_side = gc.solve(changed(task, {"follower.offset": -offset}))
+
+
+def mirrored_radius(pencil):
+    return mirrored.chain.by(pencil)["minimum_radius"].readings["prime_radius"]
+
+
+least = Question.by(
+    mirrored_radius, "notebook 3: rotation and offset enter only as their product",
+    {"the offset lies on the same side of the motion as before": float(wrong_side.drawn["minimum_radius"].value("prime_radius"))},
+    exact=mirrored.comparison.least[0],
 )
 adopted = Question(
-    mirrored.cam.prime_radius, 0.01, "mm", "the decision: round to a whole millimetre, to the safe side", {"rounded down: the limit would be exceeded": 43.0, "that is the proposal, not the decision": 43.28},
+    53, 0.01, "mm", "the decision: round to a whole millimetre, to the safe side",
+    {"rounded down: the limit would be exceeded": 52, "that is the proposal, not the decision": 52.37}, found_by="counting",
 )
 roller = Question(
-    mirrored.cam.roller_radius, 0.01, "mm", "the rule with the adopted radius, rounded down",
-    {"round the roller down": 18.0, "that is the proposal; a workshop wants a round number": 17.6, "the smaller of the two counts": 21.0},
+    20, 0.01, "mm", "the rule with the adopted radius, rounded down",
+    {"round the roller down": 21, "that is the proposal; a workshop wants a round number": 0.7 * 29.6, "the rule has the adopted radius, and the smaller of the two counts": 0.4 * 53},
+    found_by="counting",
 )
 
 # %% tags=["try-it"]
@@ -130,18 +143,19 @@ gc.studio(task, view="profile", stills={
 compared(solution)
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
-assert solution.cam.prime_radius == 44
-assert solution.cam.roller_radius == 17
-assert abs(solution.comparison.quantities["minimum_prime_radius"].exact - 43.280) < 0.001
-assert all(abs(q.error_paper) <= q.tolerance_paper + 1e-9 for q in solution.comparison.quantities.values())
-assert abs(float(mirrored.drawn["minimum_radius"].value("prime_radius")) - 43.280) < 0.001
+assert proposed <= solution.cam.prime_radius < proposed + 1.01
+assert all(abs(q.error_paper) <= q.tolerance_paper + 1e-9 for q in solution.comparison.quantities.values() if q.exists)
+assert abs(float(mirrored.drawn["minimum_radius"].value("prime_radius")) - proposed) < 1e-9
+assert int(0.7 * 29.6) == 20
+assert 0.7 * 29.6 < 0.4 * 53
 
 # %% [markdown]
-# Every quantity lies within its bound. The bound says how far an *ideal* pencil may be off with 12 parts; drawing by hand adds the errors of notebook 7.
+# The *ideal pencil* is off by the error of the method alone. graphcam proves or estimates a bound for it beforehand, and every quantity lies within its bound; drawing by hand adds
+# bias and scatter, notebook 7.
 #
 # ## At speed
 #
-# The task gives 120 rpm. What the follower really does in each phase:
+# What the follower really does in each phase, at the speed of the task:
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 table(("phase", "time, s", "maximum velocity, m/s", "maximum acceleration, m/s²"), [
@@ -162,8 +176,8 @@ table(("phase", "time, s", "maximum velocity, m/s", "maximum acceleration, m/s²
 #
 # ## Where the error comes from
 #
-# Look at the last column of the table above in millimetres of *paper*: nearly all of it is zero here, because constant acceleration has no error of the method; the radius of curvature remains, whose three points
-# lie on one side of a jump. Draw the same sheet with another law and with a pencil: `graphcam solve cam.toml --pencil 0.2`.
+# Compare the columns of the table: where the scatter is much larger than the ideal pencil's error, a sharper pencil and a larger sheet help; where it is not, more parts do. Draw the
+# same sheet with another law and with a pencil: `graphcam solve cam.toml --pencil 0.2`.
 #
 # ## Questions
 #

@@ -16,7 +16,7 @@
 #
 # **Aim.** At the end you can say where the material under a roller is stressed most, and judge whether the stress from a finite element program can be right.
 #
-# **You need** the stress between roller and profile (notebook 9), the radius of curvature (notebook 6), and for the computation `python -m pip install ".[fem]"` in the folder of graphcam's source. On paper: A4. **Time:** 45
+# **You need** the stress between roller and profile (notebook 9), the radius of curvature (notebook 6). On paper: A4. **Time:** 45
 # minutes, 15 of them with the pencil.
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
@@ -41,7 +41,7 @@ p0, a = contact.hertz
 print(f"Hertz: peak pressure {p0:.1f} MPa, half-width {a:.4f} mm")
 
 # %% [markdown]
-# The strip is 0.15 mm wide, 1/100 of the roller's diameter. All that matters happens in a piece of steel of about this size. That determines the computation: the mesh must be fine
+# The strip is 0.15 mm wide, 1/200 of the roller's diameter. All that matters happens in a piece of steel of about this size. That determines the computation: the mesh must be fine
 # *there*.
 #
 # Below the middle, at the depth $z$, K. L. Johnson's book *Contact Mechanics* (section 4.2) has
@@ -51,6 +51,17 @@ print(f"Hertz: peak pressure {p0:.1f} MPa, half-width {a:.4f} mm")
 #
 # At the surface both are $-p_0$: the steel is compressed from all sides and hardly sheared. The shear stress has its maximum *below* the surface, $0.300\,p_0$ at the
 # depth $0.786\,a$. There cracks begin in rolling contacts, and pits form.
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+assert abs(2 * a - 0.15) < 0.001
+assert round(2 * 15 / (2 * a)) == 200
+depth = np.linspace(0, 3, 300001)
+sigma_z, sigma_x = -1 / np.sqrt(1 + depth**2), -((1 + 2 * depth**2) / np.sqrt(1 + depth**2) - 2 * depth)
+shear_below = np.abs(sigma_x - sigma_z) / 2
+assert abs(shear_below.max() - 0.300) < 0.001
+assert abs(depth[shear_below.argmax()] - 0.786) < 0.001
+
+# %% [markdown]
 #
 # ## Computed by elements
 #
@@ -159,16 +170,20 @@ heavy = gc.hertz_line_contact(4000, 20, 30, 15)
 pressure_of_four = Question(
     heavy.peak_pressure, 5.0, "MPa", "how does the force enter the formula?",
     {"the force is under a square root": 4 * p0, "the pressure grows, it does not stay": p0},
+    found_by="calculation",
 )
 depth_of_four = Question(
     0.786 * heavy.half_width, 0.005, "mm", "the half-width first",
     {"the half-width grows too, with the root of the force": 0.786 * a, "that is the half-width": heavy.half_width},
+    found_by="calculation",
 )
 
 # %% tags=["try-it"]
 your_peak_pressure = None  # MPa
-your_depth = None  # mm
 pressure_of_four.check(your_peak_pressure)
+
+# %% tags=["try-it"]
+your_depth = None  # mm
 depth_of_four.check(your_depth)
 
 # %% [markdown]
@@ -230,10 +245,12 @@ print(f"100 N over 15 mm and an element of 1 mm: {100 / 15 / 1:.1f} MPa")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(hertz.peak_pressure - 141.5) < 1
+assert round(hertz.peak_pressure / 6.4) == 22
+assert abs(2 * hertz.half_width - 0.06) < 0.001
 assert abs(hertz.peak_pressure - sqrt(100 / 15 * 113186.813 / pi * (1 / 60 + 1 / 15))) < 1e-3
 
 # %% [markdown]
-# Twenty times as much. The strip is 0.06 mm wide; a mesh with elements of about 1 mm, as programs choose them for a cam of that size, cannot resolve it and spreads the force over a whole element:
+# Twenty-two times as much. The strip is 0.06 mm wide; a mesh with elements of about 1 mm, as programs choose them for a cam of that size, cannot resolve it and spreads the force over a whole element:
 # 100 N over 15 mm times 1 mm are 6.7 MPa. So a stress of that size tells how large the elements were, not how the steel is stressed. (The report gives neither its width nor its mesh; this
 # explanation is our interpretation of its number.)
 #

@@ -155,6 +155,13 @@ def _print_matrix(found: Simulation) -> None:
         ),
         (say("right work remarked on as exact as a program"), str(found.too_exact)),
         (say("wrong work that earns full marks"), f"{found.false_acceptances:.2%}"),
+        (
+            say(
+                "mistakes not listed that show and earn full marks, of {count}",
+                count=sum(found.unlisted.shown.values()),
+            ),
+            f"{found.unlisted_kept:.2%}",
+        ),
         (say("mistakes named rightly"), f"{found.right_diagnoses:.2%}"),
         (say("mistakes that are not looked for, taken for another"), f"{found.outside_named:.2%}"),
         (say("marks earned at most by a copy of another variant, of {n}", n=copies.pairs), f"{copies.best:.0%}"),

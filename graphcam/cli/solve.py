@@ -102,7 +102,7 @@ def _spring_sizes(solution: Solution) -> list[Caption]:
 def _size_caption(name: Words, value: float, of: Words, where: Words) -> Caption:
     # No powers of ten: four digits, and zeros.
     told = float(f"{value:.4g}") if where is MINIMUM_LABEL else value
-    return say("{name} {value:.12g} {unit} ({where})", name=name, value=told, unit=of, where=where)
+    return say("{name} {value:.7g} {unit} ({where})", name=name, value=told, unit=of, where=where)
 
 
 def solve(

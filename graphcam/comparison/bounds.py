@@ -16,11 +16,12 @@ errors do together, such as making the eye choose another place.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -43,6 +44,41 @@ HAND_COUNT = 400
 """How many hands draw for the scatter; its own relative error is 1/sqrt(2 HAND_COUNT), about 4 %."""
 ARITHMETIC_ERROR = 1e-9
 """What rounding of the arithmetic may move on the paper [mm]."""
+CAREFUL_PENCIL = Pencil.of(0.2, samples=HAND_COUNT)
+"""The hands whose answers are called right."""
+HONEST_SHARE = 0.99
+"""The share of their answers that is."""
+HALF_DIVISION, HALF_DEGREE = 0.5, 0.5
+"""How far a reading may be off by the rule [mm of paper], and by the protractor [degrees]."""
+DEGREES_PER_RADIAN = math.degrees(1.0)
+
+
+class HonestRange(NamedTuple):
+    """Between which values answers lie that were honestly drawn, or computed."""
+
+    low: float
+    high: float
+
+
+def honest_range(drawn: float, hands: Floats, per_mm: float, exact: float = math.nan) -> HonestRange:
+    """The range of the honest answers for one reading.
+
+    drawn, hands, exact : the values by a hand without error, by many of :data:`CAREFUL_PENCIL`, and computed
+    per_mm : the scale of the paper, or the degrees in a radian for what is measured with a protractor
+
+    >>> honest_range(25.0, np.array([24.0, 24.0, np.nan]), 0.5, exact=25.2)
+    HonestRange(low=24.0, high=25.45)
+    """
+    read = HALF_DEGREE if math.isclose(per_mm, DEGREES_PER_RADIAN) else HALF_DIVISION * abs(per_mm)
+    readable, half = hands[np.isfinite(hands)], (1 - HONEST_SHARE) / 2
+    ends = np.quantile(readable, [half, 1 - half]) if readable.size else [drawn]
+    near = [drawn - read, drawn + read, exact - read, exact + read, *ends]
+    return HonestRange(float(np.nanmin(near)), float(np.nanmax(near)))
+
+
+def turned_near(angles: Floats, angle: float) -> Floats:
+    """Angles [rad], less the full turns that part them from one."""
+    return angle + np.remainder(angles - angle + FULL_TURN / 2, FULL_TURN) - FULL_TURN / 2
 
 
 class Redrawable(Protocol):
@@ -89,6 +125,16 @@ class Bounds:
         if pencil.perfect:
             return None
         return self.drawn.redrawn(pencil=replace(pencil, samples=pencil.samples or HAND_COUNT))
+
+    @cached_property
+    def careful(self) -> Redrawable:
+        """The drawing by many careful hands, whatever pencil drew."""
+        return self.drawn.redrawn(pencil=CAREFUL_PENCIL)
+
+    def by_hands(self, construction: str, reading: str, place: int | None = None) -> Floats:
+        """A reading, or one of several, by every careful hand (samples,)."""
+        perfect, hands = (by[construction].readings[reading].at(place) for by in (self.perfect, self.careful))
+        return turned_near(hands.value, float(perfect.value)) if perfect.unit == "rad" else hands.value
 
     def of(self, construction: str, reading: str) -> Floats:
         """How far the reading may be off, on the paper it was read from [mm; an angle: rad]."""
@@ -208,4 +254,4 @@ class ErrorBudget:
         with np.errstate(invalid="ignore"):
             off: Any = read.value - here.value
         off = off.reshape(len(off), -1)
-        return np.remainder(off + FULL_TURN / 2, FULL_TURN) - FULL_TURN / 2 if here.unit == "rad" else off
+        return turned_near(off, 0.0) if here.unit == "rad" else off

@@ -1,19 +1,19 @@
 """Drawn against exact: the quantities a design ends with, and the values at the stations."""
 
 import math
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
-from functools import cached_property
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass, field
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 
-from graphcam.comparison.bounds import Bounds
+from graphcam.comparison.bounds import DEGREES_PER_RADIAN, Bounds, HonestRange, honest_range
 from graphcam.comparison.double_integration import proved_bounds
 from graphcam.comparison.phase_speeds import PhaseAtSpeed, at_speed
 from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
-from graphcam.drafting.ink import Construction
+from graphcam.drafting.ink import Construction, Reading
 from graphcam.drafting.meaning import ComparedReading
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
@@ -37,6 +37,7 @@ class Quantity:
     tolerance_paper : how far the drawn value may lie off [mm of paper], estimated from redrawings in more parts and by
         the same pencil
     proved_paper : the same, proved beforehand for a hand without error; NaN where no theorem tells it
+    draw_by_hands : gives the values by many careful hands, in the unit; None where there is no reading
     """
 
     name: str
@@ -47,6 +48,7 @@ class Quantity:
     per_mm: float
     tolerance_paper: float
     proved_paper: float = math.nan
+    draw_by_hands: Callable[[], Floats] | None = field(default=None, repr=False, compare=False)
 
     @property
     def exists(self) -> bool:
@@ -62,6 +64,16 @@ class Quantity:
     def error_paper(self) -> float:
         """The error on the paper [mm]."""
         return self.error / self.per_mm
+
+    @cached_property
+    def by_hands(self) -> Floats:
+        """The values that many careful hands read [unit], drawn when they are asked for; none without a reading."""
+        return self.draw_by_hands() if self.draw_by_hands else np.array([])
+
+    @property
+    def honest(self) -> HonestRange:
+        """The range of the honest answers [unit]: of who draws with care, and of who computes."""
+        return honest_range(self.drawn, self.by_hands, self.per_mm, self.exact)
 
     @property
     def is_beyond_bound(self) -> bool:
@@ -188,6 +200,7 @@ def quantities_of(
         (said.exact or said.name, _quantity(construction, reading, said, bounds, exact, proved))
         for construction in drawn.values()
         for reading, said in construction.meaning.compared_readings
+        if reading in construction.readings
     ]
     nan, there = math.nan, {quantity.name for _, quantity in found}
     missing = {
@@ -210,18 +223,29 @@ def _quantity(
     if counterpart not in exact:
         raise DesignError(say("exact counterpart"), counterpart, say("one of {names}", names=", ".join(exact)))
     read = construction.readings[said.sides or reading]
-    factor, unit = (DEGREES_PER_RADIAN, "deg") if read.unit == "rad" else (1.0, read.unit)
-    factor *= said.sign
+    size, unit = told_unit(read)
+    factor = size * said.sign
     side = (side_of(exact[counterpart]),) if said.sides else ()
     if said.candidates:
         bound = bounds.of_choice(construction.name, said.candidates, said.ranks)
     else:
         bound = float(bounds.of(construction.name, said.sides or reading)[side])
     drawn = factor * float(construction.value(said.sides or reading)[side])
+    asked = construction.name, said.sides or reading, side[0] if side else None
     title = said.title or construction.meaning.reading(reading).title
     per_mm = factor * read.per_mm
+    by_hands = partial(_by_hands, bounds, asked, factor)
     beforehand = proved.get(said.name, math.nan) / abs(per_mm)
-    return Quantity(said.name, title, drawn, exact[counterpart], unit, per_mm, bound, beforehand)
+    return Quantity(said.name, title, drawn, exact[counterpart], unit, per_mm, bound, beforehand, by_hands)
+
+
+def _by_hands(bounds: Bounds, asked: tuple[str, str, int | None], factor: float) -> Floats:
+    return factor * bounds.by_hands(*asked)
+
+
+def told_unit(reading: Reading) -> tuple[float, str]:
+    """The unit in which a reading is told, and how many of it make the one it is read in: angles are in degrees."""
+    return (DEGREES_PER_RADIAN, "deg") if reading.unit == "rad" else (1.0, reading.unit)
 
 
 def side_of(extreme: float) -> int:
@@ -229,7 +253,6 @@ def side_of(extreme: float) -> int:
     return 0 if extreme >= 0 else 1
 
 
-DEGREES_PER_RADIAN = math.degrees(1.0)
 COMMON_QUANTITIES: Mapping[str, str] = {
     **dict.fromkeys(("minimum_prime_radius", "minimum_offset", "roller_radius"), "mm"),
     **dict.fromkeys(("max_pressure_angle_rise_deg", "max_pressure_angle_return_deg"), "deg"),

@@ -204,8 +204,8 @@ def _load(plan: Construction[ArmForcePlanGivens], view: View) -> Step:
     values["way"] = say("against the rise") if torque > 0 else say("in the sense of the rise")
     said = say(
         "At station {name} the drawn s = {s:.2f}° and a = {a:.3f} rad/rad² give the torque M = {torque:.0f} N·mm about "
-        "C: {terms}. Reduced to the arm's end it is Q = M/l = {torque:.0f}/{arm:g} = {load:.1f} N. At μF = {mu:g} N/mm "
-        "set the dividers to {paper:.1f} mm, and lay Q off from its tail square to the arm of this station, {way}."
+        "C: {terms}. Reduced to the arm's end it is Q = M/l = {torque:.0f}/{arm:g} = {load:.1f} N. At μ_F = {mu:g} "
+        "N/mm set the dividers to {paper:.1f} mm, and lay Q off from its tail square to the arm of this station, {way}."
     )
     why = say("A torque about the pivot has the same effect as a force at the arm's end, square to the arm.")
     return plain.load_arrow_step(plan, view, said.with_values(**values), -_corner_direction(plan), why)

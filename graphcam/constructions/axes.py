@@ -244,22 +244,29 @@ def ordinate_title(symbol: str, lift_unit: str) -> Caption:
     return say("{symbol}, {unit}", symbol=symbol, unit="°" if in_degrees else unit(lift_unit + per[symbol]))
 
 
-def axes_over_phi(end: float, mu_phi: Scale, heights: Floats, name: Words) -> tuple[Mark, ...]:
-    """The two axes of a diagram that reaches up to ``end`` and over ``heights`` [mm of paper], degrees, and names."""
+def axes_over_phi(
+    end: float, mu_phi: Scale, heights: Floats, name: Words, ticks: Segments | None = None
+) -> tuple[Mark, ...]:
+    """The two axes of a diagram that reaches up to ``end`` and over ``heights`` [mm of paper], and their names.
+
+    ticks : the strokes across the axis of the cam angle; None is degrees
+    """
     low, high = height_range(heights)
     right, top = complex(end + AXIS_OVERHANG), (high + AXIS_OVERHANG) * UP
-    scale = say("μᵩ = {mu:.4g}°/mm", mu=math.degrees(mu_phi.per_mm))
+    scale = say("μᵩ = {mu:.4g} rad/mm ({degrees:.4g}°/mm)", mu=mu_phi.per_mm, degrees=math.degrees(mu_phi.per_mm))
     return (
-        *(Arrow(0j, right, Role.SCALE), Arrow(low * UP, top, Role.SCALE), degree_ticks(end, mu_phi)),
+        *(Arrow(0j, right, Role.SCALE), Arrow(low * UP, top, Role.SCALE), ticks or degree_ticks(end, mu_phi)),
         *(Label(right, say("φ, °"), towards=-UP), Label(top, name, towards=-1 - 1j)),
         Label(complex(end), scale, towards=-1 - 1j, small=True),
     )
 
 
-def phi_axes(motion: Motion, mu_phi: Scale, heights: Floats, name: Words) -> tuple[Mark, ...]:
-    """The axes of a diagram over one turn of the motion, and thin lines where the phases end."""
+def phi_axes(motion: Motion, stations: Stations, mu_phi: Scale, heights: Floats, name: Words) -> tuple[Mark, ...]:
+    """The axes of a diagram over one turn of the motion, strokes at the stations, thin lines where the phases end."""
     ends, (low, high) = phase_ends(motion, mu_phi), height_range(heights)
-    across, up, *others = axes_over_phi(ends[-1], mu_phi, heights, name)
+    x = np.unique(stations.phi) / mu_phi.per_mm
+    ticks = Segments(x + SHORT_TICK * UP, x - SHORT_TICK * UP, Role.SCALE)
+    across, up, *others = axes_over_phi(ends[-1], mu_phi, heights, name, ticks)
     return (across, up, Segments(ends[1:] + low * UP, ends[1:] + high * UP, Role.CONSTRUCTION), *others)
 
 

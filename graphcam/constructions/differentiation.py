@@ -43,7 +43,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, unit
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
-from graphcam.given.measured import MeasuredMotion
+from graphcam.given.measured import IntegratedMotion, MeasuredMotion
 from graphcam.given.motion import FULL_TURN, Motion, wrap
 from graphcam.plane_vectors import dot
 from graphcam.words import say_many, sequence
@@ -61,7 +61,7 @@ CROSS_HALF_WIDTH, ROWS_ROOM = 0.6, 2.5
 """Half the width of a cross at a row, and how far apart crosses stand at least [mm of paper]."""
 
 DIAGRAM_VIEWS = {
-    "s": View("measured displacement", say("Measured displacement s"), across="measured phi", up="measured s"),
+    "s": View("measured displacement", say("Displacement s to differentiate"), across="measured phi", up="measured s"),
     "v": View("measured velocity", say("Velocity v by differentiation"), across="measured phi", up="measured v"),
     "a": View(
         "measured acceleration", say("Acceleration a by differentiation"), across="measured phi", up="measured a"
@@ -112,7 +112,7 @@ MEANING = Meaning(
     "differentiation",
     say("Velocity and acceleration by differentiation"),
     say(
-        "The measured displacement, differentiated: a parallel to each chord through the pole cuts off the "
+        "The displacement, differentiated: a parallel to each chord through the pole cuts off the "
         "velocity in the middle of the interval. Differentiation amplifies every drawing error."
     ),
     {
@@ -161,7 +161,8 @@ def measured_differentiation(
     x = division_points(0j, turn + 0j, parts).real[:-1]
     s = motion(x * mu_phi.per_mm)[0] / mu_s.per_mm
     rows = None
-    if isinstance(motion, MeasuredMotion):
+    # Of measured accelerations there are no rows of displacements.
+    if isinstance(motion, MeasuredMotion) and not isinstance(motion, IntegratedMotion):
         rows = wrap(motion.phi - motion.zero) / mu_phi.per_mm + UP * motion.measured / mu_s.per_mm
     return differentiation(x, s, mu_phi, mu_s, poles, pencil, turn=turn, rows=rows)
 
@@ -553,7 +554,10 @@ def _scale(run: _Pass) -> Step:
     end, heights, read = _end(c), c.acts[name].shown.imag, c.readings[name]
     upright = Line(end + UP * np.array(height_range(heights)), Role.SCALE)
     marks, part = (
-        (upright, *graduation_marks(heights, float(read.scale), end, read.act)),
+        (
+            upright,
+            *graduation_marks(heights, float(read.scale), end, read.act, name=ordinate_title(name, c.givens.mu_s.unit)),
+        ),
         Part(run.told(said.with_values(**values))),
     )
     title, reads = run.told(say("The scale of {target}")), (f"max_{name}", name)

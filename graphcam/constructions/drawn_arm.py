@@ -17,7 +17,14 @@ from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
 from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.board import DrawnFollower, FollowerLoads, FollowerSize, Values, roller_sentences
 from graphcam.constructions.cam_analysis import AnalysisGivens
-from graphcam.constructions.kinematic_sketch import bearing, edge, low_point, plain_cam, size
+from graphcam.constructions.kinematic_sketch import (
+    bearing,
+    edge,
+    link,
+    low_point,
+    plain_cam,
+    size,
+)
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil
@@ -118,6 +125,7 @@ class DrawnOscillating(DrawnFollower):
             *edge(b, roller_radius, 1j - 1),
             *bearing(SKETCH_PIVOT, "C"),
             Line(np.array([b, SKETCH_PIVOT]), Role.CURVE),
+            *link("2", (b + 3 * SKETCH_PIVOT) / 4, 1j * -arm),
             Line(np.array([0j, SKETCH_PIVOT]), Role.AXIS),
             Arc(SKETCH_PIVOT, abs(arm), swing[0], swing[1], Role.CURVE, arrow="start"),
             Label((b + SKETCH_PIVOT) / 2, size("l", self.arm), 1j * -arm),

@@ -9,7 +9,13 @@ import numpy as np
 from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.board import DrawnFollower, FollowerSize
 from graphcam.constructions.curvature import curvature
-from graphcam.constructions.kinematic_sketch import BASE_RADIUS, bearing, plain_cam, size
+from graphcam.constructions.kinematic_sketch import (
+    BASE_RADIUS,
+    bearing,
+    link,
+    plain_cam,
+    size,
+)
 from graphcam.constructions.swinging_face_inversion import swinging_face_inversion
 from graphcam.constructions.swinging_face_radius import swinging_face_least_radius
 from graphcam.drafting.euclid import unit
@@ -113,6 +119,7 @@ class DrawnOscillatingFlat(DrawnFollower):
         return (
             *plain_cam(touch, sense(rotation)),
             *bearing(pivot, "C"),
+            *link("2", complex(face[1]), complex(normal)),
             *(*arm, Line(face, Role.CURVE), Label(touch, "B", complex(normal)), *offset),
             Line(np.array([0j, pivot]), Role.AXIS),
             Arc(pivot, SKETCH_FACE, float(swing[0]), float(swing[1]), Role.CURVE, arrow="start"),

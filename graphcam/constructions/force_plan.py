@@ -237,7 +237,7 @@ def _draw(plan: Construction[ForcePlanGivens]) -> list[Step]:
 
 def plan_steps(plan: Construction, *draws: Callable[[Any, View], Step]) -> list[Step]:
     """The steps of a plan in their view, the last but one where the triangle does not close, else the last."""
-    view = replace(FORCES, title=say("Force plan, μF = {mu:g} N/mm", mu=plan.givens.mu_force.per_mm))
+    view = replace(FORCES, title=say("Force plan, μ_F = {mu:g} N/mm", mu=plan.givens.mu_force.per_mm))
     *first, not_closed, closed = draws
     last = not_closed if math.isnan(float(plan.first("normal"))) else closed
     return [draw(plan, view) for draw in (*first, last)]
@@ -287,7 +287,7 @@ def load_step(plan: Construction[ForcePlanGivens], view: View) -> Step:
     told = sequence([said.with_values(force=force) for said, force in terms if abs(force) >= READABLE_FORCE])
     said = say(
         "At station {name} the drawn s = {s:.2f} mm and a = {a:.2f} mm/rad² give the load Q = {load:.1f} N: {terms}. "
-        "At μF = {mu:g} N/mm set the dividers to {size:.1f}/{mu:g} = {paper:.1f} mm, and lay Q off from its tail "
+        "At μ_F = {mu:g} N/mm set the dividers to {size:.1f}/{mu:g} = {paper:.1f} mm, and lay Q off from its tail "
         "straight {way}."
     ).with_values(name=name, s=s, a=a, load=load, terms=told, mu=mu, size=abs(load), paper=abs(load) / mu)
     said = said.with_values(way=say("down") if load > 0 else say("up"))

@@ -21,12 +21,13 @@ from graphcam.constructions.axes import (
 )
 from graphcam.drafting.acts import Drawn
 from graphcam.drafting.euclid import RIGHT, UP
-from graphcam.drafting.ink import Caption, say
+from graphcam.drafting.ink import Caption, Words, say
 from graphcam.drafting.marks import Label, Line, Mark, Origin, Points, Role, Segments
 from graphcam.drafting.scale import NEGLIGIBLE_SIZE, Scale, unit
 from graphcam.given.follower import MM_PER_M
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN
+from graphcam.words import sequence
 
 NUMBER_SPACINGS = 10.0, 5.0
 """The numbers of a graduation stand at least so far apart [mm of paper], in a low diagram so far."""
@@ -35,11 +36,17 @@ ROUND_STEPS = (1, 2, 5, 10)
 
 
 def graduation_marks(
-    heights: Floats, per_mm: float, right: float | None = None, of: Origin | None = None, lift_unit: str = ""
+    heights: Floats,
+    per_mm: float,
+    right: float | None = None,
+    of: Origin | None = None,
+    lift_unit: str = "",
+    name: Words = "",
 ) -> tuple[Mark, ...]:
     """The graduation of the ordinate axis of a diagram over ``heights`` [mm of paper], ``per_mm`` units to each.
 
     right : where it stands instead [mm of paper], if rays run to the axis from the left: at the other end of the turn
+    name : of the ordinate with its unit, over a graduation there
     of : the reading whose scale it shows, where that is only found by drawing
     lift_unit : "rad" where the ordinates are angles, which a reader wants in degrees
 
@@ -61,6 +68,7 @@ def graduation_marks(
     return (
         Segments(starts, ends, Role.SCALE, of=of),
         *(Label(at, value.with_values(value=n * every), towards=way[0], small=True, of=of) for at, n in named),
+        *([Label(way[1] + high * UP, name, towards=UP, of=of)] if name else []),
     )
 
 
@@ -184,8 +192,7 @@ def graduated_at_speed(
     low, high = height_range(heights)
     return (
         Line(x + UP * np.array([low, high]), Role.SCALE, of=of),
-        *graduation_marks(heights, at.per_mm, x, of),
-        Label(x + high * UP, say("{symbol}, {unit}", symbol=symbol, unit=unit(at.unit)), towards=UP, of=of),
+        *graduation_marks(heights, at.per_mm, x, of, name=sequence([symbol, unit(at.unit)])),
     )
 
 

@@ -19,6 +19,7 @@ from graphcam.constructions.axes import (
     height_names,
     joined_parts,
     number_labels,
+    ordinate_title,
     phase_names,
     phase_title,
     pole_marks,
@@ -573,7 +574,9 @@ def _scale(c: Integrated, name: str, found: Caption, of: Drawn | None = None, ma
     # From the pole rays run to the axis on the left.
     heights = np.concatenate([c.first("a"), c.first("a_before")]) if name == "a" else c.acts[f"{name}_curve"].shown.imag
     lift_unit = c.readings[name].unit
-    divided = graduation_marks(heights, mu, None if name == "s" else turn, c.readings[name].act, lift_unit)
+    at = None if name == "s" else turn
+    title_of_axis = "" if at is None else ordinate_title(name, c.givens.unit)
+    divided = graduation_marks(heights, mu, at, c.readings[name].act, lift_unit, title_of_axis)
     if lift_unit == "rad":
         told = sequence([told, say("In degrees the scale is {mu:.5g}°/mm.", mu=np.degrees(mu))], " ")
     if c.givens.omega is not None and name != "s":

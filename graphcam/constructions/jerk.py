@@ -18,6 +18,7 @@ from graphcam.constructions.axes import (
     height_names,
     height_range,
     joined_parts,
+    ordinate_title,
     part_names,
     part_titles,
     pole_marks,
@@ -270,7 +271,9 @@ def _scale(c: DrawnJerk) -> Step:
     heights, end = c.acts["curve"].first.shown.imag, givens.end
     # At the end of the turn an arrow may stand.
     end += GRADUATION_OFFSET if any(not jump.phi for jump in acceleration_jumps(givens.motion)) else 0.0
-    marks = list(graduation_marks(heights, mu, end, read.act)) if height_range(heights) != (0.0, 0.0) else []
+    marks = list[Mark]()
+    if height_range(heights) != (0.0, 0.0):
+        marks += graduation_marks(heights, mu, end, read.act, name=ordinate_title("j", givens.unit))
     if givens.omega is not None:
         told.append(time_scale_caption(mu, "j", givens.omega, givens.unit))
         marks += graduated_at_speed(heights, mu, "j", givens.omega, givens.unit, end, read.act) if marks else []

@@ -22,6 +22,8 @@ ROTATION_ARROW_RADIUS = 6.5
 """Radius of the arrow of the rotation [mm]."""
 GUIDE_HALF_WIDTH, GUIDE_LENGTH, LINE_OVERHANG = 2.2, 8.0, 5.0
 """Half the width and the length of a guide, and how far the line of motion goes on above the stem [mm]."""
+KNIFE_EDGE_HEIGHT, LEADER_LENGTH = 5.0, 6.0
+"""The height of a knife edge, and the length of the leader of a link's number [mm]."""
 LINE_BOTTOM = -20.0
 """How far the line of motion goes down, and the height of the offset's dimension [mm]."""
 
@@ -47,6 +49,8 @@ def plain_cam(towards: complex, sigma: int) -> tuple[Mark, ...]:
         *bearing(0j, "A", 1 - 1j),
         arrow,
         Label(middle, "ω", middle),
+        *link("1", centre, centre),
+        *link("0", -3 - 5j, -1 - 1j),
     )
 
 
@@ -72,12 +76,20 @@ def edge(b: complex, roller_radius: float | None, towards: complex) -> tuple[Mar
     """The roller about B with its name in a direction, or a knife edge; the radius [mm] is None where it is open."""
     point = (Dots(np.array([b])), Label(b, "B"))
     if roller_radius == 0:
-        return point
+        wedge = b + KNIFE_EDGE_HEIGHT * UP * np.array([1 - 0.5j, 0, 1 + 0.5j])
+        return (Line(wedge, Role.CURVE, closed=True), Label(b, "B"))
     return (
+        *link("3", b + 0.5 * ROLLER_RADIUS * (1 - 1j), 1 - 1j),
         Circle(b, ROLLER_RADIUS, Role.CURVE),
         *point,
         Label(b + ROLLER_RADIUS * towards / abs(towards), size("r", roller_radius), towards),
     )
+
+
+def link(number: str, at: complex, towards: complex) -> tuple[Mark, ...]:
+    """The number of a link, on a leader from the link: 0 is the frame, 1 the cam, 2 the follower, 3 its roller."""
+    end = at + LEADER_LENGTH * towards / abs(towards)
+    return (Line(np.array([at, end]), Role.DIMENSION), Label(end, number, towards, small=True))
 
 
 def size(symbol: str, length: float | None) -> Words:
@@ -95,7 +107,7 @@ def guided_stem(b: complex, stem: float, guide: float) -> tuple[Mark, ...]:
     stem : its length;  guide : its height above B [mm]
 
     >>> len(guided_stem(40j, stem=30.0, guide=9.0))
-    7
+    9
     """
     levels: Points = b + UP * np.array([guide, guide + GUIDE_LENGTH])
     strokes, tail = b + UP * (guide + np.linspace(0, GUIDE_LENGTH, 5)[:-1]), b + 2 * GUIDE_HALF_WIDTH + UP * (stem + 1)
@@ -104,6 +116,7 @@ def guided_stem(b: complex, stem: float, guide: float) -> tuple[Mark, ...]:
         Line(np.array([b, b + stem * UP]), Role.CURVE),
         Line(np.array([complex(b.real, LINE_BOTTOM), b + (stem + LINE_OVERHANG) * UP]), Role.AXIS),
         *(Line(levels + side, Role.CURVE) for side in sides),
+        *link("2", b + 0.9 * stem * UP, -1 + 0.5j),
         *(Segments(strokes + side, strokes + 1.9 * side + 1.6 * UP, Role.HATCH) for side in sides),
         Arrow(tail, tail + 8 * UP, Role.CURVE),
     )

@@ -257,14 +257,17 @@ SLIDE_CAPTIONS = {
     1: say("leaning to the right going up, and slide it in from the lower right"),
     -1: say("leaning to the left going up, and slide it in from the lower left"),
 }
-PLACE_NAMES = {"foot": say("foot of the perpendicular"), "apex": say("apex"), "central": say("central (e = 0)")}
-"""The places that textbooks take besides the nearest one."""
+PLACE_NAMES = {"foot": "A₁", "apex": "A₂", "central": "A₃"}
+"""The places that textbooks take besides the nearest one, which is A₀."""
 PLACE_CAPTIONS = {
     "foot": say(
-        "Foot of the perpendicular: drop it from B₀ to the rise line with two set squares, {distance:.1f} mm long."
+        "A₁, the foot of the perpendicular: drop it from B₀ to the rise line with two set squares, {distance:.1f} mm "
+        "long."
     ),
-    "apex": say("Apex: mark where the rise line and the return line cross, {distance:.1f} mm from B₀."),
-    "central": say("Central (e = 0): mark where the line of motion enters the region, {distance:.1f} mm from B₀."),
+    "apex": say("A₂, the apex: mark where the rise line and the return line cross, {distance:.1f} mm from B₀."),
+    "central": say(
+        "A₃, of a central follower (e = 0): mark where the line of motion enters the region, {distance:.1f} mm from B₀."
+    ),
 }
 """How each of the textbooks' places of the cam centre is constructed, by the names in ``PLACE_NAMES``."""
 

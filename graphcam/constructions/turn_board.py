@@ -34,7 +34,7 @@ class TurnGivens:
 
     def axes(self, symbol: str, heights: Floats) -> tuple[Mark, ...]:
         """The axes of the diagram of a quantity that reaches over ``heights`` [mm of paper]."""
-        return phi_axes(self.motion, self.mu_phi, heights, ordinate_title(symbol, self.unit))
+        return phi_axes(self.motion, self.stations, self.mu_phi, heights, ordinate_title(symbol, self.unit))
 
     def degrees_under(self, heights: Floats) -> tuple[Mark, ...]:
         """The numbers under a diagram that is the lowest on its page: degrees, and times where there is a speed."""

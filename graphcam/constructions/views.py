@@ -14,7 +14,7 @@ DISPLACEMENT = View(
     "displacement", say("Displacement"), across="phi", up="s", scale=say("Displacement s, μₛ = {mu:.4g} {unit}/mm")
 )
 ANGLE = View(
-    "angle", say("Pressure angle"), across="phi", up="alpha", scale=say("Pressure angle α, μ = {degrees:g}°/mm")
+    "angle", say("Pressure angle"), across="phi", up="alpha", scale=say("Pressure angle α, μ_α = {degrees:g}°/mm")
 )
 COMBINED = View(
     "combined",

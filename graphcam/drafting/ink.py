@@ -197,6 +197,14 @@ class Reading:
         """The scale in the first sample [unit/mm]."""
         return float(np.ravel(self.scale)[0])
 
+    def at(self, place: int | None) -> Reading:
+        """One of several readings; without a place the reading itself.
+
+        >>> reading([10.0, 50.0], 0.6, "mm").at(1).value.item()
+        30.0
+        """
+        return self if place is None else replace(self, paper=self.paper[..., place])
+
 
 def _range(values: ArrayLike) -> str:
     """A number as text, or the minimum and the maximum of many."""

@@ -141,6 +141,43 @@ UNITS: Mapping[str, Caption] = {
     )
 }
 
+UNIT_SPELLINGS = {
+    "мм": "mm", "毫米": "mm", "см": "cm", "厘米": "cm", "degrees": "deg", "град": "deg", "рад": "rad", "弧度": "rad",
+    "độ": "deg", "°": "deg", "度": "deg", " of paper": "",
+}  # fmt: skip
+"""Units as people write them, in the languages of the sheets, and as they are called here."""
+UNIT_SIZES = {
+    **dict.fromkeys(("mm", "deg", "n", "mpa"), 1.0), "cm": 10.0, "m": 1000.0, "rad": math.degrees(1.0), "kn": 1000.0,
+    "gpa": 1000.0,
+}  # fmt: skip
+"""Sizes of units that people write in place of one another, in the smallest of their kind."""
+UNIT_KINDS = ({"mm", "cm", "m"}, {"deg", "rad"}, {"n", "kn"}, {"mpa", "gpa"})
+
+
+def plain_unit(written: str) -> str:
+    """A unit without its spelling: in small letters, without brackets and spaces.
+
+    >>> plain_unit(" мм "), plain_unit("(mm/rad)"), plain_unit("°")
+    ('mm', 'mm/rad', 'deg')
+    """
+    for spelling, usual in UNIT_SPELLINGS.items():
+        written = written.replace(spelling, usual)
+    return re.sub(r"[()\s.]", "", written).casefold()
+
+
+def unit_factor(written: str, asked: str) -> float | None:
+    """How many of the unit that is asked for make one that is written; None where they are not of one kind.
+
+    >>> unit_factor("cm", "mm"), unit_factor("°", "degrees"), unit_factor("kg", "mm")
+    (10.0, 1.0, None)
+    """
+    one, other = plain_unit(written), plain_unit(asked)
+    if one == other:
+        return 1.0
+    alike = any({one, other} <= kind for kind in UNIT_KINDS)
+    return UNIT_SIZES[one] / UNIT_SIZES[other] if alike else None
+
+
 NEGLIGIBLE_SIZE = 0.005
 """A length on paper [mm], or an angle [degrees], of less is written as 0.00: it is neither set nor told."""
 

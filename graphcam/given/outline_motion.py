@@ -20,18 +20,19 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import singledispatch
 from itertools import groupby, pairwise
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, overload
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphcam.errors import DesignError, check_kind
 from graphcam.given.cam_by_radii import ArcOutline, OutlineArc
 from graphcam.given.extreme_search import SmoothPieces
 from graphcam.given.follower import FlatFaced, Follower, Oscillating, Rotation, Translating, sense
+from graphcam.given.follower_on_cam import Complexes, Trace, trace, unfit_follower
 from graphcam.given.laws import Floats
 from graphcam.given.motion import FULL_TURN, Dwell, Motion, Phase, Return, Rise, wrap
 from graphcam.given.motion_law import Law
+from graphcam.given.point_outline import PointOutline, TracedMotion, traced_motion
 from graphcam.words import say
 
 Values = tuple[Floats, Floats, Floats, Floats]
@@ -76,11 +77,26 @@ class OutlineMotion(Motion):
         return f"{super()._summary()}, by a given cam"
 
 
-def outline_motion(outline: ArcOutline, follower: Follower, rotation: Rotation = "ccw") -> OutlineMotion:
-    """What a cam of base circle, flank and nose does to a follower; it turns so that the flank OA comes first.
+@overload
+def outline_motion(outline: ArcOutline, follower: Follower, rotation: Rotation = "ccw") -> OutlineMotion: ...
+@overload
+def outline_motion(
+    outline: PointOutline, follower: Follower, rotation: Rotation = "ccw", tolerance: float | None = None
+) -> TracedMotion: ...
+def outline_motion(
+    outline: ArcOutline | PointOutline,
+    follower: Follower,
+    rotation: Rotation = "ccw",
+    tolerance: float | None = None,
+) -> OutlineMotion | TracedMotion:
+    """What a given cam does to a follower: one of base circle, flank and nose, or one through points.
+
+    The first turns so that its flank OA comes first, and its motion is exact, arc by arc.  The second lies at the cam
+    angle 0 as its points are given; its motion is that of :func:`measured_motion` through 720 rows.
 
     follower : a :class:`~graphcam.Translating`, an :class:`~graphcam.Oscillating` with its distance, or a
         :class:`~graphcam.FlatFaced`
+    tolerance : of a cam through points, how far the trace point may be from a row [mm]; None is 0.01
 
     Raises
     ------
@@ -96,7 +112,11 @@ def outline_motion(outline: ArcOutline, follower: Follower, rotation: Rotation =
     >>> (a * (600 * math.pi / 30) ** 2 / 1000).round(2).tolist()
     [173.71, -146.67]
     """
-    check_kind("outline", outline, ArcOutline)
+    check_kind("outline", outline, (ArcOutline, PointOutline))
+    if isinstance(outline, PointOutline):
+        return traced_motion(outline, follower, rotation, tolerance)
+    if tolerance is not None:
+        raise DesignError("tolerance", tolerance, say("left out for a cam of arcs"), say("its motion is exact"))
     track = _track(follower, outline, sense(rotation))
     edges = _edges(track)
     _check_contact(track, edges)
@@ -121,7 +141,7 @@ class _Track(NamedTuple):
     arcs: Sequence[OutlineArc]
     sigma: int
     prime_radius: float
-    position: Callable[[float], complex]
+    position: Callable[[float], Complexes | complex]
     stand: Callable[[OutlineArc, Floats], Values]
     by_normal: bool = False
 
@@ -129,47 +149,35 @@ class _Track(NamedTuple):
 @singledispatch
 def _track(follower: Follower, outline: ArcOutline, sigma: int) -> _Track:
     """How a follower stands on the arcs: the one place that asks which it is."""
-    limit, remedy = say("a stem, an arm, or a flat face on a stem"), say("take another follower")
-    raise DesignError("follower", say("a face that swings"), limit, remedy)
+    raise unfit_follower()
 
 
 @_track.register
 def _(follower: Translating, outline: ArcOutline, sigma: int) -> _Track:
-    r0, e = outline.base_radius + follower.roller_radius, follower.offset
-    if not abs(e) < r0:
-        limit = say("less than the prime radius of {radius:g} mm in magnitude", radius=r0)
-        raise DesignError("offset", e, limit, say("take a smaller offset"))
-    lowest = math.sqrt((r0 - e) * (r0 + e))
-
-    def position(radius: float) -> complex:
-        return complex(e, math.sqrt(max(radius * radius - e * e, 0.0)))
+    way = trace(follower, outline.base_radius)
 
     def stand(arc: OutlineArc, phi: Floats) -> Values:
-        return _on_guide(arc, phi, sigma, e, lowest)
+        return _on_guide(arc, phi, sigma, follower.offset, way.lowest)
 
-    return _Track(_for_roller(outline, follower.roller_radius, position(r0) / r0, sigma), sigma, r0, position, stand)
+    return _by_trace(way, follower.roller_radius, outline, sigma, stand)
 
 
 @_track.register
 def _(follower: Oscillating, outline: ArcOutline, sigma: int) -> _Track:
-    r0, c, arm = outline.base_radius + follower.roller_radius, follower.distance, follower.arm
-    if c is None:
-        remedy = say("the given cam stands at some distance")
-        raise DesignError(say("centre distance"), say("missing"), say("given"), remedy)
-    if not abs(c - arm) < r0 < c + arm:
-        limit = say("between {least:g} and {most:g} mm, so that the arm reaches", least=abs(c - arm), most=c + arm)
-        raise DesignError("base_radius", outline.base_radius, limit, say("change the arm or its distance"))
-
-    def position(radius: float) -> complex:
-        cosine = (c * c + arm * arm - radius * radius) / (2 * c * arm)
-        return c - arm * cmath.exp(-1j * math.acos(min(max(cosine, -1.0), 1.0)))
-
-    start = -cmath.phase((c - position(r0)) / arm)
+    way, distance = trace(follower, outline.base_radius), follower.distance or math.nan
 
     def stand(arc: OutlineArc, phi: Floats) -> Values:
-        return _on_arm(arc, phi, sigma, c, arm, start)
+        return _on_arm(arc, phi, sigma, distance, follower.arm, way.lowest)
 
-    return _Track(_for_roller(outline, follower.roller_radius, position(r0) / r0, sigma), sigma, r0, position, stand)
+    return _by_trace(way, follower.roller_radius, outline, sigma, stand)
+
+
+def _by_trace(
+    way: Trace, roller: float, outline: ArcOutline, sigma: int, stand: Callable[[OutlineArc, Floats], Values]
+) -> _Track:
+    turned = complex(way.position(way.prime_radius)) / way.prime_radius
+    arcs = _for_roller(outline, roller, turned, sigma)
+    return _Track(arcs, sigma, way.prime_radius, way.position, stand)
 
 
 @_track.register
@@ -211,7 +219,7 @@ def _placed(arc: OutlineArc, turned: complex, sigma: int, roller: float) -> Outl
 # --- a follower on an arc --------------------------------------------------------------------------------------------
 
 
-def _turning(z: complex, phi: Floats, sigma: int) -> list[NDArray[np.complex128]]:
+def _turning(z: complex, phi: Floats, sigma: int) -> list[Complexes]:
     """A point that turns with the cam, and its first three derivatives by phi."""
     turned = z * np.exp(1j * sigma * phi)
     return [turned, 1j * sigma * turned, -turned, -1j * sigma * turned]
@@ -267,7 +275,7 @@ def _edges(track: _Track) -> list[float]:
     found: list[float] = []
     for arc in track.arcs:
         seen = arc.outward if track.by_normal else arc.point
-        place = track.position(abs(arc.point))
+        place = complex(track.position(abs(arc.point)))
         found.append(float(wrap(track.sigma * cmath.phase(place / seen))))
     found[0] = 0.0
     if not all(a < b for a, b in pairwise([*found, FULL_TURN])):

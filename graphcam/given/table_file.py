@@ -1,4 +1,4 @@
-"""Tables of a measured motion in CSV files: a header, then a cam angle and a value on every line.
+"""Tables of a measured motion, or of points of a cam, in CSV files: a header, then two numbers on every line.
 
 The columns stand apart by commas, semicolons or tabs, as the header has them; a spreadsheet that separates them by
 semicolons writes decimals with a comma, and both are read.
@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, Literal, get_args
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -27,22 +27,37 @@ from graphcam.given.measured import (
     measured_motion,
 )
 from graphcam.given.plausible_ranges import PLAUSIBLE_RANGES, UNIT_REMEDY
+from graphcam.given.point_outline import cam_through_points
 from graphcam.words import say
 
-Column = Literal["s_mm", "s_deg", "a"]
+Column = Literal["s_mm", "s_deg", "a", "outline"]
 ANGLE_COLUMNS = {"phi_deg": 1.0, "phi_rad": math.degrees(1)}
 """Heads of the cam angles, and the degrees of their unit."""
 VALUE_COLUMNS: dict[str, tuple[Column, float]] = {
-    **{column: (column, 1.0) for column in get_args(Column)},
+    "s_mm": ("s_mm", 1.0),
+    "s_deg": ("s_deg", 1.0),
+    "a": ("a", 1.0),
     "s_in": ("s_mm", 25.4),
     "s_thou": ("s_mm", 0.0254),
 }
 """Heads of the values: what they are, and the mm (or degrees) of their unit; "thou" are thousandths of an inch."""
+OUTLINE_COLUMNS: dict[tuple[str, str], tuple[float, float]] = {
+    ("x_mm", "y_mm"): (1.0, 1.0),
+    ("x", "y"): (1.0, 1.0),
+    ("x_in", "y_in"): (25.4, 25.4),
+    ("angle_deg", "radius_mm"): (1.0, 1.0),
+    ("angle", "radius"): (1.0, 1.0),
+    ("angle_rad", "radius_mm"): (math.degrees(1), 1.0),
+    ("angle_deg", "radius_in"): (1.0, 25.4),
+}
+"""Heads of points of a cam's outline: the mm, or degrees, of their units."""
 _HEADERS = ", ".join(f"'phi_deg,{column}'" for column in VALUE_COLUMNS)
-_MAX_VALUES = {
+_OUTLINE_HEADERS = ", ".join(f"'{','.join(names)}'" for names in OUTLINE_COLUMNS)
+_MAX_VALUES: dict[Column, float] = {
     "s_mm": PLAUSIBLE_RANGES["mm"][1],
     "s_deg": PLAUSIBLE_RANGES["degrees"][1],
     "a": PLAUSIBLE_RANGES["mm/rad^2"][1],
+    "outline": PLAUSIBLE_RANGES["mm"][1],
 }
 """The greatest magnitude of a value."""
 ANGLE_CLOSURE = 1e-9
@@ -98,8 +113,9 @@ class CurveTable:
     """What a CSV file says of a motion.
 
     file : its name, as the task gives it
-    column : "s_mm", displacements; "s_deg", those of an arm; "a", accelerations per rad^2 in the same unit
-    rows : cam angle [degrees] and value
+    column : "s_mm", displacements; "s_deg", those of an arm; "a", accelerations per rad^2 in the same unit; "outline",
+        points of a given cam
+    rows : cam angle [degrees] and value, or x and y of a point [mm]
     """
 
     file: str
@@ -158,19 +174,20 @@ def table_from_text(
     header = lines[0] if lines else ""
     between = next((sign for sign in ";\t" if sign in header), ",")
     heads = _heads(path, header, between)
-    column, factors = VALUE_COLUMNS[heads[1]][0], (ANGLE_COLUMNS[heads[0]], VALUE_COLUMNS[heads[1]][1])
     rows = tuple(_row(path, number, line, heads, between) for number, line in enumerate(lines[1:], _FIRST_ROW))
-    rows = tuple((phi * factors[0], value * factors[1]) for phi, value in rows)
     phi, values = np.array(rows).reshape(-1, 2).T
     try:
-        closes_to = math.inf if column == "a" else DEFAULT_TOLERANCE if tolerance is None else tolerance
-        phi, values = turn(phi, values)
-        check_rows(np.radians(phi), values, closes_to)
+        if heads.column == "outline":
+            cam_through_points(rows)
+        else:
+            closes_to = math.inf if heads.column == "a" else DEFAULT_TOLERANCE if tolerance is None else tolerance
+            phi, values = turn(phi, values)
+            check_rows(np.radians(phi), values, closes_to)
     except RowError as error:
         number = min(error.row, max(len(rows) - 1, 0)) + _FIRST_ROW
         line = say("line {number}: {quantity}", number=number, quantity=error.args[0])
         raise TaskError(path, line, *error.args[1:]) from None
-    return CurveTable(name, column, rows)
+    return CurveTable(name, heads.column, rows)
 
 
 def _text(path: Path) -> str:
@@ -186,11 +203,37 @@ def _text(path: Path) -> str:
         raise TaskError(str(path), what, wrong, say("text in UTF-8"), say("save the file as UTF-8")) from None
 
 
-def _heads(path: str, header: str, between: str) -> tuple[str, str]:
-    names = _cells(header, between)
-    if len(names) == 2 and names[0] in ANGLE_COLUMNS and names[1] in VALUE_COLUMNS:
-        return names[0], names[1]
-    expected = say("one of {headers}", headers=_HEADERS)
+class _Heads(NamedTuple):
+    """The heads of a table: their names, what the values are, and the degrees or mm of their units.
+
+    columns : where the two stand, and how many there are
+    """
+
+    names: tuple[str, str]
+    column: Column
+    factors: tuple[float, float]
+    columns: tuple[int, int, int] = (0, 1, 2)
+
+    @property
+    def polar(self) -> bool:
+        """Whether points of an outline are given by angle and radius."""
+        return self.column == "outline" and self.names[0].startswith("angle")
+
+
+def _heads(path: str, header: str, between: str) -> _Heads:
+    found = [cell.lower() for cell in _cells(header, between)]
+    match found:
+        case [first, second] if first in ANGLE_COLUMNS and second in VALUE_COLUMNS:
+            column, factor = VALUE_COLUMNS[second]
+            return _Heads((first, second), column, (ANGLE_COLUMNS[first], factor))
+        case _:
+            pass
+    for names, factors in OUTLINE_COLUMNS.items():
+        # Programs that write points have further columns, as z or the number of the point.
+        if all(found.count(name) == 1 for name in names):
+            places = found.index(names[0]), found.index(names[1])
+            return _Heads(names, "outline", factors, (*places, len(found)))
+    expected = say("one of {headers}", headers=f"{_HEADERS}; {_OUTLINE_HEADERS}")
     raise TaskError(path, say("line 1"), _short_line(header), expected, say("name the two columns of the table"))
 
 
@@ -202,20 +245,29 @@ def _cells(line: str, between: str) -> list[str]:
         return [line]
 
 
-def _row(path: str, number: int, line: str, heads: tuple[str, str], between: str) -> tuple[float, float]:
+def _row(path: str, number: int, line: str, heads: _Heads, between: str) -> tuple[float, float]:
+    """Cam angle [degrees] and value, or x and y of a point [mm]."""
     try:
-        phi, value = (float(cell.replace(",", ".")) for cell in _cells(line, between))
+        cells, (one, other, count) = _cells(line, between), heads.columns
+        if len(cells) != count:
+            raise ValueError(count)
+        first, second = (float(cells[k].replace(",", ".")) for k in (one, other))
     except ValueError:
-        phi = value = math.nan
-    if not (math.isfinite(phi) and math.isfinite(value)):
-        limit = say("two finite numbers, {angles} and {column}", angles=heads[0], column=heads[1])
+        first = second = math.nan
+    if not (math.isfinite(first) and math.isfinite(second)):
+        limit = say("two finite numbers, {angles} and {column}", angles=heads.names[0], column=heads.names[1])
         remedy = say("write decimals with a point, or separate the columns by semicolons")
         raise TaskError(path, say("line {number}", number=number), _short_line(line), limit, remedy)
-    column, factor = VALUE_COLUMNS[heads[1]]
-    if abs(value * factor) > _MAX_VALUES[column]:
-        what = say("line {number}: {column}", number=number, column=heads[1])
-        raise TaskError(path, what, value, say("at most {most:.15g}", most=_MAX_VALUES[column] / factor), UNIT_REMEDY)
-    return phi, value
+    factor = heads.factors[1]
+    if abs(second * factor) > _MAX_VALUES[heads.column]:
+        what = say("line {number}: {column}", number=number, column=heads.names[1])
+        most = say("at most {most:.15g}", most=_MAX_VALUES[heads.column] / factor)
+        raise TaskError(path, what, second, most, UNIT_REMEDY)
+    first, second = first * heads.factors[0], second * factor
+    if heads.polar:
+        angle = math.radians(first)
+        return second * math.cos(angle), second * math.sin(angle)
+    return first, second
 
 
 def _short_line(line: str) -> str:

@@ -68,6 +68,10 @@ ERRORS_INTRODUCTION = say(
     "error is passed on to everything drawn from it. With more parts the method becomes more exact and the "
     "drawing errors grow."
 )
+COMPARED_INTRODUCTION = say(
+    "The ideal pencil makes no error but that of the method. The careful hands are 400 drawings by a pencil of 0.2 mm: "
+    "their bias is how far their mean is from the exact value, their scatter the standard deviation."
+)
 PARTS_INTRODUCTION = say("More parts, fewer parts: what changes, and which is worth the work?")
 CLOSING_QUESTIONS = say(
     "1. Which reading decides the size of this cam, and how would you make it more exact?\n2. What changes on the "
@@ -127,7 +131,7 @@ def notebook_of(solution: AnySolution) -> NotebookNode:
         *(cell for name in _asked_quantities(solution) for cell in _question_cells(solution, name)),
         _section(tell, say("Move the sliders"), PARTS_INTRODUCTION),
         _hidden_cell(_parts_slider(solution)),
-        _section(tell, say("Drawn and exact"), say("Error and bound are in millimetres on paper.")),
+        _section(tell, say("Drawn and exact"), COMPARED_INTRODUCTION),
         _hidden_cell("compared(solution)"),
         _section(tell, say("Where the error comes from"), ERRORS_INTRODUCTION),
         _section(tell, say("The sheet, step by step")),

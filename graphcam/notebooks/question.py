@@ -4,26 +4,36 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from html import escape
+from typing import Literal
 
-from graphcam.comparison.quantities import Quantity
+import numpy as np
+
+from graphcam.comparison.bounds import CAREFUL_PENCIL, HonestRange, honest_range
+from graphcam.comparison.quantities import DEGREES_PER_RADIAN, Quantity, told_unit
 from graphcam.drafting.ink import Reading
-from graphcam.drafting.scale import UNITS
+from graphcam.drafting.pencil import Pencil
+from graphcam.drafting.scale import UNITS, unit_factor
+from graphcam.errors import DesignError
 from graphcam.language import MINUS_SIGN
 from graphcam.words import Caption, Tell, Words, say
 
 EXAMPLE_NUMBER = 12.3
 """The example in the hint on how numbers are written."""
-CAREFUL_HAND_ERROR = 1.0
-"""The error permitted to a careful drawing [mm of paper]: twice half a division, for drawing and reading."""
 RIGHT_VERDICT, NEARLY_VERDICT, WRONG_VERDICT, OPEN_VERDICT = "right", "nearly", "wrong", "open"
 PAPER_LENGTH_HINT = say("that is the length on paper; multiply it by the scale")
+POWER_OF_TEN_HINT = say("a power of ten is wrong: look at the units, and at the place of the decimal point")
+POWERS_OF_TEN = (-3, -2, -1, 1, 2, 3)
 DOUBLE_STOP_PATTERN = re.compile(r"([.?!…。？！])[.。](?=\s|$)")
 """A full stop after a sign that ends the sentence already."""
-ROUGH_TOLERANCES = 3.0
-"""The error, in tolerances, up to which a wrong answer counts as the right way drawn roughly."""
+ANSWER_PATTERN = re.compile(rf"([-+{MINUS_SIGN}]?[\d.,\s]*[\d.,](?:[eE][-+]?\d+)?)\s*([^\d.,\s].*)?")
+"""A number, and a unit behind it if there is one."""
+ROUGH_TOLERANCES = 2.0
+"""The error, in tolerances, up to which a wrong answer counts as the right way done roughly."""
+FoundBy = Literal["drawing", "calculation", "counting"]
+"""How the reader comes to the number."""
 
 
 @dataclass(frozen=True)
@@ -43,8 +53,10 @@ class Question:
 
     value, tolerance : in ``unit``
     look : where to look again if nothing else is known ("step 3")
-    mistakes : hints by the wrong answer that each belongs to
+    mistakes : hints by the wrong answer that each belongs to, outside the tolerance
     tell : translates the texts of the verdicts; ``look`` and ``mistakes`` stay as they are
+    found_by : whether it is drawn, calculated or counted
+    bias : how far the middle of the answers that are right lies from the value
 
     >>> radius = Question(43.28, 0.6, "mm", "step 5", {"the distance is still in mm of paper": 72.13})
     >>> print(radius.check(43.0).text)
@@ -53,6 +65,10 @@ class Question:
     Not yet: the distance is still in mm of paper. Look again at step 5.
     >>> print(radius.check(-43.3).text)
     Not yet: the size is right, the sign is not. Look again at step 5.
+
+    Raises
+    ------
+    DesignError : a mistake lies within the tolerance, so that it would be called right
     """
 
     value: float
@@ -61,36 +77,70 @@ class Question:
     look: str
     mistakes: Mapping[str, float] = field(default_factory=dict[str, float])
     tell: Tell = str
+    found_by: FoundBy = "drawing"
+    bias: float = 0.0
+
+    def __post_init__(self) -> None:
+        for hint, wrong in self.mistakes.items():
+            if self._is_right(wrong):
+                limit = say("further from {value} than {tolerance}", value=self.value, tolerance=self.tolerance)
+                raise DesignError(say("mistake {hint}", hint=hint), wrong, limit, say("choose other numbers"))
 
     @classmethod
-    def of(
-        cls, reading: Reading, look: str, mistakes: Mapping[str, float] | None = None, at: int | None = None
+    def by(
+        cls,
+        draw: Callable[[Pencil], Reading],
+        look: str,
+        mistakes: Mapping[str, float] | None = None,
+        exact: float = math.nan,
     ) -> Question:
-        """The question for a reading, with the tolerance of a careful drawing; ``at`` is the station.
+        """The question for a reading that a function draws with any pencil: right is what careful hands read.
 
-        >>> from graphcam.drafting.ink import reading
-        >>> print(Question.of(reading(50.0, 0.6, "mm"), "step 7").check(50.0).text)
+        mistakes : those that careful hands may read are left out
+        exact : is right too
+
+        >>> import graphcam as gc
+        >>> chain = gc.solve(gc.builtin_task()).chain
+        >>> radius = Question.by(
+        ...     lambda pencil: chain.by(pencil)["minimum_radius"].readings["prime_radius"], "step 7"
+        ... )
+        >>> print(radius.check("7,2 cm").text)
         Not yet: that is the length on paper; multiply it by the scale. Look again at step 7.
         """
-        paper = float(reading.paper if at is None else reading.paper[at])
-        scale = reading.per_mm
-        on_paper = {} if scale == 1 else {str(PAPER_LENGTH_HINT): paper}
-        return cls(scale * paper, CAREFUL_HAND_ERROR * scale, reading.unit, look, {**on_paper, **(mistakes or {})})
+        read = draw(Pencil())
+        size, unit = told_unit(read)
+        value = size * float(read.value)
+        paper = {} if read.per_mm == 1 else {str(PAPER_LENGTH_HINT): float(read.paper)}
+        honest = honest_range(value, size * draw(CAREFUL_PENCIL).value, size * read.per_mm, exact)
+        return cls._within(honest, value, unit, look, {**paper, **(mistakes or {})})
 
     @classmethod
     def about(cls, quantity: Quantity, tell: Tell = str) -> Question:
-        """The question for a quantity of a solution, with the tolerance of a careful drawing.
+        """The question for a quantity of a solution: right is what careful hands read, and what is exact.
 
         >>> import graphcam as gc
         >>> greatest = gc.solve(gc.builtin_task()).comparison.quantities["max_v"]
         >>> print(Question.about(greatest).check(-57.3).text)
         Not yet: the size is right, the sign is not. Look again at maximum v.
         """
-        # A length of paper that is the value itself is no mistake.
-        equal = math.isclose(quantity.per_mm, 1.0)
-        mistakes = {} if equal else {tell(PAPER_LENGTH_HINT): quantity.drawn / quantity.per_mm}
-        tolerance = CAREFUL_HAND_ERROR * quantity.per_mm
-        return cls(quantity.drawn, tolerance, quantity.unit, tell(quantity.title), mistakes, tell)
+        # No mistake is a length of paper that is the value itself, and an angle has none.
+        none = any(math.isclose(quantity.per_mm, scale) for scale in (1.0, DEGREES_PER_RADIAN))
+        mistakes = {} if none else {tell(PAPER_LENGTH_HINT): quantity.drawn / quantity.per_mm}
+        return cls._within(quantity.honest, quantity.drawn, quantity.unit, tell(quantity.title), mistakes, tell)
+
+    @classmethod
+    def _within(
+        cls,
+        honest: HonestRange,
+        value: float,
+        unit: str,
+        look: str,
+        mistakes: Mapping[str, float],
+        tell: Tell = str,
+    ) -> Question:
+        low, high = honest
+        told = {hint: wrong for hint, wrong in mistakes.items() if not low <= wrong <= high}
+        return cls(value, (high - low) / 2, unit, look, told, tell, bias=(low + high) / 2 - value)
 
     def check(self, answer: float | str | None) -> Verdict:
         """The verdict on an answer; without an answer an invitation.
@@ -112,26 +162,31 @@ class Question:
         unit = UNITS.get(self.unit, self.unit)
         if given is None or (isinstance(given, str) and not given.strip()):
             return OPEN_VERDICT, say("Your turn: replace None by your number (in {unit}) and run this cell.", unit=unit)
-        answer = _number(given, (self.unit, self.tell(unit)))
+        answer = _number(given, self.unit)
         if answer is None:
             said = {"given": str(given), "example": EXAMPLE_NUMBER, "unit": unit}
             return WRONG_VERDICT, say('Not yet: "{given}" is not a number; write it like {example}, in {unit}.', **said)
         if not math.isfinite(answer):
             return WRONG_VERDICT, say("Not yet: enter a finite number, in {unit}.", unit=unit)
-        off, look = abs(answer - self.value), self.look
-        if off <= self.tolerance:
-            return RIGHT_VERDICT, say("Right, within drawing accuracy.")
+        if self._is_right(answer):
+            drawn = say("Right, within drawing accuracy.")
+            return RIGHT_VERDICT, drawn if self.found_by == "drawing" else say("Right.")
+        look = self.look
         if hint := self._mistake(answer):
             return WRONG_VERDICT, say("Not yet: {hint}. Look again at {look}.", hint=hint, look=look)
-        if off <= ROUGH_TOLERANCES * self.tolerance:
-            return NEARLY_VERDICT, say(
-                "Nearly: the method is right, but a line is not exact enough. Repeat {look}.", look=look
-            )
+        if self._is_right(answer, ROUGH_TOLERANCES) and self.found_by != "counting":
+            drawn = say("Nearly: the method is right, but a line is not exact enough. Repeat {look}.", look=look)
+            computed = say("Nearly: the method is right, but a figure is not exact enough. Repeat {look}.", look=look)
+            return NEARLY_VERDICT, drawn if self.found_by == "drawing" else computed
         if answer > self.value:
             return WRONG_VERDICT, say("Not yet: that is too large. Look again at {look}.", look=look)
         return WRONG_VERDICT, say("Not yet: that is too small. Look again at {look}.", look=look)
 
+    def _is_right(self, answer: float, tolerances: float = 1.0) -> bool:
+        return abs(answer - self.value - self.bias) <= tolerances * self.tolerance
+
     def _mistake(self, answer: float) -> Words:
+        """The hint of the mistake whose number is nearest, where it is near: one of the question's before the usual."""
         degree = math.degrees(1.0)
         usual: list[tuple[Words, float]] = [
             (say("the size is right, the sign is not"), -self.value),
@@ -145,26 +200,35 @@ class Question:
             ),
             (say("degrees and radians are mixed up"), self.value * degree),
             (say("radians and degrees are mixed up"), self.value / degree),
+            *((POWER_OF_TEN_HINT, self.value * 10.0**power) for power in POWERS_OF_TEN),
         ]
-        for hint, wrong in [*self.mistakes.items(), *usual]:
-            if abs(answer - wrong) <= self.tolerance * max(1.0, abs(wrong / self.value) if self.value else 1.0):
+        for hints in ([*self.mistakes.items()], usual):
+            near = [(abs(answer - wrong) / self._tolerance_at(wrong), hint) for hint, wrong in hints]
+            off, hint = min(near, key=lambda pair: pair[0], default=(math.inf, ""))
+            if off <= 1:
                 return hint
         return ""
 
+    def _tolerance_at(self, wrong: float) -> float:
+        return self.tolerance * max(1.0, abs(wrong / self.value) if self.value else 1.0)
 
-def _number(given: float | str, units: tuple[str, ...]) -> float | None:
-    """The number in an answer, which may be a text with a unit; None where there is none.
 
-    >>> _number("−1 234,5 mm", ("mm",)), _number("1,234.5", ("mm",)), _number("5 cm", ("mm",))
-    (-1234.5, None, None)
+def _number(given: object, unit: str) -> float | None:
+    """The number in an answer, in the unit that is asked for, which may be a text with a unit; None where none is.
+
+    >>> _number("−1 234,5 mm", "mm"), _number("1,234.5", "mm"), _number("4.4 cm", "mm"), _number("20.1°", "degrees")
+    (-1234.5, None, 44.0, 20.1)
     """
-    text = str(given).strip()
-    for unit in units:
-        text = text.removesuffix(unit)
-    text = "".join(text.split()).replace(MINUS_SIGN, "-")
+    if isinstance(given, int | float | np.number) and not isinstance(given, bool):
+        return float(given)
+    said = ANSWER_PATTERN.fullmatch(str(given).strip())
+    factor = unit_factor(said[2] or unit, unit) if said else None
+    if said is None or factor is None:
+        return None
+    text = "".join(said[1].split()).replace(MINUS_SIGN, "-")
     # A point beside a comma: one of them parts thousands, and nobody can tell which.
     text = text if "." in text else text.replace(",", ".")
     try:
-        return float(text)
+        return factor * float(text)
     except ValueError:
         return None

@@ -1,5 +1,6 @@
 """The tables that both the sheet and the note have."""
 
+import math
 from collections.abc import Mapping, Sequence
 from itertools import product
 
@@ -10,9 +11,10 @@ from graphcam.drafting.scale import printed_unit, unit
 from graphcam.given.boundary_motion import BoundaryMotion
 from graphcam.given.boundary_parts import DERIVATIVE_NAMES
 from graphcam.given.measured import MeasuredMotion
-from graphcam.given.motion import FULL_TURN
+from graphcam.given.motion import FULL_TURN, Motion
 from graphcam.given.outline_motion import OutlineMotion
-from graphcam.report.markdown import number
+from graphcam.given.point_outline import TracedMotion
+from graphcam.report.markdown import digits, number
 from graphcam.sheets.tables import Table
 from graphcam.solving.adopted_sizes import FaceDesign
 from graphcam.solving.solution import Solution
@@ -33,6 +35,8 @@ SPEED_HEADINGS: Mapping[str, tuple[Caption, ...]] = {
 """Headings for a phase at a speed, by the unit of the lift: its time, and the maxima of v and a."""
 
 
+HAND_READING = 10
+"""A hand reads the paper so much coarser than the finest scale shows: to 0.1 mm."""
 MAX_SHEET_ROWS = 16
 """The maximum number of rows of a table on the sheet; a longer one stands in the note only."""
 TITLE_IN_MM, TITLE_IN_DEGREES = (
@@ -151,12 +155,15 @@ def _measured(solution: Solution) -> list[Row]:
         return []
     lift_unit = solution.task.motion.lift_unit
     swings = solution.chain.board.follower.unit == "rad"
-    greatest, rms = motion.greatest_residual / lift_unit, motion.rms_residual / lift_unit
-    residual = say("{greatest:.2g}, rms {rms:.2g}", greatest=greatest, rms=rms)
+    # To a tenth of the tolerance's last decimal: a smaller deviation is none.
+    decimals = 1 + max(0, -math.floor(math.log10(motion.tolerance / lift_unit)))
+    greatest, rms = (number(x / lift_unit, decimals) for x in (motion.greatest_residual, motion.rms_residual))
+    said = say("at most {greatest}°, rms {rms}°") if swings else say("at most {greatest} mm, rms {rms} mm")
+    what = say("points of the cam") if isinstance(motion, TracedMotion) else say("table of the motion")
     return [
-        (say("table of the motion"), table.file, GIVEN_LABEL),
+        (what, table.file, GIVEN_LABEL),
         (say("tolerance"), degrees(motion.tolerance) if swings else mm(motion.tolerance), GIVEN_LABEL),
-        (say("residual"), residual, ""),
+        (say("residual"), said.with_values(greatest=greatest, rms=rms), ""),
         *([(say("cam angle 0 of the table at"), degrees(-motion.zero), "")] if motion.zero else []),
     ]
 
@@ -219,7 +226,7 @@ def _limits(solution: Solution) -> list[Row]:
 def phases(solution: Solution) -> Table:
     """The table of the phases of the motion; an arm's lift is an angle."""
     motion, swings = solution.cam.motion, solution.chain.board.follower.unit == "rad"
-    lifts = [degrees(phase.lift) if swings else say("{lift:g}", lift=phase.lift) for phase in motion.phases]
+    lifts = [lift_words(motion, k) if not swings else degrees(phase.lift) for k, phase in enumerate(motion.phases)]
     begins = (motion.starts + motion.origin) % FULL_TURN
     rows = tuple(
         (
@@ -248,15 +255,28 @@ def phases_at_speed(solution: Solution) -> Table:
     return Table(say("Motion, maximum v and a"), header, rows, found)
 
 
+def lift_words(motion: Motion, k: int) -> Caption:
+    """The lift of a phase [mm]: as it is given, or of a measured motion to a hundredth."""
+    lift = motion.phases[k].lift
+    return number(lift) if isinstance(motion, MeasuredMotion) else say("{lift:g}", lift=lift)
+
+
 def paper_errors(q: Quantity) -> tuple[Caption, Caption]:
     """The error and the bound of a quantity [mm of paper]."""
     return number(q.error_paper, 3, sign=True), number(q.tolerance_paper, 3)
 
 
 def comparison(quantities: Mapping[str, Quantity], title: Caption = DRAWN_AND_EXACT_TITLE) -> Table:
-    """The table of every quantity, drawn and exact, with its error and its bound in mm of paper."""
+    """The table of every quantity, drawn and exact, with its error and its bound in mm of paper.
+
+    All have as many decimals as can be read on the paper.
+    """
     rows = tuple(
-        (sequence([q.title, unit(q.unit)]), number(q.drawn, 3), number(q.exact, 3), *paper_errors(q))
+        (
+            sequence([q.title, unit(q.unit)]),
+            *(number(value, digits(HAND_READING * abs(q.per_mm))) for value in (q.drawn, q.exact)),
+            *(number(q.error_paper, sign=True), number(q.tolerance_paper)),
+        )
         for q in quantities.values()
         if q.exists
     )

@@ -1,8 +1,12 @@
 """DXF with entities that a CAD program can edit: true dimensions, a title block with attributes, viewports.
 
 The sheet is the same as in :mod:`graphcam.sheets.dxf_renderer`, and drawn by it; but the lines of a dimension are a
-DIMENSION, the frame with its title block is a block whose entries are ATTRIBs, and every page has a layout in paper
-space that shows it 1:1.  Not every reader knows these; the plain file is for all of them.
+DIMENSION, the frame with its title block is a block that carries its entries as ATTRIBs, and every page has a layout in
+paper space that shows it 1:1.
+
+Every reader is to show every text in its place.  LibreCAD shows no ATTRIB, sets the text of an angle along its arc and
+that of a length along its line.  So the entries are TEXT, the ATTRIBs behind them, for lists of parts, are invisible,
+and so is the text of a DIMENSION that stands otherwise: it is TEXT too.
 """
 
 import cmath
@@ -11,6 +15,7 @@ import os
 from typing import Any
 
 from ezdxf.document import Drawing as Document
+from ezdxf.entities import DimStyleOverride
 from ezdxf.layouts import Modelspace
 
 from graphcam.sheets import dxf_renderer as dxf
@@ -22,6 +27,8 @@ from graphcam.subscripts import parts
 DIMENSION_STYLE = "GRAPHCAM"
 ARROW_HEAD_LENGTH = 3.5
 """The length of arrow heads [mm]."""
+PARALLEL = 1e-6
+"""The sine of an angle up to which two lines are parallel."""
 
 
 def write_cad(drawing: Drawing, path: str | os.PathLike[str]) -> None:
@@ -63,10 +70,11 @@ def _draw_group(document: Document, group: Group, prefix: str, left: float) -> N
     for entity in group.entities:
         on = layer(document, group, prefix, entity.role)
         match entity:
-            case Text(of=Length() as measured):
-                _add_length(space, entity, measured, on, left)
-            case Text(of=Angle() as measured) if _measurable(measured):
-                _add_angle(space, entity, measured, on, left)
+            case Text(of=Length() | Angle() as measured) if _measurable(measured):
+                lettered = _stands_along(entity, measured)
+                _add_dimension(space, entity, measured, on, left, lettered)
+                if not lettered:
+                    draw(space, entity, on, left)
             case _ if entity not in lines:
                 draw(space, entity, on, left)
             case _:
@@ -78,8 +86,16 @@ def _measurable(measured: Length | Angle) -> bool:
     return isinstance(measured, Length) or measured.end - measured.start < math.pi
 
 
+def _stands_along(text: Text, measured: Length | Angle) -> bool:
+    """Whether a text stands along its dimension line, where every reader sets it, and has no index."""
+    if isinstance(measured, Angle) or any(index for _, index in parts(text.text)):
+        return False
+    across = cmath.rect(1.0, text.angle) / (measured.end - measured.start)
+    return abs(across.imag) < PARALLEL * abs(across)
+
+
 def _draw_frame(document: Document, group: Group, prefix: str, left: float) -> None:
-    """Draw the frame as a block; the entries of the task's title are its attributes, which can be edited."""
+    """Draw the frame as a block with the entries of the task's title as attributes, and their texts over it."""
     block = document.blocks.new(f"{prefix}FRAME")
     entries: dict[str, str] = {}
     for entity in group.entities:
@@ -89,31 +105,50 @@ def _draw_frame(document: Document, group: Group, prefix: str, left: float) -> N
             # An entry that is broken into lines, or stands in two places, has an attribute for each.
             tag += f"_{1 + sum(other.startswith(tag) for other in entries)}" * (tag in entries)
             entries[tag] = entity.text
-            set_text(block.add_attdef(tag, text=entity.text), entity, on)
+            entry = block.add_attdef(tag, text=entity.text)
+            entry.is_invisible = True
+            set_text(entry, entity, on)
+            draw(document.modelspace(), entity, on, left)
         else:
             draw(block, entity, on)
     placed = document.modelspace().add_blockref(block.name, (left, 0.0), dxfattribs={"layer": "0"})
-    placed.add_auto_attribs(entries)
+    for attribute in placed.add_auto_attribs(entries).attribs:
+        attribute.is_invisible = True
 
 
-def _add_length(space: Modelspace, text: Text, measured: Length, on: str, left: float) -> None:
+def _add_dimension(
+    space: Modelspace, text: Text, measured: Length | Angle, on: str, left: float, lettered: bool
+) -> None:
+    """Add a dimension; ``lettered`` tells whether it bears its text, or a blank."""
+    told = _lettering(text, on, left) | ({} if lettered else {"text": " "})
+    made = (
+        _add_length(space, measured, left, told)
+        if isinstance(measured, Length)
+        else _add_angle(space, measured, left, told)
+    )
+    made.render()
+    # Of a blank ezdxf tells no place, which its own reader asks for.
+    made.dimension.dxf.text_midpoint = told["location"]
+
+
+def _add_length(space: Modelspace, measured: Length, left: float, told: dict[str, Any]) -> DimStyleOverride:
     start, end, foot = (xy(point + left) for point in (measured.start, measured.end, measured.foot))
     slope = math.degrees(cmath.phase(measured.end - measured.start))
-    space.add_linear_dim(foot, start, end, angle=slope, **_lettering(text, on, left)).render()
+    return space.add_linear_dim(foot, start, end, angle=slope, **told)
 
 
-def _add_angle(space: Modelspace, text: Text, measured: Angle, on: str, left: float) -> None:
+def _add_angle(space: Modelspace, measured: Angle, left: float, told: dict[str, Any]) -> DimStyleOverride:
     ways = measured.start, measured.end, (measured.start + measured.end) / 2
     first, last, between = (xy(measured.centre + cmath.rect(measured.radius, way) + left) for way in ways)
     centre = xy(measured.centre + left)
-    # Between two lines: LibreCAD passes over the kind that has a centre and two points.
-    lines = (centre, first), (centre, last)
-    space.add_angular_dim_2l(between, *lines, **_lettering(text, on, left)).render()
+    # Between two lines: LibreCAD passes over the kind that has a centre and two points.  ezdxf draws the arc from the
+    # second to the first.
+    lines = (centre, last), (centre, first)
+    return space.add_angular_dim_2l(between, *lines, **told)
 
 
 def _lettering(text: Text, on: str, left: float) -> dict[str, Any]:
     """The attributes of a dimension: text, middle of the text, style and layer."""
     middle = xy(text.at + cmath.rect(text.height / 2, text.angle + math.pi / 2) + left)
-    letters = "".join(f"\\S^ {part};" if index else part for part, index in parts(text.text))
-    said = {"text": letters, "location": middle, "text_rotation": math.degrees(text.angle)}
+    said = {"text": text.text, "location": middle, "text_rotation": math.degrees(text.angle)}
     return said | {"dimstyle": DIMENSION_STYLE, "override": {"dimtxt": text.height}, "dxfattribs": {"layer": on}}

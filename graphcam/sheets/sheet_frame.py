@@ -158,8 +158,11 @@ def _gost(title: TitleBlock, sheet: int, sheets: int, tell: Tell) -> Form:
     texts += entry(title, "material", (65, 0, 135, 15), 3.5)
     texts += entry(title, "mass", (150, 20, 167, 35), 3.5)
     texts += entry(title, "scale", (167, 20, 185, 35), 3.5)
-    texts += fitted_text(tell(say("Sheet {number}", number=sheet)), (135, 15, 155, 20), CAPTION_HEIGHT)
-    texts += fitted_text(tell(say("Sheets {number}", number=sheets)), (155, 15, 185, 20), CAPTION_HEIGHT)
+    # GOST 2.104: the number of the sheet only where there are several, their number on the first alone.
+    numbered = say("Sheet {number}", number=sheet) if sheets > 1 else say("Sheet")
+    counted = say("Sheets {number}", number=sheets) if sheet == 1 else say("Sheets")
+    texts += fitted_text(tell(numbered), (135, 15, 155, 20), CAPTION_HEIGHT)
+    texts += fitted_text(tell(counted), (155, 15, 185, 20), CAPTION_HEIGHT)
     owner = replace(title, organisation=" ".join(filter(None, (title.organisation, title.group))))
     return bold, thin, [*texts, *entry(owner, "organisation", (135, 0, 185, 15), 3.5)]
 

@@ -217,15 +217,21 @@ def _other_sizes(chain: Chain) -> list[Words]:
 
 
 def _named_sizes(chain: Chain, radius: float, place: float) -> Words:
-    """The keys of a task file that give these sizes."""
-    keys = {"cam.prime_radius": radius} if chain.board.prime_radius is None else {}
+    """The words for these sizes, as far as the task leaves them open."""
+    sizes = {"prime_radius": radius} if chain.board.prime_radius is None else {}
     if chain.board.follower.place is None:
-        keys[f"follower.{chain.board.follower.place_name}"] = place
-    return and_list([_key(key, value) for key, value in keys.items()])
+        sizes[chain.board.follower.place_name] = place
+    return and_list([SIZE_WORDS[name].with_values(length=length) for name, length in sizes.items()])
 
 
-def _key(name: str, value: float) -> Caption:
-    return say("{key} = {value:g}", key=name, value=value)
+SIZE_WORDS = {
+    "prime_radius": say("a prime radius of {length:g} mm"),
+    "offset": say("an offset of {length:g} mm"),
+    "distance": say("a centre distance of {length:g} mm"),
+    "roller_radius": say("a roller radius of {length:g} mm"),
+    "divisions": say("{count} parts in each phase"),
+}
+"""What a remedy takes, in the words of a drawing."""
 
 
 # --- roller and face -------------------------------------------------------------------------------------------------
@@ -246,7 +252,7 @@ def _roller(chain: Chain, cam: Cam) -> Iterator[Caution]:
         "minimum radius of curvature, {rho:.5g} mm. {remedy}"
     )
     smaller = multiple(math.floor(most / chain.rounding + ARITHMETIC_TOLERANCE), chain.rounding)
-    takes = [_key("follower.roller_radius", smaller)] if smaller > 0 else []
+    takes = [SIZE_WORDS["roller_radius"].with_values(length=smaller)] if smaller > 0 else []
     finer = _divisions(chain, lambda other: other.roller_radius <= _by_rule(board, _exact_cam(chain, *_sizes(other))))
     yield Caution(said.with_values(radius=adopted, most=most, rho=rho, remedy=_take([*finer, *takes])), "roller radius")
 
@@ -288,7 +294,7 @@ def _divisions(chain: Chain, helps: Callable[[Chain], bool]) -> list[Words]:
     for count in (times * given for times in DIVISION_FACTORS if times * given <= MAX_DIVISIONS):
         with suppress(DesignError):
             if helps(Chain(replace(chain.board, divisions=count, finer={}))):
-                return [_key("drawing.divisions", count)]
+                return [SIZE_WORDS["divisions"].with_values(count=count)]
     return []
 
 

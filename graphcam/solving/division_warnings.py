@@ -42,11 +42,13 @@ def _remedy(board: Board) -> Caption:
     enough, left_out = next(tried, None), partial(board.divided, TRIED_DIVISIONS[0])
     finer = {} if board.finer else finer_parts(board.motion, TRIED_DIVISIONS[0], left_out)
     if finer and not chord_readings(board.motion, left_out(finer)).too_coarse:
-        said = say("Leave drawing.divisions out.")
-        return said if enough is None else say("Take drawing.divisions = {n}, or leave it out.", n=enough)
+        said = say("Leave the number of parts open.")
+        if enough is not None:
+            said = say("Divide each phase into {n} parts, or leave their number open.", n=enough)
+        return said
     if enough is None:
         return say("No number of parts that is drawn by hand suffices: let the acceleration last longer.")
-    return say("Take drawing.divisions = {n}.", n=enough)
+    return say("Divide each phase into {n} parts.", n=enough)
 
 
 def unreadable_bend(drawn: Mapping[str, Construction]) -> list[Caption]:

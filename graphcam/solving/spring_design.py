@@ -212,7 +212,9 @@ class SpringDesign:
         return TurnDiagram(
             "contact",
             say("The contact function"),
-            say("Contact force ξ, μ = {mu:g} N/mm") if along == "N" else say("Contact torque ξ, μ = {mu:g} N·mm/mm"),
+            say("Contact force ξ, μ_ξ = {mu:g} N/mm")
+            if along == "N"
+            else say("Contact torque ξ, μ_ξ = {mu:g} N·mm/mm"),
             say("ξ, {unit}", unit=unit(along)),
             along,
             contact.motion,
@@ -229,7 +231,7 @@ class SpringDesign:
         sliding = make(
             "transmission",
             say("The transmission coefficient"),
-            say("Transmission coefficient τ, μ = {mu:g}/mm"),
+            say("Transmission coefficient τ, μ_τ = {mu:g}/mm"),
             say("τ"),
             "",
             curve=self._curve(lambda places: forces.of(places).transmission),
@@ -240,7 +242,7 @@ class SpringDesign:
         normal = make(
             "normal_force",
             say("The normal force"),
-            say("Normal force N, μ = {mu:g} N/mm"),
+            say("Normal force N, μ_N = {mu:g} N/mm"),
             say("N, {unit}", unit=unit("N")),
             "N",
             curve=self._curve(forces.normal),
@@ -256,7 +258,7 @@ class SpringDesign:
         torque = make(
             "torque",
             say("The torque on the cam"),
-            say("Torque M, μ = {mu:g} N·mm/mm"),
+            say("Torque M, μ_M = {mu:g} N·mm/mm"),
             say("M, {unit}", unit=unit("N·mm")),
             "N·mm",
             curve=self._curve(forces.torque),

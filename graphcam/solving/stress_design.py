@@ -162,7 +162,7 @@ class StressDesign:
         diagram = TurnDiagram(
             "contact_stress",
             say("The contact stress over the turn"),
-            say("Contact stress p₀, μ = {mu:g} MPa/mm"),
+            say("Contact stress p₀, μ_p = {mu:g} MPa/mm"),
             say("p₀, {unit}", unit=unit("MPa")),
             "MPa",
             self.forces.cam.motion,

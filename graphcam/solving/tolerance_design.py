@@ -55,9 +55,9 @@ DIAGRAM_TITLES = (
     say("How far the acceleration may be off"),
 )
 DIAGRAM_HEADINGS = (
-    say("Band of s, μ = {mu:g} {unit}/mm"),
-    say("Band of v, μ = {mu:g} {unit}/mm"),
-    say("Band of a, μ = {mu:g} {unit}/mm"),
+    say("Band of s, μₛ = {mu:g} {unit}/mm"),
+    say("Band of v, μᵥ = {mu:g} {unit}/mm"),
+    say("Band of a, μₐ = {mu:g} {unit}/mm"),
 )
 DIAGRAM_REASONS = (
     say("On a steep flank an error of the profile lifts the follower by more than itself."),

@@ -43,6 +43,8 @@ FIELDS_BY_QUANTITY: Mapping[str, str] = {
     "cam angle": "motion.table",
     "turn that the rows cover": "motion.table",
     "tolerance": "motion.tolerance",
+    **dict.fromkeys(("outline", "points", "point", "number of points"), "motion.table"),
+    "gap between the last point and the first": "motion.table",
     **dict.fromkeys(("half of the cam", "per_cam_degree"), "motion.table"),
     **{name: f"motion.radii.{name}" for name in ("base_radius", "flank_radius", "nose_radius", "ascent")},
     "number of sizes beside base_radius": "motion.radii.base_radius",

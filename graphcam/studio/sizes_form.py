@@ -244,7 +244,7 @@ def _follower(make: FieldMaker, solution: Solution) -> Iterator[Field]:
         rules: list[tuple[str, Words]] = [(DEFAULT_RULE, DEFAULT_RULE)]
         rules += [(name, f"{each.rule} ({name})") for name, each in NAMED_RULES.items()]
         yield make.choice("follower.roller_rule", FOLLOWER, say("Rule for the roller"), rules)
-    if solution.task.motion.radii is None:
+    if not solution.task.motion.gives_cam:
         yield make.open_number("cam.prime_radius", chain.prime_radius)
 
 

@@ -16,6 +16,7 @@ from graphcam.given.motion import FULL_TURN, NEAR_TURN_SHARE, Dwell, Motion, Pha
 from graphcam.given.motion_law import Law
 from graphcam.given.outline_motion import OutlineMotion, outline_motion
 from graphcam.given.plausible_ranges import bounded, check_positive
+from graphcam.given.point_outline import TracedMotion, cam_through_points
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law
 from graphcam.given.table_file import CurveTable, Turn
 from graphcam.tasks.dataclass_reader import ByKind, ByName
@@ -219,9 +220,10 @@ class MotionTable:
     phases : their angles sum to 360 degrees, their lifts to 0; what rounding leaves, less than 0.001 degrees, the
         longest dwell takes up
     parts : polynomials and splines through points, in place of phases; where they leave a gap the follower rests
-    table : of a measured motion, in place of phases; a file gives the name of a CSV file beside it
+    table : of a measured motion, or of points of a given cam, in place of phases; a file gives the name of a CSV file
+        beside it, of a given cam as ``outline.file``
     radii : of a given cam, in place of phases; a file gives them as a table ``[arcs]``
-    tolerance : mm (degrees for an arm), how far the motion may pass the table; None is 0.01
+    tolerance : mm (degrees for an arm), how far the motion may pass the table, of a given cam mm; None is 0.01
     symmetric : whether the table is half of the cam: it goes back in mirror image, and dwells for the rest of the turn
     per_cam_degree : degrees of the table's angle for one of the cam: 2 for crank degrees of a four-stroke engine
 
@@ -256,14 +258,19 @@ class MotionTable:
         bounded("tolerance", self.tolerance, "mm (degrees for an arm)")
         check_positive("per_cam_degree", self.per_cam_degree, "degrees")
         for name, value in (("symmetric", self.symmetric), ("per_cam_degree", self.per_cam_degree)):
-            if value is not None and self.table is None:
+            if value is not None and (self.table is None or self.gives_cam):
                 raise DesignError(name, value, say("left out where there is no table"), say("delete it"))
         if self.phases is not None:
             turn = math.fsum(phase.angle for phase in self.phases)
             if abs(turn - 360) > ROUNDED_CLOSURE:
                 raise DesignError(say("sum of the phase angles"), turn, say("360 degrees"), _remedy(turn, self.phases))
-        if self.radii is None:
+        if not self.gives_cam:
             self()
+
+    @property
+    def gives_cam(self) -> bool:
+        """Whether a cam is given, of which the motion is asked for."""
+        return self.radii is not None or (self.table is not None and self.table.column == "outline")
 
     @property
     def closed(self) -> tuple[int, float] | None:
@@ -278,12 +285,12 @@ class MotionTable:
 
     def __call__(self) -> Motion:
         """The motion, in radians and mm (an arm's lift in radians too)."""
+        if self.gives_cam and (cam := self.radii or self.table):
+            return _of_given_cam(cam, self.tolerance, *self.follows)
         if self.table is not None:
             return self.table(self.tolerance, self.lift_unit, Turn(bool(self.symmetric), self.per_cam_degree or 1.0))
         if self.parts is not None:
             return _by_conditions(self.parts, self.lift_unit)
-        if self.radii is not None:
-            return _of_given_cam(self.radii, *self.follows)
         return _motion(tuple(self.phases or ()), self.lift_unit)
 
 
@@ -331,8 +338,12 @@ def _motion(tables: tuple[PhaseTable, ...], unit: float) -> Motion:
 
 
 @lru_cache(maxsize=16)
-def _of_given_cam(radii: RadiiTable, follower: Follower, rotation: Rotation) -> OutlineMotion:
-    return outline_motion(radii(), follower, rotation)
+def _of_given_cam(
+    cam: RadiiTable | CurveTable, tolerance: float | None, follower: Follower, rotation: Rotation
+) -> OutlineMotion | TracedMotion:
+    if isinstance(cam, RadiiTable):
+        return outline_motion(cam(), follower, rotation)
+    return outline_motion(cam_through_points(cam.rows), follower, rotation, tolerance)
 
 
 @lru_cache(maxsize=16)

@@ -26,6 +26,7 @@ from graphcam.given.follower import (
 from graphcam.given.impact import NO_FORCE, velocity_jumps
 from graphcam.given.outline_motion import OutlineMotion
 from graphcam.given.plausible_ranges import bounded, check_positive
+from graphcam.given.point_outline import TracedMotion
 from graphcam.given.roller_rule import DEFAULT_RULE, Candidate, roller_rule
 from graphcam.showing import MAX_WIDTH, value_text
 from graphcam.tasks.dataclass_reader import ByKeys, ByKind
@@ -51,6 +52,7 @@ GIVEN_CAM_KEYS = {
     "base_radius": "arcs.base_radius",
     "flank_radius": "arcs.flank_radius",
     "follower": "follower.kind",
+    "tolerance": "motion.tolerance",
 }
 """The keys of what a follower of a given cam may lack, by their quantities."""
 SWINGING_FACE_REMEDY = "under a face that swings the curvature limits the cam; give limits.min_curvature_radius"
@@ -388,7 +390,8 @@ class Task:
     part: PartTable | None = None
 
     def __repr__(self) -> str:
-        other = f"measured, {self.motion.table.file}" if self.motion.table else ""
+        cam = "given by" if self.motion.gives_cam else "measured,"
+        other = f"{cam} {self.motion.table.file}" if self.motion.table else ""
         other = other or ", ".join(f"{part.kind} of {len(part.points)} points" for part in self.motion.parts or ())
         other = other or ("given by its radii" if self.motion.radii else "")
         phases = ", ".join(f"{phase.kind} {phase.angle:g}°" for phase in self.motion.phases or ())
@@ -475,13 +478,13 @@ class Task:
         """Set what a table takes from the follower: the unit of the lift, and the usual limits."""
         motion, column = dataclasses.replace(self.motion), self.follower.column
         object.__setattr__(motion, "lift_unit", self.follower.lift_unit)
-        if motion.table is not None and motion.table.column not in (column, "a"):
+        if motion.table is not None and motion.table.column not in (column, "a", "outline"):
             remedy = say("measure what the follower does, and name the column so")
             quantity = say("motion.table (column)")
             raise DesignError(quantity, motion.table.column, say("{column} for this follower", column=column), remedy)
         check_turning(motion, turning=column == "s_deg", path="motion")
         object.__setattr__(self, "motion", motion)
-        if motion.radii is not None:
+        if motion.gives_cam:
             self._inform_of_given_cam(motion)
         if self.limits.pressure_angle_rise is None and "pressure_angle_rise" not in self.follower.without:
             limits = dataclasses.replace(self.limits, pressure_angle_rise=self.follower().usual_limit_deg)
@@ -500,13 +503,16 @@ class Task:
         try:
             motion()
         except DesignError as error:
-            raise DesignError(GIVEN_CAM_KEYS.get(str(error.quantity)) or error.args[0], *error.args[1:]) from None
+            key = GIVEN_CAM_KEYS.get(str(error.quantity), "")
+            if motion.radii is None and key.startswith("arcs"):
+                key = "motion.table"
+            raise DesignError(key or error.args[0], *error.args[1:]) from None
 
     @property
     def prime_radius(self) -> float | None:
         """The prime radius [mm] that is given, or that a given cam has; None is open."""
-        motion = self.motion() if self.motion.radii else None
-        return motion.prime_radius if isinstance(motion, OutlineMotion) else self.cam.prime_radius
+        motion = self.motion() if self.motion.gives_cam else None
+        return motion.prime_radius if isinstance(motion, OutlineMotion | TracedMotion) else self.cam.prime_radius
 
     @property
     def roller_terms(self) -> tuple[Candidate, ...]:

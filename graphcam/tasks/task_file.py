@@ -25,6 +25,7 @@ from graphcam.tasks.dataclass_reader import (
     read_dataclass,
 )
 from graphcam.tasks.material_table import MaterialTable
+from graphcam.tasks.outline_file import outline_from_dxf
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.task import Task
@@ -88,6 +89,8 @@ _KEYS_BY_QUANTITY = {
     "the table's lift": "table",
 }
 """Keys of the file by the quantity of a design error, where the two differ."""
+OUTLINE_KEYS = ("file", "tolerance", "layer")
+"""The keys of a table ``[outline]``, which stands for a motion with the table of a given cam."""
 _MAX_SHOWN_LENGTH = 60
 """The maximum number of characters of a value in a message."""
 
@@ -253,19 +256,48 @@ def parse_toml(path: str, content: bytes) -> dict[str, Any]:
 
 
 def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]:
-    """The data with the rows of a measured motion's file in place of its name."""
-    motion = data.get("motion")
+    """The data with the rows of a table's file in place of its name; an outline is the table of a motion."""
+    motion, key = data.get("motion"), "motion.table"
+    if isinstance(outline := data.get("outline"), dict):
+        motion, key = _of_outline(path, outline, data), "outline.file"
     if not isinstance(motion, dict) or "table" not in motion:
         return data
     name = motion["table"]
     if not isinstance(name, str):
-        expected = say("text in quotes")
-        raise TaskError(path, "motion.table", _shown_value(name), expected, say("name the CSV file of the table"))
+        raise TaskError(path, key, _shown_value(name), say("text in quotes"), say("name the CSV file of the table"))
     try:
-        table = read_table(folder / name, name, motion_tables.tolerance_in(motion), Turn.given_in(motion))
+        if key == "outline.file" and name.lower().endswith(".dxf"):
+            table = outline_from_dxf(folder / name, name, motion.pop("layer", None))
+        else:
+            table = read_table(folder / name, name, motion_tables.tolerance_in(motion), Turn.given_in(motion))
     except MissingFileError:
-        raise MissingFileError(name, say("check motion.table"), where=say("beside {path}", path=path)) from None
-    return {**data, "motion": {**motion, "table": dataclasses.asdict(table)}}
+        raise MissingFileError(name, say("check {key}", key=key), where=say("beside {path}", path=path)) from None
+    if key == "outline.file" and table.column != "outline":
+        limit, remedy = say("points of a cam"), say("name its columns x_mm,y_mm or angle_deg,radius_mm")
+        raise TaskError(path, key, say("the table of a motion"), limit, remedy)
+    whole = {each: value for each, value in data.items() if each != "outline"}
+    rotation = {"rotation": "ccw"} if table.column == "outline" else {}
+    return {**rotation, **whole, "motion": {**motion, "table": dataclasses.asdict(table)}}
+
+
+def _of_outline(path: str, outline: dict[str, Any], data: dict[str, Any]) -> dict[str, Any]:
+    """The table ``[motion]`` that says the same as a table ``[outline]``."""
+    for other in ("motion", "arcs"):
+        if other in data:
+            limit = say("left out where there is an outline")
+            raise TaskError(path, other, _shown_value(data[other]), limit, say("give one of the two"))
+    for key, value in outline.items():
+        if key not in OUTLINE_KEYS:
+            remedy = key_remedy(key, value, OUTLINE_KEYS, data)
+            raise TaskError(path, f"outline.{key}", say("an unknown key"), say("one that is known"), remedy)
+    if "file" not in outline:
+        remedy = say("name the file of the cam's points, CSV or DXF")
+        raise TaskError(path, "outline.file", say("missing"), say("given"), remedy)
+    layer, drawn = outline.get("layer", ""), str(outline["file"]).lower().endswith(".dxf")
+    if "layer" in outline and not (isinstance(layer, str) and drawn):
+        limit = say("the name of a layer, with a DXF file alone")
+        raise TaskError(path, "outline.layer", _shown_value(layer), limit, say("delete it"))
+    return {"table": outline["file"], **{key: value for key, value in outline.items() if key != "file"}}
 
 
 def _task(path: str, data: dict[str, Any], whole: dict[str, Any]) -> Task | ArcsTask:
@@ -402,6 +434,8 @@ def _look_up(data: Any, place: Place) -> tuple[str, Any]:
     name = ""
     if place[:2] == ("motion", "radii") and "arcs" in data:
         place = ("arcs", *place[2:])
+    if place[:1] == ("motion",) and "outline" in data:
+        place = ("outline", *("file" if key == "table" else key for key in place[1:2]))
     for step in place:
         if isinstance(step, int):
             name += f"[{step}]"

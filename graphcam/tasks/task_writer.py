@@ -16,7 +16,7 @@ TASK_FILE = "task.toml"
 
 
 def task_files(task: Task | ArcsTask) -> dict[str, str]:
-    """The contents of a task's files by their names: TOML, and the table of a measured motion.
+    """The contents of a task's files by their names: TOML, and the table of a motion or of points of a cam.
 
     Raises
     ------
@@ -35,9 +35,13 @@ def task_files(task: Task | ArcsTask) -> dict[str, str]:
     table = task.motion.table if isinstance(task, Task) else None
     tables: dict[str, str] = {}
     if table is not None:
-        name = said["motion"]["table"] = PurePath(table.file).name
+        outlined = table.column == "outline"
+        # The points of a drawing are written as a table.
+        file = PurePath(table.file).with_suffix(".csv") if outlined else PurePath(table.file)
+        name = said["motion"]["table"] = file.name
         rows = "".join(f"{phi!r},{value!r}\n" for phi, value in table.rows)
-        tables[name] = f"phi_deg,{table.column}\n{rows}"
+        head = "x_mm,y_mm" if outlined else f"phi_deg,{table.column}"
+        tables[name] = f"{head}\n{rows}"
     return {TASK_FILE: tomli_w.dumps(said), **tables}
 
 

@@ -51,7 +51,7 @@ def analysis_of(follower, motion, parts, pencil=None):
         place = follower.distance
     unit = "rad" if isinstance(follower, gc.Oscillating) else "mm"
     phi = FULL_TURN * np.arange(parts) / parts
-    laid = laid_outline(motion, FULL_TURN / parts)
+    laid = laid_outline(motion, motion.rotation, FULL_TURN / parts)
     givens = AnalysisGivens(laid, motion, motion.rotation, motion.prime_radius, roller, place, phi, MU_L, unit)
     if isinstance(follower, gc.Oscillating):
         return arm_analysis(givens, follower.arm, pencil)

@@ -55,15 +55,18 @@ def test_the_axes_reach_over_all_heights_and_the_axis_itself_and_are_named_at_th
     assert (up.start, up.end, up.role) == (lowest * 1j, (highest + AXIS_OVERHANG) * 1j, Role.SCALE)
     assert (phi.at, str(phi.text), symbol.at, symbol.text) == (across.end, "φ, °", up.end, "v, mm/rad")
     assert (phi.towards, symbol.towards) == (-1j, -1 - 1j)
-    assert (mu.at, str(mu.text), mu.small) == (90, "μᵩ = 2°/mm", True)
+    assert (mu.at, str(mu.text), mu.small) == (90, "μᵩ = 0.03491 rad/mm (2°/mm)", True)
     assert mu.towards.real < 0
     assert_allclose(ticks.starts.real, np.arange(10, 181, 10) / 2)
 
 
 @over_all("scale", [DEGREE, HALF_A_DEGREE])
 def test_a_thin_line_stands_where_each_phase_ends_from_the_lowest_to_the_highest(scale):
-    marks = phi_axes(MOTION, scale, np.array([-10.0, 25.0]), "a")
-    limits, _ = (mark for mark in marks if isinstance(mark, Segments))
+    stations = divide(MOTION, 4)
+    marks = phi_axes(MOTION, stations, scale, np.array([-10.0, 25.0]), "a")
+    limits, strokes = (mark for mark in marks if isinstance(mark, Segments))
+    # The axis has strokes at the stations; degrees stand below the lowest diagram.
+    assert_allclose(strokes.starts.real, stations.phi / scale.per_mm)
     ends = np.array([80, 125, 185, 360]) * math.radians(1) / scale.per_mm
     assert_allclose(limits.starts, ends - 10j)
     assert_allclose(limits.ends, ends + 25j)

@@ -81,7 +81,7 @@ def test_the_load_hangs_below_its_tail_as_long_as_its_force_at_the_scale(rotatio
     said = str(step.caption)
     assert f"Q = {force:.1f} N: inertia {force - 150 - 2 * s:.1f} N, preload 150.0 N, spring {2 * s:.1f} N." in said
     assert f"drawn s = {s:.2f} mm and a = {a:.2f} mm/rad²" in said
-    assert f"μF = {mu:g} N/mm set the dividers to {force:.1f}/{mu:g} = {force / mu:.1f} mm" in said
+    assert f"μ_F = {mu:g} N/mm set the dividers to {force:.1f}/{mu:g} = {force / mu:.1f} mm" in said
     assert said.endswith("straight down.")
     title = station_names(integrated.givens.stations)[k]
     assert str(step.title) == f"Force plan at station {title}: the load"

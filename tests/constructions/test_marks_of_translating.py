@@ -336,7 +336,7 @@ def test_the_caption_of_the_region_says_which_side_each_line_cuts_off(name, hand
     assert [drawn.act for drawn in hatching.draws] == [one(step, Region).of]
     for part, (title, place) in zip(others, crosses(name, hand).items(), strict=True):
         choice = "Thin crosses mark the points that textbooks choose. " if part is others[0] else ""
-        assert str(part.caption).lower().startswith(f"{choice}{title}: ".lower())
+        assert str(part.caption).lower().startswith(f"{choice}{title}, {NAMES[title]}: ".lower())
         assert says(part, r"([\d.]+) mm (?:long|from B₀)\.") == [pytest.approx(abs(place), abs=0.051)]
         assert part.draws[0].place == place
 
@@ -358,7 +358,9 @@ def test_the_region_holds_just_what_no_limit_cuts_off(name, hand):
     assert within.any()
 
 
-FOOT, CENTRAL = "foot of the perpendicular", "central (e = 0)"
+FOOT, APEX, CENTRAL = "A₁", "A₂", "A₃"
+NAMES = {FOOT: "the foot of the perpendicular", APEX: "the apex", CENTRAL: "of a central follower (e = 0)"}
+"""What the captions say of the names on the drawing."""
 
 
 def crosses(name: str, hand: str) -> dict[str, complex]:
@@ -378,12 +380,12 @@ def crosses(name: str, hand: str) -> dict[str, complex]:
 def test_the_alternatives_are_the_foot_the_apex_and_the_central_followers_centre(name, hand):
     found, lines = crosses(name, hand), {b.title: b for b in bounds(name, hand)}
     rise, back = lines["rise"], lines.get("return")
-    assert list(found) == [FOOT, *(["apex"] if back else []), CENTRAL]
+    assert list(found) == [FOOT, *([APEX] if back else []), CENTRAL]
     assert rise.inside(found[FOOT]) == pytest.approx(0, abs=1e-7)
     way = (rise.below - rise.above) / abs(rise.below - rise.above)
     assert abs((found[FOOT] * way.conjugate()).real) <= slack(hand, 2)
     if back:
-        assert (rise.inside(found["apex"]), back.inside(found["apex"])) == pytest.approx((0, 0), abs=1e-7)
+        assert (rise.inside(found[APEX]), back.inside(found[APEX])) == pytest.approx((0, 0), abs=1e-7)
     assert found[CENTRAL].real == 0
     assert permitted(name, hand, found[CENTRAL])
     assert found[CENTRAL] == 0 or not permitted(name, hand, found[CENTRAL] + 0.01j)

@@ -391,6 +391,9 @@ def test_the_scales_are_divided_as_is_told(name, hand):
         divided = [label for label in step.own_marks if isinstance(label, Label)]
         # An arm's angle is told in degrees.
         said = [str(label.text) for label in divided]
+        # Over a graduation at the other end of the turn its name stands.
+        assert (symbol != "s") == said[-1].startswith(f"{symbol}, ")
+        divided, said = (divided[:-1], said[:-1]) if symbol != "s" else (divided, said)
         values = [math.radians(float(text[:-1])) if text.endswith("°") else float(text) for text in said]
         heights = [value / float(mu) for value in values]
         assert [label.at.imag for label in divided] == pytest.approx(heights, rel=1e-4)

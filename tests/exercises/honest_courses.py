@@ -12,9 +12,10 @@ from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.answer_scatter import answers_of
 from graphcam.exercises.key.key_making import issue
+from graphcam.exercises.key.unlisted_mistakes import unlisted_answers
 from graphcam.exercises.marking.copy_detection import alike_pairs
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.marking.simulate import submission, unlisted_answers
+from graphcam.exercises.marking.simulate import submission
 
 HANDS = 5
 """Students of each kind who draw each variant; a course takes one of them."""
@@ -64,7 +65,11 @@ def honest_students(exercise: Exercise, secret: bytes, students: int) -> HonestS
         # Never the seed of the hands that the answer key was made from.
         chain = board_chain(variant.task, exercise.hand.pencil(HANDS, 1 + k))
         listed = [answers_of(exercise, misconception(name).change(chain)) for name in exercise.misconceptions]
-        kinds = ([answers_of(exercise, chain)], listed, [answers for _, answers in unlisted_answers(exercise, chain)])
+        kinds = (
+            [answers_of(exercise, chain)],
+            listed,
+            [answers for _, answers in unlisted_answers(exercise, chain, listed)],
+        )
         for records, drawings in zip((found.careful, found.catalogued, found.unlisted), kinds, strict=True):
             given = [submission(exercise, drawn, row) for drawn in drawings for row in range(HANDS)]
             records.append([mark(exercise, answer_keys[student], answers).to_dict() for answers in given])

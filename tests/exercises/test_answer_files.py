@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given, settings, strategies as st
 from issued_variants import issued
 
+from graphcam.errors import UnreadableError
 from graphcam.exercises.definition.exercise import AskedAnswer
 from graphcam.exercises.reading.answer_tables import COMMA_PATTERN, toml_values
-from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.submission_files import from_files, read_files
 
 NUMBERS = st.recursive(

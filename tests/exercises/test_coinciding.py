@@ -11,8 +11,9 @@ from issued_variants import SECRET, issued
 from graphcam.exercises.definition.exercise import AskedAnswer
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.key.coinciding_answers import MAX_COINCIDENCE_SHARE, by_one_number
 from graphcam.exercises.key.expected_answers import Expected
-from graphcam.exercises.key.key_making import MAX_COINCIDENCE_SHARE, by_one_number, issue, key_or_reason
+from graphcam.exercises.key.key_making import issue, key_or_reason
 
 
 def with_numbers(values: dict[float, float], *others: AskedAnswer) -> float:

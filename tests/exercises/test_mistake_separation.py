@@ -15,8 +15,9 @@ from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.answer_scatter import answers_of
 from graphcam.exercises.key.expected_answers import Expected
-from graphcam.exercises.key.key_making import RefusedDraw, issue, key_or_reason
+from graphcam.exercises.key.key_making import issue, key_or_reason
 from graphcam.exercises.key.mistake_separation import DETECTION_SCATTERS, passing
+from graphcam.exercises.key.refused_draws import RefusedDraw
 from graphcam.exercises.marking.simulate import simulate
 
 BOUND = 2.8

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from issued_variants import issued
 
+from graphcam.constructions.chain import Chain
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise
@@ -15,8 +16,9 @@ from graphcam.exercises.definition.mistakes import CATALOGUE, misconception
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.answer_scatter import Drawn, answers_of
+from graphcam.exercises.key.unlisted_mistakes import unlisted_answers, unlisted_names
 from graphcam.exercises.marking.marking import mark
-from graphcam.exercises.marking.simulate import key_without, simulate, submission, unlisted_answers, unlisted_names
+from graphcam.exercises.marking.simulate import key_without, simulate, submission
 
 HANDS = 12
 
@@ -25,7 +27,13 @@ def drawings(name: str) -> tuple[Exercise, AnswerKey, dict[str, Drawn]]:
     """What hands with every mistake that is not listed draw of an issued variant."""
     exercise, answer_key = issued(name)
     task = Variant(exercise, answer_key.student, answer_key.draw, answer_key.parameters).task
-    return exercise, answer_key, dict(unlisted_answers(exercise, board_chain(task, exercise.hand.pencil(HANDS, 5))))
+    return exercise, answer_key, unlisted(exercise, board_chain(task, exercise.hand.pencil(HANDS, 5)))
+
+
+def unlisted(exercise: Exercise, chain: Chain) -> dict[str, Drawn]:
+    """What hands with every mistake that is not listed answer."""
+    listed = [answers_of(exercise, misconception(each).change(chain)) for each in exercise.misconceptions]
+    return dict(unlisted_answers(exercise, chain, listed))
 
 
 def apart(exercise: Exercise, answer_key: AnswerKey, answers: Drawn) -> float:
@@ -62,15 +70,15 @@ def test_another_law_that_is_the_law_of_a_listed_mistake_is_that_mistake():
     chain = board_chain(task, exercise.hand.pencil(HANDS, 5))
     listing = replace(exercise, misconceptions=("wrong-law: cosine",))
     # Both phases by the law of the rise, and by that of the return.
-    assert "wrong-law: cosine" not in dict(unlisted_answers(listing, chain))
-    assert "wrong-law: cycloidal" in dict(unlisted_answers(listing, chain))
+    assert "wrong-law: cosine" not in unlisted(listing, chain)
+    assert "wrong-law: cycloidal" in unlisted(listing, chain)
     same = replace(exercise, misconceptions=("laws-swapped",))
     by_one_law = board_chain(
         Variant(exercise, "Anna", 0, {**answer_key.parameters, "law_up": "cosine", "law_down": "cosine"}).task,
         exercise.hand.pencil(HANDS, 5),
     )
     # Laws that are the same are exchanged without anything changing, as by the law that both have.
-    assert "wrong-law: cosine" not in dict(unlisted_answers(same, by_one_law))
+    assert "wrong-law: cosine" not in unlisted(same, by_one_law)
 
 
 def test_arguments_are_those_that_have_to_do_with_the_answers():

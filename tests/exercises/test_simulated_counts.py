@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from types import SimpleNamespace
 
 import numpy as np
@@ -12,6 +13,7 @@ from typer.testing import CliRunner
 from graphcam.cli import app
 from graphcam.exercises.definition.exercise import Answers
 from graphcam.exercises.definition.student_hands import HANDS
+from graphcam.exercises.key.unlisted_mistakes import UnlistedOutcomes
 from graphcam.exercises.marking import simulate as module
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.simulate import CopyGain, HandCount, SimulatedRow, Simulation, copy_gain, simulate
@@ -35,7 +37,9 @@ def figures(monkeypatch) -> tuple[Simulation, list[tuple[int, int]], list[dict[s
     def chain(records, seed):
         pencil = SimpleNamespace(samples=len(records), seed=seed)
         # By the hands of any population all is drawn as by the exercise's.
-        return SimpleNamespace(records=records, pencil=pencil, by=lambda other: chain(CAREFUL, other.seed))
+        return SimpleNamespace(
+            records=records, pencil=pencil, by=lambda other: chain(CAREFUL, other.seed), perfect=None
+        )
 
     def answers_of(exercise, chain):
         return [np.arange(10.0 * k, 10.0 * k + 5) for k in range(4)] + [np.arange(10.0).reshape(5, 2) + 0j]
@@ -56,10 +60,17 @@ def figures(monkeypatch) -> tuple[Simulation, list[tuple[int, int]], list[dict[s
     monkeypatch.setattr(module._Tally, "mark", counted)
     monkeypatch.setattr(module, "answers_of", answers_of)
     monkeypatch.setattr(module, "unlisted_answers", lambda *_: ())
+    monkeypatch.setattr(module, "perfect_hands", lambda *_: None)
+    outcomes = UnlistedOutcomes(("polar-angle", "end-ordinate"), ("end-ordinate",), ("wrong-law: 3-4-5",))
+    monkeypatch.setattr(module, "unlisted_outcomes", lambda *_: outcomes)
     monkeypatch.setattr(module, "copy_gain", lambda _, done: CopyGain(len(done)))
     monkeypatch.setattr(module, "key_without", lambda *_: None)
     monkeypatch.setattr(module, "mark", mark)
-    variants = [(SimpleNamespace(draw=draw, task=None), None) for draw in DRAWS]
+    key_of_one = SimpleNamespace(expected=None)
+    variants = [
+        (SimpleNamespace(draw=draw, task=None), SimpleNamespace(keys=defaultdict(lambda: key_of_one), bound=3))
+        for draw in DRAWS
+    ]
     monkeypatch.setattr(module, "course_variants", lambda *_: iter(variants))
     monkeypatch.setattr(module, "board_chain", lambda task, pencil: chain(CAREFUL, pencil.seed))
     changes = {name: SimpleNamespace(change=lambda drawn, each=each: chain(each, 0)) for name, each in SLIPS.items()}
@@ -104,6 +115,9 @@ def test_the_rates_are_parts_of_the_hands(figures):
     assert found.outside_named == 1.0
     assert found.draws == (1 * 1 + 3 + 3) / 3
     said = found.to_dict()
+    assert found.unlisted.rate == said["unlisted_kept"] == 1 / 2
+    assert said["unlisted"]["shown"] == {"end-ordinate": 3, "polar-angle": 3}
+    assert (said["unlisted"]["kept"], said["unlisted"]["near"]) == ({"end-ordinate": 3}, {"wrong-law: 3-4-5": 3})
     assert said["copies"] == {"pairs": 3, "best": 0.0, "above_half": 0}
     assert [said[rate] for rate in ("false_rejections", "right_diagnoses", "draws")] == [0.2, 0.7, 7 / 3]
     assert found.rows["offset-sign"].named_share("offset-sign") == 6 / 15

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 import sys
+import tomllib
 
+import hard_cases
 import jupytext
 import nbformat
 import pytest
@@ -38,7 +40,13 @@ def test_what_a_double_click_opens_is_the_script_without_outputs(name):
 
 def test_every_script_has_its_notebook_and_nothing_else_is_stored():
     found = {path.name for path in FOLDER.iterdir() if path.is_file()}
-    assert found == {"README.md", "pair.py", *(f"{name}{end}" for name in COURSE for end in (".py", ".ipynb"))}
+    assert found == {
+        "README.md",
+        "pair.py",
+        "task.toml",
+        "hard_cases.toml",
+        *(f"{name}{end}" for name in COURSE for end in (".py", ".ipynb")),
+    }
 
 
 @over_all("name", COURSE)
@@ -51,7 +59,20 @@ def test_a_notebook_has_its_parts_and_asserts_a_number(name):
     assert text.startswith(f"# {int(name[:2])}. ")
     code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
     assert any(re.search(r"^assert .*\d", cell, re.MULTILINE) for cell in code)
-    # The cells to try give the reader's number and nothing else away.
+    # The cells to try give the reader's number and nothing else away, and a page shows the last line's verdict only.
     tried = [cell.source for cell in notebook.cells if "try-it" in cell.metadata.get("tags", ())]
     assert tried
-    assert all(re.fullmatch(r"(your_\w+ = None  # .+\n)+(\w+\.check\(your_\w+\)\n?)+", cell) for cell in tried)
+    assert all(re.fullmatch(r"(your_\w+) = None  # .+\n\w+\.check\(\1\)\n?", cell) for cell in tried)
+
+
+def test_the_hard_cases_of_the_course_are_those_of_the_table():
+    """So the values that notebook 7 compares with are computed by mpmath at 50 digits, as all of the table's are."""
+    shown = tomllib.loads((FOLDER / "hard_cases.toml").read_text(encoding="utf-8"))["case"]
+    table = {row["name"]: row for row in tomllib.loads(hard_cases.TABLE.read_text(encoding="utf-8"))["drawn"]}
+    assert len(shown) >= 6
+    for case in shown:
+        row = table[case["name"]]
+        assert (case["phases"], case["reference"]) == (row["phases"], row[case["quantity"]])
+        same = {"follower.offset": "offset", "follower.roller_radius": "roller", "cam.prime_radius": "prime_radius",
+                "limits.pressure_angle_rise": "rise", "drawing.divisions": "divisions"}  # fmt: skip
+        assert {key: case.get(key) for key in same} == {key: row.get(name) for key, name in same.items()}

@@ -11,6 +11,7 @@ import pytest
 from programs import freecad
 from scene import drawing as scene
 
+import graphcam as gc
 from graphcam.sheets.dxf_renderer import write_dxf
 
 pytestmark = pytest.mark.slow
@@ -33,3 +34,25 @@ def test_freecad_finds_every_edge(tmp_path: Path) -> None:
     single = len(document.modelspace().query("LINE CIRCLE ARC SPLINE"))
     sides = [np.diff(checks.corners(polyline)) for polyline in document.modelspace().query("LWPOLYLINE")]
     assert int(edges) == single + sum(map(len, sides))
+
+
+DRAWS = """
+import FreeCAD, Part, importDXF, math
+FreeCAD.newDocument("cam")
+disc = Part.Circle(FreeCAD.Vector(0, 5, 0), FreeCAD.Vector(0, 0, 1), 30)
+found = FreeCAD.ActiveDocument.addObject("Part::Feature", "cam")
+found.Shape = Part.Wire([disc.toShape(0, math.pi), disc.toShape(math.pi, 2 * math.pi)])
+FreeCAD.ActiveDocument.recompute()
+importDXF.export([found], {path!r})
+print("\\nFOUND", 1, 1)
+"""
+
+
+def test_an_outline_that_freecad_draws_moves_its_follower(tmp_path: Path) -> None:
+    freecad(DRAWS.format(path=str(tmp_path / "cam.dxf")), tmp_path)
+    follower = '[follower]\nkind = "translating"\noffset = 0\nroller_radius = 10\n'
+    (tmp_path / "cam.toml").write_text(f'[outline]\nfile = "cam.dxf"\n{follower}', encoding="utf-8")
+    motion = gc.load_task(tmp_path / "cam.toml").motion()
+    phi = np.linspace(0, 2 * np.pi, 361)
+    there = 5 * np.cos(phi) + np.sqrt(40**2 - (5 * np.sin(phi)) ** 2) - 35
+    assert np.abs(motion(phi - motion.zero)[0] - there).max() < THOUSANDTH

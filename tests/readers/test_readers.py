@@ -59,6 +59,13 @@ def test_librecad_prints_everything_true_to_scale(drawing: Drawing, tmp_path: Pa
     checks.check_ink(page, drawn)
 
 
+def test_librecad_prints_the_cad_variant_in_its_place_too(drawing: Drawing, tmp_path: Path) -> None:
+    """The entries of the title block among them, and every text of a dimension within its height."""
+    drawing = Drawing(drawing.title, drawing.pages[:1])
+    write_cad(drawing, tmp_path / "sheet.dxf")
+    checks.check_ink(checks.by_librecad(tmp_path / "sheet.dxf", tmp_path), drawing.pages[0])
+
+
 def test_librecad_prints_the_angles_that_the_cad_variant_measures(tmp_path: Path) -> None:
     """It passes over angles by three points, and would print the same page without them."""
     printed: list[int] = []
@@ -66,7 +73,7 @@ def test_librecad_prints_the_angles_that_the_cad_variant_measures(tmp_path: Path
         file = tmp_path / f"{k}.dxf"
         write_cad(scene(), file)
         document = ezdxf.readfile(file)
-        angles = [d for d in document.modelspace().query("DIMENSION") if "°" in d.dxf.text]
+        angles = [d for d in document.modelspace().query("DIMENSION") if d.dimtype in (2, 5)]
         assert len(angles) >= 2
         for angle in angles[k:]:
             document.modelspace().delete_entity(angle)

@@ -57,11 +57,21 @@ def warned(task: Task, *of: str) -> list[str]:
     return [str(caution.said) for caution in solution.cautions if caution.of in (of or ("prime radius",))]
 
 
+TOLD = {
+    "drawing.divisions": r"(\d+) parts in each phase",
+    "cam.prime_radius": r"a prime radius of ([\d.]+) mm",
+    "follower.offset": r"an offset of (-?[\d.]+) mm",
+    "follower.distance": r"a centre distance of ([\d.]+) mm",
+    "follower.roller_radius": r"a roller radius of ([\d.]+) mm",
+}
+"""The words of a drawing for the keys of a task file."""
+
+
 def named(sentence: str) -> list[dict[str, float]]:
     """The remedies of a warning: each the keys of a task file that are to be given together."""
     _, remedy = sentence.rstrip(".").split(" Take ")
     return [
-        {key: float(value) for key, value in re.findall(r"([a-z_.]+) = (-?[\d.]+)", one)}
+        {key: float(found[1]) for key, words in TOLD.items() if (found := re.search(words, one))}
         for one in remedy.split(", or ")
     ]
 
@@ -86,7 +96,7 @@ def test_a_flat_face_whose_drawn_minimum_is_too_small_is_told_with_remedies_that
     assert said == (
         "The adopted prime radius of 26 mm is smaller than the exact minimum, 26.121 mm: the drawn one, 25.258 mm, is "
         "0.863 mm too small. The radius of curvature falls to 5.88 mm; 6 mm are required. "
-        "Take drawing.divisions = 24, or cam.prime_radius = 27."
+        "Take 24 parts in each phase, or a prime radius of 27 mm."
     )
     phi = np.linspace(0, 2 * np.pi, 200_001)
     s, _, a, _ = solution.cam.motion(phi)

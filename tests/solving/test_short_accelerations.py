@@ -97,7 +97,7 @@ def test_divisions_that_are_given_are_kept_and_warned_of_with_divisions_that_kee
     given = solved((120, COSINE), (100, straight([0.05, 0.05])), "divisions = 12")
     assert given.chain.board.stations.left.size == 24
     (said,) = of_divisions(given)
-    assert said.endswith("Take drawing.divisions = 72, or leave it out.")
+    assert said.endswith("Divide each phase into 72 parts, or leave their number open.")
     for drawing in ("", "divisions = 72"):
         assert not of_divisions(solved((120, COSINE), (100, straight([0.05, 0.05])), drawing))
 

@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from graphcam.drafting.ink import Caption, say
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, UnreadableError
 from graphcam.exercises.course.submissions import HandIn, answers_folder
 from graphcam.exercises.course.zipped_submissions import unpack_one
-from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
+from graphcam.exercises.reading.regular_file import read_regular
 from graphcam.exercises.reading.submission_files import BYTE_LIMITS, CSV, TOML, answer_files, answers_in, answers_named
 from graphcam.tasks.task_writer import TASK_FILE
 

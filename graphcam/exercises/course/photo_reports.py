@@ -12,8 +12,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from graphcam.errors import UnreadableError
 from graphcam.exercises.course.submissions import HandIn
-from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
+from graphcam.exercises.reading.regular_file import read_regular
 from graphcam.words import sequence
 
 READINGS_FOLDER = ".photographs"

@@ -56,7 +56,8 @@ def empty_axes(exercise: Exercise, chain: Chain, name: Diagram) -> Step:
     # Under the measured diagram, which has a cam angle of its own.
     view = DIAGRAM_VIEWS[symbol] if "differentiation" in exercise.sheet else view
     named = ordinate_title(symbol, chain.board.follower.unit)
-    axes = phi_axes(chain.board.motion, chain.board.mu_phi, np.array([low, high]), named)
+    board = chain.board
+    axes = phi_axes(board.motion, board.stations, board.mu_phi, np.array([low, high]), named)
     pole = () if name == "displacement" else (Line(np.array([-POLE_ROOM, 0]) + 0j, Role.CONSTRUCTION),)
     return Step(view.title, (), view, (*axes, *pole))
 

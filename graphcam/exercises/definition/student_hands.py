@@ -1,11 +1,13 @@
 """The hands of students: how exactly they draw and read, one more so than another, on paper that stretches.
 
-Students differ.  Of every error a table says the least and the greatest standard deviation; who draws finely sets the
-dividers finely and reads the protractor finely too.  Paper takes up moisture, and a printer scales by a little: all
-lengths of one sheet are longer or shorter by the same part, and its angles stay.
+Students differ.  Of every error a table says the least and the greatest standard deviation, and every student has a
+place of their own between them for each: who draws finely need not set the dividers finely, and few have all the worst
+habits.  Paper takes up moisture, and a printer scales by a little: all lengths of one sheet are longer or shorter by
+the same part, and its angles stay.
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -60,9 +62,9 @@ class Errors(NamedTuple):
 
 
 HANDS = {
-    "careful": Errors(Range(0.1, 0.2), Range(0.1, 0.2), Range(0.5, 0.5), Range(0.25, 0.5), 0.002),
-    "usual": Errors(Range(0.1, 0.3), Range(0.1, 0.3), Range(0.5, 1.0), Range(0.5, 1.0), 0.005),
-    "first-year": Errors(Range(0.2, 0.4), Range(0.2, 0.4), Range(1.0, 1.0), Range(1.0, 1.5), 0.005),
+    "careful": Errors(Range(0.1, 0.2), Range(0.1, 0.2), Range(0.5, 0.5), Range(0.2, 0.3), 0.002),
+    "usual": Errors(Range(0.1, 0.3), Range(0.1, 0.3), Range(0.5, 1.0), Range(0.25, 0.6), 0.005),
+    "first-year": Errors(Range(0.2, 0.4), Range(0.2, 0.4), Range(1.0, 1.0), Range(0.6, 1.2), 0.005),
 }
 """The hands that have a name: of practised draughtsmen with sharp pencils, of a course, and of its first weeks."""
 
@@ -94,31 +96,33 @@ class ManyHands(SteadyPencil):
     errors: Errors = HANDS["usual"]
 
     @cached_property
-    def _students(self) -> Floats:
-        """What is each student's own in every sample (3, samples), each evenly from 0 to 1."""
+    def _students(self) -> Mapping[str, Floats]:
+        """What is each student's own in every sample (samples,), evenly from 0 to 1, by the field of the errors."""
         assert self.samples is not None
-        return np.random.RandomState([self.seed, *b"students"]).uniform(size=(3, self.samples))
+        own = np.random.RandomState([self.seed, *b"students"]).uniform(size=(len(Errors._fields), self.samples))
+        return dict(zip(Errors._fields, own, strict=True))
 
     @cached_property
     def stretch_factors(self) -> Floats:
         """The factor by which the paper makes every sample's lengths off (samples,)."""
-        return 1 + self.errors.stretch * (2 * self._students[2] - 1)
+        return 1 + self.errors.stretch * (2 * self._students["stretch"] - 1)
 
     def slips(self, kind: Kind, what: str, stream: Stream, shape: tuple[int, ...]) -> Floats:
         """The errors of an act, every sample by its student's own deviation."""
         off = super().slips(kind, what, stream, shape)
-        field = SLIPS[kind][what].of
-        own: Range = getattr(self.errors, "protractor_deg" if field == "protractor" else field)
+        of = SLIPS[kind][what].of
+        field = "protractor_deg" if of == "protractor" else of
+        own: Range = getattr(self.errors, field)
         if not own.greatest or len(shape) == 0:
             return off
-        return off * _along_samples(own.of(self._students[0]) / own.greatest, shape)
+        return off * _along_samples(own.of(self._students[field]) / own.greatest, shape)
 
     def read_off(self, lengths: Floats) -> Floats:
         """Lengths as they are read: by some students to the finer division, by the others to the coarser."""
         fine, coarse = self.errors.division
         if not coarse or not self.deviation(Kind.READ, "length"):
             return lengths
-        division = _along_samples(np.where(self._students[1] < 0.5, fine, coarse), lengths.shape)
+        division = _along_samples(np.where(self._students["division"] < 0.5, fine, coarse), lengths.shape)
         return np.where(division > 0, np.round(lengths / np.where(division > 0, division, 1.0)) * division, lengths)
 
 

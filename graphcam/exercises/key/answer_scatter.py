@@ -20,8 +20,8 @@ Drawn = list[NDArray[Any]]
 """One entry an answer: numbers ([samples,]) or complex points ([samples,] m)."""
 CALCULATION_DEVIATION = 1e-3
 """Relative standard deviation of what is only calculated: three figures are carried."""
-NORMAL_95 = 1.959964
-"""95 % of normally distributed values lie within so many standard deviations."""
+NORMAL_99 = 2.575829
+"""99 % of normally distributed values lie within so many standard deviations."""
 DWELL_STEP = math.radians(15)
 """The maximum angle between points of a curve on the arc of a dwell, as seen from the cam centre."""
 PROFILE_CONSTRUCTIONS = ("inversion", "working_profile")
@@ -94,8 +94,8 @@ def expected(
             continue
         scatter = np.maximum(np.sqrt(np.mean(apart**2, axis=0) / 2), exercise.hand.errors.line.middle)
         # The worst of many points strays farther than one number does; in this unit it strays as far.
-        worst = float(np.quantile((apart / scatter).max(axis=1), 0.95))
-        found.append(Expected(np.asarray(value), scatter * worst / NORMAL_95, bulge))
+        worst = float(np.quantile((apart / scatter).max(axis=1), 0.99))
+        found.append(Expected(np.asarray(value), scatter * worst / NORMAL_99, bulge))
     return found
 
 

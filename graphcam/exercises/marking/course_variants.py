@@ -9,7 +9,8 @@ from functools import partial
 from graphcam.exercises.definition.exercise import Answers, Exercise
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
-from graphcam.exercises.key.key_making import MAX_COINCIDENCE_SHARE, issue
+from graphcam.exercises.key.coinciding_answers import MAX_COINCIDENCE_SHARE
+from graphcam.exercises.key.key_making import issue
 from graphcam.exercises.marking.marking import mark
 from graphcam.workers import ordered_results
 

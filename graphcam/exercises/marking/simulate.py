@@ -3,66 +3,27 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from itertools import permutations
 from typing import Any
 
-import numpy as np
-
 from graphcam.constructions.chain import Chain
-from graphcam.errors import GraphcamError
-from graphcam.exercises.definition.catalogue import LAW_ARGUMENT, READING_ARGUMENT
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import Answers, Exercise
-from graphcam.exercises.definition.mistakes import CATALOGUE, misconception
+from graphcam.exercises.definition.mistakes import misconception
 from graphcam.exercises.definition.student_hands import HANDS, HandTable
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.key.answer_scatter import Drawn, answers_of
-from graphcam.exercises.key.key_making import MAX_COINCIDENCE_SHARE
+from graphcam.exercises.key.coinciding_answers import MAX_COINCIDENCE_SHARE
+from graphcam.exercises.key.mistake_separation import perfect_hands
+from graphcam.exercises.key.unlisted_mistakes import UnlistedOutcomes, unlisted_answers, unlisted_outcomes
 from graphcam.exercises.marking.course_variants import GROUP_SIZE, course_variants
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.marking.record import Diagnosis
-from graphcam.given.laws import DWELL_TO_DWELL_LAWS
 from graphcam.workers import executor_of, ordered_results
-
-
-def unlisted_names(exercise: Exercise) -> list[str]:
-    """Every catalogued mistake that the exercise does not list, with every argument that has to do with its answers.
-
-    Another law is taken as often as there are laws between dwells.
-    """
-    asked = exercise.answers
-    diagrams = ["integration"] + ["differentiation"] * any(each.construction == "differentiation" for each in asked)
-    lengths = dict.fromkeys(f"{each.construction}.{each.reading}" for each in asked if each.reading)
-    names: list[str] = []
-    for name, entry in CATALOGUE.items():
-        if entry.takes == LAW_ARGUMENT:
-            names += [f"{name}: {law}" for law in DWELL_TO_DWELL_LAWS]
-        elif entry.takes == READING_ARGUMENT:
-            names += [f"{name}: {length}" for length in lengths]
-        else:
-            names += [f"{name}: {diagram}" for diagram in diagrams] if entry.takes else [name]
-    return [name for name in names if name not in exercise.misconceptions]
-
-
-def unlisted_answers(exercise: Exercise, chain: Chain) -> Iterator[tuple[str, Drawn]]:
-    """The names and the answers of the hands of a drawing with every mistake that its exercise does not list.
-
-    Left out are what cannot be drawn here, and what is stroke by stroke the drawing with a mistake that is listed, such
-    as another law where that is the law of the other phase.
-    """
-    listed = [answers_of(exercise, misconception(name).change(chain)) for name in exercise.misconceptions]
-    for name in unlisted_names(exercise):
-        try:
-            answers = answers_of(exercise, misconception(name).change(chain))
-        except GraphcamError:
-            continue
-        finite = all(np.isfinite(values).all() for values in answers)
-        if finite and not any(all(map(np.array_equal, answers, others)) for others in listed):
-            yield name, answers
 
 
 def key_without(answer_key: AnswerKey, name: str) -> AnswerKey:
@@ -97,6 +58,25 @@ class OutsideCount:
 
     hands: int = 0
     named: int = 0
+
+
+@dataclass(frozen=True)
+class UnlistedCount:
+    """Mistakes that the exercise does not list, made by a perfect hand on every variant.
+
+    shown : by the mistake's name, variants in which some answer differs from the right one by 1 % of itself or 0.5 mm
+    kept : those of them in which it keeps all marks
+    near : variants in which another law makes no difference on paper that a pencil line shows; they are not in shown
+    """
+
+    shown: Mapping[str, int] = field(default_factory=dict[str, int])
+    kept: Mapping[str, int] = field(default_factory=dict[str, int])
+    near: Mapping[str, int] = field(default_factory=dict[str, int])
+
+    @property
+    def rate(self) -> float:
+        """The part of these mistakes that keep all marks."""
+        return sum(self.kept.values()) / sum(self.shown.values()) if self.shown else 0.0
 
 
 @dataclass(frozen=True)
@@ -186,6 +166,7 @@ class _VariantTally:
     """What is counted of the students of one variant, or of several: careful ones, and those with each mistake.
 
     populations, outside, left_out : as of a :class:`Simulation`
+    unlisted : by field of :class:`UnlistedCount`
     """
 
     careful: _Tally
@@ -193,12 +174,14 @@ class _VariantTally:
     wrong: dict[str, _Tally]
     outside: _Tally
     left_out: _Tally
+    unlisted: dict[str, Counter[str]]
 
     @staticmethod
     def of(exercise: Exercise) -> _VariantTally:
         populations = {name: _Tally() for name in HANDS}
         wrong = {name: _Tally(name) for name in exercise.misconceptions}
-        return _VariantTally(_Tally(), populations, wrong, _Tally(), _Tally())
+        unlisted = {name: Counter[str]() for name in UnlistedOutcomes._fields}
+        return _VariantTally(_Tally(), populations, wrong, _Tally(), _Tally(), unlisted)
 
     def add(self, other: _VariantTally) -> None:
         """Add what was counted of another variant."""
@@ -209,6 +192,8 @@ class _VariantTally:
             tally.add(other.wrong[name])
         self.outside.add(other.outside)
         self.left_out.add(other.left_out)
+        for name, counts in self.unlisted.items():
+            counts.update(other.unlisted[name])
 
 
 @dataclass(frozen=True)
@@ -222,6 +207,7 @@ class Simulation:
         which all mistakes could be told
     outside : hands with catalogued mistakes that the exercise does not list, on every fifth variant
     left_out : hands with each of its mistakes, marked as if that one were not listed
+    unlisted : mistakes that the exercise does not list, by a perfect hand, on every variant
     populations : by the name of the hand, students who draw everything right with it and are marked by the same keys
     copies : what a careful student of one variant earns by the key of another
     """
@@ -236,6 +222,7 @@ class Simulation:
     issued: tuple[int, ...]
     outside: OutsideCount = OutsideCount()
     left_out: OutsideCount = OutsideCount()
+    unlisted: UnlistedCount = field(default_factory=UnlistedCount)
     copies: CopyGain = field(default_factory=CopyGain)
     populations: dict[str, HandCount] = field(default_factory=dict[str, HandCount])
 
@@ -244,6 +231,11 @@ class Simulation:
         """The part of the submissions with a mistake not looked for, to which another one was attributed."""
         hands = self.outside.hands + self.left_out.hands
         return (self.outside.named + self.left_out.named) / hands if hands else 0.0
+
+    @property
+    def unlisted_kept(self) -> float:
+        """The part of the mistakes that are not listed, of those that show in an answer, that keep all marks."""
+        return self.unlisted.rate
 
     @property
     def false_rejections(self) -> float:
@@ -269,7 +261,7 @@ class Simulation:
 
     def to_dict(self) -> dict[str, Any]:
         """The simulation as JSON takes it."""
-        rates = ("false_rejections", "false_acceptances", "right_diagnoses", "outside_named", "draws")
+        rates = ("false_rejections", "false_acceptances", "right_diagnoses", "outside_named", "unlisted_kept", "draws")
         return asdict(self) | {name: getattr(self, name) for name in rates}
 
 
@@ -317,6 +309,7 @@ def simulate(
         draws,
         _outside_count(whole.outside),
         _outside_count(whole.left_out),
+        UnlistedCount(**{name: dict(sorted(counts.items())) for name, counts in whole.unlisted.items()}),
         copy_gain(exercise, done),
         {name: HandCount(each.hands, each.hands - each.accepted) for name, each in whole.populations.items()},
     )
@@ -348,8 +341,14 @@ def _counted_attempt(
         wrongly = misconception(name).change(drawn)
         tally.mark(exercise, answer_key, wrongly)
         found.left_out.mark(exercise, key_without(answer_key, name), wrongly)
+    perfect = perfect_hands(exercise, drawn.perfect)
+    keys = [answer_key.keys[asked.name].expected for asked in exercise.answers]
+    outcomes = unlisted_outcomes(exercise, perfect, keys, answer_key.bound)
+    for name, counts in found.unlisted.items():
+        counts.update(getattr(outcomes, name))
     if k % UNLISTED_STEP == 0:
-        for _, answers in unlisted_answers(exercise, drawn):
+        listed = [answers_of(exercise, misconception(name).change(drawn)) for name in exercise.misconceptions]
+        for _, answers in unlisted_answers(exercise, drawn, listed):
             found.outside.mark_answers(exercise, answer_key, answers, hands)
     careful_work = [(answer_key, submission(exercise, answers_of(exercise, drawn), 0))] if k < GROUP_SIZE else []
     return variant.draw, found, careful_work

@@ -11,11 +11,11 @@ from typing import Any, Literal
 
 import numpy as np
 
-from graphcam.errors import TaskError
+from graphcam.errors import TaskError, UnreadableError
 from graphcam.exercises.definition.exercise import Exercise, Given
 from graphcam.exercises.photographs.read_photo import pairs
 from graphcam.exercises.reading.answer_values import Points, number, points
-from graphcam.exercises.reading.regular_file import UnreadableError, read_regular
+from graphcam.exercises.reading.regular_file import read_regular
 from graphcam.files import whole_file
 from graphcam.words import Words, bare_caption, say
 

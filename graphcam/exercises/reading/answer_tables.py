@@ -7,8 +7,8 @@ import re
 import tomllib
 from typing import Any
 
+from graphcam.errors import UnreadableError
 from graphcam.exercises.reading.answer_values import Points, decimal, short_text
-from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.typed_answers import mended
 from graphcam.words import say
 

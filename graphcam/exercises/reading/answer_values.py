@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.exercises.reading.regular_file import UnreadableError
+from graphcam.errors import UnreadableError
 from graphcam.words import Words, say
 
 Points = NDArray[np.complex128]
@@ -32,7 +32,7 @@ def number(name: str, value: object) -> float:
     >>> number("v_max", True)
     Traceback (most recent call last):
     ...
-    graphcam.exercises.reading.regular_file.UnreadableError: v_max is True, which is not a number
+    graphcam.errors.UnreadableError: v_max is True, which is not a number
     """
     # bool is an int in Python, not for a student.
     if isinstance(value, bool) or not isinstance(value, (int, float)):

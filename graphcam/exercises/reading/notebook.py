@@ -6,9 +6,9 @@ import warnings
 from collections.abc import Generator
 from typing import Any
 
+from graphcam.errors import UnreadableError
 from graphcam.exercises.reading.answer_tables import text_of
 from graphcam.exercises.reading.answer_values import short_text
-from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.reading.typed_answers import mended
 from graphcam.words import say
 

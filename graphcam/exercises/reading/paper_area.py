@@ -8,10 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from graphcam.errors import UnreadableError
 from graphcam.exercises.definition.exercise import Kind
 from graphcam.exercises.key.expected_answers import Expected
 from graphcam.exercises.reading.answer_values import Points
-from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.words import say
 
 MAX_SIZE_RATIO = 5.0
@@ -65,7 +65,7 @@ class PaperArea:
         >>> area.admit("pitch", np.array([300j, 6 + 308j]), marked=False)
         Traceback (most recent call last):
         ...
-        graphcam.exercises.reading.regular_file.UnreadableError: the drawing on the layer pitch lies far from where \
+        graphcam.errors.UnreadableError: the drawing on the layer pitch lies far from where \
 it should be, counted from the drawing's own zero; mark the origin of the paper by a POINT on the layer ORIGIN
         """
         sizes = [_size(_points(each)) for each in self.known]

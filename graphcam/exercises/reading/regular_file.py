@@ -5,25 +5,11 @@ import os
 import stat
 from collections.abc import Generator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 
-from graphcam.drafting.ink import Caption, say
+from graphcam.errors import UnreadableError
 from graphcam.file_descriptors import READ_FLAGS
-
-
-@dataclass(eq=False, repr=False)
-class UnreadableError(Exception):
-    """A submission that cannot be read; ``why`` is the sentence for the record.
-
-    >>> print(UnreadableError(say("{name} is empty", name="answers.toml")))
-    answers.toml is empty
-    """
-
-    why: Caption
-
-    def __str__(self) -> str:
-        return str(self.why)
+from graphcam.words import Caption, say
 
 
 def _closed_error(name: str) -> UnreadableError:

@@ -9,14 +9,15 @@ from typing import Any
 import numpy as np
 
 from graphcam.drafting.ink import Caption, say
+from graphcam.dxf_curves import read_layers
+from graphcam.errors import UnreadableError
 from graphcam.exercises.definition.exercise import Answers, AskedAnswer, Given
 from graphcam.exercises.reading.answer_tables import csv_values, toml_values
 from graphcam.exercises.reading.answer_values import number, points, short_text
 from graphcam.exercises.reading.drawn_layers import CadDrawing
-from graphcam.exercises.reading.dxf import read_dxf
 from graphcam.exercises.reading.notebook import cell_tags, code_cells, notebook_values
 from graphcam.exercises.reading.paper_area import PaperArea
-from graphcam.exercises.reading.regular_file import UnreadableError, open_folder, read_regular
+from graphcam.exercises.reading.regular_file import open_folder, read_regular
 from graphcam.exercises.reading.typed_answers import by_answer_names, left_commented, quantity
 
 TOML, CSV, NOTEBOOK, DXF = "answers.toml", "answers.csv", "answers.ipynb", "answers.dxf"
@@ -124,7 +125,7 @@ def from_files(
     drawing = None
     if DXF in files:
         try:
-            drawing = read_dxf(DXF, files[DXF])
+            drawing = CadDrawing(read_layers(DXF, files[DXF]))
         except UnreadableError as error:
             notes.append(error.why)
     return _answers(asked, given, drawing, notes, rooms or {})

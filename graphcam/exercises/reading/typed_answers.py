@@ -5,9 +5,10 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from graphcam.drafting.ink import Caption, say
+from graphcam.drafting.scale import plain_unit
+from graphcam.errors import UnreadableError
 from graphcam.exercises.definition.exercise import AskedAnswer
 from graphcam.exercises.reading.answer_values import MINUS_SIGN, decimal, short_text
-from graphcam.exercises.reading.regular_file import UnreadableError
 
 NUMBER = rf"[-+{MINUS_SIGN}]?(?:0|[1-9]\d{{0,14}})(?:[.,]\d{{1,15}})?"
 UNIT = r"[^\W\d_][^\s#=\"'\[\]\\,]{0,19}|[°(][^\s#=\"'\[\]\\,]{0,19}"
@@ -19,17 +20,6 @@ QUANTITY_PATTERN = re.compile(rf"\s*({NUMBER})\s*({UNIT})\s*")
 COMMENTED_PATTERN = re.compile(
     rf"[ \t]*#[ \t]*([A-Za-z][A-Za-z0-9_-]*)[ \t]*=[ \t]*({NUMBER}(?:[ \t]*(?:{UNIT}))?)[ \t]*\r?"
 )
-UNIT_NAMES = {
-    "мм": "mm",
-    "毫米": "mm",
-    "рад": "rad",
-    "弧度": "rad",
-    "град": "deg",
-    "độ": "deg",
-    "°": "deg",
-    "度": "deg",
-}
-"""Units as they are written in the languages of the sheets."""
 
 
 def mended(line: str) -> str:
@@ -54,16 +44,10 @@ def quantity(asked: AskedAnswer, text: str) -> float:
     said = QUANTITY_PATTERN.fullmatch(text)
     if said is None:
         return decimal(asked.name, text)
-    if _plain_unit(said[2]) != _plain_unit(asked.unit):
+    if plain_unit(said[2]) != plain_unit(asked.unit):
         values = {"answer": asked.name, "given": short_text(said[2]), "unit": asked.unit_caption or "1"}
         raise UnreadableError(say("{answer} has the unit {given}, but is asked in {unit}", **values))
     return decimal(asked.name, said[1])
-
-
-def _plain_unit(unit: str) -> str:
-    for other, usual in UNIT_NAMES.items():
-        unit = unit.replace(other, usual)
-    return re.sub(r"[()\s.]", "", unit).casefold()
 
 
 def by_answer_names(

@@ -6,9 +6,9 @@ from contextlib import suppress
 from typing import Any
 
 from graphcam.drafting.ink import Caption, say
+from graphcam.errors import UnreadableError
 from graphcam.exercises.reading.answer_values import short_text
 from graphcam.exercises.reading.notebook import cell_source, code_cells, notebook_values
-from graphcam.exercises.reading.regular_file import UnreadableError
 from graphcam.exercises.running.isolation_levels import MEBIBYTE, Level, ResourceLimits
 from graphcam.exercises.running.limited_process import RunEnd
 from graphcam.exercises.running.sandbox import run_cells

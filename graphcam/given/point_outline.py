@@ -1,0 +1,285 @@
+"""Cams given by points of their outline, measured or drawn, and what they do to a follower.
+
+The outline is the periodic cubic spline through the points over the length of their chords.  On its normal at every
+place lies the trace point of the follower that touches it there, at the radius of the roller; its distance from the cam
+centre tells where the follower stands, and the angle between that place and the trace point on the cam by how much the
+cam has turned.  A flat face stands as far from the cam centre as the tangent.  Where places compete, round a hollow
+that is sharper than the roller, the farthest outward holds the follower up.
+
+At 720 cam angles these displacements make the rows of a measured motion, which tells rests and turnings, and smooths
+what the tolerance permits: so the velocity is good, and the acceleration as good as that of a measured table.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property, singledispatch
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from graphcam.errors import DesignError, check_number
+from graphcam.given.b_splines import solve_banded
+from graphcam.given.follower import FlatFaced, Follower, Rotation, sense
+from graphcam.given.follower_on_cam import Complexes, trace
+from graphcam.given.laws import Floats
+from graphcam.given.measured import DEFAULT_TOLERANCE, MeasuredMotion, RowError, measured_motion
+from graphcam.given.motion import FULL_TURN
+from graphcam.words import Words, say
+
+MIN_POINTS, MAX_POINTS = 12, 100_000
+MAX_GAP_RATIO = 3.0
+"""The outline is closed if its last gap is at most so many times the widest of the others."""
+PERIODS = 24
+"""The spline through this many more points at either end is the periodic one: what is beyond fades by 0.27 a point."""
+ROW_COUNT = 720
+"""Cam angles at which the follower's place is found."""
+MIN_SAMPLES = 8 * ROW_COUNT
+"""Places of the outline, at least, between which those that the follower touches are found."""
+SECANT_STEPS = 4
+"""Steps from a place between two samples to the one that the follower touches."""
+MIN_LOST_SHARE = 1e-4
+"""A part of the lift, by which the straight line between two rows may pass beside the displacement."""
+MAX_RADIUS = 1e5
+"""Of a point [mm]."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class PointOutline:
+    """A closed outline through points, made by :func:`cam_through_points`; counter-clockwise round the cam centre.
+
+    points : (n,) complex [mm], the first one not repeated
+    """
+
+    points: Complexes
+
+    def __repr__(self) -> str:
+        return f"PointOutline of {self.points.size} points, radii {self.base_radius:.6g} to {self.outer_radius:.6g} mm"
+
+    @property
+    def base_radius(self) -> float:
+        """The radius of the point that is nearest to the cam centre [mm]."""
+        return float(np.abs(self.points).min())
+
+    @property
+    def outer_radius(self) -> float:
+        """The radius of the farthest point [mm]."""
+        return float(np.abs(self.points).max())
+
+    @cached_property
+    def _chords(self) -> Floats:
+        return np.abs(np.diff(np.append(self.points, self.points[0])))
+
+    @cached_property
+    def _bends(self) -> Complexes:
+        """(n,) the second derivatives of the spline at the points, by the length of chord."""
+        count = self.points.size
+        at = np.arange(-PERIODS, count + PERIODS + 1) % count
+        h, points = self._chords[at[:-1]], self.points[at]
+        slopes = np.diff(points) / h
+        band = np.array([2 * (h[:-1] + h[1:]), np.append(h[1:-1], 0.0)])
+        right = 6 * np.diff(slopes)
+        return (solve_banded(band, right.real) + 1j * solve_banded(band, right.imag))[PERIODS - 1 :][:count]
+
+    def __call__(self, place: Floats) -> tuple[Complexes, Complexes, Complexes]:
+        """Points and derivatives by the length of chord, at places such as 3.25, a quarter from point 3 to point 4."""
+        number = np.floor(place).astype(int)
+        u = place - number
+        k, following = number % self.points.size, (number + 1) % self.points.size
+        h, p, q, m, n = self._chords[k], self.points[k], self.points[following], self._bends[k], self._bends[following]
+        w = 1 - u
+        point = w * p + u * q + h**2 / 6 * ((w**3 - w) * m + (u**3 - u) * n)
+        slope = (q - p) / h + h / 6 * ((1 - 3 * w**2) * m + (3 * u**2 - 1) * n)
+        return point, slope, w * m + u * n
+
+    def outward(self, place: Floats) -> Complexes:
+        """The unit normals away from the cam."""
+        _, slope, _ = self(place)
+        return -1j * slope / np.abs(slope)
+
+    def hollow_radius(self, place: Floats) -> float:
+        """The least radius of curvature [mm] at hollow places among these; inf if there are none."""
+        _, slope, bend = self(place)
+        curvature = (np.conj(slope) * bend).imag / np.abs(slope) ** 3
+        sharpest = float(curvature.min())
+        return -1 / sharpest if sharpest < 0 else math.inf
+
+
+def cam_through_points(points: ArrayLike) -> PointOutline:
+    """The cam through points of its outline, as it lies at the cam angle 0, in order round the cam centre at 0.
+
+    points : (n,) complex or (n, 2) x, y [mm]; the last may repeat the first
+
+    Raises
+    ------
+    DesignError : too few or too many, not numbers, not in order round the cam centre, or the outline is open
+
+    >>> import graphcam as gc
+    >>> angle = np.radians(np.arange(0, 360, 2))
+    >>> disc = cam_through_points(5j + 30 * np.exp(1j * angle))
+    >>> disc
+    PointOutline of 180 points, radii 25 to 35 mm
+    >>> round(gc.outline_motion(disc, gc.Translating(roller_radius=10)).lift, 4)
+    10.0
+    """
+    try:
+        given = np.asarray(points)
+        z = given.astype(np.complex128) if given.ndim == 1 else given.astype(np.float64) @ np.array([1, 1j])
+    except (TypeError, ValueError, OverflowError):
+        limit = say("(n,) complex or (n, 2) x, y in mm")
+        raise DesignError("points", say("not of numbers"), limit, say("give a list of points")) from None
+    return PointOutline(_checked(np.asarray(z, dtype=np.complex128)))
+
+
+def _checked(z: Complexes) -> Complexes:
+    """The points counter-clockwise, the first not repeated."""
+    if z.ndim != 1 or not MIN_POINTS <= z.size <= MAX_POINTS:
+        limit = say("from {least} to {most}", least=MIN_POINTS, most=MAX_POINTS)
+        raise RowError(max(z.size - 1, 0), say("number of points"), z.size, limit, say("give more, or fewer"))
+    for k in np.flatnonzero(~(np.abs(z) <= MAX_RADIUS))[:1].tolist():
+        found, limit = say("{x:g}, {y:g}", x=z[k].real, y=z[k].imag), say("within {most:g} mm", most=MAX_RADIUS)
+        raise RowError(k, say("point"), found, limit, say("give lengths in mm from the cam centre"))
+    widest = float(np.abs(np.diff(z)).max())
+    if abs(z[-1] - z[0]) <= FULL_TURN * 1e-9 * widest:
+        z = z[:-1]
+    steps = np.angle(np.roll(z, -1) / np.where(z == 0, 1, z))
+    turn, last = float(steps.sum()), float(abs(z[-1] - z[0]))
+    if abs(turn) < FULL_TURN / 2:
+        limit, remedy = say("round the cam centre at (0, 0)"), say("count the coordinates from the cam's axis")
+        raise DesignError(say("outline"), say("beside the cam centre"), limit, remedy)
+    for k in np.flatnonzero(steps * turn <= 0)[:1].tolist():
+        row = (k + 1) % z.size
+        found, remedy = say("{x:g}, {y:g}", x=z[row].real, y=z[row].imag), say("sort the points, or thin them")
+        limit = say("one after the other round the cam centre, so that a ray meets the outline once")
+        raise RowError(row, say("point"), found, limit, remedy)
+    if last > MAX_GAP_RATIO * widest:
+        limit = say("at most {most:.4g} mm, as between the others", most=MAX_GAP_RATIO * widest)
+        gap = say("gap between the last point and the first")
+        raise RowError(z.size - 1, gap, say("{gap:.4g} mm", gap=last), limit, say("close the outline"))
+    return z if turn > 0 else z[::-1]
+
+
+# --- what it does to a follower --------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class TracedMotion(MeasuredMotion):
+    """The motion that a cam through points gives a follower; made by :func:`~graphcam.outline_motion`.
+
+    Attributes
+    ----------
+    outline : the cam
+    prime_radius : of the pitch curve, or of a flat face the base radius [mm]
+    """
+
+    outline: PointOutline
+    prime_radius: float
+
+    def _summary(self) -> str:
+        return f"{super()._summary()}, by a given cam"
+
+
+class Touching(NamedTuple):
+    """Where a follower stands that touches the outline: the cam angles [rad] and the displacements."""
+
+    phi: Floats
+    s: Floats
+
+
+def traced_motion(
+    outline: PointOutline, follower: Follower, rotation: Rotation, tolerance: float | None = None
+) -> TracedMotion:
+    """What a cam through points does to a follower; see :func:`~graphcam.outline_motion`."""
+    tolerance = DEFAULT_TOLERANCE if tolerance is None else tolerance
+    check_number("tolerance", tolerance, say("a finite number greater than 0"), above=0)
+    return _traced(follower, outline, sense(rotation), tolerance)
+
+
+@singledispatch
+def _traced(follower: Follower, outline: PointOutline, sigma: int, tolerance: float) -> TracedMotion:
+    way = trace(follower, outline.base_radius)
+    roller = way.prime_radius - outline.base_radius
+
+    def touching(place: Floats) -> Touching:
+        centre = outline(place)[0] + roller * outline.outward(place)
+        there = way.position(np.abs(centre))
+        return Touching(sigma * np.angle(there / centre), way.moved(there))
+
+    rows, covered = _rows(outline, touching, sigma, tolerance / way.arm)
+    if covered.size:
+        most = outline.hollow_radius(covered)
+        limit = say(
+            "at most {most:.4g} mm, the radius of the hollow at {angle}", most=most, angle=_at(outline, covered)
+        )
+        raise DesignError(say("roller radius"), say("{radius:.6g}", radius=roller), limit, say("take a smaller roller"))
+    return _through(outline, rows, tolerance / way.arm, way.at)
+
+
+@_traced.register
+def _(follower: FlatFaced, outline: PointOutline, sigma: int, tolerance: float) -> TracedMotion:
+    def touching(place: Floats) -> Touching:
+        normal = outline.outward(place)
+        return Touching(sigma * np.angle(1j / normal), (outline(place)[0] * np.conj(normal)).real)
+
+    rows, covered = _rows(outline, touching, sigma, tolerance)
+    if covered.size:
+        limit, remedy = say("rounded outwards under a flat face"), say("take a roller")
+        raise DesignError(say("outline"), say("hollow at {angle}", angle=_at(outline, covered)), limit, remedy)
+    return _through(outline, rows, tolerance, lambda level: level)
+
+
+def _at(outline: PointOutline, places: Floats) -> Words:
+    middle = np.angle(outline(places)[0][places.size // 2])
+    return say("{degrees:.4g}° on the cam", degrees=math.degrees(middle) % 360)
+
+
+def _rows(
+    outline: PointOutline, touching: Callable[[Floats], Touching], sigma: int, tolerance: float
+) -> tuple[Touching, Floats]:
+    """The rows of the motion over the turn, and the places of the outline that the follower does not reach.
+
+    touching : where the follower would stand if it touched the outline at places
+    """
+    between = math.ceil(MIN_SAMPLES / outline.points.size)
+    place = np.arange(outline.points.size * between + 1)[::-sigma] / between  # in the order in which they come
+    there = touching(place)
+    phi, s = np.unwrap(there.phi), there.s
+    step = FULL_TURN / ROW_COUNT
+    # Every row between two samples, whichever of them comes first; of those at one cam angle the highest counts.
+    low, high = (
+        np.ceil(ends / step).astype(int) for ends in (np.minimum(phi[:-1], phi[1:]), np.maximum(phi[:-1], phi[1:]))
+    )
+    count = high - low
+    k = np.repeat(np.arange(count.size), count)
+    row = np.arange(k.size) - np.repeat(np.cumsum(count) - count, count) + low[k]
+    share = (row * step - phi[k]) / (phi[k + 1] - phi[k])
+    height, row = s[k] + share * (s[k + 1] - s[k]), row % ROW_COUNT
+    highest = np.full(ROW_COUNT, -np.inf)
+    np.maximum.at(highest, row, height)
+    held = np.zeros(ROW_COUNT, dtype=int)
+    at_top = height == highest[row]
+    held[row[at_top]] = np.flatnonzero(at_top)
+    k, share, angles = k[held], share[held], step * np.arange(ROW_COUNT)
+    start, length = place[k], place[k + 1] - place[k]
+    for _ in range(SECANT_STEPS):
+        off = np.angle(np.exp(1j * (touching(start + share * length).phi - angles)))
+        share = np.clip(share - off / (phi[k + 1] - phi[k]), 0.0, 1.0)
+    rows = Touching(angles, touching(start + share * length).s)
+    if np.all(phi[1:] > phi[:-1]):
+        return rows, np.empty(0)
+    lost = np.interp(phi, angles, rows.s, period=FULL_TURN) - s
+    return rows, place[lost > max(tolerance, MIN_LOST_SHARE * float(np.ptp(s)))]
+
+
+def _through(
+    outline: PointOutline, rows: Touching, tolerance: float, radius_at: Callable[[float], float]
+) -> TracedMotion:
+    """The motion through the rows; radius_at : the prime radius [mm] of a level from which s is counted."""
+    s = rows.s - rows.s.min()
+    if not float(np.ptp(s)) > 2 * tolerance:
+        found, limit = say("round about the cam centre"), say("moving the follower by more than twice the tolerance")
+        raise DesignError(say("outline"), found, limit, say("check that the coordinates are in mm"))
+    motion = measured_motion(rows.phi, s, tolerance)
+    level = float(rows.s[0] - motion.measured[0])
+    return TracedMotion(motion.phases, motion.zero, rows.phi, motion.measured, tolerance, outline, radius_at(level))
