@@ -25,7 +25,7 @@ import numpy as np
 from IPython.display import Markdown
 
 import graphcam as gc
-from graphcam.notebooks import Question, chart, compared, picture_of, show_steps, table
+from graphcam.notebooks import Question, chart, compared, lesson_task, picture_of, show_steps, table
 
 # %% [markdown]
 # ## Background
@@ -113,7 +113,7 @@ assert [round(laws[name].peak_velocity, 3) for name in ("2-3", "cosine", "modifi
 # the drawings, numbers and questions of this notebook follow it.
 
 # %%
-task = gc.load_task("task.toml")
+task = lesson_task("task.toml", by_laws=True)
 table(("phase", "angle, °", "lift, mm", "law"),
       [(p.kind, p.angle, getattr(p, "lift", "–"), getattr(p, "law", "–")) for p in task.motion.phases], digits=0)
 
@@ -206,10 +206,10 @@ gc.studio(task, view="acceleration", stills={
 
 # %%
 mu_a = float(solution.drawn["integration"].readings["a"].scale)
-phases = [p for p in task.motion.phases if p.kind != "dwell"]
-exact = np.array([gc.law(p.law).peak_acceleration * p.lift / np.radians(p.angle) ** 2 for p in phases])
-table(("phase", "on paper, mm", "× μₐ", "exact, mm/rad²"), [
-    (phase.kind, float(y), float(y) * mu_a, float(a)) for phase, y, a in zip(phases, greatest, exact, strict=True)
+phases = [p for p in task.motion().phases if not isinstance(p, gc.Dwell)]
+exact = np.array([gc.law(p.law).peak_acceleration * p.lift / p.angle**2 for p in phases])
+table(("phase", "on paper, mm", "× μₐ", "exact"), [
+    (type(phase).__name__.lower(), float(y), float(y) * mu_a, float(a)) for phase, y, a in zip(phases, greatest, exact, strict=True)
 ])
 
 # %% [markdown]

@@ -31,6 +31,7 @@ from graphcam.notebooks import (
     changed,
     chart,
     compared,
+    lesson_task,
     picture_of,
     show_steps,
     table,
@@ -75,13 +76,13 @@ from graphcam.notebooks import (
 # The task of notebook 1, from the file `task.toml`:
 
 # %%
-task = gc.load_task("task.toml")
+task = lesson_task("task.toml", by_laws=True)
 solution = gc.solve(task)
 integration = solution.drawn["integration"]
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
-rising = next(phase for phase in task.motion.phases if phase.kind == "rise")
-parts, poles = task.drawing.divisions, task.drawing.poles
+rising = next(phase for phase in task.motion().phases if isinstance(phase, gc.Rise))
+parts, poles = solution.chain.spans[0].stop - 1, integration.givens.poles
 Markdown(f"Each phase has {parts} parts; the poles are {poles[0]:g} and {poles[1]:g} mm from the origin.")
 
 # %% [markdown]
@@ -203,7 +204,7 @@ show_steps(back, 2, 3, 4)
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 hands = differentiated(gc.Pencil.of(0.2, samples=400, seed=1))
-_, true_v, true_a, _ = task.motion()(np.linspace(0, np.radians(rising.angle) * (1 - 1e-9), 20001))
+_, true_v, true_a, _ = task.motion()(np.linspace(0, rising.angle * (1 - 1e-9), 20001))
 rows = []
 for name, exact in (("max_v", true_v.max()), ("max_a", np.abs(true_a).max())):
     ideal, by_hand = float(back.readings[name].value), hands.readings[name].value

@@ -30,7 +30,7 @@ import graphcam as gc
 from graphcam.drafting.hand import Hand, distance_between
 from graphcam.drafting.ink import say
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
-from graphcam.notebooks import Question, Slider, chart, compared, explore, picture_of, show_steps, table
+from graphcam.notebooks import Question, Slider, chart, compared, explore, lesson_task, picture_of, show_steps, table
 
 # %% [markdown]
 # ## Background
@@ -71,7 +71,7 @@ from graphcam.notebooks import Question, Slider, chart, compared, explore, pictu
 # notebook 4; here take it as given.
 
 # %%
-task = gc.load_task("task.toml")
+task = lesson_task("task.toml", follower="translating")
 solution = gc.solve(task)
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]

@@ -30,7 +30,7 @@ import graphcam as gc
 from graphcam.drafting.hand import Hand, distance_between
 from graphcam.drafting.ink import say
 from graphcam.drafting.meaning import Meaning, ReadingMeaning
-from graphcam.notebooks import Question, changed, show_steps, table
+from graphcam.notebooks import Question, changed, lesson_task, show_steps, table
 
 # %% [markdown]
 # ## Background: stop the cam
@@ -57,7 +57,7 @@ from graphcam.notebooks import Question, changed, show_steps, table
 # the radius $|e|$. So divide the offset circle, not the prime circle, and draw tangents.
 
 # %%
-task = gc.load_task("task.toml")
+task = lesson_task("task.toml", follower="translating")
 solution = gc.solve(task)
 show_steps(solution.drawn["inversion"], within=solution)
 

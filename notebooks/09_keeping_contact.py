@@ -28,7 +28,7 @@ from IPython.display import Markdown
 import graphcam as gc
 from graphcam.drafting.ink import reading
 from graphcam.mechanism.forces import jamming_angle
-from graphcam.notebooks import Question, Slider, changed, chart, explore, picture_of, show_steps, table
+from graphcam.notebooks import Question, Slider, changed, chart, explore, lesson_task, picture_of, show_steps, table
 from graphcam.tasks.task import SpringTable
 
 # %% [markdown]
@@ -55,7 +55,7 @@ from graphcam.tasks.task import SpringTable
 
 # %%
 speed, mass, stiffness = 400.0, 0.5, 3.0
-task = changed(gc.load_task("task.toml"), {"speed_rpm": speed, "spring": SpringTable(mass=mass, stiffness=stiffness)})
+task = changed(lesson_task("task.toml", follower="translating"), {"speed_rpm": speed, "spring": SpringTable(mass=mass, stiffness=stiffness)})
 solution = gc.solve(task)
 design = solution.spring
 omega = speed * 2 * np.pi / 60
@@ -84,11 +84,12 @@ Markdown(f"The spring is weakest, beside what is needed, at $\\varphi = {degrees
          f"but $m\\omega^2|a| = {inertia:.1f}$ N with $a = {worst_a:.1f}$ mm/rad². The missing {least.preload:.1f} N are the preload.")
 
 # %% [markdown]
-# **The same in one line**, from the readings of the drawing:
+# **The same in two lines**, from the readings of the drawing:
 
 # %%
 read = solution.drawn["integration"].readings
-print(f"minimum preload {max(-mass * omega**2 * read['a'].value / 1000 - stiffness * read['s'].value):.1f} N at the stations, {least.preload:.1f} N exactly")
+lowest_a = np.minimum(read["a_before"].value, read["a"].value)  # before and after a jump
+print(f"minimum preload {max(-mass * omega**2 * lowest_a / 1000 - stiffness * read['s'].value):.1f} N at the stations, {least.preload:.1f} N exactly")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(design.least.preload - least.preload) < 1e-9
@@ -123,7 +124,8 @@ def needed(inertias, springs=1.0):
 
 def drawn_preload(pencil):
     by_hand = solution.chain.by(pencil)["integration"].readings
-    forces = -4 * mass * omega**2 * by_hand["a"].value / 1000 - stiffness * by_hand["s"].value
+    lowest = np.minimum(by_hand["a_before"].value, by_hand["a"].value)
+    forces = -4 * mass * omega**2 * lowest / 1000 - stiffness * by_hand["s"].value
     return reading(forces.max(axis=-1), 1.0, "N")
 
 
@@ -236,10 +238,13 @@ table(("μ", "minimum τ", "maximum N, N", "there α, °", "mean M, N·m"), rows
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(rows[0][-1]) < 1e-9 < rows[1][-1] < rows[2][-1]
 assert all(row[1] > 0 for row in rows)
-assert all((row[2] < rows[0][2]) == (row[3] < 0) for row in rows[1:])
+turn = np.radians(np.arange(0.5, 360))
+alpha, dry, oiled = rubbing.cam.pressure_angle(turn), rubbing.spring.forces.at(turn).normal, smooth.at(turn).normal
+assert np.all((dry < oiled)[(alpha < -0.1) & (oiled > 1)])
+assert np.all((dry > oiled)[(alpha > 0.1) & (oiled > 1)])
 
 # %% [markdown]
-# Where the maximum normal force lies on the return, with a negative $\alpha$, it *falls* with friction, which carries part of the load there. On the rise it grows.
+# Where $\alpha$ is negative, on the return, the normal force *falls* with friction, which carries part of the load there. On the rise it grows.
 #
 # At a station the load along the motion is $Q = 100$ N, the pressure angle 30° and $\mu = 0.2$. How large is the normal force?
 

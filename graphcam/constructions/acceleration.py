@@ -458,8 +458,9 @@ def _divided_phase(diagram: AccelerationDiagram, k: int) -> Iterator[Part]:
     yield Part(raised.with_values(phase=title, ordinates=sequence(told, "; ")), lines)
 
 
-DIMENSION_OFFSET = 6.0
-"""The dimension of the greatest ordinate stands so far beyond the part of the curve that is on its side [mm]."""
+DIMENSION_OFFSET, MIN_DIMENSION_OFFSET = 6.0, 3.0
+"""The dimension of the greatest ordinate stands so far beyond the part of the curve that is on its side [mm]; at least
+so far."""
 
 
 def _dimension(diagram: AccelerationDiagram, k: int, law: _LawOverPhase, curve: Drawn) -> Dimension:
@@ -470,7 +471,10 @@ def _dimension(diagram: AccelerationDiagram, k: int, law: _LawOverPhase, curve: 
     # A curve is drawn through points, of which none need be its highest.
     top = complex(line.real[np.flatnonzero(height >= (1 - SAME_ORDINATE) * height.max())[-1]], side * law.greatest)
     crossing = float(line.real[np.flatnonzero(height > SAME_ORDINATE * height.max())[-1]])
-    by = crossing + min(DIMENSION_OFFSET, (float(line.real[-1]) - crossing) / 2) - top.real
+    room = (float(line.real[-1]) - crossing) / 2
+    # Where the curve ends on this side, its dimension stands beyond the end: on the curve's own upright it cannot.
+    by = crossing + (min(DIMENSION_OFFSET, room) if room >= MIN_DIMENSION_OFFSET else 2 * room + DIMENSION_OFFSET)
+    by -= top.real
     # To the right of an ordinate that points up is on the negative side of its dimension.
     aside, text = -by if top.imag > 0 else by, say("{y:.1f}", y=law.greatest)
     return Dimension(complex(top.real), top, text, aside, of=of.act, index=of.index[[k]])

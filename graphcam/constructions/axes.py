@@ -405,18 +405,6 @@ def clear_numbers(points: Points, stations: Stations, beside: Points) -> NDArray
     return clear
 
 
-def height_names(heights: Drawn, names: Sequence[str]) -> tuple[Mark, ...]:
-    """Names beside heights on the vertical axis, on the side of the other axis but clear of it, as many as find room.
-
-    Those farthest from the origin come first, and so find the nearest places.
-    """
-    y, named = heights.shown.imag, list[int]()
-    for k in np.argsort(-np.abs(y), kind="stable").tolist():
-        if all(abs(y[k] - other) >= NUMBER_ROOM[1] for other in (0.0, *y[named])):
-            named.append(k)
-    return tuple(heights[k].label(names[k], 1 - (UP if y[k] > 0 else -UP), small=True) for k in named)
-
-
 def pieces_of(motion: Motion, stations: Stations, direction: int) -> list[slice]:
     """The smooth pieces of the rises (1) or of the returns (-1), as slices of the stations."""
     return [p for p in stations.pieces if motion.phases[int(stations.phase[p.start])].direction == direction]

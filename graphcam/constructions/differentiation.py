@@ -23,10 +23,11 @@ from graphcam.constructions.axes import (
     pole_marks,
 )
 from graphcam.constructions.graduation import (
+    close_ends_caption,
     coinciding_heights,
     graduation_marks,
     height_caption,
-    numbering_step,
+    ranges,
     ray_numbers,
     row_numbers,
     run_of_chord,
@@ -459,11 +460,12 @@ def _with_rays(run: _Pass) -> Step:
     groups, distance = coinciding_heights(heights), c.givens.poles[run.number - 1]
     kept, index = [int(group[0]) for group in groups], f"{run.number}".translate(SUBSCRIPTS)
     pole = pole_marks(c.acts[f"P{run.number}"], distance, index, heights.shown.imag)
+    reach, shared_by = np.array([derived.shown.real[group].max() for group in groups]), [g.tolist() for g in groups]
     axes, outward = (*_axes(c, run.target), *pole), np.where(derived.shown.imag < 0, -UP, UP)
     carried = (
         Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act, index=rays.index[kept]),
         *(derived.segments_from(heights, Role.CONSTRUCTION), derived.dots(Role.CONSTRUCTION)),
-        *ray_numbers(heights, run.first_slope_number, groups, numbering_step(derived.shown)),
+        *ray_numbers(heights[kept], reach, shared_by, lambda slopes: ranges(run.first_slope_number + np.array(slopes))),
         *row_numbers(derived, run.first_slope_number, outward),
     )
     why = say(
@@ -483,6 +485,7 @@ def _with_rays(run: _Pass) -> Step:
             "the T-square carry that height to the vertical in the middle of chord {name}: point {name} of {target}."
         )
     shared = [say("Slopes that are parallel share a ray.")] if len(groups) < rays.shown.size else []
+    shared += close_ends_caption(heights[kept])
     said = run.told(set_off, ray, say("Repeat for the others, {count} in all."), *shared)
     part = telling.run(said, say("Ray {name}"), run.names, rays, heights, derived, settings=run.height)
     title, marks = say("Pole and rays, {source} to {target}"), (*axes, *carried)

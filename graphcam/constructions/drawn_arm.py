@@ -17,14 +17,7 @@ from graphcam.constructions.arm_pressure_angle import arm_pressure_angle
 from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.board import DrawnFollower, FollowerLoads, FollowerSize, Values, roller_sentences
 from graphcam.constructions.cam_analysis import AnalysisGivens
-from graphcam.constructions.kinematic_sketch import (
-    bearing,
-    edge,
-    link,
-    low_point,
-    plain_cam,
-    size,
-)
+from graphcam.constructions.kinematic_sketch import bearing, edge, link, low_point, plain_cam, size
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.marks import Arc, Label, Line, Mark, Points, Role
 from graphcam.drafting.pencil import Pencil

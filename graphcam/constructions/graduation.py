@@ -5,7 +5,8 @@ velocity, acceleration and jerk are mu_v omega, mu_a omega^2 and mu_j omega^3.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -198,8 +199,8 @@ def graduated_at_speed(
 
 NUMBERS_ROOM = 12.0
 """Places stand at least so far apart that are numbered [mm]: points and chords have numbers beside one another."""
-RAYS_ROOM = 5.0
-"""Heights of rays stand at least so far apart that are numbered [mm]."""
+RAYS_ROOM = 2.5
+"""Ends of rays that are less apart have their numbers side by side [mm of paper]."""
 HEIGHT_DECIMALS = 3
 """Decimals of a millimetre: rays that end no farther apart fall on one line, and are drawn once."""
 
@@ -230,18 +231,40 @@ def coinciding_heights(heights: Drawn) -> list[NDArray[np.intp]]:
     return [np.flatnonzero(of == level) for level in range(levels.size)]
 
 
-def ray_numbers(heights: Drawn, first: int, groups: Sequence[NDArray[np.intp]], every: int) -> Iterator[Label]:
-    """The numbers of rays at their ends, as far as there is room: a ray bears those of all that fall on it.
+def ray_numbers(
+    ends: Drawn, reach: Floats, rays: Sequence[Sequence[int]], told: Callable[[list[int]], str]
+) -> tuple[Label, ...]:
+    """The numbers of rays in the lines that are carried level from their ends.
 
-    first : the number of the first ray;  groups : as :func:`coinciding_heights` finds them
-    every : so many-th are numbered elsewhere: rays of other numbers have none
+    Rays that end close together, or on one another, have theirs side by side.
+
+    ends : (n,) on the vertical axis
+    reach : (n,) how far to the right the level lines run [mm of paper]
+    rays : the rays that end there, by their numbers;  told : names several of them
     """
-    below = -math.inf
-    for group in groups:
-        end = heights[int(group[0])]
-        if end.place.imag - below >= RAYS_ROOM and np.any((first + group) % every == 0):
-            yield end.label(ranges(first + group), -1 + 0j, small=True)
-            below = end.place.imag
+    labels: list[Label] = []
+    for run in close_ends(ends):
+        k = run[len(run) // 2]
+        label = ends[k].label(told(sorted(ray for end in run for ray in rays[end])), RIGHT + 0j, small=True)
+        labels.append(replace(label, along=float(reach[k])))
+    return tuple(labels)
+
+
+def close_ends(ends: Drawn) -> list[list[int]]:
+    """The ends of rays on an axis from the lowest to the highest, those together that are less than a letter apart."""
+    heights, runs = ends.shown.imag, list[list[int]]()
+    for k in np.argsort(heights, kind="stable").tolist():
+        if runs and heights[k] - heights[runs[-1][0]] < RAYS_ROOM:
+            runs[-1].append(k)
+        else:
+            runs.append([k])
+    return runs
+
+
+def close_ends_caption(ends: Drawn) -> tuple[Caption, ...]:
+    """A sentence on the numbers of rays that end close together, where there are any."""
+    said = say("Rays that end less than {room:g} mm apart have their numbers side by side.", room=RAYS_ROOM)
+    return (said,) if len(close_ends(ends)) < ends.shown.size else ()
 
 
 def ranges(numbers: NDArray[np.intp]) -> str:

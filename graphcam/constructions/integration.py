@@ -16,7 +16,6 @@ from graphcam.constructions.acceleration import AccelerationDiagram, moving_phas
 from graphcam.constructions.axes import (
     SUBSCRIPTS,
     first_at_height,
-    height_names,
     joined_parts,
     number_labels,
     ordinate_title,
@@ -26,7 +25,13 @@ from graphcam.constructions.axes import (
     station_names,
 )
 from graphcam.constructions.curve_over_phi import CONTINUOUS_TANGENT, CORNER, curve_over_phi
-from graphcam.constructions.graduation import graduated_at_speed, graduation_marks, time_scale_caption
+from graphcam.constructions.graduation import (
+    close_ends_caption,
+    graduated_at_speed,
+    graduation_marks,
+    ray_numbers,
+    time_scale_caption,
+)
 from graphcam.constructions.pole_scales import PoleTerms, pole_formula
 from graphcam.constructions.turn_board import TurnGivens
 from graphcam.constructions.views import ACCELERATION, DISPLACEMENT, VELOCITY
@@ -373,7 +378,7 @@ def _draw_rays(c: Integrated, run: _Integrating) -> Step:
         *(places.dots(Role.CONSTRUCTION) for places in halves),
         Segments(projected.points, reach + projected.points, Role.CONSTRUCTION).left_by(projected),
         rays.first[kept].segments(Role.CONSTRUCTION),
-        *height_names(projected, names),
+        *ray_numbers(projected, reach, same, partial(joined_parts, stations=stations)),
     )
     marked = say("Mark the pole P{index} on the axis, H{index} = {distance:.1f} mm to the left of 0.")
     marked = marked.with_values(index=run.subscript, distance=distance)
@@ -385,7 +390,8 @@ def _draw_rays(c: Integrated, run: _Integrating) -> Step:
         )
         for k, own, name in zip(kept, same, names, strict=True)
     )
-    said = sequence([run.carried.with_values(source=source), rows[min(2, len(rows) - 1)].caption], " ")
+    carried = run.carried.with_values(source=source), *close_ends_caption(projected)
+    said = sequence([*carried, rows[min(2, len(rows) - 1)].caption], " ")
     why = say(
         "A ray rises by the ordinate y over the distance H, so its slope y/H is the slope that {target} has there."
     ).with_values(target=target)

@@ -8,6 +8,7 @@ Where the acceleration jumps, the jerk is infinite: an arrow stands for it.
 """
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -15,7 +16,6 @@ from graphcam.constructions.axes import (
     ARROW_OVERHANG,
     MIN_INFINITE_ARROW,
     degrees,
-    height_names,
     height_range,
     joined_parts,
     ordinate_title,
@@ -25,10 +25,12 @@ from graphcam.constructions.axes import (
     station_names,
 )
 from graphcam.constructions.graduation import (
+    close_ends_caption,
     coinciding_heights,
     graduated_at_speed,
     graduation_marks,
     height_caption,
+    ray_numbers,
     run_of_chord,
     time_scale_caption,
 )
@@ -204,11 +206,11 @@ def _with_rays(c: DrawnJerk) -> Step:
     groups = coinciding_heights(heights)
     kept = [int(group[0]) for group in groups]
     axes = (*givens.axes("j", _heights(c)), *pole)
-    told = [joined_parts(group.tolist(), givens.stations) for group in groups]
+    reach, shared_by = np.array([found.shown.real[group].max() for group in groups]), [g.tolist() for g in groups]
     marks = (
         Segments(rays.shown[kept], heights.shown[kept], Role.CONSTRUCTION, of=rays.act, index=rays.index[kept]),
         *(found.segments_from(heights, Role.CONSTRUCTION), found.dots(Role.CONSTRUCTION)),
-        *height_names(heights[kept], told),
+        *ray_numbers(heights[kept], reach, shared_by, partial(joined_parts, stations=givens.stations)),
     )
     ends = [height_caption(y, say("at the origin")) for y in heights.shown.imag.tolist()]
     said = say(
@@ -216,6 +218,7 @@ def _with_rays(c: DrawnJerk) -> Step:
         "to P₃ and draw the ray, parallel to the chord, as far as the vertical axis; with the T-square carry the level "
         "of its end to the vertical in the middle of the part. Ray {name} ends {height}."
     ).with_values(distance=distance, name=names[k], height=ends[k])
+    said = sequence([said, *close_ends_caption(heights[kept])], " ")
     part = telling.run(said, say("Ray {name}"), names, rays, heights, found, settings=ends.__getitem__)
     why = say("The triangle of pole, origin and height has the slope of the chord, so the height is H₃ times it.")
     title, under = say("Pole and rays, a to j"), givens.degrees_under(_heights(c))

@@ -36,7 +36,7 @@ class Role(StrEnum):
     AXIS = "axis"  # thin, dash-dot: centre lines, the line of motion
     HIDDEN = "hidden"  # thin, dashed: alternatives that are not taken
     SCALE = "scale"  # thin: coordinate axes with their divisions
-    CURVE = "curve"  # medium: plotted and faired curves
+    CURVE = "curve"  # thin and black: plotted and faired curves
     LIMIT = "limit"  # medium, the accent: lines at a limit, and what binds
     RESULT = "result"  # bold: what the construction was drawn for
 
@@ -127,12 +127,16 @@ class Arrow(Left):
 
 @dataclass(frozen=True)
 class Label(Left):
-    """A name or a number beside ``at``; the sheet finds it a free place, first in the direction ``towards``."""
+    """A name or a number beside ``at``; the sheet finds it a free place, first in the direction ``towards``.
+
+    along : how far a line runs level to the right from ``at``, which the text had better interrupt [mm]
+    """
 
     at: complex
     text: Words
     towards: complex = 1 + 1j
     small: bool = False
+    along: float = 0.0
 
 
 @dataclass(frozen=True)

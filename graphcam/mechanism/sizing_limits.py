@@ -42,6 +42,8 @@ PIECE_PLACES = 24
 """Places on every smooth piece with which the search begins ..."""
 TOTAL_PLACES, MIN_PIECE_PLACES = 300, 3
 """Places in all where there are many pieces, and the minimum on each; the search adds what it needs."""
+POSSIBLE_SHARE = 0.999
+"""Rollers and offsets of a search are at most this part of the prime radius, which they must not reach."""
 NO_UNDERCUT_RULE = Candidate("rho", "rho")
 """What every cam must keep: the roller is no larger than the radius of curvature."""
 
@@ -183,6 +185,13 @@ def margins(limits: SizingLimits, places: TurnPlaces, sizes: Sizes, sigma: int) 
 
     returns : by the names of :data:`LIMITS`, each (..., n)
     """
+    possible = (np.abs(sizes.offset) < sizes.radius) & (np.asarray(sizes.roller) < sizes.radius)
+    if not np.all(possible):
+        whole = replace(
+            sizes, offset=np.where(possible, sizes.offset, 0.0), roller=np.where(possible, sizes.roller, 0.0)
+        )
+        left = margins(limits, places, whole, sigma)
+        return {name: np.where(possible, margin, -1.0) for name, margin in left.items()}
     at = Bearing.of(limits, places, sizes, sigma)
 
     def angle(permitted: float | None, direction: int) -> Floats:
@@ -243,13 +252,56 @@ class SizingProblem:
                 found = say("{low:g} to {high:g} mm", low=low, high=high)
                 limit = say("from a size to one that is not smaller")
                 raise DesignError(say("range of the {name}", name=name), found, limit)
-        least = self.radius[0] + self._offset_radius(self.roller_radius[0])
-        roller = 0.0 if self.measure == "base radius" else self.roller_radius[1]
-        for quantity, most in (("offset", max(map(abs, self.offset))), (say("roller radius"), roller)):
-            if not most < least:
-                limit = say("less than the minimum prime radius of {least:g} mm", least=least)
-                found, remedy = say("up to {most:g} mm", most=most), say("no such cam could be made")
+        most = self.radius[1] + self._offset_radius(self.roller_radius[1])
+        roller = 0.0 if self.measure == "base radius" else self.roller_radius[0]
+        for quantity, least in (("offset", self._least_offset), (say("roller radius"), roller)):
+            if not least < POSSIBLE_SHARE * most:
+                limit = say("less than the maximum prime radius of {most:g} mm", most=most)
+                found, remedy = say("from {least:g} mm on", least=least), say("no such cam could be made")
                 raise DesignError(say("range of the {quantity}", quantity=quantity), found, limit, remedy)
+
+    @property
+    def _least_offset(self) -> float:
+        """The least magnitude of an offset in its range [mm]."""
+        low, high = self.offset
+        return max(low, -high, 0.0)
+
+    @property
+    def radius_ends(self) -> Range:
+        """The range of the radius [mm], from the least on with which some offset and some roller make a cam."""
+        low, high = self.radius
+        roller = self.roller_radius[0] / POSSIBLE_SHARE if self.measure == "prime radius" else 0.0
+        offset = self._least_offset / POSSIBLE_SHARE - self._offset_radius(self.roller_radius[1])
+        return min(max(low, roller, offset), high), high
+
+    def at_shares(self, radius: Any, offset: Any, roller: Any, width: Any) -> Sizes:
+        """The sizes at shares 0 to 1 of their ranges, as far as these make a cam; the width in mm."""
+        low, high = self.radius_ends
+        measured = low + radius * (high - low)
+        low, high = self._roller_ends(measured)
+        drawn = low + roller * (high - low)
+        low, high = self._offset_ends(measured + self._offset_radius(drawn))
+        return self.sizes(measured, low + offset * (high - low), drawn, width)
+
+    def shares(self, sizes: Sizes) -> tuple[float, float, float]:
+        """At which shares of the ranges sizes lie; 0 in a range that holds nothing else."""
+        measured, offset, roller, _ = self.values(sizes)
+        ends = self.radius_ends, self._offset_ends(sizes.radius), self._roller_ends(measured)
+        found = [
+            min(max((value - low) / (high - low), 0.0), 1.0) if high > low else 0.0
+            for value, (low, high) in zip((measured, offset, roller), ends, strict=True)
+        ]
+        return found[0], found[1], found[2]
+
+    def _roller_ends(self, measured: Any) -> tuple[Any, Any]:
+        """The range of the roller [mm]: it is smaller than the prime radius."""
+        low, high = self.roller_radius
+        return (low, high) if self.measure == "base radius" else (low, np.minimum(high, POSSIBLE_SHARE * measured))
+
+    def _offset_ends(self, prime_radius: Any) -> tuple[Any, Any]:
+        """The range of the offset [mm]: it is smaller than the prime radius."""
+        low, high = self.offset
+        return np.maximum(low, -POSSIBLE_SHARE * prime_radius), np.minimum(high, POSSIBLE_SHARE * prime_radius)
 
     @property
     def ranges(self) -> dict[str, Range]:

@@ -106,7 +106,7 @@ def polished(problem: SizingProblem, sizes: Sizes) -> Sizes:
 
     low, high = sizes.radius * (1 - MAX_LAST_MOVE), sizes.radius * (1 + MAX_LAST_MOVE)
     _, *others = problem.values(sizes)
-    low = max(low, float(problem.sizes(problem.radius[0], others[0], others[1], others[2]).radius))
+    low = max(low, float(problem.sizes(problem.radius_ends[0], others[0], others[1], others[2]).radius))
     if left(low) >= 0:
         return replace(sizes, radius=low)
     if left(high) < 0:
@@ -128,16 +128,19 @@ def _least_margin(problem: SizingProblem, sizes: Sizes, names: Collection[str]) 
 
 def _starts(problem: SizingProblem, goal: Goal, names: Collection[str] = LIMITS) -> list[Sizes]:
     """The best cams of a coarse grid that keep the limits, or those that exceed them least."""
-    ranges = list(problem.ranges.values())[:3]
-    axes = [np.linspace(low, high, n if high > low else 1) for (low, high), n in zip(ranges, GRID_SHAPE, strict=True)]
-    radius, offset, roller = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
+    ranges = problem.radius_ends, problem.offset, problem.roller_radius
+    axes = [np.linspace(0, 1, n if high > low else 1) for (low, high), n in zip(ranges, GRID_SHAPE, strict=True)]
+    shares = [axis.reshape(-1, 1) for axis in np.meshgrid(*axes, indexing="ij")]
     places, widest = TurnPlaces.spread(problem.motion, problem.load), problem.face_width[1]
-    grid = problem.sizes(radius[:, None], offset[:, None], roller[:, None], widest)
+    grid = problem.at_shares(shares[0], shares[1], shares[2], widest)
     left = problem.margins(places, grid)
     worst = np.min([left[name].min(axis=-1) for name in names], axis=0)
-    wanted = {"radius": radius, "width": problem.needed_width(places, grid).max(axis=-1), "room": -worst}[goal]
+    radius, offset, roller = (np.ravel(size) for size in np.broadcast_arrays(grid.radius, grid.offset, grid.roller))
+    wanted = {"radius": shares[0].ravel(), "width": problem.needed_width(places, grid).max(axis=-1), "room": -worst}[
+        goal
+    ]
     order = np.lexsort((-worst, np.where(worst >= 0, wanted, np.inf)))
-    return [problem.sizes(float(radius[k]), float(offset[k]), float(roller[k]), widest) for k in order[:START_COUNT]]
+    return [Sizes(float(radius[k]), float(offset[k]), float(roller[k]), widest) for k in order[:START_COUNT]]
 
 
 def _solve(
@@ -147,17 +150,17 @@ def _solve(
     from scipy.optimize import minimize
 
     widest = problem.face_width[1]
-    *ranges, _ = problem.ranges.values()
-    low, high = np.array(
-        [*ranges, (MIN_WIDTH_SHARE * widest if goal == "width" else widest, widest)], dtype=np.float64
-    ).T
-    free = high > low
+    least = MIN_WIDTH_SHARE * widest if goal == "width" else widest
+    ranges = problem.radius_ends, problem.offset, problem.roller_radius, (least, widest)
+    free = np.array([high > low for low, high in ranges])
     count, room = int(np.count_nonzero(free)), goal == "room"
 
     def sizes(t: Floats) -> Sizes:
-        x = low.copy()
-        x[free] += t[:count] * (high - low)[free]
-        return problem.sizes(*map(float, x))
+        shares = np.zeros(free.size)
+        shares[free] = t[:count]
+        radius, offset, roller, width = shares.tolist()
+        found = problem.at_shares(radius, offset, roller, least + width * (widest - least))
+        return Sizes(float(found.radius), float(found.offset), float(found.roller), found.width)
 
     def left(t: Floats) -> Floats:
         """What is left of every limit at every place, as a part of it, beyond the room that is sought."""
@@ -165,8 +168,8 @@ def _solve(
         of_all = np.concatenate([margin[np.isfinite(margin)] for name in names for margin in [found[name]]])
         return of_all - (t[count] if room else WIDTH_SLACK if goal == "width" else 0.0)
 
-    x = np.array(problem.values(start))
-    parts = np.clip((x - low)[free] / (high - low)[free], 0, 1)
+    width = (start.width - least) / (widest - least) if free[3] else 0.0
+    parts = np.array([*problem.shares(start), min(max(width, 0.0), 1.0)])[free]
     if not room:
         k = int(np.count_nonzero(free[: 0 if goal == "radius" else 3]))
         begin, bounds, slope = parts, [(0.0, 1.0)] * count, np.eye(count)[k]

@@ -3,7 +3,8 @@
 In a notebook: :func:`~graphcam.notebooks.construction_stages.show_steps` and
 :func:`~graphcam.notebooks.construction_stages.drawing`, :func:`~graphcam.notebooks.shown_tables.compared`,
 :func:`~graphcam.notebooks.construction_stages.chart`, :class:`~graphcam.notebooks.question.Question`,
-:func:`~graphcam.notebooks.explore.explore` and :func:`~graphcam.notebooks.explore.changed`.
+:func:`~graphcam.notebooks.explore.explore`, :func:`~graphcam.notebooks.explore.changed` and
+:func:`~graphcam.notebooks.explore.lesson_task`.
 
 The drawings are those of :mod:`graphcam.sheets`: the same marks, the same renderer.
 """
@@ -17,7 +18,7 @@ from graphcam.notebooks.construction_stages import (
     player,
     show_steps,
 )
-from graphcam.notebooks.explore import Slider, changed, explore
+from graphcam.notebooks.explore import Slider, changed, explore, lesson_task
 from graphcam.notebooks.question import Question
 from graphcam.notebooks.shown_tables import compared, error_budget, table
 
@@ -31,6 +32,7 @@ __all__ = [
     "drawing",
     "error_budget",
     "explore",
+    "lesson_task",
     "picture_of",
     "picture_of_page",
     "player",

@@ -4,9 +4,12 @@ import dataclasses
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
+from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
 from graphcam.errors import DesignError, nearest_word_remedy
+from graphcam.tasks.task import Task
+from graphcam.tasks.task_file import builtin_task, load_task
 from graphcam.words import say
 
 WIDGET_VIEW = "application/vnd.jupyter.widget-view+json"
@@ -137,3 +140,24 @@ def _replaced(table: Any, name: str, path: list[str], value: Any) -> Any:
     if path[1:]:
         value = _replaced(getattr(table, path[0]), name, path[1:], value)
     return dataclasses.replace(table, **{path[0]: value})
+
+
+def lesson_task(file: Path | str, *, follower: str | None = None, by_laws: bool = False) -> Task:
+    """The task of a lesson; where it is not what the lesson needs, the built-in cam by another law: a line says so.
+
+    follower : the kind that is needed; by_laws : whether a motion by laws is
+    """
+    task = load_task(file)
+    if (
+        isinstance(task, Task)
+        and follower in (None, task.follower.kind)
+        and (task.motion.phases is not None or not by_laws)
+    ):
+        return task
+    needed = say("This lesson needs another follower, or a motion by laws: it goes on with the built-in cam.")
+    from IPython.display import Markdown, display
+
+    display(Markdown(f"> {task.drawing.tell(needed)}"))
+    cam = builtin_task()
+    by_law = [changed(phase, {"law": "3-4-5"}) if phase.kind != "dwell" else phase for phase in cam.motion.phases or ()]
+    return changed(cam, {"motion.phases": tuple(by_law)})

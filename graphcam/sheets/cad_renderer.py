@@ -22,7 +22,7 @@ from graphcam.sheets import dxf_renderer as dxf
 from graphcam.sheets.dxf_renderer import TEXT_STYLE, draw, layer, set_text, xy
 from graphcam.sheets.mark_entities import EXTENSION_GAP, EXTENSION_OVERRUN
 from graphcam.sheets.model import Angle, Drawing, Group, Length, Text
-from graphcam.subscripts import parts
+from graphcam.sheets.text_measures import letters_of
 
 DIMENSION_STYLE = "GRAPHCAM"
 ARROW_HEAD_LENGTH = 3.5
@@ -87,8 +87,8 @@ def _measurable(measured: Length | Angle) -> bool:
 
 
 def _stands_along(text: Text, measured: Length | Angle) -> bool:
-    """Whether a text stands along its dimension line, where every reader sets it, and has no index."""
-    if isinstance(measured, Angle) or any(index for _, index in parts(text.text)):
+    """Whether a text stands along its dimension line, where every reader sets it, in one piece."""
+    if isinstance(measured, Angle) or len(letters_of(text.text, text.height)) > 1:
         return False
     across = cmath.rect(1.0, text.angle) / (measured.end - measured.start)
     return abs(across.imag) < PARALLEL * abs(across)

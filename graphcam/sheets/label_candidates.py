@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.drafting.marks import Points
-from graphcam.sheets.model import Angle, Length, Source, Text
+from graphcam.sheets.model import Angle, Box, Length, Source, Text
 from graphcam.sheets.text_measures import extent
 
 Floats = NDArray[np.float64]
@@ -25,6 +25,8 @@ LEADER_TEXT_GAP = 2.0
 """The gap between a dimension line and a text on a leader from it [mm]."""
 TEXT_FRACTIONS = np.array([0.5, 0.42, 0.58, 0.3, 0.7, 0.18, 0.82])
 """The fractions of a dimension line at which its text may stand, the middle first."""
+IN_LINE_GAP, IN_LINE_STEP, IN_LINE_COST = 1.5, 2.0, 0.3
+"""The gap between the end of a line and a text in it, the step between its places [mm], and their cost for each mm."""
 LABEL_DIRECTIONS: Points = np.exp(1j * np.radians(np.arange(0.0, 360.0, 22.5)))
 
 
@@ -39,6 +41,7 @@ class LabelText:
     bound : whether the text belongs to a line, not to a point: such texts choose first
     of : the dimension to which the text belongs
     source : the act that it names
+    barred : the boxes of other views, which neither the text nor its leader enters
     """
 
     text: str
@@ -50,6 +53,7 @@ class LabelText:
     bound: bool = False
     of: Length | Angle | None = None
     source: Source | None = None
+    barred: tuple[Box, ...] = ()
 
     @property
     def size(self) -> complex:
@@ -128,6 +132,14 @@ def _point_label_places(favourite: complex) -> _PointLabelPlaces:
     side = np.clip(1.6 * directions.real, -1, 1) + 1j * np.clip(1.6 * directions.imag, -1, 1)
     ways, sides = (LABEL_GAPS[:, None] * directions).ravel(), np.tile(side, len(LABEL_GAPS))
     return _PointLabelPlaces(ways[order], sides[order], np.repeat(far, len(directions))[order], cost[order])
+
+
+def label_in_line(label: LabelText, start: complex, length: float) -> LabelText:
+    """The text with places in a level line of a length, which it interrupts, the first one near its start."""
+    shifts = np.arange(IN_LINE_GAP, length - label.size.real - IN_LINE_GAP, IN_LINE_STEP)
+    if not shifts.size:
+        return label
+    return label.on_line(start + shifts + label.size.real / 2, 0.0, IN_LINE_COST * shifts, dearer=80)
 
 
 def label_along_arc(centre: complex, radius: float, start: float, end: float, text: str, height: float) -> LabelText:

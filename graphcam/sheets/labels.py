@@ -29,22 +29,20 @@ from graphcam.sheets.label_candidates import Floats, LabelText
 from graphcam.sheets.mark_entities import Drawn
 from graphcam.sheets.model import ArcEntity, Box, Circles, Entity, Stroke, Strokes, Text
 from graphcam.sheets.sampling import box_around, box_of, corners, linework, pieces, sampled, spans_in_box
-from graphcam.sheets.styles import BOLD, MEDIUM, STYLES_BY_ROLE, THIN
+from graphcam.sheets.styles import BOLD, STYLES_BY_ROLE, THIN
 
 CELL_SIDE = 0.5
 """The side of a cell of the raster [mm]."""
 TEXT_MARGIN = 0.45
 """The free margin around a text [mm]."""
-TEXT_COST, BOLD_LINE_COST, MEASURE_COST, MEDIUM_LINE_COST, THIN_LINE_COST, HATCH_COST = (
-    2000.0,
-    200.0,
-    80.0,
-    80.0,
-    2.0,
-    0.4,
-)
-"""Costs of a cell with another text, a bold line, a dimension, leader or axis, lighter lines, or hatching."""
-ROLE_COSTS: Mapping[str, float] = {Role.HATCH: HATCH_COST, Role.DIMENSION: MEASURE_COST, Role.SCALE: MEASURE_COST}
+TEXT_COST, BOLD_LINE_COST, MEASURE_COST, THIN_LINE_COST, HATCH_COST = 2000.0, 200.0, 80.0, 2.0, 0.4
+"""Costs of a cell with another text, a bold line, a dimension, curve or axis, construction lines, or hatching."""
+BARRED_COST = 1000.0
+"""The cost of a place in another view."""
+ROLE_COSTS: Mapping[str, float] = {
+    Role.HATCH: HATCH_COST,
+    **dict.fromkeys((Role.DIMENSION, Role.SCALE, Role.CURVE, Role.LIMIT, "gauge", "table"), MEASURE_COST),
+}
 """Costs by role, where they do not follow from the width of its lines."""
 HATCHING_MARGIN = 0.8
 """The free margin in the hatching around a text [mm]."""
@@ -245,10 +243,7 @@ def _cell_numbers(along: NDArray[np.floating[Any]], count: int) -> NDArray[np.in
 
 
 def _line_cost(role: str) -> float:
-    if role in ROLE_COSTS:
-        return ROLE_COSTS[role]
-    width = STYLES_BY_ROLE[role].width
-    return BOLD_LINE_COST if width >= BOLD else MEDIUM_LINE_COST if width >= MEDIUM else THIN_LINE_COST
+    return ROLE_COSTS.get(role, BOLD_LINE_COST if STYLES_BY_ROLE[role].width >= BOLD else THIN_LINE_COST)
 
 
 def _grid(corner: complex, along: complex, up: complex) -> Points:
@@ -283,6 +278,7 @@ def _choose(writing: LabelText, paper: Occupancy) -> int:
         part = start + np.flatnonzero(writing.cost[start:end] < least)
         if part.size:
             cost = writing.cost[part] + _letters_cost(writing, part, paper) + _leader_cost(writing, part, paper)
+            cost += _barred_cost(writing, part)
             k = int(np.argmin(cost))
             if cost[k] < least:
                 best, least = int(part[k]), float(cost[k])
@@ -307,6 +303,24 @@ def _leader_cost(writing: LabelText, part: NDArray[np.intp], paper: Occupancy) -
         ends = _leader_end(writing, centres[led], anchors[led])
         # A leader may cross lines, at a small cost, but no text.
         cost[led] = 0.04 * paper.cost(anchors[led][:, None] + LEADER_FRACTIONS * (ends - anchors[led])[:, None])
+    return cost
+
+
+def _barred_cost(writing: LabelText, part: NDArray[np.intp]) -> Floats:
+    """The costs (k,) of the boxes of other views that the text or its leader enters."""
+    cost, centres, anchors = np.zeros(part.size), writing.centres[part], writing.anchors[part]
+    half, led = writing.size / 2, np.isfinite(anchors)
+    turned = np.abs(np.sin(writing.angles[part])) > math.sqrt(0.5)
+    across, up = np.where(turned, half.imag, half.real), np.where(turned, half.real, half.imag)
+    for box in writing.barred:
+        inside = (centres.real + across > box.left) & (centres.real - across < box.right)
+        inside &= (centres.imag + up > box.bottom) & (centres.imag - up < box.top)
+        if led.any():
+            way = anchors[led][:, None] + LEADER_FRACTIONS * (centres[led] - anchors[led])[:, None]
+            within = (way.real > box.left) & (way.real < box.right) & (way.imag > box.bottom) & (way.imag < box.top)
+            # Where it begins in another view already, a leader leads out of it.
+            inside[led] |= (within & ~within[:, :1]).any(axis=1)
+        cost += BARRED_COST * inside
     return cost
 
 

@@ -189,12 +189,18 @@ class StepPart:
 
 def _pieces(part: SheetPart, leaf: OpenPage) -> Iterator[StepPart]:
     """The parts of all steps on a page."""
+    boxes = {
+        name: [box.moved(origin) for box in (panel.drawn, panel.title_box)]
+        for name, (panel, origin) in leaf.views.items()
+    }
     for number, _, step in part.steps:
         if step.view.name in leaf.views:
             panel, origin = leaf.views[step.view.name]
+            barred = tuple(box for name, own in boxes.items() if name != step.view.name for box in own)
             for marks, since in ((step.given + (step.under if panel.lowest else ()), 0), (step.own_marks, number)):
                 if marks or since:
-                    yield StepPart(number, since, expand(marks, Placement(origin), panel.letters))
+                    entities, writings = expand(marks, Placement(origin), panel.letters)
+                    yield StepPart(number, since, (entities, [replace(each, barred=barred) for each in writings]))
 
 
 def _page(sheet: Format, leaf: OpenPage, part: SheetPart, empty: Group, upto: float) -> Page:

@@ -11,7 +11,15 @@ from numpy.typing import NDArray
 from graphcam.drafting import marks
 from graphcam.drafting.marks import Points, Role
 from graphcam.sheets.formats import Lettering
-from graphcam.sheets.label_candidates import LabelText, label_along, label_along_arc, label_around, label_over, unit
+from graphcam.sheets.label_candidates import (
+    LabelText,
+    label_along,
+    label_along_arc,
+    label_around,
+    label_in_line,
+    label_over,
+    unit,
+)
 from graphcam.sheets.model import Angle, ArcEntity, Circles, Curve, Entity, Heads, Length, Source, Stroke, Strokes
 from graphcam.sheets.styles import STYLES_BY_ROLE
 from graphcam.sheets.text_measures import extent
@@ -99,7 +107,8 @@ def _expanded(mark: marks.Mark, place: Placement, letters: Lettering, tell: Tell
             return arrow(place.point(mark.start), place.point(mark.end), mark.role), []
         case marks.Label():
             height = letters.small if mark.small else letters.label
-            return [], [label_around(place.point(mark.at), tell(mark.text), height, mark.towards)]
+            writing = label_around(place.point(mark.at), tell(mark.text), height, mark.towards)
+            return [], [label_in_line(writing, place.point(mark.at), place.factor * mark.along)]
         case marks.Dimension():
             return _dimension(mark, place, tell(mark.text), letters.label)
         case marks.AngleMark():

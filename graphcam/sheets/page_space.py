@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from itertools import product
@@ -29,11 +29,15 @@ def free_rooms(sheet: Format) -> tuple[tuple[float, float], ...]:
     >>> free_rooms(Format("A3", "gost"))
     ((393.0, 216.0), (323.0, 230.0), (208.0, 258.0), (138.0, 272.0), (96.0, 285.0))
     """
-    inside, own = sheet.content.grown(-BOX_MARGIN), taken_boxes(sheet, BOX_MARGIN)
-    sides = product([inside.left, *(box.right for box in own)], [inside.right, *(box.left for box in own)])
-    rooms = [(right - left, _highest(inside, left, right, own)) for left, right in sides if right > left]
+    rooms = list(_rooms_between(sheet.content.grown(-BOX_MARGIN), taken_boxes(sheet, BOX_MARGIN)))
     larger = [any(w >= wide and h >= high and (w, h) != (wide, high) for w, h in rooms) for wide, high in rooms]
     return tuple(sorted({room for room, other in zip(rooms, larger, strict=True) if not other}, reverse=True))
+
+
+def _rooms_between(inside: Box, taken: Sequence[Box]) -> Iterator[tuple[float, float]]:
+    """Widths and heights [mm] of the highest free boxes between the sides of boxes."""
+    sides = product([inside.left, *(box.right for box in taken)], [inside.right, *(box.left for box in taken)])
+    yield from ((right - left, _highest(inside, left, right, taken)) for left, right in sides if right > left)
 
 
 def _highest(inside: Box, left: float, right: float, kept: Sequence[Box]) -> float:
@@ -156,6 +160,14 @@ class OpenPage:
         # Tables may stand in the empty parts of diagrams.
         area -= sum(view.common(block) for view in views for block in blocks)
         return area / self.sheet.content.area
+
+    @property
+    def empty_share(self) -> float:
+        """The share of the frame's inside that the largest rectangle without views, tables and fields takes."""
+        views = [panel.box.moved(origin) for panel, origin in self.views.values()]
+        blocks = [block.box.moved(at) for block, at in self.blocks]
+        rooms = _rooms_between(self.sheet.content, [*views, *blocks, *taken_boxes(self.sheet, 0.0)])
+        return max((wide * high for wide, high in rooms), default=0.0) / self.sheet.content.area
 
     def centred(self) -> OpenPage:
         """The page with all that stands on it moved together, so that what is left empty lies around it."""

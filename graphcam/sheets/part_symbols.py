@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -32,6 +33,7 @@ TRIANGLE_HALF_SIDE = 0.577
 COMPARTMENT_SIZE = 2.0
 """The height of a tolerance frame, and the width of its first compartment, in heights of the letters."""
 LINE_PROFILE_TOLERANCE, PERPENDICULARITY_TOLERANCE = "profile of a line", "perpendicular"
+SYMMETRY_TOLERANCE = "symmetry"
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,17 +86,17 @@ def other_faces(text: str, height: float) -> PartSymbol:
     return PartSymbol((*first.entities, segments((foot, short), (foot, top)), *brackets), box)
 
 
-def tolerance_frame(kind: str, value: str, datum: str, height: float) -> PartSymbol:
-    """A frame with the symbol of the tolerance, its value and its datum."""
+def tolerance_frame(kind: str, value: str, datums: Sequence[str], height: float) -> PartSymbol:
+    """A frame with the symbol of the tolerance, its value and its datums, the first one first."""
     high = COMPARTMENT_SIZE * height
-    ends = np.cumsum([0.0, high, width(value, height) + height, width(datum, height) + height]).tolist()
+    ends = np.cumsum([0.0, high, *(width(text, height) + height for text in (value, *datums))]).tolist()
     frame = segments(
         *((complex(x), complex(x, high)) for x in ends), (0j, ends[-1] + 0j), (1j * high, ends[-1] + 1j * high)
     )
     middles = [(a + b) / 2 for a, b in pairwise(ends)]
     base = (high - height) / 2
     letters = [
-        Text(complex(x, base), text, height, "center") for x, text in zip(middles[1:], (value, datum), strict=True)
+        Text(complex(x, base), text, height, "center") for x, text in zip(middles[1:], (value, *datums), strict=True)
     ]
     return PartSymbol(
         (frame, *_characteristic(kind, complex(middles[0], high / 2), height), *letters), Box(0, 0, ends[-1], high)
@@ -106,6 +108,9 @@ def _characteristic(kind: str, middle: complex, height: float) -> list[Entity]:
     half = 0.55 * height
     if kind == LINE_PROFILE_TOLERANCE:
         return [ArcEntity(middle - 0.5j * half, half, 0.0, math.pi, SYMBOL_ROLE)]
+    if kind == SYMMETRY_TOLERANCE:
+        lines = ((0.6, 0.5j), (1.0, 0j), (0.6, -0.5j))
+        return [segments(*((middle + half * (up - w), middle + half * (up + w)) for w, up in lines))]
     base = middle - 1j * half
     return [segments((base - half, base + half), (base, base + 2j * half))]
 

@@ -34,6 +34,7 @@ class TitleBlock:
 
     scale : None is the scale of what is drawn on the sheet
     remark : text below the frame
+    table : the table of the task file that has name and number
     """
 
     name: str = ""
@@ -47,6 +48,7 @@ class TitleBlock:
     mass: str = ""
     scale: str | None = ""
     remark: str = ""
+    table: str = "title"
 
 
 Ruling = tuple[float, float, float, float]
@@ -118,9 +120,10 @@ def _refused(text: str, field: Ruling, height: float, what: str) -> NoReturn:
 
 def entry(title: TitleBlock, name: str, field: Ruling, height: float, align: str = "center") -> list[Text]:
     """The texts of a title's entry ``name`` in a field, with that name."""
-    key = "document" if name == "number" else name
-    said = getattr(title, name) or ""
-    return [replace(text, field=name) for text in fitted_text(said, field, height, align, f"title.{key}")]
+    own = name in ("name", "number", "material")
+    key = "document" if name == "number" and title.table == "title" else name
+    said, what = getattr(title, name) or "", f"{title.table if own else 'title'}.{key}"
+    return [replace(text, field=name) for text in fitted_text(said, field, height, align, what)]
 
 
 def title_block(
@@ -235,20 +238,23 @@ def _remark_at(paper: Format) -> complex:
     return paper.content.corner - (3.75j if paper.frame == "gost" else 8.75j)
 
 
-def taken_boxes(paper: Format, border: float) -> list[Box]:
+def taken_boxes(paper: Format, border: float, *, gauged: bool = True) -> list[Box]:
     """The boxes inside the frame that the sheet itself needs, with a margin ``border`` around them."""
-    boxes = [title_box(paper).grown(border), gauge_box(_gauge_at(paper)).grown(border)]
+    boxes = [title_box(paper).grown(border)] + [gauge_box(_gauge_at(paper)).grown(border)] * gauged
     if paper.frame == "gost":
         return [*boxes, _number_box(paper).grown(border)]
     return [*boxes, *(box_around(np.array(mark)).grown(1.0) for mark in zip(*_centring(paper), strict=True))]
 
 
-def frame(paper: Format, title: TitleBlock, sheet: int, sheets: int, tell: Tell = str) -> Group:
-    """The group of all that a sheet carries before anything is drawn on it."""
+def frame(paper: Format, title: TitleBlock, sheet: int, sheets: int, tell: Tell = str, *, gauged: bool = True) -> Group:
+    """The group of all that a sheet carries before anything is drawn on it.
+
+    gauged : whether it has a rule of 100 mm, which a part drawing has not
+    """
     entities: list[Entity] = [Stroke(np.array(paper.content.corners), "frame", closed=True)]
     entities += _binding_column(paper, title, tell) if paper.frame == "gost" else _references(paper)
     entities += title_block(paper.frame, title_box(paper).corner, title, sheet, sheets, tell)
-    entities += gauge(_gauge_at(paper), tell)
+    entities += gauge(_gauge_at(paper), tell) if gauged else []
     entities += [Text(_remark_at(paper), title.remark, 2.5)] if title.remark else []
     return Group("frame", tuple(entities))
 

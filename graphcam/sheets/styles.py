@@ -5,8 +5,10 @@ from dataclasses import dataclass
 
 from graphcam.drafting.marks import Role
 
-BOLD, MEDIUM, THIN = 0.7, 0.35, 0.18
-"""Widths of lines [mm], two steps of the standard series apart, so that a print keeps the hierarchy."""
+BOLD, THIN = 0.5, 0.25
+"""Widths of the two groups of lines [mm], 2:1 by ISO 128, and by GOST 2.303 where thin is s/3 to s/2."""
+LIGHT_WIDTH = 0.18
+"""The width of light lines that a student draws over [mm]."""
 SOLID: tuple[float, ...] = ()
 DASHED = (3.0, 1.2)
 CENTER = (9.0, 1.4, 1.0, 1.4)
@@ -31,13 +33,13 @@ _FINISHED_STYLES: dict[str, Style] = {
     Role.AXIS: Style(THIN, CENTER, GREY),
     Role.HIDDEN: Style(THIN, DASHED, GREY),
     Role.SCALE: Style(THIN),
-    Role.CURVE: Style(MEDIUM),
-    Role.LIMIT: Style(MEDIUM, colour=ACCENT),
+    Role.CURVE: Style(THIN),
+    Role.LIMIT: Style(THIN, colour=ACCENT),
     Role.RESULT: Style(BOLD),
     "frame": Style(BOLD),
     "ruling": Style(THIN),
-    "gauge": Style(MEDIUM),
-    "table": Style(MEDIUM),
+    "gauge": Style(THIN),
+    "table": Style(THIN),
     "text": Style(THIN),
 }
 CYAN_TINT, GREY_TINT = "#a6e3fa", "#b3b3b3"
@@ -72,11 +74,11 @@ def _bold(style: Style) -> Style:
 
 STYLES_BY_ROLE: dict[str, Style] = {
     **_FINISHED_STYLES,
-    LIGHT_ROLES["colour"]: Style(THIN, colour=CYAN_TINT),
-    LIGHT_ROLES["grey"]: Style(THIN, colour=GREY_TINT),
+    LIGHT_ROLES["colour"]: Style(LIGHT_WIDTH, colour=CYAN_TINT),
+    LIGHT_ROLES["grey"]: Style(LIGHT_WIDTH, colour=GREY_TINT),
     CODE_ROLE: Style(THIN),
     **{
-        in_progress(role, FORMER_STEP_STAGE): Style(min(style.width, MEDIUM), style.pattern, FADED_COLOUR)
+        in_progress(role, FORMER_STEP_STAGE): Style(THIN, style.pattern, FADED_COLOUR)
         for role, style in _FINISHED_STYLES.items()
     },
     **{in_progress(role, CURRENT_STEP_STAGE): _current(style) for role, style in _FINISHED_STYLES.items()},

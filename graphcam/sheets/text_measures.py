@@ -5,6 +5,7 @@ A text is measured by the height of its capital letters, as on the drawing board
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
@@ -21,6 +22,10 @@ WIDTH_ROUNDING = 1e-6
 """The difference of two widths below which they may be the same [mm]."""
 OPENING_SIGNS, CLOSING_SIGNS = "（《“‘「『【〔", "，。、；：？！）》”’」』】〕％"
 """Chinese signs that stand at no end of a line, and those at no start."""
+STACKED = re.compile(r"\^\{([^{}]*)\}_\{([^{}]*)\}")
+"""Deviations of a size, one over the other: ``20^{+0.021}_{0}``."""
+STACK_GAP = 0.25
+"""The gap before them, in heights of the letters."""
 INDEX_DROP = 0.5
 """The drop of an index below its letter, in heights of the index."""
 
@@ -76,19 +81,35 @@ def letters_of(text: str, height: float) -> tuple[Letters, ...]:
 
     >>> [(piece.text, piece.height, piece.index) for piece in letters_of("μₐ = 2", 3.5)]
     [('μ', 3.5, False), ('a', 2.5, True), (' = 2', 3.5, False)]
+    >>> [(piece.text, round(piece.start.imag, 2)) for piece in letters_of("20^{+0.021}_{0}", 3.5)]
+    [('20', 0.0), ('+0.021', 2.25), ('0', -1.25)]
     """
     return tuple(_letters_of(text, height))
 
 
 def _letters_of(text: str, height: float) -> Iterator[Letters]:
-    x = 0.0
-    for said, index in parts(text):
-        high = index_height(height) if index else height
-        for face, run in groupby(said, face_of):
-            letters = "".join(letter if face else MISSING_CHARACTER for letter in run)
-            wide = high * sum(glyph(letter).advance for letter in letters)
-            yield Letters(letters, face or _box_face(), high, complex(x, -INDEX_DROP * high * index), wide, index)
-            x += wide
+    small, x = index_height(height), 0.0
+    plain, *stacked = STACKED.split(text)
+    for over, under, following in [("", "", plain), *zip(stacked[::3], stacked[1::3], stacked[2::3], strict=True)]:
+        begin = complex(x + STACK_GAP * height * bool(over or under))
+        for said, level in ((over, height - (1 - INDEX_DROP) * small), (under, -INDEX_DROP * small)):
+            for piece in _run(said, small, begin + 1j * level, index=True):
+                yield piece
+                x = max(x, piece.start.real + piece.width)
+        for said, index in parts(following):
+            high = small if index else height
+            for piece in _run(said, high, complex(x, -INDEX_DROP * high if index else 0.0), index=index):
+                yield piece
+                x = piece.start.real + piece.width
+
+
+def _run(said: str, height: float, start: complex, *, index: bool) -> Iterator[Letters]:
+    """Letters of one height on one base line, in pieces of one face each."""
+    for face, run in groupby(said, face_of):
+        letters = "".join(letter if face else MISSING_CHARACTER for letter in run)
+        wide = height * sum(glyph(letter).advance for letter in letters)
+        yield Letters(letters, face or _box_face(), height, start, wide, index)
+        start += wide
 
 
 def _box_face() -> Path:
@@ -109,7 +130,7 @@ def extent(text: str, height: float) -> tuple[float, float, float]:
     for piece in letters_of(text, height):
         size, y = piece.height, piece.start.imag
         letters = [glyph(letter) for letter in piece.text]
-        wide += piece.width
+        wide = max(wide, piece.start.real + piece.width)
         low = max(low, size * max(letter.below for letter in letters) - y)
         high = max(high, size * max(letter.above for letter in letters) + y)
     return wide, low, high if wide else 0.0

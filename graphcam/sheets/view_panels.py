@@ -69,9 +69,14 @@ class Panel:
         return sampled(*self._lines, 1.0)
 
     @cached_property
+    def drawn(self) -> Box:
+        """The box of the drawing."""
+        return box_of_lines(*self._lines) or Box(0, 0, 1, 1)
+
+    @property
     def content(self) -> Box:
         """The box of the drawing, with room for its labels."""
-        return (box_of_lines(*self._lines) or Box(0, 0, 1, 1)).grown(LABEL_MARGIN)
+        return self.drawn.grown(LABEL_MARGIN)
 
     @cached_property
     def heading(self) -> list[Text]:

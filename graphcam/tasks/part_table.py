@@ -19,6 +19,7 @@ SplineDegree = Literal[2, 3, 4, 5]
 class PartTable:
     """``[part]``: sizes and data of the part for the workshop; what is None follows from the cam or the frame.
 
+    name, number : of the part, in its title block; None is "Cam", and no number
     bore : mm; None is the largest standard shaft diameter that leaves enough wall
     keyway : standard of the keyway in the bore; None is that of the sheet's frame
     width : mm, of the cam; None is a width that carries the bore
@@ -26,6 +27,7 @@ class PartTable:
     material : as the title block says it; None is carbon steel by the frame's standards
     density : kg/m^3, for the mass
     hardness : of the profile, as the notes say it; empty where it is not hardened
+    hardness_depth : the same of its depth; None is a usual one
     profile_roughness, bore_roughness, roughness : Ra in micrometres, of the profile, of the bore, and of the rest
     profile_tolerance : mm, width of the zone of the profile of a line (ISO 1101); None goes by the cam's size
     bore_tolerance : of the bore's diameter, by ISO 286
@@ -44,6 +46,8 @@ class PartTable:
     graphcam.errors.DesignError: hub_length is missing, but must be given where there is hub_diameter; ...
     """
 
+    name: str | None = None
+    number: str | None = None
     bore: Length | None = None
     keyway: Keyway | None = None
     width: Length | None = None
@@ -52,6 +56,7 @@ class PartTable:
     material: str | None = None
     density: Density = 7850.0
     hardness: str = "45...50 HRC"
+    hardness_depth: str | None = None
     profile_roughness: Roughness = 0.8
     bore_roughness: Roughness = 1.6
     roughness: Roughness = 3.2
@@ -80,7 +85,7 @@ class PartTable:
             raise DesignError("table_step", self.table_step, say("1, 2, 5 or 10 degrees"))
         if self.spline_degree not in get_args(SplineDegree):
             raise DesignError("spline_degree", self.spline_degree, say("2, 3, 4 or 5"))
-        for name in ("material", "hardness"):
+        for name in ("name", "number", "material", "hardness", "hardness_depth"):
             if not (text := getattr(self, name) or "").isprintable():
                 raise DesignError(name, text, say("printable text on one line"))
 

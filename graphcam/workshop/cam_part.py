@@ -101,6 +101,16 @@ def cam_part(table: PartTable, frame: str, least_radius: float) -> CamPart:
     (28.0, KeySection(width=8.0, height=7.0, depth=3.3), 23.0)
     """
     bore = table.bore if table.bore is not None else _usual_bore(table, least_radius)
+    if table.bore is None and table.keyway != "none" and key_section(bore) is None:
+        limit = say(
+            "large enough for a bore of more than {thinnest_shaft:g} mm, below which the standards have no key",
+            thinnest_shaft=MIN_SHAFT,
+        )
+        found, remedy = (
+            say("{radius:.4g} mm", radius=least_radius),
+            say("take a larger prime radius, or give part.bore"),
+        )
+        raise DesignError(say("minimum radius of the profile"), found, limit, remedy)
     keyway = _keyway(table, bore)
     width = table.width if table.width is not None else _usual_width(bore)
     hub = None

@@ -84,6 +84,16 @@ _KEY_SECTIONS = (
     (440.0, 90.0, 45.0, 17.4),
     (500.0, 100.0, 50.0, 19.5),
 )
+# Width b of the key up to [mm], minimum and maximum radius of the keyway's corners [mm].
+_FILLETS = (
+    (4.0, 0.08, 0.16),
+    (8.0, 0.16, 0.25),
+    (18.0, 0.25, 0.4),
+    (32.0, 0.4, 0.6),
+    (50.0, 0.7, 1.0),
+    (80.0, 1.2, 1.6),
+    (100.0, 2.0, 2.5),
+)
 MIN_SHAFT, MAX_SHAFT = 6.0, 500.0
 """The range of diameters for which the standards have keys: over the first, up to the second [mm]."""
 STANDARD_NAMES = {"din6885": "DIN 6885-1", "gost23360": say("GOST 23360-78")}
@@ -104,6 +114,17 @@ class KeySection:
     def depth_over(self) -> float:
         """The upper deviation of the depth [mm]; the lower one is zero."""
         return 0.1 if self.width <= 6 else 0.2 if self.width <= 32 else 0.3
+
+    @property
+    def fillets(self) -> tuple[float, float]:
+        """The minimum and the maximum radius of the corners at the keyway's bottom [mm], by the same standards."""
+        return _FILLETS[bisect_left(_FILLETS, (self.width,))][1:]
+
+    @property
+    def symmetry(self) -> float | None:
+        """The tolerance of symmetry to the bore's axis [mm]: that of the width, to one digit."""
+        width = tolerance(self.width, 9)
+        return None if width is None else float(f"{width:.1g}")
 
     def area(self, bore: float) -> float:
         """The area that the keyway removes outside the bore [mm^2].

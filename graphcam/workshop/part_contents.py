@@ -11,12 +11,12 @@ import numpy as np
 
 from graphcam.constructions.axes import degrees, sense_caption
 from graphcam.drafting.scale import ratio_text
+from graphcam.errors import DesignError
 from graphcam.given.follower import Rotation
 from graphcam.sheets.sheet_frame import TitleBlock
 from graphcam.sheets.tables import Table
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.tasks.part_table import PartTable
-from graphcam.tasks.sheet_tables import DEFAULT_NAME
 from graphcam.words import Caption, Tell, Words, say
 from graphcam.workshop.cam_part import CamPart, cam_part, radius_decimals
 from graphcam.workshop.part_outline import Outline, outline_of
@@ -88,9 +88,13 @@ class PartContents:
 
         Raises
         ------
-        DesignError : as for outline, part and table
+        DesignError : as for outline, part and table, or it weighs next to nothing
         """
         _ = self.part, self.table
+        if (mass := self.part.mass(self.outline.area)) < MIN_MASS:
+            limit = say("at least {least:g} kg", least=MIN_MASS)
+            found = say("{mass:.1g} kg", mass=mass)
+            raise DesignError(say("mass of the cam"), found, limit, say("check the units of its sizes"))
 
     def title(self, scale: float) -> TitleBlock:
         """The title block of the part, with the drawing's scale."""
@@ -100,8 +104,9 @@ class PartContents:
         decimals = max(0, 2 - math.floor(math.log10(mass)))
         told = say("{mass:.{decimals}f}") if self.frame == "gost" else say("{mass:.{decimals}f} kg")
         return TitleBlock(
-            name=tell(say("Cam")) if given.name == str(DEFAULT_NAME) else given.translated_name(tell),
-            number=given.document,
+            name=self.given.name or tell(say("Cam")),
+            number=self.given.number or "",
+            table="part",
             organisation=given.organisation,
             group=given.group,
             author=given.author,
@@ -113,6 +118,12 @@ class PartContents:
         )
 
 
+DEFAULT_DEPTH = say("1.2...1.6 mm")
+"""The depth of hardening that is usual for induction."""
+MIN_MASS = 0.001
+"""The minimum mass of a cam [kg]: a lighter one is a slip of units, or is made otherwise than by this drawing."""
+REFERENCE_NOTE = say("* Dimensions for reference.")
+"""What GOST 2.307 has said of the sizes with an asterisk; in ISO 129-1 they stand in brackets."""
 GENERAL_TOLERANCES = {
     "iso": say("General tolerances ISO 2768-mK."),
     "gost": say("General tolerances GOST 30893.1: H14, h14, ±IT14/2."),
@@ -128,7 +139,8 @@ def requirements(
 ) -> list[Caption]:
     """The technical requirements: the notes above the title block."""
     return [
-        *([say("Profile hardened to {hardness}.", hardness=part.table.hardness)] if part.table.hardness else []),
+        *([REFERENCE_NOTE] if frame == "gost" else []),
+        *_hardness(part),
         GENERAL_TOLERANCES[frame],
         say("Break sharp edges 0.3 × 45°, not the corners of the profile.")
         if outline.corners
@@ -152,11 +164,21 @@ def requirements(
     ]
 
 
+def _hardness(part: CamPart) -> list[Caption]:
+    if not (hardness := part.table.hardness):
+        return []
+    depth = DEFAULT_DEPTH if part.table.hardness_depth is None else part.table.hardness_depth
+    said = say("Profile hardened to {hardness}, depth {depth}.") if depth else say("Profile hardened to {hardness}.")
+    return [said.with_values(hardness=hardness, depth=depth)]
+
+
 def _keyway(part: CamPart) -> list[Caption]:
     if part.keyway is None:
         return []
     b, h = size(part.keyway.width), size(part.keyway.height)
-    return [say("Keyway {standard} for a key {b} × {h}.", standard=part.key_standard, b=b, h=h)]
+    least, most = (size(radius) for radius in part.keyway.fillets)
+    said = say("Keyway {standard} for a key {b} × {h}, radius of its corners {least}...{most} mm.")
+    return [said.with_values(standard=part.key_standard, b=b, h=h, least=least, most=most)]
 
 
 def _zero(part: CamPart, outline: Outline) -> Caption:

@@ -34,9 +34,9 @@ FRAME_MARGIN = 5.0
 """The margin along the frame and between what stands on the sheet [mm]."""
 NUMBER_ROOM = 17.0
 """The room from the border to below the drawing's number in the upper left corner by GOST 2.104 [mm]."""
-MIN_PROFILE = 70.0
-"""The preferred minimum size of the drawn profile [mm of paper]."""
-SHEET_CHOICES = (("A3", MIN_PROFILE), ("A2", MIN_PROFILE), ("A2", 20.0), ("A1", 5.0))
+MIN_PROFILE, MIN_ON_A3 = 70.0, 90.0
+"""The preferred minimum size of the drawn profile [mm of paper]; if it is smaller on A3, a larger sheet is taken."""
+SHEET_CHOICES = (("A3", MIN_ON_A3), ("A2", MIN_PROFILE), ("A2", 20.0), ("A1", 5.0))
 """Sheets, each with the minimum size of the profile on it [mm of paper]; the first that has room is taken."""
 BORE_ROOM = 70.0
 """The maximum width of the enlarged bore [mm of paper]."""
@@ -168,7 +168,7 @@ def _views(contents: PartContents, sheet: Format, ratio: float) -> Iterator[Part
         return
     if at.imag + min(front.bottom, section.bottom) < inside.bottom:
         return
-    room = Room(inside, taken_boxes(sheet, FRAME_MARGIN))
+    room = Room(inside, taken_boxes(sheet, FRAME_MARGIN, gauged=False))
     fixed, general = _fixed(contents, sheet, shown)
     for block, corner in fixed:
         room.take(block.box.moved(corner))

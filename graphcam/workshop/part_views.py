@@ -17,14 +17,22 @@ from graphcam.drafting.marks import Arc, Circle, Dimension, Label, Line, Mark, P
 from graphcam.given.laws import Floats
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.label_candidates import LabelText, label_along
-from graphcam.sheets.mark_entities import Drawn, Placement, expand, head
+from graphcam.sheets.mark_entities import MIN_INNER_HEADS, TAIL_LENGTH, Drawn, Placement, expand, head
 from graphcam.sheets.model import Box, Curve, Entity, Length, Stroke
-from graphcam.sheets.part_symbols import cutting_plane, datum_letter, datum_triangle, segments, sense_arrow
+from graphcam.sheets.part_symbols import (
+    SYMMETRY_TOLERANCE,
+    cutting_plane,
+    datum_letter,
+    datum_triangle,
+    segments,
+    sense_arrow,
+    tolerance_frame,
+)
 from graphcam.sheets.sampling import box_around
 from graphcam.sheets.text_measures import width
 from graphcam.words import Caption, Tell, Words, say, say_in
 from graphcam.workshop.cam_part import CamPart, radius_decimals
-from graphcam.workshop.limits_and_fits import tolerance
+from graphcam.workshop.limits_and_fits import KeySection, tolerance
 from graphcam.workshop.part_outline import Outline
 
 FIRST_DIMENSION_OFFSET, DIMENSION_SPACING = 9.0, 8.0
@@ -37,6 +45,8 @@ DRAWN_POINT_STEP = 12
 """The step at which dense points of the outline are taken for the drawn smooth curve, exact between them."""
 SHELF_OFFSET = 5.0
 """The distance from the left face of the section to the shelf of its chamfer [mm of paper]."""
+CUTTING_PLANE_OFFSET = 11.0
+"""The distance of the strokes of the cutting plane from the profile [mm of paper]."""
 ARROW_GAP = 5.0
 """The gap between the profile and an arrow outside it [mm of paper]."""
 SAME_RADIUS = 0.05
@@ -113,7 +123,9 @@ def size(length: float) -> Caption:
 def front_box(shown: ShownPart) -> Box:
     """The box of the true view about the axis, with its symbols."""
     box = shown.extent
-    return Box(box.left - 16, box.bottom - 24, box.right + 16, box.top + 26)
+    # Beyond the ends of the cutting plane with their letters.
+    beyond = CUTTING_PLANE_OFFSET + 6.0 + 1.7 * shown.letters.title
+    return Box(box.left - 16, box.bottom - beyond, box.right + 16, box.top + beyond)
 
 
 def front_view(shown: ShownPart, origin: complex) -> Drawn:
@@ -170,7 +182,9 @@ def dimensioned_radii(shown: ShownPart) -> list[tuple[complex, Caption]]:
     """The places of the minimum and the maximum radius on the profile, each with the text of its dimension."""
     radii, decimals = np.abs(shown.outline.points), radius_decimals(shown.part.table, shown.outline.greatest_radius)
     told: list[tuple[complex, Caption]] = []
-    for extreme, name in ((radii.min(), say("R{radius} min")), (radii.max(), say("R{radius} max"))):
+    # The profile's tolerance limits them, so they stand for reference.
+    name = say("R{radius}*") if shown.frame == "gost" else say("(R{radius})")
+    for extreme in (radii.min(), radii.max()):
         at = shown.profile[np.abs(radii - extreme) * shown.scale <= SAME_RADIUS]
         # Away from the centre lines, where the text has most room, and from the arrow of the rotation.
         oblique = np.abs(np.sin(2 * np.angle(at))) - 2.0 * ((at.real > 0) & (at.imag < 0))
@@ -203,8 +217,8 @@ def _radius_dimension(
 
 def _cutting_planes(shown: ShownPart, origin: complex) -> list[Entity]:
     letter, height = shown.tell(SECTION_LETTER), shown.letters.title
-    above = cutting_plane(origin + 1j * (shown.radius(1j) + 11.0), 1j, 1.0, letter, height)
-    below = cutting_plane(origin - 1j * (shown.radius(-1j) + 11.0), -1j, 1.0, letter, height)
+    above = cutting_plane(origin + 1j * (shown.radius(1j) + CUTTING_PLANE_OFFSET), 1j, 1.0, letter, height)
+    below = cutting_plane(origin - 1j * (shown.radius(-1j) + CUTTING_PLANE_OFFSET), -1j, 1.0, letter, height)
     return above + below
 
 
@@ -344,7 +358,9 @@ def _chamfer_marks(shown: ShownPart) -> list[Mark]:
     return [Line(np.array([face, knee, end]), Role.DIMENSION), Label((knee + end) / 2, text, 1j)]
 
 
-DATUM_LETTER = say_in("of a datum", "B")
+DATUM_LETTER, KEYWAY_LETTER = say_in("of a datum", "B"), say_in("of the keyway as a datum", "D")
+TRIANGLE_LEG = 5.0
+"""The length of the line from a datum's triangle to its letter [mm of paper]."""
 
 
 def bore_box(shown: ShownPart) -> Box:
@@ -369,19 +385,38 @@ def bore_view(shown: ShownPart, origin: complex) -> Drawn:
         half = k * part.keyway.width / 2
         marks.append(Dimension(complex(-half, top), complex(half, top), keyway_text(part), FIRST_DIMENSION_OFFSET))
         over = upper_deviation(part.keyway.depth_over, shown.frame)
-        depth = say("{size} {over}", size=size(part.bore + part.keyway.depth), over=over)
+        depth = say("{size}{over}", size=size(part.bore + part.keyway.depth), over=over)
         marks.append(Dimension(complex(half, -r), complex(half, top), depth, -(r - half) - FIRST_DIMENSION_OFFSET))
     entities, writings = shown.expanded(marks, origin)
-    return [*entities, *_datum(shown, origin + complex(r, -r - FIRST_DIMENSION_OFFSET))], writings
+    entities += _datum(shown, origin + complex(r, -r - FIRST_DIMENSION_OFFSET), DATUM_LETTER, 0.0)
+    if part.keyway:
+        half, level = k * part.keyway.width / 2, top + FIRST_DIMENSION_OFFSET
+        tail = 0.0 if 2 * half >= MIN_INNER_HEADS else TAIL_LENGTH
+        entities += _datum(shown, origin + complex(half, level), KEYWAY_LETTER, tail)
+        entities += _symmetry(shown, part.keyway, origin + complex(-half - tail, level))
+    return entities, writings
 
 
-def _datum(shown: ShownPart, at: complex) -> list[Entity]:
-    """The datum triangle of the axis, on the extension line of the bore's diameter, in line with the dimension."""
+def _datum(shown: ShownPart, at: complex, name: Caption, beyond: float) -> list[Entity]:
+    """The datum triangle of an axis or a middle plane, in line with its dimension, on the extension line ``at``.
+
+    beyond : how far the dimension line runs on beyond that, to the triangle [mm]
+    """
     height = shown.letters.label
-    letter = datum_letter(shown.tell(DATUM_LETTER), height)
-    corner = at + complex(height + 5.0, -height)
+    letter, at = datum_letter(shown.tell(name), height), at + beyond
+    corner = at + complex(height + TRIANGLE_LEG, -height)
     triangle = datum_triangle(at, 1 + 0j, height)
-    return [triangle, segments((at + height, at + height + 5.0)), *letter.drawn(corner)]
+    return [triangle, segments((at + height, at + height + TRIANGLE_LEG)), *letter.drawn(corner)]
+
+
+def _symmetry(shown: ShownPart, keyway: KeySection, at: complex) -> list[Entity]:
+    """The frame of the keyway's symmetry to the bore, in line with the dimension of the width, whose end is ``at``."""
+    if keyway.symmetry is None:
+        return []
+    value, datum = shown.tell(say("{value:g}", value=keyway.symmetry)), shown.tell(DATUM_LETTER)
+    told = tolerance_frame(SYMMETRY_TOLERANCE, value, (datum,), shown.letters.label)
+    corner = at - complex(told.box.width + TRIANGLE_LEG, told.box.height / 2)
+    return [*told.drawn(corner), segments((at - TRIANGLE_LEG, at))]
 
 
 def bore_text(part: CamPart, frame: str) -> Words:
@@ -395,10 +430,12 @@ def bore_text(part: CamPart, frame: str) -> Words:
 def upper_deviation(over: float, frame: str) -> Caption:
     """The text of deviations up to ``over`` mm; the lower one, zero, stands by ISO 129-1 and not by GOST 2.307.
 
+    They are set one over the other, see :mod:`graphcam.sheets.text_measures`.
+
     >>> str(upper_deviation(0.021, "iso")), str(upper_deviation(0.021, "gost"))
-    ('+0.021/0', '+0.021')
+    ('^{+0.021}_{0}', '^{+0.021}_{}')
     """
-    return (say("+{over:g}/0") if frame == "iso" else say("+{over:g}")).with_values(over=over)
+    return say("^{{+{over:g}}}_{{{under}}}", over=over, under="0" if frame == "iso" else "")
 
 
 def keyway_text(part: CamPart) -> Words:

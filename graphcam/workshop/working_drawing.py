@@ -37,6 +37,7 @@ from graphcam.workshop.part_layout import PartLayout, Placed, drawn_blocks, part
 from graphcam.workshop.part_views import (
     DATUM_LETTER,
     DETAIL_LETTER,
+    KEYWAY_LETTER,
     SECTION_LETTER,
     ShownPart,
     bore_box,
@@ -102,18 +103,17 @@ def _nearness(wanted: complex) -> Preference:
 def _callouts(contents: PartContents, layout: PartLayout) -> list[Callout]:
     shown, table, tell = layout.shown, contents.part.table, contents.tell
     height = layout.sheet.lettering.label
-    value, datum = (
-        tell(say("{value:g}", value=profile_tolerance(table, contents.outline.greatest_radius))),
-        tell(DATUM_LETTER),
-    )
+    value = tell(say("{value:g}", value=profile_tolerance(table, contents.outline.greatest_radius)))
+    bore_axis = tell(DATUM_LETTER)
+    # The keyway sets the cam angle, so the profile is toleranced from it too.
+    datums = (bore_axis, tell(KEYWAY_LETTER)) if contents.part.keyway else (bore_axis,)
 
     def ra(micrometres: float) -> PartSymbol:
         """The symbol of a roughness Ra."""
         return roughness(tell(say("Ra {ra:g}", ra=micrometres)), height)
 
-    line, square = (
-        tolerance_frame(kind, value, datum, height) for kind in (LINE_PROFILE_TOLERANCE, PERPENDICULARITY_TOLERANCE)
-    )
+    line = tolerance_frame(LINE_PROFILE_TOLERANCE, value, datums, height)
+    square = tolerance_frame(PERPENDICULARITY_TOLERANCE, value, (bore_axis,), height)
     front, bore = front_box(shown), bore_box(shown)
     # On the side away from the arrow of the angle.
     across = front.right - line.box.width if shown.outline.sense > 0 else front.left
@@ -130,7 +130,7 @@ def _callouts(contents: PartContents, layout: PartLayout) -> list[Callout]:
         Callout("front", of_profile, layout.front + corners[1], on_profile[1], shelf_leader),
         Callout("section", square, layout.section + above, layout.section + upper, leader),
         Callout("section", of_bore, layout.section + below, layout.section + lower, shelf_leader),
-        Callout("bore", of_bore, layout.bore + complex(bore.left, bore.top - 12), on_bore, shelf_leader),
+        Callout("bore", of_bore, layout.bore + complex(bore.left, bore.bottom + 16), on_bore, shelf_leader),
     ]
 
 
@@ -152,7 +152,7 @@ def _side(shown: ShownPart, way: int) -> Points:
 
 
 def _bore_face(shown: ShownPart) -> Points:
-    ways: Points = np.exp(1j * np.linspace(2.4, 3.0, 30))
+    ways: Points = np.exp(-1j * np.linspace(2.4, 3.0, 30))
     return shown.bore_scale * shown.part.bore / 2 * ways
 
 
@@ -173,9 +173,11 @@ def working_drawing_of(contents: PartContents) -> Drawing:
     further = table_pages(contents, sheet) if tables is None else []
     count = 1 + len(further)
     title = contents.title(views.shown.scale)
-    pages = [_first_page(contents, views, tables or [], empty_sheet(sheet, title, 1, count, contents.tell))]
+    pages = [
+        _first_page(contents, views, tables or [], empty_sheet(sheet, title, 1, count, contents.tell, gauged=False))
+    ]
     for k, blocks in enumerate(further, 2):
-        empty = empty_sheet(sheet, title, k, count, contents.tell)
+        empty = empty_sheet(sheet, title, k, count, contents.tell, gauged=False)
         pages.append(Page(*sheet.size, sheet.content, (empty, Group("tables", drawn_blocks(blocks)))))
     return Drawing(title.name, tuple(pages))
 

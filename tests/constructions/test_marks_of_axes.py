@@ -19,7 +19,6 @@ from graphcam.constructions.axes import (
     degree_ticks,
     degrees_below,
     first_at_height,
-    height_names,
     joined_parts,
     number_labels,
     numbered_stations,
@@ -29,7 +28,12 @@ from graphcam.constructions.axes import (
     phi_axes,
     station_names,
 )
-from graphcam.constructions.graduation import coinciding_heights, graduation_marks
+from graphcam.constructions.graduation import (
+    close_ends_caption,
+    coinciding_heights,
+    graduation_marks,
+    ray_numbers,
+)
 from graphcam.drafting.hand import Hand
 from graphcam.drafting.ink import say
 from graphcam.drafting.marks import Arrow, Dimension, Role, Segments
@@ -186,13 +190,17 @@ def test_of_equal_heights_the_first_stands_for_all_in_every_sample():
     assert first_at_height(np.array([1.0, 1.0 + 1e-8])).tolist() == [0, 1]
 
 
-def test_of_heights_the_farthest_are_named_and_none_near_the_other_axis():
-    heights = hand().given("heights", np.array([5.9, 6.0, 13.0, 20.0, 25.0, -6.5, -12.0]) * 1j)
-    labels = height_names(heights, [*"abcdefg"])
-    assert [label.text for label in labels] == ["e", "c", "g", "b"]
-    assert [label.at for label in labels] == [25j, 13j, -12j, 6j]
-    assert [label.towards for label in labels] == [1 - 1j, 1 - 1j, 1 + 1j, 1 - 1j]
-    assert all(label.small and label.of is heights.act for label in labels)
+def test_every_ray_is_numbered_those_that_end_close_together_side_by_side():
+    ends = hand().given("ends", np.array([5.9, 6.0, 13.0, 20.0, 22.5, -6.5, 0.0, 15.4]) * 1j)
+    rays = [[7], [0, 3], [1], [2], [4], [5], [6], [8]]
+    labels = ray_numbers(ends, np.arange(8.0), rays, lambda some: " ".join(map(str, some)))
+    assert [label.text for label in labels] == ["5", "6", "0 3 7", "1 8", "2", "4"]
+    assert [label.at for label in labels] == [-6.5j, 0j, 6j, 15.4j, 20j, 22.5j]
+    assert [label.along for label in labels] == [5.0, 6.0, 1.0, 7.0, 3.0, 4.0]
+    assert all(label.small and label.of is ends.act for label in labels)
+    (said,) = close_ends_caption(ends)
+    assert "less than 2.5 mm apart" in str(said)
+    assert close_ends_caption(ends[[0, 2]]) == ()
 
 
 def test_neighbours_are_named_together_within_a_phase_only():

@@ -453,14 +453,15 @@ def test_numbers_stand_at_the_ends_of_their_rays_and_at_their_points(kind):
         assert len(at_axis) >= 3
         assert len(at_points) >= derived.size // 4
         slopes = slopes_of(kind, plotted, traced)
+        # Every ray has its number, at an end that is no farther off than there is room for two numbers.
+        assert sorted(name for label in at_axis for name in all_of_range(str(label.text))) == sorted(names)
         for label in at_axis:
-            fall = {
-                name for name, slope in zip(names, slopes, strict=True) if abs(distance * slope - label.at.imag) < 1e-3
-            }
-            assert all_of_range(str(label.text)) == fall
-            assert label.towards == -1
+            for name in all_of_range(str(label.text)):
+                slope = slopes[names.index(name)]
+                assert abs(distance * slope - label.at.imag) < RAYS_ROOM
+            assert label.towards == 1
         heights = sorted(label.at.imag for label in at_axis)
-        assert np.diff(heights).min() >= RAYS_ROOM
+        assert np.diff(heights).min() > 0
         for label in at_points:
             assert label.at == derived[names.index(str(label.text))]
             assert label.towards.imag * label.at.imag >= 0 == label.towards.real

@@ -12,6 +12,7 @@ from over_all import over_all
 from test_marks_of_integration import BOARDS, EVERY, MANY, PASSES, SIGMA, Pass, drawn, names_of, of, starts, steps
 
 from graphcam.constructions.chain import Chain
+from graphcam.constructions.graduation import RAYS_ROOM
 from graphcam.drafting.act_order import FollowedBoard, pieces_of, visible_places
 from graphcam.drafting.acts import Act, Kind
 from graphcam.drafting.ink import Part, Step
@@ -201,16 +202,30 @@ def test_numbers_stand_at_the_ends_of_their_rays_and_find_room(name, hand, index
     told = {level: names for (names, _), level in zip(rays_told(run), run.levels.starts.imag, strict=True)}
     labels = [label for label in of(run.rays, Label) if label.small]
     assert labels
-    heights = sorted([0.0, *(label.at.imag for label in labels)])
-    assert np.diff(heights).min() >= 6
+    heights = sorted(label.at.imag for label in labels)
+    assert np.diff(heights).min(initial=math.inf) > 0
     for label in labels:
-        assert label.at.real == 0
-        assert label.text == told[label.at.imag]
-        assert label.towards == (1 - 1j if label.at.imag > 0 else 1 + 1j)
-    # Nothing is left out that would find room.
-    assert all(min(abs(level - y) for y in heights) < 6 or level in heights for level in told)
-    farthest = max(told, key=abs)
-    assert farthest in heights or abs(farthest) < 6
+        assert label.at.real == 0 == label.towards.imag
+        # In the line that is carried level from the ray's end.
+        assert label.along > 0
+    # Every ray is numbered once, at an end that is less than a letter off.
+    assert sorted(each for label in labels for each in expanded(label.text)) == sorted(
+        each for names in told.values() for each in expanded(names)
+    )
+    for level, names in told.items():
+        (label,) = (label for label in labels if expanded(names)[0] in expanded(label.text))
+        assert abs(label.at.imag - level) < RAYS_ROOM
+
+
+def expanded(names: object) -> list[str]:
+    """The single names of several, such as 1-3, 5′."""
+    found: list[str] = []
+    for run in str(names).split(", "):
+        first, _, last = run.partition("-")
+        phase = "′" * first.count("′")
+        numbers = (int(end.replace("′", "")) for end in (first, last or first))
+        found += [f"{k}{phase}" for k in range(next(numbers), next(numbers) + 1)]
+    return found
 
 
 @PASSES

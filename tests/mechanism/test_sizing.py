@@ -9,7 +9,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from over_all import over_all
+from over_all import over_all, over_seeds
 
 import graphcam as gc
 from graphcam.mechanism.sizing import feasible_region, pareto_front
@@ -197,8 +197,8 @@ def test_the_sheet_of_the_region_speaks_russian():
     [
         ({"prime_radius": (75, 70)}, "range of the prime radius is 75 to 70 mm"),
         ({"face_width": (0, 70)}, "range of the face width is 0 to 70 mm"),
-        ({"offset": (0, 80)}, "range of the offset is up to 80 mm, but must be less than the minimum prime radius"),
-        ({"roller_radius": (10, 90)}, "range of the roller radius is up to 90 mm"),
+        ({"offset": (500, 600)}, "range of the offset is from 500 mm on"),
+        ({"roller_radius": (490, 500)}, "range of the roller radius is from 490 mm on"),
         ({"rise": 0.0}, "permitted pressure angle on the rise is 0 degrees"),
         ({"permitted_stress": 0.0}, "permitted stress is 0.0"),
         ({"roller_rule": "rho / 2"}, "roller rule is 'rho / 2'"),
@@ -212,6 +212,23 @@ def test_the_sheet_of_the_region_speaks_russian():
 def test_problems_without_a_solution_are_refused_with_reason(change, message):
     with pytest.raises(gc.DesignError, match=message):
         gc.size_cam(motion_of(12, (60, 60, 60, 180)), constant(4000), **(TRAN | change))
+
+
+@over_seeds(8)
+def test_a_range_whose_corners_are_no_cams_has_the_answer_of_a_narrower_one(seed):
+    rng = np.random.default_rng(seed)
+    motion = motion_of(rng.uniform(6, 15), (80, 70, 90, 120))
+    common = {
+        "face_width": (6, 33),
+        "permitted_stress": rng.uniform(450, 900),
+        "rise": math.radians(rng.uniform(25, 35)),
+    }
+    narrow = gc.size_cam(motion, constant(2000), prime_radius=(25, 90), offset=(-8, 6), roller_radius=(5, 20), **common)
+    low = rng.uniform(5.5, 15)
+    wide = gc.size_cam(motion, constant(2000), prime_radius=(low, 90), offset=(-8, 6), roller_radius=(5, 20), **common)
+    assert wide.radius <= narrow.radius * (1 + 1e-7)
+    if wide.radius > 25:
+        assert wide.radius == pytest.approx(narrow.radius, rel=1e-7)
 
 
 def test_a_load_that_does_not_keep_contact_is_refused():

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 import sys
 import tomllib
+from contextlib import chdir
+from typing import Any
 
 import hard_cases
 import jupytext
@@ -12,6 +14,10 @@ import nbformat
 import pytest
 from courses import COURSE, FOLDER
 from over_all import over_all
+
+import graphcam as gc
+from graphcam.notebooks import changed, lesson_task
+from graphcam.tasks.task_writer import task_files
 
 sys.path.append(str(FOLDER))
 import pair
@@ -76,3 +82,45 @@ def test_the_hard_cases_of_the_course_are_those_of_the_table():
         same = {"follower.offset": "offset", "follower.roller_radius": "roller", "cam.prime_radius": "prime_radius",
                 "limits.pressure_angle_rise": "rise", "drawing.divisions": "divisions"}  # fmt: skip
         assert {key: case.get(key) for key in same} == {key: row.get(name) for key, name in same.items()}
+
+
+@pytest.mark.parametrize(
+    ("name", "goes_on"), [("flat", True), ("arm", True), ("measured", False), ("coursework", False)]
+)
+def test_a_lesson_that_needs_another_follower_goes_on_with_the_built_in_cam(name, goes_on, tmp_path, capsys):
+    for file, text in task_files(gc.builtin_task(name)).items():
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    task = lesson_task(tmp_path / "task.toml", follower="translating")
+    assert (task != gc.builtin_task(name)) is goes_on
+    assert ("Markdown object" in capsys.readouterr().out) is goes_on
+    assert task.follower.kind == "translating"
+    by_laws = lesson_task(tmp_path / "task.toml", by_laws=True)
+    assert by_laws.motion.phases is not None
+    assert not goes_on or {getattr(phase, "law", "3-4-5") for phase in task.motion.phases} == {"3-4-5"}
+
+
+OTHER_TASKS = {
+    "anticlockwise, central": {"rotation": "ccw", "follower.offset": 0.0},
+    "constant acceleration": {"rotation": "cw"},
+    "few parts, another pole": {"drawing.divisions": 8, "drawing.poles": (50.0, 30.0), "drawing.ordinate": 40.0},
+}
+FOLLOWING = ("01", "02", "03", "04", "05", "06", "09", "10")
+"""The notebooks that follow the task, but for 7, which takes longer."""
+
+
+@over_all("name", OTHER_TASKS)
+def test_the_course_takes_another_task(name, tmp_path, monkeypatch):
+    """All cells, in this process, without steps and sliders; its assertions hold for the other task as well."""
+    monkeypatch.setattr(gc, "studio", lambda *_, **__: None)
+    task = changed(gc.builtin_task(), OTHER_TASKS[name])
+    for file, text in task_files(task).items():
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    with chdir(tmp_path):
+        for script in sorted(path for path in FOLDER.glob("[0-9][0-9]_*.py") if path.name[:2] in FOLLOWING):
+            shown: list[object] = []
+            names: dict[str, Any] = {"display": shown.append}
+            for cell in jupytext.read(script).cells:
+                if cell.cell_type == "code":
+                    exec(compile(cell.source, str(script), "exec"), names)
+                    names |= dict.fromkeys(("show_steps", "explore"), lambda *_, **__: None)
+            assert names["task"].rotation == task.rotation

@@ -63,7 +63,7 @@ def check_frame(page: PdfPage, drawn: Page, within: float) -> None:
 def check_widths(page: PdfPage) -> None:
     """Lines are drawn in the widths of the styles, and in no others."""
     widths = {round(path.width, 2) for path in page.paths if path.width}
-    assert {0.18, 0.7} <= widths <= {style.width for style in STYLES_BY_ROLE.values()}
+    assert {0.25, 0.5} <= widths <= {style.width for style in STYLES_BY_ROLE.values()}
 
 
 def check_words(pdf: Path, drawing: Drawing) -> None:

@@ -203,7 +203,7 @@ def test_a_page_on_axes_grows_and_shrinks_with_them(origin, factor):
     # 5 inches for 200 mm.
     times = 5 * 25.4 / 200
     lines, line = recorder.paths
-    assert lines["width"] == pytest.approx(times * 0.18 * POINT)
+    assert lines["width"] == pytest.approx(times * 0.25 * POINT)
     assert line["dashes"] == pytest.approx([times * mm * POINT for mm in CENTER])
     assert lines["clip"] == axes.bbox.bounds
     dots = times / 25.4 * 80

@@ -114,7 +114,7 @@ def test_line_widths_are_those_of_the_standard(tmp_path: Path) -> None:
         for content in pdf_contents(tmp_path / "sheet.pdf")
         for width in re.findall(rb"(?:^|\s)([\d.]+) w\s", content)
     }
-    assert {0.18, 0.35, 0.7} <= widths <= {0.0, 0.18, 0.35, 0.7}
+    assert {0.25, 0.5} <= widths <= {0.0, 0.25, 0.5}
 
 
 @pytest.mark.parametrize("height", [2.5, 3.5, 5.0])

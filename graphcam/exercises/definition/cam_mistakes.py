@@ -18,10 +18,36 @@ from graphcam.given.follower import Limits, Rotation, sense
 @catalogued(say("You seem to have laid off the offset on the other side of the cam centre."))
 def offset_sign(chain: Chain) -> Chain:
     """The follower's line on the other side of the cam centre."""
+    return redrawn(chain, replace(chain.board, follower=DrawnTranslating(-_given_offset(chain))))
+
+
+@catalogued(
+    say("You seem to have drawn the follower's line through the cam centre: it lies beside it, as far as the offset.")
+)
+def offset_forgotten(chain: Chain) -> Chain:
+    """The follower's line through the cam centre."""
+    _given_offset(chain)
+    return redrawn(chain, replace(chain.board, follower=DrawnTranslating(0.0)))
+
+
+@catalogued(
+    say(
+        "You seem to have subtracted the offset from the prime radius: s₀ is a leg of the right triangle whose "
+        "hypotenuse is the prime radius and whose other leg is the offset."
+    )
+)
+def offset_subtracted(chain: Chain) -> Chain:
+    """The difference of prime radius and offset taken for s0."""
+    offset = _given_offset(chain)
+    return _about_circle(chain, math.hypot(chain.prime_radius - abs(offset), offset))
+
+
+def _given_offset(chain: Chain) -> float:
+    """The offset that the task gives."""
     follower = chain.board.follower
     if follower.place is None or follower.place_name != "offset":
-        raise DesignError("offset", say("not given"), say("given where its sign is to be mistaken"))
-    return redrawn(chain, replace(chain.board, follower=DrawnTranslating(-follower.place)))
+        raise DesignError("offset", say("not given"), say("given where it is to be mistaken"))
+    return follower.place
 
 
 @catalogued(

@@ -128,7 +128,8 @@ def pole_forgotten(name: str) -> Change:
     """The scales of v and a without the pole distances in the construction of that name."""
 
     def forgotten(chain: Chain) -> Chain:
-        first, second = chain.board.poles if name == "differentiation" else chain.board.poles[::-1]
+        # Differentiation turns the integrations round: in either the velocity has the second pole.
+        first, second = chain.board.poles[::-1]
         return _wrong_scales(chain, name, (1 / first, 1 / second))
 
     return forgotten

@@ -18,8 +18,9 @@ from graphcam.given.motion import FULL_TURN
 
 Drawn = list[NDArray[Any]]
 """One entry an answer: numbers ([samples,]) or complex points ([samples,] m)."""
-CALCULATION_DEVIATION = 1e-3
-"""Relative standard deviation of what is only calculated: three figures are carried."""
+CALCULATION_DEVIATION = 3.5e-3
+"""Relative standard deviation of what is only calculated: three figures are carried, of 1° = 0.0175 rad too, whose
+square is in a scale of a."""
 NORMAL_99 = 2.575829
 """99 % of normally distributed values lie within so many standard deviations."""
 DWELL_STEP = math.radians(15)

@@ -1,10 +1,8 @@
 """Answers that are right by chance: one number for several, or a number that the text gives."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
-from graphcam.drafting.slips import UNIFORM_DEVIATION
-from graphcam.exercises.definition.exercise import Exercise, Value
-from graphcam.exercises.key.answer_scatter import CALCULATION_DEVIATION, Drawn
+from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.key.expected_answers import Expected
 
 MAX_COINCIDENCE_SHARE = 0.5
@@ -20,9 +18,9 @@ def by_one_number(exercise: Exercise, keys: Sequence[Expected], tolerances: Sequ
 
     >>> from graphcam.exercises.definition.exercise_file import find_exercise
     >>> exercise = find_exercise("pressure-angle")
-    >>> keys = [Expected(value, 0.5) for value in (60.0, 30.0, -31.5, 25.0, 20.0, 10.0, -5.0)]
-    >>> by_one_number(exercise, keys, [1.0] * 7)  # the second and the third, of 2 marks of 8
-    0.25
+    >>> keys = [Expected(value, 0.5) for value in (0.6, 60.0, 0.9, 30.0, -31.5, 25.0, 20.0, 10.0, -5.0)]
+    >>> by_one_number(exercise, keys, [0.1, 1.0, 0.1, *[1.0] * 6])  # two of one mark each, of 10
+    0.2
     """
     sizes = [
         (abs(float(key.value)), most, asked.marks)
@@ -37,30 +35,7 @@ def by_one_number(exercise: Exercise, keys: Sequence[Expected], tolerances: Sequ
 
 
 SIMPLE_MULTIPLES = (0.5, 1.0, 2.0)
-"""What a number of the text may be multiplied by in a guess."""
-
-
-def copied_numbers(exercise: Exercise, answers: Drawn, parameters: Mapping[str, Value]) -> tuple[tuple[str, str], ...]:
-    """The answers that are a number of the text or a simple multiple of one: their names, each with the parameter's.
-
-    >>> from graphcam.exercises.definition.exercise_file import find_exercise
-    >>> exercise = find_exercise("least-radius")
-    >>> drawn = [np.array(value) for value in (0.6, 0.8, 31, -40, 33, -44, 47, 12, 50.02)]
-    >>> copied_numbers(exercise, drawn, {"lift": 25})
-    (('r0', 'lift'),)
-    """
-    return tuple(
-        (asked.name, name)
-        for asked, answer in zip(exercise.answers, answers, strict=True)
-        for name, value in parameters.items()
-        if asked.kind == "number"
-        and not isinstance(value, str)
-        and any(
-            abs(abs(float(answer)) - factor * abs(value))
-            <= max(UNIFORM_DEVIATION * 10.0**-asked.decimals, CALCULATION_DEVIATION * abs(factor * value))
-            for factor in SIMPLE_MULTIPLES
-        )
-    )
+"""What a radius of the text may be multiplied by in a guess."""
 
 
 RADII = ("rho", "roller_radius", "prime_radius")
@@ -73,6 +48,12 @@ def guessed_radii(
     """The names of the radii for which the prime radius that the text gives, or its half, is right.
 
     keys, tolerances : of every answer, in the order of the exercise
+
+    >>> from graphcam.exercises.definition.exercise_file import find_exercise
+    >>> exercise = find_exercise("curvature-and-roller")
+    >>> keys = [Expected(value, 1.0) for value in (8.0, 9.0, 0.5, 80.0, -9.0, 70.0, 20.0, 48.0, 24.0)]
+    >>> guessed_radii(exercise, keys, [3.0] * 9, prime_radius=60.0), guessed_radii(exercise, keys, [3.0] * 9, 50.0)
+    ((), ('rho', 'roller'))
     """
     return tuple(
         asked.name

@@ -27,17 +27,23 @@ class Effect:
     """What an answer becomes where one earlier answer is the student's own, at equally spaced t.
 
     An own value x is centre + width sinh(t): near the right one the values lie densely, and they reach far.
+    power : where the answer goes with a power of the own one, as a scale with another, that power; the one value is
+        then that at the centre
     """
 
     centre: float
     width: float
     values: tuple[float | None, ...]
+    power: int | None = None
 
     def at(self, own: float) -> float:
         """The answer that follows; NaN where none was drawn, and from a value too small to have been drawn."""
         # What is nought but for the scatter may be small: there the width is more than a part of the centre.
         if abs(own) * OWN_VALUE_RANGE < abs(self.centre) and self.width < abs(self.centre):
             return math.nan
+        if self.power is not None:
+            near = abs(own - self.centre) <= OWN_VALUE_RANGE * max(abs(self.centre), self.width)
+            return (self.values[0] or 0.0) * (own / self.centre) ** self.power if near else math.nan
         t = (math.asinh((own - self.centre) / self.width) / span(self.centre, self.width) + 1) * (NODE_COUNT - 1) / 2
         if not 0 <= t <= NODE_COUNT - 1:
             return math.nan
@@ -45,9 +51,15 @@ class Effect:
         left, middle, right = self.values[k - 1 : k + 2]
         if left is None or middle is None or right is None:
             return math.nan
-        # The parabola through the three nearest drawings.
-        u = t - k
-        return middle + u * (right - left) / 2 + u * u * (right - 2 * middle + left) / 2
+        # The parabola through the three nearest drawings, over the own values: what goes straight with them is exact.
+        a, b, c = (self._own(k + step) for step in (-1, 0, 1))
+        bend = ((right - middle) / (c - b) - (middle - left) / (b - a)) / (c - a)
+        return middle + (own - b) * ((middle - left) / (b - a) + (own - a) * bend)
+
+    def _own(self, k: int) -> float:
+        """The own value from which the drawing of that number started."""
+        t = (2 * k / (NODE_COUNT - 1) - 1) * span(self.centre, self.width)
+        return self.centre + self.width * math.sinh(t)
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,14 +80,16 @@ class Dependence:
 
     def to_json(self) -> str:
         """The dependence as JSON text."""
-        effects = {name: [each.centre, each.width, list(each.values)] for name, each in self.effects.items()}
+        effects = {
+            name: [each.centre, each.width, list(each.values), each.power] for name, each in self.effects.items()
+        }
         return json.dumps({"together": self.together, "effects": effects}, allow_nan=False)
 
     @staticmethod
     def from_json(text: str) -> Dependence:
         """The dependence in the text that :meth:`to_json` wrote."""
         said = json.loads(text)
-        effects = {name: Effect(c, w, tuple(values)) for name, (c, w, values) in said["effects"].items()}
+        effects = {name: Effect(c, w, tuple(values), power) for name, (c, w, values, power) in said["effects"].items()}
         return Dependence(effects, said["together"])
 
 

@@ -16,7 +16,6 @@ from graphcam.exercises.key.answer_scatter import answers_of, bulges_of, deviati
 from graphcam.exercises.key.coinciding_answers import (
     MAX_COINCIDENCE_SHARE,
     by_one_number,
-    copied_numbers,
     guessed_radii,
 )
 from graphcam.exercises.key.mistake_separation import (
@@ -60,9 +59,6 @@ def key_or_reason(variant: Variant) -> AnswerKey | RefusedDraw:
     if isinstance(found, RefusedDraw):
         return found
     exercise, drawn = variant.exercise, found
-    if copied := copied_numbers(exercise, drawn.answers, variant.parameters):
-        reasons = tuple(RefusalReason("copied", *pair) for pair in copied)
-        return RefusedDraw(reasons, reasons, {})
     chains = {CAREFUL_WORK: drawn.right, **drawn.wrong}
     wrong = hypotheses(exercise, drawn)
     not_told = inseparable_pairs(exercise, wrong)

@@ -10,7 +10,7 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.exercises.definition.drawn_answers import drawn_answer, with_own_answers
 from graphcam.exercises.definition.exercise import AskedAnswer, Exercise
 from graphcam.exercises.key.expected_answers import Expected, Floats
-from graphcam.exercises.key.follow_through import NODE_COUNT, Dependence, Effect, Together, span
+from graphcam.exercises.key.follow_through import NODE_COUNT, OWN_VALUE_RANGE, Dependence, Effect, Together, span
 
 NEGLIGIBLE_EFFECT = 0.05
 """Effects of less than this part of the tolerance are none."""
@@ -40,7 +40,7 @@ def dependences(exercise: Exercise, chain: Chain, keys: list[Expected], bound: f
     found: dict[str, Dependence] = {}
     for k in range(1, centres.size):
         effects = {
-            asked[i].name: Effect(float(centres[i]), float(widths[i]), _figures(one[i, :, k]))
+            asked[i].name: _effect(float(centres[i]), float(widths[i]), alone[i, :, i], one[i, :, k], float(centres[k]))
             for i in range(k)
             if np.nanmax(np.abs(one[i, :, k] - centres[k]), initial=0.0) > NEGLIGIBLE_EFFECT * bound * scatters[k]
         }
@@ -48,6 +48,24 @@ def dependences(exercise: Exercise, chain: Chain, keys: list[Expected], bound: f
             rows = [dict(zip([each.name for each in asked[:k]], row, strict=False)) for row in trials[k - 1].tolist()]
             found[asked[k].name] = _put_together(effects, float(centres[k]), rows, several[k - 1, :, k])
     return found
+
+
+POWERS = (1, -1, 2, -2)
+"""The powers of an own value with which an answer may go."""
+POWER_ROUNDING = 1e-6
+"""The maximum part of themselves by which drawings are off a power."""
+
+
+def _effect(centre: float, width: float, own: Floats, drawn: Floats, key: float) -> Effect:
+    """The effect of own values on an answer; exactly, where it goes with a power of them."""
+    if centre and key:
+        # The drawings by own values that may be looked up.
+        near = np.isfinite(drawn) & (np.abs(own) * OWN_VALUE_RANGE >= abs(centre))
+        for power in POWERS:
+            by_power = key * (own[near] / centre) ** power
+            if near.any() and np.allclose(drawn[near], by_power, rtol=POWER_ROUNDING, atol=0.0):
+                return Effect(centre, width, (key,), power)
+    return Effect(centre, width, _figures(drawn))
 
 
 def _single_own_values(centres: Floats, widths: Floats) -> Floats:

@@ -27,10 +27,10 @@ class RefusalReason:
     """A reason why a draw has no answer key.
 
     kind : the drawing comes to nothing, or the one with a mistake; no room for it; mistakes are alike; careful hands
-        name different sides; one number earns too much; an answer is a number of the text; a mistake that is not listed
-        keeps all marks
+        name different sides; one number earns too much; the prime radius is right for another radius; a mistake that
+        is not listed keeps all marks
     first, second : the mistakes of which it is true, the second also what work without a mistake is called; or the
-        answer and the parameter that it is
+        answer and the number of the text
     """
 
     kind: Kind

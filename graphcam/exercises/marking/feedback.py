@@ -17,11 +17,12 @@ def feedback(
     exercise: Exercise,
     marked: Sequence[MarkedAnswer],
     answers: Answers,
-    diagnosis: Diagnosis | None,
+    explained: Diagnosis | Caption | None,
     most: float | None = None,
 ) -> tuple[str, ...]:
     """Sentences for the student: about every answer, then about the mistake behind them.
 
+    explained : the mistake that explains the answers, or what is said of a slip in one of them
     most : the marks that were left with that mistake, where it would have earned more
     """
     curves = {asked.name for asked in exercise.answers if asked.kind == "curve"}
@@ -29,13 +30,15 @@ def feedback(
         _near_remark(each) if each.outcome == "partial" and each.name not in curves else _answer_remark(each, answers)
         for each in marked
     ]
-    if diagnosis:
-        captions += _mistake_remarks(diagnosis)
+    if isinstance(explained, Diagnosis):
+        captions += _mistake_remarks(explained)
         if most is not None:
             said = say(
                 "With this mistake a submission earns at most {most:g} of {of:g} marks.", most=most, of=exercise.marks
             )
             captions += [said, REDUCED_MARKS_NOTE]
+    elif explained:
+        captions.append(explained)
     elif any(each.outcome in ("wrong", "partial") for each in marked):
         captions.append(say("No usual mistake explains these answers; go through the wrong steps again."))
     return tuple(map(exercise.tell, captions))

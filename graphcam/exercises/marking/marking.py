@@ -16,6 +16,7 @@ from graphcam.exercises.marking.diagnosis import ComparedAnswer, compare, diagno
 from graphcam.exercises.marking.exactness import too_exact
 from graphcam.exercises.marking.feedback import feedback
 from graphcam.exercises.marking.record import MarkedAnswer, Outcome, Record
+from graphcam.exercises.marking.single_slips import single_slip
 
 ROUNDING = 1e-9
 """What the arithmetic may take from a whole number."""
@@ -109,6 +110,7 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
     policies = (policy, policy.without_follow_through, policy.without_caps)
     marks, strict, uncapped = (earned(each, judged, mistakes) for each in policies)
     marked = tuple(_marked(one, beside_key.get(one.asked.name), paid) for one, paid in zip(judged, marks, strict=True))
+    slip = None if diagnosis else single_slip(compared, following, answer_key.bound)
     most = policy.max_share(mistakes) * exercise.marks if sum(marks) < sum(uncapped) else None
     return Record(
         student=answer_key.student,
@@ -121,7 +123,7 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
         of=exercise.marks,
         diagnosis=diagnosis,
         too_exact=too_exact(answer_key, compared),
-        feedback=feedback(exercise, marked, answers, diagnosis, most),
+        feedback=feedback(exercise, marked, answers, diagnosis or slip, most),
         notes=tuple(map(exercise.tell, answers.notes)),
         level=level,
         without_follow_through=sum(strict),

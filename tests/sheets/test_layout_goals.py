@@ -1,0 +1,75 @@
+"""The goals of the layout, on other people's tasks: order, empty room, labels, leaders, numbers of rays."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from layout_goals import LayoutMeasures, empty_share, measured
+from over_all import over_all
+from random_sheets import solved
+
+import graphcam as gc
+from graphcam.drafting.marks import Role
+from graphcam.sheets.model import Box, Group, Page, Stroke
+from graphcam.tasks.task_file import BUILTIN_TASK_NAMES, builtin_task
+
+COURSEWORK = sorted(Path(__file__).with_name("coursework").glob("*.toml"))
+SOME = ["k_02", "k_04", "k_05", "k_07", "k_11", "k_12", "n01", "n14", "n16", "t_tr"]
+"""The beginnings of the names of ten of them."""
+TOLERATED = {
+    "b_sizing": {"parts", "labels", "tangle"},
+    "k_04": {"parts"},
+    "k_05": {"empty", "tangle"},
+    "k_09": {"parts", "tangle"},
+    "k_11": {"tangle"},
+    "k_23": {"parts"},
+    "n11": {"parts"},
+    "w7": {"parts", "tangle", "bold"},
+}
+"""What is still missed, by the beginnings of the names of tasks."""
+
+
+def tolerated(name: str) -> set[str]:
+    return next((goals for start, goals in TOLERATED.items() if name.startswith(start)), set())
+
+
+@over_all("start", SOME)
+def test_ten_tasks_keep_to_the_goals(start: str) -> None:
+    (file,) = (each for each in COURSEWORK if each.name.startswith(start))
+    assert measured(gc.solve(gc.load_task(file))).missed().keys() <= tolerated(file.stem)
+
+
+@pytest.mark.slow
+@over_all("file", COURSEWORK)
+def test_all_tasks_miss_what_is_known_and_nothing_else(file: Path) -> None:
+    assert measured(gc.solve(gc.load_task(file))).missed().keys() == tolerated(file.stem)
+
+
+@pytest.mark.slow
+@over_all("name", BUILTIN_TASK_NAMES)
+def test_built_in_tasks_keep_to_the_goals(name: str) -> None:
+    assert measured(gc.solve(builtin_task(name))).missed() == {}
+
+
+@pytest.mark.slow
+@over_all("number", range(40))
+def test_random_tasks_are_in_order_and_number_their_rays(number: int) -> None:
+    assert not measured(solved(number)).missed().keys() & {"order", "rays"}
+
+
+def test_a_miss_is_found() -> None:
+    good = LayoutMeasures([], [0.5], 5.0, [], [], [], [], 24, narrow_allowed=False)
+    assert good.missed() == {"empty": [0.5]}
+    assert LayoutMeasures([], [0.1, 0.5], 3.0, [], [], [], ["1 (v)"], 24, narrow_allowed=False).missed() == {
+        "parts": 3.0,
+        "rays": ["1 (v)"],
+    }
+
+
+def test_the_largest_empty_rectangle_is_measured() -> None:
+    frame = Box(0, 0, 400, 280)
+    upright = Stroke(np.array([100, 100 + 280j]), Role.CURVE)
+    page = Page(400, 280, frame, (Group("step-01 a", (upright,)),))
+    assert empty_share(page) == pytest.approx(300 / 400, abs=0.02)
