@@ -38,12 +38,10 @@ from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import Scale, coarsest_scale, standard_scale
 from graphcam.errors import DesignError
 from graphcam.given.follower import LIMIT_NAMES
-from graphcam.given.laid_outline import laid_outline
+from graphcam.given.laid_outline import GivenCamMotion, laid_outline
 from graphcam.given.laws import Floats
 from graphcam.given.measured import MeasuredMotion
 from graphcam.given.motion import FULL_TURN
-from graphcam.given.outline_motion import OutlineMotion
-from graphcam.given.point_outline import TracedMotion
 from graphcam.words import and_chain, say
 
 PHASE_ANGLES_ROOM = complex(58.0, 44.0)
@@ -88,12 +86,13 @@ class Chain(Drawings):
     def names(self) -> tuple[str, ...]:
         """The names of the follower's constructions, and of those asked for, for a measured motion, and added."""
         motion, drawn = self.board.motion, list(self.board.follower.constructions)
-        measured = ("differentiation",) if isinstance(motion, MeasuredMotion) else ()
-        if isinstance(motion, OutlineMotion | TracedMotion):  # what is asked of a given cam comes first
-            drawn[1:1], measured = ["analysis", "differentiation"], ()
+        if isinstance(motion, GivenCamMotion):  # what is asked of a given cam comes first
+            drawn[1:1] = ["analysis", "differentiation"]
+        elif isinstance(motion, MeasuredMotion):
+            drawn.append("differentiation")
         if self.board.jerk_pole is not None:
             drawn.insert(drawn.index("integration") + 1, "jerk")
-        return (*drawn, *measured, *self.further)
+        return (*drawn, *self.further)
 
     @DrawnOnce
     def scheme(self) -> Construction:
@@ -104,11 +103,11 @@ class Chain(Drawings):
     def analysis(self) -> Construction:
         """What a given cam does, by the positions of its follower."""
         board, motion = self.board, self.board.motion
-        assert isinstance(motion, OutlineMotion | TracedMotion)
+        assert isinstance(motion, GivenCamMotion)
         parts = board.divisions * len(motion.phases) * board.refine
         phi = FULL_TURN * np.arange(parts) / parts
         sizes = self.prime_radius, self.roller_radius, self.place
-        outline = laid_outline(motion, board.rotation, FULL_TURN / parts)
+        outline = laid_outline(motion, FULL_TURN / parts)
         unit = board.follower.unit
         givens = AnalysisGivens(outline, motion, board.rotation, *sizes, phi, self.profile_scale, unit)
         return board.follower.analysis(givens, self.pencil)
@@ -140,7 +139,7 @@ class Chain(Drawings):
         """
         board = self.board
         first, second = board.poles  # of the integrations, which differentiation turns round
-        if "analysis" in self.names:
+        if isinstance(board.motion, GivenCamMotion):
             return given_cam_differentiation(
                 self.analysis, board.motion.lift, board.mu_phi, (second, first), self.pencil
             )

@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphcam.given.cam_by_radii import OutlineArc
-from graphcam.given.follower import Rotation, sense
-from graphcam.given.motion import FULL_TURN, Motion
+from graphcam.given.follower import sense
+from graphcam.given.laws import Floats
+from graphcam.given.motion import FULL_TURN
 from graphcam.given.outline_motion import STILL, OutlineMotion
 from graphcam.given.point_outline import TracedMotion
 
-PLACES_A_POINT, PARTS_A_STEP = 8, 2
-"""The spline between two points is looked at in so many places; it is divided in so many parts a step."""
+PARTS_A_STEP = 2
+"""The curvature of an outline through points changes along it: a step of the cam angle has so many parts."""
 MIN_ARC_PARTS = 4
 """An arc, or a straight part, is divided into so many parts at least."""
 
@@ -37,24 +38,30 @@ class LaidOutline:
     dwells: tuple[int, ...] = ()
 
 
-@singledispatch
-def laid_outline(motion: Motion, rotation: Rotation, step: float) -> LaidOutline:
-    """The outline of a given cam where its motion begins, at places between which the normal turns by about a step.
+GivenCamMotion = OutlineMotion | TracedMotion
+"""A motion that a given cam makes."""
 
-    rotation : of the cam;  step : rad
+
+@singledispatch
+def laid_outline(motion: GivenCamMotion, step: float) -> LaidOutline:
+    """The outline of a given cam where the motion begins, at places between which the normal turns by about a step.
+
+    Of a cam through points these are twice as many in every phase as steps of the cam angle, and a phase is a piece.
+
+    step : rad
 
     >>> import graphcam as gc
     >>> cam = gc.cam_by_radii(base_radius=28, flank_radius="straight", lift=15, ascent=math.radians(70))
-    >>> laid = laid_outline(gc.outline_motion(cam, gc.Translating(roller_radius=16)), "ccw", math.radians(15))
+    >>> laid = laid_outline(gc.outline_motion(cam, gc.Translating(roller_radius=16)), math.radians(15))
     >>> len(laid.pieces), laid.dwells, complex(laid.points[4].round(4))
     (4, (3,), (21.4222+28j))
     """
-    raise NotImplementedError(type(motion).__name__)
+    raise TypeError(type(motion))
 
 
 @laid_outline.register
-def _(motion: OutlineMotion, rotation: Rotation, step: float) -> LaidOutline:
-    roller, sigma = motion.prime_radius - motion.outline.base_radius, sense(rotation)
+def _(motion: OutlineMotion, step: float) -> LaidOutline:
+    roller, sigma = motion.prime_radius - motion.outline.base_radius, sense(motion.rotation)
     points, normals, pieces, dwells = list[complex](), list[complex](), list[slice](), list[int]()
     for number, (arc, following) in enumerate(pairwise([*motion.arcs, motion.arcs[0]])):
         turn = _turn(arc, following, sigma)
@@ -73,16 +80,21 @@ def _(motion: OutlineMotion, rotation: Rotation, step: float) -> LaidOutline:
 
 
 @laid_outline.register
-def _(motion: TracedMotion, rotation: Rotation, step: float) -> LaidOutline:
-    outline, sigma = motion.outline, sense(rotation)
-    # As many places for the way round as for the turns of the normal: close together where the outline is sharp.
-    number = np.arange(outline.points.size * PLACES_A_POINT + 1)[::-sigma] / PLACES_A_POINT
-    turns, way = np.abs(np.diff(np.unwrap(np.angle(outline.outward(number))))), np.abs(np.diff(outline(number)[0]))
-    passed = np.append(0.0, np.cumsum(turns / FULL_TURN + way / way.sum()))
-    parts = math.ceil(passed[-1] * FULL_TURN * PARTS_A_STEP / step)
-    place = np.interp(np.linspace(0.0, passed[-1], parts + 1), passed, number)
-    turned = np.exp(1j * sigma * motion.zero)
-    return LaidOutline(turned * outline(place)[0], turned * outline.outward(place), (slice(0, parts + 1),))
+def _(motion: TracedMotion, step: float) -> LaidOutline:
+    phi, pieces, dwells = list[Floats](), list[slice](), list[int]()
+    first = 0
+    for number, (_, start, end) in enumerate(motion.timing):
+        parts = max(MIN_ARC_PARTS, math.ceil(PARTS_A_STEP * (end - start) / step))
+        pieces.append(slice(first, first + parts + 1))
+        phi.append(np.linspace(start, end, parts, endpoint=False))
+        first += parts
+        if not motion.directions[number]:
+            dwells.append(number)
+    place = motion.touched(np.append(np.concatenate(phi), FULL_TURN))
+    turned = cmath.exp(1j * sense(motion.rotation) * motion.zero)
+    points, normals = turned * motion.outline(place)[0], turned * motion.outline.outward(place)
+    points[-1], normals[-1] = points[0], normals[0]
+    return LaidOutline(points, normals, tuple(pieces), tuple(dwells))
 
 
 def _turn(arc: OutlineArc, following: OutlineArc, sigma: int) -> float:

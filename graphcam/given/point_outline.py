@@ -171,13 +171,27 @@ class TracedMotion(MeasuredMotion):
     ----------
     outline : the cam
     prime_radius : of the pitch curve, or of a flat face the base radius [mm]
+    follower, rotation : what it moves, and the sense in which it turns
     """
 
     outline: PointOutline
     prime_radius: float
+    follower: Follower
+    rotation: Rotation
 
     def _summary(self) -> str:
         return f"{super()._summary()}, by a given cam"
+
+    def touched(self, phi: Floats) -> Floats:
+        """The places of the outline that the follower touches at cam angles [rad] of this motion, growing."""
+        sigma = sense(self.rotation)
+        place = _between_points(self.outline, sigma)
+        angles = np.unwrap(_laying(self.follower, self.outline, sigma).touching(place).phi - self.zero)
+        angles = np.maximum.accumulate(angles)
+        first = angles[0]
+        turns = np.floor((phi - first) / FULL_TURN)
+        along = np.interp(phi - FULL_TURN * turns, angles, place)
+        return along - sigma * self.outline.points.size * turns
 
 
 class Touching(NamedTuple):
@@ -187,17 +201,44 @@ class Touching(NamedTuple):
     s: Floats
 
 
+class Laying(NamedTuple):
+    """How a follower is laid against an outline.
+
+    touching : where it stands if it touches the outline at places
+    radius_at : the prime radius [mm], if s is counted from a level
+    arm : mm of way for one unit of s
+    too_hollow : the error for places that it cannot reach
+    """
+
+    touching: Callable[[Floats], Touching]
+    radius_at: Callable[[float], float]
+    arm: float
+    too_hollow: Callable[[Floats], DesignError]
+
+
 def traced_motion(
     outline: PointOutline, follower: Follower, rotation: Rotation, tolerance: float | None = None
 ) -> TracedMotion:
     """What a cam through points does to a follower; see :func:`~graphcam.outline_motion`."""
-    tolerance = DEFAULT_TOLERANCE if tolerance is None else tolerance
+    tolerance, sigma = DEFAULT_TOLERANCE if tolerance is None else tolerance, sense(rotation)
     check_number("tolerance", tolerance, say("a finite number greater than 0"), above=0)
-    return _traced(follower, outline, sense(rotation), tolerance)
+    laying = _laying(follower, outline, sigma)
+    unit = tolerance / laying.arm
+    rows, covered = _rows(outline, laying.touching, sigma, unit)
+    if covered.size:
+        raise laying.too_hollow(covered)
+    s = rows.s - rows.s.min()
+    if not float(np.ptp(s)) > 2 * unit:
+        found, limit = say("round about the cam centre"), say("moving the follower by more than twice the tolerance")
+        raise DesignError(say("outline"), found, limit, say("check that the coordinates are in mm"))
+    motion = measured_motion(rows.phi, s, unit)
+    radius = laying.radius_at(float(rows.s[0] - motion.measured[0]))
+    table = motion.phases, motion.zero, rows.phi, motion.measured, unit
+    return TracedMotion(*table, outline, radius, follower, rotation)
 
 
 @singledispatch
-def _traced(follower: Follower, outline: PointOutline, sigma: int, tolerance: float) -> TracedMotion:
+def _laying(follower: Follower, outline: PointOutline, sigma: int) -> Laying:
     way = trace(follower, outline.base_radius)
     roller = way.prime_radius - outline.base_radius
 
@@ -206,32 +247,40 @@ def _traced(follower: Follower, outline: PointOutline, sigma: int, tolerance: fl
         there = way.position(np.abs(centre))
         return Touching(sigma * np.angle(there / centre), way.moved(there))
 
-    rows, covered = _rows(outline, touching, sigma, tolerance / way.arm)
-    if covered.size:
-        most = outline.hollow_radius(covered)
-        limit = say(
-            "at most {most:.4g} mm, the radius of the hollow at {angle}", most=most, angle=_at(outline, covered)
-        )
-        raise DesignError(say("roller radius"), say("{radius:.6g}", radius=roller), limit, say("take a smaller roller"))
-    return _through(outline, rows, tolerance / way.arm, way.at)
+    def too_hollow(places: Floats) -> DesignError:
+        most, angle = outline.hollow_radius(places), _at(outline, places)
+        limit = say("at most {most:.4g} mm, the radius of the hollow at {angle}", most=most, angle=angle)
+        found = say("{radius:.6g}", radius=roller)
+        return DesignError(say("roller radius"), found, limit, say("take a smaller roller"))
+
+    return Laying(touching, way.at, way.arm, too_hollow)
 
 
-@_traced.register
-def _(follower: FlatFaced, outline: PointOutline, sigma: int, tolerance: float) -> TracedMotion:
+@_laying.register
+def _(follower: FlatFaced, outline: PointOutline, sigma: int) -> Laying:
     def touching(place: Floats) -> Touching:
         normal = outline.outward(place)
         return Touching(sigma * np.angle(1j / normal), (outline(place)[0] * np.conj(normal)).real)
 
-    rows, covered = _rows(outline, touching, sigma, tolerance)
-    if covered.size:
+    def too_hollow(places: Floats) -> DesignError:
         limit, remedy = say("rounded outwards under a flat face"), say("take a roller")
-        raise DesignError(say("outline"), say("hollow at {angle}", angle=_at(outline, covered)), limit, remedy)
-    return _through(outline, rows, tolerance, lambda level: level)
+        return DesignError(say("outline"), say("hollow at {angle}", angle=_at(outline, places)), limit, remedy)
+
+    def radius_at(level: float) -> float:
+        return level
+
+    return Laying(touching, radius_at, 1.0, too_hollow)
 
 
 def _at(outline: PointOutline, places: Floats) -> Words:
     middle = np.angle(outline(places)[0][places.size // 2])
     return say("{degrees:.4g}° on the cam", degrees=math.degrees(middle) % 360)
+
+
+def _between_points(outline: PointOutline, sigma: int) -> Floats:
+    """Places all over the outline, in the order in which they come under the follower."""
+    between = math.ceil(MIN_SAMPLES / outline.points.size)
+    return np.arange(outline.points.size * between + 1)[::-sigma] / between
 
 
 def _rows(
@@ -241,8 +290,7 @@ def _rows(
 
     touching : where the follower would stand if it touched the outline at places
     """
-    between = math.ceil(MIN_SAMPLES / outline.points.size)
-    place = np.arange(outline.points.size * between + 1)[::-sigma] / between  # in the order in which they come
+    place = _between_points(outline, sigma)
     there = touching(place)
     phi, s = np.unwrap(there.phi), there.s
     step = FULL_TURN / ROW_COUNT
@@ -270,16 +318,3 @@ def _rows(
         return rows, np.empty(0)
     lost = np.interp(phi, angles, rows.s, period=FULL_TURN) - s
     return rows, place[lost > max(tolerance, MIN_LOST_SHARE * float(np.ptp(s)))]
-
-
-def _through(
-    outline: PointOutline, rows: Touching, tolerance: float, radius_at: Callable[[float], float]
-) -> TracedMotion:
-    """The motion through the rows; radius_at : the prime radius [mm] of a level from which s is counted."""
-    s = rows.s - rows.s.min()
-    if not float(np.ptp(s)) > 2 * tolerance:
-        found, limit = say("round about the cam centre"), say("moving the follower by more than twice the tolerance")
-        raise DesignError(say("outline"), found, limit, say("check that the coordinates are in mm"))
-    motion = measured_motion(rows.phi, s, tolerance)
-    level = float(rows.s[0] - motion.measured[0])
-    return TracedMotion(motion.phases, motion.zero, rows.phi, motion.measured, tolerance, outline, radius_at(level))

@@ -11,12 +11,13 @@ from graphcam.given.boundary_motion import BoundaryMotion, boundary_motion
 from graphcam.given.boundary_parts import DERIVATIVE_NAMES, MotionPoint, PolynomialPart, SplinePart
 from graphcam.given.cam_by_radii import ArcOutline, Straight, cam_by_radii
 from graphcam.given.follower import FlatFaced, Follower, Rotation
+from graphcam.given.laid_outline import GivenCamMotion
 from graphcam.given.laws import canonical_law
 from graphcam.given.motion import FULL_TURN, NEAR_TURN_SHARE, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
-from graphcam.given.outline_motion import OutlineMotion, outline_motion
+from graphcam.given.outline_motion import outline_motion
 from graphcam.given.plausible_ranges import bounded, check_positive
-from graphcam.given.point_outline import TracedMotion, cam_through_points
+from graphcam.given.point_outline import cam_through_points
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law
 from graphcam.given.table_file import CurveTable, Turn
 from graphcam.tasks.dataclass_reader import ByKind, ByName
@@ -340,7 +341,7 @@ def _motion(tables: tuple[PhaseTable, ...], unit: float) -> Motion:
 @lru_cache(maxsize=16)
 def _of_given_cam(
     cam: RadiiTable | CurveTable, tolerance: float | None, follower: Follower, rotation: Rotation
-) -> OutlineMotion | TracedMotion:
+) -> GivenCamMotion:
     if isinstance(cam, RadiiTable):
         return outline_motion(cam(), follower, rotation)
     return outline_motion(cam_through_points(cam.rows), follower, rotation, tolerance)

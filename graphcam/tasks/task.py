@@ -24,9 +24,8 @@ from graphcam.given.follower import (
     sense,
 )
 from graphcam.given.impact import NO_FORCE, velocity_jumps
-from graphcam.given.outline_motion import OutlineMotion
+from graphcam.given.laid_outline import GivenCamMotion
 from graphcam.given.plausible_ranges import bounded, check_positive
-from graphcam.given.point_outline import TracedMotion
 from graphcam.given.roller_rule import DEFAULT_RULE, Candidate, roller_rule
 from graphcam.showing import MAX_WIDTH, value_text
 from graphcam.tasks.dataclass_reader import ByKeys, ByKind
@@ -512,7 +511,7 @@ class Task:
     def prime_radius(self) -> float | None:
         """The prime radius [mm] that is given, or that a given cam has; None is open."""
         motion = self.motion() if self.motion.gives_cam else None
-        return motion.prime_radius if isinstance(motion, OutlineMotion | TracedMotion) else self.cam.prime_radius
+        return motion.prime_radius if isinstance(motion, GivenCamMotion) else self.cam.prime_radius
 
     @property
     def roller_terms(self) -> tuple[Candidate, ...]:

@@ -43,16 +43,16 @@ TASKS = {
 MU_L = Scale(0.5, "mm")
 
 
-def analysis_of(follower, motion, parts, rotation=None):
+def analysis_of(follower, motion, parts):
     """The analysis in so many parts of the turn, at 2:1, by a hand without error."""
-    pencil, rotation = Pencil(), rotation or motion.rotation
+    pencil = Pencil()
     roller, place = getattr(follower, "roller_radius", 0.0), getattr(follower, "offset", 0.0)
     if isinstance(follower, gc.Oscillating):
         place = follower.distance
     unit = "rad" if isinstance(follower, gc.Oscillating) else "mm"
     phi = FULL_TURN * np.arange(parts) / parts
-    laid = laid_outline(motion, rotation, FULL_TURN / parts)
-    givens = AnalysisGivens(laid, motion, rotation, motion.prime_radius, roller, place, phi, MU_L, unit)
+    laid = laid_outline(motion, FULL_TURN / parts)
+    givens = AnalysisGivens(laid, motion, motion.rotation, motion.prime_radius, roller, place, phi, MU_L, unit)
     if isinstance(follower, gc.Oscillating):
         return arm_analysis(givens, follower.arm, pencil)
     return (face_analysis if isinstance(follower, gc.FlatFaced) else stem_analysis)(givens, pencil)
@@ -117,17 +117,18 @@ def test_most_random_cams_are_analysed():
     ],
 )
 def test_an_outline_by_points_is_analysed_like_one_of_arcs(rotation, follower, lift, prime_radius):
-    """Points of the profile of a law's cam give the displacements of the law back; its dwells are not seen."""
+    """Points of the profile of a law's cam give the displacements of the law back."""
     parts = [(gc.Rise, 100, "3-4-5"), (gc.Dwell, 40, ""), (gc.Return, 100, "cycloidal"), (gc.Dwell, 120, "")]
     phases = [
         kind(math.radians(angle)) if not law else kind(lift, math.radians(angle), law) for kind, angle, law in parts
     ]
     profile = gc.Cam(gc.Motion(phases), follower, prime_radius, rotation).profile(np.radians(np.arange(360)))
     motion = gc.outline_motion(gc.cam_through_points(profile), follower, rotation)
-    drawn = analysis_of(follower, motion, 72, rotation=rotation)
+    drawn = analysis_of(follower, motion, 72)
     size = follower.arm if isinstance(follower, gc.Oscillating) else 1.0
     assert size * np.abs(drawn.value("s") - gc.Motion(phases)(drawn.givens.phi + motion.zero)[0]).max() < 2e-3
-    assert "rise_angle" not in drawn.readings
+    angles = np.array([phase.angle for phase in motion.phases])
+    assert drawn.value("phase_angles") == pytest.approx(angles, abs=math.radians(0.5))
     assert [str(step.caption) for step in drawn.steps()]
     if not isinstance(follower, gc.FlatFaced):
         cam = gc.Cam(motion, follower, motion.prime_radius, rotation)
