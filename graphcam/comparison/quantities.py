@@ -15,6 +15,7 @@ from graphcam.constructions.board import Board
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Construction, Reading
 from graphcam.drafting.meaning import ComparedReading
+from graphcam.drafting.slips import PROTRACTOR_RADIUS
 from graphcam.errors import DesignError
 from graphcam.given.laws import Floats
 from graphcam.mechanism.cam import Cam, CamPoints
@@ -34,8 +35,8 @@ class Quantity:
 
     drawn, exact : in ``unit``; NaN where there is none
     per_mm : scale of the paper it was read from [unit/mm]
-    tolerance_paper : how far the drawn value may lie off [mm of paper], estimated from redrawings in more parts and by
-        the same pencil
+    tolerance_paper : how far the drawn value may lie off [mm of paper, or of the edge of a protractor that measures an
+        angle], estimated from redrawings in more parts and by the same pencil
     proved_paper : the same, proved beforehand for a hand without error; NaN where no theorem tells it
     draw_by_hands : gives the values by many careful hands, in the unit; None where there is no reading
     """
@@ -200,6 +201,7 @@ def quantities_of(
         (said.exact or said.name, _quantity(construction, reading, said, bounds, exact, proved))
         for construction in drawn.values()
         for reading, said in construction.meaning.compared_readings
+        if reading in construction.readings
     ]
     nan, there = math.nan, {quantity.name for _, quantity in found}
     missing = {
@@ -232,7 +234,9 @@ def _quantity(
     drawn = factor * float(construction.value(said.sides or reading)[side])
     asked = construction.name, said.sides or reading, side[0] if side else None
     title = said.title or construction.meaning.reading(reading).title
-    per_mm = factor * read.per_mm
+    # An angle that is measured itself is read at the edge of the protractor.
+    radius = PROTRACTOR_RADIUS if read.unit == "rad" and read.per_mm == 1 else 1.0
+    per_mm, bound = factor * read.per_mm / radius, bound * radius
     by_hands = partial(_by_hands, bounds, asked, factor)
     beforehand = proved.get(said.name, math.nan) / abs(per_mm)
     return Quantity(said.name, title, drawn, exact[counterpart], unit, per_mm, bound, beforehand, by_hands)

@@ -63,7 +63,7 @@ def _draw(drawn: Analysis) -> list[Step]:
         cam_analysis.circles_step(drawn, say("Prime circle and pivot circle"), (Part(said, (circle,)),), (mark,)),
         _pivots(drawn),
         _displacements(drawn),
-        cam_analysis.phases_step(drawn),
+        *cam_analysis.phases_steps(drawn),
         cam_analysis.angles_step(drawn),
     ]
 

@@ -42,6 +42,8 @@ ARC_SHOWN = math.radians(35)
 """Of a circle of the roller so much is drawn on either side of where the pitch curve touches it [rad]."""
 STANDSTILL = 1e-3
 """A follower that moves less than this part of its lift from station to station stands still."""
+MAX_CIRCLES = 80
+"""So many circles of the roller are shown at most."""
 LINES_FROM = 0.25
 """The positions of a line through the cam centre are drawn from this part of the prime radius on, for it is crowded."""
 
@@ -143,7 +145,7 @@ def joints(givens: AnalysisGivens) -> NDArray[np.intp]:
 def measure_phases(
     hand: Hand, givens: AnalysisGivens, s: Setting, base: Direction, rays: Drawn | None
 ) -> Setting | None:
-    """Read the phase angles, by the displacements and by where arcs about the cam centre end.
+    """Read the phase angles, by the displacements and by where arcs about the cam centre end, if these are known.
 
     rays : where the line that was at ``base`` at the start lies when the follower stands on the joints
 
@@ -155,6 +157,8 @@ def measure_phases(
     if rays is not None:
         at_joints = hand.carry(hand.angle("angles of the joints", base, rays, -sense(givens.rotation)))
     directions, dwells = tuple(int(way) for way in givens.motion.directions), givens.outline.dwells
+    if directions.count(0) != len(dwells):
+        return at_joints  # of an outline by points no eye tells where an arc about the cam centre ends
     formula = partial(_phase_angles, directions, dwells, givens.phi)
     angles = calculated_setting(formula, s, *([] if at_joints is None else [at_joints]))
     hand.read("phase_angles", angles, 1.0, rounded=False)
@@ -223,9 +227,8 @@ def _phase_angles(
         if way and before:
             at = np.argmax(before * s, axis=-1)
             begins.append((at + top_of_parabola(s, at)[1]) * (phi[1] - phi[0]))
-        elif angles is None or len(dwells) != directions.count(0):
-            begins.append(np.full(s.shape[:-1], np.nan))
         else:
+            assert angles is not None
             joint = dwells[passed - 1] + 1 if way else dwells[passed]  # the end of the dwell before, or its own start
             begins.append(angles[..., joint % angles.shape[-1]])
         passed += not way
@@ -333,7 +336,8 @@ def _pitch_step(drawn: Analysis) -> Step:
     )
     why = say("Where the roller touches the outline, its centre is the roller's radius away along the normal.")
     outward = np.angle(drawn.acts["normals"].first.directions).tolist()
-    arcs = [_outer_arc(circles[k], outward[k]) for k in range(circles.shown.size)]
+    every = 1 + circles.shown.size // MAX_CIRCLES
+    arcs = [_outer_arc(circles[k], outward[k]) for k in range(0, circles.shown.size, every)]
     marks = (*arcs, curve.line(Role.CURVE))
     parts = Part(said, (circles,)), Part(joined, (curve,))
     return Step(say("Pitch curve"), parts, view_of(drawn), marks, why=why)
@@ -403,11 +407,12 @@ def _outer_radius(drawn: Analysis) -> float:
     return float(np.nanmax(np.abs(curve.shown))) + PHASE_ARC_OFFSET
 
 
-def phases_step(drawn: Analysis) -> Step:
-    """The step in which the phase angles are read."""
-    angles = drawn.value("phase_angles")
-    rows = [Row(_phase_caption(drawn, k), "", ()) for k, angle in enumerate(angles.tolist()) if np.isfinite(angle)]
-    marks, lines = _phase_marks(drawn) if np.isfinite(angles).all() else ((), ())
+def phases_steps(drawn: Analysis) -> list[Step]:
+    """The step in which the phase angles are read, where they are."""
+    if "phase_angles" not in drawn.readings:
+        return []
+    rows = [Row(_phase_caption(drawn, k), "", ()) for k in range(len(drawn.givens.motion.phases))]
+    marks, lines = _phase_marks(drawn)
     said = say(
         "Read the phase angles. Where the outline begins or ends an arc about A, a dwell begins or ends: bring the "
         "follower to these places and measure the angles between its positions with a protractor. Where a rise and a "
@@ -415,7 +420,7 @@ def phases_step(drawn: Analysis) -> Step:
     )
     why = say("While the outline keeps its distance from the cam centre, the follower dwells.")
     parts = (Part(said, lines, tuple(rows)),)
-    return Step(say("Phase angles"), parts, view_of(drawn), marks, ("phase_angles", "rise_angle"), why=why)
+    return [Step(say("Phase angles"), parts, view_of(drawn), marks, ("phase_angles", "rise_angle"), why=why)]
 
 
 def _phase_marks(drawn: Analysis) -> tuple[tuple[Mark, ...], tuple[Drawn, ...]]:

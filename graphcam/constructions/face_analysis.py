@@ -23,9 +23,8 @@ MEANING = replace(
         "The cam is held still and the face goes round it, against the cam's rotation. In every position the face "
         "touches the outline, and its distance from the cam centre tells how far the follower has moved."
     ),
-    readings={name: cam_analysis.MEANING.readings[name] for name in ("s", "lift", "phase_angles", "rise_angle")},
 )
-"""Under a face square to its motion the pressure angle is zero: none is measured."""
+"""Of the analysis under a face square to its motion: the pressure angle is zero, and none is measured."""
 
 
 def face_analysis(givens: AnalysisGivens, pencil: Pencil) -> Analysis:
@@ -55,7 +54,7 @@ def _draw(drawn: Analysis) -> list[Step]:
         cam_analysis.circles_step(drawn, say("Prime circle")),
         _rays(drawn),
         _faces(drawn),
-        cam_analysis.phases_step(drawn),
+        *cam_analysis.phases_steps(drawn),
     ]
 
 

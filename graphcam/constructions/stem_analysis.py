@@ -62,7 +62,7 @@ def _draw(drawn: Analysis) -> list[Step]:
         _circles(drawn),
         _positions(drawn),
         _displacements(drawn),
-        cam_analysis.phases_step(drawn),
+        *cam_analysis.phases_steps(drawn),
         cam_analysis.angles_step(drawn),
     ]
 

@@ -16,6 +16,8 @@ from graphcam.given.motion import FULL_TURN
 from graphcam.given.outline_motion import STILL, OutlineMotion
 from graphcam.given.point_outline import TracedMotion
 
+PARTS_A_STEP = 2
+"""The curvature of an outline through points changes along it: a step of the cam angle has so many parts."""
 MIN_ARC_PARTS = 4
 """An arc, or a straight part, is divided into so many parts at least."""
 
@@ -44,7 +46,7 @@ GivenCamMotion = OutlineMotion | TracedMotion
 def laid_outline(motion: GivenCamMotion, step: float) -> LaidOutline:
     """The outline of a given cam where the motion begins, at places between which the normal turns by about a step.
 
-    Of a cam through points these are as many in every phase as steps of the cam angle, and a phase is a piece.
+    Of a cam through points these are twice as many in every phase as steps of the cam angle, and a phase is a piece.
 
     step : rad
 
@@ -82,7 +84,7 @@ def _(motion: TracedMotion, step: float) -> LaidOutline:
     phi, pieces, dwells = list[Floats](), list[slice](), list[int]()
     first = 0
     for number, (_, start, end) in enumerate(motion.timing):
-        parts = max(MIN_ARC_PARTS, math.ceil((end - start) / step))
+        parts = max(MIN_ARC_PARTS, math.ceil(PARTS_A_STEP * (end - start) / step))
         pieces.append(slice(first, first + parts + 1))
         phi.append(np.linspace(start, end, parts, endpoint=False))
         first += parts

@@ -43,9 +43,9 @@ TASKS = {
 MU_L = Scale(0.5, "mm")
 
 
-def analysis_of(follower, motion, parts, pencil=None):
-    """The analysis in so many parts of the turn, at 2:1."""
-    pencil = pencil or Pencil()
+def analysis_of(follower, motion, parts):
+    """The analysis in so many parts of the turn, at 2:1, by a hand without error."""
+    pencil = Pencil()
     roller, place = getattr(follower, "roller_radius", 0.0), getattr(follower, "offset", 0.0)
     if isinstance(follower, gc.Oscillating):
         place = follower.distance
@@ -104,6 +104,35 @@ def test_the_pressure_angles_are_those_of_the_cam(seed):
 
 def test_most_random_cams_are_analysed():
     assert sum(random_analysis(seed) is not None for seed in range(40)) > 20
+
+
+@over_all("rotation", ["ccw", "cw"])
+@over_all(
+    ("follower", "lift", "prime_radius"),
+    [
+        (gc.Translating(6, roller_radius=10), 12.0, 50.0),
+        (gc.Translating(0, roller_radius=0), 12.0, 50.0),
+        (gc.Oscillating(80, 100, 10), 0.15, 50.0),
+        (gc.FlatFaced(), 12.0, 60.0),
+    ],
+)
+def test_an_outline_by_points_is_analysed_like_one_of_arcs(rotation, follower, lift, prime_radius):
+    """Points of the profile of a law's cam give the displacements of the law back."""
+    parts = [(gc.Rise, 100, "3-4-5"), (gc.Dwell, 40, ""), (gc.Return, 100, "cycloidal"), (gc.Dwell, 120, "")]
+    phases = [
+        kind(math.radians(angle)) if not law else kind(lift, math.radians(angle), law) for kind, angle, law in parts
+    ]
+    profile = gc.Cam(gc.Motion(phases), follower, prime_radius, rotation).profile(np.radians(np.arange(360)))
+    motion = gc.outline_motion(gc.cam_through_points(profile), follower, rotation)
+    drawn = analysis_of(follower, motion, 72)
+    size = follower.arm if isinstance(follower, gc.Oscillating) else 1.0
+    assert size * np.abs(drawn.value("s") - gc.Motion(phases)(drawn.givens.phi + motion.zero)[0]).max() < 2e-3
+    angles = np.array([phase.angle for phase in motion.phases])
+    assert drawn.value("phase_angles") == pytest.approx(angles, abs=math.radians(0.5))
+    assert [str(step.caption) for step in drawn.steps()]
+    if not isinstance(follower, gc.FlatFaced):
+        cam = gc.Cam(motion, follower, motion.prime_radius, rotation)
+        assert np.abs(drawn.value("alpha") - cam.pressure_angle(drawn.givens.phi)).max() < math.radians(0.1)
 
 
 def test_the_mirror_finds_the_maximum_angle_of_a_tangent_cam_where_flank_and_nose_meet():
