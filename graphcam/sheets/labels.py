@@ -37,6 +37,8 @@ TEXT_MARGIN = 0.45
 """The free margin around a text [mm]."""
 TEXT_COST, BOLD_LINE_COST, MEASURE_COST, THIN_LINE_COST, HATCH_COST = 2000.0, 200.0, 80.0, 2.0, 0.4
 """Costs of a cell with another text, a bold line, a dimension, curve or axis, construction lines, or hatching."""
+LEADER_CROSSING_COST = 60.0
+"""The cost of a leader that crosses another one."""
 BARRED_COST = 1000.0
 """The cost of a place in another view."""
 ROLE_COSTS: Mapping[str, float] = {
@@ -199,6 +201,7 @@ class Occupancy:
         self.corner = inside.corner
         # A ring of forbidden cells keeps texts inside.
         shape = math.ceil(inside.height / CELL_SIDE) + 2, math.ceil(inside.width / CELL_SIDE) + 2
+        self.leaders: list[Strokes] = []
         self.cells: NDArray[np.float32] = np.full(shape, BOLD_LINE_COST, dtype=np.float32)
         self.cells[1:-1, 1:-1] = 0.0
 
@@ -267,7 +270,9 @@ def chosen_places(writings: Sequence[LabelText], drawn: Iterable[Entity], inside
     chosen = [0] * len(writings)
     for k in sorted(range(len(writings)), key=lambda k: not writings[k].bound):
         chosen[k] = _choose(writings[k], paper)
-        paper.take_entities(placed_label(writings[k], chosen[k]))
+        text, *leader = placed_label(writings[k], chosen[k])
+        paper.take_entities([text, *leader])
+        paper.leaders += [each for each in leader if isinstance(each, Strokes)]
     return chosen
 
 
@@ -303,7 +308,18 @@ def _leader_cost(writing: LabelText, part: NDArray[np.intp], paper: Occupancy) -
         ends = _leader_end(writing, centres[led], anchors[led])
         # A leader may cross lines, at a small cost, but no text.
         cost[led] = 0.04 * paper.cost(anchors[led][:, None] + LEADER_FRACTIONS * (ends - anchors[led])[:, None])
+        if paper.leaders:
+            cost[led] += LEADER_CROSSING_COST * _crossed_leaders(anchors[led], ends, *linework(paper.leaders))
     return cost
+
+
+def _crossed_leaders(starts: Points, ends: Points, others: Points, other_ends: Points) -> Floats:
+    """How many of other leaders each of leaders (n,) crosses."""
+    way, other = (ends - starts)[:, None], other_ends - others
+    turn, between = (way.conjugate() * other).imag, others - starts[:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        shares = ((between.conjugate() * other).imag / turn, (between.conjugate() * way).imag / turn)
+    return np.all([(share > 0) & (share < 1) for share in shares], axis=0).sum(axis=1).astype(np.float64)
 
 
 def _barred_cost(writing: LabelText, part: NDArray[np.intp]) -> Floats:

@@ -10,8 +10,8 @@ import graphcam as gc
 from graphcam.report.documents import contents_of, drawing_of
 from graphcam.report.fewer_sheets import FEWER_SHEETS_NOTE, ONE_SHEET_NOTE, fewer_sheets
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
-from graphcam.tasks.spring_tables import SpringTable
-from graphcam.tasks.task import DrawingTable, FlatFacedTable, LimitsTable, Task, TranslatingTable
+from graphcam.tasks.task import DrawingTable, LimitsTable, Task, TranslatingTable
+from graphcam.tasks.task_file import builtin_task
 
 ROLLER = Task(
     rotation="ccw",
@@ -28,17 +28,8 @@ ROLLER = Task(
     limits=LimitsTable(pressure_angle_rise=28),
     drawing=DrawingTable("A1", "gost", language="ru"),
 )
-FLAT = Task(
-    rotation="ccw",
-    speed_rpm=900,
-    motion=MotionTable(
-        (RiseTable(100, 24, "modified-sine"), DwellTable(30), ReturnTable(110, 24, "cycloidal"), DwellTable(120))
-    ),
-    follower=FlatFacedTable(),
-    limits=LimitsTable(min_curvature_radius=6),
-    spring=SpringTable(mass=0.35, stiffness=6),
-    drawing=DrawingTable("A3", "iso", divisions=24),
-)
+FLAT = builtin_task("flat")
+FLAT = replace(FLAT, drawing=FLAT.drawing.on("A3"))
 
 
 def laid_out(task):
