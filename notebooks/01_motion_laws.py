@@ -245,3 +245,12 @@ assert abs(lifts[1] / lifts[0] - 1.01) < 1e-12
 #    accelerations, and which law would you choose for each?
 # 3. The 2-3 law has the smallest $C_v$ of all and still a soft impact. Where does its acceleration jump?
 # 4. The task gives the return 30° instead of 60°. What happens to its ordinate, and what would you change on the sheet?
+#
+# <details><summary>Model answers</summary>
+#
+# 1. $f'$ begins and ends at 0 and must enclose the area 1. With $|f''| \le C$ it stays under the triangle whose sides rise and fall with the slope $C$; that has the height $C/2$ and the area $C/4$. So $C \ge 4$.
+# 2. The angular velocity is ten times, the accelerations are $10^2 = 100$ times as large. The valve needs a law without an impact (modified sine, 3-4-5, cycloidal); at 300 rpm a soft impact may be borne, and a law with a small $C_v$ makes the cam smaller.
+# 3. At both ends: with $f = 3u^2 - 2u^3$, $f'' = 6 - 12u$ jumps from 0 to 6 at the beginning and from −6 to 0 at the end.
+# 4. It becomes $(60/30)^2 = 4$ times as long. Choose a shorter $y_1$ for the rise, so that both have room on the sheet.
+#
+# </details>

@@ -295,3 +295,12 @@ assert errors[12] < scattered / 2
 # 3. The velocity diagram of a rise does not come back to the axis. Name two causes, and say how to tell them
 #    apart.
 # 4. A displacement was measured every 5° to 0.05 mm. Would you differentiate it once with chords of 5° or of 10°?
+#
+# <details><summary>Model answers</summary>
+#
+# 1. On paper $v$ and $s$ become half as high, so $\mu_v$ and $\mu_s$ are doubled; $\mu_a = \mu_v/(\mu_\varphi H_1)$ stays. The readings in machine units do not change.
+# 2. It leaves out how the curve rises or falls within the part, so its error falls with $1/n$ only. It makes no difference where the acceleration is constant in every part: with the rectangular law.
+# 3. Unequal areas under $a$ (a wrong ordinate or a curve plotted wrongly), or errors of the chords. Draw it again: what comes back the same is in the ordinates, what changes is drawing.
+# 4. Of 10°: an error of the measurement turns a chord of twice the length by half as much, and the error of the method, though four times as large, is still small for a smooth motion.
+#
+# </details>

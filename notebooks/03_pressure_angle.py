@@ -256,3 +256,12 @@ assert abs(angle.value - alpha_of(20, 52)) < 1e-9
 # 2. Where does the pressure angle vanish during the rise of an offset follower, and what does the velocity plan look like there?
 # 3. Your neighbour's cam has 16.3° on the rise where you have 33.1°, with the same $r_0$ and $|e|$. What do you ask?
 # 4. During a dwell the follower does not move. Is the pressure angle zero then?
+#
+# <details><summary>Model answers</summary>
+#
+# 1. The normal passes through $C$, and $AC = v$ is known from the motion. Of the profile only this is used: that it touches the roller, so that both have one normal and slide square to it.
+# 2. Where $v = \sigma e$. The normal lies along the motion then, so $\vec v_{21}$ is square to $\vec v_2$: the triangle has a right angle.
+# 3. On which side of the centre the follower stands, and which way the cam turns: one of the two is the other way round in one of the drawings.
+# 4. Only for a central follower: with $v = 0$, $\tan\alpha = -\sigma e/(s_0 + s)$.
+#
+# </details>

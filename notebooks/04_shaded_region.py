@@ -414,3 +414,13 @@ assert abs(100 * np.tan(radians(30)) - 57.7) < 0.05
 # 4. The same motion with a cam that turns anticlockwise: which part of the drawing changes, and how does the sign
 #    of the best offset change?
 # 5. In which case is the nearest point of the region *not* a corner?
+#
+# <details><summary>Model answers</summary>
+#
+# 1. All are drawn at the same angle to the vertical. With a limit of its own each station would have its own direction, and no single tangent would replace them.
+# 2. That it keeps any limit: with $s_0$ all angles go to zero.
+# 3. Those on which $A$ lies: the tangents of the rise and of the return, with the task of the course. The dwell line passes beside $A$, and $A$ lies on its permitted side.
+# 4. All of it is mirrored in the line of motion: $v$ is laid off to the other side, and the best offset changes its sign.
+# 5. Where the foot of the perpendicular from the start to a side lies between the ends of that side: often with force closure, where the return has no line.
+#
+# </details>

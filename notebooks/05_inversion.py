@@ -225,3 +225,12 @@ Markdown(f"The points are off by up to {off.max():.3f} mm, each by exactly as mu
 # 2. Sketch what happens if the numbering runs with the rotation, for a cam whose rise and return have different angles.
 # 3. For the arm the pivot circle is divided, for the flat face the rays. What exactly is turned in each case?
 # 4. The flat face touches at the distance $v$ from the ray. Derive it, with the velocity plan of notebook 3.
+#
+# <details><summary>Model answers</summary>
+#
+# 1. In its frame the follower does not move; the frame is turned about the cam centre, so the trace point keeps its distance from it.
+# 2. The cam is the mirror image: in its sense of rotation the follower rises over the angle of the return and falls over that of the rise.
+# 3. The frame, every time: of the arm the pivot that it holds, of the flat face the line of motion, to which the face stays square.
+# 4. The face moves along its motion with $\omega v$. The point of the cam at the distance $x$ from the ray has the velocity component $\omega x$ in that direction. Neither parts from the other, so $x = v$.
+#
+# </details>

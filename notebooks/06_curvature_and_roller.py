@@ -227,3 +227,12 @@ assert abs(864 ** (1 / 8) - 2.33) < 0.002
 # 2. Why does the knife-edge follower never undercut, and why is it not used?
 # 3. A cam is undercut with a roller of 20 mm. Name three things to change. Which one changes the sheet by the smallest amount?
 # 4. Derive $\sqrt6\,\sigma\rho/h^2$: the height of the arc is $B - (A + C)/2$, and all three points are off by $\sigma$.
+#
+# <details><summary>Model answers</summary>
+#
+# 1. None: the hollow of the profile has the radius $|\rho| + r$, which is larger than $r$. The cutter or grinding wheel must be smaller than that.
+# 2. With $r = 0$ the profile is the pitch curve itself, and no parallel curve can turn back. The edge wears, and its contact stress has no bound.
+# 3. A smaller roller, a larger prime radius, a longer phase or a smoother law. The roller: only the working profile is drawn again.
+# 4. The variances add: $\sigma^2(1 + \tfrac14 + \tfrac14) = 1.5\,\sigma^2$. The height is $y = h^2/(2\rho)$, so $\Delta\rho/\rho = \Delta y/y = \sqrt{1.5}\,\sigma\cdot 2\rho/h^2 = \sqrt6\,\sigma\rho/h^2$.
+#
+# </details>

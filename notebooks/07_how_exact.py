@@ -29,13 +29,13 @@ import numpy as np
 from IPython.display import Markdown, display
 
 import graphcam as gc
+from graphcam.comparison.bounds import ErrorBudget
 from graphcam.notebooks import (
     Question,
     Slider,
     changed,
     chart,
     drawing,
-    error_budget,
     explore,
     lesson_task,
     picture_of,
@@ -148,7 +148,14 @@ table(("quantity", "exact", "ideal pencil: error, %", "pencil of 0.2 mm: bias, %
 # sharpest one, and no single kind of operation causes that alone.
 
 # %%
-error_budget(ideal, gc.Pencil.of(0.2))
+kinds = ErrorBudget(ideal.chain, gc.Pencil.of(0.2))
+shares = {title: kinds.of(*place) for title, place in (
+    ("maximum v", ("integration", "max_v")), ("minimum radius", ("minimum_radius", "prime_radius")), ("radius of curvature", ("curvature", "rho")))}
+acts = [kind for kind in kinds.hands if kind and any(each.of[kind] > 0.02 for each in shares.values())]
+table(("act: share of the variance, %", *shares), [
+    *((kind.value, *(100 * each.of[kind] for each in shares.values())) for kind in acts),
+    ("together", *(100 * each.together for each in shares.values())),
+], digits=0)
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert all(abs(row[5] ** 2 - row[3] ** 2 - row[4] ** 2) < 1e-6 for row in budget)
@@ -336,3 +343,12 @@ print(f"s at 36°: {float(steady(np.radians(36.0))[0]):.12f} mm, after 10⁹ tur
 # 2. Why is the mean of 400 drawn minimum radii not exactly the radius of the ideal pencil?
 # 3. Two students differ by 1.5 mm in the minimum radius. Must one of them have made a mistake?
 # 4. Which reading of your own sheet would you repeat if you had ten minutes?
+#
+# <details><summary>Model answers</summary>
+#
+# 1. All lengths are half as long. The ideal pencil's column stays, in per cent; what the pencil adds is doubled.
+# 2. A reading does not follow the errors in proportion: the largest of many noisy values is too large on average. That bias stays. Besides, the mean of 400 has itself a scatter of a twentieth of the single drawing's.
+# 3. No: each scatters by about that much, and their difference by $\sqrt2$ times as much.
+# 4. The one with the largest error in the table, usually the radius of curvature; with points farther apart.
+#
+# </details>

@@ -193,3 +193,12 @@ assert scatter["C3"] > scatter["F"]
 # 2. Which kind of impact (notebook 1) does a cam of arcs have? Where?
 # 3. The flank may be a straight line instead of the middle arc. Where is $C_3$ then?
 # 4. Why does the follower's acceleration jump *down* from the second to the third arc? Which rod is longer?
+#
+# <details><summary>Model answers</summary>
+#
+# 1. The centres and the point of contact lie on one line, which is square to both arcs there: one normal, one tangent. Without it the velocity would jump, a rigid impact.
+# 2. Soft ones, where the curvature jumps: at A, G, F and D.
+# 3. At infinity, on the perpendicular to the flank.
+# 4. The second arc has the longer rod. On the shorter one, of the nose, the roller's centre must turn away more sharply, so it is accelerated downwards more.
+#
+# </details>

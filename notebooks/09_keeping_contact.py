@@ -312,3 +312,13 @@ assert min(abs(drawn_force - force) for force in exact.values()) < 0.05 * max(ex
 # 3. A groove cam holds the roller on both sides. Which equation of this notebook then changes its meaning?
 # 4. A follower without any guide friction jams at the cam with $\mu = 0.4$. At which pressure angle, and why never on the return?
 # 5. The pressure $p$ grows with the square root of the force. What does doubling the preload cost in $p$, and in width $b$?
+#
+# <details><summary>Model answers</summary>
+#
+# 1. Up to the speed at which $c\,s$ is everywhere as large as $m\omega^2|a|$ where $a$ is negative. Find it with the sliders, where the preload is 0.
+# 2. For those whose acceleration does not jump.
+# 3. $\xi \ge 0$: where $\xi$ is negative the other side of the groove pushes. At its zeros the roller changes sides and must reverse its spin.
+# 4. At $\tan\alpha = 1/0.4$, 68°. On the return $\alpha$ is negative, and $\cos\alpha - \mu\sin\alpha$ is larger than $\cos\alpha$.
+# 5. If the preload were all of the force, $\sqrt2$ times the pressure; and for the old pressure twice the width, since $p \sim \sqrt{F/b}$.
+#
+# </details>

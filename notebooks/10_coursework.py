@@ -186,3 +186,12 @@ table(("phase", "time, s", "maximum velocity, m/s", "maximum acceleration, m/s²
 # 2. The client wants the cam to turn the other way. Which parts of the sheet must be redrawn?
 # 3. Which number on your sheet would you rely on, and which not?
 # 4. Follow the chain backwards: what must be known to check the profile of someone else's cam?
+#
+# <details><summary>Model answers</summary>
+#
+# 1. The prime radius: a larger one leaves a blunter profile and, by the rule, a larger roller. Or the law, if the phase angles are given.
+# 2. Those about the cam centre, as mirror images: combined diagram, angles, profile. The diagrams over $\varphi$ stay.
+# 3. On the prime radius to some per cent; not on the radius of curvature, nor on what hangs on it.
+# 4. The roller radius, the offset and the sense of rotation; then the pitch curve, the displacement from its distances, and velocity and acceleration by differentiation.
+#
+# </details>

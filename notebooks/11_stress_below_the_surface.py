@@ -246,6 +246,7 @@ print(f"100 N over 15 mm and an element of 1 mm: {100 / 15 / 1:.1f} MPa")
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(hertz.peak_pressure - 141.5) < 1
 assert round(hertz.peak_pressure / 6.4) == 22
+assert abs(1000 * (0.2 / 0.786 / a) ** 2 - 11500) < 50  # question 3
 assert abs(2 * hertz.half_width - 0.06) < 0.001
 assert abs(hertz.peak_pressure - sqrt(100 / 15 * 113186.813 / pi * (1 / 60 + 1 / 15))) < 1e-3
 
@@ -260,3 +261,12 @@ assert abs(hertz.peak_pressure - sqrt(100 / 15 * 113186.813 / pi * (1 / 60 + 1 /
 # 2. Why is the surface in the middle of the contact hardly sheared, although the pressure is highest there?
 # 3. Pits in a cam are some tenths of a millimetre deep. Which load would put the maximum shear stress at 0.2 mm here?
 # 4. With friction the point of maximum stress moves. Which way?
+#
+# <details><summary>Model answers</summary>
+#
+# 1. That the force goes into one element, however large: the mesh does not resolve the contact, and its stress says nothing. It must be made finer there until the stress stays.
+# 2. Both stresses are $-p_0$ there; shear comes from their difference.
+# 3. The depth is $0.786\,a$, and $a$ grows with the root of the force: about 11.5 kN.
+# 4. Towards the surface.
+#
+# </details>

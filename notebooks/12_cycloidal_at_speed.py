@@ -133,6 +133,8 @@ assert gc.shock_spectrum("cosine", [1.5, 2.5, 9.5]).residual.max() < 1e-12
 assert gc.shock_spectrum("rectangular", [2, 4, 10]).residual.max() < 1e-12
 assert abs(gc.shock_spectrum("rectangular", [3, 5, 7]).residual - 16).max() < 1e-9
 assert abs(gc.shock_spectrum("rectangular", [4.4]).residual[0] - 5.5) < 0.05
+assert gc.shock_spectrum("rectangular", [4 / 1.1]).residual.round(1).tolist() == [4.7]  # question 1
+assert gc.shock_spectrum("cycloidal", [1.5, 3, 6, 12]).greatest.round(1).tolist() == [17.9, 9.4, 7.4, 6.8]  # question 3
 assert abs(gc.law("cycloidal").peak_acceleration / gc.law("rectangular").peak_acceleration - 1.57) < 0.001
 # How the arches fall from n = 3.5 on: not at all, as 1/n, as 1/n².
 for name, power in (("rectangular", 0), ("cosine", 0), ("cycloidal", 1), ("4-5-6-7", 2)):
@@ -388,3 +390,12 @@ assert abs(bands.sample.deviation / bands.deviation - 1).max() < 0.1
 # 2. Why does the cosine law, which every textbook calls harmonic, leave so much in the dwell? Which derivative jumps, and where?
 # 3. You may stiffen the train fourfold, or choose a better law. Which helps at $n = 1.5$, which at $n = 6$?
 # 4. In the phase plane the rectangular law at $n = 4$ ends where it began. Draw it. What does it look like at $n = 2$?
+#
+# <details><summary>Model answers</summary>
+#
+# 1. $n = 4/1.1 = 3.64$ then, and $4.7\,h/T^2$ are left.
+# 2. Its *acceleration* jumps, at the beginning and at the end of the rise, from 0 to $4.93\,h/T^2$ and back.
+# 3. Fourfold stiffness doubles $n$. At $n = 1.5$ it helps: the maximum acceleration with the cycloidal law falls from 17.9 to $9.4\,h/T^2$. At $n = 6$ it brings little, 7.4 to $6.8\,h/T^2$; the law decides what is left in the dwell.
+# 4. At $n = 4$ two full circles about $+4$ from the origin and back, then two about −4. At $n = 2$ one about each: two circles that touch in the origin.
+#
+# </details>

@@ -12,19 +12,23 @@ from graphcam.studio.task_text import built_in_tasks
 
 FOLDER = "studio"
 """Where the studio stands on the site."""
+COURSE = {"motion.phases[0].law": "3-4-5", "motion.phases[2].law": "3-4-5"}
+"""What the task of the course, task.toml, changes of the built-in one."""
 SMOOTH = {"motion.phases[0].law": "cycloidal", "motion.phases[2].law": "cycloidal"}
 TASKS: Mapping[str, tuple[str, str, Mapping[str, Any]]] = {
-    "01_motion_laws": ("coursework", "acceleration", {}),
-    "02_graphical_integration": ("coursework", "velocity", SMOOTH),
-    "03_pressure_angle": ("coursework", "angle", {}),
-    "04_shaded_region": ("coursework", "combined", {"follower.offset": None, "limits.pressure_angle_return": 50}),
-    "05_inversion": ("coursework", "profile", {"cam.prime_radius": 44, "follower.roller_radius": 10}),
+    "01_motion_laws": ("coursework", "acceleration", COURSE),
+    "02_graphical_integration": ("coursework", "velocity", COURSE),
+    "03_pressure_angle": ("coursework", "angle", COURSE),
+    "04_shaded_region": (
+        "coursework", "combined", {**COURSE, "follower.offset": None, "limits.pressure_angle_return": 50}),
+    "05_inversion": ("coursework", "profile", {**COURSE, "cam.prime_radius": 40, "follower.roller_radius": 16}),
     "06_curvature_and_roller": (
         "coursework", "profile", {**SMOOTH, "cam.prime_radius": 30, "follower.roller_radius": 8}),
-    "07_how_exact": ("coursework", "combined", SMOOTH),
+    "07_how_exact": ("coursework", "combined", COURSE),
     "08_three_arcs": ("arcs", "acceleration", {}),
-    "09_keeping_contact": ("coursework", "forces", {"speed_rpm": 300, "spring": {"mass": 0.5, "stiffness": 3}}),
-    "10_coursework": ("coursework", "profile", {}),
+    "09_keeping_contact": (
+        "coursework", "forces", {**COURSE, "speed_rpm": 400, "spring": {"mass": 0.5, "stiffness": 3}}),
+    "10_coursework": ("coursework", "profile", COURSE),
     "11_stress_below_the_surface": ("coursework", "profile", {}),
     "12_cycloidal_at_speed": ("coursework", "acceleration", SMOOTH),
     "13_given_cam": ("arcs", "profile", {}),

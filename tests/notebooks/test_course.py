@@ -63,6 +63,8 @@ def test_a_notebook_has_its_parts_and_asserts_a_number(name):
     assert -1 not in places, PARTS[places.index(-1)]
     assert places == sorted(places)
     assert text.startswith(f"# {int(name[:2])}. ")
+    asked, answered = text[places[-1] :].split("<details><summary>Model answers</summary>")
+    assert re.findall(r"^\d+\. ", asked, re.MULTILINE) == re.findall(r"^\d+\. ", answered, re.MULTILINE) != []
     code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
     assert any(re.search(r"^assert .*\d", cell, re.MULTILINE) for cell in code)
     # The cells to try give the reader's number and nothing else away, and a page shows the last line's verdict only.
