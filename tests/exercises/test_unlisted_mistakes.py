@@ -9,13 +9,12 @@ from issued_variants import SECRET, issued
 
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise_file import find_exercise
+from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.key_making import key_or_reason
 from graphcam.exercises.key.mistake_separation import perfect_hands
-from graphcam.exercises.key.refused_draws import RefusedDraw, Refusals
+from graphcam.exercises.key.refused_draws import Refusals, RefusedDraw
 from graphcam.exercises.key.unlisted_mistakes import UnlistedOutcomes, unlisted_outcomes
-
-LAW = "wrong-law: cycloidal"
 
 
 def outcomes_of(name: str, bound: float | None = None) -> UnlistedOutcomes:
@@ -42,7 +41,7 @@ def test_an_exercise_whose_answers_no_law_changes_enough_is_refused_with_mistake
     whole = find_exercise("inversion-translating")
     # One place on the pitch curve, late in the rise: by any law it lies about there.
     asked = tuple(replace(each, station="10") for each in whole.answers if each.name in ("radius_8", "angle_8"))
-    exercise = replace(whole, answers=asked, misconceptions=())
+    exercise = replace(whole, answers=asked, misconceptions=(), alike=(), policy=MarksPolicy())
     _, answer_key = issued("inversion-translating")
     refused = key_or_reason(Variant(exercise, "Anna", 0, answer_key.parameters))
     assert isinstance(refused, RefusedDraw)
