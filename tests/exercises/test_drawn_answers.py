@@ -279,7 +279,7 @@ def test_a_curve_displaced_by_less_is_wrong_where_it_is_farthest_off():
     record = handed_in({"answers.dxf": data_of(origin(polyline(new(), key(issued(NAME)[1])["pitch"] + 5), 0j), "asc")})
     pitch = pitch_of(record)
     assert pitch.outcome == "wrong"
-    assert pitch.off_paper == pytest.approx(5.0, abs=0.3)
+    assert pitch.off_paper == pytest.approx(5.0, abs=0.5)
     assert pitch.station is not None
     spot = values["pitch"][pitch.station]
     # Farthest off where the curve stands across the displacement.

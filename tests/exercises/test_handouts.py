@@ -95,7 +95,7 @@ def test_a_certificate_that_is_none_is_refused():
     with pytest.raises(TaskError, match="make it again"):
         AnswerKey.from_json("{}")
     text = issued("integration")[1].to_json().replace('"format": 3', '"format": 2')
-    with pytest.raises(TaskError, match="format 1"):
+    with pytest.raises(TaskError, match="format 2"):
         AnswerKey.from_json(text)
 
 

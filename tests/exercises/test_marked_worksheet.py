@@ -242,8 +242,8 @@ def test_a_course_on_paper_is_graded_by_the_keys_of_its_paper(tmp_path: Path):
         app, ["exercise", "grade", str(out), "--secret-file", str(secret), "--out", str(grades), "--workers", "1"]
     )
     assert result.exit_code == 0, result.output
-    assert find_exercise("inversion-arm").marks == pytest.approx(11)
-    assert ",11," in grades.read_text().replace('"', "")
+    assert find_exercise("inversion-arm").marks == pytest.approx(14)
+    assert ",14," in grades.read_text().replace('"', "")
     unmarked = ["exercise", "make", "inversion-arm", *arguments[:-1], str(tmp_path / "other"), "--paper", "unmarked"]
     assert CliRunner().invoke(app, unmarked).exit_code == 0
     assert not (tmp_path / "other" / "teacher" / "printed").exists()
@@ -279,11 +279,11 @@ def test_a_paper_that_it_is_not_made_for_is_refused(name: str, paper: str, messa
         (
             'layer = "PITCH"',
             'layer = "PITCH"\nplace = "profil"',
-            r"answers\[5\].place.* a view of the worksheet.*'profile'",
+            r"answers\[8\].place.* a view of the worksheet.*'profile'",
         ),
         ('layer = "PITCH"', 'layer = "PITCH"\nmark = "cross"', "one of curve for this answer"),
         ('station = "8"\nunit = "deg"', 'station = "8"\nunit = "deg"\nmark = "length"', "name the view it is drawn in"),
-        ("version = 3", 'version = 3\npaper = "A3"', "an unknown key"),
+        ("version = 4", 'version = 4\npaper = "A3"', "an unknown key"),
     ],
 )
 def test_what_a_file_says_wrongly_of_its_marks_gets_one_message(tmp_path: Path, before: str, after: str, message: str):

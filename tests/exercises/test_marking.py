@@ -104,7 +104,7 @@ def test_follow_through_draws_again_where_no_formula_is_linear():
     sigma = 1 if task.rotation == "ccw" else -1
     e, r0 = task.follower.offset, task.cam.prime_radius
     s = board_chain(task).integration.value("s")[4]
-    for factor in (0.6, 1.25, 1.6):
+    for factor in (0.75, 1.25, 1.6):
         v = factor * right["v_4"]
         alpha = math.degrees(math.atan2(v - sigma * e, math.sqrt(r0**2 - e**2) + s))
         found = outcomes(marked("pressure-angle", v_4=v, D_4=factor * right["D_4"], alpha_4=alpha))
@@ -126,18 +126,15 @@ def test_nothing_follows_from_nought(name):
 
 
 def test_the_tolerance_of_an_angle_does_not_grow_with_it():
-    # The right angle is less than a degree; one of ten that follows from the own v is not so much more uncertain.
-    answer_key = issued("pressure-angle", "Kurt")[1]
+    # An angle that follows from the own v and is several times the right one is not so much more uncertain.
+    answer_key = issued("pressure-angle")[1]
     right = key(answer_key)
-    own = {"v_4": 2.0 * right["v_4"], "D_4": 2.0 * right["D_4"]}
+    own = {"v_4": 3.0 * right["v_4"], "D_4": 3.0 * right["D_4"]}
     alpha = answer_key.dependences["alpha_4"].expected(right["alpha_4"], own)
     tolerance = answer_key.keys["alpha_4"].tolerance
-    assert abs(alpha) > 10 * abs(right["alpha_4"])
-    assert (
-        outcomes(marked("pressure-angle", "Kurt", **own, alpha_4=alpha + 0.9 * tolerance))["alpha_4"]
-        == "follow-through"
-    )
-    assert outcomes(marked("pressure-angle", "Kurt", **own, alpha_4=alpha + 1.5 * tolerance))["alpha_4"] == "wrong"
+    assert abs(alpha) > 4 * abs(right["alpha_4"])
+    assert outcomes(marked("pressure-angle", **own, alpha_4=alpha + 0.9 * tolerance))["alpha_4"] == "follow-through"
+    assert outcomes(marked("pressure-angle", **own, alpha_4=alpha + 1.5 * tolerance))["alpha_4"] == "wrong"
 
 
 def test_a_slip_beside_a_mistake_is_not_excused_by_it():
@@ -306,7 +303,7 @@ def drawn_curves() -> dict[str, tuple[np.ndarray, str]]:
     # Through every station in another order, so that only the way between them is wrong.
     scribble = np.concatenate([points[::2], points[1::2], points[::5], points])
     across = np.append(points, [1.5j * points[0], points[3]])
-    half = len(points) // 2
+    half = 3 * len(points) // 5
     return {
         "points joined by chords": (points, "right"),
         "closed by a chord": (np.append(points, points[0]), "right"),

@@ -141,3 +141,21 @@ def test_only_listed_mistakes_may_be_alike():
     exercise = find_exercise("curvature-and-roller")
     with pytest.raises(DesignError, match=r"alike is 'offset-sgn'.*did you mean 'offset-sign'"):
         replace(exercise, alike=(("rotation-sense", "offset-sgn"),))
+
+
+def test_a_forgotten_pole_leaves_the_scale_of_either_diagram_without_its_own_pole():
+    chain = right("differentiation")
+    own, drawn = (each.differentiation.readings for each in (chain, wrong("pole-forgotten: differentiation", chain)))
+    # v is drawn with 50 mm and a with 30 mm: mu_v = mu_s/(mu_phi H1), mu_a = mu_v/(mu_phi H2).
+    assert drawn["v"].scale == pytest.approx(own["v"].scale * 50)
+    assert drawn["a"].scale == pytest.approx(own["a"].scale * 50 * 30)
+    chain = right(velocity=45.0, displacement=25.0)
+    own, drawn = (each.integration.readings for each in (chain, wrong("pole-forgotten: integration", chain)))
+    assert drawn["v"].scale == pytest.approx(own["v"].scale * 25)
+    assert drawn["a"].scale == pytest.approx(own["a"].scale * 25 * 45)
+
+
+def test_the_offset_is_forgotten_or_subtracted():
+    chain = right()
+    assert float(wrong("offset-forgotten", chain).pressure_angle.readings["s0"].value) == pytest.approx(60)
+    assert float(wrong("offset-subtracted", chain).pressure_angle.readings["s0"].value) == pytest.approx(60 - 14)

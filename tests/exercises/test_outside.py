@@ -83,7 +83,7 @@ def test_another_law_that_is_the_law_of_a_listed_mistake_is_that_mistake():
 
 def test_arguments_are_those_that_have_to_do_with_the_answers():
     names = unlisted_names(find_exercise("differentiation"))
-    assert {"pole-forgotten: integration", "scale-forgotten: differentiation.max_v", "wrong-law: cosine"} <= set(names)
+    assert {"pole-forgotten: integration", "scale-forgotten: differentiation.rise", "wrong-law: cosine"} <= set(names)
     assert "scale-forgotten: differentiation.v" not in names  # it is listed
     without_it = unlisted_names(find_exercise("least-radius"))
     assert not any(each.endswith(": differentiation") for each in without_it)

@@ -1,0 +1,42 @@
+"""A slip in one answer is named where no catalogued mistake explains it and no other slip brings the same number."""
+
+from __future__ import annotations
+
+import pytest
+from issued_variants import issued, key, marked
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "told"),
+    [
+        ("v_2", lambda v: -v, "with the wrong sign"),
+        ("v_2", lambda v: v * 0.0174533, "degrees for radians"),
+        ("v_3", lambda v: v * 57.29578, "degrees for radians"),
+        ("v_2", lambda v: 2 * v, "twice the answer"),
+        ("v_2", lambda v: v / 2, "twice the answer"),
+        ("v_2", lambda v: 10 * v, "decimal point"),
+        ("v_2", lambda v: v / 100, "decimal point"),
+        ("v_2", lambda v: 1.37 * v, "No usual mistake explains these answers"),
+        ("v_2", lambda v: 0.0, "No usual mistake explains these answers"),
+    ],
+)
+def test_a_slip_of_one_answer_is_named(name, change, told):
+    right = key(issued("differentiation")[1])
+    record = marked("differentiation", **{name: change(right[name])})
+    assert record.diagnosis is None
+    assert told in record.feedback[-1]
+    assert record.total < record.of
+
+
+def test_the_number_of_another_answer_is_named_and_two_slips_are_not():
+    right = key(issued("differentiation")[1])
+    swapped = marked("differentiation", v_2=right["v_4"])
+    assert "the same number for v_4" in swapped.feedback[-1]
+    both = marked("differentiation", v_2=-right["v_2"], v_4=2 * right["v_4"])
+    assert "No usual mistake" in both.feedback[-1]
+
+
+def test_the_complement_of_an_angle_is_named():
+    right = key(issued("pressure-angle")[1])
+    record = marked("pressure-angle", alpha_8=90 - right["alpha_8"] if right["alpha_8"] > 0 else -90 - right["alpha_8"])
+    assert "complement" in record.feedback[-1]
