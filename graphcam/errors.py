@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import difflib
 import math
-import unicodedata
-from collections.abc import Generator, Iterable, Mapping
+from collections.abc import Generator, Iterable, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from graphcam.typed_words import meant
 from graphcam.words import Caption, Message, Words, message, or_list, say, sequence
 
 CHECK_THE_NAME = say("check the name")
 FILE = say("file")
+MAX_FAULTS = 10
+"""The maximum number of faults of a file that a message tells."""
 
 
 class GraphcamError(Exception):
@@ -89,13 +90,18 @@ class DesignError(GraphcamError, ValueError):
 class TaskError(GraphcamError):
     """A task file that cannot be used: the file, the field, its value, what was expected, the remedy.
 
+    place : how a message tells the field, with its line; empty tells it as it is
+
     >>> import graphcam as gc
     >>> print(gc.TaskError("cam.toml", "motion.phases[0].lift", 0, "greater than 0", "give the lift in mm"))
     cam.toml: motion.phases[0].lift is 0, but must be greater than 0; give the lift in mm
     """
 
-    def __init__(self, path: Words, field: Words, value: object, expected: Words, remedy: Words = "") -> None:
+    def __init__(
+        self, path: Words, field: Words, value: object, expected: Words, remedy: Words = "", *, place: Words = ""
+    ) -> None:
         super().__init__(path, field, value, expected, remedy)
+        self.place = place or field
         self.path = str(path)
         self.field = str(field)
         self.value = value
@@ -105,7 +111,46 @@ class TaskError(GraphcamError):
     @property
     def fault(self) -> Caption:
         """The sentence of field, value and what was expected, after the file's name."""
-        return Caption("{path}: {fault}", {"path": self.args[0], "fault": _sentence(*self.args[1:4])})
+        return Caption("{path}: {fault}", {"path": self.args[0], "fault": self.bare_fault})
+
+    @property
+    def bare_fault(self) -> Caption:
+        """The sentence without the file's name."""
+        return _sentence(self.place, *self.args[2:4])
+
+
+class TaskFaultsError(TaskError):
+    """Several errors of one file, in the order of its lines; field, value and remedy are those of the first.
+
+    errors : two or more
+
+    >>> faults = TaskFaultsError([TaskError("cam.toml", "lift", 0, "more"), TaskError("cam.toml", "law", 3, "text")])
+    >>> print(faults)
+    cam.toml has 2 faults:
+      lift is 0, but must be more
+      law is 3, but must be text
+    """
+
+    def __init__(self, errors: Sequence[TaskError], more: int = 0) -> None:
+        super().__init__(*errors[0].args)
+        self.errors = tuple(errors)
+        self.more = more
+
+    @property
+    def caption(self) -> Message:
+        """All faults, one on a line."""
+        count = len(self.errors) + self.more
+        lines: list[Words] = [say("{path} has {count} faults:", path=self.args[0], count=count)]
+        for error in self.errors:
+            fault, advice = error.bare_fault, error.advice
+            lines.append(say("{fault}; {remedy}", fault=fault, remedy=advice) if advice else fault)
+        lines += [say("and {count} more", count=self.more)] if self.more else []
+        return message(sequence(lines, "\n  "))
+
+
+def all_faults(errors: Sequence[TaskError]) -> TaskError:
+    """One error for all faults of a file, of which the first ten are told."""
+    return errors[0] if len(errors) == 1 else TaskFaultsError(errors[:MAX_FAULTS], len(errors[MAX_FAULTS:]))
 
 
 class MissingFileError(TaskError):
@@ -253,14 +298,12 @@ _LOOKALIKES = str.maketrans("АВЕКМНОРСТУХасеорхуі", "ABEKMHO
 """Translation table from Cyrillic letters to the Latin ones that look alike."""
 
 
-def suggestion(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> Words:
-    """The remedy for an unknown word: the known word that is probably meant; empty where none is similar.
-
-    called : synonyms of the known words, as in a textbook or another language
+def suggestion(word: str, known: Iterable[str]) -> Words:
+    """The remedy for an unknown word: the known word that is meant; empty where the table of typed words has none.
 
     >>> str(suggestion("Cicloidal", ["cosine", "cycloidal"]))
     "did you mean 'cycloidal'?"
-    >>> str(suggestion("simple harmonic", ["cosine", "double-harmonic"], {"cosine": ["simple harmonic"]}))
+    >>> str(suggestion("simple harmonic", ["cosine", "double-harmonic"]))
     "did you mean 'cosine'?"
     >>> str(suggestion("А1", ["A1", "A2"]))
     "its letter 'А' is Cyrillic: type 'A1' in Latin letters"
@@ -268,32 +311,26 @@ def suggestion(word: str, known: Iterable[str], called: Mapping[str, Iterable[st
     ''
     """
     known = list(known)
-    names = {other.casefold(): name for name in known for other in (called or {}).get(name, ())}
-    names |= {name.casefold(): name for name in known}
     latin = word.translate(_LOOKALIKES)
-    if latin != word and (name := names.get(latin.casefold())):
+    if latin != word and (alike := [name for name in known if name.casefold() == latin.casefold()]):
         letter = next(letter for letter, other in zip(word, latin, strict=True) if letter != other)
-        return say("its letter '{letter}' is Cyrillic: type '{name}' in Latin letters", letter=letter, name=name)
-    near = difflib.get_close_matches(unicodedata.normalize("NFKC", word).casefold(), names, n=1)
-    alike, begun = names.get(word.casefold()), [name for name in known if name.startswith(f"{word}_")]
-    close = [alike] if alike else begun or [names[other] for other in near]
-    return say("did you mean '{close}'?", close=close[0]) if close else ""
+        return say("its letter '{letter}' is Cyrillic: type '{name}' in Latin letters", letter=letter, name=alike[0])
+    name = meant(word, known)
+    return say("did you mean '{close}'?", close=name) if name else ""
 
 
-def choice_limit(
-    word: object, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None
-) -> tuple[Caption, Words]:
-    """Limit and remedy for a word that is not among the known ones; ``called`` as in :func:`suggestion`.
+def choice_limit(word: object, known: Iterable[str]) -> tuple[Caption, Words]:
+    """Limit and remedy for a word that is not among the known ones.
 
     >>> print(DesignError("law", "cicloidal", *choice_limit("cicloidal", ["cosine", "cycloidal"])))
     law is 'cicloidal', but must be one of cosine, cycloidal; did you mean 'cycloidal'?
     """
     known = list(known)
-    return say("one of {names}", names=", ".join(known)), suggestion(str(word), known, called)
+    return say("one of {names}", names=", ".join(known)), suggestion(str(word), known)
 
 
-def nearest_word_remedy(word: str, known: Iterable[str], called: Mapping[str, Iterable[str]] | None = None) -> Words:
-    """The remedy for a mistyped word: the known word that is meant, or all; ``called`` as in :func:`suggestion`.
+def nearest_word_remedy(word: str, known: Iterable[str]) -> Words:
+    """The remedy for a mistyped word: the known word that is meant, or all.
 
     Where the limit lists them already, :func:`suggestion` alone is enough.
 
@@ -305,7 +342,7 @@ def nearest_word_remedy(word: str, known: Iterable[str], called: Mapping[str, It
     "did you mean 'roller_radius'?"
     """
     known = list(known)
-    return suggestion(word, known, called) or say("known are {names}", names=", ".join(known))
+    return suggestion(word, known) or say("known are {names}", names=", ".join(known))
 
 
 class UnreadableError(Exception):

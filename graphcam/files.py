@@ -11,6 +11,7 @@ import errno
 import hashlib
 import os
 import shutil
+import sys
 import tempfile
 from collections.abc import Generator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
@@ -99,8 +100,9 @@ def _remove_folder(draft: Path) -> None:
                 shutil.rmtree(draft, ignore_errors=True)
         finally:
             os.close(lock)
-        if ended:
-            # Windows removes nothing that is open; nor does it now, if a new run has opened it meanwhile.
+        # Windows removes nothing that is open; nor does it now, if a new run has opened it meanwhile.  Elsewhere it is
+        # gone, and what is there by now is another run's.
+        if ended and sys.platform == "win32":
             (draft / LOCK_SUFFIX).unlink()
             draft.rmdir()
 
@@ -125,7 +127,9 @@ class OutputError(GraphcamError):
 
 
 @contextmanager
-def whole_folder(folder: str | Path, former: Mapping[str, str] = NO_FORMER_FILES) -> Generator[Path]:
+def whole_folder(
+    folder: str | Path, former: Mapping[str, str] = NO_FORMER_FILES, *, first: str = ""
+) -> Generator[Path]:
     """A temporary folder whose files move into ``folder`` when all of them are written.
 
     On an error nothing is left behind: neither the files nor a folder that was made for them.  Files that ``folder``
@@ -133,6 +137,7 @@ def whole_folder(folder: str | Path, former: Mapping[str, str] = NO_FORMER_FILES
 
     former : files of a run before that go when the new ones come, with their :func:`digest`; one that somebody has
         changed since is his own, and stays
+    first : what moves before all others: without it they are of no use if the run is killed between
 
     Raises
     ------
@@ -154,7 +159,7 @@ def whole_folder(folder: str | Path, former: Mapping[str, str] = NO_FORMER_FILES
         new.mkdir()
         old.mkdir()
         yield new
-        _exchange(new, old, folder, former)
+        _exchange(new, old, folder, former, first)
 
 
 @contextmanager
@@ -250,12 +255,12 @@ def digest(path: Path) -> str:
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-def _exchange(new: Path, old: Path, folder: Path, former: Mapping[str, str]) -> None:
+def _exchange(new: Path, old: Path, folder: Path, former: Mapping[str, str], first: str) -> None:
     """Move all files from ``new`` into the folder; what they replace, and former files, move into ``old``.
 
     If one cannot be moved, all go back to where they were.
     """
-    names = sorted(path.name for path in new.iterdir())
+    names = sorted((path.name for path in new.iterdir()), key=lambda name: (name != first, name))
     for name in names:
         # A folder of the same name cannot be replaced by a file: say so before the first file has moved.
         if (folder / name).is_dir():

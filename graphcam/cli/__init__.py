@@ -1,5 +1,6 @@
 """The command line: each large command has a module, the short ones share one."""
 
+import warnings
 from typing import Annotated
 
 import typer
@@ -13,12 +14,16 @@ from graphcam.cli.next_steps import show_next_steps
 from graphcam.cli.size import size
 from graphcam.cli.solve import solve
 from graphcam.cli.studio import studio
+from graphcam.cli.usage_errors import CommandGroup
 
-app = typer.Typer(name="graphcam", add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich")
+app = typer.Typer(
+    name="graphcam", cls=CommandGroup, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode="rich"
+)
 
 
 def main() -> None:
-    """Run the command line."""
+    """Run the command line; what libraries warn of is for programmers."""
+    warnings.simplefilter("ignore")
     in_language_of_machine(typer.main.get_command(app))(prog_name="graphcam")
 
 

@@ -195,7 +195,9 @@ def make(
     language: Annotated[
         str, Option(metavar="|".join(languages()), help="Language of the handouts and of the feedback.")
     ] = "en",
-    workers: Annotated[int, Option(min=1, metavar="N", help="Number of processes.")] = 1,
+    workers: Annotated[
+        int, Option(min=1, metavar="N", help="Number of processes; the default is one for each core.")
+    ] = os.cpu_count() or 1,
     cluster: Cluster = "",
     hand: Hand = "",
     paper: Annotated[

@@ -19,6 +19,7 @@ import typer
 
 import graphcam
 from graphcam.cli.command_language import translated, voice
+from graphcam.cli.usage_errors import INPUT_ERROR_STATUS
 from graphcam.errors import DesignError, GraphcamError, LetteringWarning, TaskError
 from graphcam.words import Caption, Words, say, say_many
 
@@ -28,8 +29,6 @@ if TYPE_CHECKING:
     from graphcam.tasks.arcs_task import ArcsTask
     from graphcam.tasks.task import Task
 
-INPUT_ERROR_STATUS = 2
-"""Exit status when the input is wrong."""
 REFRESH_INTERVAL = 0.1
 """The minimum time between two updates of a progress bar [s]."""
 NUMBER_PATTERN = re.compile(r"[-−]?\d+\.\d+(e[-+]?\d+)?[*%]?")
@@ -41,7 +40,7 @@ DEFAULT_FOLDER = Path("graphcam-out")
 def nonempty_place(place: str) -> str:
     """The place, if it is not empty: an empty one would be taken for the current folder."""
     if not place:
-        raise typer.BadParameter(translated(say("'' names no place; '.' is the current folder")))
+        raise typer.BadParameter(translated(say("the name of a file or folder ('.' is the current one)")))
     return place
 
 
@@ -202,7 +201,7 @@ def progress_bar(things: Words) -> Generator[Callable[[int, int], None]]:
 _LANGUAGE_PATTERN = re.compile(r"^[^#\n]*\blanguage\s*=\s*[\"']([\w-]+)[\"']", re.MULTILINE)
 """The language key of a task file, which only the table ``[drawing]`` has."""
 
-COMMAND_OPTIONS = ("upto", "dxf", "files", "working_drawing")
+COMMAND_OPTIONS = ("pencil", "seed", "upto", "dxf", "files", "working_drawing")
 """Quantities of a :class:`DesignError` that are options of the command line, not values of the task file."""
 
 
@@ -233,7 +232,10 @@ def errors_name(path: Path | None) -> Generator[None]:
     try:
         yield
     except DesignError as error:
-        if path is None or error.quantity in COMMAND_OPTIONS:
+        option = {"pencil seed": "seed", "pencil line": "pencil"}.get(error.quantity, error.quantity)
+        if option in COMMAND_OPTIONS:
+            raise DesignError(f"--{option.replace('_', '-')}", *error.args[1:]) from None
+        if path is None:
             raise
         raise TaskError(str(path), *error.args) from None
 

@@ -156,8 +156,8 @@ def solve(
         from graphcam.solving.solve import solve as solved
 
         progress(say("drawing and computing"))
-        hand = None if pencil is None else graphcam.Pencil.of(pencil, seed=seed)
         with errors_name(task):
+            hand = None if pencil is None else graphcam.Pencil.of(pencil, seed=seed)
             solution = solved(given, hand)
             document = _document(solution, finished=last is None)
             if folder is None:

@@ -424,7 +424,7 @@ class Chain(Drawings):
             if slip := self.board.limits.slip():
                 way, angle = slip
                 limit = say("large enough for lines that cross at a degree or more")
-                remedy = say("{degrees:.0f} degrees? {angle:g} was given; or give {names}")
+                remedy = say("{angle:g} rad would be {degrees:.0f} degrees: write {degrees:.0f}, or give {names}")
                 remedy = remedy.with_values(degrees=math.degrees(angle), angle=angle, names=and_chain(missing))
                 found = say("{angle:g} degrees", angle=angle)
                 raise DesignError(LIMIT_NAMES[way], found, limit, remedy)

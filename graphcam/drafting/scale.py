@@ -2,10 +2,13 @@
 
 import math
 import re
+import unicodedata
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cache
 
 from graphcam.errors import check_number
+from graphcam.typed_words import table
 from graphcam.words import Caption, Words, say
 
 Ratios = tuple[float, ...]
@@ -141,11 +144,6 @@ UNITS: Mapping[str, Caption] = {
     )
 }
 
-UNIT_SPELLINGS = {
-    "мм": "mm", "毫米": "mm", "см": "cm", "厘米": "cm", "degrees": "deg", "град": "deg", "рад": "rad", "弧度": "rad",
-    "độ": "deg", "°": "deg", "度": "deg", " of paper": "",
-}  # fmt: skip
-"""Units as people write them, in the languages of the sheets, and as they are called here."""
 UNIT_SIZES = {
     **dict.fromkeys(("mm", "deg", "n", "mpa"), 1.0), "cm": 10.0, "m": 1000.0, "rad": math.degrees(1.0), "kn": 1000.0,
     "gpa": 1000.0,
@@ -154,15 +152,35 @@ UNIT_SIZES = {
 UNIT_KINDS = ({"mm", "cm", "m"}, {"deg", "rad"}, {"n", "kn"}, {"mpa", "gpa"})
 
 
-def plain_unit(written: str) -> str:
-    """A unit without its spelling: in small letters, without brackets and spaces.
+_BETWEEN_UNITS_PATTERN = re.compile(r"\s*([/·])\s*")
+_INVERSE_PATTERN = re.compile(r"[\s·*]*\b(\w+?)\^?[-−]1$")
 
-    >>> plain_unit(" мм "), plain_unit("(mm/rad)"), plain_unit("°")
-    ('mm', 'mm/rad', 'deg')
+
+def plain_unit(written: str) -> str:
+    """A unit as all of its spellings are told: that of the table of typed words, in small letters, without brackets.
+
+    >>> plain_unit("град."), plain_unit("(мм/рад)"), plain_unit("mm per rad"), plain_unit("mm·rad⁻¹"), plain_unit("°")
+    ('deg', 'mm/rad', 'mm/rad', 'mm/rad', 'deg')
     """
-    for spelling, usual in UNIT_SPELLINGS.items():
-        written = written.replace(spelling, usual)
-    return re.sub(r"[()\s.]", "", written).casefold()
+    bare = re.sub(r"[().]", "", unicodedata.normalize("NFKC", written.replace("°", "deg"))).strip().casefold()
+    if whole := _spelled_units().get(bare):
+        return whole
+    parts = _BETWEEN_UNITS_PATTERN.split(_INVERSE_PATTERN.sub(r"/\1", re.sub(r"\s+per\s+", "/", bare)))
+    return "".join(map(_plain_part, parts))
+
+
+def _plain_part(part: str) -> str:
+    """One unit of a quotient, with its power."""
+    bare = part.strip().replace("^", "")
+    name = bare.rstrip("23")
+    return _spelled_units().get(name, name) + bare[len(name) :]
+
+
+@cache
+def _spelled_units() -> Mapping[str, str]:
+    """Units by all of their spellings, both in small letters."""
+    named = [(word, name) for name, words in table()["units"].items() for word in (name, *words)]
+    return {unicodedata.normalize("NFKC", word).casefold(): name.casefold() for word, name in named}
 
 
 def unit_factor(written: str, asked: str) -> float | None:

@@ -18,7 +18,6 @@ class DeclaredLaw:
     """A law with a name.  It is declared in a module of its family, and listed in :mod:`graphcam.given.laws`.
 
     title : what it is called; the English title is the name
-    synonyms : other names that people type, those of the catalogs among them
     make : the law, of the ratio |a1|/|a2| of its two parts, which is 1 of a law without such parts
     printed : the displacement as the books print it, which the bench and the tests hold the law against
     fifth_derivatives : the greatest |f'''''| of each piece of the first half, and by how much f'''' jumps between
@@ -28,7 +27,6 @@ class DeclaredLaw:
     """
 
     title: Caption
-    synonyms: tuple[str, ...]
     make: Callable[[float], Law]
     printed: Printed
     fifth_derivatives: tuple[tuple[float, ...], tuple[float, ...]] | None

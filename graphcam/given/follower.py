@@ -3,22 +3,12 @@
 import math
 from dataclasses import dataclass
 from numbers import Real
-from typing import Literal
+from typing import Literal, get_args
 
 from graphcam.errors import DesignError, check_kind, check_number, suggestion
 from graphcam.words import Words, say
 
 Rotation = Literal["ccw", "cw"]
-SENSE_SYNONYMS = {
-    "ccw": (
-        *("counter-clockwise", "anticlockwise", "anti-clockwise"),
-        *("против часовой стрелки", "逆时针", "ngược chiều kim đồng hồ"),
-    ),
-    "cw": ("clockwise", "по часовой стрелке", "顺时针", "thuận chiều kim đồng hồ"),
-}
-"""What else the senses are called; a message names the one that is meant."""
-
-
 MM_PER_M = 1000.0
 
 
@@ -40,9 +30,8 @@ def sense(rotation: str) -> int:
     try:
         return {"ccw": 1, "cw": -1}[rotation]
     except (KeyError, TypeError):
-        raise DesignError(
-            "rotation", rotation, say("'ccw' or 'cw'"), suggestion(f"{rotation}", SENSE_SYNONYMS, SENSE_SYNONYMS)
-        ) from None
+        remedy = suggestion(f"{rotation}", get_args(Rotation))
+        raise DesignError("rotation", rotation, say("'ccw' or 'cw'"), remedy) from None
 
 
 def _check_length(quantity: str, value: float, *, zero: bool) -> None:

@@ -94,4 +94,4 @@ def check_finite_acceleration(motion: Motion) -> None:
     """
     if jumps := velocity_jumps(motion):
         found = say("one whose velocity jumps at {phi:.6g} degrees", phi=math.degrees(jumps[0].phi))
-        raise DesignError("motion", found, say("one with a continuous velocity where forces are asked for"), NO_FORCE)
+        raise DesignError("motion", found, say("one with a continuous velocity for forces"), NO_FORCE)

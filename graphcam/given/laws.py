@@ -8,8 +8,6 @@ Two of them are for a rise and a fall without a dwell between: the acceleration 
 begins with the same.
 """
 
-import re
-import unicodedata
 from collections.abc import Mapping
 from functools import lru_cache
 
@@ -21,6 +19,7 @@ from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_l
 from graphcam.given.polynomial_laws import EIGHTH_DEGREE, POLYNOMIAL_2_3, POLYNOMIAL_3_4_5, POLYNOMIAL_4_5_6_7
 from graphcam.given.sine_laws import COSINE, CYCLOIDAL, DOUBLE_HARMONIC, MODIFIED_SINE, MODIFIED_TRAPEZOIDAL
 from graphcam.given.straight_line_laws import RECTANGULAR, TRAPEZOIDAL, TRIANGULAR
+from graphcam.typed_words import names_of, plain
 from graphcam.words import say
 
 __all__ = ["LAWS", "Floats", "Side", "law"]
@@ -41,19 +40,9 @@ DWELL_TO_DWELL_LAWS: tuple[str, ...] = tuple(name for name, law in DECLARED_LAWS
 """The laws that look the same from both ends."""
 RISE_FALL_LAWS: tuple[str, ...] = tuple(name for name, law in DECLARED_LAWS.items() if law.rise_fall)
 """The laws of a rise without a dwell behind it; a return by them runs backwards, from the same acceleration to rest."""
-LAW_SYNONYMS: Mapping[str, tuple[str, ...]] = {
-    **{name: law.synonyms for name, law in DECLARED_LAWS.items()},
-    CONSTANT_VELOCITY: ("uniform velocity", "постоянная скорость", "vận tốc không đổi", "等速"),
-}
-"""Other names of the laws by the law's name; those of the catalogs among them."""
-
-
-def _plain_words(name: str) -> str:
-    """A name without its capitals, hyphens and brackets."""
-    return " ".join(re.findall(r"\w+", unicodedata.normalize("NFKC", name).casefold().replace("ё", "е")))
-
-
-_BY_PLAIN_WORDS = {_plain_words(word): name for name, words in LAW_SYNONYMS.items() for word in (name, *words)}
+KNOWN_LAWS = (*LAWS, CONSTANT_VELOCITY)
+"""All names that a law is asked for by."""
+_NAMES_BY_PLAIN = {plain(name): name for name in KNOWN_LAWS}
 
 
 def canonical_law(name: str | Law) -> str | Law:
@@ -62,7 +51,9 @@ def canonical_law(name: str | Law) -> str | Law:
     >>> [canonical_law(name) for name in ("UARM", "Simple Harmonic", "равноускоренный", "3–4–5", "cicloidal")]
     ['rectangular', 'cosine', 'rectangular', '3-4-5', 'cicloidal']
     """
-    return _BY_PLAIN_WORDS.get(_plain_words(name), name) if isinstance(name, str) else name
+    if not isinstance(name, str) or name in KNOWN_LAWS:
+        return name
+    return _NAMES_BY_PLAIN.get(plain(name)) or next(iter(names_of(name, "laws")), name)
 
 
 def law(name: str | Law, ratio: float = 1.0) -> Law:
@@ -93,8 +84,7 @@ def law(name: str | Law, ratio: float = 1.0) -> Law:
         name = constant_velocity_law()
     own = isinstance(name, Law)
     if not own and name not in LAWS:
-        known = (*LAWS, CONSTANT_VELOCITY)
-        remedy = nearest_word_remedy(f"{name}", known, LAW_SYNONYMS)
+        remedy = nearest_word_remedy(f"{name}", KNOWN_LAWS)
         if callable(name):
             remedy = say("a law of your own is gc.Law(name, formula)")
         raise DesignError("law", name, say("a motion law that graphcam knows"), remedy)

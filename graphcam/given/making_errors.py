@@ -125,7 +125,7 @@ class MakingErrors:
         for name in TOLERANCED_SIZES:
             _check_tolerance(name, getattr(self, name))
         if self.distribution not in DEVIATION_SHARES:
-            limit = say("one that is known")
+            limit = say("the size of a follower")
             raise DesignError(
                 "distribution", self.distribution, limit, nearest_word_remedy(self.distribution, DEVIATION_SHARES)
             )

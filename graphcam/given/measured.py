@@ -284,7 +284,8 @@ def check_rows(phi: ArrayLike, values: ArrayLike, closes_to: float) -> tuple[Flo
         raise DesignError(quantity, shapes, say("one number for each cam angle"), say("give two lists"))
     if not MIN_ROWS <= phi.size <= MAX_ROWS:
         limit = say("from {least} to {most}", least=MIN_ROWS, most=MAX_ROWS)
-        remedy = say("measure at more or at fewer cam angles")
+        more = say("measure at more cam angles")
+        remedy = more if phi.size < MIN_ROWS else say("leave rows out: every second one, say")
         raise RowError(max(phi.size - 1, 0), say("number of rows"), phi.size, limit, remedy)
     for k, number in enumerate(np.isfinite(phi) & np.isfinite(values)):
         if not number:

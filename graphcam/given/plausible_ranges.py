@@ -29,6 +29,7 @@ PLAUSIBLE_RANGES = {
         (say("N/mm"), 1e-6, 1e9),
         (say("N"), 0.0, 1e9),
         (say("MPa"), 1e-3, 1e7),
+        (say("MPa of a modulus"), 1e3, 1e7),
         (say("kg mm^2"), 1e-6, 1e15),
         (say("N mm/rad"), 1e-6, 1e15),
         (say("N mm"), 0.0, 1e15),
@@ -59,7 +60,9 @@ def check_positive(quantity: Words, value: float | None, unit: str) -> None:
     check_number(quantity, value, say("a finite number greater than 0 {unit}", unit=told), above=0)
     if not least <= value <= most:
         limit = say("from {least:g} to {most:.15g} {unit}", least=least, most=most, unit=told)
-        raise DesignError(quantity, value, limit, UNIT_REMEDY)
+        in_gpa = unit == "MPa of a modulus" and least <= 1000 * value <= most
+        remedy = say("if it is in GPa, write {mpa:.15g}", mpa=1000 * value) if in_gpa else UNIT_REMEDY
+        raise DesignError(quantity, value, limit, remedy)
 
 
 def bounded(quantity: Words, value: float | None, unit: str) -> None:

@@ -61,33 +61,24 @@ def _polynomial(name: str, formula: Formula, peaks: tuple[float, float], n: int,
 
 POLYNOMIAL_2_3 = DeclaredLaw(
     title=say("2-3"),
-    synonyms=(
-        *("cubic", "linearly decreasing acceleration", "equally decreasing acceleration", "uniformly decreasing"),
-        *("linearly (equally) decreasing acceleration", "равномерно (линейно) убывающее ускорение"),
-        *("равномерно убывающее ускорение", "линейно убывающее ускорение", "равномерно убывающий", "линейно убывающий"),
-        *("полином 2-3", "đa thức 2-3", "2-3 多项式"),
-    ),
     make=lambda _: _polynomial("2-3", _poly_2_3, (1.5, 6.0), 1, (3, -4, 2)),
     printed=lambda u, _: 3 * u**2 - 2 * u**3,
     fifth_derivatives=((0.0,), ()),
 )
 POLYNOMIAL_3_4_5 = DeclaredLaw(
     title=say("3-4-5"),
-    synonyms=("quintic", "polynomial 3-4-5", "полином 3-4-5", "đa thức 3-4-5", "3-4-5 多项式", "五次多项式"),
     make=lambda _: _polynomial("3-4-5", _poly_3_4_5, (1.875, 10 / math.sqrt(3)), 2, (10, -20, 18, -6)),
     printed=lambda u, _: 10 * u**3 - 15 * u**4 + 6 * u**5,
     fifth_derivatives=((720.0,), ()),
 )
 POLYNOMIAL_4_5_6_7 = DeclaredLaw(
     title=say("4-5-6-7"),
-    synonyms=("polynomial 4-5-6-7", "полином 4-5-6-7", "đa thức 4-5-6-7", "4-5-6-7 多项式", "七次多项式"),
     make=lambda _: _polynomial("4-5-6-7", _poly_4_5_6_7, (2.1875, 84 / (5 * math.sqrt(5))), 3, (35, -98, 126, -80, 20)),
     printed=lambda u, _: 35 * u**4 - 84 * u**5 + 70 * u**6 - 20 * u**7,
     fifth_derivatives=((10080.0,), ()),
 )
 EIGHTH_DEGREE = DeclaredLaw(
     title=say("eighth-degree"),
-    synonyms=("полином восьмой степени", "đa thức bậc tám", "八次多项式"),
     make=lambda _: leg_law("eighth-degree", as_series([(Fraction(0), Fraction(1), _EIGHTH_COEFFICIENTS)]))[1],
     printed=lambda u, _: sum(c.numerator * u**k / c.denominator for k, c in enumerate(_EIGHTH_COEFFICIENTS)),
     fifth_derivatives=((2493.648,), ()),

@@ -211,21 +211,12 @@ def _printed_modified_sine(u: Any, m: Any) -> Any:
 _RAMP, _SINE = 128 * _PI**3 / (2 + _PI), 64 * _PI**4 / (4 + _PI)
 COSINE = DeclaredLaw(
     title=say("cosine"),
-    synonyms=(
-        *("simple harmonic", "simple harmonic motion", "SHM", "harmonic", "cosine acceleration"),
-        *("косинусоидальный", "косинусный", "гармонический", "cosin", "điều hòa"),
-        *("余弦加速度", "余弦加速度(简谐)", "余弦", "简谐", "简谐运动"),
-    ),
     make=_cosine_law,
     printed=lambda u, m: (1 - m.cos(m.pi * u)) / 2,
     fifth_derivatives=((_PI**5 / 2,), ()),
 )
 CYCLOIDAL = DeclaredLaw(
     title=say("cycloidal"),
-    synonyms=(
-        *("cycloid", "sine", "sine acceleration", "sinusoidal"),
-        *("синусоидальный", "синусный", "циклоидальный", "xyclôit", "sin", "正弦加速度", "正弦", "摆线"),
-    ),
     make=_cycloidal_law,
     printed=lambda u, m: u - m.sin(2 * m.pi * u) / (2 * m.pi),
     fifth_derivatives=((16 * _PI**4,), ()),
@@ -233,10 +224,6 @@ CYCLOIDAL = DeclaredLaw(
 )
 MODIFIED_TRAPEZOIDAL = DeclaredLaw(
     title=say("modified-trapezoidal"),
-    synonyms=(
-        *("modtrap", "mod-trapezoid", "MT", "видоизменённый трапецеидальный"),
-        *("hình thang cải tiến", "改进梯形", "修正梯形"),
-    ),
     make=_modified_trapezoidal_law,
     printed=mirrored_print(_printed_modified_trapezoidal),
     fifth_derivatives=((4 * _PI * _RAMP, 0.0, 4 * _PI * _RAMP), (_RAMP, _RAMP)),
@@ -244,10 +231,6 @@ MODIFIED_TRAPEZOIDAL = DeclaredLaw(
 )
 MODIFIED_SINE = DeclaredLaw(
     title=say("modified-sine"),
-    synonyms=(
-        *("modsine", "mod-sine", "MS", "видоизменённый синусоидальный"),
-        *("sin cải tiến", "改进正弦", "修正正弦"),
-    ),
     make=_modified_sine_law,
     printed=_printed_modified_sine,
     fifth_derivatives=((4 * _PI * _SINE, 4 * _PI * _SINE / 27), (8 / 9 * _SINE,)),
@@ -255,7 +238,6 @@ MODIFIED_SINE = DeclaredLaw(
 )
 DOUBLE_HARMONIC = DeclaredLaw(
     title=say("double-harmonic"),
-    synonyms=("двойной гармонический", "điều hòa kép", "双简谐"),
     make=_double_harmonic_law,
     printed=lambda u, m: (1 - m.cos(m.pi * u)) / 2 - (1 - m.cos(2 * m.pi * u)) / 8,
     fifth_derivatives=((4.5 * _PI**5,), ()),

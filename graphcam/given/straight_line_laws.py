@@ -89,13 +89,6 @@ def _printed_trapezoidal(u: Any, _: Any) -> Any:
 
 RECTANGULAR = DeclaredLaw(
     title=say("rectangular"),
-    synonyms=(
-        *("constant acceleration", "uniform acceleration", "parabolic", "parabola", "gravity", "UARM"),
-        *("constant acceleration and deceleration", "uniformly accelerated and retarded motion"),
-        *("прямоугольный (постоянного ускорения)", "прямоугольный", "постоянного ускорения", "параболический"),
-        *("равноускоренный", "равноускоренное движение", "постоянное ускорение"),
-        *("gia tốc không đổi", "等加速等减速", "等加速"),
-    ),
     make=_rectangular,
     printed=mirrored_print(lambda u, _: 2 * u**2),
     fifth_derivatives=((0.0,), ()),
@@ -103,7 +96,6 @@ RECTANGULAR = DeclaredLaw(
 )
 TRIANGULAR = DeclaredLaw(
     title=say("triangular"),
-    synonyms=("треугольный", "tam giác", "三角形加速度"),
     make=_triangular,
     printed=mirrored_print(_printed_triangular),
     fifth_derivatives=((0.0, 0.0), (0.0,)),
@@ -111,7 +103,6 @@ TRIANGULAR = DeclaredLaw(
 )
 TRAPEZOIDAL = DeclaredLaw(
     title=say("trapezoidal"),
-    synonyms=("trapezoid", "трапецеидальный", "трапециевидный", "hình thang", "梯形加速度", "梯形"),
     make=_trapezoidal,
     printed=mirrored_print(_printed_trapezoidal),
     fifth_derivatives=((0.0, 0.0, 0.0), (0.0, 0.0)),

@@ -16,6 +16,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
+from graphcam.decoded_text import decoded_text
 from graphcam.errors import TaskError, unreadable_error
 from graphcam.given.laws import Floats
 from graphcam.given.measured import (
@@ -62,6 +63,8 @@ _MAX_VALUES: dict[Column, float] = {
 """The greatest magnitude of a value."""
 ANGLE_CLOSURE = 1e-9
 """Angles that differ by no more [degrees] are the same."""
+MISSING_VALUES = "n/a", "na", "nan", "null", "none", "-", "--", "#n/a", "?"
+"""What stands in a table for a value that was not measured."""
 _FIRST_ROW = 2
 """Line of the first row, below the header."""
 
@@ -195,12 +198,7 @@ def _text(path: Path) -> str:
         content = path.read_bytes()
     except (OSError, ValueError) as error:
         raise unreadable_error(path, say("the table"), say("a CSV file"), error, say("check motion.table")) from None
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line, wrong = content.count(b"\n", 0, error.start) + 1, content[error.start : error.start + 1]
-        what = say("line {line}", line=line)
-        raise TaskError(str(path), what, wrong, say("text in UTF-8"), say("save the file as UTF-8")) from None
+    return decoded_text(path, say("the table"), content, say("a CSV file in UTF-8"), say("save it as CSV UTF-8"))
 
 
 class _Heads(NamedTuple):
@@ -257,6 +255,8 @@ def _row(path: str, number: int, line: str, heads: _Heads, between: str) -> tupl
     if not (math.isfinite(first) and math.isfinite(second)):
         limit = say("two finite numbers, {angles} and {column}", angles=heads.names[0], column=heads.names[1])
         remedy = say("write decimals with a point, or separate the columns by semicolons")
+        if any(not cell or cell.casefold() in MISSING_VALUES for cell in _cells(line, between)):
+            remedy = say("delete the row: a value that was not measured is left out")
         raise TaskError(path, say("line {number}", number=number), _short_line(line), limit, remedy)
     factor = heads.factors[1]
     if abs(second * factor) > _MAX_VALUES[heads.column]:

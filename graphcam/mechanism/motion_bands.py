@@ -336,7 +336,7 @@ def check_errors(cam: Cam, errors: MakingErrors) -> None:
         raise DesignError("roller_diameter", errors.roller_diameter, limit, remedy)
     least = cam.extremes().min_convex_radius[0]
     if not least > roller:
-        limit = say("sound where its errors are asked for")
+        limit = say("sound for its errors to be found")
         raise DesignError("profile", say("undercut"), limit, say("enlarge the prime radius"))
     waves = [a * n * n for a, n in zip(errors.waviness, errors.harmonics, strict=True)]
     values = cam.motion(band_places(cam))

@@ -91,6 +91,43 @@ def fitted_text(text: str, field: Ruling, height: float, align: str = "center", 
     return stacked_lines(lines, complex(x, y), leading, height, align)
 
 
+PERSONS = "author", "checked", "approved"
+"""Entries of the title block that are somebody's name."""
+MAX_NAME_LENGTH = 100
+"""A longer text is no name."""
+_PATRONYMIC_ENDINGS = "вич", "ич", "вна", "чна", "кызы", "оглы"
+
+
+def fitting_name(name: str, field: Ruling, height: float) -> str:
+    """A name as it fits a field: whole, with initials, or else cut at its end.
+
+    >>> fitting_name("Васильев Константин Иванович", (17, 0, 30, 5), 2.5)
+    'Васильев К. И.'
+    """
+    shorter = [name, *([with_initials(name)] if " " in name else [])]
+    return next((each for each in shorter if _set(each, field, height) is not None), cut_name(name, field, height))
+
+
+def cut_name(name: str, field: Ruling, height: float) -> str:
+    """A name, cut at its end if it does not fit a field; what is too long for a name stays as it is."""
+    cut = (f"{name[:count].rstrip()}…" for count in range(len(name) - 1, 0, -1))
+    shorter = [name] if len(name) > MAX_NAME_LENGTH else [name, *cut]
+    return next((each for each in shorter if _set(each, field, height) is not None), name)
+
+
+def with_initials(name: str) -> str:
+    """A surname with initials, in the order of the name: a patronymic at its end tells that the surname is first.
+
+    >>> with_initials("Иван Петрович Сидоров"), with_initials("Maria Fernanda Albuquerque")
+    ('И. П. Сидоров', 'M. F. Albuquerque')
+    """
+    words = name.split()
+    first = len(words) > 2 and words[-1].casefold().endswith(_PATRONYMIC_ENDINGS)
+    surname, others = (words[0], words[1:]) if first else (words[-1], words[:-1])
+    initials = " ".join(f"{word[0]}." for word in others)
+    return f"{surname} {initials}" if first else f"{initials} {surname}"
+
+
 def _set(text: str, field: Ruling, height: float) -> tuple[list[str], float] | None:
     """The lines of a text that fit a field, and their height; None where none do."""
     left, bottom, right, top = field
@@ -123,6 +160,7 @@ def entry(title: TitleBlock, name: str, field: Ruling, height: float, align: str
     own = name in ("name", "number", "material")
     key = "document" if name == "number" and title.table == "title" else name
     said, what = getattr(title, name) or "", f"{title.table if own else 'title'}.{key}"
+    said = fitting_name(said, field, height) if name in PERSONS else said
     return [replace(text, field=name) for text in fitted_text(said, field, height, align, what)]
 
 

@@ -186,7 +186,7 @@ def _check(folder: Path, name: str, content: bytes, known: set[str | None]) -> N
     found = hashlib.sha256(content).hexdigest()
     if found not in known:
         trusted = sorted(each for each in known if each)
-        sums = or_list(trusted) if trusted else say("one that is known")
+        sums = or_list(trusted) if trusted else say("a sum that graphcam has")
         remedy = say("take the files of '{packing}', or state the sums that you trust in a file {sums} there")
         remedy = remedy.with_values(packing=PACKING_COMMAND, sums=SUMS_FILE)
         raise TaskError(str(folder), say("the SHA-256 of {name}", name=name), found, sums, remedy)

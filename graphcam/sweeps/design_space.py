@@ -12,15 +12,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphcam.errors import DesignError, nearest_word_remedy
+from graphcam.errors import DesignError, TaskError, nearest_word_remedy
 from graphcam.given.follower import FOLLOWERS_BY_KIND, Kind, Limits
 from graphcam.given.laws import LAWS
 from graphcam.given.plausible_ranges import bounded, check_positive
-from graphcam.sweeps.designs import Designs
+from graphcam.sweeps.designs import CLOSURE_TOLERANCE, Designs
 from graphcam.sweeps.sweep import computed, usual_limit
 from graphcam.sweeps.sweep_quantities import QUANTITIES
-from graphcam.tasks.task_file import Classes, checked_table, other_file, parse_toml, read_content
-from graphcam.words import say
+from graphcam.tasks.task_file import Classes, checked_table, other_file, read_content, read_toml
+from graphcam.words import Words, say
 
 ANGLE_KEYS = ("rise_angle", "dwell_angle", "return_angle", "max_pressure_angle_rise", "max_pressure_angle_return")
 """What a file gives and gets in degrees."""
@@ -121,7 +121,16 @@ class Space:
         if len(self) > MAX_DESIGNS:
             quantity = say("number of designs")
             raise DesignError(quantity, len(self), say("at most {most}", most=MAX_DESIGNS), say("give fewer values"))
+        self._check_turn()
         self.designs(0, 1)
+
+    def _check_turn(self) -> None:
+        """Refuse phases that in no design fit into a turn; where they do in some, the others have empty rows."""
+        angles = [self.axes[name].min().item() for name in ("rise_angle", "dwell_angle", "return_angle")]
+        if sum(angles) > 360 + CLOSURE_TOLERANCE:
+            told = say("{sum:g} degrees at least", sum=sum(angles))
+            limit = say("at most 360 degrees in some design")
+            raise DesignError(say("rise, dwell and return together"), told, limit, say("give smaller angles"))
 
     @cached_property
     def axes(self) -> Columns:
@@ -204,7 +213,7 @@ def _range(name: str, value: dict[str, Any]) -> NDArray[np.float64]:
     for key in value:
         if key not in _RANGE_KEYS:
             raise DesignError(
-                f"{name}.{key}", say("an unknown key"), say("one that is known"), nearest_word_remedy(key, _RANGE_KEYS)
+                f"{name}.{key}", say("an unknown key"), say("a key of this table"), _range_remedy(key, value)
             )
     for key in _RANGE_KEYS:
         if key not in value:
@@ -216,6 +225,18 @@ def _range(name: str, value: dict[str, Any]) -> NDArray[np.float64]:
     if ends[0].size > 1 or ends[1].size > 1:
         raise DesignError(name, value, _ALLOWED_FORMS)
     return np.linspace(ends[0][0], ends[1][0], count)
+
+
+def _range_remedy(key: str, value: dict[str, Any]) -> Words:
+    """The remedy for an unknown key of a range: a step is told as the count that it makes."""
+    near = nearest_word_remedy(key, _RANGE_KEYS)
+    numbers = [value.get(name) for name in ("start", "stop", key)]
+    if "step" not in key.casefold() or not all(isinstance(each, int | float) and each for each in numbers[1:]):
+        return near
+    start, stop, step = (float(each or 0) for each in numbers)
+    count = (stop - start) / step + 1
+    whole = count == round(count) and count > 1
+    return say("write count = {count:g}, with both ends, in place of it", count=count) if whole else near
 
 
 def word_axis(name: str, value: Any, known: tuple[str, ...]) -> None:
@@ -251,5 +272,8 @@ def load_space(path: str | Path) -> Space:
     34850
     """
     with other_file(say("space file"), _REMEDY):
-        data = parse_toml(str(path), read_content(path))
-        return checked_table(Space, _CLASSES, str(path), data, data)
+        read = read_toml(str(path), read_content(path))
+        if isinstance(motion := read.data.get("motion"), dict) and "phases" in motion:
+            found, expected = say("a task"), say("a space of designs: 'graphcam init FILE --sweep' writes one")
+            raise TaskError(str(path), say("the file"), found, expected, say("'graphcam solve' takes a task"))
+        return checked_table(Space, _CLASSES, str(path), read.data, read.data, read)

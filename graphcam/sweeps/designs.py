@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from graphcam.errors import DesignError, nearest_word_remedy
 from graphcam.given.follower import FOLLOWERS_BY_KIND, Follower, Kind, swing_remedy
-from graphcam.given.laws import LAW_SYNONYMS, LAWS, Floats, canonical_law
+from graphcam.given.laws import LAWS, Floats, canonical_law
 from graphcam.given.motion import CLOSURE_TOLERANCE, FULL_TURN, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.cam import Cam
@@ -205,9 +205,7 @@ def _choices(name: str, values: Any, known: tuple[str, ...], own: type | tuple[(
         if isinstance(meant := canonical_law(word), str) and meant != word:
             array = np.where(array == word, meant, array)
         if not isinstance(word, own) and meant not in known:
-            raise DesignError(
-                name, word, say("a name that graphcam knows"), nearest_word_remedy(str(word), known, LAW_SYNONYMS)
-            )
+            raise DesignError(name, word, say("a name that graphcam knows"), nearest_word_remedy(str(word), known))
     return _one_axis(name, array)
 
 

@@ -109,10 +109,10 @@ def sweep(
         if name not in (known := (*QUANTITIES, *FORCE_QUANTITIES, *BAND_QUANTITIES)):
             raise DesignError("quantity", name, say("one that a sweep can find"), nearest_word_remedy(name, known))
         if name in FORCE_QUANTITIES and load is None:
-            given = say("given where {name} is asked for", name=name)
+            given = say("given for {name}", name=name)
             raise DesignError("load", say("left out"), given, say("give a SpringLoad or an ArmLoad"))
         if name in BAND_QUANTITIES and errors is None:
-            limit = say("given where {name} is asked for", name=name)
+            limit = say("given for {name}", name=name)
             raise DesignError("errors", say("left out"), limit, say("give MakingErrors"))
     if chunk < 1:
         raise DesignError("chunk", chunk, say("at least 1 design"))

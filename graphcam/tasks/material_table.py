@@ -35,8 +35,9 @@ class MaterialTable:
 
     def __post_init__(self) -> None:
         check_positive("width", self.width, "mm")
-        for name in ("young_cam", "young_follower", "permitted_stress"):
-            check_positive(name, getattr(self, name), "MPa")
+        check_positive("permitted_stress", self.permitted_stress, "MPa")
+        for name in ("young_cam", "young_follower"):
+            check_positive(name, getattr(self, name), "MPa of a modulus")
         for name in ("poisson_cam", "poisson_follower"):
             if not 0 <= getattr(self, name) <= 0.5:
                 raise DesignError(name, getattr(self, name), say("from 0 to 0.5"), say("metals have about 0.3"))

@@ -456,7 +456,12 @@ class Task:
             return
         if self.speed_rpm is None:
             limit = say("given where there is a spring")
-            raise DesignError("speed_rpm", say("missing"), limit, say("inertia grows with the speed"))
+            raise DesignError(
+                "speed_rpm",
+                say("missing"),
+                limit,
+                say("the force of inertia grows with the speed"),
+            )
         if velocity_jumps(self.motion()):
             raise DesignError("spring", say("given"), say("left out where the velocity jumps"), NO_FORCE)
         if self.follower.swings and not self.spring.swings:

@@ -3,14 +3,27 @@
 from __future__ import annotations
 
 import dataclasses
+import math
+import re
 import tomllib
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from importlib import resources
 from pathlib import Path
 from typing import Any, TypeVar
 
-from graphcam.errors import DesignError, MissingFileError, TaskError, choice_limit, unreadable_error
+from graphcam.decoded_text import decoded_text
+from graphcam.errors import (
+    MAX_FAULTS,
+    DesignError,
+    MissingFileError,
+    TaskError,
+    TaskFaultsError,
+    all_faults,
+    choice_limit,
+    unreadable_error,
+)
 from graphcam.given.table_file import Turn, read_table
 from graphcam.tasks import arcs_task as arcs, motion_tables, spring_tables, task as tables
 from graphcam.tasks.arcs_task import ArcsTask
@@ -31,6 +44,7 @@ from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_remedies import key_remedy, missing_remedy, toml_fault, value_remedy
 from graphcam.tasks.tolerances_table import TolerancesTable
+from graphcam.tasks.toml_lines import lines_of
 from graphcam.tasks.units import numbers_in_units
 from graphcam.words import Caption, Words, and_chain, bare_caption, say
 
@@ -100,8 +114,8 @@ def load_task(path: str | Path) -> Task | ArcsTask:
 
     Raises
     ------
-    TaskError : there is no such file, it is not TOML, or a field is missing, unknown or wrong; of several faults the
-        first is named, unknown keys before all others
+    TaskError : there is no such file, it is not TOML, or fields are missing, unknown or wrong; all faults are told, in
+        the order of the file's lines
 
     >>> import graphcam as gc
     >>> from tempfile import TemporaryDirectory
@@ -144,10 +158,10 @@ def other_file(kind: Words, example: Words) -> Generator[None]:
     except MissingFileError as error:
         raise MissingFileError(error.path, say("check the name; {example}", example=example)) from None
     except TaskError as error:
-        _, field, value, expected, remedy = error.args
-        field = say("the {kind}", kind=kind) if field == THE_FILE else field
-        remedy = example if error.remedy.endswith(str(EXAMPLE_REMEDY)) else remedy
-        raise TaskError(error.path, field, value, expected, remedy) from None
+        for each in error.errors if isinstance(error, TaskFaultsError) else (error,):
+            each.place = say("the {kind}", kind=kind) if each.place == THE_FILE else each.place
+            each.advice = example if each.remedy.endswith(str(EXAMPLE_REMEDY)) else each.advice
+        raise
 
 
 def task_of(path: str, data: dict[str, Any]) -> Task:
@@ -229,8 +243,17 @@ def _built_in_folder() -> Path:
 
 
 def _parse(path: str, content: bytes, folder: Path) -> Task | ArcsTask:
-    data = parse_toml(path, content)
-    return _task(path, data, _with_table(path, data, folder))
+    read = read_toml(path, content)
+    return _task(path, read.data, _with_table(path, read.data, folder), read)
+
+
+@dataclass(frozen=True)
+class ReadToml:
+    """The tables of a TOML file, the line of every key and entry, and the faults of its lines that could be mended."""
+
+    data: dict[str, Any]
+    lines: Mapping[Place, int] = field(default_factory=dict[Place, int])
+    faults: tuple[tuple[int, TaskError], ...] = ()
 
 
 def parse_toml(path: str, content: bytes) -> dict[str, Any]:
@@ -240,19 +263,34 @@ def parse_toml(path: str, content: bytes) -> dict[str, Any]:
     ------
     TaskError : it is not TOML, or empty
     """
-    try:
-        text = content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line, wrong = content.count(b"\n", 0, error.start) + 1, content[error.start : error.start + 1]
-        what = say("line {line}", line=line)
-        raise TaskError(path, what, wrong, say("text in UTF-8"), say("save the file as UTF-8")) from None
-    try:
-        data = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise toml_fault(path, text, error, EXAMPLE_REMEDY) from None
+    read = read_toml(path, content)
+    if read.faults:
+        raise all_faults([fault for _, fault in read.faults])
+    return read.data
+
+
+def read_toml(path: str, content: bytes) -> ReadToml:
+    """The tables of a TOML file; lines whose fault is plain are read as if it were mended, so that all are told.
+
+    Raises
+    ------
+    TaskError : it is not TOML, or empty
+    """
+    text = decoded_text(path, THE_FILE, content, say("a TOML file"), say("copy its text into a plain text editor"))
+    faults: list[tuple[int, TaskError]] = []
+    while True:
+        try:
+            data = tomllib.loads(text)
+            break
+        except (ValueError, RecursionError) as error:
+            line, fault, mended = toml_fault(path, text, error, EXAMPLE_REMEDY)
+            faults.append((line, fault))
+            if not mended or len(faults) > MAX_FAULTS:
+                raise all_faults([fault for _, fault in faults]) from None
+            text = mended
     if not data:
         raise TaskError(path, THE_FILE, say("empty"), say("a TOML file"), EXAMPLE_REMEDY)
-    return data
+    return ReadToml(data, lines_of(text), tuple(faults))
 
 
 def _with_table(path: str, data: dict[str, Any], folder: Path) -> dict[str, Any]:
@@ -300,35 +338,79 @@ def _of_outline(path: str, outline: dict[str, Any], data: dict[str, Any]) -> dic
     return {"table": outline["file"], **{key: value for key, value in outline.items() if key != "file"}}
 
 
-def _task(path: str, data: dict[str, Any], whole: dict[str, Any]) -> Task | ArcsTask:
+def _task(path: str, data: dict[str, Any], whole: dict[str, Any], read: ReadToml | None = None) -> Task | ArcsTask:
     """The task that ``whole`` describes; errors use the words of the file's ``data``."""
+    if isinstance(motion := data.get("motion"), dict) and "rise_angle" in motion:
+        expected = say("a task, with phases of motion: 'graphcam init FILE' writes one")
+        raise TaskError(path, say("the file"), say("a space of designs"), expected, say("'graphcam sweep' takes it"))
     arcs = data.get("arcs")
     if isinstance(arcs, dict) and "base_radius" in arcs and "D" not in arcs and "motion" not in data:
         # The radii of a given cam are a motion, of which ``[arcs]`` is the table.
         whole = {"rotation": "ccw", **whole, "motion": {"radii": arcs}}
         del whole["arcs"]
-        return checked_table(Task, _CLASSES, path, data, whole)
+        return checked_table(Task, _CLASSES, path, data, whole, read)
     if arcs is not None:
-        return checked_table(ArcsTask, _CLASSES_OF_ARCS, path, data, whole)
-    return checked_table(Task, _CLASSES, path, data, whole)
+        return checked_table(ArcsTask, _CLASSES_OF_ARCS, path, data, whole, read)
+    return checked_table(Task, _CLASSES, path, data, whole, read)
 
 
 def checked_table(
-    kind: type[_Checked], classes: Classes, path: str, data: dict[str, Any], whole: dict[str, Any]
+    kind: type[_Checked],
+    classes: Classes,
+    path: str,
+    data: dict[str, Any],
+    whole: dict[str, Any],
+    toml: ReadToml | None = None,
 ) -> _Checked:
     """The dataclass that ``whole`` describes; errors use the words of the file's ``data``.
 
     classes : the class of each table of the file, by its place without numbers
+    toml : the file as it was read, for the lines and faults of its text
 
     Raises
     ------
     TaskError : a field is missing, unknown or wrong
     """
-    read = read_dataclass(kind, whole)
-    if not isinstance(read, list):
+    read, toml = read_dataclass(kind, whole), toml or ReadToml(data)
+    found: list[tuple[float, TaskError]] = [*toml.faults]
+    if isinstance(read, list):
+        errors = [(fault, _task_error(path, data, classes, fault)) for fault in read]
+        # A misspelt key is why the right one is missing.
+        meant = {error.remedy for fault, error in errors if isinstance(fault, UnknownKey)}
+        for fault, error in errors:
+            key = fault.place[-1] if fault.place else ""
+            if isinstance(fault, MissingKey) and any(f"'{key}'" in remedy or f"{key} =" in remedy for remedy in meant):
+                continue
+            line = _line(toml.lines, error.field)
+            error.place = _place_words(error.place, line)
+            found.append((line or math.inf, error))
+    elif not found:
         return read
-    read.sort(key=lambda fault: not isinstance(fault, UnknownKey))
-    raise _task_error(path, data, classes, read[0])
+    found.sort(key=lambda each: each[0])
+    raise all_faults([error for _, error in found])
+
+
+_STEP_PATTERN = re.compile(r"[^.\[\] ]+|\[\d+\]")
+_ENTRY_PATTERN = re.compile(r"^(?:\w+\.)?(phases|parts)\[(\d+)\](?:\.points\[(\d+)\])?\.?")
+_ENTRY_NAMES = {"phases": say("phase {number}"), "parts": say("part {number}")}
+
+
+def _line(lines: Mapping[Place, int], named: str) -> int | None:
+    """The line of a place by its written form, or of the innermost table around it that the file has."""
+    steps = (step for step in _STEP_PATTERN.findall(named.partition(" (")[0]))
+    place = tuple(int(step[1:-1]) if step[0] == "[" else step for step in steps)
+    return next((lines[place[:k]] for k in range(len(place), 0, -1) if place[:k] in lines), None)
+
+
+def _place_words(named: Words, line: int | None) -> Words:
+    """How a message tells a place: phases and parts are counted from 1, and the line is named."""
+    if isinstance(named, str) and (entry := _ENTRY_PATTERN.match(named)):
+        where: Words = _ENTRY_NAMES[entry[1]].with_values(number=int(entry[2]) + 1)
+        if entry[3]:
+            where = say("point {number} of {part}", number=int(entry[3]) + 1, part=where)
+        key = named[entry.end() :]
+        named = say("{key} of {entry}", key=key, entry=where) if key else where
+    return say("line {line}: {place}", line=line, place=named) if line else named
 
 
 def _task_error(path: str, data: dict[str, Any], classes: Classes, fault: Fault) -> TaskError:
@@ -396,7 +478,7 @@ def _unknown_key(
         left_out = say("left out where the kind is {table}", table=table[-1])
         return TaskError(path, place, _shown_value(value), left_out, say("it is for {names}", names=and_chain(kinds)))
     remedy = key_remedy(key, value, known, data)
-    return TaskError(path, place, say("an unknown key"), say("one that is known"), remedy)
+    return TaskError(path, place, say("an unknown key"), say("a key of this table"), remedy)
 
 
 def _needed_keys(table: type | None) -> list[str]:
@@ -413,6 +495,8 @@ def _keys(table: type) -> list[str]:
 def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -> TaskError:
     """The error for a value that makes no design, named and shown as in the file where it stands there."""
     key = _KEYS_BY_QUANTITY.get(error.quantity, error.quantity)
+    if " " in key and isinstance(_look_up(data, (*place, plain := key.replace(" ", "_")))[1], int | float | str):
+        key = plain
     field, value = _look_up(data, (*place, *key.split(".")))
     # What follows from a table is no value that its key has.
     if not isinstance(value, int | float | str) or error.quantity == "the table's lift":

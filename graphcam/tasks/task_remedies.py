@@ -14,18 +14,13 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from graphcam.errors import TaskError, nearest_word_remedy, suggestion
-from graphcam.given.follower import SENSE_SYNONYMS
-from graphcam.given.laws import LAW_SYNONYMS
 from graphcam.tasks.task import table_of
 from graphcam.tasks.units import UNITS
+from graphcam.typed_words import names_of, plain
 from graphcam.words import Words, bare_caption, say
 
 OPTIONAL_KEYS = ("offset", "prime_radius", "roller_radius", "distance")
 """Keys that may be left out, because graphcam finds their values."""
-BASE_RADIUS_SYNONYMS = ("base_radius", "base_circle_radius", "base_circle")
-"""Names of the radius of the base circle, which is that of the working profile."""
-SYNONYMS = {**SENSE_SYNONYMS, **LAW_SYNONYMS, "gost": ("ГОСТ",), "iso": ("ИСО",)}
-"""Synonyms of the words of a task file."""
 
 
 def key_remedy(key: str, value: Any, known: Iterable[str], data: Mapping[str, Any]) -> Words:
@@ -37,11 +32,28 @@ def key_remedy(key: str, value: Any, known: Iterable[str], data: Mapping[str, An
     >>> print(key_remedy("base_radius", 80, ["prime_radius"], {"follower": follower}))
     graphcam takes the prime radius, of the pitch curve: prime_radius = base_radius + roller_radius = 95
     """
-    if key in BASE_RADIUS_SYNONYMS and "arcs" not in data:
+    if (plain(key) == "baseradius" or "base_radius" in names_of(key, "keys")) and "arcs" not in data:
         return _radius_remedy(key, value, data.get("follower"))
     if key == "closure":
         return say("leave out limits.pressure_angle_return for force closure, give it for form closure")
-    return nearest_word_remedy(key, known, SYNONYMS)
+    return _converted_key(key, value, known) or nearest_word_remedy(key, known)
+
+
+CONVERTED_KEYS = {"half": 0.5, "double": 2.0, "omega": 1.0}
+"""By what a value is multiplied whose key is in such a section of the table of typed words."""
+
+
+def _converted_key(key: str, value: Any, known: Iterable[str]) -> Words:
+    """The remedy for a key that a known one replaces with another value: a radius for a diameter, rpm for rad/s."""
+    for section, factor in CONVERTED_KEYS.items():
+        for name in names_of(key, section):
+            if name not in known:
+                continue
+            if isinstance(value, bool) or not isinstance(value, int | float):
+                return say("did you mean '{close}'?", close=name)
+            told = f'"{value:g} rad/s"' if section == "omega" else f"{value * factor:g}"
+            return say("write {word}", word=f"{name} = {told}")
+    return ""
 
 
 def _radius_remedy(key: str, value: Any, follower: Any) -> Words:
@@ -66,7 +78,7 @@ def value_remedy(key: str, value: Any, choices: Iterable[str]) -> Words:
     """
     if not isinstance(value, str):
         return ""
-    return say("or leave it out to let it be found") if key in OPTIONAL_KEYS else suggestion(value, choices, SYNONYMS)
+    return say("or leave it out to let it be found") if key in OPTIONAL_KEYS else suggestion(value, choices)
 
 
 def missing_remedy(key: str, data: Mapping[str, Any]) -> Words:
@@ -103,8 +115,8 @@ _MAX_SHOWN_LENGTH = 60
 """The maximum number of characters of a line in a message."""
 
 
-def toml_fault(path: str, text: str, error: Exception, example: Words) -> TaskError:
-    """The error for a text that a parser refused.
+def toml_fault(path: str, text: str, error: Exception, example: Words) -> tuple[int, TaskError, str]:
+    """The line and the error for a text that a parser refused, and the text with that mended; empty if it is not plain.
 
     path : of the file, for the message
     error : of the parser, which names the line
@@ -115,7 +127,7 @@ def toml_fault(path: str, text: str, error: Exception, example: Words) -> TaskEr
     ...     try:
     ...         tomllib.loads(text)
     ...     except tomllib.TOMLDecodeError as error:
-    ...         return toml_fault("cam.toml", text, error, "see the example")
+    ...         return toml_fault("cam.toml", text, error, "see the example")[1]
     >>> print(fault("offset = −10"))
     cam.toml: line 1, column 10: the character is '−' (minus sign), but must be a plain '-'; type it in a text editor
     >>> print(fault("law = cosine"))
@@ -124,22 +136,32 @@ def toml_fault(path: str, text: str, error: Exception, example: Words) -> TaskEr
     place = _PLACE_PATTERN.search(str(error))
     why = _PLACE_PATTERN.sub("", str(error))
     if place is None or (place[1] is None and not text.strip()):
-        return TaskError(path, say("the text"), say("not TOML ({why})", why=why), say("a TOML file"), example)
-    lines = text.splitlines() or [""]
+        return 1, TaskError(path, say("the text"), say("not TOML ({why})", why=why), say("a TOML file"), example), ""
+    lines = text.split("\n")
     number = min(int(place[1]), len(lines)) if place[1] else len(lines)
     line = lines[number - 1]
     where = say("line {number}", number=number)
-    told = _typography(line, where) or _comma(line, where) or _value(line, where)
+    told = next(filter(None, (find(line, where) for find in (_typography, _comma, _value, _colon))), None)
     if told is not None:
-        return TaskError(path, *told)
+        mended = "\n".join([*lines[: number - 1], told[1], *lines[number:]])
+        return number, TaskError(path, *told[0]), mended
+    if twice := _TWICE_PATTERN.match(why):
+        what = say(
+            "{place}: {key}",
+            place=where,
+            key=line.strip() if line.lstrip().startswith("[") else twice[1] or line.partition("=")[0].strip(),
+        )
+        return number, TaskError(path, what, say("given twice"), say("given once"), say("delete one of the two")), ""
     shown = line.strip()
     shown = shown if len(shown) <= _MAX_SHOWN_LENGTH else shown[:_MAX_SHOWN_LENGTH] + "..."
     expected = say("TOML ({why})", why=f"{why[:1].lower()}{why[1:]}")
-    return TaskError(path, where, shown, expected, example)
+    return number, TaskError(path, where, shown, expected, example), ""
 
 
-LineFault = tuple[Words, Words, Words, Words]
-"""The fault of a line: quantity, value, what it must be, and the remedy."""
+LineFault = tuple[tuple[Words, Words, Words, Words], str]
+"""The fault of a line: quantity, value, what it must be, and the remedy; and the line with that mended."""
+_TWICE_PATTERN = re.compile(r"Cannot declare \(.*\) twice|Cannot overwrite a value|Duplicate inline table key '(.+)'")
+"""What the parser says of a key or a table that is there already."""
 
 
 def _typography(line: str, place: Words) -> LineFault | None:
@@ -153,12 +175,26 @@ def _typography(line: str, place: Words) -> LineFault | None:
         what = say("{place}, column {column}: the character", place=place, column=column)
         if plain.strip():
             found = bare_caption(f"'{letter}' ({name})")
-            return what, found, say("a plain {plain!r}", plain=plain), say("type it in a text editor")
+            return (what, found, say("a plain {plain!r}", plain=plain), say("type it in a text editor")), _plain(line)
         found = say("invisible ({name})", name=name)
         if plain:
-            return what, found, say("a plain space"), say("type it anew")
-        return what, found, say("left out"), say("delete it")
+            return (what, found, say("a plain space"), say("type it anew")), _plain(line)
+        return (what, found, say("left out"), say("delete it")), _plain(line)
     return None
+
+
+def _plain(line: str) -> str:
+    """A line with the plain characters of the keyboard, texts in quotes and comments as they are."""
+    kept, end = "", 0
+    for text in _STRING_OR_COMMENT_PATTERN.finditer(line):
+        kept += "".join(map(_keyboard_character, line[end : text.start()])) + text[0]
+        end = text.end()
+    return kept + "".join(map(_keyboard_character, line[end:]))
+
+
+def _keyboard_character(letter: str) -> str:
+    plain = _plain_character(letter)
+    return letter if plain is None else plain
 
 
 def _plain_character(letter: str) -> str | None:
@@ -179,26 +215,50 @@ def _comma(line: str, place: Words) -> LineFault | None:
     """The fault of a number with a decimal comma."""
     if comma := _DECIMAL_COMMA_PATTERN.search(line):
         found, remedy = bare_caption(f"{comma[1]},{comma[2]}"), say("write {word}", word=f"{comma[1]}.{comma[2]}")
-        return say("{place}: the number", place=place), found, say("written with a decimal point"), remedy
+        mended = f"{line[: comma.start(1)]}{comma[1]}.{comma[2]}{line[comma.end() :]}"
+        return (say("{place}: the number", place=place), found, say("written with a decimal point"), remedy), mended
+    return None
+
+
+_COLON_PATTERN = re.compile(r"^(\s*|.*[{,]\s*)[\"']?(\w+)[\"']?\s*:(?=\s)")
+
+
+def _colon(line: str, place: Words) -> LineFault | None:
+    """The fault of a colon in place of an equals sign, as in YAML, JSON and Python."""
+    if colon := _COLON_PATTERN.match(_STRING_OR_COMMENT_PATTERN.sub(lambda text: text[0].replace(":", "_"), line)):
+        found, remedy = bare_caption(f"{colon[2]}:"), say("write {word}", word=f"{colon[2]} =")
+        mended = f"{colon[1]}{colon[2]} ={line[colon.end() :]}"
+        return (say("{place}: the key", place=place), found, say("followed by an equals sign"), remedy), mended
     return None
 
 
 def _value(line: str, place: Words) -> LineFault | None:
-    """The fault of a text without quotes, or of a number with its unit."""
-    for found in _VALUE_PATTERN.finditer(_STRING_OR_COMMENT_PATTERN.sub("''", line)):
-        word = found[1]
-        if word.startswith("''") or _is_value(word):
+    """The fault of a text without quotes, of a number with its unit, or of a semicolon."""
+    blank = _STRING_OR_COMMENT_PATTERN.sub(lambda text: "'" + "_" * (len(text[0]) - 2) + "'", line)
+    for found in _VALUE_PATTERN.finditer(blank):
+        word = line[found.start(1) : found.end(1)]
+
+        def fault(
+            what: Words, limit: Words, remedy: Words, written: str, word: str = word, start: int = found.start(1)
+        ) -> LineFault:
+            """The fault of the word, and the line with what is written in its place."""
+            mended = line[:start] + written + line[start + len(word) :]
+            return (say("{place}: {what}", place=place, what=what), bare_caption(word), limit, remedy), mended
+
+        bare = word.rstrip(";, ")
+        if word.endswith(";") and (_is_value(bare) or bare[:1] in ("'", '"')):
+            return fault(say("the value"), say("without a semicolon"), say("delete the semicolon"), bare)
+        if word[0] in "'\"" or _is_value(word):
             continue
         if word in _BOOLEAN_SPELLINGS:
-            remedy = say("write {word}", word=_BOOLEAN_SPELLINGS[word])
-            return say("{place}: the switch", place=place), bare_caption(word), say("true or false"), remedy
+            right = _BOOLEAN_SPELLINGS[word]
+            return fault(say("the switch"), say("true or false"), say("write {word}", word=right), right)
         number = _VALUE_WITH_UNIT_PATTERN.fullmatch(word)
         if number and (number[2] in UNITS or not any(number[2] in units for units in UNITS.values())):
-            limit, remedy = say("written without its unit"), say("write {word}", word=number[1])
-            return say("{place}: the number", place=place), bare_caption(word), limit, remedy
+            written = say("write {word}", word=number[1])
+            return fault(say("the number"), say("written without its unit"), written, number[1])
         if "'" not in word and '"' not in word:
-            limit, remedy = say("in quotes"), say('write "{word}"', word=word)
-            return say("{place}: the text", place=place), bare_caption(word), limit, remedy
+            return fault(say("the text"), say("in quotes"), say('write "{word}"', word=word), f'"{word}"')
     return None
 
 

@@ -52,7 +52,6 @@ UNITS: Mapping[str, Factors] = {
     "um": {"um": 1.0, "mm": 1e3, "uin": 0.0254},
 }
 """The known units by the one in which a field holds its number, and how many of that each is."""
-_SYNONYMS = {"in": ("inches", '"', "″"), "ft": ("feet",), "mm": ("мм",), "rpm": ("об/мин",), "N": ("Н",), "kg": ("кг",)}
 _NUMBER_AND_UNIT = re.compile(r"([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)\s*(.*)", re.DOTALL)
 _TYPED_SIGNS = str.maketrans({"−": "-", "·": " ", "*": " ", "²": "^2", "³": "^3", "µ": "u", "μ": "u"})
 
@@ -115,7 +114,7 @@ class HeldIn:
         if other := [own for own, units in UNITS.items() if unit in units]:
             return _other_unit(unit, other[0], self.own)
         known = [*UNITS[self.own], *UNITS.get(self.of_turning, ())]
-        return suggestion(unit, known, _SYNONYMS) or say("convert the number to one of these units")
+        return suggestion(unit, known) or say("convert the number to one of these units")
 
 
 def numbers_in_units(table: Any, path: str = "") -> Iterator[tuple[str, InUnit]]:

@@ -59,7 +59,7 @@ def test_where_no_line_is_a_heading_every_line_is_a_student(tmp_path: Path, text
     [
         (b"id,name\n1,A\n2,B\n\n1,C\n", "line 5: id is '1', but must be another one than '1' in line 2"),
         (b"id,name\n1,A\n,B\n", "line 3: id is '', but must be given; fill in the id of B"),
-        (b"PK\x03\x04\x00\xff", "the roster is an Excel workbook, .*; save it as CSV UTF-8"),
+        (b"PK\x03\x04\x00\xff", "the roster is an Excel workbook or .*; save it as CSV UTF-8"),
         (b"\xd0\xcf\x11\xe0\xa1\xb1", "the roster is an Excel workbook"),
     ],
 )

@@ -162,7 +162,7 @@ def test_an_arm_has_its_lift_in_degrees_and_its_own_limit(tmp_path):
         ('["ccw", "cw"]', '"up"', "rotation is 'up'"),
         ("prime_radius = [10, 50]", "", "cam.prime_radius is missing.*space.toml"),
         ("offset = 12", "offset = 12\n[limits]\npressure_angle_rise = 95", "pressure_angle_rise is 95"),
-        ("rotation", 'quantities = ["max_w"]\nrotation', "quantities.*did you mean 'max_v'"),
+        ("rotation", 'quantities = ["max_w"]\nrotation', "quantities.*known are"),
         ("rotation", 'follower = "flat"\nrotation', "follower is 'flat'"),
         ("offset = 12", "arm = 12", "arm.*left out for a translating follower"),
         ("rotation", 'follower = "oscillating"\nrotation', "offset.*left out for an oscillating follower"),

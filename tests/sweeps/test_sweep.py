@@ -372,7 +372,7 @@ def test_designs_that_do_not_fit_say_why(change, message):
 
 
 def test_unknown_quantities_say_what_is_known():
-    with pytest.raises(DesignError, match="did you mean 'max_v'"):
+    with pytest.raises(DesignError, match="known are max_pressure_angle_rise"):
         gc.sweep(some_designs(2), ["max_w"])
 
 

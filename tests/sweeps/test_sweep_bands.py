@@ -67,7 +67,7 @@ def test_what_is_no_cam_has_no_band():
 @pytest.mark.parametrize(
     ("kind", "errors", "message"),
     [
-        ("translating", None, "errors is left out, but must be given where position_band is asked for"),
+        ("translating", None, "errors is left out, but must be given for position_band"),
         (
             "flat-faced",
             gc.MakingErrors(offset=0.1),

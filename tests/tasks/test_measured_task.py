@@ -241,7 +241,7 @@ FAULTS = {
     "more than a turn": (WHOLE + "360.5,0\n", "line 362: turn that the rows cover", "360.5 degrees"),
     "not closed": (WHOLE + "360,0.5\n", "line 362: last row", "0.5 0 as in the first"),
     "not UTF-8": (WHOLE.encode() + b"\xff\xfe", "line 362", "UTF-8"),
-    "a picture": (b"\x89PNG\r\n\x1a\n\x00\x00", "line 1", "UTF-8"),
+    "a picture": (b"\x89PNG\r\n\x1a\n\x00\x00", "the table", "picture CSV"),
 }  # fmt: skip
 
 

@@ -107,7 +107,7 @@ def test_no_number_in_a_space_file_raises_anything_but_a_message(follower, tmp_p
 @pytest.mark.parametrize(
     ("number", "changes", "field", "allowed"),
     [
-        ("lift = 30", "lift = 1e30", "lift is 1e+30", "from 1e-09 to 1000000000 mm (degrees for an arm)"),
+        ("lift = 30", "lift = 1e30", "lift of phase 1 is 1e+30", "from 1e-09 to 1000000000 mm (degrees for an arm)"),
         ("speed_rpm = 120", "speed_rpm = 1e300", "speed_rpm is 1e+300", "from 0.001 to 1000000 rpm"),
         ("offset = -10", "offset = -1e12", "follower.offset is -1000000000000.0", "at most 1000000000 mm in magnitude"),
         ("mass = 0.5", "mass = 1e30", "spring.mass is 1e+30", "from 1e-06 to 1000000 kg"),
@@ -115,7 +115,7 @@ def test_no_number_in_a_space_file_raises_anything_but_a_message(follower, tmp_p
 )
 def test_a_size_beyond_reason_ends_in_one_message_and_writes_nothing(number, changes, field, allowed, tmp_path):
     path = tmp_path / "cam.toml"
-    path.write_text(without_comments("coursework").replace(number, changes), encoding="utf-8")
+    path.write_text(without_comments("coursework").replace(number, changes, 1), encoding="utf-8")
     result = CliRunner().invoke(app, ["solve", str(path), "--out", str(tmp_path / "out")])
     assert result.exit_code == 2
     lines = result.stderr.strip().splitlines()

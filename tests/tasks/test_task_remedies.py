@@ -11,13 +11,15 @@ from typer.testing import CliRunner
 import graphcam as gc
 from graphcam.cli import app
 from graphcam.errors import TaskError
-from graphcam.given.follower import SENSE_SYNONYMS
-from graphcam.given.laws import LAW_SYNONYMS, canonical_law, law_of_return
+from graphcam.given.follower import FOLLOWERS_BY_KIND
+from graphcam.given.laws import KNOWN_LAWS, canonical_law, law_of_return
 from graphcam.language import language, languages
 from graphcam.tasks.motion_tables import RiseTable
 from graphcam.tasks.task_file import builtin_task, builtin_text, load_task
 from graphcam.tasks.task_writer import task_files
+from graphcam.typed_words import meant, plain, table
 
+LAW_SYNONYMS, SENSE_SYNONYMS = table()["laws"], table()["senses"]
 TASK = builtin_text("coursework")
 RISE = 'law = "rectangular" },\n  { kind = "dwell", angle = 45'
 LAST = '  { kind = "dwell", angle = 175 },\n'
@@ -104,15 +106,50 @@ def test_the_caption_of_every_law_suggests_the_law(spoken):
 
 
 def test_the_words_for_laws_are_those_of_laws_and_no_two_laws_share_one():
-    assert {*LAW_SYNONYMS} == {*gc.LAWS, "constant-velocity"}
-    words = [(word.casefold(), name) for name, called in LAW_SYNONYMS.items() for word in called]
-    assert len(words) == len({word for word, _ in words})
+    assert {*LAW_SYNONYMS} == {*KNOWN_LAWS}
+    words = [(plain(word), name) for name, called in LAW_SYNONYMS.items() for word in called]
+    assert len(set(words)) == len({word for word, _ in words})
     assert [canonical_law(word) for word, _ in words] == [name for _, name in words]
 
 
 @pytest.mark.parametrize(("called", "name"), [(word, name) for name, words in SENSE_SYNONYMS.items() for word in words])
 def test_a_sense_in_words_is_told_as_its_value(called, name, tmp_path):
     assert refusal(tmp_path, '"cw"', f'"{called}"').remedy == f"did you mean '{name}'?"
+
+
+PHASES, FOLLOWERS, SENSES = ["rise", "dwell", "return"], [*FOLLOWERS_BY_KIND], ["ccw", "cw"]
+
+
+@pytest.mark.parametrize(
+    ("known", "typed", "name"),
+    [
+        *((SENSES, word, "ccw") for word in ["ACW", "acw", "Anti-Clockwise", "против часовой", "逆时针"]),
+        *((PHASES, word, "rise") for word in ["up", "Lift", "подъём", "Подъем", "удаление", "推程", "Anstieg", "rize"]),
+        *((PHASES, word, "dwell") for word in ["rest", "выстой", "дальнее стояние", "远休止", "dừng", "Rast", "dwel"]),
+        *((PHASES, word, "return") for word in ["fall", "DOWN", "возвращение", "приближение", "回程", "hạ", "retrun"]),
+        *((FOLLOWERS, word, "flat-faced") for word in ["flat", "тарельчатый", "平底", "đáy bằng", "Tellerstößel"]),
+        *((FOLLOWERS, word, "translating") for word in ["roller", "knife-edge", "толкатель", "直动", "Rollenstößel"]),
+        *((FOLLOWERS, word, "oscillating") for word in ["arm", "rocker", "swinging", "rotating", "коромысло", "摆动"]),
+        *((KNOWN_LAWS, word, "constant-velocity") for word in ["linear", "линейный", "直线"]),
+        *((KNOWN_LAWS, word, "cycloidal") for word in ["hình sin", "Zykloide", "cicloidal"]),
+        *((KNOWN_LAWS, word, "2-3") for word in ["линейно убывающая", "равноубывающий"]),
+        *((KNOWN_LAWS, word, "") for word in ["2-3-4", "3-4-5-6", "4-5-6", "linea", "spline", "polynomial", "uniform"]),
+        *((PHASES, word, "") for word in ["step", "turn", "fast", "raste"]),
+        (["start", "stop", "count"], "step", "count"),
+        (["start", "stop", "count"], "spot", ""),
+    ],
+)  # fmt: skip
+def test_a_word_means_what_the_table_says_or_nothing(known, typed, name):
+    assert meant(typed, known) == name
+
+
+def test_no_word_of_the_table_stands_for_two_words_of_one_section():
+    for section in ("phases", "followers", "senses", "laws", "quantities", "units"):
+        words = [(plain(word), name) for name, called in table()[section].items() for word in called]
+        meanings = {word: {name for other, name in words if other == word} for word, _ in words}
+        assert {word: names for word, names in meanings.items() if len(names) > 1} == {}, section
+        names = {plain(name) for name in table()[section]}
+        assert {word for word, name in words if word in names and plain(name) != word} == set(), section
 
 
 @pytest.mark.parametrize(
@@ -250,4 +287,4 @@ def test_a_wrong_choice_of_the_command_is_no_fault_of_the_file(tmp_path, monkeyp
     monkeypatch.chdir(tmp_path)
     Path("q.toml").write_text(TASK, encoding="utf-8")
     refused = CliRunner().invoke(app, ["solve", "q.toml", "--out", "out", "--dxf", "nix"], env={"LANGUAGE": "en"})
-    assert refused.stderr.splitlines()[-1].startswith("graphcam: dxf is 'nix', but must be one of ")
+    assert refused.stderr.splitlines()[-1].startswith("graphcam: --dxf is 'nix', but must be one of ")

@@ -12,7 +12,15 @@ from pathlib import Path
 from typing import Any
 
 from graphcam.errors import MissingFileError, TaskError, unreadable_error
-from graphcam.exercises.course.roster import Student, folder_name, is_shortened, read_roster, student_of
+from graphcam.exercises.course.roster import (
+    MOODLE_ID_HEADING,
+    Student,
+    folder_name,
+    id_heading,
+    is_shortened,
+    read_roster,
+    student_of,
+)
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.definition.exercise_file import find_exercise, library
 from graphcam.exercises.key.answer_key import AnswerKey
@@ -121,6 +129,11 @@ class AnswerKeys:
         addresses = {student: email for email, student in emails.items()} if isinstance(emails, dict) else {}
         found = sorted(self.student(path.stem) for path in (self.folder / ANSWER_KEYS_FOLDER).glob("*.json"))
         return [Student(student, email=str(addresses.get(student, ""))) for student in found]
+
+    def id_heading(self, roster: Path | None) -> str:
+        """The heading of the ids in a roster, or else in the one that was kept; that of Moodle where there is none."""
+        kept = roster or self.folder / ROSTER_FILE
+        return (id_heading(kept) if kept.is_file() else "") or MOODLE_ID_HEADING
 
     def keep(self, student: str, answer_key: str) -> None:
         """Keep an answer key; it is there whole or not at all."""

@@ -4,7 +4,9 @@ import csv
 import importlib
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+import tempfile
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -36,7 +38,7 @@ from graphcam.exercises.definition.exercise_file import exercise_path, find_exer
 from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey
 from graphcam.exercises.marking.course_variants import course_variants
-from graphcam.files import whole_folder
+from graphcam.files import OutputError, whole_folder
 from graphcam.language import languages
 from graphcam.photo.printed_page import Ink
 from graphcam.tasks.sheet_tables import check_choice
@@ -148,7 +150,7 @@ def make(
     for part in (STUDENTS_FOLDER, TEACHER_FOLDER):
         if (out / part).exists():
             raise CourseThereError(out)
-    with whole_folder(out) as draft, executor_of(workers, cluster) as executor:
+    with whole_folder(out, first=TEACHER_FOLDER) as draft, executor_of(workers, cluster) as executor:
         answer_keys: list[AnswerKey] = []
         variants = course_variants(exercise, (student.id for student in students), secret, executor)
         jobs = zip(students, variants, strict=True)
@@ -204,8 +206,7 @@ def papers(job: tuple[Student, tuple[Variant, AnswerKey]], marks: Marks | None =
 
     student, (variant, answer_key) = job
     name, text = folder_name(student.id), answer_key.to_json()
-    with TemporaryDirectory(prefix="graphcam-") as scratch:
-        place = Path(scratch)
+    with _scratch_folder() as place:
         theirs, key_sheets = place / STUDENTS_FOLDER / name, place / TEACHER_FOLDER / "keys"
         for folder in (theirs, key_sheets):
             folder.mkdir(parents=True)
@@ -214,6 +215,18 @@ def papers(job: tuple[Student, tuple[Variant, AnswerKey]], marks: Marks | None =
         AnswerKeys(place / TEACHER_FOLDER).keep(student.id, text)
         files = sorted(path for path in place.rglob("*") if path.is_file())
         return text, {path.relative_to(place).as_posix(): path.read_bytes() for path in files}
+
+
+@contextmanager
+def _scratch_folder() -> Generator[Path]:
+    """A temporary folder; what the system has against it is told with the folder of all such."""
+    try:
+        with TemporaryDirectory(prefix="graphcam-") as scratch:
+            yield Path(scratch)
+    except OSError as error:
+        place = tempfile.tempdir or "TMPDIR"
+        remedy = say("free some space there, or name another temporary folder by the variable TMPDIR")
+        raise OutputError(place, error.strerror or str(error), remedy) from error
 
 
 def _marked(variant: Variant, student: Student, marks: Marks, place: Path) -> Sheets:

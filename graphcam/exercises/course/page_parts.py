@@ -12,7 +12,7 @@ from graphcam.photo.tag_family import dark_cells
 from graphcam.sheets.marked_paper import PATCH_SIDE, MarkedPaper, bar, cells, square
 from graphcam.sheets.model import Box, Entity, Group, Stroke, Text
 from graphcam.sheets.qr import MIN_MODULE, MIN_TILE_MODULE, QUIET_MODULES, module_size, modules
-from graphcam.sheets.sheet_frame import fitted_text
+from graphcam.sheets.sheet_frame import cut_name, fitted_text
 from graphcam.sheets.tables import Block
 from graphcam.sheets.text_measures import width, wrap
 from graphcam.words import Tell, say
@@ -92,7 +92,11 @@ def captions(paper: MarkedPaper, title: str, whose: Sequence[str]) -> list[Text]
             for k, text in zip(pair, (title, who), strict=True)
         ]
         boxes = [(gaps[k].left, gaps[k].bottom, gaps[k].right, gaps[k].top) for k, _ in fields]
-        return [each for (_, text), box in zip(fields, boxes, strict=True) for each in fitted_text(text, box, height)]
+        return [
+            each
+            for (_, text), box in zip(fields, boxes, strict=True)
+            for each in fitted_text(cut_name(text, box, height), box, height)
+        ]
 
     return written(min(text.height for text in written(1.4 * STRIP_LETTER_HEIGHT)))
 

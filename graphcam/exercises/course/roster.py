@@ -14,12 +14,15 @@ from graphcam.words import Caption, say
 ID_HEADINGS = (
     *("id", "ID number", "Student ID", "Student number", "Student no", "Student code", "Matriculation number"),
     *("Matrikelnummer", "Matrikelnr", "Matrikel", "Mat-Nr", "Matrikel-Nr.", "ID-Nummer"),
+    *("Индивидуальный номер", "Идентификационный номер"),
     "SIS User ID",
     *("Номер зачётной книжки", "Номер зачетной книжки", "Зачётная книжка", "Зачетная книжка", "№ зачётной книжки"),
     *("Студенческий билет", "Номер студенческого билета", "Табельный номер", "学号", "MSSV", "Mã số sinh viên"),
     *("Mã SV", "Mã sinh viên", "Номер", "№"),
 )
 """Headings of ids, the surest first: the last may only count the lines."""
+MOODLE_ID_HEADING = "ID number"
+"""What Moodle calls the ids; the heading in its table of grades where the roster has none."""
 EMAIL_HEADINGS = (
     "email",
     "Email address",
@@ -235,6 +238,16 @@ def read_roster(path: str | Path) -> list[Student]:
     return [student for _, student in students]
 
 
+def id_heading(path: str | Path) -> str:
+    """The heading of the column that a roster's ids are taken from; empty where no line is a heading.
+
+    Raises
+    ------
+    TaskError : the file cannot be read
+    """
+    return roster_columns([row for _, row in read_table(path, "the roster")]).heading
+
+
 def ids_from(path: str | Path) -> Caption:
     """The column that a roster's ids are taken from, in words.
 
@@ -242,8 +255,7 @@ def ids_from(path: str | Path) -> Caption:
     ------
     TaskError : the file cannot be read
     """
-    heading = roster_columns([row for _, row in read_table(path, "the roster")]).heading
-    if heading:
+    if heading := id_heading(path):
         return say("ids from the column '{column}'", column=heading)
     return say("ids from the first column; no line is a heading")
 

@@ -7,13 +7,12 @@ from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from pathlib import Path
 
+from graphcam.decoded_text import decoded_text
 from graphcam.errors import TaskError, unreadable_error
 from graphcam.words import Words, say
 
 FORMULA_STARTS = ("=", "+", "-", "@", "\t", "\r", "\n", "＝", "＋", "－", "＠")
 """What makes a spreadsheet calculate a text instead of showing it; the wide forms count as the plain ones do."""
-WORKBOOK_SIGNATURES = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0")
-"""The bytes with which workbooks begin, .xlsx and .xls: no text does."""
 _FORMULA_AFTER_SEPARATOR = re.compile(r"([;\t\r\n][\s\"']*)(?=[=+\-@＝＋－＠])")
 """A formula behind what separates cells or rows where the comma is decimal: there the file opens with other cells."""
 
@@ -78,15 +77,9 @@ def read_table(path: str | Path, what: Words) -> list[tuple[int, list[str]]]:
     """
     try:
         data = Path(path).read_bytes()
-        if data.startswith(WORKBOOK_SIGNATURES):
-            found = say("an Excel workbook")
-            raise TaskError(str(path), what, found, say("a CSV file in UTF-8"), say("save it as CSV UTF-8"))
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        found = say("not in UTF-8")
-        raise TaskError(str(path), what, found, say("a CSV file in UTF-8"), say("save it as UTF-8")) from None
     except (OSError, ValueError) as error:
         raise unreadable_error(path, what, say("a CSV file"), error) from None
+    text = decoded_text(path, what, data, say("a CSV file in UTF-8"), say("save it as CSV UTF-8"))
     first = text.partition("\n")[0]
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=";" if first.count(";") > first.count(",") else ",")
     try:

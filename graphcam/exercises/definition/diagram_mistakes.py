@@ -12,7 +12,7 @@ from graphcam.drafting.ink import Construction, say
 from graphcam.errors import DesignError, nearest_word_remedy
 from graphcam.exercises.definition.catalogue import DIAGRAM_ARGUMENT, LAW_ARGUMENT, READING_ARGUMENT, Change, catalogued
 from graphcam.exercises.definition.drawn_answers import construction_of, redrawn, rescaled, with_ordinates, with_reading
-from graphcam.given.laws import LAW_SYNONYMS, LAWS, canonical_law
+from graphcam.given.laws import LAWS, canonical_law
 from graphcam.given.motion import Dwell, Motion, Phase, Return, Rise
 
 Moving = Rise | Return
@@ -28,7 +28,7 @@ Moving = Rise | Return
 def wrong_law(law: str) -> Change:
     """All moving phases by another law."""
     if canonical_law(law) not in LAWS:
-        raise DesignError("law", law, say("one of the known laws"), nearest_word_remedy(law, LAWS, LAW_SYNONYMS))
+        raise DesignError("law", law, say("one of the known laws"), nearest_word_remedy(law, LAWS))
 
     def by_law(phase: Phase) -> Phase:
         return phase if isinstance(phase, Dwell) else type(phase)(phase.lift, phase.angle, law)

@@ -20,7 +20,7 @@ from graphcam.exercises.definition.student_hands import HandTable
 from graphcam.exercises.definition.variant import fill_in
 from graphcam.language import ENGLISH, languages
 from graphcam.tasks.sheet_tables import SheetTable
-from graphcam.tasks.task_file import Classes, checked_table, other_file, parse_toml, read_content
+from graphcam.tasks.task_file import Classes, checked_table, other_file, read_content, read_toml
 from graphcam.words import say
 
 REMEDY = say("see exercises/README.md")
@@ -109,15 +109,16 @@ def load_exercise(path: str | Path, language: str = ENGLISH.name) -> Exercise:
     """
     path = Path(path)
     with other_file(say("exercise file"), REMEDY):
-        data = parse_toml(str(path), read_content(path))
+        read = read_toml(str(path), read_content(path))
+        data = read.data
         if "motion" in data and "task" not in data:
             remedy = say("begin with a copy: 'graphcam exercise copy integration mine.toml'")
             expected = say("an exercise, which has the task in its table [task]")
             raise TaskError(str(path), say("the file"), say("a task"), expected, remedy)
         for key in UNREAD_FIELDS & data.keys():
-            raise TaskError(str(path), key, say("an unknown key"), say("one that is known"), REMEDY)
+            raise TaskError(str(path), key, say("an unknown key"), say("a key of this table"), REMEDY)
         told = in_language(str(path), data, language)
-        exercise = checked_table(Exercise, _classes(data), str(path), told, told)
+        exercise = checked_table(Exercise, _classes(data), str(path), told, told, read)
     exercise = dataclasses.replace(exercise, name=path.stem, language=language)
     _check(str(path), exercise)
     return exercise

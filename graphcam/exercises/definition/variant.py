@@ -19,7 +19,7 @@ from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import task_of
 from graphcam.words import Tell, Words, say
 
-PLACEHOLDER_PATTERN = re.compile(r"^\{(-?)([a-z_0-9]+)\}$")
+PLACEHOLDER_PATTERN = re.compile(r"^(-?)\{(-?)([a-z_0-9]+)\}$")
 """A whole value of the template: a parameter's name in braces, perhaps with a minus."""
 REMAINING_ANGLE = "rest"
 """The angle that is missing of 360 degrees."""
@@ -64,11 +64,11 @@ def _filled_template(node: Any, parameters: Mapping[str, Value], path: str) -> A
     place = PLACEHOLDER_PATTERN.match(node) if isinstance(node, str) else None
     if place is None:
         return node
-    sign, name = place.groups()
+    *signs, name = place.groups()
     if name not in parameters:
         raise TaskError(path, "task", node, say("a parameter in braces"), nearest_word_remedy(name, parameters))
     value = parameters[name]
-    return -value if sign and not isinstance(value, str) else value
+    return -value if signs[0] != signs[1] and not isinstance(value, str) else value
 
 
 @dataclass(frozen=True)

@@ -274,7 +274,7 @@ def _graded(
         silent = unreadable_hand_ins(hand_ins, records)
         refused = [*refused, *(Refused(one.place, one.notes[-1]) for one in silent)]
         called = {student.id: student.name for student in students.ids.values()}
-        notes = GroupNotes(refused, course.feedback, names, called)
+        notes = GroupNotes(refused, course.feedback, names, called, kept.id_heading(course.roster))
         graded = [record for record in records if is_handed_in(record)]
         pairs = alike_pairs(exercise, graded, answer_keys)
         files = write_reports(course.out, exercise, records, answer_keys, notes, pairs)

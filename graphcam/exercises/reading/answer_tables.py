@@ -8,8 +8,8 @@ import tomllib
 from typing import Any
 
 from graphcam.errors import UnreadableError
-from graphcam.exercises.reading.answer_values import Points, decimal, short_text
-from graphcam.exercises.reading.typed_answers import mended
+from graphcam.exercises.reading.answer_values import Points, decimal, plain_signs, short_text
+from graphcam.exercises.reading.typed_answers import QUANTITY_PATTERN, mended
 from graphcam.words import say
 
 MOST_PARTS = 16
@@ -20,6 +20,8 @@ QUOTED_PATTERN = re.compile(
 """A text or a comment in TOML: what stands in it ends no key."""
 STATEMENT_PATTERN = re.compile(r"[ \t]*([^=\[\]{}#,\"']*?)[ \t]*=")
 """The beginning of a line that gives something a value, be it written well or not."""
+_POWER_OF_TEN_PATTERN = re.compile(r"\d[eE][-+]?\d+\s*$")
+"""The end of a number such as 3.7e1, whose letter is no unit."""
 HEADER_PATTERN = re.compile(r"[ \t]*\[[ \t]*([A-Za-z_][\w-]*)[ \t]*\][ \t]*(?:#.*)?", re.ASCII)
 """A line that begins a table."""
 
@@ -226,9 +228,10 @@ def _value(answer: str, rows: list[list[str]]) -> float | str | Points | Unreada
             raise UnreadableError(say("{answer} has {count} answers", answer=short_text(answer), count=len(rows)))
         if len(rows[0]) != 1:
             raise UnreadableError(say("{answer} must have one value, or x and y", answer=short_text(answer)))
-        text = rows[0][0]
+        text = plain_signs(rows[0][0])
         # What has a unit is read where it is known which is asked for.
-        return text if not text[-1:].isdigit() and mended(f"a = {text}") != f"a = {text}" else decimal(answer, text)
+        has_unit = QUANTITY_PATTERN.fullmatch(text) and not _POWER_OF_TEN_PATTERN.search(text)
+        return text if has_unit else decimal(answer, text)
     except UnreadableError as error:
         return error
 

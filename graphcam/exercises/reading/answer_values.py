@@ -1,5 +1,7 @@
 """What an answer may be: a finite number, or points in mm of paper."""
 
+import re
+import unicodedata
 from collections.abc import Sequence
 from itertools import chain
 from typing import Any
@@ -14,8 +16,9 @@ Points = NDArray[np.complex128]
 MAX_NUMBER = 1e9
 """No reading of a drawing is greater; a number that is cannot be meant."""
 MAX_POINTS = 20_000
-MINUS_SIGN = "\u2212"
-"""The minus sign of print, which word processors put in place of a hyphen."""
+DASHES = dict.fromkeys("−–—‐‑‒―", "-")
+"""What word processors and keyboards write for a minus sign."""
+_TYPED_SIGNS = str.maketrans({**DASHES, "º": "°", "˚": "°", **dict.fromkeys("\u200b\u200e\u200f\u2060\ufeff", "")})
 MAX_SHOWN_LETTERS = 40
 """Letters of what a stranger wrote that a sentence repeats."""
 
@@ -70,6 +73,18 @@ def points(name: str, value: object) -> Points:
     return np.array([number(name, x) for x in numbers]).view(np.complex128)
 
 
+def plain_signs(text: str) -> str:
+    """A text with the minus sign, the spaces and the digits of the keyboard, and without what is not seen.
+
+    >>> plain_signs("–37.1\\u00a0mm"), plain_signs("３７.１")
+    ('-37.1 mm', '37.1')
+    """
+    if text.isascii():
+        return text
+    plain = unicodedata.normalize("NFKC", text.translate(_TYPED_SIGNS))
+    return re.sub(r"^(\s*)-\s+(?=[\d.,])", r"\1-", plain)
+
+
 def decimal(name: str, text: str) -> float:
     """A number as a person writes it: with a point or with a comma, and with the minus of a word processor.
 
@@ -77,7 +92,7 @@ def decimal(name: str, text: str) -> float:
     (12.5, -12.5)
     """
     # float() would also take "nan", "1_000" and digits of other scripts.
-    plain = text.strip().replace(",", ".").replace(MINUS_SIGN, "-")
+    plain = plain_signs(text).strip().replace(",", ".")
     if not plain or not plain.isascii() or "_" in plain:
         raise _no_number_error(name, text)
     try:

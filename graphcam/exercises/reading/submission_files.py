@@ -3,7 +3,6 @@
 import os
 import re
 from collections.abc import Callable, Iterable, Mapping
-from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -19,6 +18,7 @@ from graphcam.exercises.reading.notebook import cell_tags, code_cells, notebook_
 from graphcam.exercises.reading.paper_area import PaperArea
 from graphcam.exercises.reading.regular_file import open_folder, read_regular
 from graphcam.exercises.reading.typed_answers import by_answer_names, left_commented, quantity
+from graphcam.typed_words import meant
 
 TOML, CSV, NOTEBOOK, DXF = "answers.toml", "answers.csv", "answers.ipynb", "answers.dxf"
 BYTE_LIMITS = {TOML: 64_000, CSV: 200_000, NOTEBOOK: 20_000_000, DXF: 5_000_000}
@@ -220,10 +220,8 @@ def _unknown_name_remark(asked: list[AskedAnswer], given: Mapping[str, list[Any]
     if not strange or len(given.keys() & set(names)) == len(names):
         return []
     first = short_text(strange[0])
-    if close := get_close_matches(first, names, n=1):
-        return [
-            say("there is no answer {answer} in this exercise; did you mean {meant}?", answer=first, meant=close[0])
-        ]
+    if name := meant(first, names):
+        return [say("there is no answer {answer} in this exercise; did you mean {meant}?", answer=first, meant=name)]
     return [
         say(
             "there is no answer {answer} in this exercise; the answers are {names}",

@@ -8,12 +8,12 @@ from graphcam.drafting.ink import Caption, say
 from graphcam.drafting.scale import plain_unit
 from graphcam.errors import UnreadableError
 from graphcam.exercises.definition.exercise import AskedAnswer
-from graphcam.exercises.reading.answer_values import MINUS_SIGN, decimal, short_text
+from graphcam.exercises.reading.answer_values import DASHES, decimal, plain_signs, short_text
 
-NUMBER = rf"[-+{MINUS_SIGN}]?(?:0|[1-9]\d{{0,14}})(?:[.,]\d{{1,15}})?"
-UNIT = r"[^\W\d_][^\s#=\"'\[\]\\,]{0,19}|[°(][^\s#=\"'\[\]\\,]{0,19}"
+NUMBER = r"[-+]?(?:0|[1-9]\d{0,14}|(?=[.,]\d))(?:[.,]\d{0,15})?"
+UNIT = r"[^\W\d_][^#=\"'\[\]\\,;]{0,29}|[°(][^\s#=\"'\[\]\\,;]{0,19}"
 LINE_PATTERN = re.compile(
-    rf"([ \t]*[A-Za-z][A-Za-z0-9_-]*[ \t]*=[ \t]*)({NUMBER}(?:[ \t]*(?:{UNIT}))?)[ \t]*(?:#.*)?\r?"
+    rf"([ \t]*[A-Za-z][A-Za-z0-9_-]*[ \t]*=[ \t]*)({NUMBER}(?:[ \t]*(?:{UNIT}))?)[ \t]*[;,]?[ \t]*(?:#.*)?\r?"
 )
 """A line that is no TOML and no Python, but says a number to a reader."""
 QUANTITY_PATTERN = re.compile(rf"\s*({NUMBER})\s*({UNIT})\s*")
@@ -26,12 +26,14 @@ def mended(line: str) -> str:
     """A line with a unit, or with the minus of print, as one that TOML and Python read: the number as a text.
 
     >>> mended("s0 = 37,1 mm  # measured"), mended("v = \u221247.6"), mended("end = [\u22121, 2]")
-    ('s0 = "37,1 mm"', 'v = "−47.6"', 'end = [-1, 2]')
+    ('s0 = "37,1 mm"', 'v = "-47.6"', 'end = [-1, 2]')
     """
-    said = LINE_PATTERN.fullmatch(line)
+    before, equals, _ = line.partition("=")
+    plain = f"{before}={plain_signs(line[len(before) + 1 :])}" if equals else plain_signs(line)
+    said = LINE_PATTERN.fullmatch(plain)
     if said:
-        return f'{said[1]}"{said[2]}"'
-    return line if '"' in line or "'" in line else line.replace(MINUS_SIGN, "-")
+        return f'{said[1]}"{said[2].strip()}"'
+    return line if '"' in line or "'" in line else line.translate(str.maketrans(DASHES))
 
 
 def quantity(asked: AskedAnswer, text: str) -> float:
@@ -41,9 +43,10 @@ def quantity(asked: AskedAnswer, text: str) -> float:
     ------
     UnreadableError : it is none, or has another unit
     """
-    said = QUANTITY_PATTERN.fullmatch(text)
+    plain = plain_signs(text).strip()
+    said = QUANTITY_PATTERN.fullmatch(plain)
     if said is None:
-        return decimal(asked.name, text)
+        return decimal(asked.name, plain)
     if plain_unit(said[2]) != plain_unit(asked.unit):
         values = {"answer": asked.name, "given": short_text(said[2]), "unit": asked.unit_caption or "1"}
         raise UnreadableError(say("{answer} has the unit {given}, but is asked in {unit}", **values))

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
 
+from graphcam.exercises.course.roster import MOODLE_ID_HEADING
 from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.definition.exercise import Exercise
 from graphcam.exercises.marking.record import is_handed_in
@@ -18,15 +19,17 @@ POINTS_POSSIBLE_CELL = "    Points Possible"
 """The cell that begins Canvas's second row; the spaces are Canvas's."""
 
 
-def moodle_grades(exercise: Exercise, records: Sequence[Mapping[str, Any]]) -> str:
-    """A row a student: ID number, grade, feedback, as Moodle's import of grades from a CSV file maps them.
+def moodle_grades(exercise: Exercise, records: Sequence[Mapping[str, Any]], heading: str = MOODLE_ID_HEADING) -> str:
+    """A row a student: id, grade, feedback, as Moodle's import of grades from a CSV file maps them.
+
+    heading : of the roster's column of the ids: "Email address" where nobody has an ID number
 
     >>> from graphcam.exercises.definition.exercise_file import find_exercise
     >>> record = {"student": "7", "total": 2.5, "feedback": ["v: 1 < 2.", "Again."]}
     >>> moodle_grades(find_exercise("pressure-angle"), [record]).splitlines()[1]
     '"7","2.5","v: 1 &lt; 2.<br>Again."'
     """
-    head = ("ID number", exercise.title, "Feedback")
+    head = (heading, exercise.title, "Feedback")
     return table(head, ([one["student"], grade_of(one), _comment_text(one)] for one in records))
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from urllib.parse import quote
 
 from graphcam.exercises.course.photo_reports import photo_pictures
-from graphcam.exercises.course.roster import folder_name
+from graphcam.exercises.course.roster import MOODLE_ID_HEADING, folder_name
 from graphcam.exercises.course.spreadsheet import table
 from graphcam.exercises.course.submissions import Refused
 from graphcam.exercises.definition.exercise import Exercise
@@ -36,12 +36,14 @@ class GroupNotes:
     refused : what is not graded
     pages : the folder of the students' pages, None where none are written
     names : of the students on the pages;  called : the students' own names by id, of all of the course
+    id_heading : of the column of the roster that the ids are from
     """
 
     refused: Sequence[Refused] = ()
     pages: Path | None = None
     names: ShownNames = field(default_factory=ShownNames)
     called: Mapping[str, str] = field(default_factory=dict[str, str])
+    id_heading: str = MOODLE_ID_HEADING
 
 
 def write_reports(
@@ -97,7 +99,7 @@ def _texts(
     )
     yield f"{out.stem}-copies.csv", [copies_table(pairs)]
     # For grade books.
-    yield f"{out.stem}-moodle.csv", [moodle_grades(exercise, records)]
+    yield f"{out.stem}-moodle.csv", [moodle_grades(exercise, records, notes.id_heading)]
     yield f"{out.stem}-canvas.csv", [canvas_grades(exercise, records)]
     yield f"{out.stem}.json", _json_lines(records)
     not_graded, names = f"{out.stem}-not-graded.csv", notes.names
@@ -194,7 +196,7 @@ def _wide_row(record: dict[str, Any], names: list[str]) -> list[Any]:
     diagnosis = record["diagnosis"]
     found = " or ".join([diagnosis["misconception"], *diagnosis["alike"]]) if diagnosis else ""
     about = [record["student"], record["exercise"], record["total"] if given else None, record["of"]]
-    return [*about, *map(marks.get, names), found, record["too_exact"], record["level"], " ".join(record["notes"])]
+    return [*about, *map(marks.get, names), found, record["too_exact"], record["level"], "; ".join(record["notes"])]
 
 
 def _long_row(record: dict[str, Any], answer: dict[str, Any]) -> list[Any]:
