@@ -298,10 +298,7 @@ def _outer_radius(inverted: Inverted) -> float:
 
 
 def centre_marks(inverted: Inverted) -> tuple[Mark, ...]:
-    """Centre lines, the sense of the rotation, and last the cam centre with its name, as marks.
-
-    The others are as large as the cam, which a worksheet does not tell.
-    """
+    """Cam centre, centre lines and the sense of the rotation, as marks."""
     prime, sigma = inverted.givens.prime_radius / inverted.givens.mu_l.per_mm, sense(inverted.givens.rotation)
     reach = (_outer_radius(inverted) + PHASE_ARC_OFFSET) * np.array([-1, 1])
     return (
@@ -334,7 +331,7 @@ def prime_step(
     prime = say_in("drawn", "the prime circle about the cam centre A")
     told = circle_caption(prime, "r₀", inverted.givens.prime_radius, inverted.givens.mu_l.per_mm)
     parts = (Part(told, (circle, *of_arrow)), *parts)
-    return Step(title, parts, PROFILE, marks, given=centre[-2:], why=why)
+    return Step(title, parts, PROFILE, marks, given=centre, why=why)
 
 
 PITCH_CURVE = say("Pitch curve")
