@@ -1,6 +1,6 @@
 """The diagram of the pressure angle over the cam angle, from which the greatest angles are read."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -115,10 +115,13 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
     givens = plotted.givens.measured.givens.integrated.givens
     stations, curve = givens.stations, plotted.acts["curve"]
     axis, heights = plotted.acts["acceleration: axis"].first, curve.shown.imag
+    across, up, _, ticks, phi, name, scale = givens.axes("α", heights)
+    read = plotted.readings["max_rise"].act
+    # What reaches as far as the angles, or stands on the side that they leave free, would tell them on a worksheet.
+    known = (across, ticks, phi, scale, *givens.phases_under(heights))
     axes = (
-        *givens.axes("α", heights),
-        *graduation_marks(heights, float(np.degrees(plotted.givens.mu_alpha.per_mm))),
-        *givens.phases_under(heights),
+        *(*known, replace(up, of=read), replace(name, of=read)),
+        *graduation_marks(heights, float(np.degrees(plotted.givens.mu_alpha.per_mm)), of=read),
         *number_labels(axis, stations, np.where(heights < 0, UP, -UP)),
     )
     met = say("at {first}, where the acceleration jumps, it has a corner")
@@ -138,7 +141,8 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
     why = say("The maximum usually lies between two stations, so it is read off the curve through all of them.")
     marks = (*axes, curve.segments_from(axis, Role.CONSTRUCTION), curve.dots(Role.CONSTRUCTION), *lines)
     title = say("The pressure angle over the cam angle")
-    return Step(title, (set_off, *faired), ANGLE, marks, given=axes, why=why)
+    numbered = Part(say("Number the stations along the axis, clear of the curve."), (axis,))
+    return Step(title, (numbered, set_off, *faired), ANGLE, marks, given=known, why=why)
 
 
 def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:

@@ -67,9 +67,10 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
     # The ends of a phase lie on the line of motion, several in one place: their numbers stand above it or below.
     rising = np.array([integrated.givens.motion.phases[k].direction for k in stations.phase])
     apart = np.where(s > np.mean(s), UP, -UP) - sense(region.givens.rotation) * rising
-    line = (Line(UP * np.array([bottom, float(ends.shown.imag.max()) + AXIS_OVERHANG]), Role.AXIS),)
+    # How far it goes on down to the cam centre is found by drawing.
+    lift = Line(UP * np.array([0.0, float(ends.shown.imag.max()) + AXIS_OVERHANG]), Role.AXIS)
     marks = (
-        *line,
+        *(lift, Line(UP * np.array([bottom, 0.0]), Role.AXIS)),
         *(
             ends.segments_from(heights, Role.CONSTRUCTION),
             heights.dots(Role.CONSTRUCTION),
@@ -97,7 +98,7 @@ def displacement_step(region: Construction[Any], bottom: float) -> Step:
         "will show."
     )
     title = say("Velocities at the displacements")
-    return Step(title, (Part(base, (start,)), stationed), COMBINED, marks, given=line, why=why)
+    return Step(title, (Part(base, (start,)), stationed), COMBINED, marks, given=(lift,), why=why)
 
 
 def _laying_off(region: Construction[Any]) -> Caption:

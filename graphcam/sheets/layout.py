@@ -227,7 +227,12 @@ def _tables(leaf: OpenPage, upto: float) -> tuple[Entity, ...]:
 
 
 def _titles(leaf: OpenPage, part: SheetPart, upto: float) -> tuple[Entity, ...]:
-    """The titles of the views of a page, with what has been found up to a step."""
+    """The titles of the views of a page, with what has been found up to a step.
+
+    Of a view of which nothing is given or drawn yet none stands there: that it will be needed is an answer.
+    """
     last = {name: number for number, name, _ in part.steps}
-    views = leaf.views.values()
+    first = {step.view.name: number for number, _, step in reversed(part.steps) if step.marks}
+    first |= {step.view.name: 0 for _, _, step in part.steps if step.given}
+    views = [(p, origin) for p, origin in leaf.views.values() if upto >= first.get(p.view.name, 0)]
     return tuple(e for p, origin in views for e in p.title(origin, answered=upto >= last.get(p.view.found_by, 0)))

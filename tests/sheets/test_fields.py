@@ -164,7 +164,7 @@ def test_captions_of_form_1_stand_in_their_fields():
         "Mass": (150, 35, 167, 40),
         "Scale": (167, 35, 185, 40),
         "Sheet 3": (135, 15, 155, 20),
-        "Sheets 12": (155, 15, 185, 20),
+        "Sheets": (155, 15, 185, 20),
     }.items():
         assert in_the_middle(texts[caption], field)
         assert 2.0 < texts[caption].height <= 2.5

@@ -62,7 +62,11 @@ def test_block_stands_in_the_corner_and_names_the_sheet(kind: str) -> None:
     assert (box.right, box.bottom) == (paper.content.right, paper.content.bottom)
     texts = {e.text for e in title_block(kind, box.corner, TITLE, 2, 3) if isinstance(e, Text)}
     assert {"Cam mechanism", "ТММ.01.02", "Ivanova"} <= texts
-    assert ({"Sheet 2", "Sheets 3"} if kind == "gost" else {"2/3"}) <= texts
+    # GOST 2.104: the number of sheets stands on the first alone, and a single sheet has no number.
+    assert ({"Sheet 2", "Sheets"} if kind == "gost" else {"2/3"}) <= texts
+    for of, told in ((3, {"Sheet 1", "Sheets 3"}), (1, {"Sheet", "Sheets 1"})):
+        texts = {e.text for e in title_block(kind, box.corner, TITLE, 1, of) if isinstance(e, Text)}
+        assert (told if kind == "gost" else {f"1/{of}"}) <= texts
 
 
 @pytest.mark.parametrize(("paper", "kind"), EVERY)
