@@ -186,3 +186,12 @@ assert abs(greatest.value - 8.0) < 0.2
 # 2. The nose may have the radius 0. What does the pitch curve look like there, and what the acceleration?
 # 3. The cam turns the other way round. What changes for a central follower, and what for an offset one?
 # 4. You measure a cam and its acceleration looks ragged. How do you find out whether the cam is bad or the measurement?
+#
+# <details><summary>Model answers</summary>
+#
+# 1. A face touches where the outline is square to the follower: on a straight flank at one cam angle alone, all along it. The contact would run from one end of the flank to the other at once, and the velocity would jump.
+# 2. An arc of the radius $r$ about the tip: the roller turns about a corner. Its centre does so at a finite speed, so the acceleration is that of a crank, but the contact stress is not to be borne.
+# 3. Nothing for a central follower on a cam that is its own mirror image, but that rise and return change places. An offset one has other pressure angles, and another motion.
+# 4. Measure again, or turn the cam by some angle on the machine and measure once more: what goes with the cam is the cam's, what stays is the machine's. And differentiate twice only after smoothing by what the machine is known to err.
+#
+# </details>

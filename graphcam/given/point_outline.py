@@ -207,12 +207,14 @@ class Laying(NamedTuple):
     touching : where it stands if it touches the outline at places
     radius_at : the prime radius [mm], if s is counted from a level
     arm : mm of way for one unit of s
+    gaps : how far it stays at least from places [mm], while it touches others
     too_hollow : the error for places that it cannot reach
     """
 
     touching: Callable[[Floats], Touching]
     radius_at: Callable[[float], float]
     arm: float
+    gaps: Callable[[Floats, Floats], Floats]
     too_hollow: Callable[[Floats], DesignError]
 
 
@@ -224,9 +226,10 @@ def traced_motion(
     check_number("tolerance", tolerance, say("a finite number greater than 0"), above=0)
     laying = _laying(follower, outline, sigma)
     unit = tolerance / laying.arm
-    rows, covered = _rows(outline, laying.touching, sigma, unit)
-    if covered.size:
-        raise laying.too_hollow(covered)
+    rows, held, covered = _rows(outline, laying.touching, sigma, unit)
+    missed = covered[laying.gaps(covered, held) > tolerance]
+    if missed.size:
+        raise laying.too_hollow(missed)
     s = rows.s - rows.s.min()
     if not float(np.ptp(s)) > 2 * unit:
         found, limit = say("round about the cam centre"), say("moving the follower by more than twice the tolerance")
@@ -247,13 +250,17 @@ def _laying(follower: Follower, outline: PointOutline, sigma: int) -> Laying:
         there = way.position(np.abs(centre))
         return Touching(sigma * np.angle(there / centre), way.moved(there))
 
+    def gaps(places: Floats, held: Floats) -> Floats:
+        centres = outline(held)[0] + roller * outline.outward(held)
+        return np.abs(outline(places)[0][:, None] - centres).min(axis=-1) - roller
+
     def too_hollow(places: Floats) -> DesignError:
         most, angle = outline.hollow_radius(places), _at(outline, places)
         limit = say("at most {most:.4g} mm, the radius of the hollow at {angle}", most=most, angle=angle)
         found = say("{radius:.6g}", radius=roller)
         return DesignError(say("roller radius"), found, limit, say("take a smaller roller"))
 
-    return Laying(touching, way.at, way.arm, too_hollow)
+    return Laying(touching, way.at, way.arm, gaps, too_hollow)
 
 
 @_laying.register
@@ -262,6 +269,11 @@ def _(follower: FlatFaced, outline: PointOutline, sigma: int) -> Laying:
         normal = outline.outward(place)
         return Touching(sigma * np.angle(1j / normal), (outline(place)[0] * np.conj(normal)).real)
 
+    def gaps(places: Floats, held: Floats) -> Floats:
+        faces = np.conj(outline.outward(held))
+        heights = (outline(held)[0] * faces).real
+        return (heights - (outline(places)[0][:, None] * faces).real).min(axis=-1)
+
     def too_hollow(places: Floats) -> DesignError:
         limit, remedy = say("rounded outwards under a flat face"), say("take a roller")
         return DesignError(say("outline"), say("hollow at {angle}", angle=_at(outline, places)), limit, remedy)
@@ -269,7 +281,7 @@ def _(follower: FlatFaced, outline: PointOutline, sigma: int) -> Laying:
     def radius_at(level: float) -> float:
         return level
 
-    return Laying(touching, radius_at, 1.0, too_hollow)
+    return Laying(touching, radius_at, 1.0, gaps, too_hollow)
 
 
 def _at(outline: PointOutline, places: Floats) -> Words:
@@ -285,8 +297,8 @@ def _between_points(outline: PointOutline, sigma: int) -> Floats:
 
 def _rows(
     outline: PointOutline, touching: Callable[[Floats], Touching], sigma: int, tolerance: float
-) -> tuple[Touching, Floats]:
-    """The rows of the motion over the turn, and the places of the outline that the follower does not reach.
+) -> tuple[Touching, Floats, Floats]:
+    """The rows of the motion over the turn, the places that hold the follower there, and those passed under another.
 
     touching : where the follower would stand if it touched the outline at places
     """
@@ -313,8 +325,9 @@ def _rows(
     for _ in range(SECANT_STEPS):
         off = np.angle(np.exp(1j * (touching(start + share * length).phi - angles)))
         share = np.clip(share - off / (phi[k + 1] - phi[k]), 0.0, 1.0)
-    rows = Touching(angles, touching(start + share * length).s)
+    places = start + share * length
+    rows = Touching(angles, touching(places).s)
     if np.all(phi[1:] > phi[:-1]):
-        return rows, np.empty(0)
+        return rows, places, np.empty(0)
     lost = np.interp(phi, angles, rows.s, period=FULL_TURN) - s
-    return rows, place[lost > max(tolerance, MIN_LOST_SHARE * float(np.ptp(s)))]
+    return rows, places, place[lost > max(tolerance, MIN_LOST_SHARE * float(np.ptp(s)))]

@@ -105,7 +105,7 @@ def picture_of(figure: Figure, alt: str, caption: str = "") -> Picture:
     return Picture(figure_svg(figure), alt, caption)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Stage:
     """One step of a construction for a notebook.
 
@@ -123,6 +123,9 @@ class Stage:
     reads: tuple[ReadingRow, ...]
     tell: Tell
     strip: Mapping[int, Page] = field(default_factory=dict[int, Page])
+
+    def __repr__(self) -> str:
+        return f"Stage {self.number} {self.tell(self.step.title)}"
 
     @property
     def picture(self) -> Picture | None:
