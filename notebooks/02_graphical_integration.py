@@ -198,7 +198,7 @@ back = differentiated(gc.Pencil())
 show_steps(back, 2, 3, 4)
 
 # %% [markdown]
-# A chord has the *mean* slope of its part, so the greatest velocity, which the curve has at one point only, is missed; the second
+# A chord has the *mean* slope of its part, so the maximum velocity, which the curve has at one point only, is missed; the second
 # differentiation misses more. That is the error of the method. Drawn by hand there is the other one, and this is the great
 # difference between the two directions: **integration smooths errors, differentiation amplifies them.**
 
@@ -210,7 +210,7 @@ for name, exact in (("max_v", true_v.max()), ("max_a", np.abs(true_a).max())):
     ideal, by_hand = float(back.readings[name].value), hands.readings[name].value
     off = 100 * (by_hand / exact - 1)
     rows.append((f"maximum {name[-1]} of the rise", 100 * (ideal / exact - 1), float(off.mean()), float(off.std())))
-table(("differentiated", "ideal pencil, %", "400 careful hands: bias, %", "scatter, %"), rows, digits=1)
+table(("differentiated", "ideal pencil, %", "400 careful drawings: bias, %", "scatter, %"), rows, digits=1)
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 turn = np.degrees(np.arctan(0.2 / width))

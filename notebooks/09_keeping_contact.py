@@ -117,7 +117,7 @@ assert round(100 * (1 / cos(radians(30)) - 1)) == 15
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 def needed(inertias, springs=1.0):
-    """The greatest of so many times the inertia less so many times the spring force [N]."""
+    """The maximum of so many times the inertia less so many times the spring force [N]."""
     fine_s, _, fine_a, _ = motion(np.radians(np.linspace(0, 360, 7201)))
     return float(np.max(-inertias * mass * omega**2 * fine_a / 1000 - springs * stiffness * fine_s))
 
@@ -281,7 +281,7 @@ table(("maximum pressure, MPa", "at φ, °", "minimum width for 600 MPa, mm"), [
 # %% [markdown]
 # ## Drawn and exact
 #
-# The force plan drawn at its station, by an ideal pencil and by 400 careful hands, and the exact contact force there. Where the acceleration jumps, the force has two values; a
+# The force plan drawn at its station, by an ideal pencil and in 400 careful drawings, and the exact contact force there. Where the acceleration jumps, the force has two values; a
 # value is worth nothing without its *side*, and the larger one counts:
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
@@ -292,7 +292,7 @@ exact_forces = gc.CamForces(cam, design.load)
 place = int(stations.phase[station]), float(stations.u[station])
 exact = {side: float(exact_forces.at(*place, side=side).normal) for side in ("left", "right")}
 by_hands = gc.solve(task, gc.Pencil.of(0.2, samples=400, seed=1)).spring.force_plan.readings["normal"].value
-table(("contact force", "ideal pencil, N", "careful hands: mean, N", "scatter, N", "exact before, N", "exact after, N"),
+table(("contact force", "ideal pencil, N", "careful drawings: mean, N", "scatter, N", "exact before, N", "exact after, N"),
       [(f"station {station}", float(plan.readings["normal"].value), float(by_hands.mean()), float(by_hands.std()), *exact.values())], digits=1)
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]

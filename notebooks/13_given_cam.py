@@ -32,7 +32,7 @@ from graphcam.tasks.task_file import task_from
 # ## Background
 #
 # So far the motion was given and the cam was sought. The inverse question stands in every examination, and in every workshop that gets an old machine: **here is the cam, what does it do?** The idea is the
-# same: hold the cam still and turn the frame round it, against the rotation. In each position the follower rests on the outline, and its distance from the prime circle is its displacement.
+# same: hold the cam still and turn the frame round it, against the rotation. In each position the follower touches the outline, and its distance from the prime circle is its displacement.
 #
 # The **tangent cam** of the textbooks has a base circle of 28 mm, straight flanks and a round nose; it lifts a roller of 16 mm by 15 mm within 70°. The nose's radius $R_3$ follows. Its centre is $d = R_1 + h - R_3$ away
 # from the cam centre, and the straight flank touches both circles, so $d\cos\beta = R_1 - R_3$:
@@ -77,7 +77,7 @@ motion, step = gc.outline_motion(cam, gc.Translating(roller_radius=16)), math.ra
 s = motion(np.arange(0, 2 * math.pi, step))[0]
 v = (np.roll(s, -1) - s) / step
 a = (v - np.roll(v, 1)) / step
-print(f"greatest v {v.max():.2f} mm/rad, greatest a {a.max():.2f} mm/rad²")
+print(f"maximum v {v.max():.2f} mm/rad, maximum a {a.max():.2f} mm/rad²")
 
 # %% [markdown]
 # ## Drawn and exact
@@ -120,7 +120,7 @@ followers = {
     "roller 32 mm": gc.Translating(roller_radius=32), "offset 8 mm": gc.Translating(8, 16),
 }
 found = {name: gc.outline_motion(cam, follower) for name, follower in followers.items()}
-table(("follower", "lift, mm", "rise, °", "greatest a, mm/rad²"), [
+table(("follower", "lift, mm", "rise, °", "maximum a, mm/rad²"), [
     (name, m.lift, math.degrees(m.phases[0].angle), float(max(m(phi % (2 * math.pi))[2]))) for name, m in found.items()], digits=2)
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
@@ -159,8 +159,8 @@ assert abs(measured.lift - 15) < 0.02
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
 disc = gc.cam_by_radii(base_radius=22, lift=16)
 under = gc.outline_motion(disc, gc.Translating(roller_radius=10))
-lift = Question(under.lift, 0.5, "mm", "what is the least and the greatest distance of the disc from the axis?", {
-    "that is the eccentricity: the disc is as far beyond the axis as it falls short of it": 8.0, "that is the greatest radius": 38.0}, found_by="calculation")
+lift = Question(under.lift, 0.5, "mm", "how far is the disc from the axis, at least and at most?", {
+    "that is the eccentricity: the disc is as far beyond the axis as it falls short of it": 8.0, "that is the largest radius": 38.0}, found_by="calculation")
 greatest = Question(float(np.abs(under(there)[1]).max()), 0.15, "mm/rad", "draw s over φ, and the steepest tangent", {
     "that is the lift": 16.0})
 
@@ -169,7 +169,7 @@ your_lift = None  # mm
 lift.check(your_lift)
 
 # %% [markdown]
-# Draw its displacement by inversion at 24 stations, and the steepest tangent to it. How large is the greatest velocity?
+# Draw its displacement by inversion at 24 stations, and the steepest tangent to it. How large is the maximum velocity?
 
 # %% tags=["try-it"]
 your_velocity = None  # mm/rad

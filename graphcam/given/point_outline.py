@@ -99,7 +99,7 @@ class PointOutline:
         return -1j * slope / np.abs(slope)
 
     def hollow_radius(self, place: Floats) -> float:
-        """The least radius of curvature [mm] at hollow places among these; inf if there are none."""
+        """The minimum radius of curvature [mm] at hollow places among these; inf if there are none."""
         _, slope, bend = self(place)
         curvature = (np.conj(slope) * bend).imag / np.abs(slope) ** 3
         sharpest = float(curvature.min())

@@ -69,7 +69,7 @@ ERRORS_INTRODUCTION = say(
     "drawing errors grow."
 )
 COMPARED_INTRODUCTION = say(
-    "The ideal pencil makes no error but that of the method. The careful hands are 400 drawings by a pencil of 0.2 mm: "
+    "The ideal pencil makes no error but that of the method. The careful drawings are 400 by a pencil of 0.2 mm: "
     "their bias is how far their mean is from the exact value, their scatter the standard deviation."
 )
 PARTS_INTRODUCTION = say("More parts, fewer parts: what changes, and which is worth the work?")

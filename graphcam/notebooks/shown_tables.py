@@ -54,7 +54,7 @@ def compared(solution: AnySolution, *names: str) -> Markdown:
     titles = [say("{title}, {unit}", title=q.title, unit=unit(q.unit)) for q in chosen]
     figures = [(q.drawn, *scatter(q.by_hands, q.exact), q.exact) for q in chosen]
     rows = [(title, *(number(value, 3) for value in row)) for title, row in zip(titles, figures, strict=True)]
-    hands = (say("careful hands"), say("their bias"), say("their scatter"))
+    hands = (say("careful drawings"), say("their bias"), say("their scatter"))
     header = (say("quantity"), say("ideal pencil"), *hands, say("exact"))
     return Markdown(markdown.table(header, rows, solution.tell))
 
