@@ -86,7 +86,8 @@ def meant(word: str, known: Iterable[str]) -> str:
 
 def _is_slip(word: str, other: str) -> bool:
     """Whether a word is another one after one slip of a key, or one in each of several parts of it."""
-    if any(letter.isdigit() for letter in word + other):
+    # A number is another name, not a slip.
+    if re.findall(r"\d", word) != re.findall(r"\d", other):
         return False
     if _one_slip(plain(word), plain(other)):
         return True

@@ -142,7 +142,7 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
     marks = (*axes, curve.segments_from(axis, Role.CONSTRUCTION), curve.dots(Role.CONSTRUCTION), *lines)
     title = say("The pressure angle over the cam angle")
     numbered = Part(say("Number the stations along the axis, clear of the curve."), (axis,))
-    return Step(title, (numbered, set_off, *faired), ANGLE, marks, given=known, why=why)
+    return Step(title, (set_off, *faired, numbered), ANGLE, marks, given=known, why=why)
 
 
 def _draw_greatest(plotted: Construction[AngleDiagramGivens]) -> Step:

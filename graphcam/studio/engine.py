@@ -66,6 +66,7 @@ FIELDS_BY_QUANTITY: Mapping[str, str] = {
     "permitted pressure angle on the return": "limits.pressure_angle_return",
     "minimum radius of curvature": "limits.min_curvature_radius",
     "curvature": "limits.min_curvature_radius",
+    "permitted_stress": "material.permitted_stress",
     "mass": "spring.mass",
     "stiffness": "spring.stiffness",
     "preload": "spring.preload",

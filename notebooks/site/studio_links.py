@@ -31,7 +31,7 @@ TASKS: Mapping[str, tuple[str, str, Mapping[str, Any]]] = {
     "10_coursework": ("coursework", "profile", COURSE),
     "11_stress_below_the_surface": ("coursework", "profile", {}),
     "12_cycloidal_at_speed": ("coursework", "acceleration", SMOOTH),
-    "13_given_cam": ("arcs", "profile", {}),
+    "13_given_cam": ("arcs", "acceleration", {}),
 }  # fmt: skip
 """For each notebook the built-in task, the view that it is about, and what it changes of the task."""
 

@@ -76,10 +76,10 @@ def test_the_text_names_every_parameter_of_the_task(name):
         ("{lift} mm", "{ lift } mm", r"text is '\{ lift \}', but must be"),
         ("{lift} mm", "30 mm", r"text is without \{lift\}, but must be one that tells .*; write \{lift\} where"),
         ('name = "mu_v"', 'name = "mu v"', r"answers\[\d\].name is 'mu v', but must be a name of Latin letters"),
-        ('"cosine", ', '"cosine", "sinus", ', r"parameters\.law_up\.choices\[\d\] is 'sinus', but must be"),
+        ('"cosine", ', '"cosine", "sawtooth", ', r"parameters\.law_up\.choices\[\d\] is 'sawtooth', but must be"),
         ("decimals = 1", "decimal = 1", "unknown key"),
         ("marks = 2", "marks = 0", "marks is 0"),
-        ('law = "{law_up}"', 'law = "sawtooth"', "law is 'sawtooth'"),
+        ('law = "{law_up}"', 'law = "sawtooth"', "law of phase 1 is 'sawtooth'"),
         ("[sheet]", "[sheet", r"line \d+ is .\[sheet., but must be TOML"),
     ],
 )
@@ -89,7 +89,7 @@ def test_a_wrong_file_gets_one_message(tmp_path, old, new, message):
     text = (_folder() / "integration.toml").read_text(encoding="utf-8")
     assert old in text
     path = tmp_path / "mine.toml"
-    path.write_text(text.replace(old, new), encoding="utf-8")
+    path.write_text(text.replace(old, new, 1), encoding="utf-8")
     with pytest.raises(TaskError, match=message) as caught:
         load_exercise(path)
     assert "\n" not in str(caught.value)
@@ -143,7 +143,7 @@ def test_every_mistake_speaks_without_numbers():
         full = name + (arguments.get(name, ": integration") if entry.takes else "")
         said = str(misconception(full).said)
         assert said.endswith(".")
-        assert not any(character.isdigit() for character in said.replace("90°", ""))
+        assert not any(character.isdecimal() for character in said.replace("90°", ""))
 
 
 def test_a_task_file_is_told_from_an_exercise(tmp_path):

@@ -83,7 +83,7 @@ def test_a_table_that_is_named_counts_instead_and_may_be_that_of_a_spreadsheet(c
         (f"{HEAD}Anna,{FIRST}", r"line 2: marks is ''"),
         (f"{HEAD}Anna,{FIRST},0,\nAnna,{FIRST},1,", r"line 3: answer is .* give each answer of a student once"),
         ("Anna,total,1,\n", r"the first line is 'anna,total,1,', but must be with student,answer,marks,comment"),
-        (b"\xff", "the table of overrides is not in UTF-8"),
+        (b"\xff", "line 1 is in another encoding, .* but must be text in UTF-8"),
         (None, "there is no file .*mine.csv; check the name"),
     ],
 )

@@ -97,7 +97,7 @@ def test_arcs_and_another_language_are_opened(opened, tmp_path):
     ("words", "message"),
     [
         (["gone.toml"], "there is no file gone.toml; check the name"),
-        (["wrong.toml"], "wrong.toml: follower.kind is 'x', but must be one of"),
+        (["wrong.toml"], "wrong.toml: line 16: follower.kind is 'x', but must be one of"),
         (["--language", "xx"], "language is 'xx', but must be one of en, ru"),
         (["--html", "s.html"], "--pyodide is missing, but must be given with --html"),
         (["--site", "s"], "--pyodide is missing, but must be given with --site"),

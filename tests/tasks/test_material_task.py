@@ -107,7 +107,7 @@ def test_the_curve_on_the_sheet_is_the_stress_over_the_turn(tmp_path):
     solution = solved(tmp_path, TRANSLATING + MATERIAL)
     (view,) = [g for page in sheet_of(solution).pages for g in page.groups if " contact_stress " in g.name]
     curve = max((e for e in view.entities if isinstance(e, Stroke)), key=lambda stroke: stroke.points.size)
-    (title,) = [text for text in texts_of(solution) if re.fullmatch(r"μ = \d+ MPa/mm", text)]
+    (title,) = [text for text in texts_of(solution) if re.fullmatch(r"μ\S* = \d+ MPa/mm", text)]
     x, y = curve.points.real, curve.points.imag
     stress, phi = solution.stress.stress, np.linspace(0.05, 6.2, 40)
     base = y[0] - float(stress.at(0, 0.0).peak_pressure) / float(title.split()[2])

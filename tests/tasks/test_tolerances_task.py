@@ -82,7 +82,7 @@ def test_the_curve_on_the_sheet_is_the_band_over_the_turn(tmp_path):
     pages = sheet_of(solution).pages
     (view,) = [group for page in pages for group in page.groups if group.name.endswith("tolerances 11.1")]
     curve = max((e for e in view.entities if isinstance(e, Stroke)), key=lambda stroke: stroke.points.size)
-    (title,) = [text for text in texts_of(pages) if re.fullmatch(r"μ = [\d.]+ µm/mm", text)]
+    (title,) = [text for text in texts_of(pages) if re.fullmatch(r"μ\S* = [\d.]+ µm/mm", text)]
     x, y = curve.points.real, curve.points.imag
     bands = solution.tolerances.bands
     heights = float(title.split()[2]) * (np.interp(bands.phi, (x - x[0]) / 120 * 2 * math.pi, y) - y[0])

@@ -233,11 +233,11 @@ HOSTILE = {
     "": "", " ": "", "in": "", "auto": "", "nan in": "", "inf mm": "", "1e999 in": "", "- 3 mm": "", "--3 mm": "",
     "0x10 mm": "convert", "1_000 mm": "convert", "\u0663 mm": "", "mm 3": "", "3 furlong": "convert", "3 MM": "'mm'",
     "3 inches": "'in'", '3"': "'in'", "3 In": "'in'", "3 мм": "'mm'", "3 mm mm": "convert", "3 in 4 in": "convert",
-    "1/4 in": "convert", "1 1/4 in": "convert", "3 mm^2": "'mm'", "1.2.3 mm": "convert", "1,25 in": '"1.25 in"',
+    "1/4 in": "convert", "1 1/4 in": "convert", "3 mm^2": "convert", "1.2.3 mm": "convert", "1,25 in": '"1.25 in"',
     "1,250 in": '"1.250 in" or "1250 in"', "1.25": 'write 1.25 without quotes, or "1.25 mm"', "3 %": "convert",
     "3 mm; rm": "convert", "3\x00mm": "'mm'", "3 mm # in": "convert", "(3 mm)": "", "3 kg": "kg converts to kg",
     "3 rad": "rad converts to deg", "1e-999999999 furlong": "convert", "9" * 5000: "", "1 " + "m" * 100_000: "convert",
-    "3\n\nmm\nx": "'mm'", "{offset}": "", "1.25 in": None,
+    "3\n\nmm\nx": "convert", "{offset}": "", "1.25 in": None,
 }  # fmt: skip
 """What is typed for a length, and what of the remedy tells it; None if it is one."""
 
@@ -385,7 +385,7 @@ def test_the_command_line_tells_a_wrong_unit(value, remedy, tmp_path):
     shown = value.replace('"', "'")
     assert (result.exit_code, result.stdout) == (INPUT_ERROR_STATUS, "")
     assert result.stderr == (
-        f"graphcam: {path}: follower.offset is {shown}, but must be a number of mm (without quotes), "
+        f"graphcam: {path}: line 18: follower.offset is {shown}, but must be a number of mm (without quotes), "
         f"or text with its unit: mm, cm, m, um, in, mil, thou, ft; {remedy}\n"
     )
     assert INPUT_ERROR_STATUS == 2

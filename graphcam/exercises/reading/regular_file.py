@@ -87,7 +87,7 @@ def read_regular(path: str | os.PathLike[str], limit: int, folder: int | Path | 
     ...     read_regular(Path(place, "b"), 3)
     Traceback (most recent call last):
     ...
-    graphcam.exercises.reading.regular_file.UnreadableError: b is a link; hand in the file itself
+    graphcam.errors.UnreadableError: b is a link; hand in the file itself
     """
     name = Path(path).name
     try:
