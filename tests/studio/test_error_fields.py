@@ -221,7 +221,10 @@ def test_fields_are_in_the_form():
     materials = {f"material.{key.name}" for key in fields(MaterialTable)}
     spring = {"mass", "stiffness", "preload", "acceleration", "friction", "load"}
     springs = {f"spring.{name}" for name in (*spring, "inertia", "at.arm", "at.anchor[0]")}
-    assert set(FIELDS_BY_QUANTITY.values()) - shown == of_no_field | springs | {"material.width"}
+    assert set(FIELDS_BY_QUANTITY.values()) - shown == of_no_field | springs | {
+        "material.width",
+        "material.permitted_stress",
+    }
     sprung = changed_task(
         plain_task("coursework"), {"spring": {"mass": 0.5, "stiffness": 2.0}, "material": {"width": 15.0}}
     )

@@ -112,7 +112,8 @@ def test_a_place_is_where_two_lines_cross(tmp_path):
 
 
 def test_a_length_is_measured_between_its_two_marks(tmp_path):
-    changes = {'reading = "s"': 'reading = "s"\nplace = "displacement"\nmark = "length"'}
+    station = 'reading = "s"\nstation = "8"'
+    changes = {station: f'{station}\nplace = "displacement"\nmark = "length"'}
     handout = Handout(tmp_path, "inversion-translating", changes)
     key = handout.key.keys["s_8"]
     per_mm, foot, right = key.tolerance / key.tolerance_paper, 60 + 4j, float(key.expected.value)
