@@ -49,7 +49,8 @@ assert abs(cam.nose_radius - (28 - 43 * c) / (1 - c)) < 1e-12
 
 # %% [markdown]
 # **Predict** before you draw: the roller's centre runs on the pitch curve, 16 mm outside of the cam. At which place of the rise does the acceleration change its sign: early on the flank, where the flank ends, or at the nose?
-#
+
+# %% [markdown]
 # ## The construction
 
 # %%
@@ -80,36 +81,6 @@ a = (v - np.roll(v, 1)) / step
 print(f"maximum v {v.max():.2f} mm/rad, maximum a {a.max():.2f} mm/rad²")
 
 # %% [markdown]
-# ## Drawn and exact
-#
-# Every part of a cam of arcs has a closed form: on the flank $s = (R_1 + r)\,(1/\cos\varphi - 1)$, on the nose a crank and connecting rod. At the ends of the flank the acceleration **jumps**.
-
-# %% jupyter={"source_hidden": true} tags=["remove-input"]
-phi = np.radians(np.linspace(-10, 150, 3201))
-exact = motion(phi % (2 * math.pi))[2]
-figure, axes = chart("φ, °", "a, mm/rad²", 2.8)
-axes.plot(np.degrees(phi), exact, color="#b3201c", label="exact")
-stations = np.arange(a.size) * 5.0
-shown = stations <= 150
-axes.plot(stations[shown], a[shown], "o", markersize=3, color="#5a5a5a", label="chords of chords, 5°")
-axes.legend(fontsize=8)
-picture_of(figure, "The acceleration over the cam angle. On the flank it grows from 44 to 72 mm/rad², at the nose it jumps to about -19 and falls to -37; at the end of the rise it is symmetrical. The points of the "
-           "chords lie on the curve but beside the jumps, where they lie between the two values.", "Chords bridge a jump: a point beside it lies between its two sides")
-
-# %% jupyter={"source_hidden": true} tags=["remove-cell"]
-w = 600 * math.pi / 30
-assert abs(motion([0.0], side="right")[2][0] * w**2 / 1000 - 173.71) < 0.01
-assert abs(motion([motion.phases[0].angle])[2][0] * w**2 / 1000 + 146.67) < 0.01
-on_flank = np.radians(np.linspace(1, 20, 50))
-assert np.abs(motion(on_flank)[0] - 44 * (1 / np.cos(on_flank) - 1)).max() < 1e-12
-
-# %%
-compared(solution, "measured_lift", "measured_rise_deg", "measured_max_v", "measured_max_a", "measured_max_pressure_angle_rise_deg")
-
-# %% [markdown]
-# The displacement is right within a pencil line, the velocity nearly so. The acceleration is not: twice differentiated, every error is divided by the square of a part, and next to a jump chords see both of its sides. So a drawn
-# acceleration of a *given* cam tells its course; the values at a jump come from the radii.
-#
 # ## The same cam, another follower
 #
 # What if the roller wears out and the shop has only one of 20 mm? Or the stem is replaced by an arm? The outline stays, everything else changes:
@@ -120,8 +91,9 @@ followers = {
     "roller 32 mm": gc.Translating(roller_radius=32), "offset 8 mm": gc.Translating(8, 16),
 }
 found = {name: gc.outline_motion(cam, follower) for name, follower in followers.items()}
+turn = np.linspace(0, 2 * math.pi, 3601)
 table(("follower", "lift, mm", "rise, °", "maximum a, mm/rad²"), [
-    (name, m.lift, math.degrees(m.phases[0].angle), float(max(m(phi % (2 * math.pi))[2]))) for name, m in found.items()], digits=2)
+    (name, m.lift, math.degrees(m.phases[0].angle), float(max(m(turn)[2]))) for name, m in found.items()], digits=2)
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert len({round(found[name].lift, 9) for name in ("roller 16 mm", "roller 8 mm", "roller 32 mm")}) == 1
@@ -129,7 +101,8 @@ assert found["roller 32 mm"](0.0, side="right")[2] > found["roller 8 mm"](0.0, s
 
 # %% [markdown]
 # The lift of a central follower is the same for every roller: it is the difference of two circles about the cam centre. The acceleration is not: it begins with $R_1 + r$, so a larger roller starts harder.
-#
+
+# %% [markdown]
 # ## A cam that was measured
 #
 # Of an old cam nobody knows the radii. A measuring machine gives points; the outline is the smooth curve through them, and the follower is laid against it. Here are 360 points of the same cam, each off by 0.005 mm:
@@ -178,6 +151,39 @@ greatest.check(your_velocity)
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert abs(under.lift - 16) < 1e-9
 assert abs(greatest.value - 8.0) < 0.2
+
+# %% [markdown]
+# ## Drawn and exact
+#
+# Every part of a cam of arcs has a closed form: on the flank $s = (R_1 + r)\,(1/\cos\varphi - 1)$, on the nose a crank and connecting rod. At the ends of the flank the acceleration **jumps**.
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+phi = np.radians(np.linspace(-10, 150, 3201))
+exact = motion(phi % (2 * math.pi))[2]
+figure, axes = chart("φ, °", "a, mm/rad²", 2.8)
+axes.plot(np.degrees(phi), exact, color="#b3201c", label="exact")
+stations = np.arange(a.size) * 5.0
+shown = stations <= 150
+axes.plot(stations[shown], a[shown], "o", markersize=3, color="#5a5a5a", label="chords of chords, 5°")
+axes.legend(fontsize=8)
+picture_of(figure, "The acceleration over the cam angle. On the flank it grows from 44 to 72 mm/rad², at the nose it jumps to about -19 and falls to -37; at the end of the rise it is symmetrical. The points of the "
+           "chords lie on the curve but beside the jumps, where they lie between the two values.", "Chords bridge a jump: a point beside it lies between its two sides")
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+w = 600 * math.pi / 30
+assert abs(motion([0.0], side="right")[2][0] * w**2 / 1000 - 173.71) < 0.01
+assert abs(motion([motion.phases[0].angle])[2][0] * w**2 / 1000 + 146.67) < 0.01
+on_flank = np.radians(np.linspace(1, 20, 50))
+assert np.abs(motion(on_flank)[0] - 44 * (1 / np.cos(on_flank) - 1)).max() < 1e-12
+
+# %%
+compared(solution, "measured_lift", "measured_rise_deg", "measured_max_v", "measured_max_a", "measured_max_pressure_angle_rise_deg")
+
+# %% [markdown]
+# ## Where the error comes from
+#
+# The displacement is right within a pencil line, the velocity nearly so. The acceleration is not: twice differentiated, every error is divided by the square of a part, and next to a jump chords see both of its sides. So a drawn
+# acceleration of a *given* cam tells its course; the values at a jump come from the radii.
 
 # %% [markdown]
 # ## Questions

@@ -107,7 +107,8 @@ def test_axe_core_finds_nothing_and_nothing_sticks_out(review, opened, window, s
 
 def test_each_student_has_a_row_with_what_became_of_the_drawing(review, opened):
     page = opened(review)
-    assert page.locator("article h2").all_inner_texts() == [
+    # What lies beyond the window is not laid out yet, so it has no inner text.
+    assert [" ".join(text.split()) for text in page.locator("article h2").all_text_contents()] == [
         "Anna read",
         "Boris to check",
         f"{CLARA} to check",
