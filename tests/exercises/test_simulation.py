@@ -25,17 +25,17 @@ EXERCISES = Path(__file__).parents[2] / "exercises"
 
 
 def simulated_record(name: str) -> dict[str, Any]:
-    """What 'graphcam exercise simulate NAME --variants 500 --hands 20' found, or with more variants, as it is kept."""
+    """What 'graphcam exercise simulate NAME --variants 60 --hands 20' found, or with more variants, as it is kept."""
     return json.loads((EXERCISES / "simulated" / f"{name}.json").read_text(encoding="utf-8"))
 
 
 @pytest.mark.parametrize("name", library())
-def test_hundreds_of_variants_are_separable_and_keep_the_bars(name: str):
+def test_many_variants_are_separable_and_keep_the_bars(name: str):
     exercise, found = find_exercise(name), simulated_record(name)
     # An exercise that was changed must be simulated again.
     assert (found["exercise"], found["version"]) == (name, exercise.version)
     assert set(found["rows"]) == set(exercise.misconceptions)
-    assert found["variants"] == sum(found["issued"]) >= 500
+    assert found["variants"] == sum(found["issued"]) >= 60
     hands = 20 * found["variants"]
     assert found["careful"] == hands
     assert all(row["hands"] == hands == sum(row["named"].values()) for row in found["rows"].values())
@@ -45,6 +45,8 @@ def test_hundreds_of_variants_are_separable_and_keep_the_bars(name: str):
     assert found["right_diagnoses"] >= 0.99
     # Mistakes that are not looked for may be given a name in 3 %, and no copy earns more than about half.
     assert found["outside_named"] <= 0.03
+    # Nor may one that the exercise does not list keep all marks in more.
+    assert found["unlisted_kept"] <= 0.03
     assert found["copies"]["above_half"] <= 0.005 * found["copies"]["pairs"]
     assert all(found["populations"][hand]["hands"] == hands for hand in HANDS_OF)
     assert found["populations"]["careful"]["losing"] <= found["losing"] <= found["populations"]["first-year"]["losing"]
@@ -55,7 +57,8 @@ def test_the_readme_says_what_was_found(name: str):
     found = simulated_record(name)
     losing = [found["populations"][hand]["losing"] / found["careful"] for hand in ("careful", "first-year")]
     rates = [found["false_rejections"], *losing, found["false_acceptances"], found["right_diagnoses"]]
-    told = [f"{rate:.2%}" for rate in [*rates, found["outside_named"]]] + [f"{found['copies']['best']:.0%}"]
+    told = [f"{rate:.2%}" for rate in [*rates, found["outside_named"]]]
+    told += [f"{found['copies']['best']:.0%}", f"{found['unlisted_kept']:.2%}"]
     row = f"| `{name}` | {found['draws']:.2f} | {len(found['issued'])} | {' | '.join(told)} |".replace("%", " %")
     assert row in (EXERCISES / "README.md").read_text(encoding="utf-8").splitlines()
 
