@@ -127,8 +127,9 @@ def _add_dimension(
         else _add_angle(space, measured, left, told)
     )
     made.render()
-    # Of a blank ezdxf tells no place, which its own reader asks for.
-    made.dimension.dxf.text_midpoint = told["location"]
+    if not lettered:
+        # Of a blank ezdxf tells no place, which its own reader asks for.
+        made.dimension.dxf.text_midpoint = told["location"]
 
 
 def _add_length(space: Modelspace, measured: Length, left: float, told: dict[str, Any]) -> DimStyleOverride:
