@@ -428,10 +428,13 @@ def test_the_sized_cam_of_the_page_is_held_back_by_both_limits_and_its_message_i
 
 def test_the_given_cam_of_the_page_moves_its_followers_as_it_says(tmp_path):
     page = "how-to/analyse-a-given-cam.md"
-    first, roller, *_ = followed(page, tmp_path).splitlines()
+    first, roller, *_ = followed(page, tmp_path, files(page)["other.py"]).splitlines()
     assert first == "nose 20.203 mm, its centre 22.797 mm from the cam's"
     start, apex = ast.literal_eval(roller)
     assert f"begins with {start} mm/s² and has −{-apex} mm/s² at the apex" in text_of(page)
+    lifts = re.findall(r"lift (\S+) mm", followed(page, tmp_path))
+    assert lifts == ["10.000"] * 3
+    assert "All three have a lift of 10 mm" in text_of(page)
 
 
 def test_the_cam_of_the_page_is_designed_in_python_as_it_says(tmp_path):
