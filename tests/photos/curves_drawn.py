@@ -11,6 +11,7 @@ import numpy as np
 from bent_paper import Points
 from hand import Rng, even
 from printed_courses import Course
+from scipy.spatial import cKDTree
 
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.curve import faired_line
@@ -26,6 +27,8 @@ Lines = list[tuple[Points, bool]]
 """Points (n,) of each, and whether it is closed."""
 BETWEEN = 8
 """Chords that make the curve between two stations, and the arc between two points of a dwell."""
+SECOND_APART = 1.2
+"""mm that half of a second curve lies beside the first at least; nearer ones are one curve of a thick pencil."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,8 +139,11 @@ def _second(course: Course, student: str, line: Points, rng: Rng) -> Points:
     if rng.random() < 0.6:
         apart = rng.uniform(2, 7) * rng.choice([-1, 1])
         return line * (1 + apart / np.abs(line))
-    names = mistakes_of(course, student)
-    return work(course, student, "careful", int(rng.integers(1, 1 << 30)), names[rng.integers(len(names))]).line
+    seed, tree = int(rng.integers(1, 1 << 30)), cKDTree(np.column_stack((line.real, line.imag)))
+    wrong = [work(course, student, "careful", seed, name).line for name in mistakes_of(course, student)]
+    apart = [float(np.median(tree.query(np.column_stack((each.real, each.imag)))[0])) for each in wrong]
+    far = [each for each, distance in zip(wrong, apart, strict=True) if distance >= SECOND_APART]
+    return far[rng.integers(len(far))]
 
 
 def _foreign(line: Points, reach: float, rng: Rng) -> Points:
