@@ -130,10 +130,15 @@ def test_a_missing_file_is_told_with_its_place():
 
 
 def test_what_is_found_in_a_line_of_a_file_is_told_piece_by_piece(tmp_path, monkeypatch):
-    (tmp_path / "cam.toml").write_text("[follower]\noffset = −10\n", encoding="utf-8")
+    (tmp_path / "cam.toml").write_text(
+        'follower = { kind = "translating", offset = −10, roller_radius = 10 }\n'
+        'motion.phases = [{ kind = "rise", angle = 180, lift = 20, law = "cosine" },\n'
+        '  { kind = "return", angle = 180, lift = 20, law = "cosine" }]\n',
+        encoding="utf-8",
+    )
     monkeypatch.chdir(tmp_path)
     done = CliRunner().invoke(app, ["solve", "cam.toml"], env={"LANGUAGE": "ru"})
-    place = "cam.toml: строка 2, столбец 10: знак"
+    place = "cam.toml: строка 1, столбец 45: знак"
     wanted = "а должно быть: обычный '-'; наберите его в текстовом редакторе"
     assert done.stderr == f"graphcam: {place}: '−' (minus sign), {wanted}\n"
 
@@ -170,7 +175,7 @@ def test_a_task_that_names_no_language_is_told_in_that_of_the_machine(text, tmp_
 
 
 TYPED = re.compile(
-    r"(?<![\w’])'[^'\s{][^']*'(?!\w)|\"[^\"{]+\"|`[^`]+`|\b[a-z_.]{3,} = (?=[\"{\[\d])|\[[a-z_.]+\]|--[a-z-]+"
+    r"(?<![\w’}])'[^'\s{][^']*'(?!\w)|\"[^\"{]+\"|`[^`]+`|\b[a-z_.]{3,} = (?=[\"{\[\d])|\[[a-z_.]+\]|--[a-z-]+"
 )
 """What of a text is typed: quoted words, assignments, tables and options."""
 
