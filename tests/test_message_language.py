@@ -131,6 +131,7 @@ def test_a_missing_file_is_told_with_its_place():
 
 def test_what_is_found_in_a_line_of_a_file_is_told_piece_by_piece(tmp_path, monkeypatch):
     (tmp_path / "cam.toml").write_text(
+        'rotation = "cw"\n'
         'follower = { kind = "translating", offset = −10, roller_radius = 10 }\n'
         'motion.phases = [{ kind = "rise", angle = 180, lift = 20, law = "cosine" },\n'
         '  { kind = "return", angle = 180, lift = 20, law = "cosine" }]\n',
@@ -138,7 +139,7 @@ def test_what_is_found_in_a_line_of_a_file_is_told_piece_by_piece(tmp_path, monk
     )
     monkeypatch.chdir(tmp_path)
     done = CliRunner().invoke(app, ["solve", "cam.toml"], env={"LANGUAGE": "ru"})
-    place = "cam.toml: строка 1, столбец 45: знак"
+    place = "cam.toml: строка 2, столбец 45: знак"
     wanted = "а должно быть: обычный '-'; наберите его в текстовом редакторе"
     assert done.stderr == f"graphcam: {place}: '−' (minus sign), {wanted}\n"
 
