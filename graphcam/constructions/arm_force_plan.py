@@ -172,7 +172,7 @@ def _terms(plan: Construction[ArmForcePlanGivens]) -> list[tuple[Caption, float]
     integrated, k = givens.integrated, plan.givens.station
     s, v, a = (np.array(float(integrated.value(name)[k])) for name in ("s", "v", "a"))
     phi, psi0 = float(integrated.givens.stations.phi[k]), float(plan.givens.measured.first("psi0"))
-    none = replace(load, inertia=0.0, stiffness=0.0, preload=0.0, load=0.0)
+    none = replace(load, inertia=0.0, stiffness=0.0, preload=0.0, load=0.0, damping=0.0)
     inertia, spring = say("inertia {torque:.0f} N·mm"), say("spring {torque:.0f} N·mm")
     if not load.acceleration:
         inertia = say("inertia J·ω²·a = {inertia:g}·{omega:.5g}²·{a:.4g}/1000 = {torque:.0f} N·mm")
@@ -182,6 +182,7 @@ def _terms(plan: Construction[ArmForcePlanGivens]) -> list[tuple[Caption, float]
         (inertia.with_values(inertia=load.inertia, omega=load.omega, a=float(a)), replace(none, inertia=load.inertia)),
         (say("preload {torque:.0f} N·mm"), replace(none, preload=load.preload)),
         (spring.with_values(stiffness=load.stiffness, s=float(s)), replace(none, stiffness=load.stiffness)),
+        (say("damping {torque:.0f} N·mm"), replace(none, damping=load.damping)),
         (say("load P {torque:.0f} N·mm"), replace(none, load=load.load)),
     )
     reduced = partial(

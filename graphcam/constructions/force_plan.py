@@ -266,12 +266,13 @@ def alpha_at(plan: Construction) -> float:
 def _terms(plan: Construction[ForcePlanGivens]) -> list[tuple[Caption, float]]:
     """The terms that make up the load [N], each with its name."""
     load, values = plan.givens.load, [np.array(value) for value in _values(plan, "s", "v", "a")]
-    none = replace(load, mass=0.0, stiffness=0.0, preload=0.0, friction=0.0, load=0.0)
+    none = replace(load, mass=0.0, stiffness=0.0, preload=0.0, friction=0.0, load=0.0, damping=0.0)
     alone = (
         (say("inertia {force:.1f} N"), replace(none, mass=load.mass)),
         (say("preload {force:.1f} N"), replace(none, preload=load.preload)),
         (say("spring {force:.1f} N"), replace(none, stiffness=load.stiffness)),
         (say("friction {force:.1f} N"), replace(none, friction=load.friction)),
+        (say("damping {force:.1f} N"), replace(none, damping=load.damping)),
         (say("load P {force:.1f} N"), replace(none, load=load.load)),
     )
     k = plan.givens.station

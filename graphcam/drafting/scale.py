@@ -140,7 +140,7 @@ UNITS: Mapping[str, Caption] = {
         *(say("mm of paper"), say("m"), say("s"), say("m/s"), say("m/s²"), say("rad/s"), say("rad/s²"), say("N")),
         *(say("N·mm"), say("N/mm"), say("N·mm/rad"), say("MPa"), say("rpm"), say("kg"), say("kg·mm²")),
         *(say("µm"), say("µm/rad"), say("mrad"), say("mrad/rad"), say("mrad/rad²")),
-        *(say("mm/mm"), say("(mm/rad)/mm"), say("(mm/rad²)/mm")),
+        *(say("mm/mm"), say("(mm/rad)/mm"), say("(mm/rad²)/mm"), say("N·s/m"), say("N·mm·s/rad"), say("W")),
     )
 }
 

@@ -33,6 +33,8 @@ PLAUSIBLE_RANGES = {
         (say("kg mm^2"), 1e-6, 1e15),
         (say("N mm/rad"), 1e-6, 1e15),
         (say("N mm"), 0.0, 1e15),
+        (say("N s/m"), 0.0, 1e9),
+        (say("N mm s/rad"), 0.0, 1e15),
         (say("rad/s^2"), 0.0, 1e9),
     )
 }

@@ -8,12 +8,12 @@ arm, whose s is an angle, a torque about its pivot in N mm.
 
 What presses an arm turns it about its pivot, towards the cam, with the torque
 
-    M = J (a omega^2 + v eps) + M_spring + l P
+    M = J (a omega^2 + v eps) + M_spring + d v omega + l P
 
-of the inertia J about the pivot and of a load P at the arm's end, along its path.  A torsion spring has M_spring = F0 +
-c s, with F0 in N mm and c in N mm/rad.  A spring between a point of the arm and an anchor in the frame has the length
-L(s); with x = L - L(0), or L(0) - L of one that is pressed together as the arm rises, its force is F0 + c x, and by
-virtual work M_spring = (F0 + c x) dx/ds.
+of the inertia J about the pivot, of damping, and of a load P at the arm's end, along its path.  A torsion spring has
+M_spring = F0 + c s, with F0 in N mm and c in N mm/rad.  A spring between a point of the arm and an anchor in the frame
+has the length L(s); with x = L - L(0), or L(0) - L of one that is pressed together as the arm rises, its force is F0 +
+c x, and by virtual work M_spring = (F0 + c x) dx/ds.
 """
 
 import math
@@ -71,7 +71,7 @@ class FollowerLoad(Protocol):
 
 @dataclass(frozen=True)
 class SpringLoad:
-    """The load along the motion of a follower that slides: F = m (a omega^2 + v eps) + F0 + c s + P, in N.
+    """The load along the motion of a follower that slides: F = m (a omega^2 + v eps) + F0 + c s + d v omega + P, in N.
 
     mass : of the follower and all that moves with it [kg]
     speed_rpm : of the cam at the instant [rpm];  acceleration : eps of the cam at the instant [rad/s^2], 0 at a
@@ -81,6 +81,7 @@ class SpringLoad:
         is relieved of it on a return
     load : P, a further force on the follower [N], positive towards the cam: a number, or a
         :class:`~graphcam.LoadCurve` over the turn
+    damping : d, the force against the motion over its speed [N s/m]
 
     Raises
     ------
@@ -101,9 +102,10 @@ class SpringLoad:
     acceleration: float = 0.0
     friction: float = 0.0
     load: Load = 0.0
+    damping: float = 0.0
 
     def __post_init__(self) -> None:
-        units = {"mass": "kg", "speed_rpm": "rpm", "stiffness": "N/mm", "friction": "N"}
+        units = {"mass": "kg", "speed_rpm": "rpm", "stiffness": "N/mm", "friction": "N", "damping": say("N s/m")}
         _check_numbers(self, units, "N")
 
     @property
@@ -124,20 +126,21 @@ class SpringLoad:
         returns : negative where the cam would have to pull
         """
         s, v, a, _ = values
-        inertia = self.mass / MM_PER_M * (a * self.omega**2 + v * self.acceleration)
-        return inertia + self.preload + self.stiffness * s + self.friction * direction + load_at(self.load, phi)
+        moving = (self.mass * (a * self.omega**2 + v * self.acceleration) + self.damping * v * self.omega) / MM_PER_M
+        return moving + self.preload + self.stiffness * s + self.friction * direction + load_at(self.load, phi)
 
     def slope(self, values: Values) -> Floats:
         """dF/dphi [N/rad] inside a phase, from (s, v, a, j), under a load that is the same over the turn."""
         _, v, a, j = values
-        inertia = self.mass / MM_PER_M * (j * self.omega**2 + a * self.acceleration)
-        return inertia + self.stiffness * v
+        moving = (self.mass * (j * self.omega**2 + a * self.acceleration) + self.damping * a * self.omega) / MM_PER_M
+        return moving + self.stiffness * v
 
     def size(self, values: Values) -> Floats:
         """The sum of the magnitudes of the force's terms [N], to which its rounding is relative."""
         s, v, a, _ = values
-        inertia = self.mass / MM_PER_M * (abs(a) * self.omega**2 + abs(v * self.acceleration))
-        return inertia + abs(self.preload) + self.stiffness * s + self.friction + largest(self.load)
+        inertia = self.mass * (abs(a) * self.omega**2 + abs(v * self.acceleration))
+        moving = (inertia + self.damping * abs(v) * self.omega) / MM_PER_M
+        return moving + abs(self.preload) + self.stiffness * s + self.friction + largest(self.load)
 
     def leverage(self, values: Values) -> tuple[Floats, Floats]:
         """1 and 0: the spring acts along the motion."""
@@ -214,6 +217,7 @@ class ArmLoad:
     load : P, the force on the arm's end along its path [N], positive towards the cam: a number, or a
         :class:`~graphcam.LoadCurve` over the turn
     at : where a spring at a point acts; None for a torsion spring about the pivot
+    damping : d, the torque about the pivot against the motion over its angular speed [N mm s/rad]
 
     Raises
     ------
@@ -231,10 +235,11 @@ class ArmLoad:
     acceleration: float = 0.0
     load: Load = 0.0
     at: ArmSpring | None = None
+    damping: float = 0.0
 
     def __post_init__(self) -> None:
         per = "N mm/rad" if self.at is None else "N/mm"
-        units = {"inertia": say("kg mm^2"), "speed_rpm": "rpm", "stiffness": per}
+        units = {"inertia": say("kg mm^2"), "speed_rpm": "rpm", "stiffness": per, "damping": say("N mm s/rad")}
         _check_numbers(self, units, self.preload_unit)
 
     @property
@@ -275,8 +280,9 @@ class PlacedArmLoad:
         """The torque [N mm] that the cam must bear, from (s, v, a, j); the pivot is without friction."""
         _, v, a, _ = values
         given, (x, x1, _) = self.given, self._spring(values)
-        inertia = given.inertia / MM_PER_M * (a * given.omega**2 + v * given.acceleration)
-        return inertia + (given.preload + given.stiffness * x) * x1 + self.arm * load_at(given.load, phi)
+        moving = given.inertia / MM_PER_M * (a * given.omega**2 + v * given.acceleration)
+        moving = moving + given.damping * v * given.omega
+        return moving + (given.preload + given.stiffness * x) * x1 + self.arm * load_at(given.load, phi)
 
     def slope(self, values: Values) -> Floats:
         """The derivative by phi inside a phase [N mm/rad], under a load that is the same over the turn."""
@@ -284,14 +290,15 @@ class PlacedArmLoad:
         given, (x, x1, x2) = self.given, self._spring(values)
         inertia = given.inertia / MM_PER_M * (j * given.omega**2 + a * given.acceleration)
         spring = given.stiffness * x1 * x1 + (given.preload + given.stiffness * x) * x2
-        return inertia + spring * v
+        return inertia + given.damping * a * given.omega + spring * v
 
     def size(self, values: Values) -> Floats:
         """The sum of the magnitudes of the torque's terms [N mm]."""
         _, v, a, _ = values
         given, (x, x1, _) = self.given, self._spring(values)
-        inertia = given.inertia / MM_PER_M * (abs(a) * given.omega**2 + abs(v * given.acceleration))
-        return inertia + (abs(given.preload) + given.stiffness * abs(x)) * abs(x1) + self.arm * largest(given.load)
+        moving = given.inertia / MM_PER_M * (abs(a) * given.omega**2 + abs(v * given.acceleration))
+        moving = moving + given.damping * abs(v) * given.omega
+        return moving + (abs(given.preload) + given.stiffness * abs(x)) * abs(x1) + self.arm * largest(given.load)
 
     def leverage(self, values: Values) -> tuple[Floats, Floats]:
         """dx/ds, the lever of a spring at a point [mm], 1 of a torsion spring; and its derivative by phi."""

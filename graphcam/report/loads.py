@@ -33,7 +33,8 @@ def _formula(load: SpringLoad | ArmLoad) -> str:
         kind, outer = ("slides, not evenly" if load.acceleration else "slides"), " + P"
     else:
         kind, outer = ("torsion" if load.at is None else "at a point"), r" + l\,P"
-    return FORMULAS[kind].replace("<outer>", outer if load.load else "")
+    damped = r" + d\,v\,\omega" if load.damping else ""
+    return FORMULAS[kind].replace("<outer>", damped + (outer if load.load else ""))
 
 
 def contact(solution: Solution) -> list[Block]:
@@ -105,6 +106,9 @@ def _presses(spring: SpringDesign) -> Caption:
     if load.acceleration:
         accelerated = say("The angular acceleration of the cam is $\\varepsilon = {epsilon:g}$ rad/s².")
         sentences.append(accelerated.with_values(epsilon=load.acceleration))
+    if load.damping:
+        damped = say("Damping of $d = {damping:g}$ {unit} acts against the motion.")
+        sentences.append(damped.with_values(damping=load.damping, unit=unit(spring.damping_unit)))
     if isinstance(load.load, LoadCurve):
         least, most = min(load.load.force), max(load.load.force)
         varies = say(

@@ -14,6 +14,7 @@ from graphcam.constructions.chain import Chain
 from graphcam.drafting.ink import Caption, Construction, say
 from graphcam.drafting.meaning import Meaning
 from graphcam.drafting.scale import unit
+from graphcam.given.follower import MM_PER_M
 from graphcam.given.laws import Floats
 from graphcam.given.load_curve import LoadCurve
 from graphcam.given.spring_load import ArmLoad, SpringLoad
@@ -144,10 +145,19 @@ class SpringDesign:
             return "N", "N", "N/mm"
         return ("N·mm", "N·mm", "N·mm/rad") if self.load.at is None else ("N·mm", "N", "N/mm")
 
+    @property
+    def damping_unit(self) -> str:
+        """The unit of the damping."""
+        return "N·s/m" if isinstance(self.load, SpringLoad) else "N·mm·s/rad"
+
     @cached_property
     def torques(self) -> tuple[float, ValueAt, ValueAt]:
         """The mean torque on the cam [N mm], the greatest and the least."""
         return mean_torque(self.forces), self.forces.greatest_torque(), self.forces.least_torque()
+
+    def power(self, torque: float) -> float:
+        """The power of the camshaft [W] at a torque [N mm]."""
+        return torque * self.load.omega / MM_PER_M
 
     def to_dict(self) -> dict[str, Any]:
         """The results as plain data: N, N mm and degrees."""
@@ -170,6 +180,10 @@ class SpringDesign:
                 "mean": {"value": _without_rounding(mean), "unit": "N·mm"},
                 "greatest": plain_place(most, "N·mm"),
                 "least": plain_place(fewest, "N·mm"),
+            },
+            "power": {
+                "mean": {"value": _without_rounding(self.power(mean)), "unit": "W"},
+                "greatest": plain_place(most._replace(value=self.power(most.value)), "W"),
             },
             "over_turn": self._over_turn(),
         }
@@ -306,6 +320,9 @@ class SpringDesign:
         if load.acceleration:
             value = say("{acceleration:g} rad/s²", acceleration=load.acceleration)
             rows.append((say("angular acceleration ε"), value, ""))
+        if load.damping:
+            value = say("{damping:g} {unit}", damping=load.damping, unit=unit(self.damping_unit))
+            rows.append((say("damping d"), value, ""))
         if isinstance(load.load, LoadCurve):
             least, most = min(load.load.force), max(load.load.force)
             rows.append((say("load P"), say("{least:g} to {most:g} N", least=least, most=most), say("by table")))
@@ -330,6 +347,8 @@ class SpringDesign:
             (say("maximum torque"), with_unit(most.value, "N·mm"), at_side(most, self.cam.motion)),
             (say("minimum torque"), with_unit(fewest.value, "N·mm"), at_side(fewest, self.cam.motion)),
             (say("mean torque"), with_unit(_without_rounding(mean), "N·mm"), ""),
+            (say("maximum power"), with_unit(self.power(most.value), "W"), at_side(most, self.cam.motion)),
+            (say("mean power"), with_unit(_without_rounding(self.power(mean)), "W"), ""),
         ]
         if self.friction:
             rows.append(
@@ -416,11 +435,11 @@ NORMAL_FORMULAS = {
 
 
 def _pressing(load: SpringLoad | ArmLoad) -> str:
-    outer = bool(load.load)
+    outer, damped = bool(load.load), " + dvω" if load.damping else ""
     if isinstance(load, SpringLoad):
-        return "m(aω² + vε) + F₀ + cs" + (" + P" if outer else "")
+        return f"m(aω² + vε) + F₀ + cs{damped}" + (" + P" if outer else "")
     spring = "F₀ + cs" if load.at is None else "(F₀ + cx)·dx/ds"
-    return f"J(aω² + vε) + {spring}" + (" + lP" if outer else "")
+    return f"J(aω² + vε) + {spring}{damped}" + (" + lP" if outer else "")
 
 
 def with_unit(value: float, of: str) -> Caption:

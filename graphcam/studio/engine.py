@@ -74,6 +74,7 @@ FIELDS_BY_QUANTITY: Mapping[str, str] = {
     "acceleration": "spring.acceleration",
     "friction": "spring.friction",
     "load": "spring.load",
+    "damping": "spring.damping",
     "at.arm": "spring.at.arm",
     "at.anchor": "spring.at.anchor[0]",
     "anchor": "spring.at.anchor[0]",

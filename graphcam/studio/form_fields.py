@@ -42,6 +42,7 @@ NUMBER_FIELDS: dict[str, tuple[Caption, Caption]] = {
     "spring.acceleration": (SPRING, say("Angular acceleration ε")),
     "spring.friction": (SPRING, say("Friction at the cam μ")),
     "spring.load": (SPRING, say("Load P")),
+    "spring.damping": (SPRING, say("Damping d")),
     "spring.at.arm": (SPRING, say("Spring from the pivot")),
     "spring.at.anchor[0]": (SPRING, say("Anchor of the spring, x")),
     "spring.at.anchor[1]": (SPRING, say("Anchor of the spring, y")),

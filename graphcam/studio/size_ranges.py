@@ -160,6 +160,7 @@ def _of_spring(solution: Solution, spring: SpringTable | ArmSpringTable) -> dict
         "spring.preload": _usual_range(preload or 100.0)._replace(least=0.0),
         "spring.friction": SizeRange(0.0, 0.5, 0.01),
         "spring.acceleration": SizeRange(-500.0, 500.0, 5.0),
+        "spring.damping": _usual_range(spring.damping or 100.0)._replace(least=0.0),
     }
     if not isinstance(spring.load, tuple):
         found["spring.load"] = _usual_range(abs(spring.load) or 100.0)._replace(least=0.0)

@@ -6,7 +6,7 @@ from typing import Any, get_args
 
 from graphcam.constructions.axes import phase_symbol
 from graphcam.constructions.law_names import LAW_TITLES
-from graphcam.given.follower import FlatFaced, Oscillating, OscillatingFlat, Translating
+from graphcam.given.follower import MM_PER_M, FlatFaced, Oscillating, OscillatingFlat, Translating
 from graphcam.given.laws import DECLARED_LAWS, LAWS
 from graphcam.given.load_curve import LoadCurve
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY
@@ -273,6 +273,7 @@ def _spring(make: FieldMaker, spring: SpringDesign) -> Iterator[Field]:
         yield from map(make.number, ("spring.at.arm", "spring.at.anchor[0]", "spring.at.anchor[1]"))
     yield make.number("spring.friction")
     yield make.number("spring.acceleration")
+    yield make.number("spring.damping") | {"unit": make.unit(spring.damping_unit)}
     if not isinstance(load.load, LoadCurve):
         yield make.number("spring.load")
 
@@ -373,6 +374,7 @@ def _spring_of_kind(solution: Solution, follower: dict[str, Any]) -> dict[str, A
     kept = {key: said[key] for key in ("acceleration", "friction", "load")}
     if isinstance(spring, SpringTable):
         turned = {"inertia": spring.mass * lever**2, "stiffness": spring.stiffness * lever**2}
+        turned["damping"] = spring.damping / MM_PER_M * lever**2
         turned |= {} if spring.preload is None else {"preload": spring.preload * lever}
     else:
         turned = _straightened(spring, lever)
@@ -383,4 +385,5 @@ def _straightened(spring: ArmSpringTable, lever: float) -> dict[str, float]:
     """The spring of an arm of that length [mm] as that of a stem; one at a point is taken as it is."""
     square = lever**2 if spring.at is None else 1.0
     straight = {"mass": spring.inertia / lever**2, "stiffness": spring.stiffness / square}
+    straight["damping"] = spring.damping * MM_PER_M / lever**2
     return straight | ({} if spring.preload is None else {"preload": spring.preload / math.sqrt(square)})

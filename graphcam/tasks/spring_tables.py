@@ -10,8 +10,10 @@ from graphcam.given.spring_load import ArmLoad, ArmSpring, SpringLoad
 from graphcam.tasks.units import (
     Angle,
     AngularAcceleration,
+    ArmDamping,
     ArmPreload,
     ArmStiffness,
+    Damping,
     Force,
     Inertia,
     Length,
@@ -48,14 +50,17 @@ def _check_common(stiffness: float, stiffness_unit: str, preload: float | None, 
     bounded("preload", preload, preload_unit)
 
 
-def _check_turning(acceleration: float, friction: float, load: LoadTable) -> None:
-    bounded("acceleration", acceleration, "rad/s^2")
-    if not 0 <= friction <= MAX_FRICTION:
+def _check_moving(spring: "SpringTable | ArmSpringTable", damping_unit: str) -> None:
+    bounded("acceleration", spring.acceleration, "rad/s^2")
+    if not 0 <= spring.friction <= MAX_FRICTION:
         remedy = say("it is the coefficient mu between cam and follower")
-        raise DesignError("friction", friction, say("from 0 to {most:g}", most=MAX_FRICTION), remedy)
-    for each in [load] if not isinstance(load, tuple) else [force for _, force in load]:
+        raise DesignError("friction", spring.friction, say("from 0 to {most:g}", most=MAX_FRICTION), remedy)
+    limit = say("a finite number of 0 {unit} or more", unit=damping_unit)
+    check_number("damping", spring.damping, limit, least=0)
+    bounded("damping", spring.damping, damping_unit)
+    for each in [spring.load] if not isinstance(spring.load, tuple) else [force for _, force in spring.load]:
         bounded("load", each, "N")
-    load_of(load)
+    load_of(spring.load)
 
 
 MAX_FRICTION = 2.0
@@ -72,6 +77,7 @@ class SpringTable:
     acceleration : rad/s^2, of the cam, at the speed
     friction : mu, between cam and follower
     load : N, what presses on the follower besides: a number, or rows [[degrees, N], ...] from 0 to 360 degrees
+    damping : N s/m, against the motion
     """
 
     mass: Mass
@@ -80,17 +86,20 @@ class SpringTable:
     acceleration: AngularAcceleration = 0.0
     friction: float = 0.0
     load: LoadTable = 0.0
+    damping: Damping = 0.0
     swings = False
 
     def __post_init__(self) -> None:
         check_positive("mass", self.mass, "kg")
         _check_common(self.stiffness, "N/mm", self.preload, "N")
-        _check_turning(self.acceleration, self.friction, self.load)
+        _check_moving(self, "N s/m")
 
     def __call__(self, speed_rpm: float) -> SpringLoad:
         """The load at a speed [rpm]; an open preload is 0 in it.  Friction belongs to the contact, not to the load."""
         load, preload = load_of(self.load), self.preload or 0.0
-        return SpringLoad(self.mass, speed_rpm, self.stiffness, preload, self.acceleration, load=load)
+        return SpringLoad(
+            *(self.mass, speed_rpm, self.stiffness, preload, self.acceleration), load=load, damping=self.damping
+        )
 
 
 @dataclass(frozen=True)
@@ -129,6 +138,7 @@ class ArmSpringTable:
     friction : mu, between cam and follower
     load : N, what presses on the arm's end along its path besides: a number, or rows [[degrees, N], ...] from 0 to 360
     at : where a spring acts on the arm; None is a torsion spring about the pivot
+    damping : N mm s/rad, about the pivot against the motion
     """
 
     inertia: Inertia
@@ -138,6 +148,7 @@ class ArmSpringTable:
     friction: float = 0.0
     load: LoadTable = 0.0
     at: ArmSpringPlace | None = None
+    damping: ArmDamping = 0.0
     swings = True
 
     def __post_init__(self) -> None:
@@ -145,9 +156,11 @@ class ArmSpringTable:
         units = ("N mm/rad", "N mm") if self.at is None else ("N/mm", "N")
         check_turning(self, turning=self.at is None)
         _check_common(self.stiffness, units[0], self.preload, units[1])
-        _check_turning(self.acceleration, self.friction, self.load)
+        _check_moving(self, "N mm s/rad")
 
     def __call__(self, speed_rpm: float) -> ArmLoad:
         """The load at a speed [rpm]; an open preload is 0 in it.  Friction belongs to the contact, not to the load."""
         load, preload, at = load_of(self.load), self.preload or 0.0, self.at and self.at()
-        return ArmLoad(self.inertia, speed_rpm, self.stiffness, preload, self.acceleration, load, at)
+        return ArmLoad(
+            *(self.inertia, speed_rpm, self.stiffness, preload, self.acceleration, load, at), damping=self.damping
+        )

@@ -48,6 +48,8 @@ UNITS: Mapping[str, Factors] = {
     "N mm": _MOMENTS,
     "N/mm": {"N/mm": 1.0, "N/m": 1e-3, "kN/m": 1.0, "lbf/in": POUND_FORCE / INCH, "kgf/mm": KILOPOND},
     "N mm/rad": _per_angle(_MOMENTS),
+    "N s/m": {"N s/m": 1.0, "N s/mm": 1e3, "kg/s": 1.0, "lbf s/in": 1e3 * POUND_FORCE / INCH},
+    "N mm s/rad": {f"{moment} s{per}": factor for moment, factor in _MOMENTS.items() for per in ("/rad", "")},
     "MPa": {"MPa": 1.0, "N/mm^2": 1.0, "GPa": 1e3, "kPa": 1e-3, "psi": _PSI, "ksi": 1e3 * _PSI},
     "um": {"um": 1.0, "mm": 1e3, "uin": 0.0254},
 }
@@ -179,6 +181,8 @@ Force = Annotated[float, HeldIn("N")]
 Stiffness = Annotated[float, HeldIn("N/mm")]
 ArmStiffness = Annotated[float, HeldIn("N/mm", "N mm/rad")]
 ArmPreload = Annotated[float, HeldIn("N", "N mm")]
+Damping = Annotated[float, HeldIn("N s/m")]
+ArmDamping = Annotated[float, HeldIn("N mm s/rad")]
 Stress = Annotated[float, HeldIn("MPa")]
 Density = Annotated[float, HeldIn("kg/m^3")]
 Roughness = Annotated[float, HeldIn("um")]

@@ -22,7 +22,7 @@ from graphcam.given.spring_load import PlacedArmLoad
 from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
 from graphcam.tasks.task import CamTable, DrawingTable, OscillatingTable, Task
 
-TORSION = gc.ArmLoad(inertia=900, speed_rpm=150, stiffness=4000, preload=3000, load=8.0)
+TORSION = gc.ArmLoad(inertia=900, speed_rpm=150, stiffness=4000, preload=3000, load=8.0, damping=20.0)
 AT_A_POINT = gc.ArmLoad(900, 150, stiffness=6, preload=150, acceleration=40, at=gc.ArmSpring(70.0, (130.0, -40.0)))
 LOADS = over_all("load", [TORSION, AT_A_POINT])
 BOTH = over_all("rotation", ["cw", "ccw"])
@@ -125,7 +125,7 @@ def test_the_steps_say_in_sentences_what_was_read(rotation, load):
         assert [row[2] for row in told] == pytest.approx([float(each.value) for each in read], abs=0.051)
         first = str(steps[0].caption)
         assert f"{value(plan, 'load'):.1f} N. At μ_F" in first
-        terms = re.findall(r"(?:inertia|preload|spring|load P) (?:[^,:=]+ = )?(?:([^,:=]+) = )?(-?\d+) N·mm", first)
+        terms = re.findall(r"(?:inertia|preload|spring|damping|load P) (?:[^,:=]+ = )?(?:([^,:=]+) = )?(-?\d+) N·mm", first)
         assert sum(float(torque) for _, torque in terms) == pytest.approx(125 * value(plan, "load"), abs=2.0)
         # A torque that is told with its factors is their product.
         told = {reckoned: float(torque) for reckoned, torque in terms if reckoned}

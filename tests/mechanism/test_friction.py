@@ -371,3 +371,40 @@ def test_a_table_of_loads_is_straight_between_its_rows_and_repeats():
     assert math.isnan(float(TABLE(math.nan)))
     assert gc.SpringLoad(1, 0, 0, load=TABLE).knots == TABLE.phi
     assert math.isnan(float(gc.SpringLoad(1, 0, 0, load=TABLE).force(gc.builtin_task().motion()(1.0))))  # no angle
+
+
+@EVERY
+def test_the_mean_power_is_what_damping_takes(kind, rotation):
+    """Of a constant speed and no friction: inertia and spring give back what they take, and d v^2 is lost."""
+    damping = 4000.0 if kind in ("oscillating", "long roller") else 30.0
+    cam = cam_of(kind, rotation)
+    load = load_of(kind, damping=damping)
+    taken = gc.mean_torque(gc.CamForces(cam, load)) * load.omega
+    nodes, weights = np.polynomial.legendre.leggauss(16)
+    places = places_in(cam.motion, np.arange(len(cam.motion.phases))[:, None], (nodes + 1) / 2)
+    speed = places.values[1] * load.omega
+    per_turn = np.sum(cam.motion.angles[:, None] / 2 * weights * speed**2) / math.tau
+    # Of an arm N mm s/rad, else N s/m with mm/s.
+    lost = damping * per_turn * (1.0 if cam.kinematics.swings else 1e-3)
+    assert taken == pytest.approx(lost, rel=1e-12)
+
+
+@EVERY
+def test_the_slope_of_a_damped_load_is_its_derivative(kind, rotation):
+    cam = cam_of(kind, rotation)
+    pressing = cam.kinematics.pressed_by(load_of(kind, damping=50.0, acceleration=-30.0))
+    u, step = np.linspace(0.1, 0.9, 9), 1e-6
+    for k, angle in enumerate(cam.motion.angles):
+        after, before = (pressing.force(cam.motion.at(k, u + d)) for d in (step, -step))
+        slope = pressing.slope(cam.motion.at(k, u))
+        assert_allclose(slope, (after - before) / (2 * step * angle), rtol=1e-6, atol=1e-5 * np.abs(slope).max() + 1e-6)
+
+
+def test_damping_asks_for_preload_where_the_follower_goes_down():
+    """With it the least preload is that of a dense search, and more than without."""
+    cam = cam_of("translating")
+    without, damped = load_of("translating"), load_of("translating", damping=200.0)
+    found = gc.least_preload(cam, damped).preload
+    places = places_of(cam, 20001)
+    assert found == pytest.approx(np.max(150 - damped.force(places.values)), rel=1e-7)
+    assert found > gc.least_preload(cam, without).preload

@@ -44,9 +44,9 @@ from graphcam.tasks.task_file import (
 from graphcam.tasks.task_writer import task_files
 from graphcam.tasks.units import UNITS, HeldIn, mark_at, numbers_in_units
 
-SPRING = {"mass": 0.3, "stiffness": 3.0, "preload": 40.0, "acceleration": 2.0, "load": 12.0}
+SPRING = {"mass": 0.3, "stiffness": 3.0, "preload": 40.0, "acceleration": 2.0, "load": 12.0, "damping": 5.0}
 ROWS = [[0.0, 12.0], [180.0, 60.0], [360.0, 12.0]]
-ARM_SPRING = {"inertia": 900.0, "stiffness": 4e5, "preload": 3e4, "acceleration": 2.0, "load": ROWS}
+ARM_SPRING = {"inertia": 900.0, "stiffness": 4e5, "preload": 3e4, "acceleration": 2.0, "load": ROWS, "damping": 90.0}
 POINTS = [{"angle": 160.0, "s": 12.0, "v": 0.0, "a": 0.0, "j": 0.0}, {"angle": 220.0, "s": 5.0},
           {"angle": 280.0, "s": 0.0, "v": 0.0, "a": 0.0}]  # fmt: skip
 PARTS = [
