@@ -125,7 +125,8 @@ def test_the_steps_say_in_sentences_what_was_read(rotation, load):
         assert [row[2] for row in told] == pytest.approx([float(each.value) for each in read], abs=0.051)
         first = str(steps[0].caption)
         assert f"{value(plan, 'load'):.1f} N. At μ_F" in first
-        terms = re.findall(r"(?:inertia|preload|spring|damping|load P) (?:[^,:=]+ = )?(?:([^,:=]+) = )?(-?\d+) N·mm", first)
+        named = "(?:inertia|preload|spring|damping|load P)"
+        terms = re.findall(rf"{named} (?:[^,:=]+ = )?(?:([^,:=]+) = )?(-?\d+) N·mm", first)
         assert sum(float(torque) for _, torque in terms) == pytest.approx(125 * value(plan, "load"), abs=2.0)
         # A torque that is told with its factors is their product.
         told = {reckoned: float(torque) for reckoned, torque in terms if reckoned}
