@@ -37,6 +37,7 @@ from .given.spline_law import sampled_law as sampled_law
 from .given.spring_load import ArmLoad as ArmLoad, ArmSpring as ArmSpring, Guide as Guide, SpringLoad as SpringLoad
 from .mechanism.arc_motion import ArcMotion as ArcMotion
 from .mechanism.cam import Cam as Cam, largest_roller as largest_roller
+from .mechanism.conjugate_cam import ConjugateCam as ConjugateCam
 from .mechanism.contact import (
     Contact as Contact,
     SpringPreload as SpringPreload,

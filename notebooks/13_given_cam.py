@@ -25,7 +25,7 @@ import math
 import numpy as np
 
 import graphcam as gc
-from graphcam.notebooks import Question, chart, compared, picture_of, show_steps, table
+from graphcam.notebooks import Question, Slider, chart, compared, explore, picture_of, show_steps, table
 from graphcam.tasks.task_file import task_from
 
 # %% [markdown]
@@ -101,6 +101,29 @@ assert found["roller 32 mm"](0.0, side="right")[2] > found["roller 8 mm"](0.0, s
 
 # %% [markdown]
 # The lift of a central follower is the same for every roller: it is the difference of two circles about the cam centre. The acceleration is not: it begins with $R_1 + r$, so a larger roller starts harder.
+
+# %% [markdown]
+# ## Move the slider
+#
+# The acceleration under rollers of other sizes. A larger roller starts harder, and leaves the flank earlier: at 33.8° with 4 mm, at 19.7° with 32 mm.
+
+
+# %% jupyter={"source_hidden": true} tags=["remove-input"]
+def under_a_roller(radius):
+    m = gc.outline_motion(cam, gc.Translating(roller_radius=float(radius)))
+    phi = np.radians(np.linspace(-10, 150, 1601))
+    figure, axes = chart("φ, °", "a, mm/rad²", 2.6)
+    axes.plot(np.degrees(phi), m(phi % (2 * math.pi))[2], color="#b3201c")
+    axes.set(ylim=(-60, 90))
+    return picture_of(figure, f"The acceleration over the cam angle for a roller of {radius} mm: it jumps to {28 + radius:.0f} mm/rad² at the start, grows along the flank, and jumps below zero at the nose.",
+                      f"Roller {radius:g} mm: it starts with R₁ + r = {28 + radius:g} mm/rad²")
+
+
+explore(under_a_roller, radius=Slider("roller radius, mm", (4.0, 8.0, 16.0, 32.0), 16.0, (8.0, 32.0)))
+
+# %% jupyter={"source_hidden": true} tags=["remove-cell"]
+leaves = [math.degrees(gc.outline_motion(cam, gc.Translating(roller_radius=radius)).breaks[1]) for radius in (4.0, 32.0)]
+assert np.allclose(leaves, [33.8, 19.7], atol=0.06)
 
 # %% [markdown]
 # ## A cam that was measured

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass, field
 from functools import cached_property
 from textwrap import shorten
-from typing import overload
+from typing import Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,7 +22,7 @@ from graphcam.given.piecewise import chunks, sine_cosine
 from graphcam.mechanism.envelope import Envelope
 from graphcam.mechanism.followers import kinematics
 from graphcam.mechanism.kinematics import Kinematics, Pair, Values
-from graphcam.mechanism.turn_extremes import Places, first_index, highest_places, places_from
+from graphcam.mechanism.turn_extremes import Places, first_index, highest_places, places_from, turn_maximum
 from graphcam.mechanism.undercut import Undercut, trimmed_profile, undercuts
 from graphcam.showing import MAX_WIDTH, Plottable, value_text
 from graphcam.words import say
@@ -142,6 +142,24 @@ class Cam(Plottable):
         """The profile as a curve, with its loops."""
         return Envelope(self.motion, self.kinematics, self.roller_radius)
 
+    @cached_property
+    def outer_wall(self) -> Envelope:
+        """The outer wall of a groove for the roller: the pitch curve moved outwards by its radius.
+
+        Raises
+        ------
+        DesignError : the follower has no roller, or the roller does not fit the hollows of its path
+        """
+        if not self.roller_radius:
+            limit = say("left or right, without a roller")
+            raise DesignError("side", "outer", limit, say("a groove guides a roller"))
+        hollow = turn_maximum(self.motion, lambda places: -self.kinematics.curvature(places.values))
+        if hollow.value * self.roller_radius >= 1:
+            limit = say("less than {radius:.4g} mm, the radius of the hollow of its path at {phi:.4g} degrees")
+            limit = limit.with_values(radius=1 / hollow.value, phi=math.degrees(hollow.phi))
+            raise DesignError(say("roller radius"), self.roller_radius, limit, say("take a smaller roller"))
+        return Envelope(self.motion, self.kinematics, -self.roller_radius)
+
     @property
     def table_turn(self) -> complex:
         """What turns points x + i y so that cam angle 0 is that of a measured table, or of the parts of a motion."""
@@ -160,8 +178,18 @@ class Cam(Plottable):
         """(..., 2) the trace point's path on the cam [mm], at cam angles phi [rad]; NaN for NaN."""
         return self._in_chunks(self._write_pitch, phi, side, points=1)[0]
 
-    def profile(self, phi: ArrayLike, side: Side = "right") -> Floats:
-        """(..., 2) the working profile on the cam [mm]: the pitch curve moved inwards by the roller radius."""
+    def profile(self, phi: ArrayLike, side: Side | Literal["outer"] = "right") -> Floats:
+        """(..., 2) the working profile on the cam [mm]: the pitch curve moved inwards by the roller radius.
+
+        side : which value at a break; "outer" is the other wall of a groove, the pitch curve moved outwards
+
+        Raises
+        ------
+        DesignError : there is no outer wall, as for :attr:`outer_wall`
+        """
+        if side == "outer":
+            _ = self.outer_wall  # says what does not fit
+            return 2 * self.pitch_curve(phi) - self.profile(phi)
         return self._in_chunks(self._write_profile, phi, side, points=1)[0]
 
     def pressure_angle(self, phi: ArrayLike) -> Floats:

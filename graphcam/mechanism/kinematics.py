@@ -255,6 +255,13 @@ class Kinematics(ABC):
         _, (x, y), _ = self.path(values)
         return x + 1j * np.asarray(y)
 
+    def carried(self, place: complex, s: Floats) -> tuple[Complexes, Complexes, Complexes]:
+        """A point of the follower, and its first two derivatives by s [mm; of an arm mm/rad and mm/rad^2].
+
+        place : of the point in the lowest position, x + i y [mm];  by default it slides upwards
+        """
+        return place + 1j * s, np.full(np.shape(s), 1j), np.zeros(np.shape(s), np.complex128)
+
     def appearance(self, motion: Motion, values: Values) -> Appearance:
         """What is to be shown of the follower over places of a motion; by default a stem that slides upwards."""
         return Appearance("stem", self.point(values), np.full(np.shape(values[0]), 1j))

@@ -19,7 +19,7 @@ from graphcam.given.laws import Floats
 from graphcam.given.motion import Motion
 from graphcam.given.piecewise import sine_cosine
 from graphcam.given.spring_load import FollowerLoad, PlacedArmLoad
-from graphcam.mechanism.kinematics import Appearance, Contour, Pair, RollerKinematics, Values
+from graphcam.mechanism.kinematics import Appearance, Complexes, Contour, Pair, RollerKinematics, Values
 from graphcam.words import say
 
 
@@ -75,6 +75,11 @@ class OscillatingKinematics(RollerKinematics):
         angle = angle_between(self.distance, self.arm, self.prime_radius)
         fits = (np.abs(self.distance - self.arm) < self.prime_radius) & (angle + self.swing < np.pi)
         return np.where(fits, angle, np.nan)[()]
+
+    def carried(self, place: complex, s: Floats) -> tuple[Complexes, Complexes, Complexes]:
+        """A point of the arm, which turns about the pivot, and its first two derivatives by s [mm/rad, mm/rad^2]."""
+        lever = (place - self.distance) * np.exp(-1j * s)
+        return self.distance + lever, -1j * lever, -lever
 
     def trace(self, values: Values) -> tuple[Pair, Pair]:
         """The trace point z [mm] and z' by phi, from (s, v, a, j)."""

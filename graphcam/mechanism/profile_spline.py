@@ -157,6 +157,7 @@ def profile_spline(
     degree: Degree = 3,
     control_points: int | None = None,
     trimmed: bool = False,
+    side: Literal["inner", "outer"] = "inner",
 ) -> ProfileSpline:
     """The profile, no farther than ``deviation`` mm from the exact one, or with a given number of control points.
 
@@ -165,11 +166,13 @@ def profile_spline(
         no deviation is required.  None takes as many as the required deviation needs
     trimmed : for an undercut cam take the profile that can be cut, without the lost parts, as
         :meth:`Cam.trimmed_profile` gives it in points
+    side : "outer" is the outer wall of a groove
 
     Raises
     ------
-    DesignError : the cam is undercut, and ``trimmed`` is not given; the deviation is smaller than can be told from
-        rounding; the degree or the number of control points cannot be; or as for :meth:`Cam.undercuts`
+    DesignError : there is no such wall; the cam is undercut, and ``trimmed`` is not given; the deviation is smaller
+        than can be told from rounding; the degree or the number of control points cannot be; or as for
+        :meth:`Cam.undercuts`
 
     >>> from math import radians
     >>> import graphcam as gc
@@ -188,7 +191,7 @@ def profile_spline(
     least = max(MIN_DEVIATION, MIN_DEVIATION_SHARE * (cam.prime_radius + cam.motion.lift))
     if not deviation >= least:
         raise DesignError("deviation", deviation, say("{least:g} mm or more", least=least))
-    envelope = cam.envelope
+    envelope = cam.outer_wall if side == "outer" else cam.envelope
     lost = lost_parts(envelope)
     if lost and not trimmed:
         ends = [(math.degrees(part.begin), math.degrees(part.end)) for part in lost]

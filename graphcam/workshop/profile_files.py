@@ -8,6 +8,7 @@ large would lose is left out.
 import csv
 from collections.abc import Collection
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -23,11 +24,16 @@ FILE_NAMES = {"profile_dxf": "profile.dxf", "profile_csv": "profile.csv", "profi
 
 
 def write_curves(
-    cam: Cam, spline: ProfileSpline | None, folder: Path, kinds: Collection[str] = tuple(FILE_NAMES)
+    cam: Cam,
+    spline: ProfileSpline | None,
+    folder: Path,
+    kinds: Collection[str] = tuple(FILE_NAMES),
+    wall: Literal["", "outer"] = "",
 ) -> dict[str, str]:
     """Write the wanted ones of the three files into a folder; returns the file names by kind.
 
     spline : of the profile that can be cut, for the DXF; None where that is not wanted
+    wall : "outer" for that of a groove, whose files are named profile-outer
 
     Raises
     ------
@@ -35,7 +41,11 @@ def write_curves(
     """
     from graphcam.sheets.dxf_renderer import write_spline
 
-    wanted = {kind: name for kind, name in FILE_NAMES.items() if kind in kinds}
+    wanted = {
+        kind: name.replace("profile", f"profile-{wall}" if wall else "profile")
+        for kind, name in FILE_NAMES.items()
+        if kind in kinds
+    }
     if spline and "profile_dxf" in wanted:
         told = {"greatest distance from the exact profile, mm": f"{spline.deviation:.2g}"}
         write_spline(spline.control, spline.knots, folder / wanted["profile_dxf"], layer="profile", told=told)
@@ -43,7 +53,8 @@ def write_curves(
         kind: write for kind, write in (("profile_csv", _write_csv), ("profile_xyz", _write_xyz)) if kind in kinds
     }
     if tables:
-        cut = _from_table_zero(cam, trimmed_profile(cam.envelope, PROFILE_POINTS))
+        envelope = cam.outer_wall if wall else cam.envelope
+        cut = _from_table_zero(cam, trimmed_profile(envelope, PROFILE_POINTS))
         for kind, write in tables.items():
             write(cut, folder / wanted[kind])
     return wanted

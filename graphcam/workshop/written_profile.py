@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import fields
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from graphcam.errors import DesignError, check_kind, nearest_word_remedy, suggestion
 from graphcam.files import whole_folder
@@ -19,12 +19,20 @@ from graphcam.workshop.part_outline import of_cam
 from graphcam.workshop.plane_loops import spline_loop
 
 FILE_KINDS = "csv", "dxf", "xyz", "step", "gcode"
+CURVE_KINDS = "csv", "dxf", "xyz"
+"""The kinds that show the profile as a curve alone."""
 SPLINE_KINDS = "dxf", "step"
 """The kinds that show the profile as a spline."""
 
 
 def write_profile(
-    cam: Cam, folder: Path | str, kinds: str | Collection[str] = ("csv", "dxf"), *, name: str = "Cam", **part: Any
+    cam: Cam,
+    folder: Path | str,
+    kinds: str | Collection[str] = ("csv", "dxf"),
+    *,
+    name: str = "Cam",
+    groove: bool = False,
+    **part: Any,
 ) -> dict[str, Path]:
     """Write the exact working profile into a folder, in mm with the cam centre at the origin: all files, or none.
 
@@ -35,18 +43,19 @@ def write_profile(
     kinds : of these, several or one: "csv" (720 points with cam angle and polar coordinates), "dxf" (one spline),
         "xyz" (a closed curve through the same points), "step" (a solid with bore and keyway), "gcode" (a program)
     name : of the part, in the STEP file and the program
+    groove : whether the roller runs in a groove: then there are also curves of its outer wall, by "outer csv" and so on
     part : what the solid, the program and the spline take from the table ``[part]`` of a task file, by the same names:
         bore, keyway, width, hub_diameter, hub_length [mm]; cutter_radius [mm], feed [mm/min], profile_tolerance [mm];
         spline_degree, spline_control_points.  What is left out follows from the cam's size
 
     Returns
     -------
-    dict : the files by their kind
+    dict : the files by their kind; of a groove those of its outer wall too
 
     Raises
     ------
-    DesignError : there is no such kind or no such size of a part, no profile can be told that could be cut, the part
-        cannot be made of this cam, or the cutter does not reach into its hollows
+    DesignError : there is no such kind or no such size of a part, a groove is asked for as a solid, no profile can be
+        told that could be cut, the part cannot be made of this cam, or the cutter does not reach into its hollows
     OutputError : the folder cannot be written
 
     >>> from math import radians
@@ -69,14 +78,20 @@ def write_profile(
             raise DesignError(
                 "kinds", kind, say("of {names}", names=", ".join(FILE_KINDS)), suggestion(kind, FILE_KINDS)
             )
+        if groove and kind not in CURVE_KINDS:
+            raise DesignError("kinds", kind, say("of {names}, for a groove", names=", ".join(CURVE_KINDS)))
     table, names = _part_table(part), {f"profile_{kind}" for kind in wanted}
-    spline = _spline(cam, table) if any(kind in SPLINE_KINDS for kind in wanted) else None
+    splined = any(kind in SPLINE_KINDS for kind in wanted)
+    spline = _spline(cam, table) if splined else None
+    wall = _spline(cam, table, "outer") if splined and groove else None
     with whole_folder(folder) as draft:
         written = profile_files.write_curves(cam, spline, draft, names)
+        outer = profile_files.write_curves(cam, wall, draft, names, "outer") if groove else {}
         for kind, text in _texts(cam, spline, table, name, names).items():
             written[kind] = cutting_files.FILE_NAMES[kind]
             (draft / written[kind]).write_text(text, encoding="ascii", newline="\n")
-    return {kind: Path(folder) / written[f"profile_{kind}"] for kind in wanted}
+    made = {kind: Path(folder) / written[f"profile_{kind}"] for kind in wanted}
+    return made | {f"outer {kind}": Path(folder) / outer[f"profile_{kind}"] for kind in wanted if groove}
 
 
 def _part_table(part: dict[str, Any]) -> PartTable:
@@ -88,9 +103,9 @@ def _part_table(part: dict[str, Any]) -> PartTable:
     return PartTable(**part)
 
 
-def _spline(cam: Cam, table: PartTable) -> ProfileSpline:
+def _spline(cam: Cam, table: PartTable, side: Literal["inner", "outer"] = "inner") -> ProfileSpline:
     degree, count = table.spline_degree, table.spline_control_points
-    return profile_spline(cam, degree=degree, control_points=count, trimmed=True).turned(cam.table_turn)
+    return profile_spline(cam, degree=degree, control_points=count, trimmed=True, side=side).turned(cam.table_turn)
 
 
 def _texts(cam: Cam, spline: ProfileSpline | None, table: PartTable, name: str, wanted: set[str]) -> dict[str, str]:

@@ -1,0 +1,120 @@
+"""The second cam of a conjugate pair: on the same shaft, for a second roller on the same follower, which holds it back.
+
+The second roller is fixed to the follower, so its centre q follows from s alone: with its derivatives by s its velocity
+is q' = q_s v, and q'' = q_s a + q_ss v^2.  Seen from the cam its path is p = q exp(-i sigma phi), with
+
+    p' = (q' - i sigma q) exp(-i sigma phi),    p'' = (q'' - 2 i sigma q' - q) exp(-i sigma phi)
+
+and the profile lies inside of it by the second roller's radius, as that of the first cam does.
+
+Source: H. A. Rothbart, *Cam Design Handbook* (2004), chapter 2, on positive drive by conjugate cams.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from graphcam.errors import DesignError, check_kind, check_number
+from graphcam.given.laws import Floats, Side
+from graphcam.given.motion import wrap
+from graphcam.mechanism.cam import Cam
+from graphcam.mechanism.kinematics import Complexes, Values
+from graphcam.mechanism.turn_extremes import Places, ValueAt, turn_maximum
+from graphcam.plane_vectors import cross, dot
+from graphcam.words import say
+
+
+@dataclass(frozen=True)
+class ConjugateCam:
+    """The second cam of a conjugate pair, whose roller holds the follower on the first.
+
+    cam : the first cam, of a follower with a roller
+    at : (x, y) of the second roller's centre with the follower in its lowest position [mm]; the origin is the cam
+        centre, a stem moves along y, an arm's pivot is (distance, 0)
+    roller_radius : of the second roller [mm]
+
+    Raises
+    ------
+    DesignError : the follower has no roller, the second roller does not hold it back over the whole turn, or is too
+        large for the path of its centre
+
+    A stem with both rollers 100 mm apart, on either side of the cam centre; the lobes are alike, so the breadth is
+    equal and both cams are one:
+
+    >>> from math import pi
+    >>> import graphcam as gc
+    >>> motion = gc.Motion([gc.Rise(20, pi), gc.Return(20, pi)])
+    >>> cam = gc.Cam(motion, gc.Translating(roller_radius=10), prime_radius=40)
+    >>> second = gc.ConjugateCam(cam, at=(0, -60), roller_radius=10)
+    >>> second.pitch_curve(0).round(6).tolist(), (second.profile([0, pi]).round(6) + 0.0).tolist()
+    ([0.0, -60.0], [[0.0, -50.0], [0.0, 30.0]])
+    >>> float(abs(cam.profile(pi / 3) - second.profile(pi / 3 + pi)).max()) < 1e-12
+    True
+    """
+
+    cam: Cam
+    at: tuple[float, float]
+    roller_radius: float
+
+    def __post_init__(self) -> None:
+        check_kind("cam", self.cam, Cam)
+        if not self.cam.kinematics.takes_roller:
+            raise DesignError("follower", self.cam.follower.kind, say("one with a roller"))
+        for coordinate in self.at:
+            check_number("at", coordinate, say("two finite coordinates in mm"))
+        check_number("roller_radius", self.roller_radius, say("a finite length of 0 mm or more"), least=0)
+        freed = turn_maximum(self.cam.motion, self._pushed)
+        if freed.value >= 0:
+            place = say("({x:g}, {y:g})", x=self.at[0], y=self.at[1])
+            limit = say("where the second cam pushes the follower back to the first, at {phi:.4g} degrees too")
+            remedy = say("place it on the other side of the cam centre, farther away")
+            raise DesignError("at", place, limit.with_values(phi=math.degrees(freed.phi)), remedy)
+        least = self.least_radius
+        if self.roller_radius >= least.value:
+            limit = say("less than {radius:.4g} mm, the radius of curvature of its centre's path at {phi:.4g} degrees")
+            limit = limit.with_values(radius=least.value, phi=math.degrees(least.phi))
+            raise DesignError("roller_radius", self.roller_radius, limit, say("take a smaller roller"))
+
+    def pitch_curve(self, phi: ArrayLike, side: Side = "right") -> Floats:
+        """(..., 2) the path of the second roller's centre on the cam [mm], at cam angles phi [rad]."""
+        phi = wrap(np.asarray(phi, dtype=np.float64))
+        return self._on_cam(self._path(self.cam.motion(phi, side))[0], phi)
+
+    def profile(self, phi: ArrayLike, side: Side = "right") -> Floats:
+        """(..., 2) the second cam's working profile [mm], in the coordinates of the first cam."""
+        phi = wrap(np.asarray(phi, dtype=np.float64))
+        centre, along, _ = self._path(self.cam.motion(phi, side))
+        return self._on_cam(centre - self.roller_radius * self._outward(along), phi)
+
+    @cached_property
+    def least_radius(self) -> ValueAt:
+        """The minimum convex radius of curvature of the path of the second roller's centre [mm], and its place."""
+        sharpest = turn_maximum(self.cam.motion, self._curvature)
+        return sharpest._replace(value=1 / sharpest.value if sharpest.value > 0 else math.inf)
+
+    def _path(self, values: Values) -> tuple[Complexes, Complexes, Complexes]:
+        """The second roller's centre in the frame, and the first two derivatives of its path as the cam sees it."""
+        s, v, a, _ = values
+        centre, by_s, bent_by_s = self.cam.kinematics.carried(complex(*self.at), s)
+        turning, moved = 1j * self.cam.sigma, by_s * v
+        return centre, moved - turning * centre, by_s * a + bent_by_s * v * v - 2 * turning * moved - centre
+
+    def _outward(self, along: Complexes) -> Complexes:
+        """The unit normal of the path away from the cam."""
+        return 1j * self.cam.sigma * along / np.abs(along)
+
+    def _pushed(self, places: Places) -> Floats:
+        """How the second cam pushes the follower, by a unit of force: below 0 towards the first cam."""
+        _, by_s, _ = self.cam.kinematics.carried(complex(*self.at), places.values[0])
+        return dot(by_s, self._outward(self._path(places.values)[1])) / np.abs(by_s)
+
+    def _curvature(self, places: Places) -> Floats:
+        _, along, bent = self._path(places.values)
+        return -self.cam.sigma * cross(along, bent) / np.abs(along) ** 3
+
+    def _on_cam(self, points: Complexes, phi: Floats) -> Floats:
+        turned = points * np.exp(-1j * self.cam.sigma * phi)
+        return np.stack([turned.real, turned.imag], axis=-1)
