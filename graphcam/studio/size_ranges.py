@@ -147,6 +147,39 @@ def _widened_ranges(found: dict[str, SizeRange], task: Task | ArcsTask) -> dict[
     return {path: each.widened_to(value_at(said, path)) for path, each in found.items()}
 
 
+class LiftSize(NamedTuple):
+    """The lift of the first rise, with which those of all phases go in proportion.
+
+    path, value, range : of it [mm, or degrees of an arm];  shares : the other lifts as parts of it, by their paths
+    """
+
+    path: str
+    value: float
+    range: SizeRange
+    shares: dict[str, float]
+
+
+def lift_size(task: Task) -> LiftSize | None:
+    """The lift of the phases; None for a motion that is given otherwise.
+
+    >>> import graphcam as gc
+    >>> lift_size(gc.builtin_task()).shares
+    {'motion.phases[2].lift': 1.0}
+    """
+    lifts = {
+        f"motion.phases[{k}].lift": phase.lift
+        for k, phase in enumerate(task.motion.phases or ())
+        if phase.kind != "dwell"
+    }
+    rises = (f"motion.phases[{k}].lift" for k, phase in enumerate(task.motion.phases or ()) if phase.kind == "rise")
+    if (path := next(rises, None)) is None:
+        return None
+    lift = lifts.pop(path)
+    step = step_for(lift)
+    room = SizeRange(step, round_up(1.6 * lift), step)
+    return LiftSize(path, lift, room, {other: each / lift for other, each in lifts.items()})
+
+
 def _usual_range(value: float) -> SizeRange:
     most = round_up(1.6 * value)
     return SizeRange(most / 100, most, most / 100)

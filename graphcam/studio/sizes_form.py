@@ -24,6 +24,7 @@ from graphcam.studio.size_ranges import (
     given_radii,
     has_angles,
     lift_of,
+    lift_size,
     ranges,
     round_up,
     sizes_of,
@@ -180,6 +181,17 @@ def _motion(make: FieldMaker, solution: Solution) -> Iterator[Field]:
         yield make.number("motion.tolerance") | {"unit": _lift_unit(make, solution)}
     elif solution.task.motion.phases is not None:
         yield _phases(make, solution)
+    if lift := lift_size(solution.task):
+        path, value, room, shares = lift
+        named = {"path": path, "group": make.tell(MOTION), "name": make.tell(say("Lift h"))}
+        yield {
+            **named,
+            "unit": _lift_unit(make, solution),
+            "kind": "number",
+            "value": value,
+            **room.plain(),
+            "with": shares,
+        }
     for name, _ in given_radii(solution.task):
         yield make.number(name)
     yield make.choice("rotation", MOTION, say("Rotation of the cam"), SENSE_NAMES.items())

@@ -7,6 +7,7 @@ import pytest
 from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
+from graphcam.studio.handle import changes_with
 from graphcam.studio.sizes_form import form_of, phases_without, with_dwell, with_step
 from graphcam.studio.task_paths import changed_task, steps_of, value_at
 
@@ -66,7 +67,7 @@ def test_the_ends_of_every_range_can_be_typed(name):
         if field["kind"] not in ("number", "open-number") or field["path"] == "pencil" or field["path"][:4] == "arcs":
             continue
         for end in (field["min"], field["max"]):
-            typed = changed_task(changed_task(task, field.get("first", {})), {field["path"]: end})
+            typed = changed_task(task, changes_with(field, field["path"], end))
             assert value_at(rebuilt(typed).to_dict(), field["path"]) == end
 
 

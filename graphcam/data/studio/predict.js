@@ -28,7 +28,8 @@ studioModes.predict = (() => {
     asked = answer;
     kind = answer.kind;
     task = answer.task;
-    if (more.seed) studio.load(answer.task, answer.name);
+    if (more.seed) await studio.load(answer.task, answer.name);
+    if (own !== round) return;
     hideAnswers();
     guess = guessOf(studio, asked, letter[kind], told);
     showCard();

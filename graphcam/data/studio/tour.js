@@ -43,9 +43,8 @@ studioModes.tour = (() => {
   function go(k) {
     place = k;
     const card = tour.cards[k];
-    studio.load(card.task, tour.name);
     // The view's last step is shown by no name, so that what comes after a change is its last step too.
-    studio.state.set({ view: card.view, step: card.step, part: null, board: false, phi: card.phi, panel: "step" });
+    studio.load(card.task, tour.name, { view: card.view, step: card.step, part: null, board: false, phi: card.phi, panel: "step" });
     showCard();
     focus("card-title");
     studio.announce(`${placeSaid()}. ${card.ask}`);
