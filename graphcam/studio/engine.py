@@ -97,7 +97,7 @@ FIELDS_BY_QUANTITY: Mapping[str, str] = {
     "D": "arcs.D[0]",
     "G": "arcs.G[0]",
     "A": "arcs.A[0]",
-    "C1": "arcs.C1[0]",
+    "C1": "arcs.rho1",
     "C2": "arcs.C2[0]",
     "rho1": "arcs.rho1",
     "dwell": "arcs.dwell",

@@ -165,9 +165,9 @@ def _arcs(make: FieldMaker, solution: ArcsSolution) -> Iterator[Field]:
     for name in ("D", "G"):
         yield from (make.coordinate(arcs, name, k, None) for k in (0, 1))
     yield make.number("arcs.rho1") | {"first": dict.fromkeys(must_agree(arcs, "rho1"))}
-    for name in ("A", "C1", "C2"):
+    for name in ("A", "C2"):
         # A may be left out only where the centre tells where the rise begins, and the other way round.
-        open_ = name == "C1" or getattr(arcs, "A" if name == "C2" else "C2") is not None
+        open_ = getattr(arcs, "A" if name == "C2" else "C2") is not None
         adopted = tuple(round(float(x), 6) for x in getattr(cam, name)) if open_ else None
         yield from (make.coordinate(arcs, name, k, adopted) for k in (0, 1))
     yield make.number("arcs.dwell")

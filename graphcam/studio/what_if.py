@@ -22,7 +22,7 @@ from graphcam.solving.solution import Solution
 from graphcam.studio.form_fields import DRAWING, NUMBER_FIELDS, POINT_NAMES, must_agree, unit_at
 from graphcam.studio.handle import changes_with
 from graphcam.studio.held_solutions import held_solution
-from graphcam.studio.size_ranges import MIN_PHASE_ANGLE, SizeRange, has_angles, lift_size, ranges, sizes_of
+from graphcam.studio.size_ranges import ARC_POINTS, MIN_PHASE_ANGLE, SizeRange, has_angles, lift_size, ranges, sizes_of
 from graphcam.studio.task_paths import changed_task, value_at
 from graphcam.studio.views_request import number, optional_value, optional_whole_number, task_data, task_in
 from graphcam.tasks.arcs_task import ArcsTask
@@ -41,8 +41,6 @@ UNSWEPT_PATHS = (
 MAX_SIZE = 1e6
 PHASE_FACTOR = 2.5
 """How many times shorter and longer a phase is looked at: of much less angle every cam is huge."""
-POINT_MOVE_SHARE = 0.15
-"""A point of the arcs is moved by so much of the outer circle's radius: few places make a sound cam."""
 
 
 CURVE_TITLES: dict[str, tuple[Caption, str]] = {
@@ -196,16 +194,15 @@ def swept_sizes(solution: AnySolution) -> dict[str, tuple[Caption, SizeRange, st
 
 
 def _of_points(solution: ArcsSolution) -> dict[str, tuple[Caption, SizeRange, str]]:
-    """The coordinates of the points that are given; C1 goes with the radius of its arc."""
-    arcs, found = solution.task.arcs, ranges(solution)
-    nearby = POINT_MOVE_SHARE * math.hypot(*arcs.D)
-    sizes: dict[str, tuple[Caption, SizeRange, str]] = {}
-    for name, title in POINT_NAMES.items():
-        given = None if name == "C1" else getattr(arcs, name)
-        for k, (axis, value) in enumerate(zip("xy", given or (), strict=bool(given))):
+    """The coordinates of the points that are given, on both sides of where they are."""
+    found, sizes = ranges(solution), dict[str, tuple[Caption, SizeRange, str]]()
+    for name in ARC_POINTS:
+        for k, (axis, value) in enumerate(zip("xy", getattr(solution.task.arcs, name) or (), strict=False)):
             path = f"arcs.{name}[{k}]"
-            room = found[path]._replace(least=round(value - nearby, 1), most=round(value + nearby, 1))
-            sizes[path] = say("{point}, {axis}", point=title, axis=axis), room, "mm"
+            least, most, step = found[path]
+            near = (most - least) / 2
+            room = SizeRange(round(value - near, 1), round(value + near, 1), step)
+            sizes[path] = say("{point}, {axis}", point=POINT_NAMES[name], axis=axis), room, "mm"
     return sizes
 
 

@@ -18,9 +18,10 @@ WITHOUT = {
     "measured": {"motion.table"},
     "flat": {"limits.rest"},
     "swinging-face": {"limits.rest"},
-    "arcs": {"follower.kind"},
+    "arcs": {"follower.kind", "arcs.C1[0]", "arcs.C1[1]"},
 }
-"""What a task says without a choice: a table is a file, a flat face has no angle at rest, arcs have one follower."""
+"""What a task says without a choice: a table is a file, a flat face has no angle at rest, arcs have one
+follower, and C1 goes with D."""
 
 
 def leaves(table, path=""):

@@ -19,10 +19,13 @@ function askingOf(page) {
     return frame ? stage.scale(frame) : Math.min(at("canvas").clientWidth / 190, at("canvas").clientHeight / 180) || 1.5;
   }
 
+  // Letters grow with the stage: on a phone they can just be read, on a projector from afar [pixels].
+  const letterHeight = () => Math.round(Math.max(10, Math.min(24, at("canvas").clientWidth / 66, at("canvas").clientHeight / 50)));
+
   function viewsAsked(aim = {}) {
     const name = page.view(aim.view);
     if (!name || page.turns() || now().board) return [];
-    return [{ name, px_per_mm: page.hand?.scale || scaleOf(name), have: aim.forget ? {} : large.have(name) }];
+    return [{ name, px_per_mm: page.hand?.scale || scaleOf(name), letter_px: letterHeight(), have: aim.forget ? {} : large.have(name) }];
   }
 
   // At rest all is told; while a hand is down only what is seen of it.

@@ -191,6 +191,8 @@ function sizesOf(at, acts) {
     row.input?.setAttribute("aria-invalid", "true");
     const folded = row.element.closest("details");
     if (folded) folded.open = true;
+    // On a phone it may lie below the edge of the panel.
+    row.error.scrollIntoView({ block: "nearest" });
   }
 
   function refuseText(row) {

@@ -14,6 +14,8 @@
     upto: null, inert: false, hidden: [],
     // Which steps are shown, all if null; and what is asked of a student.
     only: null, exercise: config.exercise,
+    // In a tour: what the person was at before.
+    own: null,
   });
   const now = state.get, stats = [];
   const wire = openWire(config, (text) => page.notice(word("starting").replace("{state}", text)));
