@@ -114,10 +114,10 @@ function askingOf(page) {
   }
 
   // The last good picture stays, paler, and so does the state; the value stays in its field as it was typed.
-  function refuse(answer, { aim, wanted }) {
+  function refuse(answer, { aim, wanted, hand }) {
     if (answer.lost) return lost(answer, aim, wanted);
     const { message, remedy } = answer.error, said = [message, remedy].filter(Boolean).join("; ");
-    const beside = !aim.forget && sizes.showError(answer.error);
+    const beside = !aim.forget && sizes.showError(answer.error, Object.keys(wanted?.changes || hand?.changes || {}));
     if (!beside) page.announce(said);
     page.failed = beside ? word("not_drawn") : said;
     page.shown.error = answer.error;

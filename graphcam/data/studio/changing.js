@@ -82,7 +82,7 @@ function changingOf(page) {
     const { hand } = page;
     page.hand = null;
     document.body.classList.remove("held");
-    if (!cancelled) return want(() => aimOf(hand), { before: () => hand.before });
+    if (!cancelled) return Object.assign(want(() => aimOf(hand), { before: () => hand.before }), { changes: hand.changes });
     const { before, phi, station } = hand;
     if (before) state.set({ ...before, phi, station });
     page.failed = null;

@@ -207,10 +207,12 @@ function sizesOf(at, acts) {
     row.input?.removeAttribute("aria-invalid");
   }
 
-  // Whether there is a field for the error; the value stays as it was typed.
-  function showError({ field, message, remedy }) {
+  // Whether there is a field for the error; the value stays as it was typed.  An error that belongs to none is told where
+  // something was changed too.
+  function showError({ field, message, remedy }, changed) {
     const row = (!phases.isEdited(field) && rows.get(field)) || (field?.startsWith("motion.phases") && phases.isThere() ? phases.row : undefined);
-    if (row) refuse(row, [message, remedy].filter(Boolean).join("; "));
+    const there = row || changed.map((path) => (path.startsWith("motion.phases") && !rows.has(path) ? phases.row : rows.get(path))).find(Boolean);
+    if (there) refuse(there, [message, remedy].filter(Boolean).join("; "));
     return Boolean(row);
   }
 
