@@ -72,7 +72,7 @@ def family_step(drawn: ArmPositions, name: str, direction: int, limit: float, ha
     integrated, tips, lines = drawn.givens.integrated, drawn.acts["tips"], drawn.acts[f"limits: {name}"]
     so = _AtLimit(direction * sense(drawn.givens.rotation), limit)
     at, k = (
-        np.flatnonzero(lift_directions(drawn.givens) == direction).tolist(),
+        np.flatnonzero(lift_directions(integrated) == direction).tolist(),
         example_station(integrated, tips, direction),
     )
     named, own = station_names(integrated.givens.stations), at.index(k)

@@ -92,7 +92,7 @@ def _worst(region: ArmRegion) -> Values:
     """The formula's values for every family of lines: the position in which the angle comes nearest to its limit."""
     integrated, limits, sigma = region.givens.integrated, region.givens.limits, sense(region.givens.rotation)
     s, v = (integrated.value(name) for name in "sv")
-    moving, names = lift_directions(region.givens), station_names(integrated.givens.stations)
+    moving, names = lift_directions(integrated), station_names(integrated.givens.stations)
     at_rest = np.zeros_like(moving, bool)
     at_rest[[0, int(np.argmax(s))]] = True
     families = (
@@ -192,7 +192,7 @@ def _boundaries(hand: Hand, drawn: Mapping[str, Drawn], givens: ArmLeastRadiusGi
     where the arm rests, so there both sides are drawn; without the rest condition the arm need only reach the cam.
     """
     motion, stations = givens.integrated.givens.motion, givens.integrated.givens.stations
-    limits, sigma, moving = givens.limits, sense(givens.rotation), lift_directions(givens)
+    limits, sigma, moving = givens.limits, sense(givens.rotation), lift_directions(givens.integrated)
 
     def at_limit(name: str, ends: Drawn, arms: Drawn, limit: float, side: int) -> Drawn:
         return hand.protractor(f"limits: {name}", ends, arms.turned(UP), side * limit).turned(side)

@@ -67,9 +67,9 @@ def cam_centre(arm: float, distance: float, prime_radius: float, *, flat: bool =
     return complex(circle_crossing(np.asarray(0j), distance, np.asarray(-arm + 0j), prime_radius, flat=flat))
 
 
-def lift_directions(givens: ArmGivens) -> NDArray[np.intp]:
+def lift_directions(integrated: Integrated) -> NDArray[np.intp]:
     """The direction of the lift at the stations (n,): 1 on a rise, -1 on a return."""
-    motion, stations = givens.integrated.givens.motion, givens.integrated.givens.stations
+    motion, stations = integrated.givens.motion, integrated.givens.stations
     return np.array([motion.phases[k].direction for k in stations.phase])
 
 
@@ -84,9 +84,11 @@ SAME_POSITION = 1.0
 
 
 def example_station(integrated: Integrated, places: Drawn, direction: int = 1) -> int:
-    """The worked station: of those that are named, the fastest of the rises or of the returns."""
+    """The worked station: of the rises or of the returns the fastest, rather one that is named."""
     v, named = direction * integrated.first("v"), numbered_stations(places.shown, integrated.givens.stations)
-    return int(np.argmax(np.where(np.isin(np.arange(v.size), named), v, v / 2)))
+    preferred = np.where(np.isin(np.arange(v.size), named), v, v / 2)
+    # A short phase has no named station that moves, and a pencil lets the dwells move.
+    return int(np.argmax(np.where(lift_directions(integrated) == direction, preferred, -np.inf)))
 
 
 def arc_through(circle: Drawn, places: Points, beyond: float = ARC_OVERHANG) -> Arc:
@@ -135,7 +137,7 @@ def positions_step(drawn: ArmPositions) -> Step:
         angle, chord = turning_angle(s[n], factor), abs(ends.shown[n] - start.place)
         return say("{angle}, {chord:.2f} mm along the arc", angle=angle, chord=chord) if small[n] else angle
 
-    towards = ends.shown * (1 - UP * lift_directions(drawn.givens))
+    towards = ends.shown * (1 - UP * lift_directions(drawn.givens.integrated))
     marks = (
         *(*given, start.label("B₀", -UP, small=True)),
         stroke(level, abs(start.place - level.place)),

@@ -25,8 +25,6 @@ from graphcam.words import Caption, Tell, say
 
 LABEL_ROOM = 12.0
 """The room for labels around the drawing [mm]."""
-MIN_LETTER_HEIGHT = 10.0
-"""No letter on the screen is smaller [px]."""
 INDEX_HEIGHT_SHARE = math.sqrt(0.5)
 """The height of an index, in heights of its letter."""
 HEIGHT_STEP = 0.25
@@ -35,15 +33,17 @@ EMPTY_FRAME = Box(0.0, 0.0, 1.0, 1.0)
 """The frame of a view in which nothing is drawn."""
 
 
-def screen_letters(paper: Lettering, px_per_mm: float) -> Lettering:
+def screen_letters(paper: Lettering, px_per_mm: float, letter_px: float) -> Lettering:
     """The lettering of a view on the screen: as on paper, or larger where that could not be read.
 
-    >>> screen_letters(Lettering(5.0, 3.5, 2.5), 4.0)
+    letter_px : no letter is smaller
+
+    >>> screen_letters(Lettering(5.0, 3.5, 2.5), 4.0, 10.0)
     Lettering(title=5.0, label=3.5, small=2.5)
     """
     # What is asked for is the size of a font, which is more than the height of its capitals.
     font = points_size(1.0) * MM_PER_POINT
-    small = MIN_LETTER_HEIGHT / (font * px_per_mm)
+    small = letter_px / (font * px_per_mm)
     heights = (
         math.ceil(each / HEIGHT_STEP) * HEIGHT_STEP
         for each in (small / INDEX_HEIGHT_SHARE, small / INDEX_HEIGHT_SHARE, small)
@@ -95,7 +95,7 @@ def drawn_view(
     ------
     DesignError : it is larger than any sheet; while it is held nothing depends on how large it is
     """
-    letters = screen_letters(paper, max(asked.px_per_mm, 0.01))
+    letters = screen_letters(paper, max(asked.px_per_mm, 0.01), asked.letter_px)
     drawn = [_expanded(each.step, letters, tell, labelled=asked.labelled) for each in steps]
     names = [name for each in steps for name in label_names(each)] if asked.labelled else []
     former = held.labels if held else {}

@@ -98,7 +98,7 @@ FIELDS_BY_QUANTITY: Mapping[str, str] = {
     "D": "arcs.D[0]",
     "G": "arcs.G[0]",
     "A": "arcs.A[0]",
-    "C1": "arcs.C1[0]",
+    "C1": "arcs.rho1",
     "C2": "arcs.C2[0]",
     "rho1": "arcs.rho1",
     "dwell": "arcs.dwell",
@@ -198,4 +198,22 @@ def error_data(error: GraphcamError, spoken: Language) -> Plain:
     fault, advice = (spoken.text(message(words)) for words in (error.fault, error.advice))
     # The page has no files: what the message says of one is left out.
     path = f"{error.path}: " if isinstance(error, TaskError) else ""
-    return {"message": fault.removeprefix(path), "remedy": "" if error.advice == EXAMPLE_REMEDY else advice}
+    remedy = "" if error.advice == EXAMPLE_REMEDY else named_fields(advice, spoken)
+    return {"message": named_fields(fault.removeprefix(path), spoken), "remedy": remedy}
+
+
+def named_fields(text: str, spoken: Language) -> str:
+    """A text with the names of the form's fields where it has their keys.
+
+    >>> named_fields("follower.offset is -50, but must be less than 44; enlarge cam.prime_radius", ENGLISH)
+    'Offset e is -50, but must be less than 44; enlarge Prime radius r₀'
+    """
+    from graphcam.studio.form_fields import NUMBER_FIELDS
+
+    def named(found: re.Match[str]) -> str:
+        # A word of one part, such as "pencil", is a key only where the sentence is about it.
+        key = found[0]
+        is_key = key in NUMBER_FIELDS and ("." in key or found.start() == 0)
+        return spoken.text(NUMBER_FIELDS[key][1]) if is_key else key
+
+    return PATH_PATTERN.sub(named, text)

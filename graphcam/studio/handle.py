@@ -28,6 +28,20 @@ TURN_RANGE = SizeRange(0.0, 360.0, 0.5)
 """The range of the cam angle [degrees]."""
 
 
+def changes_with(extra: Mapping[str, Any], path: str, value: float) -> Changes:
+    """The changes that give a task another value of a size.
+
+    extra : what goes with it: ``first``, what is put into the task before; ``sum``, another size that is the rest of a
+        total; ``with``, other sizes that stay such parts of it
+
+    >>> changes_with({"sum": {"path": "b", "total": 10.0}, "with": {"c": 0.5}}, "a", 4.0)
+    {'a': 4.0, 'b': 6.0, 'c': 2.0}
+    """
+    rest = {sum_["path"]: round(sum_["total"] - value, 9)} if (sum_ := extra.get("sum")) else {}
+    shares = {other: round(value * share, 12) for other, share in extra.get("with", {}).items()}
+    return {**extra.get("first", {}), path: value, **rest, **shares}
+
+
 @dataclass(frozen=True)
 class HandleAxis:
     """A size that a handle changes, as one slider for the keyboard.
@@ -35,8 +49,7 @@ class HandleAxis:
     path : of the size;  name, unit : as they are told
     value : at present;  range : of it
     screen : "x" or "y", along which the arrow keys move it
-    extra : what must be changed with it: ``first``, what is put into the task before; ``sum``, another size that is the
-        rest of a total
+    extra : what must be changed with it, see :func:`changes_with`
     """
 
     path: str

@@ -138,6 +138,8 @@ def _of_view(solution: AnySolution, view: str, state: HandleState) -> Iterator[H
 
 def _of_diagram(solution: Solution, view: str, state: HandleState) -> Iterator[Handle]:
     yield from diagrams.borders(solution, view)
+    if view == DISPLACEMENT.name:
+        yield from diagrams.lift(solution)
     if view == ACCELERATION.name:
         yield from diagrams.ordinate(solution)
     if view in (ACCELERATION.name, VELOCITY.name):

@@ -21,7 +21,7 @@ from graphcam.studio.handle import (
     snapped,
 )
 from graphcam.studio.handles_diagrams import cursor
-from graphcam.studio.size_ranges import ranges
+from graphcam.studio.size_ranges import ARC_POINTS, point_reach, ranges
 from graphcam.words import say
 
 RHO_NAME = say("Radius of the first arc ρ₁")
@@ -40,22 +40,21 @@ def of_view(solution: ArcsSolution, view: str, state: HandleState) -> Iterator[H
 
 def points(solution: ArcsSolution) -> Iterator[Handle]:
     """The points, given or found; what must agree with one that is moved is left open with it."""
-    mu, rooms, drawn = solution.chain.board.mu_l.per_mm, ranges(solution), solution.chain["three_arcs"]
-    for name in ("D", "G", "A", "C2"):
+    mu, room, drawn = solution.chain.board.mu_l.per_mm, point_reach(solution), solution.chain["three_arcs"]
+    for name in ARC_POINTS:
         given, place = getattr(solution.task.arcs, name), complex(np.ravel(drawn.first(name))[0])
         at = place if given is None else complex(*given) / mu
         across, up = (f"arcs.{name}[{k}]" for k in (0, 1))
         freed = dict.fromkeys(must_agree(solution.task.arcs, name))
 
         def drag(to: complex, fine: bool, name: str = name, freed: Changes = freed) -> Changes:
-            room = rooms[f"arcs.{name}[0]"]
             return {f"arcs.{name}": [snapped(x * mu, room, fine=fine) for x in (to.real, to.imag)], **freed}
 
         value = round(at.real * mu, 6), round(at.imag * mu, 6)
         first = {"first": freed if given is not None else {**freed, f"arcs.{name}": list(value)}}
         title = POINT_NAMES[name]
         axes = tuple(
-            HandleAxis(path, say("{point}, {axis}", point=title, axis=screen), "mm", x, rooms[path], screen, first)
+            HandleAxis(path, say("{point}, {axis}", point=title, axis=screen), "mm", x, room, screen, first)
             for path, screen, x in zip((across, up), "xy", value, strict=True)
         )
         yield Handle(ARCS.name, name, title, at, "xy", axes, drag)

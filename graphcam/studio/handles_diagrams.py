@@ -10,8 +10,17 @@ from graphcam.constructions.axes import phase_ends, phase_title
 from graphcam.constructions.views import ACCELERATION, ANGLE, DISPLACEMENT, VELOCITY
 from graphcam.solving.arcs_solution import ArcsSolution
 from graphcam.solving.solution import Solution
-from graphcam.studio.handle import Changes, Handle, HandleAxis, HandleState, over_stations, phi_axis, snapped
-from graphcam.studio.size_ranges import MIN_PHASE_ANGLE, SizeRange, ranges
+from graphcam.studio.handle import (
+    Changes,
+    Handle,
+    HandleAxis,
+    HandleState,
+    changes_with,
+    over_stations,
+    phi_axis,
+    snapped,
+)
+from graphcam.studio.size_ranges import MIN_PHASE_ANGLE, SizeRange, lift_size, ranges
 from graphcam.words import Caption, say
 
 MAGNET_STEP = 5.0
@@ -71,6 +80,25 @@ def ordinate(solution: Solution) -> Iterator[Handle]:
         "drawing.ordinate", say("Maximum ordinate of the first rise"), "mm", chain.board.ordinate, room, "y"
     )
     yield Handle(ACCELERATION.name, "ordinate", axis.name, complex(at, chain.board.ordinate), "y", (axis,), drag)
+
+
+def lift(solution: Solution) -> Iterator[Handle]:
+    """The height of the first rise, at its end; the other lifts go with it."""
+    if (size := lift_size(solution.task)) is None:
+        return
+    drawn, k = solution.chain["integration"], solution.chain.spans[_first_rise(solution)].stop - 1
+    at = complex(float(solution.chain["acceleration"].first("axis")[k].real), float(drawn.first("s")[k]))
+    start = drawn.first("s")[solution.chain.spans[_first_rise(solution)].start]
+
+    extra = {"with": size.shares}
+
+    def drag(to: complex, fine: bool) -> Changes:
+        lift = snapped((to.imag - start) / (at.imag - start) * size.value, size.range, fine=fine)
+        return changes_with(extra, size.path, lift)
+
+    unit = "°" if solution.task.follower.column == "s_deg" else "mm"
+    axis = HandleAxis(size.path, say("Lift h"), unit, size.value, size.range, "y", extra)
+    yield Handle(DISPLACEMENT.name, "lift", axis.name, at, "y", (axis,), drag)
 
 
 def _first_rise(solution: Solution) -> int:

@@ -35,12 +35,11 @@ REQUEST_SECONDS = 10.0
 """Seconds in which a request must have arrived."""
 ANSWER_SECONDS = 2.0
 """Seconds after which the engine's answer is no longer waited for."""
-QUIET_SECONDS = 10.0
-"""Seconds after the last sign of life of a tab, when the server ends."""
-HIDDEN_TAB_SECONDS = 150.0
-"""Seconds after the last sign of life of a hidden tab: browsers let its clock tick once a minute."""
-LIFE_SECONDS = {"/alive": QUIET_SECONDS, "/alive?hidden": HIDDEN_TAB_SECONDS, "/alive?end": QUIET_SECONDS}
-"""How long a server lives on after a sign of life; a page that ends may come back, for it is loaded anew."""
+LIFE_SECONDS = {"/alive": 3600.0, "/alive?end": 10.0}
+"""How long a server lives on after a sign of life of a tab: one that is quiet may be frozen, hidden, or behind a closed
+lid; one that ends says so, but may come back, for it is loaded anew."""
+MAX_TABS = 100
+"""Tabs that are told apart."""
 DRAIN_SECONDS = 1.0
 """Seconds for which what is left of a refused request is read."""
 CHECK_INTERVAL = 0.25
@@ -192,8 +191,8 @@ class StudioServer(ThreadingTCPServer):
         self.gatekeeper = Gatekeeper(self.server_address[1], new_token())
         self.engine, self.write = engine, write
         self._engine_room, self._writing_room = ThreadPoolExecutor(1), ThreadPoolExecutor(1)
-        # When the tabs are given up; not before the first has shown itself.
-        self._ends: float | None = None
+        # When each tab is given up; not before the first has shown itself.
+        self._ends: dict[bytes, float] = {}
 
     @property
     def address(self) -> str:
@@ -202,7 +201,7 @@ class StudioServer(ThreadingTCPServer):
 
     def run(self) -> None:
         """Serve until the last tab is closed."""
-        while self._ends is None or time.monotonic() < self._ends:
+        while not self._ends or time.monotonic() < max(self._ends.values()):
             self.handle_request()
 
     def server_close(self) -> None:
@@ -211,9 +210,12 @@ class StudioServer(ThreadingTCPServer):
         for room in (self._engine_room, self._writing_room):
             room.shutdown(wait=False, cancel_futures=True)
 
-    def keep_alive(self, seconds: float = QUIET_SECONDS) -> None:
-        """Hear a sign of life of a tab, which gives its server so many seconds."""
-        self._ends = max(self._ends or 0.0, time.monotonic() + seconds)
+    def keep_alive(self, seconds: float, tab: bytes = b"") -> None:
+        """Hear a sign of life of a tab, known by what it calls itself, which gives its server so many seconds."""
+        self._ends.pop(tab, None)
+        while len(self._ends) >= MAX_TABS:
+            self._ends.pop(next(iter(self._ends)))
+        self._ends[tab] = time.monotonic() + seconds
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """Faults of the program are told; that a browser went away while it was answered is none."""
@@ -308,8 +310,7 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _keep_alive(self, seconds: float) -> Mapping[str, Any]:
         self.server.gatekeeper.check_token(self.headers)
-        self._body()
-        self.server.keep_alive(seconds)
+        self.server.keep_alive(seconds, self._body())
         return {}
 
     def _request(self) -> Mapping[str, Any]:

@@ -23,6 +23,10 @@ DEFAULT_STRESS = 1200.0
 MAX_PHASES = 36
 TRIANGLE_MARGIN_STEPS = 4
 """How many steps a triangle stays from a flat one."""
+ARC_POINTS = "D", "G", "A", "C2"
+"""The points of a cam of three arcs that can be moved; C1 goes with D and the radius of its arc."""
+POINT_MOVE_SHARE = 0.15
+"""A slider moves a point of the arcs by so much of the outer circle's radius: few places make a sound cam."""
 MIN_PHASE_ANGLE = 1.0
 """The minimum angle of a phase [degrees]."""
 
@@ -126,13 +130,17 @@ def _(solution: Solution) -> dict[str, SizeRange]:
 
 @ranges.register
 def _(solution: ArcsSolution) -> dict[str, SizeRange]:
-    arcs = solution.task.arcs
-    points = [x for name in ("D", "G", "A", "C1", "C2") for x in getattr(arcs, name) or ()]
-    reach = round_up(1.25 * max(map(abs, points)))
-    outer = math.hypot(*arcs.D)
-    step = step_for(outer)
-    coordinates = [f"arcs.{name}[{axis}]" for name in ("D", "G", "A", "C1", "C2") for axis in (0, 1)]
-    found = {path: SizeRange(-reach, reach, step / 5) for path in coordinates}
+    outer = math.hypot(*solution.task.arcs.D)
+    step, near = step_for(outer), POINT_MOVE_SHARE * outer
+    found: dict[str, SizeRange] = {}
+    for name in ARC_POINTS:
+        for axis, value in enumerate(map(float, getattr(solution.cam, name))):
+            # It stays while the point is moved a little.
+            middle = round(value / near) * near
+            room = SizeRange(
+                math.ceil((middle - near) / step) * step, math.floor((middle + near) / step) * step, step / 5
+            )
+            found[f"arcs.{name}[{axis}]"] = SizeRange(*(round(each, 9) for each in room))
     found["arcs.rho1"] = SizeRange(step, multiple_below(outer, step), step)
     found["arcs.dwell"] = SizeRange(0.0, 180.0, 1.0)
     found["follower.roller_radius"] = SizeRange(0.0, multiple_below(outer, step), step)
@@ -141,10 +149,50 @@ def _(solution: ArcsSolution) -> dict[str, SizeRange]:
     return _widened_ranges(found, solution.task)
 
 
+def point_reach(solution: ArcsSolution) -> SizeRange:
+    """From where to where a point of the arcs is dragged, which goes on to the last sound cam on its way."""
+    arcs = solution.task.arcs
+    reach = round_up(1.25 * max(abs(x) for name in (*ARC_POINTS, "C1") for x in getattr(arcs, name) or ()))
+    return SizeRange(-reach, reach, step_for(math.hypot(*arcs.D)) / 5)
+
+
 def _widened_ranges(found: dict[str, SizeRange], task: Task | ArcsTask) -> dict[str, SizeRange]:
     """The ranges with the values that stand in the task, though they lie outside what is usual."""
     said = task.to_dict()
     return {path: each.widened_to(value_at(said, path)) for path, each in found.items()}
+
+
+class LiftSize(NamedTuple):
+    """The lift of the first rise, with which those of all phases go in proportion.
+
+    path, value, range : of it [mm, or degrees of an arm];  shares : the other lifts as parts of it, by their paths
+    """
+
+    path: str
+    value: float
+    range: SizeRange
+    shares: dict[str, float]
+
+
+def lift_size(task: Task) -> LiftSize | None:
+    """The lift of the phases; None for a motion that is given otherwise.
+
+    >>> import graphcam as gc
+    >>> lift_size(gc.builtin_task()).shares
+    {'motion.phases[2].lift': 1.0}
+    """
+    lifts = {
+        f"motion.phases[{k}].lift": phase.lift
+        for k, phase in enumerate(task.motion.phases or ())
+        if phase.kind != "dwell"
+    }
+    rises = (f"motion.phases[{k}].lift" for k, phase in enumerate(task.motion.phases or ()) if phase.kind == "rise")
+    if (path := next(rises, None)) is None:
+        return None
+    lift = lifts.pop(path)
+    step = step_for(lift)
+    room = SizeRange(step, round_up(1.6 * lift), step)
+    return LiftSize(path, lift, room, {other: each / lift for other, each in lifts.items()})
 
 
 def _usual_range(value: float) -> SizeRange:

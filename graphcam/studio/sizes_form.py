@@ -24,6 +24,7 @@ from graphcam.studio.size_ranges import (
     given_radii,
     has_angles,
     lift_of,
+    lift_size,
     ranges,
     round_up,
     sizes_of,
@@ -164,9 +165,9 @@ def _arcs(make: FieldMaker, solution: ArcsSolution) -> Iterator[Field]:
     for name in ("D", "G"):
         yield from (make.coordinate(arcs, name, k, None) for k in (0, 1))
     yield make.number("arcs.rho1") | {"first": dict.fromkeys(must_agree(arcs, "rho1"))}
-    for name in ("A", "C1", "C2"):
+    for name in ("A", "C2"):
         # A may be left out only where the centre tells where the rise begins, and the other way round.
-        open_ = name == "C1" or getattr(arcs, "A" if name == "C2" else "C2") is not None
+        open_ = getattr(arcs, "A" if name == "C2" else "C2") is not None
         adopted = tuple(round(float(x), 6) for x in getattr(cam, name)) if open_ else None
         yield from (make.coordinate(arcs, name, k, adopted) for k in (0, 1))
     yield make.number("arcs.dwell")
@@ -180,6 +181,17 @@ def _motion(make: FieldMaker, solution: Solution) -> Iterator[Field]:
         yield make.number("motion.tolerance") | {"unit": _lift_unit(make, solution)}
     elif solution.task.motion.phases is not None:
         yield _phases(make, solution)
+    if lift := lift_size(solution.task):
+        path, value, room, shares = lift
+        named = {"path": path, "group": make.tell(MOTION), "name": make.tell(say("Lift h"))}
+        yield {
+            **named,
+            "unit": _lift_unit(make, solution),
+            "kind": "number",
+            "value": value,
+            **room.plain(),
+            "with": shares,
+        }
     for name, _ in given_radii(solution.task):
         yield make.number(name)
     yield make.choice("rotation", MOTION, say("Rotation of the cam"), SENSE_NAMES.items())

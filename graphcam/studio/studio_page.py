@@ -170,6 +170,9 @@ PAGE_CAPTIONS: Mapping[str, Caption] = {
     "starting": say("Starting the engine: {state}", state="{state}"),
     "lost": say("The engine does not answer. The state is kept in the address."),
     "again": say("Start again"),
+    "ended": say(
+        "If 'graphcam studio' has ended, run it again and open its address with '&' and what stands behind '#' here."
+    ),
     "noscript": say("The studio needs JavaScript."),
     **MODE_WORDS,
 }

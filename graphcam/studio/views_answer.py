@@ -21,6 +21,7 @@ from graphcam.studio.studio_values import compared_quantities, given_sizes, size
 from graphcam.studio.task_paths import changed_task
 from graphcam.studio.view_steps import StepsData, ViewSteps, steps_data, view_steps
 from graphcam.studio.views_request import AskedView, ViewsRequest, views_request
+from graphcam.studio.what_if import swept_fields
 
 T = TypeVar("T")
 Plain = dict[str, Any]
@@ -104,6 +105,7 @@ def views_answer(data: Mapping[str, Any]) -> Plain:
         **clock.timed("exact", lambda: _numbers(solution, known, request, spoken)),
         "sizes": given_sizes(solution) if request.upto else sizes(solution),
         "form": form_of(solution, spoken.text) if request.form and not request.upto else [],
+        "swept": swept_fields(solution, spoken.text) if request.form and not request.upto else [],
         "handles": clock.timed("handles", lambda: _handles(moved, asked, request, spoken)),
         # What is kept tells scales and accelerations, and where nothing is dragged nothing need be kept.
         "hold": None if request.upto else _kept_hold(solution, known, drawn, names, hold).plain(),

@@ -20,6 +20,8 @@ MIN_LETTERED_SCALE = 0.8
 """A view shown smaller than this has no labels [px per mm]: it is a small picture, to be recognised and not read."""
 MAX_PENCIL_ERROR = 1.0
 """Standard deviation of a line [mm]: with more nothing can be read."""
+LETTER_PX = 10.0, 8.0, 40.0
+"""The least height of letters on the screen [px]: usual, at least, at most."""
 MAX_PX_PER_MM = 40.0
 """Pixels per mm at most."""
 
@@ -32,11 +34,13 @@ class AskedView:
     """A view that is to be drawn.
 
     px_per_mm : how large it is shown
+    letter_px : no letter is smaller
     have : hashes of the steps that the page has already, by their identifiers
     """
 
     name: str
     px_per_mm: float
+    letter_px: float
     have: Mapping[str, str]
 
     @property
@@ -174,9 +178,8 @@ def _asked_view(view: Any) -> AskedView:
     name = optional_value(view, "name", str, None)
     if name is None:
         raise DesignError("views.name", say("missing"), say("given"))
-    return AskedView(
-        name, number(view, "px_per_mm", 2.0, 0.0, MAX_PX_PER_MM), {str(key): str(have[key]) for key in have}
-    )
+    px_per_mm, letter_px = number(view, "px_per_mm", 2.0, 0.0, MAX_PX_PER_MM), number(view, "letter_px", *LETTER_PX)
+    return AskedView(name, px_per_mm, letter_px, {str(key): str(have[key]) for key in have})
 
 
 def flag(data: Data, name: str) -> bool:

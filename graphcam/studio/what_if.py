@@ -20,8 +20,9 @@ from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.shown_solution import plain_number
 from graphcam.solving.solution import Solution
 from graphcam.studio.form_fields import DRAWING, NUMBER_FIELDS, POINT_NAMES, must_agree, unit_at
+from graphcam.studio.handle import changes_with
 from graphcam.studio.held_solutions import held_solution
-from graphcam.studio.size_ranges import MIN_PHASE_ANGLE, SizeRange, has_angles, ranges, round_up, sizes_of, step_for
+from graphcam.studio.size_ranges import ARC_POINTS, MIN_PHASE_ANGLE, SizeRange, has_angles, lift_size, ranges, sizes_of
 from graphcam.studio.task_paths import changed_task, value_at
 from graphcam.studio.views_request import number, optional_value, optional_whole_number, task_data, task_in
 from graphcam.tasks.arcs_task import ArcsTask
@@ -40,8 +41,6 @@ UNSWEPT_PATHS = (
 MAX_SIZE = 1e6
 PHASE_FACTOR = 2.5
 """How many times shorter and longer a phase is looked at: of much less angle every cam is huge."""
-POINT_MOVE_SHARE = 0.15
-"""A point of the arcs is moved by so much of the outer circle's radius: few places make a sound cam."""
 
 
 CURVE_TITLES: dict[str, tuple[Caption, str]] = {
@@ -169,10 +168,7 @@ def sweep_answer(data: Mapping[str, Any]) -> dict[str, Any]:
         "at": at,
         "curves": _curves(designs, wanted, spoken.text),
         "limits": _limits(solution),
-        "sizes": [
-            {"path": each, "name": spoken.text(name), "unit": unit, **room.plain()}
-            for each, (name, room, unit) in sizes.items()
-        ],
+        "sizes": swept_fields(solution, spoken.text),
     }
 
 
@@ -198,16 +194,15 @@ def swept_sizes(solution: AnySolution) -> dict[str, tuple[Caption, SizeRange, st
 
 
 def _of_points(solution: ArcsSolution) -> dict[str, tuple[Caption, SizeRange, str]]:
-    """The coordinates of the points that are given; C1 goes with the radius of its arc."""
-    arcs, found = solution.task.arcs, ranges(solution)
-    nearby = POINT_MOVE_SHARE * math.hypot(*arcs.D)
-    sizes: dict[str, tuple[Caption, SizeRange, str]] = {}
-    for name, title in POINT_NAMES.items():
-        given = None if name == "C1" else getattr(arcs, name)
-        for k, (axis, value) in enumerate(zip("xy", given or (), strict=bool(given))):
+    """The coordinates of the points that are given, on both sides of where they are."""
+    found, sizes = ranges(solution), dict[str, tuple[Caption, SizeRange, str]]()
+    for name in ARC_POINTS:
+        for k, (axis, value) in enumerate(zip("xy", getattr(solution.task.arcs, name) or (), strict=False)):
             path = f"arcs.{name}[{k}]"
-            room = found[path]._replace(least=round(value - nearby, 1), most=round(value + nearby, 1))
-            sizes[path] = say("{point}, {axis}", point=title, axis=axis), room, "mm"
+            least, most, step = found[path]
+            near = (most - least) / 2
+            room = SizeRange(round(value - near, 1), round(value + near, 1), step)
+            sizes[path] = say("{point}, {axis}", point=POINT_NAMES[name], axis=axis), room, "mm"
     return sizes
 
 
@@ -222,10 +217,9 @@ def _phase_sizes(solution: Solution) -> dict[str, tuple[Caption, SizeRange, str]
         name = say("Angle of the {phase}", phase=phase_title(motion, k))
         least, most = max(MIN_PHASE_ANGLE, phase.angle / PHASE_FACTOR), min(room, phase.angle * PHASE_FACTOR)
         sizes[f"motion.phases[{k}].angle"] = name, SizeRange(round(least), round(most), 1.0), "°"
-    k, lift = next((k, phase.lift) for k, phase in enumerate(phases) if phase.kind == "rise")
-    step = step_for(lift)
+    lift = lift_size(solution.task)
     unit = "mm" if solution.task.motion.lift_unit == 1.0 else "°"
-    return sizes | {f"motion.phases[{k}].lift": (say("Lift"), SizeRange(step, round_up(1.6 * lift), step), unit)}
+    return sizes | ({lift.path: (say("Lift"), lift.range, unit)} if lift else {})
 
 
 def with_size(solution: AnySolution, path: str, value: float) -> dict[str, Any]:
@@ -235,21 +229,42 @@ def with_size(solution: AnySolution, path: str, value: float) -> dict[str, Any]:
     >>> with_size(gc.solve(gc.builtin_task()), "motion.phases[0].angle", 90.0)
     {'motion.phases[0].angle': 90.0, 'motion.phases[1].angle': 35.0}
     """
+    return changes_with(_extra(solution, path), path, value)
+
+
+def _extra(solution: AnySolution, path: str) -> Mapping[str, Any]:
+    """What is changed with a size, see :func:`~graphcam.studio.handle.changes_with`."""
     if isinstance(solution, ArcsSolution):
         name = path.removeprefix("arcs.").split("[")[0]
-        freed = dict.fromkeys(must_agree(solution.task.arcs, name)) if path.startswith("arcs.") else {}
-        return {path: value, **freed}
+        return {"first": dict.fromkeys(must_agree(solution.task.arcs, name))} if path.startswith("arcs.") else {}
     phases = solution.task.motion.phases or ()
     if path.endswith("].angle"):
         k = int(path.split("[")[1].split("]")[0])
         other = (k + 1) % len(phases)
-        total = phases[k].angle + phases[other].angle
-        return {path: value, f"motion.phases[{other}].angle": round(total - value, 9)}
-    if path.endswith("].lift"):
-        now = value_at(solution.task.to_dict(), path)
-        moving = ((k, phase.lift) for k, phase in enumerate(phases) if phase.kind != "dwell")
-        return {f"motion.phases[{k}].lift": lift * value / now for k, lift in moving}
-    return {path: value}
+        return {"sum": {"path": f"motion.phases[{other}].angle", "total": phases[k].angle + phases[other].angle}}
+    lift = lift_size(solution.task)
+    return {"with": lift.shares} if lift and path == lift.path else {}
+
+
+def swept_fields(solution: AnySolution, tell: Tell) -> list[dict[str, Any]]:
+    """The sizes that can be swept as the page reads them.
+
+    >>> import graphcam as gc
+    >>> [field["name"] for field in swept_fields(gc.solve(gc.builtin_task("flat")), str)][-1]
+    'Lift'
+    """
+    return [
+        {
+            "path": path,
+            "name": tell(name),
+            "unit": tell(UNITS.get(unit, unit)),
+            "value": _present_value(solution, path),
+            **room.plain(),
+            **_extra(solution, path),
+        }
+        for path, (name, room, unit) in swept_sizes(solution).items()
+        if room.least < room.most
+    ]
 
 
 def _design(task: dict[str, Any]) -> Design:

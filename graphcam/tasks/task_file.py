@@ -510,7 +510,9 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
     limit, others = error.args[2], ", ".join(_missing_keys(data))
     if key == "spring" and data.get("spring") is None and others:
         limit = say("given where there is a material, and so must {others}", others=others)
-    return TaskError(path, field, _shown_value(value), limit, error.advice or EXAMPLE_REMEDY)
+    # How radians are written in Python is nothing for a file, which has degrees.
+    remedy = "" if "math.radians" in error.remedy else error.advice
+    return TaskError(path, field, _shown_value(value), limit, remedy or EXAMPLE_REMEDY)
 
 
 def _look_up(data: Any, place: Place) -> tuple[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import copy
 import math
 import re
 from functools import cache
@@ -15,6 +16,7 @@ from numpy.testing import assert_allclose
 from over_all import over_all
 
 import graphcam as gc
+from graphcam.constructions.arm_positions import example_station, lift_directions
 from graphcam.constructions.axes import sense_caption
 from graphcam.constructions.chain import Chain
 from graphcam.drafting.act_order import pieces_of
@@ -35,6 +37,7 @@ from graphcam.drafting.marks import (
     Segments,
 )
 from graphcam.drafting.pencil import Pencil
+from graphcam.tasks.task_file import task_from
 
 SIGMA = 0.1
 TREMBLING = Pencil(line=SIGMA, dividers=SIGMA, protractor=0.004, seed=3)
@@ -911,3 +914,38 @@ def test_numbers_stand_only_where_their_points_can_be_told_apart():
             assert all(abs(p - q) >= 4.5 for p, q in combinations(own, 2))
         if points is tips:
             assert all(np.abs(ends - p).min() >= 4.5 for p in at)
+
+
+def phase(kind: str, angle: float, lift: float = 0.0) -> dict:
+    return {"kind": kind, "angle": angle} | ({"lift": lift, "law": "rectangular"} if lift else {})
+
+
+SHORT_RETURN = {
+    "rotation": "ccw",
+    "motion": {
+        "phases": [
+            phase("rise", 75, 15),
+            phase("dwell", 80),
+            phase("return", 5, 15),
+            phase("dwell", 50),
+            phase("rise", 50, 7.5),
+            phase("return", 50, 7.5),
+            phase("dwell", 50),
+        ]
+    },
+    "follower": {"kind": "oscillating", "arm": 125, "distance": 150, "lift": "angle"},
+    "cam": {"prime_radius": 60},
+}
+
+
+@pytest.mark.parametrize("angle", [2, 5, 10])
+@pytest.mark.parametrize("pencil", [None, Pencil.of(0.2), Pencil.of(0.5), TREMBLING])
+def test_the_worked_arm_moves_the_way_that_is_told(angle, pencil):
+    said = copy.deepcopy(SHORT_RETURN)
+    said["motion"]["phases"][2]["angle"], said["motion"]["phases"][1]["angle"] = angle, 85 - angle
+    drawn = gc.solve(task_from(said), pencil).chain["minimum_radius"]
+    integrated = drawn.givens.integrated
+    directions = lift_directions(integrated)
+    for direction in (1, -1):
+        assert directions[example_station(integrated, drawn.acts["tips"], direction)] == direction
+    assert [part for step in drawn.steps() for part in step.parts]

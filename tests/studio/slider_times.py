@@ -34,6 +34,7 @@ MOVED = """async ([from, by, moves]) => {
     port1.onmessage = done;
     port2.postMessage(0);
   }));
+  dispatchEvent(new PointerEvent("pointerdown"));
   for (let k = 0; k < moves; k += 1) {
     await wait(30);
     const before = stats.at(-1).seq, start = performance.now();
@@ -44,7 +45,7 @@ MOVED = """async ([from, by, moves]) => {
     const { construct, exact, svg, told } = studio.shown.ms;
     found.push([performance.now() - start, construct + exact + svg + (told || 0)]);
   }
-  slider.dispatchEvent(new Event("change", { bubbles: true }));
+  dispatchEvent(new PointerEvent("pointerup"));
   return found;
 }"""
 

@@ -50,7 +50,7 @@ class Engine:
 
     def pictures(self) -> list[Plain]:
         """The requests of the large view."""
-        return [each for each in self.asked if each.get("warnings")]
+        return [each for each in self.asked if "station" in each]
 
     def answered(self, path: str, request: Plain) -> Plain:
         if path == "/engine":

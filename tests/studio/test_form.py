@@ -7,6 +7,7 @@ import pytest
 from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
+from graphcam.studio.handle import changes_with
 from graphcam.studio.sizes_form import form_of, phases_without, with_dwell, with_step
 from graphcam.studio.task_paths import changed_task, steps_of, value_at
 
@@ -17,9 +18,10 @@ WITHOUT = {
     "measured": {"motion.table"},
     "flat": {"limits.rest"},
     "swinging-face": {"limits.rest"},
-    "arcs": {"follower.kind"},
+    "arcs": {"follower.kind", "arcs.C1[0]", "arcs.C1[1]"},
 }
-"""What a task says without a choice: a table is a file, a flat face has no angle at rest, arcs have one follower."""
+"""What a task says without a choice: a table is a file, a flat face has no angle at rest, arcs have one
+follower, and C1 goes with D."""
 
 
 def leaves(table, path=""):
@@ -66,7 +68,7 @@ def test_the_ends_of_every_range_can_be_typed(name):
         if field["kind"] not in ("number", "open-number") or field["path"] == "pencil" or field["path"][:4] == "arcs":
             continue
         for end in (field["min"], field["max"]):
-            typed = changed_task(changed_task(task, field.get("first", {})), {field["path"]: end})
+            typed = changed_task(task, changes_with(field, field["path"], end))
             assert value_at(rebuilt(typed).to_dict(), field["path"]) == end
 
 

@@ -12,6 +12,7 @@ from studio_tasks import BUILT_IN, plain_task, rebuilt, solved
 
 import graphcam as gc
 from graphcam.studio.engine import answer
+from graphcam.studio.handle import changes_with
 from graphcam.studio.handles import dragged, handles_of
 from graphcam.studio.held_solutions import hold_of
 from graphcam.studio.task_paths import changed_task, value_at
@@ -104,15 +105,11 @@ def a_step(name, handle, drawn, other):
         half = axis["value"] + grabbed["fine"] / 2
         sizes = {path: value for path, value in drawn.changes.items() if path not in STATE}
         task = changed_task(plain_task(name), sizes)
-        task = changed_task(task, {axis["path"]: half} | rest_of(axis, half))
+        task = changed_task(task, changes_with(axis, axis["path"], half))
         request = views_request({"task": task, "views": [], "phi": PHI})
         nudged = there(moved_task(request, hold_of(at_rest(name)["hold"])), handle)
         total += apart(handle, nudged, other["at"])
     return 1.2 * total + 0.02
-
-
-def rest_of(axis, value):
-    return {axis["sum"]["path"]: axis["sum"]["total"] - value} if "sum" in axis else {}
 
 
 def assert_nearest_station(name, handle, drawn, other, to):
@@ -253,9 +250,8 @@ def test_every_axis_names_a_path_of_the_task(name):
             assert axis["min"] <= axis["value"] <= axis["max"]
             if axis["path"] in STATE:
                 continue
-            start = changed_task(task, axis.get("first", {}))
             value = min(axis["value"] + axis["step"], axis["max"])
-            new = rebuilt(changed_task(start, {axis["path"]: value} | rest_of(axis, value)))
+            new = rebuilt(changed_task(task, changes_with(axis, axis["path"], value)))
             assert value_at(new.to_dict(), axis["path"]) == pytest.approx(value)
 
 

@@ -28,7 +28,7 @@ def local(tmp_path, monkeypatch) -> Iterator[tuple[StudioServer, threading.Threa
         thread = threading.Thread(target=server.run)
         thread.start()
         yield server, thread
-        server._ends = 0.0
+        server._ends = {b"": 0.0}
         thread.join()
 
 
@@ -127,5 +127,5 @@ def test_another_page_gets_nothing_even_with_the_token(local, window, tmp_path):
         page.wait_for_url(f"{own}write")
         assert "no other origin may ask" in page.content()
     assert asked == []
-    assert server._ends is None
+    assert not server._ends
     assert not (tmp_path / "out").exists()

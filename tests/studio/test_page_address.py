@@ -78,7 +78,7 @@ def test_a_token_is_taken_out_of_the_address_and_the_state_behind_it_kept(opened
     state = page.evaluate("() => location.hash").removeprefix("#")
     page = opened(at=f"#t=secret&{state}")
     assert "secret" not in page.url
-    assert page.evaluate("() => sessionStorage.token") == "secret"
+    assert page.evaluate("() => localStorage.token") == "secret"
     assert task_of(page)["follower"]["offset"] == -6
 
 

@@ -44,7 +44,9 @@ async function unpacked(letters) {
 function addressOf(config) {
   const base = config.builtin[config.name] ? config.name : Object.keys(config.builtin)[0];
 
-  async function write({ task, name, view, step, phi, mode, pin, exercise }) {
+  // In a tour it is the person's own task that is kept.
+  async function write({ mode, pin, exercise, own, ...shown }) {
+    const { task, name, view, step, phi } = own || shown;
     const from = config.builtin[name] ? name : base;
     const d = differences(config.builtin[from], task), data = { b: from };
     if (Object.keys(d).length) data.d = d;

@@ -7,9 +7,9 @@ const REST = 120;
 const OTHER_SIZE = 1.12;
 
 function askingOf(page) {
-  const { at, word, state, queue, large, small, last, stage, strip, sizes } = page, now = state.get;
+  const { at, config, word, state, queue, large, small, last, stage, strip, sizes } = page, now = state.get;
   const lettered = new Set();
-  let round = 0, resting = 0;
+  let round = 0, resting = 0, unanswered = null;
 
   // --- the picture -----------------------------------------------------------------------------------------------------------
 
@@ -19,59 +19,83 @@ function askingOf(page) {
     return frame ? stage.scale(frame) : Math.min(at("canvas").clientWidth / 190, at("canvas").clientHeight / 180) || 1.5;
   }
 
-  function viewsAsked() {
-    const name = page.view();
+  // Letters grow with the stage: on a phone they can just be read, on a projector from afar [pixels].
+  const letterHeight = () => Math.round(Math.max(10, Math.min(24, at("canvas").clientWidth / 66, at("canvas").clientHeight / 50)));
+
+  function viewsAsked(aim = {}) {
+    const name = page.view(aim.view);
     if (!name || page.turns() || now().board) return [];
-    return [{ name, px_per_mm: page.hand?.scale || scaleOf(name), have: large.have(name) }];
+    return [{ name, px_per_mm: page.hand?.scale || scaleOf(name), letter_px: letterHeight(), have: aim.forget ? {} : large.have(name) }];
   }
 
   // At rest all is told; while a hand is down only what is seen of it.
-  function pictureRequest() {
-    const { task, phi, station, upto, panel } = now(), { hand } = page, held = Boolean(hand && !hand.released);
+  function pictureRequest(aim, hand) {
+    const { task, phi, station, upto, panel } = { ...now(), ...aim };
     return {
-      ask: "views", language: page.config.language, upto, views: viewsAsked(), warnings: true,
-      ...(hand?.drag ? { task: hand.before, drag: hand.drag, phi: hand.phi, station: hand.station } : { task, phi, station }),
-      hold: held ? hand.hold : null, told: !held, form: !held, values: !held || panel === "values",
+      ask: "views", language: page.config.language, upto, views: viewsAsked(aim), task, phi, station,
+      ...(aim.drag && { drag: aim.drag }),
+      hold: hand ? hand.hold : null, told: !hand, form: !hand, warnings: !hand, values: !hand || panel === "values",
       mechanism: !last.mechanism || page.turns(),
     };
   }
 
-  function ask(done = () => {}) {
-    const question = {};
-    const build = () => {
-      question.request = pictureRequest();
-      question.hand = page.hand;
+  // The picture of the state, of what a hand that is down makes of it, or of what is wanted of it, see changing.js.
+  function ask(wanted = null) {
+    const question = { wanted };
+    const request = () => {
+      question.hand = wanted ? null : page.hand;
+      question.aim = wanted ? wanted.aim() : page.hand ? page.aimOf(page.hand) : {};
+      question.request = pictureRequest(question.aim, question.hand);
       return question.request;
     };
-    queue.picture(build, (answer) => {
-      take(answer, question);
-      done(answer);
-    });
     rest();
+    return queue[wanted ? "change" : "picture"](request, (answer) => take(answer, question));
   }
 
-  function take(answer, { request, hand }) {
-    if (!answer.ok) return refuse(answer, request);
-    page.failed = null;
+  function take(answer, question) {
+    const { request, hand, aim, wanted } = question;
+    // What a hand asked that has let go is asked again.
+    if (hand && hand !== page.hand) return;
+    if (!answer.ok) return refuse(answer, question);
+    if (wanted || hand?.changes || !sizes.refused()) page.failed = null;
     page.notice(null);
+    unanswered = null;
+    if (aim.forget) page.forget();
     // What was not asked for stays what it was.
     for (const key of ["values", "form", "warnings", "mechanism"]) if (request[key]) last[key] = answer[key];
     if (request.mechanism && !request.drag) last.turned = request.task;
     for (const key of ["names", "sizes", "handles", "hold"]) if (answer[key]) last[key] = answer[key];
     Object.assign(page.shown, answer);
+    page.shown.error = null;
     if (hand && request.hold) hand.hold = answer.hold;
     for (const one of answer.views) large.take(one, request.told);
-    if (hand && hand === page.hand) page.follow(answer.changes || {});
+    accept(answer, question);
     strip.build(page.viewNames());
-    if (request.form) showForm(answer.form);
+    if (request.form) showForm(answer);
     if (request.told) page.showAll();
     else page.showAnswer();
     if (request.values && !request.told) page.showValueTables();
     askAgain(request.views[0]);
   }
 
-  function showForm(form) {
-    page.whatIf.offer(form);
+  // What was drawn is the state.
+  function accept({ changes = {} }, { aim: { drag, forget, ...aim }, wanted }) {
+    const before = wanted?.before?.() || state.entry(), { phi, station, ...ofTask } = changes;
+    if (drag) {
+      Object.assign(aim, { task: withChanges(aim.task, ofTask) }, phi !== undefined && { phi }, station !== undefined && { station });
+      sizes.follow(ofTask);
+    }
+    page.accepting = true;
+    state.set(aim);
+    page.accepting = false;
+    if (!wanted) return;
+    state.remember(before, wanted.keys);
+    wanted.done?.(true);
+    if (!forget) queueMicrotask(() => page.announceChange(before.task));
+  }
+
+  function showForm({ form, swept = [] }) {
+    page.whatIf.offer(swept);
     // Of inert sizes those that the task gives: what was found is an answer.
     if (!page.hand) sizes.show(now().inert ? form.filter((field) => field.value !== null) : form);
   }
@@ -89,20 +113,30 @@ function askingOf(page) {
     ask();
   }
 
-  // The last good picture stays, paler; the value stays as it was typed.
-  function refuse(answer, request) {
-    if (answer.lost) return lost();
-    const { message, remedy } = answer.error, beside = sizes.showError(answer.error);
-    if (!request.drag) state.refuse(request.task);
-    if (!beside) page.announce(message);
-    page.failed = beside ? word("not_drawn") : [message, remedy].filter(Boolean).join("; ");
+  // The last good picture stays, paler, and so does the state; the value stays in its field as it was typed.
+  function refuse(answer, { aim, wanted, hand }) {
+    if (answer.lost) return lost(answer, aim, wanted);
+    const { message, remedy } = answer.error, said = [message, remedy].filter(Boolean).join("; ");
+    const beside = !aim.forget && sizes.showError(answer.error, Object.keys(wanted?.changes || hand?.changes || {}));
+    if (!beside) page.announce(said);
+    page.failed = beside ? word("not_drawn") : said;
     page.shown.error = answer.error;
     page.showAll();
+    wanted?.done?.(false);
+    rest();
+    // An address, a file: there is no field for it, and what was there is drawn.
+    if (aim.forget && !page.drawn()) ask();
   }
 
-  function lost() {
+  // No answer: it is asked for again, and what was wanted is kept in the address.
+  function lost({ error }, aim, wanted) {
+    const before = Boolean(unanswered);
+    unanswered = aim && !aim.drag ? aim : {};
     writeAddress();
-    page.notice(word("lost"), make("button", { type: "button", class: "main", text: word("again"), onclick: () => location.reload() }));
+    page.failed = word("lost");
+    page.showStatus();
+    const again = () => (config.transport === "server" ? ask(wanted) : location.reload());
+    page.notice([word("lost"), error.message, before && word("ended")].filter(Boolean).join(" "), make("button", { type: "button", class: "main", text: word("again"), onclick: again }));
   }
 
   // --- at rest: the address, the small views, the pinned cam ------------------------------------------------------------------
@@ -154,14 +188,16 @@ function askingOf(page) {
     if (!pin) return;
     // With the scales of the present cam, or the two could not be compared.
     const answer = await queue.question({ ask: "views", language: page.config.language, task: pin, phi, views, values: true, told: false, hold: last.hold });
-    if (!goesOn()) return;
-    page.pinned = answer.ok ? { name, values: answer.values, view: answer.views[0] } : null;
+    if (!goesOn() || answer.lost) return;
+    // What cannot be drawn cannot be pinned.
+    if (!answer.ok) return state.set({ pin: null });
+    page.pinned = { name, values: answer.values, view: answer.views[0] };
     page.showPinned();
     page.showValueTables();
   }
 
   async function writeAddress() {
-    const hash = await page.address.write(now());
+    const hash = await page.address.write({ ...now(), ...unanswered });
     try {
       if (hash && hash !== location.hash) history.replaceState(null, "", hash);
     } catch { /* a page in a frame may not */ }

@@ -2,17 +2,29 @@
 "use strict";
 
 function changingOf(page) {
-  const { state, sizes, last, decimal } = page, now = state.get;
+  const { state, sizes, last, decimal, queue } = page, now = state.get;
+  let newest = null;
+
+  // What is wanted is asked of the engine first, and becomes the state with its answer, as one entry of undo: `aim` is made
+  // when its turn comes, of the state to which it is a change.  It may be {drag} too, of which the engine says what it is.
+  function want(aim, { keys = null, before } = {}) {
+    const wanted = { aim, keys, before };
+    wanted.job = page.ask(wanted);
+    return wanted;
+  }
 
   function change(changes, byKey = false) {
     if (page.hand || now().inert) return;
-    const before = now().task;
-    if (byKey) state.changeByKey(changes);
-    else {
-      state.change(changes);
-      page.ask(announced(before));
-    }
     sizes.follow(changes);
+    const time = performance.now(), all = { ...changes };
+    // Keys that come while the engine is at work are one change.
+    if (byKey && newest?.keys && queue.isDue(newest.job)) {
+      newest.keys.last = time;
+      Object.assign(newest.changes, changes);
+      return;
+    }
+    newest = want(() => ({ task: withChanges(now().task, all) }), { keys: byKey ? { first: time, last: time } : null });
+    newest.changes = all;
   }
 
   // Of a handle: sizes, the cam angle or a station.
@@ -23,25 +35,58 @@ function changingOf(page) {
     if (Object.keys(ofTask).length) change(ofTask, byKey);
   }
 
+  // What was refused is left first: it stands in its field alone.
+  function leave() {
+    if (!page.failed && !sizes.refused()) return false;
+    page.failed = null;
+    sizes.restore();
+    page.showAll();
+    page.ask();
+    return true;
+  }
+
   function travel(way) {
-    if (!page.hand && !now().inert) state[way]();
+    if (page.hand || now().inert) return;
+    queue.after(() => leave() || state[way]());
+  }
+
+  function escape() {
+    if (page.hands.held()) page.hands.cancel();
+    else if (page.hand) release(true);
+    else queue.after(() => leave() || state.escapeBurst());
   }
 
   // --- a hand that is down ----------------------------------------------------------------------------------------------------
 
+  // It is at work on what the page has when it is first asked about: what is wanted before is decided by then.
+  function begun(hand) {
+    if (!hand.before) Object.assign(hand, { before: state.entry(), phi: now().phi, station: now().station, hold: last.hold || null });
+    return hand;
+  }
+
   function takeHold() {
-    const { task, phi, station } = now();
-    state.endBurst();
     page.still();
-    page.hand = { before: task, phi, station, hold: last.hold || null, scale: page.scaleOf(page.view()), drag: null };
+    page.hand = { before: null, scale: page.scaleOf(page.view()), drag: null, changes: null };
+    if (!queue.busy()) begun(page.hand);
     document.body.classList.add("held");
   }
 
-  function letGo() {
-    const own = page.hand;
+  // What a hand makes of the task at which it took hold.
+  function aimOf(hand) {
+    const { before, phi, station, drag, changes } = begun(hand);
+    return drag ? { task: before.task, drag, phi, station } : { task: changes ? withChanges(before.task, changes) : before.task };
+  }
+
+  // It ends with the pointer, not with an answer.
+  function letGo(cancelled) {
+    const { hand } = page;
     page.hand = null;
     document.body.classList.remove("held");
-    return own;
+    if (!cancelled) return Object.assign(want(() => aimOf(hand), { before: () => hand.before }), { changes: hand.changes });
+    const { before, phi, station } = hand;
+    if (before) state.set({ ...before, phi, station });
+    page.failed = null;
+    page.ask();
   }
 
   function grab() {
@@ -52,81 +97,58 @@ function changingOf(page) {
 
   function drag(to) {
     page.hand.drag = to;
-    if (page.turns()) page.turnTo(to.to);
-    else page.ask();
+    if (!page.turns()) return page.ask();
+    begun(page.hand);
+    page.turnTo(to.to);
   }
 
-  // What a drag came to, as the engine says.
-  function follow({ phi, station, ...ofTask }) {
-    const { hand } = page;
-    if (!hand.drag) return;
-    if (phi !== undefined) state.set({ phi });
-    if (station !== undefined) state.set({ station });
-    state.set({ task: withChanges(hand.before, ofTask) });
-    sizes.follow(ofTask);
-  }
-
+  // The cam is turned by the page.
   function drop(cancelled) {
-    if (cancelled) {
-      const { before, phi, station } = letGo();
-      state.set({ task: before, phi, station });
-      page.ask();
-    } else if (page.turns()) {
-      letGo();
-      page.ask();
-    } else {
-      page.hand.released = true;
-      page.ask(comeToRest);
-    }
+    if (page.turns()) page.hand.drag = null;
+    letGo(cancelled);
   }
 
-  function comeToRest(answer) {
-    const { before } = letGo();
-    state.remember(before);
-    if (answer.ok) sizes.show(answer.form);
-    page.showAll();
-    announced(before)();
-    page.rest();
-  }
+  // --- a slider that is moved: by a pointer that is down, else by keys -----------------------------------------------------------
 
-  // --- a slider that is moved ---------------------------------------------------------------------------------------------------
+  const UP = ["pointerup", "pointercancel", "lostpointercapture", "blur"];
+  let pressed = false;
 
   function slide(changes) {
+    if (!pressed) return change(changes, true);
     if (now().inert || page.hand?.drag) return;
-    if (!page.hand) {
-      takeHold();
-      letGoWithThePointer();
-    }
+    if (!page.hand) takeHold();
+    page.hand.changes = changes;
     sizes.follow(changes);
-    state.set({ task: withChanges(page.hand.before, changes) });
-  }
-
-  // A slider that ends where it began tells of no change, and one that is gone from the page tells nothing.
-  function letGoWithThePointer() {
-    const { hand } = page, ends = ["pointerup", "pointercancel", "blur"];
-    const over = () => {
-      for (const end of ends) removeEventListener(end, over, true);
-      // After what the slider itself still tells.
-      setTimeout(() => page.hand === hand && release());
-    };
-    for (const end of ends) addEventListener(end, over, true);
+    page.ask();
   }
 
   function release(cancelled = false) {
-    if (!page.hand || page.hand.drag) return;
-    const { before } = letGo();
-    if (cancelled) state.set({ task: before });
-    else state.remember(before);
-    page.ask(announced(before));
+    if (page.hand?.changes) letGo(cancelled);
+  }
+
+  addEventListener("pointerdown", () => (pressed = true), true);
+  for (const end of UP) {
+    addEventListener(end, ({ type, target }) => {
+      if (type === "blur" && target !== window) return;
+      // After what the slider itself still tells.
+      setTimeout(() => {
+        pressed = false;
+        release(type === "pointercancel");
+      });
+    }, true);
   }
 
   // --- what is said of it ---------------------------------------------------------------------------------------------------------
 
-  const phasesSaid = () => (last.form?.find((field) => field.kind === "phases")?.phases || [])
-    .map((phase, k) => ({ path: `motion.phases[${k}].angle`, name: `${phase.symbol} ${phase.name}`, unit: "°" }));
+  function phasesSaid() {
+    const { phases = [], lift } = last.form?.find((field) => field.kind === "phases") || {};
+    return phases.flatMap((phase, k) => ["angle", ...(k ? ["lift"] : [])].map((what) => ({
+      path: `motion.phases[${k}].${what}`, name: `${phase.symbol} ${phase.name}`, unit: what === "lift" ? lift.unit : "°",
+    })));
+  }
 
   // One sentence when something came to rest.
-  const announced = (before) => () => {
+  function announceChange(before) {
     const isMoved = ({ path }) => !alike(valueAt(before, path), valueAt(now().task, path));
     const moved = [...phasesSaid(), ...sizes.fields()].filter(isMoved);
     if (page.failed || !moved.length) return;
@@ -134,7 +156,7 @@ function changingOf(page) {
     const found = (last.values || []).filter((value) => /radius|pressure/.test(value.id)).slice(0, 2);
     const warned = (last.warnings || []).slice(0, 1).map((each) => each.text);
     page.announce([...said, ...found.map((value) => `${value.title} ${value.said.drawn}`), ...warned].join(", "));
-  };
+  }
 
-  return { change, changeAny, travel, grab, drag, follow, drop, slide, release };
+  return { want, change, changeAny, leave, travel, escape, grab, drag, drop, slide, aimOf, announceChange };
 }

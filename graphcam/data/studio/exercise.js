@@ -48,9 +48,26 @@ studioModes.exercise = (() => {
     make("p", { id: `told-${asked.name}` }, make("span", { class: "verdict" }), " ", make("span", { class: "sentence" })));
   }
 
+  // What was typed is kept in this browser, by the exercise.
+  const keyOf = ({ title, salt, answers }) => `answers ${title || ""} ${salt || JSON.stringify(answers.map((asked) => asked.text))}`;
+  const fields = () => [...document.querySelectorAll("#card [data-answer] input")];
+
+  function keep(exercise) {
+    try {
+      localStorage.setItem(keyOf(exercise), JSON.stringify(Object.fromEntries(fields().map((field) => [field.name, field.value]))));
+    } catch { /* a browser may forbid it */ }
+  }
+
+  function restore(exercise) {
+    try {
+      const kept = JSON.parse(localStorage.getItem(keyOf(exercise)) || "{}");
+      for (const field of fields()) field.value = kept[field.name] ?? "";
+    } catch { /* as above */ }
+  }
+
   function showCard(exercise) {
     const checks = exercise.answers.some((asked) => asked.check);
-    studio.panel.card(make("form", { class: "mode-card", "aria-label": word("exercise"), novalidate: true, onsubmit: check },
+    studio.panel.card(make("form", { class: "mode-card", "aria-label": word("exercise"), novalidate: true, onsubmit: check, oninput: () => keep(exercise) },
       make("h2", { text: exercise.title || word("exercise") }),
       exercise.text && make("p", { text: exercise.text }),
       make("ol", { class: "asked", "aria-label": word("answers") }, exercise.answers.map(askedOf)),
@@ -109,6 +126,7 @@ studioModes.exercise = (() => {
       hidden: ["mechanism", "values", "what-if", "warnings", "board"],
     });
     showCard(exercise);
+    restore(exercise);
     studio.announce(exercise.title || word("exercise"));
     showLastGiven();
   }

@@ -10,13 +10,8 @@ function filesOf(page) {
   }
   const refused = ({ error }) => said([error.message, error.remedy].filter(Boolean).join("; "), true);
 
-  // Another task takes the place of this one; undo brings it back.
-  function load(task, name = now().name) {
-    const before = now().task;
-    page.forget();
-    state.set({ name, view: null, step: null, part: null, phi: USUAL_PHI, station: null, task });
-    state.remember(before);
-  }
+  // Another task takes the place of this one; undo brings it back.  Resolves to whether it can be drawn.
+  const load = (task, name = now().name, more = {}) => page.wantWhole({ task, name, ...more });
 
   async function save() {
     const answer = await queue.question({ ask: "task_file", task: now().task });

@@ -20,9 +20,14 @@ function valueByKey(axis, key, fine) {
   return Math.round(inside * 1e9) / 1e9;
 }
 
-// What is changed with a size: what must stand in the task before, and what is the rest of a sum.
-const changesOf = ({ path, first, sum }, value) =>
-  ({ ...first, [path]: value, ...(sum ? { [sum.path]: Math.round((sum.total - value) * 1e9) / 1e9 } : {}) });
+const tidy = (value) => Math.round(value * 1e12) / 1e12;
+
+// What is changed with a size: what must stand in the task before, what is the rest of a sum, and what stays such a part
+// of it.
+const changesOf = ({ path, first, sum, with: shares = {} }, value) => ({
+  ...first, [path]: value, ...(sum ? { [sum.path]: Math.round((sum.total - value) * 1e9) / 1e9 } : {}),
+  ...Object.fromEntries(Object.entries(shares).map(([other, share]) => [other, tidy(value * share)])),
+});
 
 // The axis that an arrow moves: of two, the one that goes its way on the screen.
 function axisOfKey(axes, key, focused) {

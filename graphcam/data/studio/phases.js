@@ -21,7 +21,16 @@ function angleChanges(phases, k, angle) {
   return { [`motion.phases[${k}].angle`]: angle, [`motion.phases[${other}].angle`]: rest };
 }
 
-function phasesOf({ change, slide, release, word, decimal }) {
+// A lift that is typed: those of the other sense follow in proportion, so that the cam closes.
+function liftChanges(phases, k, lift) {
+  const lifts = phases.map((phase, j) => (j === k ? lift : phase.lift || 0)), { kind } = phases[k];
+  const sum = (wanted) => phases.reduce((total, phase, j) => total + (wanted(phase.kind) ? lifts[j] : 0), 0);
+  const other = (one) => one !== kind && one !== "dwell", by = sum((one) => one === kind) / sum(other);
+  return Object.fromEntries(phases.map((phase, j) => [`motion.phases[${j}].lift`, other(phase.kind) ? tidy(by * lifts[j]) : lifts[j]])
+    .filter((_, j) => j === k || other(phases[j].kind)));
+}
+
+function phasesOf({ change, slide, refuse, word, decimal }) {
   const bar = make("div", { class: "phase-bar" });
   const editor = make("div", { class: "phase-editor" });
   const error = make("p", { class: "error", id: "phases-error", role: "alert", hidden: true });
@@ -37,7 +46,7 @@ function phasesOf({ change, slide, release, word, decimal }) {
   function segmentOf(phase, k) {
     return make("button", {
       type: "button", class: phase.kind === "dwell" ? "dwell" : "moves", "data-key": `phase/${k}`,
-      "aria-pressed": k === chosen, "aria-label": `${phase.symbol} ${phase.name} ${shortNumber(phase.angle, decimal())}°`,
+      "aria-pressed": String(k === chosen), "aria-label": `${phase.symbol} ${phase.name} ${shortNumber(phase.angle, decimal())}°`,
       onclick: () => { chosen = chosen === k ? null : k; build(); },
     }, make("b"), make("span", { text: phase.name }));
   }
@@ -67,15 +76,8 @@ function phasesOf({ change, slide, release, word, decimal }) {
     border.setPointerCapture(event.pointerId);
     border.querySelector("input").focus({ preventScroll: true });
     const move = (now) => slide(borderChanges(before, k, (now.clientX - box.left) / box.width * turn, now.shiftKey));
-    const end = (cancelled) => {
-      border.removeEventListener("pointermove", move);
-      border.onpointerup = border.onpointercancel = border.onkeydown = null;
-      release(cancelled);
-    };
     border.addEventListener("pointermove", move);
-    border.onpointerup = () => end(false);
-    border.onpointercancel = () => end(true);
-    border.onkeydown = (key) => key.key === "Escape" && end(true);
+    border.addEventListener("lostpointercapture", () => border.removeEventListener("pointermove", move), { once: true });
   }
 
   function place() {
@@ -100,8 +102,12 @@ function phasesOf({ change, slide, release, word, decimal }) {
     const input = make("input", { type: "text", inputmode: "decimal", value: shortNumber(value, decimal()), "data-key": `phase-${name}`, autocomplete: "off" });
     input.addEventListener("change", () => {
       const typed = typedNumber(input.value);
-      if (Number.isNaN(typed)) input.setAttribute("aria-invalid", "true");
+      row.input = input;
+      if (Number.isNaN(typed)) refuse();
       else change(changes(typed));
+    });
+    input.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") input.value = shortNumber(value, decimal());
     });
     return make("label", { class: "row" }, make("span", { class: "label", text: word(name) }), input, make("span", { class: "unit", text: unit }));
   }
@@ -111,7 +117,7 @@ function phasesOf({ change, slide, release, word, decimal }) {
       make("option", { value: law.value, text: law.name, selected: law.value === phase.law })));
     const { ratio } = field;
     // Only some laws have parts whose ratio is chosen.
-    select.addEventListener("change", () => change({
+    select.addEventListener("change", () => (row.input = select) && change({
       [`${path}.law`]: select.value, ...(phase.ratio !== undefined && !ratio?.laws.includes(select.value) ? { [`${path}.ratio`]: null } : {}),
       // Only one has blends.
       ...(phase.blends !== undefined && select.value !== "constant-velocity" ? { [`${path}.blends`]: null } : {}),
@@ -128,6 +134,7 @@ function phasesOf({ change, slide, release, word, decimal }) {
 
   function build() {
     if (chosen !== null) chosen = Math.min(chosen, phases.length - 1);
+    row.input = null;
     keepingFocus(element, () => {
       bar.replaceChildren(...phases.map(segmentOf), ...phases.slice(1).map((_, k) => borderOf(k)));
       editor.classList.toggle("hint", chosen === null);
@@ -141,7 +148,7 @@ function phasesOf({ change, slide, release, word, decimal }) {
     return [
       make("p", { class: "label", text: `${phase.symbol} ${phase.name}` }),
       phases.length > 1 && numberOf("angle_of_phase", phase.angle, "°", (angle) => angleChanges(phases, chosen, angle)),
-      phase.kind !== "dwell" && numberOf("lift", phase.lift, field.lift?.unit || "", (lift) => ({ [`${path}.lift`]: lift })),
+      phase.kind !== "dwell" && numberOf("lift", phase.lift, field.lift?.unit || "", (lift) => liftChanges(phases, chosen, lift)),
       phase.kind !== "dwell" && lawOf(phase, path),
       ratio?.laws.includes(phase.law) && numberOf("ratio", phase.ratio ?? 1, "", (value) => ({ [`${path}.ratio`]: value })),
       editButtons(phase),
@@ -152,18 +159,33 @@ function phasesOf({ change, slide, release, word, decimal }) {
     const same = field && JSON.stringify(field) === JSON.stringify(now);
     field = now;
     phases = now.phases;
-    if (same) place();
+    // What somebody is typing stays.
+    if (same && editor.contains(document.activeElement)) place();
     else build();
   }
 
   function follow(changes) {
-    const moved = Object.entries(changes).map(([path, value]) => [/^motion\.phases\[(\d+)\]\.angle$/.exec(path), value]).filter(([found]) => found);
-    if (!moved.length || !field) return;
-    phases = field.phases.map((phase, k) => ({ ...phase, angle: moved.find(([found]) => Number(found[1]) === k)?.[1] ?? phase.angle }));
-    const angle = editor.querySelector("[data-key='phase-angle_of_phase']");
-    if (angle) angle.value = shortNumber(phases[chosen].angle, decimal());
+    const moved = (k, name) => changes[`motion.phases[${k}].${name}`];
+    if (!field || !phases.some((_, k) => moved(k, "angle") ?? moved(k, "lift"))) return;
+    phases = field.phases.map((phase, k) => ({
+      ...phase, angle: moved(k, "angle") ?? phase.angle, ...(moved(k, "lift") !== undefined && { lift: moved(k, "lift") }),
+    }));
+    for (const [key, name] of [["angle_of_phase", "angle"], ["lift", "lift"]]) {
+      const input = chosen !== null && editor.querySelector(`[data-key='phase-${key}']`);
+      if (input && input !== document.activeElement) input.value = shortNumber(phases[chosen][name], decimal());
+    }
     place();
   }
 
-  return { element, row, show, follow };
+  // As the task has them.
+  function reset() {
+    if (!field) return;
+    phases = field.phases;
+    build();
+  }
+
+  return {
+    element, row, show, follow, reset, isThere: () => element.isConnected,
+    isEdited: (path) => Boolean(path?.startsWith("motion.phases") && row.input?.isConnected),
+  };
 }

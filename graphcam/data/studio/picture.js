@@ -83,7 +83,7 @@ function pictureOf(page) {
     line.title = page.failed || found.map((each) => each.text).join("\n");
     document.body.classList.toggle("stale", Boolean(page.failed));
     showPin();
-    at("undo").disabled = now().inert || !state.past();
+    at("undo").disabled = now().inert || !(state.past() || page.failed || sizes.refused());
     at("redo").disabled = now().inert || !state.future();
   }
 
@@ -140,6 +140,7 @@ function pictureOf(page) {
     page.showPhi();
     showPanels();
     showValueTables();
+    if (at("builtin")) at("builtin").value = now().name;
     at("task-title").textContent = now().task.title?.name || "";
   }
 

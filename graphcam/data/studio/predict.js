@@ -6,7 +6,7 @@ const STEP_BY_STEP = 550;
 
 studioModes.predict = (() => {
   let studio = null, asked = null, guess = null, round = 0, seed = 0, timer = 0, going = null, kind = null, task = null;
-  let watching = false;
+  let watching = false, own = null;
 
   const word = (name) => studio.words[name] ?? name;
   const letter = { centre: "A?", angle: "α?", steepest: "φ?", sharpest: "ρ?" };
@@ -14,12 +14,12 @@ studioModes.predict = (() => {
   // --- the question -------------------------------------------------------------------------------------------------------
 
   async function begin(more = {}) {
-    const own = (round += 1);
+    const asking = (round += 1);
     stop();
     guess?.remove();
     guess = null;
     const answer = await studio.ask({ ask: "predict", language: studio.config.language, task: studio.state.get().task, kind, ...more });
-    if (own !== round) return;
+    if (asking !== round) return;
     if (!answer.ok && kind) {
       kind = null;
       return begin(more);
@@ -28,7 +28,8 @@ studioModes.predict = (() => {
     asked = answer;
     kind = answer.kind;
     task = answer.task;
-    if (more.seed) studio.load(answer.task, answer.name);
+    if (more.seed) await studio.load(answer.task, answer.name);
+    if (asking !== round) return;
     hideAnswers();
     guess = guessOf(studio, asked, letter[kind], told);
     showCard();
@@ -100,10 +101,10 @@ studioModes.predict = (() => {
   // --- the construction --------------------------------------------------------------------------------------------------
 
   async function construct() {
-    const own = round, [x, y] = guess.place();
+    const asking = round, [x, y] = guess.place();
     guess.hold(true);
     const answer = await studio.ask({ ask: "predict", language: studio.config.language, task, kind, guess: [x, y] });
-    if (own !== round || !answer.ok) return guess?.hold(false);
+    if (asking !== round || !answer.ok) return guess?.hold(false);
     going = { steps: [...answer.construct], judged: answer.judged };
     showGoing();
     next();
@@ -161,8 +162,10 @@ studioModes.predict = (() => {
     else guess.show();
   }
 
-  function enter(own) {
-    studio = own;
+  function enter(page) {
+    studio = page;
+    const { name } = studio.state.get();
+    own = { task: studio.state.get().task, name };
     if (!watching) {
       studio.state.subscribe((names) => changed(names));
       studio.stage.onMove(() => guess?.show());
@@ -181,6 +184,8 @@ studioModes.predict = (() => {
     document.body.classList.remove("guessing");
     document.removeEventListener("keydown", pressed, true);
     studio.state.set({ only: null, inert: false, hidden: [], step: null, part: null });
+    // The person's own task is given back.
+    if (studio.state.get().task !== own.task) studio.load(own.task, own.name);
   }
 
   return { enter, leave };

@@ -2,9 +2,9 @@
 "use strict";
 
 function sizesOf(at, acts) {
-  const { change, slide, release, word, decimal } = acts;
-  const rows = new Map(), phases = phasesOf({ change, slide, release, word, decimal });
-  let shape = "", errorAt = null;
+  const { change, slide, leave, refused, word, decimal } = acts;
+  const rows = new Map(), phases = phasesOf({ ...acts, refuse: () => refuseText(phases.row) });
+  let shape = "", shown = "", errorAt = null;
 
   // What is seldom moved is closed at first.
   const SELDOM = /^(drawing|pencil|spring|material)/;
@@ -14,9 +14,6 @@ function sizesOf(at, acts) {
 
   // --- one field -------------------------------------------------------------------------------------------------------
 
-  // What is to be changed with a value: a list that was left open is put there first.
-  const changesFor = (field, value) => ({ ...(field.value === null ? field.first : {}), [field.path]: value });
-
   function numberInput(field, row) {
     const input = make("input", {
       type: "text", inputmode: "decimal", id: idOf(field.path), "data-key": field.path, autocomplete: "off",
@@ -25,9 +22,9 @@ function sizesOf(at, acts) {
     const commit = () => {
       if (input.value === input.shown) return;
       const value = typedNumber(input.value);
-      if (Number.isNaN(value)) return refuse(row, word("no_number"));
+      if (Number.isNaN(value)) return refuseText(row);
       input.shown = input.value;
-      change(changesFor(row.field, value));
+      change(changesOf(row.field, value));
     };
     input.addEventListener("change", commit);
     input.addEventListener("keydown", (event) => {
@@ -35,28 +32,25 @@ function sizesOf(at, acts) {
       if (event.key === "Escape" && input.value !== input.shown) {
         event.stopPropagation();
         input.value = input.shown;
-        forgive(row);
+        leave();
       }
       const by = { ArrowUp: 1, ArrowDown: -1 }[event.key], value = typedNumber(input.value);
       if (!by || Number.isNaN(value)) return;
       event.preventDefault();
       const axis = { ...row.field, value };
-      change(changesFor(row.field, valueByKey(axis, event.key, event.shiftKey)), true);
+      change(changesOf(row.field, valueByKey(axis, event.key, event.shiftKey)), true);
     });
     return input;
   }
 
   function rangeInput(field, row) {
     const input = make("input", { type: "range", "data-key": `${field.path}/range`, "aria-label": field.name });
-    input.addEventListener("input", () => slide(changesFor(row.field, Number(input.value))));
-    input.addEventListener("change", () => release());
-    // A slider that is left with Escape gives the old size back.
-    input.addEventListener("keydown", (event) => event.key === "Escape" && release(true));
+    input.addEventListener("input", () => slide(changesOf(row.field, Number(input.value))));
     return input;
   }
 
   function openSwitch(field, row) {
-    const pick = (given) => change(given ? changesFor(row.field, row.field.adopted ?? row.field.min)
+    const pick = (given) => change(given ? changesOf(row.field, row.field.adopted ?? row.field.min)
       : { [row.field.open || row.field.path]: null });
     const button = (given) => make("button", {
       type: "button", role: "radio", "data-key": `${field.path}/${given}`, "data-given": String(given),
@@ -154,13 +148,27 @@ function sizesOf(at, acts) {
   }
 
   function show(fields) {
+    const news = JSON.stringify(fields);
+    // Of the same sizes again: what was refused stays in its field.
+    if (news === shown && errorAt) return;
+    shown = news;
+    if (errorAt) forgive(errorAt);
     if (shapeOf(fields) !== shape) rebuild(fields);
     shape = shapeOf(fields);
     for (const field of fields) {
       if (field.kind === "phases") phases.show(field);
       else setRow(rows.get(field.path), field);
     }
+  }
+
+  // All fields say again what is drawn.
+  function restore() {
     if (errorAt) forgive(errorAt);
+    phases.reset();
+    for (const row of rows.values()) {
+      row.input.shown = row.input.value;
+      setRow(row, row.field);
+    }
   }
 
   // While a size is moved its numbers follow at once.
@@ -183,6 +191,13 @@ function sizesOf(at, acts) {
     row.input?.setAttribute("aria-invalid", "true");
     const folded = row.element.closest("details");
     if (folded) folded.open = true;
+    // On a phone it may lie below the edge of the panel.
+    row.error.scrollIntoView({ block: "nearest" });
+  }
+
+  function refuseText(row) {
+    refuse(row, word("no_number"));
+    refused();
   }
 
   function forgive(row) {
@@ -192,14 +207,16 @@ function sizesOf(at, acts) {
     row.input?.removeAttribute("aria-invalid");
   }
 
-  // Whether there is a field for the error; the value stays as it was typed.
-  function showError({ field, message, remedy }) {
-    const row = rows.get(field) || (field?.startsWith("motion.phases") ? phases.row : undefined);
-    if (row) refuse(row, [message, remedy].filter(Boolean).join("; "));
+  // Whether there is a field for the error; the value stays as it was typed.  An error that belongs to none is told where
+  // something was changed too.
+  function showError({ field, message, remedy }, changed) {
+    const row = (!phases.isEdited(field) && rows.get(field)) || (field?.startsWith("motion.phases") && phases.isThere() ? phases.row : undefined);
+    const there = row || changed.map((path) => (path.startsWith("motion.phases") && !rows.has(path) ? phases.row : rows.get(path))).find(Boolean);
+    if (there) refuse(there, [message, remedy].filter(Boolean).join("; "));
     return Boolean(row);
   }
 
   at("form").addEventListener("submit", (event) => event.preventDefault());
 
-  return { show, follow, showError, pardon: () => errorAt && forgive(errorAt), fields: () => [...rows.values()].map((row) => row.field) };
+  return { show, follow, showError, restore, refused: () => errorAt !== null, fields: () => [...rows.values()].map((row) => row.field) };
 }

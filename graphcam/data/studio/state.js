@@ -26,9 +26,10 @@ const alike = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 // So many tasks are remembered; keys in so quick a row are one change [ms].
 const REMEMBERED = 200, BURST = 500;
 
+// The task in it has been drawn by the engine: what is only wanted, see changing.js, is no state yet.
 function stateOf(initial) {
-  const state = { ...initial }, watching = [], past = [], future = [], wrong = new Set();
-  let burst = null;
+  const state = { ...initial }, watching = [], past = [], future = [];
+  let burst = 0;
 
   function set(changes) {
     const changed = Object.keys(changes).filter((name) => state[name] !== changes[name]);
@@ -37,96 +38,94 @@ function stateOf(initial) {
     for (const watch of watching) watch(changed);
   }
 
-  // The task before a change that is done: one entry, if it changed anything.
-  function remember(before) {
-    if (alike(before, state.task)) return;
+  const entry = () => ({ task: state.task, name: state.name });
+  const travelled = () => {
+    for (const watch of watching) watch(["past"]);
+  };
+
+  // The entry before a change that is done, if it changed anything; of a burst of keys the first.  `keys` says when the
+  // first and the last key came.
+  function remember(before, keys = null) {
+    if (alike(before.task, state.task)) return;
+    const goesOn = keys?.first < burst;
+    burst = keys ? keys.last + BURST : 0;
+    if (goesOn) return;
     past.push(before);
     if (past.length > REMEMBERED) past.shift();
     future.length = 0;
-    for (const watch of watching) watch(["past"]);
+    travelled();
   }
 
-  // Keys come in bursts: the task before the first of them is remembered.
-  function changeByKey(changes) {
-    const before = burst?.before || state.task;
-    clearTimeout(burst?.timer);
-    burst = { before, timer: setTimeout(endBurst, BURST) };
-    set({ task: withChanges(state.task, changes) });
-  }
-
-  function endBurst() {
-    if (!burst) return;
-    const { before, timer } = burst;
-    clearTimeout(timer);
-    burst = null;
-    remember(before);
+  function travel(from, to) {
+    burst = 0;
+    while (from.length && alike(from.at(-1).task, state.task)) from.pop();
+    if (!from.length) return travelled();
+    to.push(entry());
+    set(from.pop());
+    travelled();
   }
 
   // Back to before the burst, if one is going on.
   function escapeBurst() {
-    if (!burst) return false;
-    clearTimeout(burst.timer);
-    set({ task: burst.before });
-    burst = null;
-    return true;
-  }
-
-  function change(changes) {
-    endBurst();
-    const before = state.task;
-    set({ task: withChanges(before, changes) });
-    remember(before);
-  }
-
-  // What the engine refused is no place to come back to.
-  function travel(from, to) {
-    endBurst();
-    while (from.length && wrong.has(JSON.stringify(from.at(-1)))) from.pop();
-    if (!from.length) return;
-    if (!wrong.has(JSON.stringify(state.task))) to.push(state.task);
-    const task = from.pop();
-    set({ task });
-    for (const watch of watching) watch(["past"]);
+    if (performance.now() >= burst || !past.length) return;
+    burst = 0;
+    set(past.pop());
+    travelled();
   }
 
   return {
-    get: () => state, set, change, changeByKey, endBurst, escapeBurst, remember,
+    get: () => state, set, entry, remember, escapeBurst,
     subscribe: (watch) => watching.push(watch),
-    refuse: (task) => wrong.add(JSON.stringify(task)),
     undo: () => travel(past, future), redo: () => travel(future, past),
-    past: () => past.length + (burst ? 1 : 0), future: () => future.length,
+    past: () => past.length, future: () => future.length,
   };
 }
 
 // --- the queue of questions -----------------------------------------------------------------------------------------------
 
-// One question at a time is with the engine.  Of those for the picture one waits, and the newest takes its place; what
-// else is asked comes when no picture is due.  An answer older than the newest shown is dropped.
+// One question at a time is with the engine.  Changes are asked one after the other, in their order; of those for the
+// picture one waits, and the newest takes its place; what else is asked comes when no picture is due.  Whatever comes
+// back, or nothing, is an answer; one to a picture that is older than the newest shown is dropped.
 function queueOf(ask, stats = []) {
-  const others = [];
-  let seq = 0, shown = 0, running = false, waiting = null;
+  const changes = [], others = [];
+  let seq = 0, shown = 0, running = null, waiting = null;
+
+  function due() {
+    const job = changes.shift() || waiting || others.shift();
+    if (job === waiting) waiting = null;
+    return job;
+  }
+
+  async function answered(job) {
+    try {
+      const answer = await ask({ ...job.request(), seq: job.seq });
+      if (typeof answer?.ok === "boolean") return { ...answer, seq: answer.seq ?? job.seq };
+      throw new Error(String(answer?.error?.message || "nothing"));
+    } catch (error) {
+      return { seq: job.seq, ok: false, lost: true, error: { field: null, message: String(error.message || error), remedy: "" } };
+    }
+  }
 
   async function next() {
-    const job = running ? null : waiting || others.shift();
+    const job = running ? null : due();
     if (!job) return;
-    if (job === waiting) waiting = null;
-    running = true;
-    const began = performance.now();
-    let answer;
-    try {
-      answer = await ask({ ...job.request(), seq: job.seq });
-    } catch (error) {
-      answer = { seq: job.seq, ok: false, lost: true, error: { field: null, message: String(error.message || error), remedy: "" } };
+    if (job.act) {
+      job.act();
+      return next();
     }
-    running = false;
+    running = job;
+    const began = performance.now(), answer = await answered(job);
+    running = null;
     stats.push({ seq: job.seq, ms: performance.now() - began });
     if (stats.length > 500) stats.shift();
-    if (!job.picture) job.done(answer);
-    else if (answer.seq >= shown) {
-      shown = answer.seq;
-      job.done(answer);
+    try {
+      if (!job.picture || answer.seq >= shown) {
+        if (job.picture) shown = answer.seq;
+        job.done(answer);
+      }
+    } finally {
+      next();
     }
-    next();
   }
 
   // A request is made when its turn comes: it then knows what the page has.
@@ -135,10 +134,19 @@ function queueOf(ask, stats = []) {
     next();
   }
 
-  const question = (request) => new Promise((done) => {
-    others.push({ request: () => request, done, seq: ++seq });
+  function put(jobs, job) {
+    job.seq = ++seq;
+    jobs.push(job);
     next();
-  });
+    return job;
+  }
 
-  return { picture, question, busy: () => running || Boolean(waiting), waiting: () => (waiting ? 1 : 0) };
+  return {
+    picture, change: (request, done) => put(changes, { request, done, change: true }),
+    question: (request) => new Promise((done) => put(others, { request: () => request, done })),
+    // What is done when no change is asked about any more.
+    after: (act) => (changes.length || running?.change ? changes.push({ act }) : act()),
+    isDue: (job) => changes.includes(job),
+    busy: () => Boolean(running || waiting || changes.length), waiting: () => (waiting ? 1 : 0),
+  };
 }

@@ -14,6 +14,8 @@
     upto: null, inert: false, hidden: [],
     // Which steps are shown, all if null; and what is asked of a student.
     only: null, exercise: config.exercise,
+    // In a tour: what the person was at before.
+    own: null,
   });
   const now = state.get, stats = [];
   const wire = openWire(config, (text) => page.notice(word("starting").replace("{state}", text)));
@@ -33,10 +35,10 @@
   Object.assign(page, walkOf(page));
   Object.assign(page, {
     strip: stripOf(at, page.open),
-    sizes: sizesOf(at, { change: (...given) => page.change(...given), slide: (changes) => page.slide(changes), release: (back) => page.release(back), word, decimal }),
+    sizes: sizesOf(at, { change: (...given) => page.change(...given), slide: (changes) => page.slide(changes), leave: () => page.leave(), refused: () => page.showStatus(), word, decimal }),
     stepPanel: stepPanelOf(at("panel-step"), words, (part) => page.go(page.currentStep(), part)),
     showValues: valuesPanelOf(at("panel-values"), words),
-    whatIf: whatIfOf(at("panel-what-if"), words, { ask: page.queue.question, state: now, change: (changes) => page.change(changes), decimal }),
+    whatIf: whatIfOf(at("panel-what-if"), words, { ask: page.queue.question, state: now, change: (changes) => page.change(changes), decimal, language: config.language }),
   });
   Object.assign(page, camAngleOf(page), askingOf(page));
   Object.assign(page, changingOf(page));
@@ -63,7 +65,7 @@
       page.showValueTables();
     }
     if (wire.tell && is("task", "view")) wire.tell({ task: now().task, view: now().view });
-    if (page.hand?.drag) return;
+    if (page.hand?.drag || page.accepting) return;
     if (is("task", "view", "board", "upto", "station", "inert") || (is("phi") && !page.turning())) page.ask();
     else if (is("step", "part", "pin", "mode", "hidden")) page.rest();
   });
@@ -133,7 +135,7 @@
       event.preventDefault();
       return page.travel(shiftKey ? "redo" : "undo");
     }
-    if (key === "Escape") return page.hands.held() ? page.hands.cancel() : state.escapeBurst();
+    if (key === "Escape") return page.escape();
     const act = ctrlKey || metaKey || altKey || isTaken(event) ? null : actOf(event);
     if (!act) return;
     event.preventDefault();
@@ -177,21 +179,24 @@
 
   // --- beginning -----------------------------------------------------------------------------------------------------------------
 
+  // Another state as a whole, from an address, a file or the page around this one: resolves to whether it can be drawn.
+  const wantWhole = (whole) => new Promise((done) => {
+    const { task, name } = now(), anew = { view: null, step: null, part: null, phi: USUAL_PHI, station: null };
+    page.want(() => ({ forget: true, task, name, ...anew, ...whole })).done = done;
+  });
+  page.wantWhole = wantWhole;
+
   async function fromAddress() {
     const found = await page.address.read(location.hash);
     if (!found) return;
-    const { mode, ...rest } = found, before = now().task;
-    if (rest.name !== now().name) page.forget();
-    state.set({ view: null, step: null, part: null, phi: USUAL_PHI, ...rest });
-    state.remember(before);
-    setMode(mode);
+    const { mode, ...rest } = found;
+    if (await wantWhole(rest)) setMode(mode);
   }
 
   // The page around this one moves sizes too; what it has heard from here comes back, and is passed over.
   function fromAround(heard) {
-    const before = now().task, task = heard.task && !alike(heard.task, before) ? heard.task : before;
-    state.set({ task, view: "view" in heard ? heard.view : now().view });
-    state.remember(before);
+    if (heard.task && !alike(heard.task, now().task)) page.want(() => ({ task: heard.task, view: "view" in heard ? heard.view : now().view }));
+    else if ("view" in heard) state.set({ view: heard.view });
   }
 
   function resized() {
@@ -202,17 +207,18 @@
 
   if (at("builtin")) at("builtin").value = config.name;
   const { mode, ...found } = (await page.address.read(location.hash)) || {};
-  state.set(found);
   if (config.first && !found.task) {
     const asked = { views: [], told: true, values: true, form: true, warnings: true, mechanism: true };
-    page.take({ views: [], ...config.first }, { request: asked, hand: null });
+    page.take({ ok: true, views: [], ...config.first }, { request: asked, hand: null, aim: {} });
   }
   page.showPanels();
   page.showStatus();
-  page.ask();
+  const isShown = found.task ? wantWhole(found) : page.ask() || true;
   new ResizeObserver(resized).observe(at("canvas"));
   addEventListener("hashchange", fromAddress);
   wire.hear?.(fromAround);
   showModes();
+  await isShown;
   setMode(now().exercise ? "exercise" : mode || "play");
+  showModes();
 })();

@@ -43,9 +43,8 @@ studioModes.tour = (() => {
   function go(k) {
     place = k;
     const card = tour.cards[k];
-    studio.load(card.task, tour.name);
     // The view's last step is shown by no name, so that what comes after a change is its last step too.
-    studio.state.set({ view: card.view, step: card.step, part: null, board: false, phi: card.phi, panel: "step" });
+    studio.load(card.task, tour.name, { view: card.view, step: card.step, part: null, board: false, phi: card.phi, panel: "step" });
     showCard();
     focus("card-title");
     studio.announce(`${placeSaid()}. ${card.ask}`);
@@ -115,18 +114,20 @@ studioModes.tour = (() => {
 
   function changed(names) {
     if (!tour || studio.state.get().mode !== "tour" || !(names.includes("task") || names.includes("phi"))) return;
-    const { goal } = tour.cards[place], own = place;
+    const { goal } = tour.cards[place], here = place;
     clearTimeout(timer);
     if (!goal || answered.has(place)) return;
     timer = setTimeout(() => {
-      if (tour && own === place && isReached(goal, studio.state.get())) answer("done_it");
+      if (tour && here === place && isReached(goal, studio.state.get())) answer("done_it");
     }, NOTICED);
   }
 
   // --- the mode ----------------------------------------------------------------------------------------------------------------
 
-  async function enter(own) {
-    studio = own;
+  async function enter(page) {
+    studio = page;
+    const { task, name, view, step, part, phi } = studio.state.get();
+    studio.state.set({ own: { task, name, view, step, part, phi } });
     if (!watching) studio.state.subscribe(changed);
     watching = true;
     if (!tours) {
@@ -140,6 +141,10 @@ studioModes.tour = (() => {
   function leave() {
     clearTimeout(timer);
     tour = null;
+    // What the person was at before is given back.
+    const { task, own: { name, ...more } } = studio.state.get();
+    studio.state.set({ own: null });
+    if (task !== more.task) studio.load(more.task, name, more);
   }
 
   return { enter, leave };

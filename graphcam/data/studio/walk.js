@@ -9,7 +9,7 @@ function walkOf(page) {
   const named = (name) => last.names?.some((each) => each.name === name);
   const usualView = () => ["combined", "region", "profile"].find(named) || last.names?.[0]?.name;
   const viewNames = () => [...(last.names || []), ...(last.mechanism ? [{ name: "mechanism", title: word("mechanism"), short: word("mechanism") }] : [])];
-  const view = () => (now().view === "mechanism" || named(now().view) ? now().view : usualView());
+  const view = (wanted = now().view) => (wanted === "mechanism" || named(wanted) ? wanted : usualView());
   const titleOf = (name) => viewNames().find((each) => each.name === name)?.title || "";
   const drawn = () => shownOf(large.view(view()));
   const shownOf = (own) => (own && now().only ? { ...own, order: own.order.filter((id) => now().only.includes(id)) } : own);

@@ -3,10 +3,8 @@
 
 // So many designs make a curve; they are asked for in pieces, between which a picture can be asked for.
 const DESIGNS = 200, PIECE = 25;
-// Sizes that move no curve.
-const UNMOVED = /^(speed_rpm|spring|material|pencil|drawing|motion\.tolerance)/;
 
-function whatIfOf(element, words, { ask, state, change, decimal }) {
+function whatIfOf(element, words, { ask, state, change, decimal, language }) {
   const size = make("select", { id: "sweep-size", "data-key": "sweep-size" });
   const charts = make("div", { class: "charts" }), both = make("div");
   const pin = make("button", { type: "button", class: "pins", text: words.pin, onclick: () => document.getElementById("pin").click() });
@@ -14,28 +12,18 @@ function whatIfOf(element, words, { ask, state, change, decimal }) {
   let fields = [], asked = "", sweep = null, running = 0;
 
   const fieldOf = () => fields.find((field) => field.path === size.value);
-  const now = (task, field) => valueAt(task, field.path) ?? field.adopted ?? null;
+  const now = (task, field) => valueAt(task, field.path) ?? (task === state().task ? field.value : null);
 
+  // The sizes that the engine can sweep.
   function offer(found) {
-    const numbers = found.flatMap((field) => (field.kind === "phases" ? anglesOf(field) : field))
-      .filter((field) => field.min < field.max && !UNMOVED.test(field.path));
-    const same = JSON.stringify(numbers.map((field) => field.path)) === JSON.stringify(fields.map((field) => field.path));
-    fields = numbers;
+    const optionsOf = (all) => JSON.stringify(all.map((field) => [field.path, field.name])), same = optionsOf(found) === optionsOf(fields);
+    fields = found;
     if (same) return;
     const before = size.value;
     size.replaceChildren(...fields.map((field) => make("option", { value: field.path, text: field.name })));
     const wanted = fields.find((field) => field.path === before) || fields.find((field) => /offset|distance/.test(field.path)) || fields[0];
     if (wanted) size.value = wanted.path;
   }
-
-  // The angle of a phase is a size too, with that of its neighbour.
-  const anglesOf = ({ phases, angle }) => phases.slice(0, -1).map((phase, k) => ({
-    path: `motion.phases[${k}].angle`, name: `${phase.symbol} ${phase.name}`, unit: "°", step: 1, value: phase.angle,
-    // Of a much shorter phase every cam is huge.
-    min: Math.max(angle.min, Math.round(phase.angle / 2.5)), max: Math.min(phase.angle + phases[k + 1].angle - angle.min, Math.round(2.5 * phase.angle)), changes: (value) => angleChanges(phases, k, value),
-  }));
-
-  const changesFor = (field, value) => field.changes?.(value) || { ...(field.value === null ? field.first : {}), [field.path]: value };
 
   // --- a chart: 300 by 110, the curve between its least and greatest value -------------------------------------------------
 
@@ -84,7 +72,7 @@ function whatIfOf(element, words, { ask, state, change, decimal }) {
     const dots = [[pinned && now(pinned, field), "pin-dot"], [value, "dot"]].map(([size, name]) => {
       const on = size === null || size === undefined ? null : valueOn(curve, at, size);
       // A cam that differs in other sizes too does not lie on the curve.
-      if (on === null || (name === "pin-dot" && !alike(withChanges(task, pinned && changesFor(field, valueAt(pinned, field.path) ?? null)), pinned))) return null;
+      if (on === null || (name === "pin-dot" && !alike(withChanges(task, pinned && changesOf(field, valueAt(pinned, field.path) ?? null)), pinned))) return null;
       return make("i", { class: name, style: `left: ${100 * scales.x(size) / WIDE}%; top: ${100 * scales.y(on) / HIGH}%` });
     });
     return make("figure", { class: "sweep" },
@@ -100,7 +88,7 @@ function whatIfOf(element, words, { ask, state, change, decimal }) {
     if (!plot || !field || !sweep) return;
     const box = plot.getBoundingClientRect(), share = (event.clientX - box.left) / box.width;
     const value = sweep.from + share * (sweep.to - sweep.from);
-    change(changesFor(field, Math.round(Math.round(value / field.step) * field.step * 1e6) / 1e6));
+    change(changesOf(field, Math.round(Math.round(value / field.step) * field.step * 1e6) / 1e6));
   });
 
   function draw() {
@@ -114,7 +102,7 @@ function whatIfOf(element, words, { ask, state, change, decimal }) {
     const field = fieldOf(), { task } = state();
     if (!field) return;
     // What the curve is over does not change it.
-    const key = JSON.stringify([field.path, field.min, field.max, withChanges(task, changesFor(field, field.min))]);
+    const key = JSON.stringify([field.path, field.min, field.max, withChanges(task, changesOf(field, field.min))]);
     if (key === asked) return draw();
     asked = key;
     if (sweep?.path !== field.path) draw();
@@ -126,7 +114,7 @@ function whatIfOf(element, words, { ask, state, change, decimal }) {
     const place = (k) => min + (max - min) * k / (DESIGNS - 1);
     let found = null;
     for (let k = 0; k < DESIGNS; k += PIECE) {
-      const answer = await ask({ ask: "sweep", task, path, from: place(k), to: place(k + PIECE - 1), count: PIECE });
+      const answer = await ask({ ask: "sweep", language, task, path, from: place(k), to: place(k + PIECE - 1), count: PIECE });
       if (own !== running) return;
       found = answer.ok === false ? { path, message: answer.error.message } : joined(found, answer);
       if (!found.curves) break;

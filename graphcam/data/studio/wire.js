@@ -31,31 +31,38 @@ function lettersOf() {
 function tokenOfServer() {
   const found = /^#t=([^&]*)&?(.*)$/s.exec(location.hash);
   if (found) {
-    sessionStorage.setItem("token", found[1]);
+    // Of a server of its own each: other tabs of this browser may know it, for a link is opened in one.
+    localStorage.setItem("token", found[1]);
     history.replaceState(null, "", found[2] ? `#${found[2]}` : location.pathname + location.search);
   }
-  return sessionStorage.getItem("token") || "";
+  return localStorage.getItem("token") || "";
 }
+
+// A server that has not answered for so long will not [ms]; it gives up its engine sooner.
+const PATIENCE = 15000;
 
 function wireToServer() {
   const headers = { "Authorization": `Bearer ${tokenOfServer()}`, "Content-Type": "application/json" };
   const post = (to, body, more = {}) =>
     fetch(to, { method: "POST", headers, body: JSON.stringify(body), cache: "no-store", ...more });
 
-  async function read(to, body) {
-    const answer = await post(to, body);
+  async function read(to, body, more) {
+    const answer = await post(to, body, more);
     if (!answer.ok && answer.headers.get("Content-Type") !== "application/json") throw new Error(`${answer.status}`);
-    return answer.json();
+    const said = await answer.json();
+    if (answer.status === 401) throw new Error(said.error.message);
+    return said;
   }
-  const alive = (to) => post(to, {}, { keepalive: true }).catch(() => {});
-  // The clock of a hidden tab may tick once a minute: the server has more patience with it.
-  const living = () => alive(document.hidden ? "/alive?hidden" : "/alive");
-  living();
+  const tab = crypto.randomUUID();
+  const alive = (to) => post(to, tab, { keepalive: true }).catch(() => {});
+  const living = () => alive("/alive");
   setInterval(living, 3000);
+  // It comes again out of the browser's memory too.
+  addEventListener("pageshow", living);
   addEventListener("pagehide", () => alive("/alive?end"));
   return {
     ready: Promise.resolve(),
-    ask: (request) => read("/engine", request),
+    ask: (request) => read("/engine", request, { signal: AbortSignal.timeout(PATIENCE) }),
     write: (kind, task) => read("/write", { kind, task }),
   };
 }

@@ -1,0 +1,156 @@
+"""Random walks through the studio: whatever is done, form, picture, address and the engine say the same at every rest.
+
+python tests/studio/walks.py --walks 20 --operations 40 --seed 1
+"""
+
+from __future__ import annotations
+
+import argparse
+import random
+import sys
+from typing import TYPE_CHECKING, Any
+
+from chromium import chromium
+from studio_pages import Engine, middle, settled, task_of
+
+from graphcam.studio.engine import answer
+from graphcam.studio.task_paths import value_at
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Locator, Page
+
+TYPED = "-1", "0", "5", "12.5", "33", "44", "60", "200", "1e9", "abc", "", "-0,5", "7"
+KEYS = "ArrowRight", "ArrowLeft", "PageUp", "Home", "End"
+
+
+def choose(numbers: random.Random, found: Locator) -> Locator | None:
+    """One of the elements that can be used."""
+    seen = [one for one in found.all() if one.is_visible() and one.is_enabled()]
+    return numbers.choice(seen) if seen else None
+
+
+def typed(page: Page, numbers: random.Random) -> str:
+    field = choose(numbers, page.locator("#form input[type=text]"))
+    if field is None:
+        return "nothing to type"
+    text = numbers.choice(TYPED)
+    field.fill(text)
+    field.press(numbers.choice(["Enter", "Tab"]))
+    return f"type {text!r} at {field.get_attribute('data-key')}"
+
+
+def chosen(page: Page, numbers: random.Random) -> str:
+    chosen_list = choose(numbers, page.locator("#form select, #builtin"))
+    if chosen_list is None:
+        return "nothing to choose"
+    k = numbers.randrange(chosen_list.locator("option").count())
+    chosen_list.select_option(index=k)
+    return f"choose {k} at {chosen_list.get_attribute('data-key') or 'the tasks'}"
+
+
+def pulled(page: Page, numbers: random.Random) -> str:
+    """A knob or a slider that is moved, at times back to where it was, or with Escape."""
+    thing = choose(numbers, page.locator(".hand, #form .size > input[type=range], .border"))
+    if thing is None:
+        return "nothing to move"
+    thing.scroll_into_view_if_needed()
+    x, y = middle(thing)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + numbers.uniform(-90, 90), y + numbers.uniform(-60, 60), steps=4)
+    end = numbers.choice(["", "", "back", "Escape"])
+    if end == "back":
+        page.mouse.move(x, y, steps=2)
+    elif end:
+        page.keyboard.press(end)
+    page.mouse.up()
+    return f"move {thing.get_attribute('data-id') or thing.get_attribute('data-key') or 'a border'} {end}"
+
+
+def pressed(page: Page, numbers: random.Random) -> str:
+    name = numbers.choice(["#undo", "#undo", "#redo", "phase", "view", "given"])
+    found = {"phase": ".phase-bar button", "view": "#strip button", "given": ".choice button"}.get(name, name)
+    if (button := choose(numbers, page.locator(found))) is None:
+        return f"no {name}"
+    button.click()
+    return f"press {name}"
+
+
+def keyed(page: Page, numbers: random.Random) -> str:
+    key = numbers.choice([*KEYS, "Escape", "Escape"])
+    page.keyboard.press(key)
+    return key
+
+
+def loaded(page: Page, numbers: random.Random) -> str:
+    page.reload()
+    return "reload"
+
+
+OPERATIONS = typed, typed, typed, chosen, pulled, pulled, pulled, pressed, pressed, keyed, loaded
+READ = "async () => (await addressOf(studio.config).read(location.hash))?.task ?? null"
+FORM = """() => [...document.querySelectorAll("#form .size > .row input[type=text]")]
+    .filter((one) => !one.hidden && !one.closest(".phases")).map((one) => [one.dataset.key, typedNumber(one.value)])"""
+RED = "() => document.querySelector('#form [aria-invalid=true]') !== null"
+
+
+def contradictions(page: Page) -> list[str]:
+    """What disagrees at rest; of what is refused there is a message."""
+    task, found = task_of(page), list[str]()
+    engine = answer({"task": task, "views": [], "told": True})
+    if not engine["ok"]:
+        return [f"the state cannot be drawn: {engine['error']['message']}"]
+    if page.evaluate("() => studio.shown.sizes") != engine["sizes"]:
+        found.append("the picture is of another cam")
+    if page.evaluate(READ) != task:
+        found.append("the address is of another cam")
+    refused = page.locator(".error:visible").count() > 0
+    if refused != page.evaluate(
+        "() => !document.getElementById('form').querySelector('[aria-invalid=true]') === false"
+    ):
+        found.append("a field is red without a word, or the other way round")
+    if not refused:
+        for key, value in page.evaluate(FORM):
+            there: Any = value_at(task, key)
+            if there is not None and abs(value - there) > 1e-6:
+                found.append(f"{key} shows {value}, the task has {there}")
+    if page.evaluate("() => document.body.classList.contains('held')"):
+        found.append("a hand is held for good")
+    return found
+
+
+def walk(page: Page, seed: int, operations: int) -> list[str]:
+    """The contradictions of a walk, with what was done before the first."""
+    numbers, done = random.Random(seed), list[str]()
+    for _ in range(operations):
+        done.append(numbers.choice(OPERATIONS)(page, numbers))
+        settled(page)
+        if found := contradictions(page):
+            return [f"seed {seed}, {' | '.join(done[-4:])}: {each}" for each in found]
+    return []
+
+
+def main() -> None:
+    """Walk so often, and say what was found."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    for name, usual in (("walks", 10), ("operations", 40), ("seed", 0)):
+        parser.add_argument(f"--{name}", type=int, default=usual)
+    asked = parser.parse_args()
+    engine, stuck = Engine(), 0
+    with chromium() as browser:
+        for seed in range(asked.seed, asked.seed + asked.walks):
+            engine.serve()
+            page = browser.new_page(viewport={"width": 1440, "height": 900})
+            page.goto(engine.url)
+            settled(page)
+            found = walk(page, seed, asked.operations)
+            stuck += bool(found)
+            sys.stdout.write("\n".join(found or [f"seed {seed}: right"]) + "\n")
+            sys.stdout.flush()
+            page.close()
+    engine.close()
+    sys.exit(f"{stuck} of {asked.walks} walks end in contradictions" if stuck else 0)
+
+
+if __name__ == "__main__":
+    main()
