@@ -272,7 +272,9 @@ def _(draw: Random) -> float:
     """A roller larger than the least radius leaves a loop, a smaller one nothing."""
     cam = translating(draw)
     sharpest = 1 / highest(cam.pitch_curvature, cam, signed=False)
-    follower = gc.Translating(cam.follower.offset, sharpest * draw.choice([0.5, 0.99, 1.01, 1.2]))
+    excess = draw.choice([0.5, 0.99, 1.01, 1.2])
+    roller = sharpest * excess if sharpest * excess < cam.prime_radius else sharpest / excess
+    follower = gc.Translating(cam.follower.offset, roller)
     cut = gc.Cam(cam.motion, follower, cam.prime_radius, cam.rotation).undercuts()
     return float(bool(cut) != (follower.roller_radius > sharpest))
 
@@ -317,7 +319,7 @@ def _(draw: Random) -> float:
     moved, follower = motion(draw, 0.1, 0.3), gc.Oscillating(80.0)
     rise, back = np.radians(draw.uniform(35, 50, 2)).tolist()
     turn = sense(draw)
-    found = gc.minimum_radius(moved, follower, turn, rise=rise, return_=back, rest=False)
+    found = gc.minimum_radius(moved, follower, turn, rise=rise, return_=back)
     cam = gc.Cam(moved, gc.Oscillating(80.0, found.place), found.prime_radius, turn)
     tops = [
         highest(lambda phi, d=d: np.where(d * moved(phi)[1] > 0, cam.pressure_angle(phi), 0.0), cam) for d in (1, -1)
@@ -445,8 +447,19 @@ def _(draw: Random) -> float:
     cam = translating(draw)
     spline = gc.profile_spline(cam, 0.005)
     curve = BSpline(spline.knots, np.asarray(spline.control), spline.degree)
-    tree = cKDTree(curve(np.linspace(spline.knots[0], spline.knots[-1], 200_001)))
-    return float(tree.query(cam.profile(np.linspace(0, FULL_TURN, 2001)))[0].max() / spline.deviation)
+    corners = curve(np.linspace(spline.knots[0], spline.knots[-1], 200_001))
+    points = cam.profile(np.linspace(0, FULL_TURN, 2001))
+    k = np.clip(cKDTree(corners).query(points)[1], 1, len(corners) - 2)
+    # The nearest place lies on the chord on either side of the nearest corner.
+    chords = [(corners[k - 1], corners[k]), (corners[k], corners[k + 1])]
+    off = [_distance_to_chord(points, *ends) for ends in chords]
+    return float(np.minimum(*off).max() / spline.deviation)
+
+
+def _distance_to_chord(points, start, end):
+    way = end - start
+    share = np.clip(((points - start) * way).sum(axis=1) / (way**2).sum(axis=1), 0, 1)
+    return np.hypot(*(points - start - share[:, None] * way).T)
 
 
 @trial("solve: estimated and proved bounds", 1.0)
@@ -455,7 +468,12 @@ def _(draw: Random) -> float:
     sys.path.append(str(__file__).replace("adversary.py", "comparison"))
     from random_tasks import random_task
 
-    quantities = gc.solve(random_task(int(draw.integers(10**6)))).comparison.quantities.values()
+    try:
+        quantities = gc.solve(random_task(int(draw.integers(10**6)))).comparison.quantities.values()
+    except gc.DesignError as why:
+        if why.quantity in ("minimum prime radius", "roller radius"):  # no cam has what was drawn by lot
+            return 0.0
+        raise
     return max(
         max(abs(q.error_paper) - 5e-4, 0.0) / q.tolerance_paper
         for q in quantities
