@@ -1,4 +1,5 @@
-"""Hard cases and what they come to: ``python tests/hard_cases.py`` writes the table ``hard_cases.toml`` anew.
+"""Hard cases and what they come to: ``python tests/hard_cases.py`` writes the table
+``graphcam/data/hard_cases.toml`` anew.
 
 Everything is computed with mpmath at 50 digits from the textbooks' definitions, and nothing by graphcam: the laws are
 printed displacements, and their derivatives quotients of differences at several hundred digits; pitch curve, profile
@@ -18,7 +19,7 @@ import mpmath
 from mpmath import diff, findroot, mp, mpf, workdps
 from reference import ReferenceCam, displacement, least_radius, lift, maximum
 
-TABLE = Path(__file__).with_name("hard_cases.toml")
+TABLE = Path(__file__).parents[1] / "graphcam" / "data" / "hard_cases.toml"
 DIGITS = 30
 FULL_TURN = 2 * math.pi
 LAWS = (
@@ -371,13 +372,26 @@ DRAWN: dict[str, Row] = {
 }  # fmt: skip
 
 
+def follower(given: Row) -> Row:
+    """The follower as a task file has it: 10 mm of offset where nothing is said, an arm of 100 mm 120 mm away."""
+    kind = given.get("kind", "translating")
+    offset = given.get("offset", 10.0)
+    sizes = {
+        "translating": {} if offset == "open" else {"offset": offset},
+        "oscillating": {"arm": 100.0, "distance": 120.0},
+        "flat-faced": {},
+    }[kind]
+    return {"kind": kind, **sizes, **({"roller_radius": given["roller"]} if "roller" in given else {})}
+
+
 def drawn() -> Iterator[Row]:
     """Tasks at the edge of what can be drawn; the least radius and the greatest v and a beside them."""
     for name, given in DRAWN.items():
         moved = motion(given["phases"], given.get("repeat", 1))
         kind = given.get("kind", "translating")
         unit = mpf(math.radians(1)) if kind == "oscillating" else 1
-        row: Row = {"name": name, **given}
+        said = {key: value for key, value in given.items() if key not in ("phases", "kind", "offset", "roller")}
+        row: Row = {"name": name, "phases": given["phases"], "follower": follower(given), **said}
         if "repeat" not in given:
             row["max_v"] = digits(unit * max(_peak(phase, 1) for phase in moved.phases if phase.direction))
             row["max_a"] = digits(unit * max(_peak(phase, 2) for phase in moved.phases if phase.direction))
@@ -426,6 +440,8 @@ def written(value: Any) -> str:
         return f'"{value}"'
     if isinstance(value, list):
         return f"[{', '.join(map(written, value))}]"
+    if isinstance(value, dict):
+        return f"{{ {', '.join(f'{key} = {written(each)}' for key, each in value.items())} }}"
     return repr(value)
 
 

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 import json
 import math
-import tomllib
-from pathlib import Path
 from typing import Any
 
 import hard_cases
@@ -19,25 +17,26 @@ from over_all import over_all
 from reference import EPS
 
 import graphcam as gc
+from graphcam.bench.hard_cases import (
+    COMPUTED,
+    MAX_DIGITS,
+    cam_of,
+    computed_kinds,
+    digits_left,
+    drawn_cases,
+    hard_cases as all_hard_cases,
+    motion_of,
+    task_of,
+)
 from graphcam.comparison.integrals import accurate_cumsum
 from graphcam.given.laws import LAWS, law
 from graphcam.given.motion import FULL_TURN, cam_angle
 from graphcam.given.motion_law import Law
 from graphcam.mechanism.three_point_circle import circumradius
 from graphcam.solving.solution import Solution
-from graphcam.tasks.motion_tables import DwellTable, MotionTable, ReturnTable, RiseTable
-from graphcam.tasks.task import (
-    CamTable,
-    DrawingTable,
-    FlatFacedTable,
-    LimitsTable,
-    OscillatingTable,
-    Task,
-    TranslatingTable,
-)
 
 Row = dict[str, Any]
-TABLE: dict[str, list[Row]] = tomllib.loads(Path(hard_cases.TABLE).read_text(encoding="utf-8"))
+TABLE = all_hard_cases()
 POLYNOMIAL = ("rectangular", "2-3", "3-4-5", "4-5-6-7")
 SMALLEST = 5e-324
 """The smallest number above zero: what lies below it is 0."""
@@ -53,22 +52,6 @@ def rows(kind: str) -> Any:
 def off(computed: Any, exact: str) -> float:
     """How far a computed value lies from the exact one."""
     return float(abs(mpf(float(computed)) - mpf(exact)))
-
-
-def turn(row: Row) -> gc.Motion:
-    """The motion of a row; a dwell closes the turn."""
-    kinds = {"rise": gc.Rise, "return": gc.Return}
-    phases: list[Any] = [
-        kinds[kind](h, math.radians(angle), *law) if h else gc.Dwell(math.radians(angle))
-        for kind, h, angle, *law in row["phases"] * row.get("repeat", 1)
-    ]
-    rest = FULL_TURN - math.fsum(phase.angle for phase in phases)
-    return gc.Motion([*phases, gc.Dwell(rest)] if rest > 1e-9 else phases)
-
-
-def cam_of(row: Row) -> gc.Cam:
-    """The translating cam of a row."""
-    return gc.Cam(turn(row), gc.Translating(row["offset"], row["roller"]), row["prime_radius"], row["rotation"])
 
 
 # --- the table itself ------------------------------------------------------------------------------------------------
@@ -130,7 +113,7 @@ def test_a_return_keeps_the_lift_that_is_missing(kind):
 @rows("many_turns")
 def test_a_thousand_million_turns_are_told_apart(row):
     """The angle to one rounding of 2 pi, and s, v, a, j to what that and 4 eps leave."""
-    motion = turn(row)
+    motion = motion_of(row)
     phi = cam_angle(row["angle"], turn={"degrees": 360.0, "turns": 1.0}[row["unit"]])
     assert off(phi, row["phi"]) <= 2 * EPS * FULL_TURN
     values = motion(np.linspace(0, FULL_TURN, 2001))
@@ -179,7 +162,7 @@ def test_an_inflection_is_straight_and_not_nan(row):
 @rows("least_radius")
 def test_least_radii_at_limits_near_0_and_90_degrees(row):
     """To 4 eps."""
-    motion, limit = turn(row), math.radians(row["limit"])
+    motion, limit = motion_of(row), math.radians(row["limit"])
     found = {
         "free": gc.minimum_radius(motion, gc.Translating(), rise=limit),
         "with_return": gc.minimum_radius(motion, gc.Translating(), rise=limit, return_=limit),
@@ -245,30 +228,6 @@ def test_flanks_that_are_nearly_straight(row):
 # --- the drawn side --------------------------------------------------------------------------------------------------
 
 
-def task_of(row: Row) -> Task:
-    """The task of a row; clockwise, with an offset of 10 mm and the usual limit where it says nothing else."""
-    kinds = {"rise": RiseTable, "return": ReturnTable}
-    phases: list[Any] = [
-        kinds[kind](angle, h, *law) if h else DwellTable(angle)
-        for kind, h, angle, *law in row["phases"] * row.get("repeat", 1)
-    ]
-    rest = 360 - math.fsum(phase.angle for phase in phases)
-    offset = row.get("offset", 10.0)
-    followers = {
-        "translating": TranslatingTable(None if offset == "open" else offset, row.get("roller")),
-        "oscillating": OscillatingTable(100.0, 120.0, row.get("roller")),
-        "flat-faced": FlatFacedTable(),
-    }
-    return Task(
-        rotation="cw",
-        motion=MotionTable((*phases, DwellTable(rest)) if rest > 1e-9 else tuple(phases)),
-        follower=followers[row.get("kind", "translating")],
-        cam=CamTable(row.get("prime_radius")),
-        limits=LimitsTable(pressure_angle_rise=row.get("rise"), pressure_angle_return=row.get("return")),
-        drawing=DrawingTable(divisions=row.get("divisions", 12)),
-    )
-
-
 @pytest.mark.parametrize(
     "row", [pytest.param(row, id=row["name"], marks=[pytest.mark.slow] * row.get("slow", 0)) for row in TABLE["drawn"]]
 )
@@ -299,3 +258,28 @@ def captions(solution: Solution) -> str:
     """All sentences of the drawing; every step is drawn for them."""
     steps = [step for construction in solution.drawn.values() for step in construction.steps()]
     return " ".join(f"{step.title} {step.caption}" for step in steps)
+
+
+# --- what is shown of them -------------------------------------------------------------------------------------------
+
+
+def test_every_kind_is_shown_with_the_digits_that_are_left():
+    """Of 15.95 that a number holds no computed value has lost two; a wrong one would show."""
+    shown = list(computed_kinds())
+    assert len(shown) == len(COMPUTED)
+    assert set(TABLE) - set(COMPUTED) == {"drawn"}
+    assert all(14 < each.digits <= MAX_DIGITS for each in shown)
+    assert sum(each.values for each in shown) > 1000
+    assert digits_left(1.001, "1.0") == pytest.approx(3.0)
+    assert digits_left(-1.0, "1.0") == 0.0
+
+
+def test_what_is_drawn_stands_beside_its_exact_value():
+    rows = {row["name"]: row for row in TABLE["drawn"]}
+    some = [rows["two parts a phase"], rows["lines that cross at less than a degree, nothing given"]]
+    drawn, refused = drawn_cases(some)
+    assert drawn.quantity == "maximum a"
+    assert drawn.exact == pytest.approx(float(rows["two parts a phase"]["max_a"]), rel=1e-12)
+    assert drawn.digits == pytest.approx(-math.log10(abs(drawn.drawn / drawn.exact - 1)))
+    assert math.isnan(refused.digits)
+    assert "permitted pressure angle" in refused.refusal

@@ -69,6 +69,9 @@ def bench(
     quick: Annotated[
         bool, Option("--quick", help="Fewer and shorter measurements: about 40 s of processor time.")
     ] = False,
+    hard: Annotated[
+        bool, Option("--hard", help="Only show what is left of the digits in hard cases, computed and drawn.")
+    ] = False,
     out: Annotated[
         Path, Option(parser=nonempty_path, metavar="DIR", help="Folder for the report and its figures.")
     ] = DEFAULT_FOLDER / "bench",
@@ -79,8 +82,17 @@ def bench(
 
     graphcam bench --quick
 
+    graphcam bench --hard
+
     graphcam bench --out bench
     """
+    if hard:
+        from graphcam.bench import hard_cases
+
+        computed, drawn = hard_cases.computed_rows(), hard_cases.drawn_rows()
+        print_table(hard_cases.COMPUTED_HEAD, computed, 2, title=f"\n{hard_cases.COMPUTED_TITLE}")
+        print_table(hard_cases.DRAWN_HEAD, drawn, 2, title=f"\n{hard_cases.DRAWN_TITLE}")
+        return
     from graphcam.bench import bench_report as bench
 
     with input_errors():

@@ -5,6 +5,10 @@ may be off by two and a half times the greatest change among these drawings.  An
 at least (1 - 5^-p) of itself, so that covers it for every p from 1 on; several redrawings catch values whose error does
 not fall evenly, such as maxima, or is small in the first of them by chance.
 
+Where the drawings do not settle, that is, where their changes do not fall as those of any such order do (those of the
+first are 1/2, 1/6 and 2/15 of its error, and fall more slowly than of a higher one), the spread says less: twice as
+much of it is granted, and the quantity says so.
+
 The hand: the same construction is drawn by many hands with the same pencil, and a value may be off by their bias and
 three standard deviations.
 
@@ -20,10 +24,11 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from graphcam.drafting.acts import Kind
 from graphcam.drafting.ink import Construction
@@ -38,6 +43,10 @@ REFINEMENTS = (2, 3, 5)
 """The numbers of parts into which every part is divided for the redrawings."""
 CHANGE_TO_ERROR_FACTOR = 2.5
 """The bound is this many times the greatest change by a redrawing."""
+UNSETTLED_FACTOR = 2.0
+"""By so much a bound is wider where the drawings do not settle."""
+LARGEST_FALL = 0.5
+"""Of drawings that settle the second change is at most this part of the first, which of the first order is a third."""
 DEVIATION_COUNT = 3.0
 """A hand is granted so many standard deviations."""
 HAND_COUNT = 400
@@ -140,6 +149,10 @@ class Bounds:
         """How far the reading may be off, on the paper it was read from [mm; an angle: rad]."""
         return self._of(construction, reading) / self._per_mm(construction, reading) + ARITHMETIC_ERROR
 
+    def settled(self, construction: str, reading: str) -> NDArray[np.bool_]:
+        """Whether the changes of the reading by more and more parts fall, shaped like it."""
+        return self._redrawn(construction, reading)[2]
+
     def of_choice(self, construction: str, candidates: str, ranks: Sequence[Rank]) -> float:
         """The bound for the candidate of highest rank among several that are read as ``candidates`` (..., k).
 
@@ -168,6 +181,17 @@ class Bounds:
 
     def _of(self, construction: str, reading: str, rank: Rank = np.positive, *, stations: bool = False) -> Floats:
         """The bound of the ranks in machine units, shaped like one drawing's reading; NaN where nothing is readable."""
+        here, spread, settled = self._redrawn(construction, reading, rank, stations=stations)
+        change = CHANGE_TO_ERROR_FACTOR * np.where(settled, 1.0, UNSETTLED_FACTOR) * spread
+        if self.hands is None:
+            return change
+        values = np.ma.masked_invalid(rank(self.hands[construction].readings[reading].value))  # unreadable for a hand
+        return change + np.ma.filled(np.abs(values.mean(axis=0) - here) + DEVIATION_COUNT * values.std(axis=0), np.nan)
+
+    def _redrawn(
+        self, construction: str, reading: str, rank: Rank = np.positive, *, stations: bool = False
+    ) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+        """The ranks in machine units, how far the drawings lie apart, and whether their changes fall."""
         here: Floats = rank(np.asarray(self.perfect[construction].value(reading)))
         drawings = [here]
         for k, drawing in zip(REFINEMENTS, self.finer, strict=True):
@@ -177,15 +201,14 @@ class Bounds:
             drawings.append(finer)
         # Infinite in both is no change.
         changes = [
-            np.where(np.isnan(here), np.nan, np.abs(np.subtract(b, a, out=np.zeros_like(a), where=b != a)))
-            for a, b in combinations(drawings, 2)
+            np.where(np.isnan(here), np.nan, np.subtract(b, a, out=np.zeros_like(a), where=b != a))
+            for a, b in [*pairwise(drawings), *combinations(drawings, 2)]
         ]
+        first, second, third = changes[: len(REFINEMENTS)]
+        settled = (first * second >= 0) & (second * third >= 0) & (np.abs(third) <= np.abs(second))
+        settled &= np.abs(second) <= LARGEST_FALL * np.abs(first)
         # fmax, because too fine parts may leave a reading unreadable: then the other redrawings speak.
-        change = CHANGE_TO_ERROR_FACTOR * np.fmax.reduce(changes)
-        if self.hands is None:
-            return change
-        values = np.ma.masked_invalid(rank(self.hands[construction].readings[reading].value))  # unreadable for a hand
-        return change + np.ma.filled(np.abs(values.mean(axis=0) - here) + DEVIATION_COUNT * values.std(axis=0), np.nan)
+        return here, np.fmax.reduce(np.abs(changes)), settled
 
 
 @dataclass(frozen=True)

@@ -38,6 +38,7 @@ class Quantity:
     tolerance_paper : how far the drawn value may lie off [mm of paper, or of the edge of a protractor that measures an
         angle], estimated from redrawings in more parts and by the same pencil
     proved_paper : the same, proved beforehand for a hand without error; NaN where no theorem tells it
+    settled : whether the changes by redrawings in more parts fall; else the bound is wider, and rougher
     draw_by_hands : gives the values by many careful hands, in the unit; None where there is no reading
     """
 
@@ -49,6 +50,7 @@ class Quantity:
     per_mm: float
     tolerance_paper: float
     proved_paper: float = math.nan
+    settled: bool = True
     draw_by_hands: Callable[[], Floats] | None = field(default=None, repr=False, compare=False)
 
     @property
@@ -230,16 +232,17 @@ def _quantity(
     if said.candidates:
         bound = bounds.of_choice(construction.name, said.candidates, said.ranks)
     else:
-        bound = float(bounds.of(construction.name, said.sides or reading)[side])
+        bound = max(float(bounds.of(construction.name, each)[side]) for each in (said.sides or reading, *said.beside))
     drawn = factor * float(construction.value(said.sides or reading)[side])
     asked = construction.name, said.sides or reading, side[0] if side else None
     title = said.title or construction.meaning.reading(reading).title
     # An angle that is measured itself is read at the edge of the protractor.
     radius = PROTRACTOR_RADIUS if read.unit == "rad" and read.per_mm == 1 else 1.0
     per_mm, bound = factor * read.per_mm / radius, bound * radius
+    settled = bool(bounds.settled(construction.name, said.sides or reading)[side])
     by_hands = partial(_by_hands, bounds, asked, factor)
     beforehand = proved.get(said.name, math.nan) / abs(per_mm)
-    return Quantity(said.name, title, drawn, exact[counterpart], unit, per_mm, bound, beforehand, by_hands)
+    return Quantity(said.name, title, drawn, exact[counterpart], unit, per_mm, bound, beforehand, settled, by_hands)
 
 
 def _by_hands(bounds: Bounds, asked: tuple[str, str, int | None], factor: float) -> Floats:

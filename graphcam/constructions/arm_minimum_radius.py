@@ -145,7 +145,10 @@ MEANING = Meaning(
     {
         "prime_radius": LEAST_RADIUS,
         "distance": ReadingMeaning(
-            say("centre distance c"), "c", "mm", (ComparedReading("minimum_distance", say("its centre distance c")),)
+            say("centre distance c"),
+            "c",
+            "mm",
+            (ComparedReading("minimum_distance", say("its centre distance c"), beside=("prime_radius",)),),
         ),
     },
     FORMULAS,

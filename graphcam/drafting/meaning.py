@@ -102,6 +102,7 @@ class ComparedReading:
         several ranks, which name the same candidate, that one tells how far it may be off which leaves less
     sides : of a signed greatest, the reading that holds the highest and the lowest: the one is compared that lies on
         the side of the exact one, for of two that are nearly equal the drawing may name the other
+    beside : readings of the same place on the paper: it may move as far along one of them as it does along another
     sign : of the quantity where the reading is 1
     exact : the exact counterpart's name, where it is not that of the quantity
     """
@@ -111,6 +112,7 @@ class ComparedReading:
     candidates: str = ""
     ranks: tuple[Rank, ...] = (np.negative,)
     sides: str = ""
+    beside: tuple[str, ...] = ()
     sign: int = 1
     exact: str = ""
 

@@ -409,7 +409,9 @@ class Motion(Plottable):
         [0.5, 1.0]
         """
         index = np.asarray(phase, dtype=np.intp)
-        return self.starts[index] + np.asarray(u) * self.angles[index]
+        # Its rounding must not reach into the next phase, where a value that jumps is another.
+        ends = np.append(self.starts[1:], FULL_TURN)
+        return np.minimum(self.starts[index] + np.asarray(u) * self.angles[index], ends[index])
 
     @cached_property
     def angles(self) -> Floats:

@@ -33,7 +33,7 @@ from graphcam.given.making_errors import TOLERANCED_SIZES, MakingErrors, deviati
 from graphcam.mechanism.cam import Cam
 from graphcam.mechanism.kinematics import Kinematics, Values
 from graphcam.mechanism.made_cam import MadeCam, lifts_by_error
-from graphcam.mechanism.turn_extremes import ValueAt, places_in, smooth_pieces
+from graphcam.mechanism.turn_extremes import Places, ValueAt, smooth_pieces, turn_maximum, zero_angles
 from graphcam.showing import Plottable, value_text
 from graphcam.words import say
 
@@ -43,8 +43,6 @@ COVERAGE = 0.95
 """The part of all mechanisms that a band holds."""
 TURN_PLACES, MIN_PIECE_PLACES = 180, 4
 """Cam angles of a band over the turn, and on a smooth piece of the motion at least."""
-SAME_HALF_WIDTH = 1e-9
-"""Half-widths that differ by less than this part of them are equal."""
 BATCH_SIZE = 2**16
 """Contacts that are solved at a time, or those at one cam angle if they are more: some tens of megabytes."""
 MAX_WAVE_SHARE = 0.5
@@ -121,7 +119,7 @@ class MotionBands(Plottable):
     @cached_property
     def effects(self) -> Mapping[str, Floats]:
         """The maximum effects (3, n) of each error on s, v and a, to the first order."""
-        return effects_of(self.cam.kinematics, self.errors, self.cam.motion(self.phi))
+        return self._effects_at(self.cam.motion(self.phi))
 
     @cached_property
     def deviation(self) -> Floats:
@@ -148,43 +146,35 @@ class MotionBands(Plottable):
         return shares_of(self.effects, self.errors)
 
     @cached_property
-    def _dense(self) -> tuple[Floats, Mapping[str, Floats], int]:
-        """Cam angles all over the turn, both ends of every smooth piece from inside, the effects, how many are no ends.
-
-        At the ends the bands are often widest, and no sample is taken there.
-        """
-        phase, low, high = smooth_pieces(self.cam.motion)
-        share = np.linspace(0, 1, TURN_PLACES, endpoint=False)
-        inside = places_in(self.cam.motion, phase[:, None], low[:, None] * (1 - share) + high[:, None] * share)
-        ends = places_in(self.cam.motion, phase, high, "left")
-        both = zip(inside.values, ends.values, strict=True)
-        s, v, a, j = (np.concatenate([value.ravel(), end]) for value, end in both)
-        effects = effects_of(self.cam.kinematics, self.errors, (s, v, a, j))
-        return np.concatenate([inside.phi.ravel(), ends.phi]), effects, inside.phi.size
-
-    @cached_property
-    def _widest(self) -> tuple[list[int], Floats]:
-        """The dense angles at which the bands of s, v, a are widest, and the half-widths there."""
-        half = half_widths(self._dense[1], self.errors, self.coverage)
-        # Of equal ones the first, though rounding makes another a little wider.
-        at = [int(np.flatnonzero(row >= row.max() * (1 - SAME_HALF_WIDTH))[0]) for row in half]
-        return at, half[np.arange(3), at]
-
-    @property
     def widest(self) -> tuple[ValueAt, ValueAt, ValueAt]:
-        """The maximum half-widths of the bands of s, v and a to the first order, and where."""
-        at, half = self._widest
-        phi, _, inner = self._dense
-        s, v, a = (
-            ValueAt(float(h), float(phi[k]), "left" if k >= inner else "right") for k, h in zip(at, half, strict=True)
-        )
+        """The maximum half-widths of the bands of s, v and a to the first order, to full precision, and where.
+
+        At a jump of the acceleration a band is often widest just beside it, where no sample is taken.
+        """
+        s, v, a = (self._widest(k) for k in range(3))
         return s, v, a
+
+    def _widest(self, k: int) -> ValueAt:
+        def both(places: Places) -> tuple[Floats, Floats]:
+            normal, worst = _normal_and_worst(self._effects_at(places.values), self.errors, self.coverage)
+            return normal[k], worst[k]
+
+        # Where one of two takes over from the other, the band has a corner.
+        several = len(self.errors.reaches) > 1
+        corners = zero_angles(self.cam.motion, lambda places: np.subtract(*both(places))) if several else []
+        return turn_maximum(self.cam.motion, lambda places: np.minimum(*both(places)), list(corners))
+
+    def _effects_at(self, values: Values) -> dict[str, Floats]:
+        return effects_of(self.cam.kinematics, self.errors, values)
 
     def table(self) -> list[Share]:
         """What each error does where the bands are widest; the one that matters most for s first."""
-        at, effects = (np.arange(3), self._widest[0]), self._dense[1]
-        shares = shares_of(effects, self.errors)
-        found = [Share(name, reach, effects[name][at], shares[name][at]) for name, reach in self.errors.reaches.items()]
+        at_widest = [self._effects_at(self.cam.motion(phi, side)) for _, phi, side in self.widest]
+        shares = [shares_of(effects, self.errors) for effects in at_widest]
+        found = [
+            Share(name, reach, *(np.array([each[name][k] for k, each in enumerate(by)]) for by in (at_widest, shares)))
+            for name, reach in self.errors.reaches.items()
+        ]
         return sorted(found, key=lambda share: -share.shares[0])
 
     @cached_property
@@ -276,8 +266,13 @@ def variance_of(effects: Mapping[str, Floats], errors: MakingErrors) -> Floats:
 
 def half_widths(effects: Mapping[str, Floats], errors: MakingErrors, coverage: float) -> Floats:
     """The half-widths of the bands to the first order, shaped like the effects of the errors."""
+    return np.minimum(*_normal_and_worst(effects, errors, coverage))
+
+
+def _normal_and_worst(effects: Mapping[str, Floats], errors: MakingErrors, coverage: float) -> tuple[Floats, Floats]:
+    """The half-widths of a normal distribution, and with all errors at their ends at once."""
     normal = deviations_within(coverage) * np.sqrt(variance_of(effects, errors))
-    return np.minimum(normal, np.sum(list(effects.values()), axis=0))
+    return normal, np.sum(list(effects.values()), axis=0)
 
 
 def shares_of(effects: Mapping[str, Floats], errors: MakingErrors) -> dict[str, Floats]:

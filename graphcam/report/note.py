@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from graphcam.comparison.bounds import CHANGE_TO_ERROR_FACTOR, DEVIATION_COUNT, HAND_COUNT, REFINEMENTS
 from graphcam.comparison.phase_speeds import UNITS_PER_SPEED
+from graphcam.comparison.quantities import PRINTED_ERROR
 from graphcam.constructions.axes import phase_title
 from graphcam.drafting.pencil import Pencil
 from graphcam.drafting.scale import unit
@@ -302,9 +303,14 @@ def _verdict(solution: AnySolution) -> list[Caption]:
         verdict = say("Every drawn value lies within its bound, where there is one.")
     else:
         verdict = say("Every drawn value lies within its bound.")
-    if not unknown:
-        return [verdict]
-    return [verdict, say("No bound is known for {names}: more parts show details that these do not.", names=unknown)]
+    restless = and_list([q.title for q in quantities if not q.settled and q.tolerance_paper > PRINTED_ERROR])
+    unsettled = say(
+        "Redrawn with more parts, these values do not settle, so that their bounds, twice as wide as the others, are "
+        "rough estimates: {names}.",
+        names=restless,
+    )
+    no_bound = say("No bound is known for {names}: more parts show details that these do not.", names=unknown)
+    return [verdict, *([unsettled] if restless else []), *([no_bound] if unknown else [])]
 
 
 def _other_sides(solution: AnySolution) -> list[Caption]:

@@ -26,6 +26,7 @@ from sphinx.cmd.build import build_main
 from studio_links import FOLDER, studio_page, try_it
 
 import graphcam as gc
+from graphcam.bench.hard_cases import computed_rows, drawn_rows, hard_cases_page
 from graphcam.notebooks.notebook_execution import execute
 
 HERE = Path(__file__).parent
@@ -94,6 +95,8 @@ def build(
             write_studio(source, out / FOLDER, pyodide)
         write_gallery(source / "gallery", sheets)
         write_reference(source / "reference")
+        page = hard_cases_page(computed_rows(), drawn_rows())
+        (source / "hard-cases.md").write_text(page, encoding="utf-8")
         write_shown(out)
         return build_main(
             ["-q", "-W", "--keep-going", "-b", "html", "-c", str(HERE), "-d", f"{folder}/doctrees", str(source), str(out)]

@@ -217,6 +217,17 @@ def test_the_faults_of_another_package_are_found_again():
 
 
 @pytest.mark.slow
+def test_the_command_shows_the_hard_cases(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    result = CliRunner().invoke(app, ["bench", "--hard"])
+    assert result.exit_code == 0, result.output
+    assert "Computed, beside 50 digits" in result.output
+    assert "offset near the prime radius" in result.output
+    assert "two parts a phase of an arm: maximum a" in result.output
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.slow
 def test_the_command_writes_the_whole_report(tmp_path, monkeypatch):
     monkeypatch.setattr(reports, "QUICK_EFFORT", TINY)
     monkeypatch.setenv("COLUMNS", "80")

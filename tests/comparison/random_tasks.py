@@ -87,6 +87,31 @@ def random_flat_task(seed: int) -> Task:
     )
 
 
+def random_coursework(seed: int) -> Task:
+    """A task as it is set: rounded angles and sizes, dwells, an arm of 60 to 120 mm or an offset, 8 to 24 parts."""
+    random = np.random.default_rng([seed, 77])
+    angles = random.dirichlet(np.full(4, 6.0)).round(3) * 360
+    angles[-1] = 360 - angles[:-1].sum()
+    arm = bool(random.integers(3))
+    lift = round(random.uniform(5, 30 if arm else 50), 1)
+    rise, high, back, low = angles.tolist()
+    laws = random.choice(list(DWELL_TO_DWELL_LAWS), 2).tolist()
+    phases = RiseTable(rise, lift, laws[0]), DwellTable(high), ReturnTable(back, lift, laws[1]), DwellTable(low)
+    offset = random.choice([None, 0.0, round(random.uniform(-15, 15), 1)])
+    distance = random.choice([None, None, float(random.integers(70, 150))])
+    least, most = (30, 60) if arm else (20, 45)
+    return Task(
+        rotation=random.choice(["cw", "ccw"]).item(),
+        motion=MotionTable(phases),
+        follower=OscillatingTable(float(random.integers(60, 121)), distance) if arm else TranslatingTable(offset),
+        limits=LimitsTable(
+            pressure_angle_rise=float(random.integers(least, most + 1)),
+            pressure_angle_return=random.choice([None, float(random.integers(least + 5, most + 11))]),
+        ),
+        drawing=DrawingTable(divisions=random.choice([8, 10, 12, 12, 12, 16, 24]).item()),
+    )
+
+
 def _motion(random: np.random.Generator, law: str | None, lifts: tuple[float, float] = (10, 50)) -> MotionTable:
     kinds = SHAPES[random.integers(len(SHAPES))]
     angles = random.dirichlet(np.full(len(kinds), 6.0)) * 360

@@ -150,7 +150,7 @@ def test_of_two_sides_nearly_alike_the_exact_one_is_compared_whichever_the_drawi
     solution = solve(replace(task, follower=TranslatingTable((drawn_tie + exact_tie) / 2, 12.0)))
     q = solution.comparison.quantities["max_pressure_angle_rise_deg"]
     assert not flips(q)
-    assert abs(q.error_paper) <= q.tolerance_paper < 0.2  # degrees
+    assert abs(q.error_paper) <= q.tolerance_paper < 0.4  # degrees
     as_read = np.degrees(solution.drawn["angle_diagram"].value("max_rise"))
     assert flips(replace(q, drawn=as_read))
     assert flips(replace(q, tolerance_paper=2 * abs(q.exact)))

@@ -149,6 +149,18 @@ def test_an_end_of_a_phase_belongs_to_it_when_asked_by_phase():
     assert motion.angle_at([0, 2], [1.0, 0.0]) == pytest.approx([80 * DEG, 125 * DEG])
 
 
+def test_the_rounding_of_an_angle_reaches_into_no_other_phase():
+    """Where a derivative jumps, the value on the left is the one before the jump."""
+    draw = np.random.default_rng(1)
+    for angles in draw.dirichlet(np.ones(4), 200) * FULL_TURN:
+        phases = [Rise(20, angles[0], "rectangular"), Dwell(angles[1]), Return(20, angles[2], "cosine")]
+        motion = Motion([*phases, Dwell(FULL_TURN - angles[:3].sum())])
+        every = np.arange(4)
+        ends = motion.angle_at(every, 1.0)
+        assert (ends <= np.append(motion.starts[1:], FULL_TURN)).all()
+        assert_allclose(motion(ends, side="left"), motion.at(every, 1.0, "left"), rtol=1e-9, atol=1e-9)
+
+
 def test_tiny_phases_keep_their_values():
     tiny = 1e-7
     motion = Motion([Rise(5, tiny, "modified-trapezoidal"), Dwell(3.0), Return(5, FULL_TURN - 3.0 - tiny)])

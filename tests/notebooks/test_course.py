@@ -81,9 +81,12 @@ def test_the_hard_cases_of_the_course_are_those_of_the_table():
     for case in shown:
         row = table[case["name"]]
         assert (case["phases"], case["reference"]) == (row["phases"], row[case["quantity"]])
-        same = {"follower.offset": "offset", "follower.roller_radius": "roller", "cam.prime_radius": "prime_radius",
-                "limits.pressure_angle_rise": "rise", "drawing.divisions": "divisions"}  # fmt: skip
+        same = {"cam.prime_radius": "prime_radius", "limits.pressure_angle_rise": "rise",
+                "drawing.divisions": "divisions"}  # fmt: skip
         assert {key: case.get(key) for key in same} == {key: row.get(name) for key, name in same.items()}
+        usual, follower = 10.0, row["follower"]
+        assert case.get("follower.offset", usual) == follower.get("offset", "open")
+        assert case.get("follower.roller_radius") == follower.get("roller_radius")
 
 
 @pytest.mark.parametrize(
