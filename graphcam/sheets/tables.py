@@ -18,6 +18,8 @@ LINE_SPACING = 1.5
 """The distance from line to line in a header, in heights of its letters."""
 CELL_MARGIN = 1.5
 """The sum of the margins left and right of the text in a cell, in heights of its letters."""
+BASE_DEPTH = 0.44
+"""The base line below the middle of a cell, in heights of its letters: an index as of φ_у keeps off the rule."""
 WIDTH_ROUNDING = 1e-6
 """The excess of a text over its column that is a rounding error [mm]."""
 MAX_NAME_WIDTH = 40.0
@@ -176,7 +178,7 @@ def table_block(table: Table, height: float, room: float = math.inf, *, row_heig
 
 
 def _cell(lines: list[str], box: Box, height: float) -> list[Text]:
-    y = (box.top + box.bottom) / 2 + (len(lines) - 1) * LINE_SPACING / 2 * height - height / 2
+    y = (box.top + box.bottom) / 2 + ((len(lines) - 1) * LINE_SPACING / 2 - BASE_DEPTH) * height
     x, align = ((box.left + box.right) / 2, "center") if box.left else (CELL_MARGIN / 2 * height, "left")
     return stacked_lines(lines, complex(x, y), LINE_SPACING, height, align)
 

@@ -72,16 +72,6 @@ def check_pages(solution: AnySolution, pages: tuple[Page, ...]) -> list[float]:
     return [used(sheet, page, points_of_views(solution, page, labels=True)) for page in pages]
 
 
-LEAST_USED = 0.55
-"""Of a page but the last."""
-SPARSE = {
-    ("arcs", "A4", "iso", "landscape"): 0.5,
-    ("arcs", "A4", "iso", "portrait"): 0.53,
-    ("measured", "A3", "iso", "portrait"): 0.54,
-}
-"""Where two large views of a small sheet leave strips in which nothing has room."""
-
-
 @pytest.mark.parametrize("name", ["coursework", "flat"])
 def test_displacements_are_carried_level_across_to_the_combined_diagram(name):
     (page,) = drawing_of(contents_of(gc.solve(builtin_task(name)))).pages

