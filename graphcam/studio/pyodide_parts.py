@@ -47,8 +47,10 @@ _NUMPY_PATTERN = re.compile(r"numpy-[^-]+-.*\.(whl|tar\.gz)")
 UNUSED_FOLDERS = frozenset({"tests", "testing", "fft", "f2py", "include", "_examples", "_pyinstaller", "pkgconfig"})
 UNUSED_ENDINGS = (".pyi", ".pxd", ".pyx", ".h", ".c", ".a", "RECORD")
 """Endings of NumPy's files for tests, compilers, type checkers or installers, and transforms that no drawing needs."""
-ROOMS_ABOVE = frozenset({"__main__.py", "cli", "exercises", "notebooks", "bench", "plots", "photo"})
-"""The rooms of graphcam that the studio stands below, and that of photographs, which serves exercises alone."""
+ROOMS_ABOVE = frozenset({"__main__.py", "cli", "exercises", "notebooks", "bench", "plots", "photo", "sweeps"})
+"""The rooms of graphcam that the studio does not need: above it, and sweeps and photographs beside it."""
+UNREAD_FILES = frozenset({"hard_cases.toml", "space.toml"})
+"""The data of such rooms."""
 KEPT_ENDINGS = frozenset({".py", ".pyi", ".json", ".po", ".toml", ".csv"})
 """Kinds of files of graphcam that the engine reads; pages, scripts and fonts are not for it."""
 ENGINE_LIBRARIES = ("lazy_loader", "tomli_w", "typing_extensions")
@@ -112,7 +114,9 @@ def _of_graphcam() -> Iterator[tuple[str, bytes]]:
     package = Path(str(files("graphcam")))
     for path in package.rglob("*"):
         inside = path.relative_to(package)
-        if inside.parts[0] not in ROOMS_ABOVE and path.suffix in KEPT_ENDINGS and path.is_file():
+        if inside.parts[0] in ROOMS_ABOVE or path.name in UNREAD_FILES:
+            continue
+        if path.suffix in KEPT_ENDINGS and path.is_file():
             yield f"graphcam/{inside.as_posix()}", path.read_bytes()
 
 
