@@ -25,6 +25,7 @@ from graphcam.tasks.task_file import load_task
 
 ADDED = {"10.5/2": [["working_profile", "instant centres", [19]]]}
 """What a place draws besides what it drew: the normal at the profile goes through the instant centre."""
+NO_DAMPING = ("damping", 0.0)
 KEPT = Path(__file__).parent / "data" / "kept"
 Plain = dict[str, Any]
 
@@ -45,8 +46,12 @@ def as_json(data: object) -> Any:
 def as_then(says: Plain) -> Plain:
     """What a task says, with the divisions that were filled in where it leaves them out: 12, as they are drawn now.
 
+    Nor did a spring say that it has no damping.
+
     (More only where an acceleration lasts less than a part; no kept task has one, as the sizes that they keep prove.)
     """
+    if "spring" in says:
+        says = says | {"spring": {key: value for key, value in says["spring"].items() if (key, value) != NO_DAMPING}}
     return says if "arcs" in says else says | {"drawing": {"divisions": 12} | says.get("drawing", {})}
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from graphcam.sheets.model import Strokes, Text
 from graphcam.sheets.sampling import box_of
-from graphcam.sheets.tables import Block, Table, notes_block, table_block
+from graphcam.sheets.tables import BASE_DEPTH, Block, Table, notes_block, table_block
 from graphcam.sheets.text_measures import width, wrap
 
 HEIGHT = 3.5
@@ -65,7 +65,7 @@ def test_a_table_is_ruled_about_its_cells(height):
     for row, low in zip((*PLAIN.rows[::-1], PLAIN.header), rows, strict=False):
         for k, cell in enumerate(row):
             text = said[cell]
-            assert text.at.imag + height / 2 == pytest.approx(low + 1.1 * height)
+            assert text.at.imag + BASE_DEPTH * height == pytest.approx(low + 1.1 * height)
             assert text.align == ("center" if k else "left")
             assert text.at.real == pytest.approx((ends[k] + ends[k + 1]) / 2 if k else 0.75 * height)
     assert all(text.height == height for text in said.values())
@@ -85,7 +85,7 @@ def test_a_table_without_a_header_has_no_bold_line_inside():
     thin, _ = level_and_upright(block, "ruling")
     assert sorted(bold) == pytest.approx([0.0, 4.4 * HEIGHT])
     assert sorted(thin) == pytest.approx([2.2 * HEIGHT])
-    assert texts(block)["1"].at.imag == pytest.approx((2.2 + 1.1 - 0.5) * HEIGHT)
+    assert texts(block)["1"].at.imag == pytest.approx((2.2 + 1.1 - BASE_DEPTH) * HEIGHT)
 
 
 def test_a_table_of_one_cell_needs_no_thin_line():
@@ -103,10 +103,10 @@ def test_a_long_name_is_broken_and_its_row_is_higher_by_its_lines():
     assert sorted(level) == pytest.approx([0.0, 2.2 * HEIGHT + high, 4.4 * HEIGHT + high])
     said = texts(block)
     middle = 2.2 * HEIGHT + high / 2
-    assert said["30"].at.imag + HEIGHT / 2 == pytest.approx(middle)
+    assert said["30"].at.imag + BASE_DEPTH * HEIGHT == pytest.approx(middle)
     first, second = (said[line].at for line in lines)
     assert first.imag - second.imag == pytest.approx(1.5 * HEIGHT)
-    assert (first.imag + second.imag + HEIGHT) / 2 == pytest.approx(middle)
+    assert (first.imag + second.imag) / 2 + BASE_DEPTH * HEIGHT == pytest.approx(middle)
     assert {first.real, second.real} == {0.75 * HEIGHT}
     # As wide as the widest of its lines.
     answers = max(width(cell, HEIGHT) for cell in ("answer", "30"))
