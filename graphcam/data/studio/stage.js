@@ -63,7 +63,7 @@ const boardSteps = (view) => view.order.map((id) => {
 
 // --- frames ---------------------------------------------------------------------------------------------------------------------
 
-const inside = ([left, top, wide, high], [x, y, w, h], by = 1) =>
+const inside = ([left, top, wide, high], [x, y, w, h], by = 1.5) =>
   left >= x - by && top >= y - by && left + wide <= x + w + by && top + high <= y + h + by;
 
 // Whether a frame must change to show another one: it leaves it, or would be small in it.
