@@ -237,6 +237,7 @@ def _three_points(timer: Timer) -> Iterator[BenchRow]:
     cam, at, steps = scene("translating", "3-4-5").cam, 0.6, 0.1 / 2 ** np.arange(8)
 
     def curvature(share: float) -> Floats:
+        """The drawn curvatures [1/mm], the first chord so many times the second."""
         return 1 / circumradius(*(cam.pitch_curve(at + turned) for turned in (-share * steps, 0 * steps, steps)))
 
     for name, goal, share in (("equal", "2.00 ± 0.05", 1.0), ("unequal", "1.00 ± 0.05", 2.0)):

@@ -139,6 +139,7 @@ def stepped_residual(n: float, tolerance: float) -> float:
     omega = 2 * pi * n
 
     def slope(u: float, state: Floats) -> list[float]:
+        """The derivatives of place and velocity by u."""
         return [state[1], -(omega**2) * state[0] - 2 * pi * np.sin(2 * pi * u)]
 
     solved = integrate.solve_ivp(slope, (0, 1), [0.0, 0.0], "DOP853", rtol=tolerance, atol=tolerance / 1000)
@@ -156,6 +157,7 @@ def _spectrum_rows(unit: Unit, timer: Timer) -> Iterator[BenchRow]:
     some = ratios[::12]
 
     def stepped(tolerance: float) -> list[float]:
+        """The residuals at all of these ratios."""
         return [stepped_residual(n, tolerance) for n in some]
 
     for tolerance in INTEGRATOR_TOLERANCES:

@@ -112,6 +112,7 @@ def _pylinkage(module: Any, timer: Timer) -> Iterator[_Told]:
     motion, phi = peer_cam().motion, np.linspace(0, ANGLES[0], STATIONS)
 
     def theirs() -> list[float]:
+        """The peer's radii [mm] at all stations."""
         return [profile.evaluate(x) for x in phi.tolist()]
 
     off = float(np.abs(np.array(theirs()) - BASE - motion(phi)[0]).max())

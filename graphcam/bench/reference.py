@@ -57,6 +57,7 @@ def least_radius(where: BenchFollower) -> float:
             angle = mp.mpf(where.board.motion.phases[k].angle)
 
             def rising(u: Any, angle: Any = angle) -> Any:
+                """How far the tangent at u lies across the line of motion, in lifts."""
                 return mp.diff(lift, u) / angle - slope * lift(u)
 
             # The tangent touches where the acceleration still pushes, between the start and the middle.
@@ -72,6 +73,7 @@ def conditioned(points: Sequence[MotionPoint], phi: Floats) -> Floats:
         conditions = [(point.angle, k, value) for point in points for k, value in point.given.items()]
 
         def powers(angle: float, k: int) -> Any:
+            """The derivatives of order k of all powers of the cam angle [rad]."""
             at = mp.mpf(angle)
             return [mp.ff(power, k) * at ** max(power - k, 0) for power in range(len(conditions))]
 

@@ -107,6 +107,7 @@ def by_pressure_angles(motion: Motion, limit: float, n: int, start: Point) -> fl
     s, v = (np.concatenate([motion.at(k, u)[i] for k in (0, 2)]) for i in (0, 1))
 
     def room(x: Floats) -> Floats:
+        """The angles [rad] that are left to the limit on either side."""
         alpha = np.arctan2(v - size * x[1], size * x[0] + s)
         return np.concatenate([limit - alpha, limit + alpha])
 

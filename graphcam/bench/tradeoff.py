@@ -52,6 +52,7 @@ def methods(effort: Effort) -> Iterator[Method]:
     displacement, radius, profile = "displacement", "minimum prime radius", "profile"
 
     def sampled(question: str, name: str, kind: str, work: Work, error: Callable[[int], float]) -> Method:
+        """A method that takes samples, timed."""
         return _timed_method(effort, Method(question, name, "sampled", sizes[kind]), work, error)
 
     def drawn(question: str, kind: str, where: BenchFollower, construction: str, reading: str) -> Method:

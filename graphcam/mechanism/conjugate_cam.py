@@ -38,8 +38,8 @@ class ConjugateCam:
 
     Raises
     ------
-    DesignError : the follower has no roller, the second roller does not hold it back over the whole turn, or is too
-        large for the path of its centre
+    DesignError : the follower has no roller, a size is not finite, the second roller does not hold the follower back
+        over the whole turn, or is too large for the path of its centre
 
     A stem with both rollers 100 mm apart, on either side of the cam centre; the lobes are alike, so the breadth is
     equal and both cams are one:

@@ -4,11 +4,11 @@ The cam pushes along the contact normal, at the pressure angle alpha to the moti
 follower it drags it along the profile with mu N: always in the cam's sense, for an edge or a face that slides, and for
 a roller with as much as its bearing holds it back at the rim.  Along the motion of a follower that slides
 
-    m (a omega^2 + v eps) = N (cos alpha - mu sin alpha) - (F0 + c s) - P
+    m (a omega^2 + v eps) + d v omega = N (cos alpha - mu sin alpha) - (F0 + c s) - P
 
 and of an arm about its pivot, with its length l, the roller radius r and the cam's sense sigma,
 
-    J (a omega^2 + v eps) = N (l cos alpha - sigma mu (l sin alpha - r)) - (F0 + c s) - l P
+    J (a omega^2 + v eps) + d v omega = N (l cos alpha - sigma mu (l sin alpha - r)) - (F0 + c s) - l P
 
 because the friction acts at the rim, r nearer to the cam than the roller's centre.  Contact is kept where N > 0.  What
 a unit of N moves, cos alpha - mu sin alpha, is the transmission coefficient: where it is zero or less the follower
@@ -33,7 +33,7 @@ Sources: I. Voloder, M. Cohodar, S. Karic, *Annals of DAAAM* (2007) for the load
 
 Without friction a load that is the same at the end of a turn as at its beginning, and depends on the place alone, does
 no work over the turn, and the mean torque is zero; so is that of the inertia at a constant speed.  What remains is what
-friction takes, and a load that differs on the way up and on the way down.
+friction and damping d take, and a load that differs on the way up and on the way down.
 """
 
 import math
