@@ -327,7 +327,7 @@ DRAWN: dict[str, Row] = {
     },
     "two parts a phase of an arm": {"phases": GENTLE, "divisions": 2, "kind": "oscillating"},
     "three parts a phase": {"phases": GENTLE, "divisions": 3},
-    "a thousand parts a phase": {"phases": GENTLE, "divisions": 1000},
+    "a thousand parts a phase": {"phases": GENTLE, "divisions": 1000, "slow": True},
     "a jump off every grid": {
         "phases": [["rise", 30.0, 120.0, "rectangular", 1 / math.pi], ["return", 30.0, 120.0, "rectangular", 7.3]],
     },

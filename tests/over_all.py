@@ -71,6 +71,20 @@ def pairs(ones: Iterable[Any], others: Iterable[Any], every: int = 3) -> list[tu
     return [(one, other) for k, one in enumerate(ones) for n, other in enumerate(row) if (k + n) % every == 0]
 
 
+def fast_first(cases: Iterable[Any], fast: int = 1) -> list[Any]:
+    """Parameters of a test whose first few are quick tests, and the others slow ones.
+
+    >>> [str(each) if isinstance(each, str) else [mark.name for mark in each.marks] for each in fast_first("ab")]
+    ['a', ['slow']]
+    """
+    return [case if k < fast else slow(case) for k, case in enumerate(cases)]
+
+
+def slow(case: Any) -> Any:
+    """A case, or a tuple of the values of several parameters, that is a slow test."""
+    return pytest.param(*(case if isinstance(case, tuple) else [case]), marks=pytest.mark.slow)
+
+
 def over_seeds(seeds: int | Iterable[int]) -> Callable[[Test], Test]:
     """Make one test of a test of one seed, over some; ``python tests/random_cases.py`` takes any others.
 

@@ -14,6 +14,7 @@ from types import ModuleType
 
 import pytest
 import typer
+from over_all import fast_first
 from typer.testing import CliRunner
 
 import graphcam
@@ -269,8 +270,8 @@ main()
 
 @pytest.mark.parametrize(
     "module",
-    ["graphcam.cli", "typer", "graphcam.cli.solve", "numpy", "numpy.linalg", "graphcam.tasks.task",
-     "graphcam.tasks.dataclass_reader", "graphcam.report.output_folder", "matplotlib", "ezdxf"],
+    fast_first(["graphcam.cli", "graphcam.report.output_folder", "typer", "graphcam.cli.solve", "numpy", "numpy.linalg",
+     "graphcam.tasks.task", "graphcam.tasks.dataclass_reader", "matplotlib", "ezdxf"], 2),
 )  # fmt: skip
 def test_an_interruption_is_one_line_from_the_first_moment(module, tmp_path):
     ran = subprocess.run([sys.executable, "-c", INTERRUPTED, module], cwd=tmp_path, capture_output=True, text=True)
@@ -321,6 +322,7 @@ def test_a_place_without_a_name_is_refused(run, tmp_path, words):
     assert files(tmp_path) == []
 
 
+@pytest.mark.slow
 def test_solve_says_what_was_adopted_and_where_it_comes_from(run, tmp_path):
     """What the task gives, what was found, and a preload left open, which is the minimum; a worksheet tells nothing."""
     spring = "\n[spring]\nmass = 5\nstiffness = 3\n"

@@ -71,6 +71,7 @@ def imported(module: ast.Module) -> set[str]:
     return {name.name for node in captions for name in node.names}
 
 
+@pytest.mark.slow
 def test_every_caption_is_written_where_the_tools_of_gettext_find_it():
     found = {singular(message.id) for message in texts_of_the_code()}
     # The texts of the tours stand in a file of data, which is looked through too.
@@ -267,6 +268,7 @@ def test_the_command_line_speaks_no_language_that_has_no_messages(tmp_path, spok
     assert language_of_machine({"LANG": f"{spoken}_XX.UTF-8"}) == ENGLISH
 
 
+@pytest.mark.slow
 def test_the_command_line_chooses_the_language(tmp_path):
     out = tmp_path / "out"
     done = CliRunner().invoke(app, ["solve", "--language", "ru", "--out", str(out)])

@@ -187,6 +187,7 @@ main()
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="limits of files are those of POSIX")
 @pytest.mark.parametrize(
     "words", [["notebook", "--out", "out"], ["sweep", "space.toml", "--out", "out.csv"]], ids=["notebook", "sweep"]
@@ -220,6 +221,7 @@ main()
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows sends Ctrl-C in another way")
 @pytest.mark.parametrize(
     ("module", "words"),

@@ -124,6 +124,7 @@ def test_the_hand_has_a_best_number_of_parts():
     assert hands.low[1] < hands.mean[1] < hands.high[1]
 
 
+@pytest.mark.slow
 def test_the_error_budget_names_what_makes_every_reading_scatter():
     rows = list(budgets("3-4-5"))
     assert {row.follower for row in rows} == {"translating", "arm", "flat"}

@@ -67,7 +67,7 @@ def random_analysis(seed):
     return motion, follower, [analysis_of(follower, motion, parts) for parts in PARTS]
 
 
-@over_seeds(40)
+@over_seeds(12)
 def test_the_measured_displacement_comes_to_that_of_the_arcs(seed):
     """In the third order or better, where the curve has a corner in none of its parts."""
     if (found := random_analysis(seed)) is None:
@@ -79,7 +79,7 @@ def test_the_measured_displacement_comes_to_that_of_the_arcs(seed):
     assert errors[-1] < ON_PAPER or order(PARTS, errors) > 1.8
 
 
-@over_seeds(40)
+@over_seeds(12)
 def test_the_phase_angles_and_the_lift_are_those_of_the_motion(seed):
     if (found := random_analysis(seed)) is None:
         return
@@ -90,7 +90,7 @@ def test_the_phase_angles_and_the_lift_are_those_of_the_motion(seed):
     assert drawn[-1].value("phase_angles").sum() == pytest.approx(FULL_TURN)
 
 
-@over_seeds(40)
+@over_seeds(12)
 def test_the_pressure_angles_are_those_of_the_cam(seed):
     if (found := random_analysis(seed)) is None or isinstance(found[1], gc.FlatFaced):
         return

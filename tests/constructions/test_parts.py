@@ -180,6 +180,7 @@ def test_every_number_that_a_part_of_other_tasks_tells_stands_on_the_board(name)
     assert strays(name) == []
 
 
+@pytest.mark.slow
 def test_most_numbers_that_are_told_wrong_would_be_found():
     """Told 1.7 % off, as far as that is more than the digits that are printed."""
     assert share_found(gc.solve(TASKS["coursework"]), 1.017) > 0.7

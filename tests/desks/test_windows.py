@@ -72,6 +72,7 @@ def test_every_module_that_is_not_of_the_sandbox_is_imported_without_unix(tmp_pa
     assert done.returncode == 0, done.stderr
 
 
+@pytest.mark.slow
 def test_a_task_is_solved_and_its_notebook_written(tmp_path):
     assert "cam.toml" in told(tmp_path, "init", "cam.toml")
     told(tmp_path, "solve", "cam.toml", "--out", "cam")
@@ -139,6 +140,7 @@ with local_studio(Path("out"), "en") as server:
     assert done.stdout.strip() == "True", done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("encoding", ["cp1252", "ascii"])
 def test_a_table_is_printed_in_every_encoding(tmp_path, encoding):
     done = run(tmp_path, "-m", "graphcam", "exercise", "list", PYTHONIOENCODING=encoding)
@@ -241,6 +243,7 @@ def writes_of(path: Path) -> list[ast.Call]:
     return found
 
 
+@pytest.mark.slow
 def test_every_text_is_written_in_a_said_encoding_and_with_the_same_ends_of_lines_everywhere():
     calls = [(path, call) for path in PACKAGE.rglob("*.py") for call in writes_of(path)]
     assert len(calls) > 20

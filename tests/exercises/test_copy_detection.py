@@ -28,6 +28,8 @@ from graphcam.exercises.marking.copy_detection import (
 from graphcam.exercises.marking.marking import mark
 from graphcam.exercises.reports.report_files import GroupNotes, copies_table, write_reports
 
+pytestmark = pytest.mark.slow
+
 NAME, STUDENTS = "acceleration-and-scales", 12
 
 
@@ -227,7 +229,6 @@ def test_the_table_of_pairs_is_safe_and_whole():
     ]
 
 
-@pytest.mark.slow
 @over_all("name", [NAME, "whole-cam"])
 @over_seeds(1)
 def test_honest_courses_name_nobody(name: str, seed: int):

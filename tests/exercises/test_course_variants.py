@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
 from issued_variants import SECRET, issued
 
 from graphcam.exercises.definition.exercise import Parameter
@@ -16,6 +17,7 @@ from graphcam.exercises.marking.marking import mark
 NAMES = [f"student {k}" for k in range(10)]
 
 
+@pytest.mark.slow
 def test_nobody_earns_more_than_half_with_the_answers_of_one_before():
     exercise = find_exercise("integration")
     course = [answer_key for _, answer_key in course_variants(exercise, NAMES, SECRET)]
@@ -44,12 +46,14 @@ def test_the_right_answers_are_too_near_to_their_own_key_and_not_to_another():
     assert not too_near(exercise, own, other)
 
 
+@pytest.mark.slow
 def test_who_is_added_at_the_end_changes_nobodys_variant():
     exercise = find_exercise("acceleration-and-scales")
     few, more = (list(course_variants(exercise, NAMES[:count], SECRET)) for count in (3, 5))
     assert [variant.parameters for variant, _ in few] == [variant.parameters for variant, _ in more[:3]]
 
 
+@pytest.mark.slow
 def test_an_exercise_with_too_few_variants_for_a_course_is_issued_all_the_same(monkeypatch):
     """One parameter with two values: the third student has a variant that somebody has."""
     monkeypatch.setattr(module, "MAX_REDRAWS", 2)

@@ -65,6 +65,7 @@ def test_the_chance_is_how_often_a_rounding_hand_reads_just_that(value, pencil):
     assert chance(asked, value, math.hypot(pencil, 0.1 / math.sqrt(12))) == pytest.approx(often, abs=0.005)
 
 
+@pytest.mark.slow
 def test_careful_hands_are_remarked_on_more_seldom_than_is_said():
     hands = 2000
     found = [

@@ -203,6 +203,7 @@ def hand_in_as(root: Path, email: str) -> None:
     (root / "submission_metadata.json").write_text(json.dumps({"users": [{"email": email}]}))
 
 
+@pytest.mark.slow
 def test_gradescope_grades_by_the_rosters_addresses_and_gives_a_stranger_no_variant(tmp_path: Path):
     root = gradescope_of(tmp_path)
     kept = root / "source" / TEACHER_FOLDER / "certificates"
@@ -231,6 +232,7 @@ def test_two_students_of_one_address_are_refused(tmp_path: Path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_an_autograder_installs_the_wheel_that_lies_in_it_and_grades_with_that(tmp_path: Path):
     root = gradescope_of(tmp_path)
     hand_in_as(root, "anna@example.org")
@@ -309,6 +311,7 @@ def submission(course: Path, notebook: Path) -> None:
         nbformat.write(filled, folder / "answers.ipynb")
 
 
+@pytest.mark.slow
 def test_what_nbgrader_collects_is_graded(course: Path):
     submission(course, course / "source" / NAME / "answers.ipynb")
     grade_course(Course(course, course.parent / "secret", course / "grades.csv"))

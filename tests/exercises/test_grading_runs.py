@@ -32,6 +32,8 @@ from graphcam.exercises.running.isolation_probe import reason_unavailable
 from graphcam.files import OutputError
 from graphcam.workers import WorkerPool, processes, results
 
+pytestmark = pytest.mark.slow
+
 NAME = "acceleration-and-scales"
 IDS = (
     "Анна Кузнецова", "../x", "/etc/passwd", "=cmd|' /C calc'!A0", "+1", "-2+3", "@SUM(A1)", "\t=1", "a\r=1", "a\n=1",
@@ -334,7 +336,6 @@ def test_the_command_loads_only_what_reads_marks_and_reports(ours: Path, tmp_pat
     assert written(tmp_path / "command") == graded(ours, tmp_path / "here")
 
 
-@pytest.mark.slow
 def test_a_run_that_is_killed_goes_on(ours: Path, tmp_path: Path):
     """By SIGKILL, from the command line; whole batches of a real pool are lost, none is done twice."""
     command = [sys.executable, "-m", "graphcam", "exercise", "grade", str(ours), "--secret-file", str(ours / "secret"),
@@ -392,7 +393,6 @@ def test_pages_that_a_killed_run_left_are_cleared_by_the_next(later: str, ours: 
     assert [path.name for path in tmp_path.glob(".*")] == []
 
 
-@pytest.mark.slow
 def test_a_run_that_is_killed_ends_the_code_that_it_runs(tmp_path: Path):
     if os.getuid() == 0 and reason_unavailable(Level.L1):
         pytest.skip(str(reason_unavailable(Level.L1)))
@@ -429,7 +429,6 @@ def session(leader: int) -> list[str]:
     return found
 
 
-@pytest.mark.slow
 def test_a_worker_that_dies_costs_one_record_only(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     ids = tuple(f"{'deadly' if k in (3, 20) else 'student'} {k:02d}" for k in range(24))
     place = tmp_path / "course"
@@ -449,7 +448,6 @@ def assignment() -> Assignment:
     return Assignment(issued(NAME)[0], SECRET)
 
 
-@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore")  # of the cluster's own closing
 def test_processes_and_a_cluster_give_the_same_bytes(ours: Path, tmp_path: Path):
     from distributed import LocalCluster

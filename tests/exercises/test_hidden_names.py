@@ -60,6 +60,7 @@ def identities(text: str) -> set[str]:
     return {one for one in known if one.lower() in text.lower()}
 
 
+@pytest.mark.slow
 def test_no_page_tells_who_somebody_is_and_the_table_tells_whose_each_is(course: Path):
     group = grade(course, "pages", anonymous=True)
     table = list(csv.DictReader((course / "out" / "grades-ids.csv").read_text(encoding="utf-8").splitlines()))

@@ -202,6 +202,7 @@ def test_tags_and_code_are_found_where_they_are_said(tmp_path: Path, paper: str)
     assert found == set(marked.tags)
 
 
+@pytest.mark.slow
 def test_the_drawing_for_cad_has_tags_and_the_origin(tmp_path: Path):
     (tmp_path / "secret").write_bytes(SECRET)
     (tmp_path / "roster.csv").write_text("id\nAnna\n")
@@ -223,6 +224,7 @@ def test_the_drawing_for_cad_has_tags_and_the_origin(tmp_path: Path):
     assert bounding_box([box for e in tags if (box := box_of([e]))]).right == pytest.approx(412)
 
 
+@pytest.mark.slow
 def test_a_course_on_paper_is_graded_by_the_keys_of_its_paper(tmp_path: Path):
     secret, roster, out = tmp_path / "secret", tmp_path / "roster.csv", tmp_path / "course"
     secret.write_bytes(SECRET)

@@ -59,6 +59,7 @@ def test_limits_swapped_in_a_region_that_begins_almost_on_the_line_of_motion_are
     assert isinstance(key_or_reason(other), AnswerKey)
 
 
+@pytest.mark.slow
 def test_every_mistake_of_the_variant_of_a_student_is_named():
     found = simulate(find_exercise("least-radius"), b"the secret of the tests", 3, 60)
     assert found.right_diagnoses >= 0.99

@@ -118,6 +118,7 @@ def test_at_rest_the_profile_lies_a_roller_from_the_pitch_curve(name, radius):
     assert float(drawn.working_profile.readings["radius"].value[0]) == pytest.approx(radius)
 
 
+@pytest.mark.slow
 def test_pairs_that_the_exercise_lets_be_alike_are_issued_and_named_together():
     exercise = find_exercise("curvature-and-roller")
     _, answer_key = issue(exercise, "Anna", b"alike")

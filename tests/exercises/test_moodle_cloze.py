@@ -222,6 +222,7 @@ def test_a_drawing_is_handed_in_separately():
         cloze_xml(only, [])
 
 
+@pytest.mark.slow
 def test_an_export_has_a_question_a_variant_in_the_courses_language(tmp_path: Path):
     students = [Student("Анна"), Student("Борис")]
     export(DRAWN, LearningSystem.MOODLE_CLOZE, students, tmp_path / "out", SECRET, language="ru")

@@ -112,6 +112,7 @@ def test_what_is_left_out_of_the_key_is_never_named(name):
         assert each in {full.misconception, *full.alike}
 
 
+@pytest.mark.slow
 def test_mistakes_that_an_exercise_does_not_know_are_seldom_given_a_name():
     for name in ("pressure-angle", "least-radius-offset"):
         found = simulate(find_exercise(name), b"the secret of the tests", 3, 10)

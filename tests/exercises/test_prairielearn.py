@@ -128,6 +128,7 @@ def student_of(stand: Stand) -> tuple[str, AnswerKey]:
     return found[0], keys[found[0]]
 
 
+@pytest.mark.slow
 def test_seeds_give_every_variant_and_one_seed_the_same(folder: Path):
     assert {student_of(Stand(folder, seed))[0] for seed in range(len(IDS))} == set(IDS)
     assert Stand(folder, 2**32 - 5).data == Stand(folder, 2**32 - 5).data
@@ -197,6 +198,7 @@ def test_students_can_load_nothing_that_tells_a_key(folder: Path):
     assert all({one[name] for name in silent} == {"false"} for one in Stand(folder, 0).page.inputs)
 
 
+@pytest.mark.slow
 def test_the_question_has_the_fields_of_prairielearns_schema_and_the_same_bytes_again(folder: Path, tmp_path: Path):
     info = json.loads((folder / "info.json").read_text(encoding="utf-8"))
     assert {"uuid", "type", "title", "topic"} <= set(info) <= set(INFO)

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from browsers import opened
 from issued_variants import SECRET, course_of, issued, key
+from over_all import fast_first
 from russian import english_words
 
 from graphcam.exercises.course.course_folder import TEACHER_FOLDER, AnswerKeys
@@ -123,6 +124,7 @@ def disclosed(html: str, answer_key: AnswerKey) -> list[str]:
     return found
 
 
+@pytest.mark.slow
 def test_a_students_page_does_not_hold_the_key(pages: Path):
     for student in IDS[1:]:
         answer_key = issued(NAME, student)[1]
@@ -140,7 +142,7 @@ def test_the_teachers_page_shows_the_key_so_the_check_above_would_find_it(pages:
     assert "pitch" in disclosed((pages / "grades.html").read_text(), issued(NAME, "Boris")[1])
 
 
-@pytest.mark.parametrize("name", library())
+@pytest.mark.parametrize("name", fast_first(library(), 3))
 def test_no_exercise_discloses_a_key_on_the_page_of_who_has_it_wrong_and_all_do_where_it_is_to_be_shown(name: str):
     """Each by a student with the mistake that is first in its catalogue."""
     exercise, answer_key = issued(name)

@@ -133,6 +133,7 @@ def test_processes_and_a_cluster_count_the_same():
         assert simulate(exercise, SECRET, 3, 10, cluster=cluster.scheduler_address) == one
 
 
+@pytest.mark.slow
 def test_what_is_timed_is_the_work_that_hand_ins_make():
     """Careful ones are read and earn their marks, curves too; in the others the mistake is found."""
     exercise = find_exercise("inversion-translating")

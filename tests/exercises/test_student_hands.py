@@ -139,6 +139,7 @@ def test_a_file_says_the_finest_and_the_coarsest_student(tmp_path):
     assert errors == HANDS["careful"]._replace(line=(0.1, 0.25), stretch=0.001)
 
 
+@pytest.mark.slow
 def test_a_course_keeps_the_hands_it_was_made_for(tmp_path):
     """Whoever gets a key later, such as one who was not on the roster, gets it by the same hands."""
     roster, secret = tmp_path / "roster.csv", tmp_path / "secret"

@@ -289,7 +289,7 @@ def test_tables_of_accelerations_with_noise_and_in_steps_give_a_motion_or_a_mess
 
 
 @pytest.mark.slow
-@over_seeds(24)
+@over_seeds(8)
 def test_any_table_of_accelerations_gives_a_motion_or_a_message(seed):
     motion_through(seed)
 
@@ -374,7 +374,7 @@ def check_scales(seed: int, lifts: list[float]) -> None:
     assert len(answers) == 1, answers
 
 
-@over_seeds(30)
+@over_seeds(10)
 def test_the_answer_does_not_depend_on_the_lift(seed):
     check_scales(seed, [1.0, 3.0, 12.5, 60.0])
 

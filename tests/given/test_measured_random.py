@@ -58,10 +58,10 @@ def check(sampled: list[Sampled]) -> None:
 
 
 def test_random_motions_are_told_from_their_tables():
-    check(list(sampled_motions(60)))
+    check(list(sampled_motions(15)))
 
 
-@over_seeds(12)
+@over_seeds(4)
 def test_a_table_of_any_noise_and_tolerance_gives_a_motion_or_a_message(seed):
     random = np.random.default_rng([7, seed])
     motion, rows = random_motion(random), int(random.choice([8, 12, 24, 36, 72]))

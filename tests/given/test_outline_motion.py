@@ -138,7 +138,7 @@ def faults_of_case(seed):
     return faults
 
 
-@over_seeds(40)
+@over_seeds(15)
 def test_a_roller_laid_on_the_outline_stands_where_the_arcs_say(seed):
     assert not faults_of_case(seed)
 

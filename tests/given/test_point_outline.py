@@ -53,7 +53,7 @@ def faults_of_case(seed):
     return off + ([f"the prime radius is off by {size:.1e} mm"] if size > 1e-4 else [])
 
 
-@over_seeds(12)
+@over_seeds(4)
 def test_points_of_a_cam_by_radii_move_the_follower_as_its_arcs_do(seed):
     assert not faults_of_case(seed)
 

@@ -107,6 +107,7 @@ def least(motion, rotation, limits, distance=None):
     )  # fmt: skip
 
 
+@pytest.mark.slow
 @over_all(("k", "limits"), pairs(range(len(MOTIONS)), LIMITS))
 def test_the_pressure_angle_just_reaches_its_limit(k, limits):
     """What binds is at its limit to rounding, nothing is beyond; for the free distance and for one beside it."""
@@ -186,6 +187,7 @@ def prime_radius(distance, psi0):
     return np.sqrt((distance - ARM) ** 2 + 4 * distance * ARM * np.sin(psi0 / 2) ** 2)
 
 
+@pytest.mark.slow
 @over_all("limits", LIMITS)
 @over_all("rotation", ["ccw", "cw"])
 @over_all("motion", [motion_of("cosine"), stairs()])

@@ -116,7 +116,7 @@ def highest_nearby(height, places: np.ndarray) -> float:
     return float(values.max())
 
 
-@over_seeds(12)
+@over_seeds(5)
 def test_the_widest_place_of_a_band_is_its_maximum(seed):
     """Of s, v and a beside a dense turn; where the worst case takes over from the sum of squares there is a corner."""
     bands = random_bands(seed)

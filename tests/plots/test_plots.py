@@ -64,6 +64,7 @@ def test_a_drawing_of_a_notebook_leaves_pyplot_alone(solution):
     assert pyplot.get_fignums() == []
 
 
+@pytest.mark.slow
 def test_it_works_without_a_display():
     code = "import graphcam as gc; print(gc.solve(gc.builtin_task()).cam.plot().get_title())"
     assert "clockwise" in subprocess.check_output([sys.executable, "-c", code], text=True, env={"PATH": ""})

@@ -44,6 +44,7 @@ def taken(task, hint):
     return replace(task, drawing=replace(task.drawing, ordinate=values["ordinate"], poles=poles))
 
 
+@pytest.mark.slow
 def test_smaller_diagrams_that_save_a_sheet_are_told():
     contents, pages = laid_out(ROLLER)
     assert len(pages) == 2

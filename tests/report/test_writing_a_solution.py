@@ -48,6 +48,7 @@ def test_parts_of_the_profile(tmp_path):
     assert set(arcs.write(tmp_path / "arcs", ["profile_xyz"]).values()) == {None}
 
 
+@pytest.mark.slow
 def test_a_part_is_the_same_as_in_the_whole(tmp_path):
     solution = gc.solve(gc.builtin_task())
     solution.write(tmp_path / "all")

@@ -18,6 +18,7 @@ from ezdxf.document import Drawing as Document
 from ezdxf.entities import Dimension
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from over_all import fast_first
 from scene import TITLE, drawing
 from scipy.ndimage import binary_dilation
 
@@ -127,7 +128,7 @@ def picture(file: Path) -> np.ndarray:
     return np.asarray(canvas.buffer_rgba())[..., 0] < 200
 
 
-@pytest.mark.parametrize("left_out", [None, 'TEXT[layer=="frame-text"]', "DIMENSION"])
+@pytest.mark.parametrize("left_out", fast_first([None, 'TEXT[layer=="frame-text"]', "DIMENSION"]))
 def test_the_add_on_shows_the_same_picture_of_both_variants(tmp_path: Path, left_out: str | None) -> None:
     """Ink within 2 mm of ink; without the texts of the title block, or without the dimensions, there is a gap."""
     write_dxf(drawing(), tmp_path / "plain.dxf")
@@ -181,6 +182,7 @@ write_spline(control, np.repeat([0.0, 1], 4), place / "profile.dxf", "profile", 
 """
 
 
+@pytest.mark.slow
 def test_another_process_writes_the_same_bytes_whatever_the_order_of_its_sets(tmp_path: Path) -> None:
     """Of these two seeds the sets of ezdxf have two orders."""
     written: list[dict[str, bytes]] = []

@@ -24,7 +24,7 @@ def kinds(*entities: Entity) -> list[str]:
     return [overlap.kind for overlap in overlaps(page(*entities))]
 
 
-@over_seeds(6)
+@over_seeds(3)
 def test_many_labels_find_free_places(seed: int) -> None:
     """120 labels on points among bold curves, thin lines and circles."""
     random = np.random.default_rng(seed)

@@ -16,8 +16,8 @@ from graphcam.sheets.model import Box, Group, Page, Stroke
 from graphcam.tasks.task_file import BUILTIN_TASK_NAMES, builtin_task
 
 COURSEWORK = sorted(Path(__file__).with_name("coursework").glob("*.toml"))
-SOME = ["k_02", "k_04", "k_05", "k_07", "k_11", "k_12", "n01", "n14", "n16", "t_tr"]
-"""The beginnings of the names of ten of them."""
+SOME = ["k_02", "k_05", "n14", "t_tr"]
+"""The beginnings of the names of four of them."""
 TOLERATED = {
     "b_sizing": {"parts"},
     "k_04": {"parts", "empty"},
@@ -35,7 +35,7 @@ def tolerated(name: str) -> set[str]:
 
 
 @over_all("start", SOME)
-def test_ten_tasks_keep_to_the_goals(start: str) -> None:
+def test_four_tasks_keep_to_the_goals(start: str) -> None:
     (file,) = (each for each in COURSEWORK if each.name.startswith(start))
     assert measured(gc.solve(gc.load_task(file))).missed().keys() <= tolerated(file.stem)
 

@@ -166,6 +166,7 @@ def in_chromium(picture: str) -> np.ndarray:
     return imread(BytesIO(shot))[:, :, 0] < 0.5
 
 
+@pytest.mark.slow
 def test_librecad_has_every_letter_in_its_own_font(shown, tmp_path):
     letters = f"{LACKING}→{shown}"
     write_dxf(Drawing("", (page_of(letters),)), tmp_path / "letters.dxf")

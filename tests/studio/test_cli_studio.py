@@ -168,6 +168,7 @@ def post(address: str, path: str, body: object) -> dict:
         connection.close()
 
 
+@pytest.mark.slow
 def test_it_answers_writes_into_its_folder_and_ends_with_ctrl_c(tmp_path):
     task = plain_task(gc.builtin_task())
     with started(tmp_path) as (process, address):

@@ -184,6 +184,7 @@ def raises_of_variables(function):
     return any(isinstance(call.args[0], ast.Name) for call in calls)
 
 
+@pytest.mark.slow
 def test_every_quantity_has_a_field_or_a_reason():
     unknown = {}
     for text, places in quantities().items():

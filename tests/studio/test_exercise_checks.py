@@ -148,6 +148,7 @@ def test_a_long_text_gives_way_to_the_length_of_an_address(issued):
     assert all("right" in each["check"] for each in told["answers"])
 
 
+@pytest.mark.slow
 def test_links_stand_in_the_students_folders(tmp_path):
     (tmp_path / "roster.csv").write_text("id\ns-1\ns-2\n", encoding="utf-8")
     (tmp_path / "secret").write_text("a long random text", encoding="utf-8")

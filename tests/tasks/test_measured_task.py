@@ -68,6 +68,7 @@ def test_the_table_is_sought_beside_the_task_wherever_one_stands(tmp_path, monke
     assert tasks[0] == tasks[1] == builtin_task("measured")
 
 
+@pytest.mark.slow
 def test_solving_gives_the_full_set_of_files(tmp_path):
     result = CliRunner().invoke(app, ["solve", str(place(tmp_path)), "--out", str(tmp_path / "out")])
     assert result.exit_code == 0

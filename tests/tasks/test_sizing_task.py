@@ -151,6 +151,7 @@ def test_a_measured_motion_is_sized_with_its_table(tmp_path):
     assert "pressure angle on the rise" in sizing.best.binding
 
 
+@pytest.mark.slow
 def test_the_command_tells_the_cam_its_active_limits_and_the_files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "cam.toml").write_text(TEXT, encoding="utf-8")

@@ -169,6 +169,7 @@ def test_every_row_of_the_table_is_on_the_drawing() -> None:
     assert sum(text == "27.00" for text in said) == np.count_nonzero(rows.radii.round(2) == 27)
 
 
+@pytest.mark.slow
 def test_a_long_table_goes_on_on_further_pages() -> None:
     drawing = drawn("coursework", "iso", "en", PartTable(profile_tolerance=0.002, table_step=1, cutter_radius=5))
     assert len(drawing.pages) > 1

@@ -9,6 +9,7 @@ from dataclasses import replace
 import ezdxf
 import numpy as np
 import pytest
+from over_all import fast_first
 from test_gcode import contour, xy
 from test_spline import greatest_distance
 from typer.testing import CliRunner
@@ -26,7 +27,7 @@ def solved(part: PartTable | None = None):
     return gc.solve(replace(gc.builtin_task(), part=part))
 
 
-@pytest.mark.parametrize("name", TASKS)
+@pytest.mark.parametrize("name", fast_first(TASKS, 2))
 def test_every_cam_has_a_solid_and_a_program_whose_bytes_repeat(name, tmp_path):
     task = gc.load_task(f"graphcam/data/tasks/{name}.toml")
     for folder in ("a", "b"):
@@ -37,6 +38,7 @@ def test_every_cam_has_a_solid_and_a_program_whose_bytes_repeat(name, tmp_path):
         assert b"\r" not in (tmp_path / "a" / file).read_bytes()
 
 
+@pytest.mark.slow
 def test_they_come_with_the_working_drawing_and_not_by_themselves(tmp_path):
     solution = solved()
     plain = solution.write(tmp_path / "plain", ["csv"])

@@ -10,6 +10,8 @@ from graphcam.exercises.photographs.page_owner import PrintedSheets
 from graphcam.photo.pictures import PhotographError
 from graphcam.photo.printed_page import PrintedPage
 
+pytestmark = pytest.mark.slow
+
 SECRET = b"the secret of the photographs"
 
 
@@ -24,7 +26,6 @@ def printed(course, student: str, page: int) -> PrintedPage:
     return PrintedPage.from_json(path.read_text())
 
 
-@pytest.mark.slow
 def test_the_code_on_the_sheet_says_whose_it_is(course, sheets):
     for student, page in (("Anna", 1), ("Anna", 2), ("Boris", 2)):
         text = printed(course, student, page).code

@@ -13,6 +13,8 @@ from hostile_pictures import pdf_of
 from graphcam.exercises.photographs.course_photographs import ReadingOrder, read_course
 from graphcam.exercises.photographs.reading_limits import limited
 
+pytestmark = pytest.mark.slow
+
 
 def drawing_itself(times: int) -> bytes:
     """A PDF whose page shows a form that shows itself, several times: the work doubles with every level."""
@@ -97,7 +99,6 @@ def test_after_reading_nothing_is_limited():
     time.sleep(0.4)
 
 
-@pytest.mark.slow
 def test_the_file_is_told_and_the_others_are_looked_at(course, tmp_path):
     file, other = tmp_path / "endless.pdf", tmp_path / "IMG_1.jpg"
     file.write_bytes(drawing_itself(2))
