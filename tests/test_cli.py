@@ -280,6 +280,7 @@ def test_an_interruption_is_one_line_from_the_first_moment(module, tmp_path):
     assert files(tmp_path) == []
 
 
+@pytest.mark.slow
 def test_a_full_disk_under_the_standard_output_is_one_line(tmp_path):
     with Path("/dev/full").open("w") as full:
         words = [sys.executable, "-m", "graphcam", "solve", "--json"]

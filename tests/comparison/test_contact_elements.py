@@ -29,6 +29,7 @@ def test_pressure_and_half_width_are_those_of_hertz(shape):
     assert (found.pressure[found.x > a * 1.1] == 0).all()
 
 
+@pytest.mark.slow
 def test_errors_fall_with_the_square_of_the_elements_size():
     parts = np.array([5, 10, 20])
     found = [contact(parts=int(count)) for count in parts]
@@ -76,6 +77,7 @@ def test_the_most_stressed_place_lies_below_the_surface(name, size, depth):
         assert body.depth[most] / found.hertz.half_width == pytest.approx(depth, abs=0.05)
 
 
+@pytest.mark.slow
 def test_bodies_that_end_differ_from_half_spaces_the_more_the_wider_they_touch():
     """At twice the half-width twice as far."""
     off = []

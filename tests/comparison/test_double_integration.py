@@ -140,7 +140,7 @@ def test_the_fifth_derivatives_are_the_greatest(name):
 
 def test_the_greatest_v_and_a_of_random_tasks_lie_within_the_proved_bounds():
     found = 0
-    for seed in range(20):
+    for seed in range(8):
         for random in (random_task, random_arm_task, random_flat_task):
             try:
                 quantities = solve(random(seed)).comparison.quantities
@@ -149,7 +149,7 @@ def test_the_greatest_v_and_a_of_random_tasks_lie_within_the_proved_bounds():
             for q in (quantities["max_v"], quantities["max_a"]):
                 assert abs(q.error_paper) <= q.proved_paper + 1e-9, (seed, q)
                 found += 1
-    assert found > 80
+    assert found > 30
 
 
 def test_where_no_theorem_tells_it_nothing_is_said():

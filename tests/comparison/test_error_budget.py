@@ -24,6 +24,7 @@ WITHIN = 6 / math.sqrt(HANDS.samples or 1)
 # First those that draw for themselves: what the others share is large too, and kept until the last of them.
 
 
+@pytest.mark.slow
 def test_what_errors_bring_only_together_is_told_apart():
     """Where the sharpest place is told from its neighbours by less than the hand errs, no kind alone is to blame."""
     chain = gc.solve(gc.builtin_task()).chain

@@ -166,6 +166,7 @@ def test_the_scatter_of_a_chord_is_the_textbook_s():
         assert scatter(n, "v") == pytest.approx(expected, rel=0.03)
 
 
+@pytest.mark.slow
 def test_the_scatter_grows_as_the_parts_become_finer():
     """As n in the velocity, as n^2 in the acceleration: more parts lower the method's error and raise the hand's.
 

@@ -126,6 +126,7 @@ def test_a_space_is_swept_into_a_file_and_into_a_folder(tmp_path):
     assert len((tmp_path / "designs.csv").read_text(encoding="utf-8").splitlines()) == 21
 
 
+@pytest.mark.slow
 def test_the_studio_is_served(tmp_path):
     code = """
 from pathlib import Path

@@ -18,17 +18,22 @@ from graphcam.errors import TaskError
 from graphcam.exercises.course import answer_search
 from graphcam.exercises.course.course_folder import HIDDEN_FOLDER, ROSTER_FILE, TEACHER_FOLDER
 from graphcam.exercises.course.handouts import answer_file
+from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.grading.overrides import OVERRIDES_FILE
 from graphcam.files import OutputError
 
 NAME = "acceleration-and-scales"
-EXERCISE = issued(NAME)[0]
+EXERCISE = find_exercise(NAME)
 IDS = ("s1", "s2", "s3")
-RIGHT = {student: answer_lines(key(issued(NAME, student)[1])) for student in IDS}
 BLANK = answer_file(EXERCISE)
 """answers.toml as it is handed out."""
+
+
+def right(student: str) -> str:
+    """The answers that are right for a student."""
+    return answer_lines(key(issued(NAME, student)[1]))
 
 
 @pytest.fixture
@@ -71,22 +76,28 @@ def packed(files: Mapping[str, str | bytes]) -> bytes:
 
 
 FOUND = {
-    "a zip": {"s1/s1.zip": packed({"answers.toml": RIGHT["s1"], "worksheet.pdf": ""})},
-    "a folder in a zip": {"s1/s1.zip": packed({"s1/answers.toml": RIGHT["s1"], "__MACOSX/s1/._answers.toml": ""})},
-    "a folder": {"s1/214514/answers.toml": RIGHT["s1"]},
-    "another name": {"s1/answers_Fritz.toml": RIGHT["s1"], "s1/task.toml": "lift = 3"},
-    "a table of another name": {"s1/mine.csv": RIGHT["s1"].replace(" = ", ",")},
-    "beside the empty handout": {"s1/answers.toml": BLANK, "s1/done/answers.toml": RIGHT["s1"], "s1/scan.pdf": "x"},
-    "a zip among files": {"Anna Berg_12_34_answers.zip": packed({"answers.toml": RIGHT["s1"]})},
+    "a zip": lambda: {"s1/s1.zip": packed({"answers.toml": right("s1"), "worksheet.pdf": ""})},
+    "a folder in a zip": lambda: {
+        "s1/s1.zip": packed({"s1/answers.toml": right("s1"), "__MACOSX/s1/._answers.toml": ""})
+    },
+    "a folder": lambda: {"s1/214514/answers.toml": right("s1")},
+    "another name": lambda: {"s1/answers_Fritz.toml": right("s1"), "s1/task.toml": "lift = 3"},
+    "a table of another name": lambda: {"s1/mine.csv": right("s1").replace(" = ", ",")},
+    "beside the empty handout": lambda: {
+        "s1/answers.toml": BLANK,
+        "s1/done/answers.toml": right("s1"),
+        "s1/scan.pdf": "x",
+    },
+    "a zip among files": lambda: {"Anna Berg_12_34_answers.zip": packed({"answers.toml": right("s1")})},
 }
 
 
 @pytest.mark.parametrize("kind", FOUND)
 @pytest.mark.parametrize("zipped", [False, True])
 def test_answers_are_found_where_students_put_them(course: Path, kind: str, zipped: bool):
-    hand_in(course, FOUND[kind])
+    hand_in(course, FOUND[kind]())
     if zipped:
-        (course / "in.zip").write_bytes(packed(FOUND[kind]))
+        (course / "in.zip").write_bytes(packed(FOUND[kind]()))
         out = course / "out" / "grades.csv"
         said = "\n".join(map(str, grade_course(Course(course / "in.zip", course / "secret", out))))
         assert table(course)[0]["total"] == f"{EXERCISE.marks:g}"
@@ -98,19 +109,22 @@ def test_answers_are_found_where_students_put_them(course: Path, kind: str, zipp
 
 
 UNREAD = {
-    "no answers can be read from scan.pdf": {"s1/scan.pdf": "%PDF", "s1/answers.toml": BLANK},
-    "answers are in several places, keep one: a, b.zip": {
-        "s1/a/answers.toml": RIGHT["s1"],
-        "s1/b.zip": packed({"answers.toml": RIGHT["s2"]}),
+    "no answers can be read from scan.pdf": lambda: {"s1/scan.pdf": "%PDF", "s1/answers.toml": BLANK},
+    "answers are in several places, keep one: a, b.zip": lambda: {
+        "s1/a/answers.toml": right("s1"),
+        "s1/b.zip": packed({"answers.toml": right("s2")}),
     },
-    "x.zip is not a zip that can be unpacked": {"s1/x.zip": b"PK\x03\x04 and no more"},
-    "answers are in several places, keep one: a.toml, b.toml": {"s1/a.toml": RIGHT["s1"], "s1/b.toml": RIGHT["s1"]},
+    "x.zip is not a zip that can be unpacked": lambda: {"s1/x.zip": b"PK\x03\x04 and no more"},
+    "answers are in several places, keep one: a.toml, b.toml": lambda: {
+        "s1/a.toml": right("s1"),
+        "s1/b.toml": right("s1"),
+    },
 }
 
 
 @pytest.mark.parametrize("why", UNREAD)
 def test_what_cannot_be_read_is_not_graded_and_told_with_the_reason(course: Path, why: str):
-    hand_in(course, {**UNREAD[why], "s2/answers.toml": RIGHT["s2"]})
+    hand_in(course, {**UNREAD[why](), "s2/answers.toml": right("s2")})
     said, _ = grade(course)
     assert said.splitlines()[1:3] == [f"not graded: s1: {why}", "not handed in: s3"]
     assert said.splitlines()[3].startswith("to check: submissions without readable answers: 1 (s1)")
@@ -121,7 +135,7 @@ def test_what_cannot_be_read_is_not_graded_and_told_with_the_reason(course: Path
 
 def test_the_table_of_students_says_of_whom_no_answer_can_be_read(course: Path):
     words = "\n".join(f'{asked.name} = "see the drawing"' for asked in EXERCISE.answers)
-    hand_in(course, {"s1/answers.toml": words, "s2/answers.toml": RIGHT["s2"]})
+    hand_in(course, {"s1/answers.toml": words, "s2/answers.toml": right("s2")})
     said, _ = grade(course)
     assert "to check: submissions without readable answers: 1 (s1); see grades.html" in said
     page = html.unescape((course / "out" / "grades.html").read_text(encoding="utf-8"))
@@ -131,7 +145,7 @@ def test_the_table_of_students_says_of_whom_no_answer_can_be_read(course: Path):
 def test_a_bomb_within_a_zip_takes_neither_room_nor_marks(course: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr("graphcam.exercises.course.zipped_submissions.MAX_STUDENT_BYTES", 1_000_000)
     hand_in(course, {"s1/bomb.zip": packed({f"{k}.toml": " " * 900_000 for k in range(9)})})
-    hand_in(course, {"s2/far.zip": packed({"../../s3/answers.toml": RIGHT["s3"]})})
+    hand_in(course, {"s2/far.zip": packed({"../../s3/answers.toml": right("s3")})})
     said, _ = grade(course)
     assert "not graded: s1: bomb.zip is not a zip that can be unpacked" in said
     assert "not graded: s2: no answers can be read from far.zip" in said
@@ -145,7 +159,7 @@ def test_the_handouts_given_back_are_no_submission(course: Path):
             "s1/answers.toml": BLANK,
             "s1/worksheet.pdf": "%PDF",
             "s1/timestamp.txt": "2026",
-            "s2/answers.toml": RIGHT["s2"],
+            "s2/answers.toml": right("s2"),
         },
     )
     said, _ = grade(course)
@@ -166,16 +180,16 @@ def test_the_handouts_given_back_are_no_submission(course: Path):
 
 def test_an_empty_handout_hides_no_attempts_and_an_empty_attempt_counts_for_nothing(course: Path):
     hand_in(
-        course, {"s1/answers.toml": BLANK, "s1/attempt 1/answers.toml": "", "s1/attempt 2/answers.toml": RIGHT["s1"]}
+        course, {"s1/answers.toml": BLANK, "s1/attempt 1/answers.toml": "", "s1/attempt 2/answers.toml": right("s1")}
     )
-    hand_in(course, {"s2/attempt 1/answers.toml": RIGHT["s2"], "s2/attempt 2/answers.toml": BLANK})
+    hand_in(course, {"s2/attempt 1/answers.toml": right("s2"), "s2/attempt 2/answers.toml": BLANK})
     _, records = grade(course)
     assert [records[student]["total"] for student in ("s1", "s2")] == [EXERCISE.marks] * 2
     assert "2 attempts were handed in; the last one with answers counts" in records["s2"]["notes"]
 
 
 def test_the_student_whom_a_strange_folder_may_mean_is_named(course: Path):
-    hand_in(course, {"Mueller_E/answers.toml": RIGHT["s2"], "s1/answers.toml": RIGHT["s1"]})
+    hand_in(course, {"Mueller_E/answers.toml": right("s2"), "s1/answers.toml": right("s1")})
     assert (
         "not graded: Mueller_E: no student of the course has this id, address or name; did you mean s2 (Eva"
         in (grade(course)[0])
@@ -183,7 +197,7 @@ def test_the_student_whom_a_strange_folder_may_mean_is_named(course: Path):
 
 
 def test_a_total_is_taken_for_anyone_of_the_roster(course: Path):
-    hand_in(course, {"s1/answers.toml": RIGHT["s1"]})
+    hand_in(course, {"s1/answers.toml": right("s1")})
     (course / TEACHER_FOLDER / OVERRIDES_FILE).write_text(
         "student,answer,marks,comment\nEva Müller,total,3,drawn on paper\n"
     )
@@ -217,7 +231,7 @@ def test_after_full_marks_by_hand_nothing_is_called_wrong(course: Path):
 
 
 def test_notes_reach_the_feedback_for_moodle(course: Path):
-    hand_in(course, {"s1/answers.toml": RIGHT["s1"] + "S0 9 = 3\n"})
+    hand_in(course, {"s1/answers.toml": right("s1") + "S0 9 = 3\n"})
     _, records = grade(course)
     (row,) = table(course, "grades-moodle.csv")
     assert records["s1"]["notes"]
@@ -227,7 +241,7 @@ def test_notes_reach_the_feedback_for_moodle(course: Path):
 def test_a_course_without_its_teachers_folder_is_recognised(course: Path, tmp_path: Path):
     alone = tmp_path / "alone"
     (alone / "students" / "s1").mkdir(parents=True)
-    (alone / "students" / "s1" / "answers.toml").write_text(RIGHT["s1"])
+    (alone / "students" / "s1" / "answers.toml").write_text(right("s1"))
     out = tmp_path / "g.csv"
     with pytest.raises(TaskError, match="alone: the course's secret is missing, but must be given") as error:
         grade_course(Course(alone, None, out, exercise=NAME))
@@ -253,5 +267,5 @@ def test_what_is_lost_of_a_course_is_named(course: Path):
 
 def test_only_so_many_files_are_looked_into(course: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(answer_search, "MAX_SEARCHED_PLACES", 2)
-    hand_in(course, {f"s1/{k}.toml": "" for k in range(5)} | {"s1/x.toml": RIGHT["s1"]})
+    hand_in(course, {f"s1/{k}.toml": "" for k in range(5)} | {"s1/x.toml": right("s1")})
     assert "not graded: s1: no answers can be read from 0.toml, 1.toml, 2.toml" in grade(course)[0]

@@ -76,6 +76,7 @@ def test_careful_hands_are_remarked_on_more_seldom_than_is_said():
     assert sum(found) <= REMARK_RATE * len(found)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_the_readings_of_a_program_are_remarked_on(name):
     assert marked(name, **program(name)).too_exact

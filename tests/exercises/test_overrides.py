@@ -11,11 +11,12 @@ from issued_variants import answer_lines, course_of, issued, key
 
 from graphcam.errors import TaskError
 from graphcam.exercises.course.course_folder import TEACHER_FOLDER
+from graphcam.exercises.definition.exercise_file import find_exercise
 from graphcam.exercises.grading.course_grading import Course, grade_course
 from graphcam.exercises.grading.overrides import OVERRIDES_FILE
 
 NAME = "acceleration-and-scales"
-EXERCISE = issued(NAME)[0]
+EXERCISE = find_exercise(NAME)
 FIRST = EXERCISE.answers[0].name
 HEAD = "student,answer,marks,comment\n"
 

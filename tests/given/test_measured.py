@@ -320,6 +320,7 @@ print(np.array(motion(np.radians(degrees + 0.5))).tobytes().hex())
 """
 
 
+@pytest.mark.slow
 @over_all("other", [{"OPENBLAS_CORETYPE": "Prescott"}, {"NPY_DISABLE_CPU_FEATURES": "FMA3 AVX2 X86_V3"}])
 def test_every_digit_is_that_of_another_processor(other):
     def fitted(**settings: str) -> str:

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from over_all import over_all
+from over_all import fast_first, over_all
 from scipy.optimize import brentq, minimize_scalar
 
 import graphcam as gc
@@ -322,7 +322,7 @@ def test_the_drawn_chain_comes_nearer_to_the_exact_cam(law):
     assert np.all((np.array(errors[1]) < np.array(errors[0]) / 20) | (np.array(errors[1]) < 1e-9)), errors
 
 
-@every_law
+@pytest.mark.parametrize("law", fast_first(LAWS.values()))
 def test_the_sheet_and_the_note_name_it(law):
     solution = gc.solve(task_of(law, 12))
     assert sheet_of(solution).pages

@@ -170,7 +170,7 @@ def sharp_faults(seed, case):
 
 
 def test_the_minimum_radius_keeps_all_limits_and_no_smaller_one_does():
-    assert faults_of_cases(40, seed=1) == {}
+    assert faults_of_cases(15, seed=1) == {}
 
 
 def test_an_arm_s_limit_is_kept_where_it_is_reached_close_to_a_break_of_the_law():

@@ -73,6 +73,7 @@ def test_a_quantity_that_a_follower_does_not_have_is_an_empty_cell(tmp_path):
     assert "nan" not in text
 
 
+@pytest.mark.slow
 def test_two_runs_write_the_same(folder, tmp_path):
     write(solve(builtin_task()), tmp_path)
     for name in REPEATABLE:

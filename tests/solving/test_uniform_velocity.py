@@ -179,7 +179,7 @@ def test_drawn_values_of_random_blends_keep_to_their_bounds():
     random, blends = default_rng(36), (0.0, 0.0, 1e-7, 1e-6, 1e-4, 1e-3, 0.003, 0.01, 0.05, 0.2, 0.4)
     laws = ("uniform velocity", "uniform velocity", "SHM", "3-4-5", "UARM")
     drawn = list[tuple[gc.Task, Solution]]()
-    while len(drawn) < 24:
+    while len(drawn) < 10:
 
         def one(kind: str, lift: float, law: str) -> dict[str, Any]:
             own = {"blends": random.choice(blends, 2).tolist()} if law == "uniform velocity" else {}

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from over_all import fast_first
 from russian import english_words
 from typer.testing import CliRunner
 
@@ -333,7 +334,7 @@ def test_a_key_of_a_phase_is_told_with_its_line_and_the_number_of_the_phase(tmp_
     assert str(error_in(path)).startswith(f"{path}: line 10: lift of phase 1 is -1, but must be ")
 
 
-@pytest.mark.parametrize("fault", ["a lift that is no number", "angles over a turn", "not UTF-8"])
+@pytest.mark.parametrize("fault", fast_first(["a lift that is no number", "angles over a turn", "not UTF-8"]))
 def test_the_program_ends_with_one_line_and_status_2(fault, tmp_path):
     path = file_with(fault, tmp_path)
     done = subprocess.run(

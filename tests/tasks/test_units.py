@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
 import pytest
+from over_all import fast_first
 from typer.testing import CliRunner
 
 import graphcam as gc
@@ -286,7 +287,7 @@ def loaded(text: str, folder: Path) -> Any:
     return gc.load_task(path)
 
 
-@pytest.mark.parametrize("name", ["coursework", "flat", "arcs"])
+@pytest.mark.parametrize("name", fast_first(["coursework", "flat", "arcs"]))
 def test_a_task_in_inches_has_the_same_sheet_and_note_but_for_one_line(name, tmp_path):
     text = builtin_text(name)
     changed, given = (gc.solve(loaded(each, tmp_path)) for each in (in_inches(text), text))
