@@ -30,7 +30,8 @@ ORDINARY = 61_234
 CODE = [*hostile_code.CODE, *hostile_code.MORE_CODE]
 NOTEBOOKS = [*CODE, *hostile.DATA]
 GROUPS = 10
-"""Into so many the cases are dealt, like cards, and each of these into two: for root and for an ordinary user."""
+"""Into so many the cases are dealt, like cards, and each of these into two: for root and for an ordinary user.
+The test takes one of them, ``python tests/random_cases.py`` with 20 cases all."""
 SAMPLE = CODE[::8]
 
 
@@ -48,8 +49,8 @@ def test_a_sample_of_code_holds_at_l2():
     assert faults(SAMPLE, Level.L2) == []
 
 
-@over_seeds(GROUPS)
-def test_all_cases_hold_at_l2_for_root_or_for_an_ordinary_user(seed: int):
+@over_seeds(1)
+def test_cases_hold_at_l2_for_root_or_for_an_ordinary_user(seed: int):
     """With ten seeds more the halves change places."""
     needed()
     group = NOTEBOOKS[seed % GROUPS :: GROUPS]

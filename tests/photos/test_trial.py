@@ -1,4 +1,4 @@
-"""A photograph of every kind, and what becomes of a trial: its journal, its figures, its table."""
+"""Photographs of several kinds, and what becomes of a trial: its journal, its figures, its table."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ pytestmark = pytest.mark.slow
 RECORD = Path(__file__).parent / "record.json"
 
 
-EVERY_KIND = (0, 1, 2, 3, 4, 6, 9, 10, 22, 23, 24, 29, 34, 37)
-"""The first photographs of each kind; ``python tests/photos/trial.py`` takes thousands."""
+SEVERAL = (0, 1, 3, 9)
+"""Photographs of four kinds; ``python tests/photos/trial.py`` takes thousands, of every kind."""
 
 
-def test_a_photograph_of_every_kind(tmp_path_factory: pytest.TempPathFactory) -> None:
-    photos = photographs(EVERY_KIND, shared_scratch(tmp_path_factory))
-    assert {photo["kind"] for photo in photos} == set(KIND_SHARES)
+def test_photographs_of_several_kinds(tmp_path_factory: pytest.TempPathFactory) -> None:
+    photos = photographs(SEVERAL, shared_scratch(tmp_path_factory))
+    assert len({photo["kind"] for photo in photos}) == len(SEVERAL)
     check_goals(photos)
 
 

@@ -92,7 +92,7 @@ def most_empty(drawing: Drawing) -> float:
 
 SPARSE = {("measured", "A2", "gost", "landscape"): 0.22, ("arcs", "A4", "iso", "landscape"): 0.24}
 """Sheets that keep a larger empty rectangle, because the views stand in the order of the work."""
-SOME = (*range(0, 60, 7), *CROWDED)
+SOME = (*range(0, 60, 13), *CROWDED)
 """Numbers with every follower, most sheets and both languages."""
 
 
