@@ -75,20 +75,28 @@ def nearest_multiple(stretches: Floats, wanted: float, step: float) -> float | N
 
 @dataclass(frozen=True)
 class Trial:
-    """A prime radius that was tried for the curvature of the profile, with what a hand without error reads [mm].
+    """A prime radius that was tried for the curvature of the profile and for its bore, with what was read [mm].
 
     rho : of the sharpest bend of the pitch curve;  needed : by the roller and the permitted radius of the profile
+    base : radius of the base circle;  shaft : what the bore takes of it, 0 where the task gives none
     """
 
     prime_radius: float
     place: float
     rho: float
     needed: float
+    base: float
+    shaft: float
 
     @property
-    def lacking(self) -> float:
+    def too_sharp(self) -> float:
         """How much larger rho should be; 0 where it is large enough, or where no bend can be read."""
         return max(0.0, self.needed - self.rho) if self.rho < math.inf else 0.0
+
+    @property
+    def too_thin(self) -> float:
+        """How much larger the base circle should be for the shaft."""
+        return max(0.0, self.shaft - self.base)
 
 
 @dataclass(frozen=True)
@@ -101,7 +109,7 @@ class Adoption:
     given : whether the task gives the prime radius
     rounding : sizes are adopted in multiples of this
     proposed : the least prime radius at the place that the region proposes; None where the task gives it
-    trials : the prime radii that were tried for the curvature of the profile, where it is limited
+    trials : the prime radii that were tried for the curvature of the profile and its bore, where there are such limits
     """
 
     prime_radius: float
@@ -156,20 +164,42 @@ def _with_next(trials: Sequence[Trial]) -> list[tuple[Trial, Trial | None]]:
 
 
 def _of_trial(trial: Trial, following: Trial | None) -> Caption:
-    """A sentence on a radius that is tried for the curvature, and on the next if it is too small."""
+    """A sentence or two on a radius that is tried, and on the next if it is too small."""
+    told: list[Caption] = []
     if following is None:
-        said = say(
-            "With r₀ = {r0:g} mm the sharpest bend of the pitch curve has ρ = {rho:.4g} mm; {needed:g} mm suffice."
+        if trial.needed:
+            told.append(
+                say(
+                    "With r₀ = {r0:g} mm the sharpest bend of the pitch curve has ρ = {rho:.4g} mm; {needed:g} mm "
+                    "suffice."
+                )
+            )
+        if trial.shaft:
+            told.append(
+                say(
+                    "With r₀ = {r0:g} mm the base circle has a radius of {base:.4g} mm; the shaft, its keyway and a "
+                    "wall take {shaft:.4g} mm."
+                )
+            )
+    elif trial.too_sharp >= trial.too_thin:
+        told.append(
+            say(
+                "Draw the pitch curve for r₀ = {r0:g} mm on another sheet: its sharpest bend has ρ = {rho:.4g} mm, but "
+                "the roller and the permitted radius of the profile take {needed:g} mm. Add what is lacking, "
+                "{lacking:.4g} mm, to r₀, and round it up to {next:g} mm."
+            ).with_values(lacking=trial.too_sharp, next=following.prime_radius)
         )
-        return said.with_values(r0=trial.prime_radius, rho=trial.rho, needed=trial.needed)
-    said = say(
-        "Draw the pitch curve for r₀ = {r0:g} mm on another sheet: its sharpest bend has ρ = {rho:.4g} mm, but the "
-        "roller and the permitted radius of the profile take {needed:g} mm. Add what is lacking, {lacking:.4g} mm, to "
-        "r₀, and round it up to {next:g} mm."
-    )
-    return said.with_values(
-        r0=trial.prime_radius, rho=trial.rho, needed=trial.needed, lacking=trial.lacking, next=following.prime_radius
-    )
+    else:
+        told.append(
+            say(
+                "With r₀ = {r0:g} mm the base circle has a radius of {base:.4g} mm, but the shaft, its keyway and a "
+                "wall take {shaft:.4g} mm. Add what is lacking, {lacking:.4g} mm, to r₀, and round it up to {next:g} "
+                "mm."
+            ).with_values(lacking=trial.too_thin, next=following.prime_radius)
+        )
+    values = {"r0": trial.prime_radius, "rho": trial.rho, "needed": trial.needed}
+    values |= {"base": trial.base, "shaft": trial.shaft}
+    return sequence([each.with_values(**values) for each in told], " ")
 
 
 def _of_the_radius(adopted: Adoption, symbol: str) -> list[Caption]:

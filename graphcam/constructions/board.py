@@ -163,6 +163,7 @@ class Board:
     prime_radius, roller_radius : mm, or None where the task leaves them to be found
     ordinate, poles : mm of paper; mu_phi : rad/mm, for the pressure angle's axis too
     min_profile_radius : permitted radius of curvature of the profile under a roller or knife edge [mm]; None for none
+    shaft_radius : that a bore takes with its keyway and a wall, inside the profile [mm]; 0 where the task gives none
     rounding : adopted sizes are multiples of it [mm]; None for the largest power of ten below r0/10, at most 1 mm
     paper : what the profile, or another view of its own, finds on the sheet
     omega : of the cam [rad/s], where the task gives a speed
@@ -190,6 +191,7 @@ class Board:
     station: int | None = None
     jerk_pole: float | None = None
     min_profile_radius: float | None = None
+    shaft_radius: float = 0.0
     finer: Mapping[int, Sequence[float]] = field(default_factory=dict[int, Sequence[float]])
 
     @cached_property

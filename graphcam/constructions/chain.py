@@ -56,6 +56,16 @@ PERFECT_PENCIL = Pencil()
 """The hand on whose drawing the decisions rest."""
 
 
+def _no_radius(board: Board, trial: Trial) -> DesignError:
+    """What to tell where no prime radius within the permitted pressure angles suffices."""
+    limit = say("so small that some prime radius has it within the permitted pressure angles")
+    if trial.too_thin > trial.too_sharp:
+        remedy = say("lengthen the centre distance, take a smaller bore, or permit larger pressure angles")
+        return DesignError("part.bore", say("{length:.4g} mm with keyway and wall", length=trial.shaft), limit, remedy)
+    remedy = say("lengthen the centre distance, take a smaller roller, or permit larger pressure angles")
+    return DesignError("limits.min_curvature_radius", board.min_profile_radius, limit, remedy)
+
+
 @dataclass(frozen=True)
 class AdoptedSizes:
     """The sizes that are built [mm]; ``place`` is the follower's offset or centre distance."""
@@ -288,36 +298,44 @@ class Chain(Drawings):
 
     @cached_property
     def trials(self) -> tuple[Trial, ...]:
-        """The prime radii that are tried one after another, the last of which leaves the profile blunt enough.
+        """The prime radii that are tried one after another; the last leaves the profile blunt and thick enough.
 
-        None where the curvature of the profile is not limited, or the task gives the prime radius.
+        None where neither its curvature nor its bore limits the cam, or the task gives the prime radius.
         """
         board = self.board
-        if board.min_profile_radius is None or board.prime_radius is not None:
+        if board.prime_radius is not None or (board.min_profile_radius is None and not board.shaft_radius):
             return ()
         trials = [self._tried(*self._by_angles)]
-        while lacking := trials[-1].lacking:
+        while lacking := max(trials[-1].too_sharp, trials[-1].too_thin):
             radius, place = trials[-1].prime_radius + lacking, trials[-1].place
             radius = multiple(steps_up(radius, self.rounding), self.rounding)
             places = self._places(radius)
             if board.follower.place is None:
                 place = nearest_multiple(places, place, self.rounding) or place
             if len(trials) == MAX_TRIALS or not lies_in(places, place, self.rounding):
-                limit = say("so small that some prime radius has it within the permitted pressure angles")
-                remedy = say("lengthen the centre distance, take a smaller roller, or permit larger pressure angles")
-                raise DesignError("limits.min_curvature_radius", board.min_profile_radius, limit, remedy)
+                raise _no_radius(board, trials[-1])
             trials.append(self._tried(radius, place))
         return tuple(trials)
 
     def _tried(self, radius: float, place: float) -> Trial:
-        """The pitch curve with these sizes, drawn by a perfect hand on another sheet, and its sharpest bend."""
+        """The pitch curve with these sizes, drawn by a perfect hand on another sheet, and its sharpest bend.
+
+        For the bore alone it is drawn only where the roller follows from it.
+        """
+        board = self.board
         same = {name: drawn for name, drawn in self.perfect.lying.items() if name in ("acceleration", "integration")}
         other = replace(self.perfect, decided=AdoptedSizes(radius, place, 0.0), done=same)
-        roller = self.board.roller_radius
-        if roller is None:  # the rule leaves the profile blunt enough, if it leaves a roller at all
-            roller = 0.0 if float(other.roller.value("roller_radius")) >= self.rounding else self.rounding
-        needed = roller + (self.board.min_profile_radius or 0.0)
-        return Trial(radius, place, float(other.curvature.value("rho")), needed)
+        roller = board.roller_radius
+        if roller is None:
+            proposed = float(other.roller.value("roller_radius"))
+            roller = max(0.0, multiple(math.floor(proposed / self.rounding + ROUNDING_SLACK), self.rounding))
+        base = radius - max(roller, 0.0)
+        if board.min_profile_radius is None:
+            return Trial(radius, place, math.inf, 0.0, base, board.shaft_radius)
+        # The rule leaves the profile blunt enough, if it leaves a roller at all.
+        touching = roller if board.roller_radius is not None else 0.0 if roller else self.rounding
+        needed = touching + board.min_profile_radius
+        return Trial(radius, place, float(other.curvature.value("rho")), needed, base, board.shaft_radius)
 
     @cached_property
     def _by_angles(self) -> tuple[float, float]:

@@ -12,6 +12,7 @@ from functools import partial
 import numpy as np
 
 from graphcam.constructions import profile_view
+from graphcam.constructions.adoption import adoption_step
 from graphcam.constructions.arm_inversion import pivots_step
 from graphcam.constructions.arm_positions import arc_through, example_station, turning_angle
 from graphcam.constructions.axes import station_names
@@ -185,8 +186,10 @@ def _pole_share(sigma: int, distance: float, v: Floats) -> Floats:
 
 
 def _draw(inverted: SwingingInverted) -> list[Step]:
+    decided, mu_l = inverted.givens.adopted(), inverted.givens.mu_l.per_mm
+    adoption = [adoption_step(decided, "c", mu_l, PROFILE)] if decided else []
     profile = profile_view.pitch_steps(inverted, _contacts(inverted), say("Profile"), ENVELOPE_SAID, ENVELOPE_WHY)
-    return [_circles(inverted), pivots_step(inverted), _rest(inverted), _faces(inverted), *profile]
+    return [*adoption, _circles(inverted), pivots_step(inverted), _rest(inverted), _faces(inverted), *profile]
 
 
 def _circles(inverted: SwingingInverted) -> Step:

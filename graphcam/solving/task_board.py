@@ -23,6 +23,7 @@ from graphcam.drafting.scale import (
 )
 from graphcam.errors import DesignError
 from graphcam.given.follower import Oscillating, omega_of, sense
+from graphcam.given.limits_and_fits import shaft_radius
 from graphcam.mechanism.least_radius import minimum_radius
 from graphcam.mechanism.oscillating_flat import check_swing
 from graphcam.sheets.formats import Format
@@ -78,7 +79,7 @@ def largest_drawn(drawing: SheetTable, size: complex, beside: complex) -> Paper:
 
 def board_of(task: Task) -> Board:
     """What the task puts on the drawing board."""
-    drawing, motion, scale = task.drawing, task.motion(), given_profile_scale(task.drawing)
+    drawing, motion, part, scale = task.drawing, task.motion(), task.part, given_profile_scale(task.drawing)
     follower = drawn_follower(task.follower, task)
     room = diagram_room(drawing, angles="angle_diagram" in follower.constructions)
     room = room.beside_jerk if drawing.jerk else room
@@ -93,6 +94,7 @@ def board_of(task: Task) -> Board:
         roller_radius=task.follower.roller_radius,
         roller_rule=task.roller_terms,
         min_profile_radius=task.limits.min_curvature_radius if "roller" in follower.constructions else None,
+        shaft_radius=0.0 if part is None or part.bore is None else shaft_radius(part.bore, part.keyway != "none"),
         divisions=drawing.divisions or USUAL_DIVISIONS,
         ordinate=ordinate,
         poles=poles,

@@ -6,19 +6,22 @@ import math
 from dataclasses import dataclass
 
 from graphcam.errors import DesignError
-from graphcam.tasks.part_table import PartTable
-from graphcam.words import Words, say
-from graphcam.workshop.limits_and_fits import (
+from graphcam.given.limits_and_fits import (
     MAX_SHAFT,
     MIN_SHAFT,
+    MIN_WALL,
     STANDARD_NAMES,
     KeySection,
     key_section,
+    keyway_top,
+    shaft_radius,
     standard_diameters,
 )
+from graphcam.tasks.part_table import PartTable
+from graphcam.words import Words, say
 
-DEFAULT_WALL, MIN_WALL = 0.3, 0.15
-"""Walls between the keyway's bottom and the profile or the hub, as parts of the bore: to choose a bore; at least."""
+DEFAULT_WALL = 0.3
+"""The wall between the keyway's bottom and the profile or the hub for which a bore is chosen, as a part of the bore."""
 DEFAULT_TOLERANCE_SHARE = 0.0005
 """The default tolerance of the profile, as a part of its maximum diameter."""
 ROUNDING_SHARE = 0.5
@@ -66,7 +69,7 @@ class CamPart:
     @property
     def keyway_top(self) -> float:
         """The distance from the axis to the keyway's bottom [mm], or to the bore where there is none."""
-        return self.bore / 2 + (self.keyway.depth if self.keyway else 0.0)
+        return keyway_top(self.bore, self.keyway is not None)
 
     @property
     def chamfer(self) -> float:
@@ -164,15 +167,11 @@ def _keyway(table: PartTable, bore: float) -> KeySection | None:
 
 def _usual_bore(table: PartTable, least_radius: float) -> float:
     """The largest standard diameter [mm] that leaves the default wall and for which the standards have a key."""
+    keyed = table.keyway != "none"
     outer = least_radius if table.hub_diameter is None else min(least_radius, table.hub_diameter / 2)
     standard = [d for d in standard_diameters() if d <= MAX_SHAFT]
-    fitting = [d for d in standard if _keyway_top(table, d) + DEFAULT_WALL * d <= outer]
+    fitting = [d for d in standard if keyway_top(d, keyed) + DEFAULT_WALL * d <= outer]
     return max(fitting, default=standard[0])
-
-
-def _keyway_top(table: PartTable, bore: float) -> float:
-    section = None if table.keyway == "none" else key_section(bore)
-    return bore / 2 + (section.depth if section else 0.0)
 
 
 def _usual_width(bore: float) -> float:
@@ -182,7 +181,8 @@ def _usual_width(bore: float) -> float:
 
 
 def _check_walls(part: CamPart, least_radius: float) -> None:
-    needed = part.keyway_top + MIN_WALL * part.bore
+    keyed = part.keyway is not None
+    needed = shaft_radius(part.bore, keyed)
     hub = part.hub
     if hub and not hub.diameter / 2 < least_radius:
         limit = say(
@@ -201,7 +201,7 @@ def _check_walls(part: CamPart, least_radius: float) -> None:
             found = say("{bore:g} mm{keyway}", bore=part.bore, keyway=keyway)
             limit = say("small enough to leave a wall of {least:g} of the bore inside {inside} of {outer:.4g} mm")
             limit = limit.with_values(least=MIN_WALL, inside=inside, outer=outer)
-            fitting = [d for d in standard_diameters() if _keyway_top(part.table, d) + MIN_WALL * d <= outer]
+            fitting = [d for d in standard_diameters() if shaft_radius(d, keyed) <= outer]
             smaller = say("take a smaller bore")
             if fitting:
                 smaller = say("take a smaller bore, {fitting:g} mm or less,", fitting=max(fitting))

@@ -15,6 +15,7 @@ import numpy as np
 
 from graphcam.drafting.marks import Arc, Circle, Dimension, Label, Line, Mark, Points, Region, Role, Segments
 from graphcam.given.laws import Floats
+from graphcam.given.limits_and_fits import KeySection, tolerance
 from graphcam.sheets.formats import Lettering
 from graphcam.sheets.label_candidates import LabelText, label_along
 from graphcam.sheets.mark_entities import MIN_INNER_HEADS, TAIL_LENGTH, Drawn, Placement, expand, head
@@ -32,7 +33,6 @@ from graphcam.sheets.sampling import box_around
 from graphcam.sheets.text_measures import width
 from graphcam.words import Caption, Tell, Words, say, say_in
 from graphcam.workshop.cam_part import CamPart, radius_decimals
-from graphcam.workshop.limits_and_fits import KeySection, tolerance
 from graphcam.workshop.part_outline import Outline
 
 FIRST_DIMENSION_OFFSET, DIMENSION_SPACING = 9.0, 8.0

@@ -59,7 +59,7 @@ def test_every_trial_adds_what_the_radius_of_curvature_lacks(task):
     assert short[0].prime_radius == angles.cam.prime_radius
     for tried, following in zip(short, [*short[1:], last], strict=True):
         assert tried.rho < tried.needed
-        assert tried.prime_radius + tried.lacking <= following.prime_radius < tried.prime_radius + tried.lacking + 1
+        assert tried.prime_radius + tried.too_sharp <= following.prime_radius < tried.prime_radius + tried.too_sharp + 1
     assert last.rho >= last.needed
     assert solution.cam.prime_radius == last.prime_radius
     assert solution.chain["curvature"].value("rho") == pytest.approx(last.rho, rel=1e-12)

@@ -11,11 +11,11 @@ import pytest
 
 import graphcam as gc
 from graphcam.errors import DesignError, TaskError
+from graphcam.given.limits_and_fits import standard_diameters
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task_file import builtin_text
 from graphcam.tasks.task_writer import task_files
 from graphcam.workshop.cam_part import MIN_WALL, cam_part
-from graphcam.workshop.limits_and_fits import standard_diameters
 from graphcam.workshop.part_contents import PartContents
 
 
@@ -52,7 +52,9 @@ WRONG = {
 
 @pytest.mark.parametrize("said", WRONG)
 def test_a_part_that_cannot_be_is_one_message(tmp_path: Path, said: str) -> None:
-    (tmp_path / "cam.toml").write_text(f"{builtin_text('coursework')}\n[part]\n{said}\n", encoding="utf-8")
+    (tmp_path / "cam.toml").write_text(
+        f"{builtin_text('coursework')}\n[cam]\nprime_radius = 44\n\n[part]\n{said}\n", encoding="utf-8"
+    )
     task = gc.load_task(tmp_path / "cam.toml")
     with pytest.raises(DesignError) as caught:
         PartContents(gc.solve(task)).check()

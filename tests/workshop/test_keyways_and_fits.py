@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from graphcam.workshop.limits_and_fits import KeySection, key_section, standard_diameters, tolerance
+from graphcam.given.limits_and_fits import KeySection, key_section, standard_diameters, tolerance
 
 DIN_6885 = {
     8: (2, 2, 1.0), 10: (3, 3, 1.4), 12: (4, 4, 1.8), 17: (5, 5, 2.3), 22: (6, 6, 2.8), 30: (8, 7, 3.3),

@@ -34,6 +34,10 @@ _R20_VALUES = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40, 45, 50, 56, 6
 _DECADES = range(-12, 4)
 
 
+MIN_WALL = 0.15
+"""The thinnest wall between the bottom of a keyway and the profile or the hub, as a part of the bore."""
+
+
 def tolerance(size: float, grade: int) -> float | None:
     """The standard tolerance [mm] of a size [mm] in a grade from 6 to 9; None for sizes over 500 mm.
 
@@ -148,3 +152,18 @@ def key_section(bore: float) -> KeySection | None:
         return None
     _, width, height, depth = _KEY_SECTIONS[bisect_left(_KEY_SECTIONS, (bore,))]
     return KeySection(width, height, depth)
+
+
+def keyway_top(bore: float, keyed: bool = True) -> float:
+    """The distance [mm] from the axis of a bore [mm] to the bottom of its keyway, or to the bore where it has none."""
+    section = key_section(bore) if keyed else None
+    return bore / 2 + (section.depth if section else 0.0)
+
+
+def shaft_radius(bore: float, keyed: bool = True) -> float:
+    """The radius [mm] that a bore [mm] takes with its keyway and the thinnest wall; no profile may come nearer.
+
+    >>> round(shaft_radius(28.0), 3), round(shaft_radius(28.0, keyed=False), 3)
+    (21.5, 18.2)
+    """
+    return keyway_top(bore, keyed) + MIN_WALL * bore
