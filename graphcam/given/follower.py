@@ -6,6 +6,7 @@ from numbers import Real
 from typing import Literal, get_args
 
 from graphcam.errors import DesignError, check_kind, check_number, suggestion
+from graphcam.given.plausible_ranges import check_positive
 from graphcam.words import Words, say
 
 Rotation = Literal["ccw", "cw"]
@@ -170,15 +171,17 @@ LIMIT_NAMES = {
 
 @dataclass(frozen=True)
 class Limits:
-    """Permitted pressure angles [rad], as magnitudes.
+    """Permitted pressure angles [rad], as magnitudes, and curvature.
 
     rise : on every rise
     return_ : on every return; None for force closure, where a spring drives the return
     rest : whether the angle in the lower dwell must keep the limits of the phases beside it too
+    curvature : the minimum radius of curvature [mm] of the convex parts of the profile, for :func:`graphcam.sweep`;
+        None is no limit
 
     Raises
     ------
-    DesignError : an angle is not between 0 and 90 degrees
+    DesignError : an angle is not between 0 and 90 degrees, or the radius of curvature not greater than 0
 
     >>> import graphcam as gc
     >>> gc.Limits(rise=math.radians(30), return_=math.radians(45)).rest
@@ -191,9 +194,11 @@ class Limits:
     rise: float = math.radians(Translating.usual_limit_deg)
     return_: float | None = None
     rest: bool = True
+    curvature: float | None = None
 
     def __post_init__(self) -> None:
         back = self.return_
+        check_positive(say("minimum radius of curvature"), self.curvature, "mm")
         for name, angle in (("rise", self.rise), ("return", 0.0 if back is None else back)):
             check_kind(LIMIT_NAMES[name], angle, Real, say("an angle in rad"), say("30 degrees are math.radians(30)"))
         if not (0 < self.rise < QUARTER_TURN and (back is None or 0 < back < QUARTER_TURN)):

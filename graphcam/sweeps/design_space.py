@@ -72,10 +72,14 @@ class SpaceCamTable:
 
 @dataclass(frozen=True)
 class SpaceLimitsTable:
-    """``[limits]``: permitted pressure angles [degrees]; None is the usual one on the rise, none on the return."""
+    """``[limits]``: permitted pressure angles [degrees]; None is the usual one on the rise, none on the return.
+
+    min_curvature_radius : mm, of the convex parts of the profile; None is no limit
+    """
 
     pressure_angle_rise: float | None = None
     pressure_angle_return: float | None = None
+    min_curvature_radius: float | None = None
 
     def __post_init__(self) -> None:
         self("translating")
@@ -86,7 +90,7 @@ class SpaceLimitsTable:
             None if given is None else math.radians(given)
             for given in (self.pressure_angle_rise, self.pressure_angle_return)
         )
-        return Limits(usual_limit(follower) if rise is None else rise, back)
+        return Limits(usual_limit(follower) if rise is None else rise, back, curvature=self.min_curvature_radius)
 
 
 @dataclass(frozen=True)

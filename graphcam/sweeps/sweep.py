@@ -63,8 +63,9 @@ def sweep(
           the band of s to the first order, see :class:`graphcam.MotionBands`
 
     executor : any of concurrent.futures: threads, processes, or dask's ``Client.get_executor()``; None computes here
-    limits : permitted pressure angles, as ``gc.Limits(rise=math.radians(30), return_=math.radians(45))``; the rest
-        belongs to the rise.  None is the usual one, 30 degrees or an arm's 45, and force closure
+    limits : permitted pressure angles and curvature of the profile, as ``gc.Limits(rise=math.radians(30),
+        return_=math.radians(45), curvature=5)``; the rest belongs to the rise.  None is the usual angle, 30 degrees or
+        an arm's 45, and force closure
     load : what presses every follower, a number of N with it but no table; needed for forces
     friction : mu between cam and follower
     errors : the tolerances to which all cams are made; needed for bands

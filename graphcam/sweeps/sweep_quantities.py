@@ -207,6 +207,8 @@ class Chunk:
         """Whether there is such a cam, its pressure angles are permitted and its profile is not undercut."""
         limits, roller = self.limits, self.designs.column("roller_radius")
         sound = (roller >= 0) & (roller < self._prime_radius) & (roller < self.min_pitch_curvature_radius)
+        if limits.curvature is not None:
+            sound &= self.min_pitch_curvature_radius - roller >= limits.curvature
         sound &= np.abs(self.max_pressure_angle_rise) <= limits.rise
         return sound if limits.return_ is None else sound & (np.abs(self.max_pressure_angle_return) <= limits.return_)
 

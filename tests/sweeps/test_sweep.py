@@ -308,6 +308,18 @@ def test_a_roller_and_a_pressure_angle_too_large_are_not_feasible():
     assert found["feasible"].tolist()[::3] == [True, False]
 
 
+@pytest.mark.parametrize("follower", ["translating", "flat-faced"])
+def test_a_profile_sharper_than_permitted_is_not_feasible(follower):
+    sizes = {"prime_radius": np.linspace(35, 90, 40), "roller_radius": 12 if follower == "translating" else 0}
+    designs = gc.Designs(lift=20, rise_angle=2.0, return_angle=1.6, follower=follower, **sizes)
+    plain, limited = (gc.sweep(designs, limits=gc.Limits(curvature=least)) for least in (None, 18.0))
+    profile = plain["min_pitch_curvature_radius"] - sizes["roller_radius"]
+    assert (limited["feasible"] == plain["feasible"] & (profile >= 18)).all()
+    assert 0 < limited["feasible"].sum() < plain["feasible"].sum()
+    with pytest.raises(gc.DesignError, match="radius of curvature is -1, but must be"):
+        gc.Limits(curvature=-1)
+
+
 def test_only_what_is_asked_is_computed(monkeypatch):
     def forbidden(*_):
         raise AssertionError("a search where none is needed")
