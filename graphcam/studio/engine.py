@@ -208,12 +208,14 @@ def named_fields(text: str, spoken: Language) -> str:
     >>> named_fields("follower.offset is -50, but must be less than 44; enlarge cam.prime_radius", ENGLISH)
     'Offset e is -50, but must be less than 44; enlarge Prime radius r₀'
     """
-    from graphcam.studio.form_fields import NUMBER_FIELDS
+    from graphcam.studio.form_fields import form_names
+
+    names = form_names()
 
     def named(found: re.Match[str]) -> str:
         # A word of one part, such as "pencil", is a key only where the sentence is about it.
         key = found[0]
-        is_key = key in NUMBER_FIELDS and ("." in key or found.start() == 0)
-        return spoken.text(NUMBER_FIELDS[key][1]) if is_key else key
+        is_key = key in names and ("." in key or found.start() == 0)
+        return spoken.text(names[key]) if is_key else key
 
     return PATH_PATTERN.sub(named, text)

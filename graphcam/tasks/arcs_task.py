@@ -2,13 +2,14 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
 from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.three_arcs import ThreeArcs
 from graphcam.showing import parts_text
+from graphcam.tasks.declared_numbers import About, Fixed, Ruled
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain_data
 from graphcam.tasks.units import Angle, Length, Speed
@@ -28,11 +29,11 @@ class ArcsTable:
 
     D: XY
     G: XY
-    rho1: Length
+    rho1: Annotated[Length, say("Radius of the first arc ρ₁"), Ruled()]
     A: XY | None = None
     C1: XY | None = None
     C2: XY | None = None
-    dwell: Angle = 0.0
+    dwell: Annotated[Angle, say("Upper dwell"), Fixed(0.0, 180.0, 1.0)] = 0.0
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.dwell) and 0 <= self.dwell < 360):
@@ -52,7 +53,7 @@ class ArcsTable:
 class RollerTable:
     """``[follower]``: a central translating follower; roller_radius : mm, 0 for a knife edge."""
 
-    roller_radius: Length = 0.0
+    roller_radius: Annotated[Length, say("Roller radius r"), Ruled()] = 0.0
     kind: Literal["translating"] = "translating"
 
     def __post_init__(self) -> None:
@@ -68,7 +69,7 @@ class RollerTable:
 class ArcsDrawingTable(SheetTable):
     """``[drawing]``: the sheet, and ``divisions``, the equal parts of each arc at whose ends the roller is drawn."""
 
-    divisions: int = 4
+    divisions: Annotated[int, say("Divisions of a phase"), Fixed(2, 12, 1)] = 4
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -94,7 +95,7 @@ class ArcsTask:
 
     arcs: ArcsTable
     follower: RollerTable = field(default_factory=RollerTable)
-    speed_rpm: Speed | None = None
+    speed_rpm: Annotated[Speed | None, say("Speed"), About(300.0)] = None
     title: TitleTable = field(default_factory=TitleTable)
     drawing: ArcsDrawingTable = field(default_factory=ArcsDrawingTable)
     part: PartTable | None = None

@@ -1,10 +1,12 @@
 """The table ``[material]`` of a task file: the materials of cam and follower, and the permitted stress."""
 
 from dataclasses import dataclass
+from typing import Annotated
 
 from graphcam.errors import DesignError
 from graphcam.given.plausible_ranges import check_positive
 from graphcam.given.roller_contact import STEEL_POISSON_RATIO, STEEL_YOUNG_MODULUS, RollerContact
+from graphcam.tasks.declared_numbers import About, Fixed
 from graphcam.tasks.units import Length, Stress
 from graphcam.words import say
 
@@ -26,12 +28,14 @@ class MaterialTable:
     RollerContact(width=15, young1=206000.0, young2=206000.0, poisson1=0.3, poisson2=0.3)
     """
 
-    width: Length
-    young_cam: Stress = STEEL_YOUNG_MODULUS
-    young_follower: Stress = STEEL_YOUNG_MODULUS
-    poisson_cam: float = STEEL_POISSON_RATIO
-    poisson_follower: float = STEEL_POISSON_RATIO
-    permitted_stress: Stress | None = None
+    width: Annotated[Length, say("Width of the contact"), About(15.0)]
+    young_cam: Annotated[Stress, say("Modulus of elasticity E₁, cam"), About(STEEL_YOUNG_MODULUS)] = STEEL_YOUNG_MODULUS
+    young_follower: Annotated[Stress, say("Modulus of elasticity E₂, follower"), About(STEEL_YOUNG_MODULUS)] = (
+        STEEL_YOUNG_MODULUS
+    )
+    poisson_cam: Annotated[float, say("Poisson's ratio ν₁, cam"), Fixed(0.0, 0.5, 0.01)] = STEEL_POISSON_RATIO
+    poisson_follower: Annotated[float, say("Poisson's ratio ν₂, follower"), Fixed(0.0, 0.5, 0.01)] = STEEL_POISSON_RATIO
+    permitted_stress: Annotated[Stress | None, say("Permitted contact stress"), About(1200.0)] = None
 
     def __post_init__(self) -> None:
         check_positive("width", self.width, "mm")

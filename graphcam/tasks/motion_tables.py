@@ -21,6 +21,7 @@ from graphcam.given.point_outline import cam_through_points
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law
 from graphcam.given.table_file import CurveTable, Turn
 from graphcam.tasks.dataclass_reader import ByKind, ByName
+from graphcam.tasks.declared_numbers import About, Fixed
 from graphcam.tasks.units import LIFT, Acceleration, Angle, Jerk, Length, Lift, Velocity
 from graphcam.words import Words, say
 
@@ -191,12 +192,12 @@ class RadiiTable:
     Three of flank_radius, nose_radius, lift and ascent are given, or lift alone for an eccentric cam.
     """
 
-    base_radius: Length
-    flank_radius: Length | Straight | None = None
-    nose_radius: Length | None = None
-    lift: Length | None = None
-    ascent: Angle | None = None
-    dwell: Angle = 0.0
+    base_radius: Annotated[Length, say("Base radius"), About(30.0)]
+    flank_radius: Annotated[Length | Straight | None, say("Flank radius"), About(60.0)] = None
+    nose_radius: Annotated[Length | None, say("Nose radius"), About(20.0)] = None
+    lift: Annotated[Length | None, say("Lift"), About(15.0)] = None
+    ascent: Annotated[Angle | None, say("Angle of ascent"), Fixed(0.0, 180.0, 1.0)] = None
+    dwell: Annotated[Angle, say("Upper dwell"), Fixed(0.0, 180.0, 1.0)] = 0.0
 
     def __post_init__(self) -> None:
         for name in ("base_radius", "flank_radius", "nose_radius", "lift"):
@@ -234,7 +235,7 @@ class MotionTable:
 
     phases: tuple[PhaseTable, ...] | None = None
     table: CurveTable | None = None
-    tolerance: Lift | None = None
+    tolerance: Annotated[Lift | None, say("Tolerance of the fit"), Fixed(0.002, 0.2, 0.001)] = None
     parts: tuple[PartOfMotion, ...] | None = None
     radii: RadiiTable | None = None
     symmetric: bool | None = None

@@ -2,11 +2,13 @@
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
 from graphcam.errors import DesignError, check_number
 from graphcam.given.load_curve import Load, LoadCurve
 from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.spring_load import ArmLoad, ArmSpring, SpringLoad
+from graphcam.tasks.declared_numbers import About, Fixed, Ruled
 from graphcam.tasks.units import (
     Angle,
     AngularAcceleration,
@@ -80,13 +82,13 @@ class SpringTable:
     damping : N s/m, against the motion
     """
 
-    mass: Mass
-    stiffness: Stiffness
-    preload: Force | None = None
-    acceleration: AngularAcceleration = 0.0
-    friction: float = 0.0
-    load: LoadTable = 0.0
-    damping: Damping = 0.0
+    mass: Annotated[Mass, say("Moving mass"), About(1.0)]
+    stiffness: Annotated[Stiffness, say("Stiffness c"), About(3.0)]
+    preload: Annotated[Force | None, say("Preload F₀"), About(100.0, from_zero=True)] = None
+    acceleration: Annotated[AngularAcceleration, say("Angular acceleration ε"), Fixed(-500.0, 500.0, 5.0)] = 0.0
+    friction: Annotated[float, say("Friction at the cam μ"), Fixed(0.0, 0.5, 0.01)] = 0.0
+    load: Annotated[LoadTable, say("Load P"), About(100.0, from_zero=True)] = 0.0
+    damping: Annotated[Damping, say("Damping d"), About(100.0, from_zero=True)] = 0.0
     swings = False
 
     def __post_init__(self) -> None:
@@ -110,8 +112,11 @@ class ArmSpringPlace:
     anchor : mm, (x, y) of the spring's other end in the frame, whose origin is the cam centre
     """
 
-    arm: Length
-    anchor: tuple[Length, Length]
+    arm: Annotated[Length, say("Spring from the pivot"), Ruled()]
+    anchor: tuple[
+        Annotated[Length, say("Anchor of the spring, x"), Ruled()],
+        Annotated[Length, say("Anchor of the spring, y"), Ruled()],
+    ]
 
     def __post_init__(self) -> None:
         if self.arm == 0:
@@ -141,14 +146,14 @@ class ArmSpringTable:
     damping : N mm s/rad, about the pivot against the motion
     """
 
-    inertia: Inertia
-    stiffness: ArmStiffness
-    preload: ArmPreload | None = None
-    acceleration: AngularAcceleration = 0.0
-    friction: float = 0.0
-    load: LoadTable = 0.0
+    inertia: Annotated[Inertia, say("Moment of inertia J"), About(900.0)]
+    stiffness: Annotated[ArmStiffness, say("Stiffness c"), About(3.0)]
+    preload: Annotated[ArmPreload | None, say("Preload F₀"), About(100.0, from_zero=True)] = None
+    acceleration: Annotated[AngularAcceleration, say("Angular acceleration ε"), Fixed(-500.0, 500.0, 5.0)] = 0.0
+    friction: Annotated[float, say("Friction at the cam μ"), Fixed(0.0, 0.5, 0.01)] = 0.0
+    load: Annotated[LoadTable, say("Load P"), About(100.0, from_zero=True)] = 0.0
     at: ArmSpringPlace | None = None
-    damping: ArmDamping = 0.0
+    damping: Annotated[ArmDamping, say("Damping d"), About(100.0, from_zero=True)] = 0.0
     swings = True
 
     def __post_init__(self) -> None:

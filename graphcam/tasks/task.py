@@ -29,6 +29,7 @@ from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.roller_rule import DEFAULT_RULE, Candidate, roller_rule
 from graphcam.showing import MAX_WIDTH, value_text
 from graphcam.tasks.dataclass_reader import ByKeys, ByKind
+from graphcam.tasks.declared_numbers import About, Fixed, Ruled
 from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.motion_tables import MotionTable
 from graphcam.tasks.part_table import PartTable
@@ -39,6 +40,8 @@ from graphcam.tasks.tolerances_table import TolerancesTable
 from graphcam.tasks.units import Angle, Length, Speed, check_turning
 from graphcam.words import say
 
+ANGLE_RANGE = Fixed(15.0, 60.0, 1.0)
+"""Of permitted pressure angles [degrees]; beyond, a follower jams or needs no limit."""
 MAX_DIVISIONS = 1000
 """The maximum number of parts of a phase; more cannot be drawn apart."""
 LARGER_RADIUS_REMEDY = say("or a larger cam.prime_radius")
@@ -109,8 +112,8 @@ class TranslatingTable(_FollowerTable):
     roller_rule : see :func:`graphcam.given.roller_rule.roller_rule`
     """
 
-    offset: Length | None = None
-    roller_radius: Length | None = None
+    offset: Annotated[Length | None, say("Offset e"), Ruled()] = None
+    roller_radius: Annotated[Length | None, say("Roller radius r"), Ruled()] = None
     roller_rule: str = DEFAULT_RULE
     kind: Literal["translating"] = "translating"
     sought = "offset", "roller_radius"
@@ -149,9 +152,9 @@ class OscillatingTable(_FollowerTable):
     lift : what the phases' lifts are, "angle" in degrees or "arc" in mm along the path of the trace point
     """
 
-    arm: Length
-    distance: Length | None = None
-    roller_radius: Length | None = None
+    arm: Annotated[Length, say("Arm length l"), Ruled()]
+    distance: Annotated[Length | None, say("Centre distance c"), Ruled()] = None
+    roller_radius: Annotated[Length | None, say("Roller radius r"), Ruled()] = None
     roller_rule: str = DEFAULT_RULE
     lift: Literal["angle", "arc"] = "angle"
     kind: Literal["oscillating"] = "oscillating"
@@ -212,8 +215,8 @@ class OscillatingFlatTable(_FollowerTable):
     face_offset : mm, of the face from the line through the pivot, towards the cam centre if positive
     """
 
-    distance: Length
-    face_offset: Length = 0.0
+    distance: Annotated[Length, say("Centre distance c"), Ruled()]
+    face_offset: Annotated[Length, say("Face offset f"), Ruled()] = 0.0
     kind: Literal["oscillating-flat"] = "oscillating-flat"
     takes_corners = False
     roller_radius = 0.0
@@ -277,7 +280,7 @@ def table_of(follower: Mapping[str, Any]) -> type[_FollowerTable]:
 class CamTable:
     """``[cam]``: the prime radius in mm; None is open: the minimum one is found, and rounded up."""
 
-    prime_radius: Length | None = None
+    prime_radius: Annotated[Length | None, say("Prime radius r₀"), Ruled()] = None
 
     def __post_init__(self) -> None:
         check_positive(say("prime radius"), self.prime_radius, "mm")
@@ -293,9 +296,11 @@ class LimitsTable:
     rest : whether the angle at the lower dwell must keep the limits of the phases beside it too
     """
 
-    pressure_angle_rise: Angle | None = None
-    pressure_angle_return: Angle | None = None
-    min_curvature_radius: Length | None = None
+    pressure_angle_rise: Annotated[Angle | None, say("Permitted pressure angle, rise"), ANGLE_RANGE] = None
+    pressure_angle_return: Annotated[Angle | None, say("Permitted pressure angle, return"), ANGLE_RANGE] = None
+    min_curvature_radius: Annotated[
+        Length | None, say("Minimum radius of curvature of the profile"), Fixed(0.5, 50.0, 0.5)
+    ] = None
     rest: bool = True
 
     def __post_init__(self) -> None:
@@ -326,9 +331,15 @@ class DrawingTable(SheetTable):
     jerk : whether the jerk is drawn too, by differentiation of the acceleration diagram
     """
 
-    divisions: int | None = None
-    ordinate: Length | None = None
-    poles: tuple[Length, Length] | None = None
+    divisions: Annotated[int | None, say("Divisions of a phase"), Fixed(4, 36, 1)] = None
+    ordinate: Annotated[Length | None, say("Maximum ordinate of the first rise"), Ruled()] = None
+    poles: (
+        tuple[
+            Annotated[Length, say("Pole distance H₁"), Fixed(10.0, 80.0, 1.0)],
+            Annotated[Length, say("Pole distance H₂"), Fixed(10.0, 80.0, 1.0)],
+        ]
+        | None
+    ) = None
     rounding: Length | None = None
     jerk: bool = False
     profile_scale: str | None = None
@@ -377,7 +388,7 @@ class Task:
     rotation: Rotation
     motion: MotionTable
     follower: FollowerTable
-    speed_rpm: Speed | None = None
+    speed_rpm: Annotated[Speed | None, say("Speed"), About(300.0)] = None
     title: TitleTable = field(default_factory=TitleTable)
     cam: CamTable = field(default_factory=CamTable)
     limits: LimitsTable = field(default_factory=LimitsTable)

@@ -6,10 +6,10 @@ The types at the end are those of the fields of tables: a field has its unit the
 import dataclasses
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
-from typing import Annotated, Any, get_args, get_origin, get_type_hints
+from typing import Annotated, Any
 
 from graphcam.errors import DesignError, suggestion
 from graphcam.words import Caption, Words, or_list, say
@@ -129,24 +129,6 @@ def numbers_in_units(table: Any, path: str = "") -> Iterator[tuple[str, InUnit]]
     elif dataclasses.is_dataclass(table):
         for name in (each.name for each in dataclasses.fields(table) if each.init):
             yield from numbers_in_units(getattr(table, name), f"{path}.{name}".lstrip("."))
-
-
-def mark_at(hint: Any, steps: Sequence[int | str]) -> HeldIn | None:
-    """The mark of the number at a place in tables, the first of several; None if it has no unit.
-
-    hint : the type of the tables
-    """
-    marks = [mark for mark in getattr(hint, "__metadata__", ()) if isinstance(mark, HeldIn)]
-    if marks:
-        return None if steps else marks[0]
-    if dataclasses.is_dataclass(hint):
-        hints = get_type_hints(hint, include_extras=True)
-        return mark_at(hints[steps[0]], steps[1:]) if steps and steps[0] in hints else None
-    parts = get_args(hint)
-    if get_origin(hint) is tuple:
-        place, *steps = steps or (0,)
-        parts = parts[:1] if parts[1:] == (...,) else parts[int(place) :][:1]
-    return next(filter(None, (mark_at(part, steps) for part in parts)), None)
 
 
 def check_turning(table: Any, *, turning: bool, path: str = "") -> None:
