@@ -114,7 +114,7 @@ def test_the_wheel_holds_tasks_and_types(tmp_path):
     wheel = next(WheelBuilder(str(ROOT)).build(directory=str(tmp_path), versions=["standard"]))
     held = set(zipfile.ZipFile(wheel).namelist())
     assert {f"graphcam/data/tasks/{name}.toml" for name in ("coursework", "arm", "flat")} <= held
-    assert {"graphcam/py.typed", "graphcam/data/commented.toml", "graphcam/cli/solve.py"} <= held
+    assert {"graphcam/py.typed", "graphcam/data/examples.toml", "graphcam/cli/solve.py"} <= held
     assert "graphcam/exercises/library/whole-cam.toml" in held
     assert "graphcam/data/fonts/osifont.ttf" in held
     licences = f"graphcam-{graphcam.__version__}.dist-info/licenses"

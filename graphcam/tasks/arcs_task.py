@@ -22,8 +22,14 @@ XY = tuple[Length, Length]
 
 @dataclass(frozen=True)
 class ArcsTable:
-    """``[arcs]``: the data of :class:`~graphcam.given.three_arcs.ThreeArcs`, points as [x, y] in mm.
+    """``[arcs]``: a cam of three circular arcs by its points, as [x, y], and a radius.
 
+    D : mm, end of the rise
+    G : mm, where the second and third arcs meet
+    rho1 : mm, radius of the first arc
+    A : mm, start of the rise; left out: found
+    C1 : mm, centre of the first arc; left out: found
+    C2 : mm, centre of the second arc; left out: found
     dwell : degrees of the upper dwell on the outer circle; the return is the rise's mirror image
     """
 
@@ -51,7 +57,10 @@ class ArcsTable:
 
 @dataclass(frozen=True)
 class RollerTable:
-    """``[follower]``: a central translating follower; roller_radius : mm, 0 for a knife edge."""
+    """``[follower]``: a central translating follower.
+
+    roller_radius : mm, 0 for a knife edge
+    """
 
     roller_radius: Annotated[Length, say("Roller radius r"), Ruled()] = 0.0
     kind: Literal["translating"] = "translating"
@@ -67,7 +76,10 @@ class RollerTable:
 
 @dataclass(frozen=True)
 class ArcsDrawingTable(SheetTable):
-    """``[drawing]``: the sheet, and ``divisions``, the equal parts of each arc at whose ends the roller is drawn."""
+    """``[drawing]``: the sheet, and the divisions of the arcs.
+
+    divisions : equal parts of each arc, at whose ends the roller is drawn
+    """
 
     divisions: Annotated[int, say("Divisions of a phase"), Fixed(2, 12, 1)] = 4
 
@@ -81,8 +93,7 @@ class ArcsDrawingTable(SheetTable):
 class ArcsTask:
     """A cam of three circular arcs, as its file says it.
 
-    speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
-    part : the data for the workshop; None is a part that follows from the cam
+    speed_rpm : rpm, speed of the cam; left out: velocities and accelerations per radian of the cam
 
     Raises
     ------

@@ -13,12 +13,14 @@ from graphcam.words import say
 
 @dataclass(frozen=True)
 class MaterialTable:
-    """``[material]``: what the contact stress depends on beside the force; it needs a ``[spring]``.
+    """``[material]``: of cam and follower where they touch, for the contact stress; it needs a ``[spring]``.
 
     width : mm, of the contact along the axes
-    young_cam, young_follower : MPa, moduli of elasticity of the cam, and of the roller or the flat face
-    poisson_cam, poisson_follower : their Poisson's ratios
-    permitted_stress : MPa, of the pressure in the middle of the contact; with None no stress is judged
+    young_cam : MPa, modulus of elasticity; left out: steel
+    young_follower : MPa, of the roller or the flat face
+    poisson_cam : Poisson's ratio; left out: steel
+    poisson_follower : of the roller or the flat face
+    permitted_stress : MPa, of the pressure in the middle of the contact; left out: no stress is judged
 
     Raises
     ------

@@ -42,9 +42,13 @@ def _check_angle(angle: float, name: str = "angle") -> None:
 
 @dataclass(frozen=True)
 class PointTable:
-    """Conditions on the motion at a cam angle [degrees]; what is left out is free.
+    """Conditions on the motion at a cam angle; what is left out is free.
 
-    s : mm (degrees for an arm);  v, a, j : its derivatives by the cam angle in radians
+    angle : degrees of the cam
+    s : mm (degrees for an arm), the lift there
+    v : mm/rad (deg/rad for an arm), its first derivative by the cam angle
+    a : mm/rad^2 (deg/rad^2 for an arm), its second
+    j : mm/rad^3 (deg/rad^3 for an arm), its third
     """
 
     angle: Angle
@@ -67,7 +71,11 @@ class PointTable:
 
 @dataclass(frozen=True)
 class PolynomialTable:
-    """The polynomial through points, of the degree that all their conditions need."""
+    """The polynomial through points, of the degree that all their conditions need.
+
+    points : with conditions
+    degree : left out: that of the conditions
+    """
 
     points: tuple[PointTable, ...]
     degree: int | None = None
@@ -83,7 +91,12 @@ class PolynomialTable:
 
 @dataclass(frozen=True)
 class SplineTable:
-    """The B-spline of a degree through points; inner knots [degrees] that are left out are chosen."""
+    """The B-spline of a degree through points.
+
+    points : with conditions
+    degree : of its pieces
+    knots : degrees, of the inner knots; left out: they are chosen
+    """
 
     points: tuple[PointTable, ...]
     degree: int = 5
@@ -119,7 +132,10 @@ def _spline(table: SplineTable, unit: float) -> SplinePart:
 
 @dataclass(frozen=True)
 class DwellTable:
-    """A phase of rest over ``angle`` degrees."""
+    """A phase of rest.
+
+    angle : degrees of the cam
+    """
 
     angle: Angle
     kind: Literal["dwell"] = "dwell"
@@ -134,6 +150,20 @@ class DwellTable:
 
 @dataclass(frozen=True)
 class _MovingTable:
+    """A phase that moves the follower.
+
+    angle : degrees of the cam
+    lift : mm (degrees for an arm)
+    law : "rectangular" (constant acceleration), "triangular", "cosine", "cycloidal", "trapezoidal",
+        "modified-trapezoidal", "modified-sine", "2-3", "3-4-5", "4-5-6-7"; for a rise and a return without a dwell
+        between "double-harmonic", "eighth-degree"; "constant-velocity" between two blends; a textbook's name does too:
+        "SHM", "UARM", "parabolic", "uniform velocity"
+    ratio : only for "rectangular", "triangular", "cycloidal", "modified-trapezoidal", "modified-sine": the first part's
+        acceleration over the second's
+    blends : only for "constant-velocity": the fractions of the phase that they take; left out: a quarter each; with
+        [0, 0] the velocity jumps, which is the uniform velocity of the textbooks
+    """
+
     angle: Angle
     lift: Lift
     law: Annotated[str | Law, ByName()]
@@ -160,11 +190,7 @@ class _MovingTable:
 
 @dataclass(frozen=True)
 class RiseTable(_MovingTable):
-    """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees, by a law of graphcam or of your own.
-
-    blends : of the law "constant-velocity", the fractions of the phase that its blends take; of 0 the velocity jumps;
-        None is a quarter each
-    """
+    """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees, by a law of graphcam or of your own."""
 
     kind: Literal["rise"] = "rise"
     moves = Rise
@@ -172,7 +198,7 @@ class RiseTable(_MovingTable):
 
 @dataclass(frozen=True)
 class ReturnTable(_MovingTable):
-    """A return by ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law; ``blends`` as of a rise."""
+    """A return by ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law."""
 
     kind: Literal["return"] = "return"
     moves = Return
@@ -183,13 +209,14 @@ PhaseTable = Annotated[RiseTable | DwellTable | ReturnTable, ByKind()]
 
 @dataclass(frozen=True)
 class RadiiTable:
-    """``[arcs]`` of a given cam of base circle, flank and nose, whose motion is asked for.
+    """``[arcs]``: in place of [motion] and [cam], a cam that is given by its radii, and whose motion is asked for.
 
-    base_radius, nose_radius, lift : mm
-    flank_radius : mm, negative of a hollow flank, or "straight" for a tangent cam
-    ascent, dwell : degrees from the start of the flank to the apex, and for which the follower is held up
-
-    Three of flank_radius, nose_radius, lift and ascent are given, or lift alone for an eccentric cam.
+    base_radius : mm, of the base circle
+    flank_radius : mm, negative of a hollow flank; or "straight", a tangent cam
+    nose_radius : mm; of flank_radius, nose_radius, lift and ascent three are given, of an eccentric cam lift alone
+    lift : mm, from the base circle to the apex
+    ascent : degrees from the start of the flank to the apex
+    dwell : degrees for which the follower is held up
     """
 
     base_radius: Annotated[Length, say("Base radius"), About(30.0)]
@@ -216,18 +243,36 @@ class RadiiTable:
 
 
 @dataclass(frozen=True)
-class MotionTable:
-    """``[motion]``: the phases of one revolution, in order, or parts by conditions, or the table of a measured motion.
+class OutlineTable:
+    """``[outline]``: in place of [motion], [arcs] and [cam], points of a cam are given, as it lies at the cam angle 0.
 
-    phases : their angles sum to 360 degrees, their lifts to 0; what rounding leaves, less than 0.001 degrees, the
-        longest dwell takes up
-    parts : polynomials and splines through points, in place of phases; where they leave a gap the follower rests
-    table : of a measured motion, or of points of a given cam, in place of phases; a file gives the name of a CSV file
-        beside it, of a given cam as ``outline.file``
+    file : a table with the columns x_mm,y_mm from the cam centre, or angle_deg,radius_mm; or a drawing, "cam.dxf"
+    tolerance : mm, how far the follower may pass the points; about 4.5 times the scatter of a measured cam
+    layer : of a drawing with several closed loops; left out: the only one
+    """
+
+    file: str
+    tolerance: Length = 0.01
+    layer: str | None = None
+
+
+@dataclass(frozen=True)
+class MotionTable:
+    """``[motion]``: the follower's motion over one revolution, by phases, by conditions, or as it was measured.
+
+    phases : one after another, each a "rise", "dwell" or "return"; their angles sum to 360 degrees, their rises and
+        returns to 0; what rounding leaves, less than 0.001 degrees, the longest dwell takes up
+    table : of a measured motion, in place of phases: a CSV file beside this one; its header is phi_deg,s_mm (of an arm
+        phi_deg,s_deg) or phi_deg,a (accelerations, mm per rad^2), its rows cover one turn; phi_rad, s_in and s_thou
+        (inches, thousandths) are read too
+    tolerance : mm (degrees for an arm), by which the motion may miss a row: 4.5 times their scatter (sd) or more, which
+        is 1.5 times an error that is told as 3 sigma; left out: 0.01
+    parts : polynomials and splines through points with conditions, in place of phases; where they leave a gap the
+        follower dwells
     radii : of a given cam, in place of phases; a file gives them as a table ``[arcs]``
-    tolerance : mm (degrees for an arm), how far the motion may pass the table, of a given cam mm; None is 0.01
-    symmetric : whether the table is half of the cam: it goes back in mirror image, and dwells for the rest of the turn
-    per_cam_degree : degrees of the table's angle for one of the cam: 2 for crank degrees of a four-stroke engine
+    symmetric : whether the table is half of the cam, which goes back in mirror image and dwells for the rest of the
+        turn
+    per_cam_degree : degrees of the table for one of the cam, 2 for crank degrees of a four-stroke engine; left out: 1
 
     ``lift_unit`` is what one unit of lift is in the API: 1 mm, or for an arm 1 degree or 1 mm of arc in radians; it and
     ``follows``, the follower that a given cam moves and its sense of rotation, are set by the task.

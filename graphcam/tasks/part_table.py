@@ -17,25 +17,30 @@ SplineDegree = Literal[2, 3, 4, 5]
 
 @dataclass(frozen=True)
 class PartTable:
-    """``[part]``: sizes and data of the part for the workshop; what is None follows from the cam or the frame.
+    """``[part]``: the cam as a part, for its working drawing (graphcam solve --working-drawing).
 
-    name, number : of the part, in its title block; None is "Cam", and no number
-    bore : mm; None is the largest standard shaft diameter that leaves enough wall
-    keyway : standard of the keyway in the bore; None is that of the sheet's frame
-    width : mm, of the cam; None is a width that carries the bore
-    hub_diameter, hub_length : mm, both or neither; the length counts from one side of the cam to the hub's far end
-    material : as the title block says it; None is carbon steel by the frame's standards
+    name : of the part, in its title block; left out: Cam
+    number : of its drawing
+    bore : mm; left out: the largest standard shaft diameter that leaves enough wall
+    keyway : "din6885", "gost23360" or "none"; left out: by the frame
+    width : mm, of the cam; left out: 0.8 of the bore, in round millimetres
+    hub_diameter : mm, of a hub on one side; leave out both for a plain disk
+    hub_length : mm over all, the cam's width included
+    material : left out: carbon steel C45, in a gost frame by its Russian name
     density : kg/m^3, for the mass
-    hardness : of the profile, as the notes say it; empty where it is not hardened
-    hardness_depth : the same of its depth; None is a usual one
-    profile_roughness, bore_roughness, roughness : Ra in micrometres, of the profile, of the bore, and of the rest
-    profile_tolerance : mm, width of the zone of the profile of a line (ISO 1101); None goes by the cam's size
-    bore_tolerance : of the bore's diameter, by ISO 286
-    cutter_radius : mm, of the cutter whose centre the table follows too; None leaves it out
-    table_step : degrees of the polar angle from row to row of the table, which is finer where the profile needs it;
-        with the table ``[part]`` the note too has the exact profile, in just these steps
+    hardness : of the profile; "" if it is not hardened
+    hardness_depth : of the hardened layer; left out: a usual one
+    profile_roughness : Ra in micrometres, of the profile
+    bore_roughness : Ra in micrometres, of the bore
+    roughness : Ra in micrometres, of all other faces
+    profile_tolerance : mm, of the profile of a line, ISO 1101; left out: 0.0005 of the diameter, a round value
+    bore_tolerance : "H6", "H7", "H8" or "H9"
+    cutter_radius : mm, of a cutter, for a column with the positions of its centre
+    table_step : degrees, 1, 2, 5 or 10, from row to row of the note's table of the exact profile; that of the working
+        drawing has rows between where the profile needs them
     feed : mm/min, of the cutter in the program of G-code
-    spline_degree, spline_control_points : of the profile's spline in DXF and STEP; None is as many as it takes
+    spline_degree : of the profile's spline in DXF and STEP: 2 to 5
+    spline_control_points : left out: as many as half a micrometre takes; the error is given in solution.json
 
     Raises
     ------

@@ -14,11 +14,14 @@ RangeTable = Length | tuple[Length, Length]
 
 @dataclass(frozen=True)
 class SizingTable:
-    """``[sizing]``: the ranges [mm] for ``graphcam size``; it needs a ``[spring]`` and a ``[material]``.
+    """``[sizing]``: ranges in which ``graphcam size`` seeks the best cam; it needs [spring], [material] and a stress.
 
-    prime_radius, base_radius : one of both, the least radius of the pitch curve or of the profile
-    offset, roller_radius, width : what is left out is what ``[follower]`` and ``[material]`` give
-    objective : "size", the least radius, or "stress", the least contact stress
+    prime_radius : mm, or base_radius, which is less by the roller; a number in place of a range gives a size
+    base_radius : mm, in place of prime_radius
+    offset : mm; offset, roller_radius and width: left out: as [follower] and [material] give them
+    roller_radius : mm
+    width : mm, of the contact
+    objective : "size", the smallest cam; or "stress", that of the lowest contact stress
 
     Raises
     ------

@@ -75,10 +75,11 @@ class SpringTable:
 
     mass : kg, of the follower and all that moves with it
     stiffness : N/mm
-    preload : N, of the spring at the lowest place; None is the least one that keeps contact
+    preload : N, in the lowest position; left out: the minimum that keeps contact; if that is 0, nothing presses in the
+        lower dwell: choose more
     acceleration : rad/s^2, of the cam, at the speed
-    friction : mu, between cam and follower
-    load : N, what presses on the follower besides: a number, or rows [[degrees, N], ...] from 0 to 360 degrees
+    friction : coefficient mu between cam and follower
+    load : N, what else presses the follower on; or a table over the turn: [[0, 20], [90, 60], [360, 20]]
     damping : N s/m, against the motion
     """
 
@@ -137,12 +138,12 @@ class ArmSpringTable:
 
     inertia : kg mm^2, of the arm and all that swings with it, about the pivot
     stiffness : N mm/rad, of a torsion spring about the pivot; N/mm, of a spring at a point
-    preload : at the lowest place, N mm of a torsion spring, N of a spring at a point; None is the least one that keeps
-        contact
+    preload : N mm in the lowest position, N of a spring at a point; left out: the minimum that keeps contact
     acceleration : rad/s^2, of the cam, at the speed
-    friction : mu, between cam and follower
-    load : N, what presses on the arm's end along its path besides: a number, or rows [[degrees, N], ...] from 0 to 360
-    at : where a spring acts on the arm; None is a torsion spring about the pivot
+    friction : coefficient mu between cam and follower
+    load : N, what else presses on the arm's end along its path; or a table over the turn
+    at : where a spring acts: mm from the pivot, and to what point of the frame; left out: a torsion spring about the
+        pivot
     damping : N mm s/rad, about the pivot against the motion
     """
 

@@ -105,11 +105,14 @@ class _FollowerTable:
 
 @dataclass(frozen=True)
 class TranslatingTable(_FollowerTable):
-    """``[follower]`` of kind "translating".
+    """``[follower]`` of kind "translating", a stem.
 
-    offset : mm, to the right of the cam centre; None is open: the minimum radius decides
-    roller_radius : mm, 0 for a knife edge; None is open: the rule decides
-    roller_rule : see :func:`graphcam.given.roller_rule.roller_rule`
+    offset : mm, of the follower's line to the right of the cam centre; 0 for a central follower; left out: found with
+        the minimum radius
+    roller_radius : mm, 0 for a knife edge; left out: chosen by the rule
+    roller_rule : "K rho", "K r0", "rho - MM" or min(..., ...) of these: rho is the minimum radius of curvature of the
+        pitch curve, r0 the prime radius; or a name: "coursework" is min(0.65 rho, 0.4 r0), "coursework-prime-radius"
+        0.45 r0, "gorbenko" 0.7 rho, "least-profile-radius" rho - 5, "norton" 0.33 rho
     """
 
     offset: Annotated[Length | None, say("Offset e"), Ruled()] = None
@@ -144,12 +147,18 @@ class TranslatingTable(_FollowerTable):
 
 @dataclass(frozen=True)
 class OscillatingTable(_FollowerTable):
-    """``[follower]`` of kind "oscillating".
+    """``[follower]`` of kind "oscillating", an arm.
+
+    The arm's pivot lies to the right of the cam centre, level with it, and the arm above the line through both. A rise
+    always turns the arm clockwise: with rotation = "ccw" arm and cam turn in opposite senses on the rise, with "cw" in
+    the same sense. An ordinary rise has a positive pressure angle with "ccw" and a negative one with "cw"; limits bound
+    its magnitude.
 
     arm : mm, its length
-    distance : mm, of the centres; None is open: the minimum radius decides
-    roller_radius, roller_rule : as for a translating follower
-    lift : what the phases' lifts are, "angle" in degrees or "arc" in mm along the path of the trace point
+    distance : mm, from the cam centre to the pivot; left out: found with the prime radius
+    roller_radius : mm, as of a translating follower
+    roller_rule : as of a translating follower
+    lift : of the phases: "angle" in degrees, or "arc" in mm along the arc of the arm's end
     """
 
     arm: Annotated[Length, say("Arm length l"), Ruled()]
@@ -186,9 +195,9 @@ class OscillatingTable(_FollowerTable):
 
 @dataclass(frozen=True)
 class FlatFacedTable(_FollowerTable):
-    """``[follower]`` of kind "flat-faced".
+    """``[follower]`` of kind "flat-faced", a face square to its motion.
 
-    face_margin : mm, of the face beyond the contact on each side; None adopts no face
+    face_margin : mm, of the face beyond the contact, on each side; the face is then rounded up; left out: no face
     """
 
     face_margin: Length | None = None
@@ -209,9 +218,11 @@ class FlatFacedTable(_FollowerTable):
 
 @dataclass(frozen=True)
 class OscillatingFlatTable(_FollowerTable):
-    """``[follower]`` of kind "oscillating-flat"; the phases' lifts are in degrees.
+    """``[follower]`` of kind "oscillating-flat", a flat face on a pivot.
 
-    distance : mm, from the cam centre to the pivot
+    Its pivot lies where an arm's would; the lifts of the phases are in degrees; a rise turns it clockwise.
+
+    distance : mm, from the cam centre to the pivot; must be given
     face_offset : mm, of the face from the line through the pivot, towards the cam centre if positive
     """
 
@@ -278,7 +289,10 @@ def table_of(follower: Mapping[str, Any]) -> type[_FollowerTable]:
 
 @dataclass(frozen=True)
 class CamTable:
-    """``[cam]``: the prime radius in mm; None is open: the minimum one is found, and rounded up."""
+    """``[cam]``: its size.
+
+    prime_radius : mm, of the pitch curve in the lower dwell; left out: the minimum, rounded up
+    """
 
     prime_radius: Annotated[Length | None, say("Prime radius r₀"), Ruled()] = None
 
@@ -290,10 +304,10 @@ class CamTable:
 class LimitsTable:
     """``[limits]``: what the cam must satisfy.
 
-    pressure_angle_rise : degrees; None takes the usual one of the follower's kind
-    pressure_angle_return : degrees; None is force closure, where the return does not limit the radius
-    min_curvature_radius : mm, of the working profile, convex parts only under a roller; None is no limit
-    rest : whether the angle at the lower dwell must keep the limits of the phases beside it too
+    pressure_angle_rise : degrees, maximum pressure angle on a rise; left out: 30, for an arm 45
+    pressure_angle_return : degrees, on a return; left out: force closure, where a spring drives the return
+    min_curvature_radius : mm, of the working profile, convex parts only under a roller; left out: no limit
+    rest : whether the limits also hold for the pressure angle in the lower dwell
     """
 
     pressure_angle_rise: Annotated[Angle | None, say("Permitted pressure angle, rise"), ANGLE_RANGE] = None
@@ -320,15 +334,16 @@ class LimitsTable:
 class DrawingTable(SheetTable):
     """``[drawing]``: divisions, scales and rounding of the constructions, and the sheet.
 
-    divisions : equal parts per phase; None is 12, and more in a phase whose acceleration lasts less than a part
-    ordinate : mm on paper, the maximum ordinate of the first rise's acceleration; None is the longest of a round
-        series at which the whole diagram keeps to its room on the sheet
-    poles : mm on paper, the pole distances of the integrations a to v and v to s; None is 40 at 1 degree a millimetre,
-        in proportion to the axis, or what makes the diagrams neither too high nor too low
-    profile_scale : a ratio of the frame's standard, such as "2:1", at which the cam's profile is drawn; None is the
-        largest at which it fits its room on the sheet
-    rounding : mm, to which adopted sizes are rounded; None is the largest power of ten below r0/10, at most 1
+    divisions : equal parts per phase; of a measured motion, stations lie on rows if this divides a phase's steps; left
+        out: 12, and up to 48 in a phase whose acceleration lasts less than such a part
+    ordinate : mm on paper, the maximum ordinate of the first rise's acceleration; left out: the longest round one at
+        which the whole diagram suits the sheet
+    poles : mm on paper, pole distances of the integrations, acceleration to velocity and on to lift; left out: 40 where
+        a degree is a millimetre (A1), less in proportion, or what suits the sheet
+    rounding : mm, adopted sizes are rounded to multiples of it; left out: a tenth of r0 or less, at most 1
     jerk : whether the jerk is drawn too, by differentiation of the acceleration diagram
+    profile_scale : a standard scale at which the cam's profile is drawn; left out: the largest that
+        suits the sheet
     """
 
     divisions: Annotated[int | None, say("Divisions of a phase"), Fixed(4, 36, 1)] = None
@@ -366,12 +381,8 @@ class DrawingTable(SheetTable):
 class Task:
     """A design task, with the tables of its file.
 
-    rotation : "ccw" or "cw"
-    speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
-    material : the data for the contact stress besides the spring's force; None is no stress
-    tolerances : how far profile and sizes may be off as they are made; None is no tolerances
-    sizing : ranges in which ``graphcam size`` finds the best cam; ``solve`` solves the cam of the other tables
-    part : the data for the workshop; None is a part that follows from the cam
+    rotation : sense in which the cam turns, "cw" or "ccw"
+    speed_rpm : rpm, speed of the cam; left out: velocities and accelerations per radian of the cam
 
     Raises
     ------

@@ -103,7 +103,7 @@ _KEYS_BY_QUANTITY = {
     "the table's lift": "table",
 }
 """Keys of the file by the quantity of a design error, where the two differ."""
-OUTLINE_KEYS = ("file", "tolerance", "layer")
+OUTLINE_KEYS = tuple(each.name for each in dataclasses.fields(motion_tables.OutlineTable))
 """The keys of a table ``[outline]``, which stands for a motion with the table of a given cam."""
 _MAX_SHOWN_LENGTH = 60
 """The maximum number of characters of a value in a message."""

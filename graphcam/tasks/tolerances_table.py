@@ -11,12 +11,16 @@ from graphcam.words import say
 
 @dataclass(frozen=True)
 class TolerancesTable:
-    """``[tolerances]``: errors of making, and the part of all cams that is to lie within the stated bands.
+    """``[tolerances]``: errors of making: how far the motion may be off, and which tolerance matters most.
 
-    waviness : mm, amplitudes of the profile's waves;  harmonics : as many, waves per turn
-    roller_diameter, offset, distance, arm : mm, widths of tolerance zones; None is exact
-    distribution : of the sizes in their zones, "normal" or "uniform"
-    coverage : the part of all cams
+    waviness : mm, amplitudes of waves of the profile along its normal
+    harmonics : as many: waves per turn
+    roller_diameter : mm, widths of tolerance zones, from the smallest size to the largest
+    offset : mm, of a translating follower
+    distance : mm, of an arm: of the centre distance
+    arm : mm, and of the arm's length
+    distribution : of the sizes in their zones: "normal", three standard deviations on either side; or "uniform"
+    coverage : the part of all mechanisms that the bands hold
 
     Raises
     ------
