@@ -1,22 +1,21 @@
 """The assignment of a cam of three circular arcs: a task file with a table ``[arcs]`` in place of a motion."""
 
-import math
 from dataclasses import dataclass, field
 from typing import Annotated, Any, Literal
 
-from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
-from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.three_arcs import ThreeArcs
 from graphcam.showing import parts_text
 from graphcam.tasks.declared_numbers import About, Fixed, Ruled
+from graphcam.tasks.number_limits import Within, check_limits
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain_data
-from graphcam.tasks.units import Angle, Length, Speed
+from graphcam.tasks.units import Length, PartOfTurn, Size, SizeOrZero, Speed
 from graphcam.words import say
 
 MAX_PARTS = 200
 """The maximum number of parts of an arc; more cannot be drawn apart."""
+PARTS_LIMIT = say("from 2 to {most} parts of each arc", most=MAX_PARTS)
 XY = tuple[Length, Length]
 
 
@@ -35,20 +34,15 @@ class ArcsTable:
 
     D: XY
     G: XY
-    rho1: Annotated[Length, say("Radius of the first arc ρ₁"), Ruled()]
+    rho1: Annotated[Size, say("Radius of the first arc ρ₁"), Ruled()]
     A: XY | None = None
     C1: XY | None = None
     C2: XY | None = None
-    dwell: Annotated[Angle, say("Upper dwell"), Fixed(0.0, 180.0, 1.0)] = 0.0
+    dwell: Annotated[PartOfTurn, say("Upper dwell"), Fixed(0.0, 180.0, 1.0)] = 0.0
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.dwell) and 0 <= self.dwell < 360):
-            raise DesignError("dwell", self.dwell, say("at least 0 and less than 360 degrees"))
         self()
-        check_positive("rho1", self.rho1, "mm")
-        for name in ("D", "G", "A", "C1", "C2"):
-            for coordinate in getattr(self, name) or ():
-                bounded(name, coordinate, "mm")
+        check_limits(self)
 
     def __call__(self) -> ThreeArcs:
         """The data of the cam."""
@@ -62,12 +56,12 @@ class RollerTable:
     roller_radius : mm, 0 for a knife edge
     """
 
-    roller_radius: Annotated[Length, say("Roller radius r"), Ruled()] = 0.0
+    roller_radius: Annotated[SizeOrZero, say("Roller radius r"), Ruled()] = 0.0
     kind: Literal["translating"] = "translating"
 
     def __post_init__(self) -> None:
         self()
-        check_positive(say("roller radius"), self.roller_radius or None, "mm")
+        check_limits(self)
 
     def __call__(self) -> Translating:
         """The follower."""
@@ -81,12 +75,11 @@ class ArcsDrawingTable(SheetTable):
     divisions : equal parts of each arc, at whose ends the roller is drawn
     """
 
-    divisions: Annotated[int, say("Divisions of a phase"), Fixed(2, 12, 1)] = 4
+    divisions: Annotated[int, Within(2, MAX_PARTS, PARTS_LIMIT), say("Divisions of a phase"), Fixed(2, 12, 1)] = 4
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not 2 <= self.divisions <= MAX_PARTS:
-            raise DesignError("divisions", self.divisions, say("from 2 to {most} parts of each arc", most=MAX_PARTS))
+        check_limits(self)
 
 
 @dataclass(frozen=True)
@@ -113,7 +106,7 @@ class ArcsTask:
     __repr__ = parts_text
 
     def __post_init__(self) -> None:
-        check_positive("speed_rpm", self.speed_rpm, "rpm")
+        check_limits(self)
 
     def to_dict(self) -> dict[str, Any]:
         """The task with the keys of its file, as plain lists, numbers and text; what is open is left out.

@@ -8,8 +8,9 @@ import types
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, NamedTuple, Union, get_args, get_origin, get_type_hints
+from typing import Any, NamedTuple, Union, get_args, get_origin
 
+from graphcam.tasks.number_limits import field_types
 from graphcam.tasks.units import HeldIn
 from graphcam.words import Caption
 
@@ -67,7 +68,7 @@ def declared(kind: type) -> Numbers:
     ('Damping d', 'N mm s/rad', True)
     """
     found: dict[str, DeclaredNumber] = {}
-    for name, hint in _hints(kind).items():
+    for name, hint in field_types(kind).items():
         for path, number in _numbers(hint, name):
             found.setdefault(path, number)
     return found
@@ -81,20 +82,13 @@ def numbers_of(table: Any) -> Numbers:
     ['arm', 'distance', 'roller_radius']
     """
     found: dict[str, DeclaredNumber] = {}
-    for name, hint in _hints(type(table)).items():
+    for name, hint in field_types(type(table)).items():
         value = getattr(table, name)
         if dataclasses.is_dataclass(value):
             found |= {f"{name}.{path}": number for path, number in numbers_of(value).items()}
         else:
             found |= dict(_numbers(hint, name, within=False))
     return found
-
-
-@cache
-def _hints(kind: type) -> dict[str, Any]:
-    """The types of the fields that a file gives, with their marks."""
-    hints = get_type_hints(kind, include_extras=True)
-    return {each.name: hints[each.name] for each in dataclasses.fields(kind) if each.init}
 
 
 def _numbers(

@@ -16,13 +16,24 @@ from graphcam.given.laws import canonical_law
 from graphcam.given.motion import FULL_TURN, NEAR_TURN_SHARE, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.given.outline_motion import outline_motion
-from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.point_outline import cam_through_points
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law
 from graphcam.given.table_file import CurveTable, Turn
 from graphcam.tasks.dataclass_reader import ByKind, ByName
 from graphcam.tasks.declared_numbers import About, Fixed
-from graphcam.tasks.units import LIFT, Acceleration, Angle, Jerk, Length, Lift, Velocity
+from graphcam.tasks.number_limits import Positive, Within, check_limits
+from graphcam.tasks.units import (
+    LIFT,
+    Acceleration,
+    Angle,
+    Jerk,
+    Length,
+    Lift,
+    PartOfTurn,
+    PhaseAngle,
+    PhaseLift,
+    Velocity,
+)
 from graphcam.words import Words, say
 
 ANGLE_CLOSURE = 1e-9
@@ -34,10 +45,12 @@ TWO_TURNS = 720.0
 """The maximum angle [degrees] at which a part may end, as a part may pass the end of the turn."""
 
 
-def _check_angle(angle: float, name: str = "angle") -> None:
-    if not 0 <= angle <= TWO_TURNS:
-        limit = say("from 0 to {two_turns:g} degrees", two_turns=TWO_TURNS)
-        raise DesignError(name, angle, limit, say("count the cam angle from 0"))
+AngleInMotion = Annotated[
+    Angle,
+    Within(
+        0.0, TWO_TURNS, say("from 0 to {two_turns:g} degrees", two_turns=TWO_TURNS), say("count the cam angle from 0")
+    ),
+]
 
 
 @dataclass(frozen=True)
@@ -51,16 +64,14 @@ class PointTable:
     j : mm/rad^3 (deg/rad^3 for an arm), its third
     """
 
-    angle: Angle
+    angle: AngleInMotion
     s: Lift | None = None
     v: Velocity | None = None
     a: Acceleration | None = None
     j: Jerk | None = None
 
     def __post_init__(self) -> None:
-        _check_angle(self.angle)
-        for name in DERIVATIVE_NAMES:
-            bounded(name, getattr(self, name), "mm/rad^2")
+        check_limits(self)
         self()
 
     def __call__(self, unit: float = 1.0) -> MotionPoint:
@@ -100,12 +111,11 @@ class SplineTable:
 
     points: tuple[PointTable, ...]
     degree: int = 5
-    knots: tuple[Angle, ...] | None = None
+    knots: tuple[AngleInMotion, ...] | None = None
     kind: Literal["spline"] = "spline"
 
     def __post_init__(self) -> None:
-        for k, knot in enumerate(self.knots or ()):
-            _check_angle(knot, f"knots[{k}]")
+        check_limits(self)
         self()
 
     def __call__(self, unit: float = 1.0) -> SplinePart:
@@ -137,11 +147,11 @@ class DwellTable:
     angle : degrees of the cam
     """
 
-    angle: Angle
+    angle: PhaseAngle
     kind: Literal["dwell"] = "dwell"
 
     def __post_init__(self) -> None:
-        check_positive("angle", self.angle, "degrees")
+        check_limits(self)
 
     def __call__(self, unit: float = 1.0) -> Dwell:
         """The phase in radians; ``unit`` has no effect, since a dwell has no lift."""
@@ -164,8 +174,8 @@ class _MovingTable:
         [0, 0] the velocity jumps, which is the uniform velocity of the textbooks
     """
 
-    angle: Angle
-    lift: Lift
+    angle: PhaseAngle
+    lift: PhaseLift
     law: Annotated[str | Law, ByName()]
     ratio: float = 1.0
     blends: tuple[float, float] | None = None
@@ -173,8 +183,7 @@ class _MovingTable:
     moves: ClassVar[type[Rise] | type[Return]]
 
     def __post_init__(self) -> None:
-        check_positive("angle", self.angle, "degrees")
-        check_positive("lift", self.lift, "mm (degrees for an arm)")
+        check_limits(self)
         object.__setattr__(self, "law", canonical_law(self.law))
         if self.blends is not None and self.law != CONSTANT_VELOCITY:
             left_out = say("left out for the law '{law}'", law=getattr(self.law, "name", self.law))
@@ -223,16 +232,11 @@ class RadiiTable:
     flank_radius: Annotated[Length | Straight | None, say("Flank radius"), About(60.0)] = None
     nose_radius: Annotated[Length | None, say("Nose radius"), About(20.0)] = None
     lift: Annotated[Length | None, say("Lift"), About(15.0)] = None
-    ascent: Annotated[Angle | None, say("Angle of ascent"), Fixed(0.0, 180.0, 1.0)] = None
-    dwell: Annotated[Angle, say("Upper dwell"), Fixed(0.0, 180.0, 1.0)] = 0.0
+    ascent: Annotated[PartOfTurn | None, say("Angle of ascent"), Fixed(0.0, 180.0, 1.0)] = None
+    dwell: Annotated[PartOfTurn, say("Upper dwell"), Fixed(0.0, 180.0, 1.0)] = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("base_radius", "flank_radius", "nose_radius", "lift"):
-            if isinstance(size := getattr(self, name), float | int):
-                bounded(name, abs(size), "mm")
-        for name in ("ascent", "dwell"):
-            if not 0 <= (angle := getattr(self, name) or 0.0) < 360:
-                raise DesignError(name, angle, say("at least 0 and less than 360 degrees"))
+        check_limits(self)
         self()
 
     def __call__(self) -> ArcOutline:
@@ -284,7 +288,7 @@ class MotionTable:
     parts: tuple[PartOfMotion, ...] | None = None
     radii: RadiiTable | None = None
     symmetric: bool | None = None
-    per_cam_degree: float | None = None
+    per_cam_degree: Annotated[float, Positive("degrees")] | None = None
     lift_unit: float = field(default=1.0, init=False, repr=False, compare=False)
     follows: tuple[Follower, Rotation] = field(default=(FlatFaced(), "ccw"), init=False, repr=False, compare=False)
 
@@ -302,8 +306,7 @@ class MotionTable:
         if self.tolerance is not None and self.table is None:
             left_out = say("left out where there is no table")
             raise DesignError("tolerance", self.tolerance, left_out, say("{given} are kept exactly", given=given[0]))
-        bounded("tolerance", self.tolerance, "mm (degrees for an arm)")
-        check_positive("per_cam_degree", self.per_cam_degree, "degrees")
+        check_limits(self)
         for name, value in (("symmetric", self.symmetric), ("per_cam_degree", self.per_cam_degree)):
             if value is not None and (self.table is None or self.gives_cam):
                 raise DesignError(name, value, say("left out where there is no table"), say("delete it"))

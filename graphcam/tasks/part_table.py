@@ -4,9 +4,9 @@ from dataclasses import dataclass
 from typing import Literal, get_args
 
 from graphcam.errors import DesignError
-from graphcam.given.plausible_ranges import check_positive
+from graphcam.tasks.number_limits import check_limits
 from graphcam.tasks.sheet_tables import check_choice
-from graphcam.tasks.units import Density, Feed, Length, Roughness
+from graphcam.tasks.units import Density, Feed, Roughness, Size
 from graphcam.words import say
 
 Keyway = Literal["din6885", "gost23360", "none"]
@@ -53,11 +53,11 @@ class PartTable:
 
     name: str | None = None
     number: str | None = None
-    bore: Length | None = None
+    bore: Size | None = None
     keyway: Keyway | None = None
-    width: Length | None = None
-    hub_diameter: Length | None = None
-    hub_length: Length | None = None
+    width: Size | None = None
+    hub_diameter: Size | None = None
+    hub_length: Size | None = None
     material: str | None = None
     density: Density = 7850.0
     hardness: str = "45...50 HRC"
@@ -65,21 +65,16 @@ class PartTable:
     profile_roughness: Roughness = 0.8
     bore_roughness: Roughness = 1.6
     roughness: Roughness = 3.2
-    profile_tolerance: Length | None = None
+    profile_tolerance: Size | None = None
     bore_tolerance: BoreTolerance = "H7"
-    cutter_radius: Length | None = None
+    cutter_radius: Size | None = None
     table_step: TableStep = 5
     feed: Feed = 100.0
     spline_degree: SplineDegree = 3
     spline_control_points: int | None = None
 
     def __post_init__(self) -> None:
-        for name in ("bore", "width", "hub_diameter", "hub_length", "profile_tolerance", "cutter_radius"):
-            check_positive(name, getattr(self, name), "mm")
-        for name in ("profile_roughness", "bore_roughness", "roughness"):
-            check_positive(name, getattr(self, name), "micrometres")
-        check_positive("density", self.density, "kg/m^3")
-        check_positive("feed", self.feed, "mm/min")
+        check_limits(self)
         self._check_words()
         self._check_hub()
 

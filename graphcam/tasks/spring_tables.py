@@ -4,11 +4,11 @@ import math
 from dataclasses import dataclass
 from typing import Annotated
 
-from graphcam.errors import DesignError, check_number
+from graphcam.errors import DesignError
 from graphcam.given.load_curve import Load, LoadCurve
-from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.spring_load import ArmLoad, ArmSpring, SpringLoad
 from graphcam.tasks.declared_numbers import About, Fixed, Ruled
+from graphcam.tasks.number_limits import NotNegative, Positive, Within, check_limits
 from graphcam.tasks.units import (
     Angle,
     AngularAcceleration,
@@ -20,6 +20,7 @@ from graphcam.tasks.units import (
     Inertia,
     Length,
     Mass,
+    Preload,
     Stiffness,
     check_turning,
 )
@@ -44,29 +45,17 @@ def load_of(said: LoadTable) -> Load:
     return LoadCurve([math.radians(angle) for angle, _ in said], [force for _, force in said])
 
 
-def _check_common(stiffness: float, stiffness_unit: str, preload: float | None, preload_unit: str) -> None:
-    check_positive("stiffness", stiffness, stiffness_unit)
-    if preload is not None:
-        limit = say("a finite number of 0 {preload_unit} or more", preload_unit=preload_unit)
-        check_number("preload", preload, limit, least=0)
-    bounded("preload", preload, preload_unit)
-
-
-def _check_moving(spring: "SpringTable | ArmSpringTable", damping_unit: str) -> None:
-    bounded("acceleration", spring.acceleration, "rad/s^2")
-    if not 0 <= spring.friction <= MAX_FRICTION:
-        remedy = say("it is the coefficient mu between cam and follower")
-        raise DesignError("friction", spring.friction, say("from 0 to {most:g}", most=MAX_FRICTION), remedy)
-    limit = say("a finite number of 0 {unit} or more", unit=damping_unit)
-    check_number("damping", spring.damping, limit, least=0)
-    bounded("damping", spring.damping, damping_unit)
-    for each in [spring.load] if not isinstance(spring.load, tuple) else [force for _, force in spring.load]:
-        bounded("load", each, "N")
-    load_of(spring.load)
-
-
 MAX_FRICTION = 2.0
 """The maximum coefficient of friction; a greater one is a typing error."""
+Friction = Annotated[
+    float,
+    Within(
+        0.0,
+        MAX_FRICTION,
+        say("from 0 to {most:g}", most=MAX_FRICTION),
+        say("it is the coefficient mu between cam and follower"),
+    ),
+]
 
 
 @dataclass(frozen=True)
@@ -85,17 +74,16 @@ class SpringTable:
 
     mass: Annotated[Mass, say("Moving mass"), About(1.0)]
     stiffness: Annotated[Stiffness, say("Stiffness c"), About(3.0)]
-    preload: Annotated[Force | None, say("Preload F₀"), About(100.0, from_zero=True)] = None
+    preload: Annotated[Preload | None, say("Preload F₀"), About(100.0, from_zero=True)] = None
     acceleration: Annotated[AngularAcceleration, say("Angular acceleration ε"), Fixed(-500.0, 500.0, 5.0)] = 0.0
-    friction: Annotated[float, say("Friction at the cam μ"), Fixed(0.0, 0.5, 0.01)] = 0.0
+    friction: Annotated[Friction, say("Friction at the cam μ"), Fixed(0.0, 0.5, 0.01)] = 0.0
     load: Annotated[LoadTable, say("Load P"), About(100.0, from_zero=True)] = 0.0
     damping: Annotated[Damping, say("Damping d"), About(100.0, from_zero=True)] = 0.0
     swings = False
 
     def __post_init__(self) -> None:
-        check_positive("mass", self.mass, "kg")
-        _check_common(self.stiffness, "N/mm", self.preload, "N")
-        _check_moving(self, "N s/m")
+        check_limits(self)
+        load_of(self.load)
 
     def __call__(self, speed_rpm: float) -> SpringLoad:
         """The load at a speed [rpm]; an open preload is 0 in it.  Friction belongs to the contact, not to the load."""
@@ -123,9 +111,7 @@ class ArmSpringPlace:
         if self.arm == 0:
             limit = say("a length other than 0 mm")
             raise DesignError("arm", self.arm, limit, say("at the pivot a spring turns nothing"))
-        bounded("arm", self.arm, "mm")
-        for coordinate in self.anchor:
-            bounded("anchor", coordinate, "mm")
+        check_limits(self)
 
     def __call__(self) -> ArmSpring:
         """The spring in the terms of the exact side."""
@@ -151,18 +137,19 @@ class ArmSpringTable:
     stiffness: Annotated[ArmStiffness, say("Stiffness c"), About(3.0)]
     preload: Annotated[ArmPreload | None, say("Preload F₀"), About(100.0, from_zero=True)] = None
     acceleration: Annotated[AngularAcceleration, say("Angular acceleration ε"), Fixed(-500.0, 500.0, 5.0)] = 0.0
-    friction: Annotated[float, say("Friction at the cam μ"), Fixed(0.0, 0.5, 0.01)] = 0.0
+    friction: Annotated[Friction, say("Friction at the cam μ"), Fixed(0.0, 0.5, 0.01)] = 0.0
     load: Annotated[LoadTable, say("Load P"), About(100.0, from_zero=True)] = 0.0
     at: ArmSpringPlace | None = None
     damping: Annotated[ArmDamping, say("Damping d"), About(100.0, from_zero=True)] = 0.0
     swings = True
 
     def __post_init__(self) -> None:
-        check_positive("inertia", self.inertia, "kg mm^2")
-        units = ("N mm/rad", "N mm") if self.at is None else ("N/mm", "N")
+        check_limits(self)
         check_turning(self, turning=self.at is None)
-        _check_common(self.stiffness, units[0], self.preload, units[1])
-        _check_moving(self, "N mm s/rad")
+        Positive("N mm/rad" if self.at is None else "N/mm").check("stiffness", self.stiffness)
+        if self.preload is not None:
+            NotNegative("N mm" if self.at is None else "N").check("preload", self.preload)
+        load_of(self.load)
 
     def __call__(self, speed_rpm: float) -> ArmLoad:
         """The load at a speed [rpm]; an open preload is 0 in it.  Friction belongs to the contact, not to the load."""

@@ -14,7 +14,6 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import (
-    LIMIT_NAMES,
     FlatFaced,
     Limits,
     Oscillating,
@@ -25,25 +24,26 @@ from graphcam.given.follower import (
 )
 from graphcam.given.impact import NO_FORCE, velocity_jumps
 from graphcam.given.laid_outline import GivenCamMotion
-from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.roller_rule import DEFAULT_RULE, Candidate, roller_rule
 from graphcam.showing import MAX_WIDTH, value_text
 from graphcam.tasks.dataclass_reader import ByKeys, ByKind
 from graphcam.tasks.declared_numbers import About, Fixed, Ruled
 from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.motion_tables import MotionTable
+from graphcam.tasks.number_limits import Within, check_limits
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, check_choice, plain_data
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 from graphcam.tasks.tolerances_table import TolerancesTable
-from graphcam.tasks.units import Angle, Length, Speed, check_turning
+from graphcam.tasks.units import Length, PaperLength, PermittedAngle, Size, SizeOrZero, Speed, check_turning
 from graphcam.words import say
 
 ANGLE_RANGE = Fixed(15.0, 60.0, 1.0)
 """Of permitted pressure angles [degrees]; beyond, a follower jams or needs no limit."""
 MAX_DIVISIONS = 1000
 """The maximum number of parts of a phase; more cannot be drawn apart."""
+Divisions = Annotated[int, Within(1, MAX_DIVISIONS, say("from 1 to {most} parts per phase", most=MAX_DIVISIONS))]
 LARGER_RADIUS_REMEDY = say("or a larger cam.prime_radius")
 NO_FACE_REMEDY = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
 
@@ -116,15 +116,14 @@ class TranslatingTable(_FollowerTable):
     """
 
     offset: Annotated[Length | None, say("Offset e"), Ruled()] = None
-    roller_radius: Annotated[Length | None, say("Roller radius r"), Ruled()] = None
+    roller_radius: Annotated[SizeOrZero | None, say("Roller radius r"), Ruled()] = None
     roller_rule: str = DEFAULT_RULE
     kind: Literal["translating"] = "translating"
     sought = "offset", "roller_radius"
 
     def __post_init__(self) -> None:
         self()
-        bounded("offset", self.offset, "mm")
-        check_positive(say("roller radius"), self.roller_radius or None, "mm")
+        check_limits(self)
         roller_rule(self.roller_rule)
 
     def __call__(self) -> Translating:
@@ -161,9 +160,9 @@ class OscillatingTable(_FollowerTable):
     lift : of the phases: "angle" in degrees, or "arc" in mm along the arc of the arm's end
     """
 
-    arm: Annotated[Length, say("Arm length l"), Ruled()]
-    distance: Annotated[Length | None, say("Centre distance c"), Ruled()] = None
-    roller_radius: Annotated[Length | None, say("Roller radius r"), Ruled()] = None
+    arm: Annotated[Size, say("Arm length l"), Ruled()]
+    distance: Annotated[Size | None, say("Centre distance c"), Ruled()] = None
+    roller_radius: Annotated[SizeOrZero | None, say("Roller radius r"), Ruled()] = None
     roller_rule: str = DEFAULT_RULE
     lift: Literal["angle", "arc"] = "angle"
     kind: Literal["oscillating"] = "oscillating"
@@ -172,9 +171,7 @@ class OscillatingTable(_FollowerTable):
 
     def __post_init__(self) -> None:
         self()
-        check_positive("arm", self.arm, "mm")
-        check_positive(say("centre distance"), self.distance, "mm")
-        check_positive(say("roller radius"), self.roller_radius or None, "mm")
+        check_limits(self)
         roller_rule(self.roller_rule)
         check_choice("lift", self.lift, ("angle", "arc"))
 
@@ -200,7 +197,7 @@ class FlatFacedTable(_FollowerTable):
     face_margin : mm, of the face beyond the contact, on each side; the face is then rounded up; left out: no face
     """
 
-    face_margin: Length | None = None
+    face_margin: SizeOrZero | None = None
     kind: Literal["flat-faced"] = "flat-faced"
     takes_corners = False
     roller_radius = 0.0
@@ -209,7 +206,7 @@ class FlatFacedTable(_FollowerTable):
     without: ClassVar = {"pressure_angle_rise": NO_FACE_REMEDY, "pressure_angle_return": NO_FACE_REMEDY}
 
     def __post_init__(self) -> None:
-        check_positive(say("face margin"), self.face_margin or None, "mm")
+        check_limits(self)
 
     def __call__(self) -> FlatFaced:
         """The follower."""
@@ -226,7 +223,7 @@ class OscillatingFlatTable(_FollowerTable):
     face_offset : mm, of the face from the line through the pivot, towards the cam centre if positive
     """
 
-    distance: Annotated[Length, say("Centre distance c"), Ruled()]
+    distance: Annotated[Size, say("Centre distance c"), Ruled()]
     face_offset: Annotated[Length, say("Face offset f"), Ruled()] = 0.0
     kind: Literal["oscillating-flat"] = "oscillating-flat"
     takes_corners = False
@@ -237,8 +234,7 @@ class OscillatingFlatTable(_FollowerTable):
     without: ClassVar = {"pressure_angle_rise": SWINGING_FACE_REMEDY, "pressure_angle_return": SWINGING_FACE_REMEDY}
 
     def __post_init__(self) -> None:
-        check_positive(say("centre distance"), self.distance, "mm")
-        bounded(say("face offset"), self.face_offset, "mm")
+        check_limits(self)
         self()
 
     @property
@@ -294,10 +290,10 @@ class CamTable:
     prime_radius : mm, of the pitch curve in the lower dwell; left out: the minimum, rounded up
     """
 
-    prime_radius: Annotated[Length | None, say("Prime radius r₀"), Ruled()] = None
+    prime_radius: Annotated[Size | None, say("Prime radius r₀"), Ruled()] = None
 
     def __post_init__(self) -> None:
-        check_positive(say("prime radius"), self.prime_radius, "mm")
+        check_limits(self)
 
 
 @dataclass(frozen=True)
@@ -310,18 +306,16 @@ class LimitsTable:
     rest : whether the limits also hold for the pressure angle in the lower dwell
     """
 
-    pressure_angle_rise: Annotated[Angle | None, say("Permitted pressure angle, rise"), ANGLE_RANGE] = None
-    pressure_angle_return: Annotated[Angle | None, say("Permitted pressure angle, return"), ANGLE_RANGE] = None
+    pressure_angle_rise: Annotated[PermittedAngle | None, say("Permitted pressure angle, rise"), ANGLE_RANGE] = None
+    pressure_angle_return: Annotated[PermittedAngle | None, say("Permitted pressure angle, return"), ANGLE_RANGE] = None
     min_curvature_radius: Annotated[
-        Length | None, say("Minimum radius of curvature of the profile"), Fixed(0.5, 50.0, 0.5)
+        Size | None, say("Minimum radius of curvature of the profile"), Fixed(0.5, 50.0, 0.5)
     ] = None
     rest: bool = True
 
     def __post_init__(self) -> None:
-        check_positive(say("minimum radius of curvature"), self.min_curvature_radius, "mm")
         self()
-        for name, permitted in (("rise", self.pressure_angle_rise), ("return", self.pressure_angle_return)):
-            check_positive(LIMIT_NAMES[name], permitted, "degrees permitted")
+        check_limits(self)
 
     def __call__(self) -> Limits:
         """The permitted pressure angles in radians."""
@@ -346,27 +340,22 @@ class DrawingTable(SheetTable):
         suits the sheet
     """
 
-    divisions: Annotated[int | None, say("Divisions of a phase"), Fixed(4, 36, 1)] = None
-    ordinate: Annotated[Length | None, say("Maximum ordinate of the first rise"), Ruled()] = None
+    divisions: Annotated[Divisions | None, say("Divisions of a phase"), Fixed(4, 36, 1)] = None
+    ordinate: Annotated[PaperLength | None, say("Maximum ordinate of the first rise"), Ruled()] = None
     poles: (
         tuple[
-            Annotated[Length, say("Pole distance H₁"), Fixed(10.0, 80.0, 1.0)],
-            Annotated[Length, say("Pole distance H₂"), Fixed(10.0, 80.0, 1.0)],
+            Annotated[PaperLength, say("Pole distance H₁"), Fixed(10.0, 80.0, 1.0)],
+            Annotated[PaperLength, say("Pole distance H₂"), Fixed(10.0, 80.0, 1.0)],
         ]
         | None
     ) = None
-    rounding: Length | None = None
+    rounding: Size | None = None
     jerk: bool = False
     profile_scale: str | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.divisions is not None and not 1 <= self.divisions <= MAX_DIVISIONS:
-            raise DesignError("divisions", self.divisions, say("from 1 to {most} parts per phase", most=MAX_DIVISIONS))
-        check_positive("ordinate", self.ordinate, "mm on paper")
-        for k, pole in enumerate(self.poles or ()):
-            check_positive(f"poles[{k}]", pole, "mm on paper")
-        check_positive("rounding", self.rounding, "mm")
+        check_limits(self)
 
     def on(self, format_: Format) -> Self:
         """The table for another format; ordinate, poles and scale are left open, as the given ones suit this one.
@@ -422,7 +411,7 @@ class Task:
 
     def __post_init__(self) -> None:
         sense(self.rotation)
-        check_positive("speed_rpm", self.speed_rpm, "rpm")
+        check_limits(self)
         self._inform_tables()
         self._check_limits()
         if self.cam.prime_radius is not None:

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 from graphcam.errors import DesignError
 from graphcam.given.making_errors import TOLERANCED_SIZES, Distribution, MakingErrors, deviations_within
-from graphcam.given.plausible_ranges import check_positive
-from graphcam.tasks.units import Length
+from graphcam.tasks.number_limits import check_limits
+from graphcam.tasks.units import Size
 from graphcam.words import say
 
 
@@ -30,20 +30,17 @@ class TolerancesTable:
     {'waviness 24': 0.005, 'offset': 0.025}
     """
 
-    waviness: tuple[Length, ...] = ()
+    waviness: tuple[Size, ...] = ()
     harmonics: tuple[int, ...] = ()
-    roller_diameter: Length | None = None
-    offset: Length | None = None
-    distance: Length | None = None
-    arm: Length | None = None
+    roller_diameter: Size | None = None
+    offset: Size | None = None
+    distance: Size | None = None
+    arm: Size | None = None
     distribution: Distribution = "normal"
     coverage: float = 0.95
 
     def __post_init__(self) -> None:
-        for k, amplitude in enumerate(self.waviness):
-            check_positive(f"waviness[{k}]", amplitude, "mm")
-        for name in TOLERANCED_SIZES:
-            check_positive(name, getattr(self, name), "mm")
+        check_limits(self)
         self()
         deviations_within(self.coverage)
 

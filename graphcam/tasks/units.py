@@ -12,6 +12,7 @@ from decimal import Decimal
 from typing import Annotated, Any
 
 from graphcam.errors import DesignError, suggestion
+from graphcam.tasks.number_limits import Bounded, NotNegative, Positive, Within
 from graphcam.words import Caption, Words, or_list, say
 
 Factors = Mapping[str, float]
@@ -148,24 +149,35 @@ def _other_unit(unit: str, other: str, own: str) -> Caption:
     return say("{unit} converts to {other}, not to {own}", unit=unit, other=other, own=own)
 
 
-Length = Annotated[float, HeldIn("mm")]
+Length = Annotated[float, HeldIn("mm"), Bounded("mm")]
+Size = Annotated[Length, Positive("mm")]
+"""A length greater than 0."""
+SizeOrZero = Annotated[Length, Positive("mm", or_zero=True)]
+PaperLength = Annotated[float, HeldIn("mm"), Positive("mm on paper")]
 Angle = Annotated[float, HeldIn("deg")]
+PhaseAngle = Annotated[Angle, Positive("degrees")]
+PermittedAngle = Annotated[Angle, Positive("degrees permitted")]
+PartOfTurn = Annotated[Angle, Within(0.0, 360.0, say("at least 0 and less than 360 degrees"), open_end=True)]
 LIFT = HeldIn("mm", "deg")
-Lift = Annotated[float, LIFT]
-Velocity = Annotated[float, HeldIn("mm/rad", "deg/rad")]
-Acceleration = Annotated[float, HeldIn("mm/rad^2", "deg/rad^2")]
-Jerk = Annotated[float, HeldIn("mm/rad^3", "deg/rad^3")]
-Speed = Annotated[float, HeldIn("rpm")]
-AngularAcceleration = Annotated[float, HeldIn("rad/s^2")]
-Mass = Annotated[float, HeldIn("kg")]
-Inertia = Annotated[float, HeldIn("kg mm^2")]
-Force = Annotated[float, HeldIn("N")]
-Stiffness = Annotated[float, HeldIn("N/mm")]
+Lift = Annotated[float, LIFT, Bounded("mm (degrees for an arm)")]
+PhaseLift = Annotated[Lift, Positive("mm (degrees for an arm)")]
+Velocity = Annotated[float, HeldIn("mm/rad", "deg/rad"), Bounded("mm/rad^2")]
+Acceleration = Annotated[float, HeldIn("mm/rad^2", "deg/rad^2"), Bounded("mm/rad^2")]
+Jerk = Annotated[float, HeldIn("mm/rad^3", "deg/rad^3"), Bounded("mm/rad^2")]
+Speed = Annotated[float, HeldIn("rpm"), Positive("rpm")]
+AngularAcceleration = Annotated[float, HeldIn("rad/s^2"), Bounded("rad/s^2")]
+Mass = Annotated[float, HeldIn("kg"), Positive("kg")]
+Inertia = Annotated[float, HeldIn("kg mm^2"), Positive("kg mm^2")]
+Force = Annotated[float, HeldIn("N"), Bounded("N")]
+Preload = Annotated[float, HeldIn("N"), NotNegative("N")]
+Stiffness = Annotated[float, HeldIn("N/mm"), Positive("N/mm")]
 ArmStiffness = Annotated[float, HeldIn("N/mm", "N mm/rad")]
 ArmPreload = Annotated[float, HeldIn("N", "N mm")]
-Damping = Annotated[float, HeldIn("N s/m")]
-ArmDamping = Annotated[float, HeldIn("N mm s/rad")]
-Stress = Annotated[float, HeldIn("MPa")]
-Density = Annotated[float, HeldIn("kg/m^3")]
-Roughness = Annotated[float, HeldIn("um")]
-Feed = Annotated[float, HeldIn("mm/min")]
+"""Those of a spring on an arm: its table checks them in the unit that they have there."""
+Damping = Annotated[float, HeldIn("N s/m"), NotNegative("N s/m")]
+ArmDamping = Annotated[float, HeldIn("N mm s/rad"), NotNegative("N mm s/rad")]
+Stress = Annotated[float, HeldIn("MPa"), Positive("MPa")]
+Modulus = Annotated[float, HeldIn("MPa"), Positive("MPa of a modulus")]
+Density = Annotated[float, HeldIn("kg/m^3"), Positive("kg/m^3")]
+Roughness = Annotated[float, HeldIn("um"), Positive("micrometres")]
+Feed = Annotated[float, HeldIn("mm/min"), Positive("mm/min")]
