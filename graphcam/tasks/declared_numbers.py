@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, NamedTuple, Union, get_args, get_origin
 
-from graphcam.tasks.number_limits import field_types
+from graphcam.tasks.number_limits import Limit, field_types
 from graphcam.tasks.units import HeldIn
 from graphcam.words import Caption
 
@@ -47,12 +47,14 @@ class DeclaredNumber:
     range : from where to where it is moved there
     held : its unit; None for a plain number
     is_open : whether it may be left out
+    limits : what it must keep to, the widest first
     """
 
     name: Caption | None
     range: Fixed | About | Ruled
     held: HeldIn | None
     is_open: bool
+    limits: tuple[Limit, ...] = ()
 
 
 Numbers = Mapping[str, DeclaredNumber]
@@ -109,6 +111,7 @@ def _numbers(
         name = next((mark for mark in marks if isinstance(mark, Caption)), None)
         held = next((mark for mark in marks if isinstance(mark, HeldIn)), None)
         room = next((mark for mark in marks if isinstance(mark, Fixed | About | Ruled)), Ruled())
-        yield path, DeclaredNumber(name, room, held, is_open)
+        limits = tuple(mark for mark in marks if isinstance(mark, Limit))
+        yield path, DeclaredNumber(name, room, held, is_open, limits)
     elif within and dataclasses.is_dataclass(hint) and isinstance(hint, type):
         yield from ((f"{path}.{name}", number) for name, number in declared(hint).items())

@@ -95,7 +95,7 @@ def check_limits(table: Any) -> None:
 def _limited(hint: Any, value: Any, path: str, limits: tuple[Limit, ...] = ()) -> Iterator[tuple[str, Any, Limit]]:
     """The numbers of a value with the limits of their types, the outermost first."""
     if hasattr(hint, "__metadata__"):
-        own = [mark for mark in reversed(hint.__metadata__) if isinstance(mark, Bounded | Positive | Within)]
+        own = [mark for mark in reversed(hint.__metadata__) if isinstance(mark, Limit)]
         hint, limits = hint.__origin__, (*limits, *own)
     parts = get_args(hint)
     if get_origin(hint) in (Union, types.UnionType):
