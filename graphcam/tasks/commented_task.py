@@ -144,8 +144,8 @@ def _usual_value(kind: type, field: "dataclasses.Field[Any]") -> Any:
     match number and number.range:
         case About(value):
             return value
-        case Fixed(least, most):
-            return (least + most) / 2
+        case Fixed(least, most, step):
+            return least + round((most - least) / step / 2) * step
         case _:
             raise ValueError(f"data/examples.toml has no value for {kind.__name__}.{field.name}")
 

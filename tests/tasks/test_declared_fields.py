@@ -1,6 +1,7 @@
 """A new field of the task is two lines in its table: all else that tells of it is derived from them."""
 
 import dataclasses
+import re
 from dataclasses import dataclass
 from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
@@ -60,7 +61,7 @@ class WithStation(DrawingTable):
     plan_station : degrees, the cam angle at which the velocity plan is drawn; left out: that of the maximum
     """
 
-    plan_station: Annotated[PartOfTurn | None, say("Station of the velocity plan"), Fixed(0.0, 360.0, 1.0)] = None
+    plan_station: Annotated[PartOfTurn | None, say("Station of the velocity plan"), Fixed(0.0, 359.0, 1.0)] = None
 
 
 WithStation.__module__ = DrawingTable.__module__
@@ -81,6 +82,14 @@ def read(**drawing: Any) -> TaskWithStation:
     said = gc.builtin_task().to_dict()
     said["drawing"] |= drawing
     return task_file.checked_table(TaskWithStation, CLASSES, "task", said, said)
+
+
+def test_the_how_to_adds_the_same_field():
+    page = (PAGE_FILE.parent / "pages" / "how-to" / "add-a-field.md").read_text(encoding="utf-8")
+    shown = re.findall(r"^plan_station ?: ?.+$", page, re.MULTILINE)
+    here = Path(__file__).read_text(encoding="utf-8")
+    assert len(shown) == 2
+    assert all(f"\n    {line}\n" in here for line in shown)
 
 
 def test_a_new_number_is_read_in_any_unit_and_written():
@@ -116,7 +125,7 @@ def test_a_new_number_is_in_the_form(monkeypatch):
     monkeypatch.setitem(solution.__dict__, "task", read(plan_station=40))
     field = next(each for each in form_of(solution, str) if each["path"] == "drawing.plan_station")
     told = {"group": "Drawing", "name": "Station of the velocity plan", "unit": "°", "kind": "open-number"}
-    assert field == {"path": "drawing.plan_station", **told, "value": 40, "min": 0, "max": 360, "step": 1} | {
+    assert field == {"path": "drawing.plan_station", **told, "value": 40, "min": 0, "max": 359, "step": 1} | {
         "adopted": None
     }
 

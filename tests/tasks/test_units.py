@@ -32,6 +32,7 @@ from graphcam.studio.task_paths import changed_task, steps_of, value_at
 from graphcam.studio.task_text import opened_task, plain_task
 from graphcam.sweeps.design_space import load_space
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.declared_numbers import Fixed, declared
 from graphcam.tasks.spring_tables import ArmSpringTable
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import (
@@ -105,6 +106,10 @@ TASKS = {
     "arcs": builtin_arcs_task().to_dict() | {"speed_rpm": 90.0},
 }  # fmt: skip
 """Tasks in which every number that has a unit stands at least once."""
+for path, number in declared(Task).items():
+    # A number that is new, and stands nowhere yet.
+    if isinstance(number.range, Fixed) and all(value_at(task, path) is None for task in TASKS.values()):
+        TASKS["translating"] = changed_task(TASKS["translating"], {path: number.range.least + number.range.step})
 
 
 def leaves(data: Any, path: str = "") -> Iterator[tuple[str, float]]:
