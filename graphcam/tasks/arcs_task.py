@@ -77,10 +77,6 @@ class ArcsDrawingTable(SheetTable):
 
     divisions: Annotated[int, Within(2, MAX_PARTS, PARTS_LIMIT), say("Divisions of a phase"), Fixed(2, 12, 1)] = 4
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        check_limits(self)
-
 
 @dataclass(frozen=True)
 class ArcsTask:

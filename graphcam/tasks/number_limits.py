@@ -5,9 +5,9 @@ import types
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
 
-from graphcam.errors import DesignError, check_number
+from graphcam.errors import DesignError, check_number, choice_limit
 from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.words import Words, say
 
@@ -65,6 +65,18 @@ class Within:
             raise DesignError(name, value, limit, self.remedy)
 
 
+@dataclass(frozen=True)
+class OneOf:
+    """The limit of a field whose type is a ``Literal``."""
+
+    choices: tuple[Any, ...]
+
+    def check(self, name: str, value: Any) -> None:
+        """Refuse what is not among the choices."""
+        if value not in self.choices:
+            raise DesignError(name, value, *choice_limit(value, map(str, self.choices)))
+
+
 Limit = Bounded | Positive | Within
 
 
@@ -76,7 +88,7 @@ def field_types(kind: type) -> dict[str, Any]:
 
 
 def check_limits(table: Any) -> None:
-    """Check the numbers of a table by the limits of their types; the tables in it check themselves.
+    """Check the numbers and words of a table by the limits of their types; the tables in it check themselves.
 
     Raises
     ------
@@ -92,18 +104,26 @@ def check_limits(table: Any) -> None:
             limit.check(path, value)
 
 
-def _limited(hint: Any, value: Any, path: str, limits: tuple[Limit, ...] = ()) -> Iterator[tuple[str, Any, Limit]]:
-    """The numbers of a value with the limits of their types, the outermost first."""
+def _limited(
+    hint: Any, value: Any, path: str, limits: tuple[Limit, ...] = (), *, alone: bool = True
+) -> Iterator[tuple[str, Any, Limit | OneOf]]:
+    """The numbers and words of a value with the limits of their types, the outermost first.
+
+    alone : whether the type is the only one that the value may have
+    """
     if hasattr(hint, "__metadata__"):
         own = [mark for mark in reversed(hint.__metadata__) if isinstance(mark, Limit)]
         hint, limits = hint.__origin__, (*limits, *own)
     parts = get_args(hint)
     if get_origin(hint) in (Union, types.UnionType):
+        alone = len(parts) == 2 and types.NoneType in parts
         for part in parts if value is not None else ():
-            yield from _limited(part, value, path, limits if len(parts) == 2 else ())
+            yield from _limited(part, value, path, limits if alone else (), alone=alone)
     elif get_origin(hint) is tuple and isinstance(value, tuple | list):
         kinds = parts[:1] * len(value) if parts[1:] == (...,) else parts  # pyright: ignore[reportUnknownArgumentType]
         for k, (part, each) in enumerate(zip(kinds, value, strict=False)):  # pyright: ignore[reportUnknownArgumentType, reportUnknownVariableType]
             yield from _limited(part, each, f"{path}[{k}]")
+    elif get_origin(hint) is Literal and alone:
+        yield path, value, OneOf(parts)
     elif hint in (float, int) and not isinstance(value, str | tuple | list):
         yield from ((path, value, limit) for limit in limits)

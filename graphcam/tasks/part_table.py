@@ -1,11 +1,10 @@
 """The table ``[part]`` of a task file: the cam as a part that a workshop makes."""
 
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal
 
 from graphcam.errors import DesignError
 from graphcam.tasks.number_limits import check_limits
-from graphcam.tasks.sheet_tables import check_choice
 from graphcam.tasks.units import Density, Feed, Roughness, Size
 from graphcam.words import say
 
@@ -79,12 +78,6 @@ class PartTable:
         self._check_hub()
 
     def _check_words(self) -> None:
-        check_choice("keyway", self.keyway or "none", get_args(Keyway))
-        check_choice("bore_tolerance", self.bore_tolerance, get_args(BoreTolerance))
-        if self.table_step not in get_args(TableStep):
-            raise DesignError("table_step", self.table_step, say("1, 2, 5 or 10 degrees"))
-        if self.spline_degree not in get_args(SplineDegree):
-            raise DesignError("spline_degree", self.spline_degree, say("2, 3, 4 or 5"))
         for name in ("name", "number", "material", "hardness", "hardness_depth"):
             if not (text := getattr(self, name) or "").isprintable():
                 raise DesignError(name, text, say("printable text on one line"))

@@ -2,11 +2,12 @@
 
 import dataclasses
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, Self, get_args
+from typing import Any, Literal, Self
 
 from graphcam.errors import DesignError, choice_limit
 from graphcam.given.motion_law import Law
 from graphcam.language import ENGLISH, language, languages
+from graphcam.tasks.number_limits import check_limits
 from graphcam.tasks.units import InUnit
 from graphcam.words import Tell, say
 
@@ -87,10 +88,7 @@ class SheetTable:
     language: str = ENGLISH.name
 
     def __post_init__(self) -> None:
-        check_choice("format", self.format, get_args(Format))
-        check_choice("frame", self.frame, get_args(Frame))
-        if self.orientation is not None:
-            check_choice("orientation", self.orientation, get_args(Orientation))
+        check_limits(self)
         check_choice("language", self.language, languages())
 
     def on(self, format_: Format) -> Self:

@@ -3,12 +3,12 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from graphcam.errors import DesignError, check_number
-from graphcam.given.plausible_ranges import bounded, check_positive
-from graphcam.tasks.units import Length
+from graphcam.errors import DesignError
+from graphcam.tasks.number_limits import check_limits
+from graphcam.tasks.units import Length, Size
 from graphcam.words import say
 
-RangeTable = Length | tuple[Length, Length]
+RangeTable = Size | tuple[Size, Size]
 """A range [mm], or the one size that is permitted."""
 
 
@@ -33,23 +33,18 @@ class SizingTable:
 
     prime_radius: RangeTable | None = None
     base_radius: RangeTable | None = None
-    offset: RangeTable | None = None
+    offset: Length | tuple[Length, Length] | None = None
     roller_radius: RangeTable | None = None
     width: RangeTable | None = None
     objective: Literal["size", "stress"] = "size"
 
     def __post_init__(self) -> None:
+        check_limits(self)
         for name, (low, high) in self.ranges().items():
             if not low <= high:
                 limit = say("a range from the smaller size to the larger, in mm")
                 found = say("from {low:g} to {high:g}", low=low, high=high)
                 raise DesignError(name, found, limit, say("exchange the two"))
-            for end in (low, high):
-                if name == "offset":
-                    check_number(name, end, say("a finite number of mm"))
-                    bounded(name, end, "mm")
-                else:
-                    check_positive(name, end, "mm")
         if (self.prime_radius is None) == (self.base_radius is None):
             either = say("either prime_radius or base_radius")
             if self.prime_radius is None:

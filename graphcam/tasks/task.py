@@ -32,7 +32,7 @@ from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.motion_tables import MotionTable
 from graphcam.tasks.number_limits import Within, check_limits
 from graphcam.tasks.part_table import PartTable
-from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, check_choice, plain_data
+from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, plain_data
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 from graphcam.tasks.tolerances_table import TolerancesTable
@@ -173,7 +173,6 @@ class OscillatingTable(_FollowerTable):
         self()
         check_limits(self)
         roller_rule(self.roller_rule)
-        check_choice("lift", self.lift, ("angle", "arc"))
 
     @property
     def lift_unit(self) -> float:
@@ -352,10 +351,6 @@ class DrawingTable(SheetTable):
     rounding: Size | None = None
     jerk: bool = False
     profile_scale: str | None = None
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        check_limits(self)
 
     def on(self, format_: Format) -> Self:
         """The table for another format; ordinate, poles and scale are left open, as the given ones suit this one.
