@@ -101,6 +101,7 @@ def must_agree(arcs: ArcsTable, name: str) -> list[str]:
 class FieldMaker:
     """Makes the fields of a task.
 
+    task : whose tables declare the numbers
     said : the task as plain data, with what was asked for and with its defaults
     ranges : of the numbers, by their paths
     adopted : what was found for numbers that are left open, by their paths

@@ -47,9 +47,9 @@ class NotNegative(Bounded):
 
 @dataclass(frozen=True)
 class Within:
-    """Marks a number from ``least`` to ``most``, or up to it where ``most`` is left out (``open_end``).
+    """Marks a number from ``least`` to ``most``; with ``open_end`` it is less than that.
 
-    limit : what is allowed, in words;  remedy : may be empty
+    limit : what is allowed, in words; empty tells the two ends;  remedy : may be empty
     """
 
     least: float
