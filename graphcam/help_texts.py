@@ -7,7 +7,9 @@ paragraph of a command's docstring.  Each stands in the catalogs as a whole, and
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
+from pathlib import Path
 from typing import IO, Any
 
 from graphcam.words import Caption
@@ -31,8 +33,52 @@ def extract(file: IO[bytes], keywords: Any, comment_tags: Any, options: Any) -> 
 
     yield from extract_python(file, keywords, comment_tags, options)
     file.seek(0)
-    for line, text in texts_of_help(file.read().decode("utf-8")):
+    code = file.read().decode("utf-8")
+    texts = texts_of_tables if Path(file.name).parent.name == "tasks" else texts_of_help
+    for line, text in texts(code):
         yield line, "say", help_text(text).template, []
+
+
+FIELD_PATTERN = re.compile(r"(\w+(?:, \w+)*) : (.*)")
+HEAD_PATTERN = re.compile(r"\[\w+\](?: of kind \"[\w-]+\")?[:,] ")
+"""How the docstring of a table of a file begins: with its name and kind, which a file says by itself."""
+
+
+def table_texts(docstring: str) -> tuple[str, dict[str, str]]:
+    """What the docstring of a table says of it, and of its fields by their names.
+
+    >>> table_texts("``[cam]``: its size.\\n\\nradius, bore : mm,\\n    of the disk\\n\\nRaises\\n------")
+    ('its size', {'radius': 'mm, of the disk', 'bore': 'mm, of the disk'})
+    """
+    prose, fields, names = list[str](), dict[str, str](), list[str]()
+    for line in docstring.replace("``", "").splitlines():
+        if line == "Raises" or line.startswith(">>>") or (names and not line):
+            break
+        if found := FIELD_PATTERN.fullmatch(line):
+            names = found[1].split(", ")
+            fields |= dict.fromkeys(names, found[2])
+        elif names:
+            fields |= {name: f"{fields[name]} {line.strip()}" for name in names}
+        else:
+            prose.append(line)
+    about = " ".join(" ".join(prose).split()).removesuffix(".")
+    head = HEAD_PATTERN.match(about)
+    return about[head.end() if head else 0 :], fields
+
+
+def texts_of_tables(code: str) -> Iterator[tuple[int, str]]:
+    """The texts about tables of task files and their fields in a module's code, each with its line number.
+
+    >>> list(texts_of_tables('class CamTable:\\n    "``[cam]``: its size.\\\\n\\\\n    radius : mm"'))
+    [(1, 'its size'), (1, 'mm')]
+    """
+    for node in ast.walk(ast.parse(code)):
+        if isinstance(node, ast.ClassDef) and node.name.endswith(("Table", "Task", "SpringPlace")):
+            docstring = ast.get_docstring(node) or ""
+            about, fields = table_texts(docstring)
+            # Of a table without a head of its own only the keys are told.
+            told = (about, *fields.values()) if HEAD_PATTERN.match(docstring.replace("``", "")) else fields.values()
+            yield from ((node.lineno, text) for text in dict.fromkeys(told))
 
 
 def texts_of_help(code: str) -> Iterator[tuple[int, str]]:

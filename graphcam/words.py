@@ -34,6 +34,10 @@ class Caption:
         template = self.plural if self.plural and self.count != 1 else self.template
         return template.format(**self.values)
 
+    def __hash__(self) -> int:
+        # Types of fields that are marked with a caption have to be hashed; values need not be hashable.
+        return hash((self.template, self.context))
+
     def with_values(self, **values: Any) -> Caption:
         """The caption with these values besides those that it has.
 

@@ -21,11 +21,11 @@ import graphcam
 from graphcam.given.follower import FOLLOWER_CLASSES, FOLLOWERS_BY_KIND, Follower, Kind
 from graphcam.mechanism.followers import EXACT_FUNCTIONS
 from graphcam.solving.task_board import drawn_follower
-from graphcam.studio.form_fields import NUMBER_FIELDS, unit_at
 from graphcam.studio.predictions import BASE_TASKS, SIZE_RANGES
 from graphcam.studio.sizes_form import KINDS as KIND_NAMES_IN_FORM
 from graphcam.sweeps.design_space import SpaceCamTable
 from graphcam.sweeps.designs import Designs
+from graphcam.tasks.declared_numbers import declared
 from graphcam.tasks.task import FOLLOWER_TABLES
 from graphcam.tasks.task_file import BUILTIN_TASK_NAMES, builtin_task
 
@@ -114,7 +114,7 @@ def test_the_wheel_holds_tasks_and_types(tmp_path):
     wheel = next(WheelBuilder(str(ROOT)).build(directory=str(tmp_path), versions=["standard"]))
     held = set(zipfile.ZipFile(wheel).namelist())
     assert {f"graphcam/data/tasks/{name}.toml" for name in ("coursework", "arm", "flat")} <= held
-    assert {"graphcam/py.typed", "graphcam/data/commented.toml", "graphcam/cli/solve.py"} <= held
+    assert {"graphcam/py.typed", "graphcam/data/examples.toml", "graphcam/cli/solve.py"} <= held
     assert "graphcam/exercises/library/whole-cam.toml" in held
     assert "graphcam/data/fonts/osifont.ttf" in held
     licences = f"graphcam-{graphcam.__version__}.dist-info/licenses"
@@ -185,9 +185,9 @@ def test_every_list_of_followers_has_every_follower():
         assert names <= {field.name for field in fields(Designs)} & {field.name for field in fields(SpaceCamTable)}
         table = FOLLOWER_TABLES[kind]
         assert table in drawn_follower.registry
-        numbers = {field.name for field in fields(table) if unit_at(f"follower.{field.name}")}
+        numbers = {name for name, number in declared(table).items() if number.held}
         assert numbers
-        assert {f"follower.{name}" for name in numbers & names} <= NUMBER_FIELDS.keys()
+        assert all(declared(table)[name].name for name in numbers & names)
 
 
 HOMES = {"given/follower.py", "tasks/task.py", "tasks/arcs_task.py"}

@@ -82,9 +82,9 @@ def russian() -> list[tuple[str, str]]:
 
 
 def captions() -> Iterator[str]:
-    """The captions of the program, without what stands in their places."""
+    """The captions of the program, without what stands in their places and without names such as "rho-rule"."""
     for _, text in read_catalog(CATALOG.read_text(encoding="utf-8")).told:
-        yield re.sub(r"\{[^}]*\}", "", text)
+        yield re.sub(r'\{[^}]*\}|"[\w-]+"', "", text)
 
 
 def prose(page: str) -> str:

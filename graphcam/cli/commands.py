@@ -25,6 +25,8 @@ from graphcam.cli.shared import (
     read_task,
 )
 from graphcam.files import OutputError, write_new
+from graphcam.language import ENGLISH, language as language_of, languages
+from graphcam.tasks.commented_task import commented_task
 from graphcam.words import say
 
 
@@ -167,7 +169,10 @@ def init(
             parser=nonempty_path, metavar="FILE", help="Name of the task file to write; the file must not exist yet."
         ),
     ],
-    space: Annotated[bool, Option("--sweep", help="Write a file for 'graphcam sweep' instead.")] = False,
+    space: Annotated[bool, Option("--sweep", help="Write a file for 'graphcam sweep' instead, in English.")] = False,
+    language: Annotated[
+        str, Option(metavar="|".join(languages()), help="Language of the explanations and of the sheet.")
+    ] = ENGLISH.name,
 ) -> None:
     """Write the coursework task as a file in which every key is explained, for you to change.
 
@@ -175,10 +180,13 @@ def init(
 
     graphcam init cam.toml
 
+    graphcam init cam.toml --language ru
+
     graphcam init space.toml --sweep
     """
-    source, use, more = ("space.toml", "sweep", " --out results.csv") if space else ("commented.toml", "solve", "")
+    use, more = ("sweep", " --out results.csv") if space else ("solve", "")
     with input_errors():
-        write_new(file, resources.files("graphcam").joinpath("data", source).read_text(encoding="utf-8"))
+        sweep_text = resources.files("graphcam").joinpath("data", "space.toml").read_text(encoding="utf-8")
+        write_new(file, sweep_text if space else commented_task(language_of(language)))
     command = f"graphcam {use} {quoted(file)}{more}"
     echo(say("{file} is written; use it with: {command}", file=str(file), command=command))

@@ -9,7 +9,7 @@ from graphcam.errors import DesignError, GraphcamError, TaskError, choice_limit
 from graphcam.language import ENGLISH, Language, language, languages
 from graphcam.studio.task_paths import PATH_PATTERN, steps_of, value_at
 from graphcam.tasks.task import table_of
-from graphcam.tasks.task_file import EXAMPLE_REMEDY
+from graphcam.tasks.task_file import EXAMPLE_REMEDY, path_of_key
 from graphcam.words import message
 
 Plain = dict[str, Any]
@@ -26,92 +26,19 @@ REQUEST_FUNCTIONS: Mapping[str, str] = {
 
 
 FIELDS_BY_QUANTITY: Mapping[str, str] = {
-    "angle": "motion.phases",
-    "lift": "motion.phases",
-    "law": "motion.phases",
-    "ratio": "motion.phases",
-    "motion": "motion.phases",
-    "phases": "motion.phases",
-    "sum of the phase angles": "motion.phases",
-    "sum of rises less returns": "motion.phases",
-    "table": "motion.table",
-    "the table's lift": "motion.table",
-    "shapes of the table's columns": "motion.table",
-    "number of rows": "motion.table",
-    "row": "motion.table",
-    "last row": "motion.table",
-    "cam angle": "motion.table",
-    "turn that the rows cover": "motion.table",
-    "tolerance": "motion.tolerance",
-    **dict.fromkeys(("outline", "points", "point", "number of points"), "motion.table"),
-    "gap between the last point and the first": "motion.table",
-    **dict.fromkeys(("half of the cam", "per_cam_degree"), "motion.table"),
-    **{name: f"motion.radii.{name}" for name in ("base_radius", "flank_radius", "nose_radius", "ascent")},
-    "number of sizes beside base_radius": "motion.radii.base_radius",
-    "ascent, dwell and descent": "motion.radii.ascent",
-    "cam angles of the parts": "motion.radii.base_radius",
-    "rotation": "rotation",
-    "speed_rpm": "speed_rpm",
-    "follower": "follower.kind",
-    "offset": "follower.offset",
-    "arm": "follower.arm",
-    "centre distance": "follower.distance",
-    "roller radius": "follower.roller_radius",
     "roller radius by the rule": "follower.roller_rule",
-    "roller rule": "follower.roller_rule",
-    "prime radius": "cam.prime_radius",
     "minimum prime radius": "cam.prime_radius",
     "undercut": "cam.prime_radius",
-    "permitted pressure angle on the rise": "limits.pressure_angle_rise",
-    "permitted pressure angle on the return": "limits.pressure_angle_return",
-    "minimum radius of curvature": "limits.min_curvature_radius",
     "curvature": "limits.min_curvature_radius",
-    "permitted_stress": "material.permitted_stress",
-    "mass": "spring.mass",
-    "stiffness": "spring.stiffness",
-    "preload": "spring.preload",
-    "inertia": "spring.inertia",
-    "acceleration": "spring.acceleration",
-    "friction": "spring.friction",
-    "load": "spring.load",
-    "damping": "spring.damping",
-    "at.arm": "spring.at.arm",
-    "at.anchor": "spring.at.anchor[0]",
-    "anchor": "spring.at.anchor[0]",
-    "spring": "spring",
-    "width": "material.width",
-    "divisions": "drawing.divisions",
-    "ordinate": "drawing.ordinate",
     "maximum displacement on paper": "drawing.ordinate",
-    "poles[0]": "drawing.poles[0]",
-    "poles[1]": "drawing.poles[1]",
-    "rounding": "drawing.rounding",
-    "face margin": "follower.face_margin",
-    "face offset": "follower.face_offset",
     "angular velocity of the face": "motion.phases",
-    "format": "drawing.format",
-    "frame": "drawing.frame",
-    "orientation": "drawing.orientation",
-    "language": "drawing.language",
-    "pencil": "pencil",
-    "pencil line": "pencil",
-    "D": "arcs.D[0]",
-    "G": "arcs.G[0]",
-    "A": "arcs.A[0]",
+    **dict.fromkeys(("pencil", "pencil line"), "pencil"),
     "C1": "arcs.rho1",
-    "C2": "arcs.C2[0]",
-    "rho1": "arcs.rho1",
-    "dwell": "arcs.dwell",
     "rise, dwell and return": "arcs.dwell",
-    "rise": "arcs.G[0]",
-    "root": "arcs.G[0]",
-    "three-arc cam": "arcs.G[0]",
-    "pressure angle": "arcs.G[0]",
-    "angle of the arc AG": "arcs.G[0]",
-    "angle of the arc GF": "arcs.G[0]",
-    "angle of the arc FD": "arcs.G[0]",
+    **dict.fromkeys(("rise", "root", "three-arc cam", "pressure angle"), "arcs.G[0]"),
+    **{f"angle of the arc {arc}": "arcs.G[0]" for arc in ("AG", "GF", "FD")},
 }
-"""The field of a quantity; where several sizes together are wrong, the one that its remedy names first."""
+"""The field of a quantity of a solution that is no key of the task; of several sizes the one that its remedy names."""
 TABLES = "motion", "follower", "cam", "limits", "spring", "material", "tolerances", "drawing", "arcs", "title", "part"
 """The tables of a task file: what begins so is a place of it."""
 ADDITION_PATTERN = re.compile(r" \(.*\)$")
@@ -143,14 +70,11 @@ def field_of(error: GraphcamError, task: Mapping[str, Any]) -> str:
 
 
 def _place(words: str) -> str:
-    """A place of the task file, if words are one."""
+    """The place of the task file that words are, or whose key they are."""
     path = ADDITION_PATTERN.sub("", words)
-    if not PATH_PATTERN.fullmatch(path):
-        return ""
-    first = steps_of(path)[0]
-    if first not in TABLES:
-        return FIELDS_BY_QUANTITY.get(path, "") if first == path else ""
-    return path
+    if PATH_PATTERN.fullmatch(path) and steps_of(path)[0] in TABLES:
+        return path
+    return path_of_key(path)
 
 
 def answer(request: Mapping[str, Any]) -> Plain:
@@ -208,12 +132,14 @@ def named_fields(text: str, spoken: Language) -> str:
     >>> named_fields("follower.offset is -50, but must be less than 44; enlarge cam.prime_radius", ENGLISH)
     'Offset e is -50, but must be less than 44; enlarge Prime radius r₀'
     """
-    from graphcam.studio.form_fields import NUMBER_FIELDS
+    from graphcam.studio.form_fields import form_names
+
+    names = form_names()
 
     def named(found: re.Match[str]) -> str:
         # A word of one part, such as "pencil", is a key only where the sentence is about it.
         key = found[0]
-        is_key = key in NUMBER_FIELDS and ("." in key or found.start() == 0)
-        return spoken.text(NUMBER_FIELDS[key][1]) if is_key else key
+        is_key = key in names and ("." in key or found.start() == 0)
+        return spoken.text(names[key]) if is_key else key
 
     return PATH_PATTERN.sub(named, text)

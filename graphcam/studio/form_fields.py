@@ -1,66 +1,39 @@
 """A field of the form of sizes, as the page reads it: its name, its range, what was found for it."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from functools import cache
+from functools import cached_property
 from typing import Any
 
 from graphcam.drafting.scale import printed_unit
 from graphcam.studio.size_ranges import SizeRange
-from graphcam.studio.task_paths import steps_of, value_at
+from graphcam.studio.task_paths import value_at
 from graphcam.tasks.arcs_task import ArcsTable, ArcsTask
+from graphcam.tasks.declared_numbers import DeclaredNumber, Ruled, declared, numbers_of
+from graphcam.tasks.spring_tables import ArmSpringTable
 from graphcam.tasks.task import Task
-from graphcam.tasks.units import mark_at
+from graphcam.tasks.units import HeldIn
 from graphcam.words import Caption, Tell, Words, say
 
 Field = dict[str, Any]
 MOTION, FOLLOWER, CAM = say("Motion"), say("Follower"), say("Cam")
 LIMITS, SPRING, MATERIAL, DRAWING = say("Limits"), say("Spring"), say("Material"), say("Drawing")
 DEGREE_SIGN = "°"
-NUMBER_FIELDS: dict[str, tuple[Caption, Caption]] = {
-    "motion.tolerance": (MOTION, say("Tolerance of the fit")),
-    "motion.radii.base_radius": (CAM, say("Base radius")),
-    "motion.radii.flank_radius": (CAM, say("Flank radius")),
-    "motion.radii.nose_radius": (CAM, say("Nose radius")),
-    "motion.radii.lift": (CAM, say("Lift")),
-    "motion.radii.ascent": (CAM, say("Angle of ascent")),
-    "motion.radii.dwell": (CAM, say("Upper dwell")),
-    "speed_rpm": (MOTION, say("Speed")),
-    "follower.offset": (FOLLOWER, say("Offset e")),
-    "follower.arm": (FOLLOWER, say("Arm length l")),
-    "follower.distance": (FOLLOWER, say("Centre distance c")),
-    "follower.face_offset": (FOLLOWER, say("Face offset f")),
-    "follower.roller_radius": (FOLLOWER, say("Roller radius r")),
-    "cam.prime_radius": (CAM, say("Prime radius r₀")),
-    "limits.pressure_angle_rise": (LIMITS, say("Permitted pressure angle, rise")),
-    "limits.pressure_angle_return": (LIMITS, say("Permitted pressure angle, return")),
-    "limits.min_curvature_radius": (LIMITS, say("Minimum radius of curvature of the profile")),
-    "spring.mass": (SPRING, say("Moving mass")),
-    "spring.stiffness": (SPRING, say("Stiffness c")),
-    "spring.preload": (SPRING, say("Preload F₀")),
-    "spring.inertia": (SPRING, say("Moment of inertia J")),
-    "spring.acceleration": (SPRING, say("Angular acceleration ε")),
-    "spring.friction": (SPRING, say("Friction at the cam μ")),
-    "spring.load": (SPRING, say("Load P")),
-    "spring.damping": (SPRING, say("Damping d")),
-    "spring.at.arm": (SPRING, say("Spring from the pivot")),
-    "spring.at.anchor[0]": (SPRING, say("Anchor of the spring, x")),
-    "spring.at.anchor[1]": (SPRING, say("Anchor of the spring, y")),
-    "material.width": (MATERIAL, say("Width of the contact")),
-    "material.young_cam": (MATERIAL, say("Modulus of elasticity E₁, cam")),
-    "material.young_follower": (MATERIAL, say("Modulus of elasticity E₂, follower")),
-    "material.poisson_cam": (MATERIAL, say("Poisson's ratio ν₁, cam")),
-    "material.poisson_follower": (MATERIAL, say("Poisson's ratio ν₂, follower")),
-    "material.permitted_stress": (MATERIAL, say("Permitted contact stress")),
-    "drawing.divisions": (DRAWING, say("Divisions of a phase")),
-    "drawing.ordinate": (DRAWING, say("Maximum ordinate of the first rise")),
-    "drawing.poles[0]": (DRAWING, say("Pole distance H₁")),
-    "drawing.poles[1]": (DRAWING, say("Pole distance H₂")),
-    "pencil": (DRAWING, say("Error of the pencil")),
-    "arcs.rho1": (CAM, say("Radius of the first arc ρ₁")),
-    "arcs.dwell": (MOTION, say("Upper dwell")),
+GROUPS = {
+    "motion.radii": CAM,
+    "follower": FOLLOWER,
+    "cam": CAM,
+    "arcs": CAM,
+    "arcs.dwell": MOTION,
+    "limits": LIMITS,
+    "spring": SPRING,
+    "material": MATERIAL,
+    "drawing": DRAWING,
+    "pencil": DRAWING,
 }
-"""Group and name of the numbers by their paths."""
+"""The groups of the form by the table whose numbers stand in them, or by the number; all others are of the motion."""
+PENCIL = DeclaredNumber(say("Error of the pencil"), Ruled(), HeldIn("mm"), is_open=False)
+"""The number of the form that a request gives beside the task."""
 POINT_NAMES = {
     "D": say("Point D, end of the rise"),
     "G": say("Point G, where the second and third arcs meet"),
@@ -69,20 +42,46 @@ POINT_NAMES = {
     "C2": say("Centre C₂ of the second arc"),
 }
 AXIS_NAMES = ("x", "y")
+ALWAYS_GIVEN = "motion.tolerance", "motion.radii", "limits.pressure_angle_rise"
+"""Numbers that a file may leave out, but a task has."""
 
 
-@cache
-def unit_at(path: str) -> str:
-    """The unit of the number at a path of a task; empty if it has none.
+def form_names() -> dict[str, Caption]:
+    """The names of the numbers that a form may have, by their paths.
 
-    >>> unit_at("limits.pressure_angle_rise"), unit_at("spring.at.anchor[0]"), unit_at("material.poisson_cam")
-    ('°', 'mm', '')
+    >>> str(form_names()["spring.damping"])
+    'Damping d'
     """
-    steps = steps_of(path)
-    if path == "pencil":
-        return "mm"
-    mark = mark_at(Task, steps) or mark_at(ArcsTask, steps)
-    return "" if mark is None else DEGREE_SIGN if mark.own == "deg" else str(printed_unit(mark.own))
+    numbers = {**declared(ArcsTask), **declared(Task), "pencil": PENCIL}
+    return {path: number.name for path, number in numbers.items() if number.name}
+
+
+def group_of(path: str) -> Caption:
+    """The group of a number.
+
+    >>> str(group_of("spring.at.anchor[0]")), str(group_of("motion.radii.lift"))
+    ('Spring', 'Cam')
+    """
+    of = (path, path.rpartition(".")[0], path.partition(".")[0])
+    return next((GROUPS[part] for part in of if part in GROUPS), MOTION)
+
+
+def unit_of(task: Task | ArcsTask, path: str, number: DeclaredNumber) -> str:
+    """The unit of a number as it is printed, in English; empty if it has none.
+
+    >>> import graphcam as gc
+    >>> task = gc.builtin_task("arm")
+    >>> unit_of(task, "motion.tolerance", declared(Task)["motion.tolerance"])
+    '°'
+    """
+    if number.held is None:
+        return ""
+    own = number.held.own
+    if number.held.of_turning and isinstance(task, Task):
+        spring = task.spring if path.startswith("spring") else None
+        turning = spring.at is None if isinstance(spring, ArmSpringTable) else task.follower.column == "s_deg"
+        own = number.held.of_turning if turning else own
+    return DEGREE_SIGN if own == "deg" else str(printed_unit(own))
 
 
 def must_agree(arcs: ArcsTable, name: str) -> list[str]:
@@ -102,44 +101,63 @@ def must_agree(arcs: ArcsTable, name: str) -> list[str]:
 class FieldMaker:
     """Makes the fields of a task.
 
+    task : whose tables declare the numbers
     said : the task as plain data, with what was asked for and with its defaults
     ranges : of the numbers, by their paths
+    adopted : what was found for numbers that are left open, by their paths
     tell : says captions in the language of the page
     """
 
+    task: Task | ArcsTask
     said: Mapping[str, Any]
     ranges: Mapping[str, SizeRange]
+    adopted: Mapping[str, float | None]
     tell: Tell
 
-    def number(self, path: str) -> Field:
-        """A number that always stands in the task."""
-        return self._number(path, *NUMBER_FIELDS[path])
+    def numbers(self, table: str) -> Iterator[Field]:
+        """The numbers of a table that stand in the form."""
+        for path, number in self._declared.items():
+            if number.name and path in self.ranges and path.startswith(table):
+                yield self.number(path)
 
-    def _number(self, path: str, group: Caption, name: Caption) -> Field:
+    @cached_property
+    def _declared(self) -> Mapping[str, DeclaredNumber]:
+        return {**numbers_of(self.task), "pencil": PENCIL}
+
+    def number(self, path: str) -> Field:
+        """A number, with what was adopted for it if it may be left open.
+
+        Of a list that is left open as a whole, ``first`` is put there before one of its numbers is.
+        """
+        number = self._declared[path]
+        assert number.name
+        field = self._number(path, number, number.name)
+        if not number.is_open or path.startswith(ALWAYS_GIVEN):
+            return field
+        field |= {"kind": "open-number", "adopted": self.adopted.get(path)}
+        whole, bracket, _ = path.partition("[")
+        if not bracket:
+            return field
+        field["open"] = whole
+        first = [value for each, value in self.adopted.items() if each.startswith(f"{whole}[")]
+        return field if field["value"] is not None else field | {"first": {whole: first}}
+
+    def _number(self, path: str, number: DeclaredNumber, name: Caption) -> Field:
         return {
             "path": path,
-            "group": self.tell(group),
+            "group": self.tell(group_of(path)),
             "name": self.tell(name),
-            "unit": self.unit(unit_at(path)),
+            "unit": self.unit(unit_of(self.task, path, number)),
             "kind": "number",
             "value": value_at(self.said, path),
             **self.ranges[path].plain(),
         }
 
-    def open_number(self, path: str, adopted: float | None) -> Field:
-        """A number that may be left open, and what was adopted for it then."""
-        return {**self.number(path), "kind": "open-number", "adopted": adopted}
-
-    def entry(self, path: str, adopted: tuple[float, ...], k: int) -> Field:
-        """A number of a list that is left open as a whole: ``first`` is put there before one of its numbers is."""
-        field = self.open_number(f"{path}[{k}]", adopted[k]) | {"open": path}
-        return field if field["value"] is not None else field | {"first": {path: list(adopted)}}
-
     def coordinate(self, arcs: ArcsTable, name: str, k: int, adopted: tuple[float, ...] | None) -> Field:
         """A coordinate of a point of the arcs, with what was found if the point may be left out."""
         path = f"arcs.{name}"
         called = say("{point}, {axis}", point=POINT_NAMES[name], axis=AXIS_NAMES[k])
-        field = self._number(f"{path}[{k}]", CAM, called)
+        field = self._number(f"{path}[{k}]", self._declared[f"{path}[{k}]"], called)
         freed = dict.fromkeys(must_agree(arcs, name))
         if adopted is None:
             return field | {"first": freed}
@@ -147,7 +165,7 @@ class FieldMaker:
         first = {} if field["value"] is not None else {path: list(adopted)}
         return field | {"first": {**freed, **first}}
 
-    def choice(self, path: str, group: Caption, name: Caption, choices: Iterable[tuple[Any, Words]]) -> Field:
+    def choice(self, path: str, name: Caption, choices: Iterable[tuple[Any, Words]]) -> Field:
         """A field for one of several; what stands in the task is among them."""
         value = value_at(self.said, path)
         offered = [{"value": each, "name": self.tell(title)} for each, title in choices]
@@ -155,7 +173,7 @@ class FieldMaker:
             offered.append({"value": value, "name": str(value)})
         return {
             "path": path,
-            "group": self.tell(group),
+            "group": self.tell(group_of(path)),
             "name": self.tell(name),
             "unit": "",
             "kind": "choice",

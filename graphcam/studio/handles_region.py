@@ -28,7 +28,8 @@ from graphcam.studio.handle import (
     phi_axis,
     snapped,
 )
-from graphcam.studio.size_ranges import ANGLE_RANGE, SizeRange, lift_of, multiple_above, ranges, round_up, step_for
+from graphcam.studio.size_ranges import SizeRange, lift_of, multiple_above, ranges, round_up, step_for
+from graphcam.tasks.task import ANGLE_RANGE
 from graphcam.words import say
 
 EDGE_TOLERANCE = 1e-6
@@ -144,14 +145,12 @@ def tangents(solution: Solution) -> Iterator[Handle]:
 
         def drag(to: complex, fine: bool, name: str = name, path: str = path) -> Changes:
             """The angle at which the tangent comes nearest to the hand."""
-            angles = np.arange(ANGLE_RANGE[0], ANGLE_RANGE[1] + 0.1, 0.2 if fine else 1.0).round(6)
+            angles = np.arange(ANGLE_RANGE.least, ANGLE_RANGE.most + 0.1, 0.2 if fine else 1.0).round(6)
             met = tangents_meet(solution, name, np.radians(angles), level)
             return {path: float(angles[np.argmin(np.abs(met - to.real))])}
 
         at = float(tangents_meet(solution, name, np.radians([permitted]), level)[0])
-        axis = HandleAxis(
-            path, title, "°", permitted, SizeRange(*ANGLE_RANGE, 1.0), "x", {"sign": _side(solution, name)}
-        )
+        axis = HandleAxis(path, title, "°", permitted, SizeRange(*ANGLE_RANGE), "x", {"sign": _side(solution, name)})
         yield Handle(COMBINED.name, f"tangent {name}", title, complex(at, level), "x", (axis,), drag)
 
 

@@ -9,17 +9,12 @@ from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solution import Solution
 from graphcam.studio.task_paths import value_at
 from graphcam.tasks.arcs_task import ArcsTask
-from graphcam.tasks.sheet_tables import plain_data
-from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
+from graphcam.tasks.declared_numbers import About, Fixed, Ruled, numbers_of
 from graphcam.tasks.task import Task
 
 STEPS_PER_LIFT = 60
 """A lift has about so many steps; a step is a round number."""
 ROUND_FACTORS = 1.0, 2.0, 5.0
-ANGLE_RANGE = 15.0, 60.0
-"""Permitted pressure angles [degrees]; beyond, a follower jams or needs no limit."""
-DEFAULT_STRESS = 1200.0
-"""Permitted of hardened steel [MPa]; a slider begins there where no stress is judged."""
 MAX_PHASES = 36
 TRIANGLE_MARGIN_STEPS = 4
 """How many steps a triangle stays from a flat one."""
@@ -97,7 +92,6 @@ def multiple_above(limit: float, step: float) -> float:
     return round((math.floor(limit / step + 1e-9) + 1) * step, 9)
 
 
-@singledispatch
 def ranges(solution: AnySolution) -> dict[str, SizeRange]:
     """The ranges of all numbers of a task but those of its phases, by their paths.
 
@@ -105,30 +99,88 @@ def ranges(solution: AnySolution) -> dict[str, SizeRange]:
     >>> ranges(gc.solve(gc.builtin_task()))["follower.offset"]
     SizeRange(least=-50.0, most=50.0, step=0.5)
     """
+    said, open_ = solution.task.to_dict(), adopted(solution)
+    found = ruled_ranges(solution)
+    for path, number in numbers_of(solution.task).items():
+        value = value_at(said, path)
+        if number.name is None or isinstance(value, str | list) or (value is None and _is_absent(solution.task, path)):
+            continue
+        value = open_.get(path) if value is None else value
+        if not isinstance(number.range, Ruled):
+            found[path] = marked_range(number.range, value)
+        found[path] = found[path].widened_to(value)
+    return found
+
+
+def _is_absent(task: Task | ArcsTask, path: str) -> bool:
+    """Whether a number that is left out makes no sense in the task, so that no form asks for it."""
+    if not isinstance(task, Task):
+        return False
+    lacking = () if has_angles(task) else ("limits.pressure_angle",)
+    return path.startswith(("motion.radii", *lacking)) or (path == "motion.tolerance" and task.motion.table is None)
+
+
+def adopted(solution: AnySolution) -> dict[str, float | None]:
+    """What a solution found for the numbers that its task may leave open, by their paths.
+
+    >>> import graphcam as gc
+    >>> adopted(gc.solve(gc.builtin_task()))["follower.roller_radius"]
+    17.0
+    """
+    if isinstance(solution, ArcsSolution):
+        return {}
+    chain, spring = solution.chain, solution.spring
+    return {
+        "follower.offset": chain.place,
+        "follower.distance": chain.place,
+        "follower.roller_radius": chain.roller_radius,
+        "cam.prime_radius": chain.prime_radius,
+        "spring.preload": None if spring is None else spring.load.preload,
+        "drawing.divisions": chain.board.divisions,
+        "drawing.ordinate": chain.board.ordinate,
+        **{f"drawing.poles[{k}]": pole for k, pole in enumerate(chain.board.poles)},
+    }
+
+
+def marked_range(mark: Fixed | About, value: float | None) -> SizeRange:
+    """The range of a number by the mark of its declaration.
+
+    >>> marked_range(About(100.0, from_zero=True), 30.0), marked_range(About(60.0), -30.0)
+    (SizeRange(least=0.0, most=50.0, step=0.5), SizeRange(least=-50.0, most=-0.5, step=0.5))
+    """
+    if isinstance(mark, Fixed):
+        return SizeRange(*mark)
+    most = round_up(1.6 * abs(value or mark.value))
+    if (value or 0.0) < 0 and not mark.from_zero:
+        return SizeRange(-most, -most / 100, most / 100)
+    return SizeRange(0.0 if mark.from_zero else most / 100, most, most / 100)
+
+
+@singledispatch
+def ruled_ranges(solution: AnySolution) -> dict[str, SizeRange]:
+    """The ranges that follow from other sizes, by the paths of the numbers.
+
+    >>> import graphcam as gc
+    >>> list(ruled_ranges(gc.solve(gc.builtin_task("flat"))))
+    ['cam.prime_radius', 'drawing.ordinate']
+    """
     raise TypeError(solution)
 
 
-@ranges.register
+@ruled_ranges.register
 def _(solution: Solution) -> dict[str, SizeRange]:
-    found = {**_of_follower(solution), **_of_limits(solution.task), **_of_drawing(solution)}
-    found["speed_rpm"] = _usual_range(solution.task.speed_rpm or 300.0)
-    if (spring := solution.task.spring) is not None:
-        found |= _of_spring(solution, spring)
-    if (material := solution.task.material) is not None:
-        sized = {"permitted_stress": DEFAULT_STRESS} | {
-            key: value for key, value in plain_data(material).items() if value
-        }
-        found |= {f"material.{name}": _usual_range(value) for name, value in sized.items()}
-        found |= {f"material.poisson_{body}": SizeRange(0.0, 0.5, 0.01) for body in ("cam", "follower")}
-    for path, size in given_radii(solution.task):
-        usual = SizeRange(0.0, 180.0, 1.0) if path.endswith(("ascent", "dwell")) else _usual_range(abs(size))
-        found[path] = usual if size >= 0 else SizeRange(-usual.most, -usual.least, usual.step)
-    if solution.task.motion.table is not None:
-        found["motion.tolerance"] = SizeRange(0.002, 0.2, 0.001)
-    return _widened_ranges(found, solution.task)
+    most = round_up(1.25 * solution.chain.board.ordinate)
+    step = min(1.0, step_for(most))
+    found = {**_of_follower(solution), "drawing.ordinate": SizeRange(step, most, step)}
+    if (place := getattr(solution.task.spring, "at", None)) is not None:
+        reach = round_up(2.0 * max(abs(place.arm), *map(abs, place.anchor)))
+        step = step_for(reach)
+        found["spring.at.arm"] = SizeRange(step, reach, step)
+        found |= {f"spring.at.anchor[{axis}]": SizeRange(-reach, reach, step) for axis in (0, 1)}
+    return found
 
 
-@ranges.register
+@ruled_ranges.register
 def _(solution: ArcsSolution) -> dict[str, SizeRange]:
     outer = math.hypot(*solution.task.arcs.D)
     step, near = step_for(outer), POINT_MOVE_SHARE * outer
@@ -140,13 +192,11 @@ def _(solution: ArcsSolution) -> dict[str, SizeRange]:
             room = SizeRange(
                 math.ceil((middle - near) / step) * step, math.floor((middle + near) / step) * step, step / 5
             )
-            found[f"arcs.{name}[{axis}]"] = SizeRange(*(round(each, 9) for each in room))
+            given = (getattr(solution.task.arcs, name) or {axis: None})[axis]
+            found[f"arcs.{name}[{axis}]"] = SizeRange(*(round(each, 9) for each in room)).widened_to(given)
     found["arcs.rho1"] = SizeRange(step, multiple_below(outer, step), step)
-    found["arcs.dwell"] = SizeRange(0.0, 180.0, 1.0)
     found["follower.roller_radius"] = SizeRange(0.0, multiple_below(outer, step), step)
-    found["drawing.divisions"] = SizeRange(2, 12, 1)
-    found["speed_rpm"] = _usual_range(solution.task.speed_rpm or 300.0)
-    return _widened_ranges(found, solution.task)
+    return found
 
 
 def point_reach(solution: ArcsSolution) -> SizeRange:
@@ -154,12 +204,6 @@ def point_reach(solution: ArcsSolution) -> SizeRange:
     arcs = solution.task.arcs
     reach = round_up(1.25 * max(abs(x) for name in (*ARC_POINTS, "C1") for x in getattr(arcs, name) or ()))
     return SizeRange(-reach, reach, step_for(math.hypot(*arcs.D)) / 5)
-
-
-def _widened_ranges(found: dict[str, SizeRange], task: Task | ArcsTask) -> dict[str, SizeRange]:
-    """The ranges with the values that stand in the task, though they lie outside what is usual."""
-    said = task.to_dict()
-    return {path: each.widened_to(value_at(said, path)) for path, each in found.items()}
 
 
 class LiftSize(NamedTuple):
@@ -195,38 +239,6 @@ def lift_size(task: Task) -> LiftSize | None:
     return LiftSize(path, lift, room, {other: each / lift for other, each in lifts.items()})
 
 
-def _usual_range(value: float) -> SizeRange:
-    most = round_up(1.6 * value)
-    return SizeRange(most / 100, most, most / 100)
-
-
-def _of_spring(solution: Solution, spring: SpringTable | ArmSpringTable) -> dict[str, SizeRange]:
-    """The ranges of what presses the follower on the cam."""
-    preload = spring.preload if spring.preload is not None else _preload(solution)
-    found = {
-        "spring.stiffness": _usual_range(spring.stiffness),
-        "spring.preload": _usual_range(preload or 100.0)._replace(least=0.0),
-        "spring.friction": SizeRange(0.0, 0.5, 0.01),
-        "spring.acceleration": SizeRange(-500.0, 500.0, 5.0),
-        "spring.damping": _usual_range(spring.damping or 100.0)._replace(least=0.0),
-    }
-    if not isinstance(spring.load, tuple):
-        found["spring.load"] = _usual_range(abs(spring.load) or 100.0)._replace(least=0.0)
-    if isinstance(spring, SpringTable):
-        return found | {"spring.mass": _usual_range(spring.mass)}
-    found["spring.inertia"] = _usual_range(spring.inertia)
-    if spring.at is not None:
-        reach = round_up(2.0 * max(abs(spring.at.arm), *map(abs, spring.at.anchor)))
-        step = step_for(reach)
-        found["spring.at.arm"] = SizeRange(step, reach, step)
-        found |= {f"spring.at.anchor[{axis}]": SizeRange(-reach, reach, step) for axis in (0, 1)}
-    return found
-
-
-def _preload(solution: Solution) -> float | None:
-    return None if solution.spring is None else solution.spring.load.preload
-
-
 def sizes_of(task: Task) -> dict[str, Any]:
     """The keys of the task's follower with their values, None for what is open.
 
@@ -235,17 +247,6 @@ def sizes_of(task: Task) -> dict[str, Any]:
     {'face_margin': None, 'kind': 'flat-faced'}
     """
     return {field.name: getattr(task.follower, field.name) for field in fields(task.follower)}
-
-
-def given_radii(task: Task) -> list[tuple[str, float]]:
-    """The sizes of a given cam that are numbers, by their paths; a straight flank is none.
-
-    >>> import graphcam as gc
-    >>> given_radii(gc.builtin_task())
-    []
-    """
-    said = plain_data(task.motion.radii) if task.motion.radii else {}
-    return [(f"motion.radii.{name}", size) for name, size in said.items() if isinstance(size, float | int)]
 
 
 def has_angles(task: Task) -> bool:
@@ -326,23 +327,4 @@ def _of_swinging_face(solution: Solution, step: float) -> dict[str, SizeRange]:
         "cam.prime_radius": SizeRange(
             multiple_above(max(0.0, room - f), step), multiple_below(highest - f - room, step), step
         ),
-    }
-
-
-def _of_limits(task: Task) -> dict[str, SizeRange]:
-    profile = {"limits.min_curvature_radius": SizeRange(0.5, 50.0, 0.5)}
-    if not has_angles(task):
-        return profile
-    return profile | {f"limits.pressure_angle_{way}": SizeRange(*ANGLE_RANGE, 1.0) for way in ("rise", "return")}
-
-
-def _of_drawing(solution: Solution) -> dict[str, SizeRange]:
-    """The ranges of the draughtsman's choices."""
-    board = solution.chain.board
-    most = round_up(1.25 * board.ordinate)
-    step = min(1.0, step_for(most))
-    return {
-        "drawing.divisions": SizeRange(4, 36, 1),
-        "drawing.ordinate": SizeRange(step, most, step),
-        **{f"drawing.poles[{k}]": SizeRange(10.0, 80.0, 1.0).widened_to(pole) for k, pole in enumerate(board.poles)},
     }

@@ -8,20 +8,17 @@ from graphcam.constructions.axes import phase_symbol
 from graphcam.constructions.law_names import LAW_TITLES
 from graphcam.given.follower import MM_PER_M, FlatFaced, Oscillating, OscillatingFlat, Translating
 from graphcam.given.laws import DECLARED_LAWS, LAWS
-from graphcam.given.load_curve import LoadCurve
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY
 from graphcam.given.roller_rule import DEFAULT_RULE, NAMED_RULES
-from graphcam.given.spring_load import ArmLoad
 from graphcam.language import languages
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.solution import Solution
-from graphcam.solving.spring_design import SpringDesign
-from graphcam.studio.form_fields import DEGREE_SIGN, DRAWING, FOLLOWER, LIMITS, MOTION, Field, FieldMaker, must_agree
+from graphcam.studio.form_fields import DEGREE_SIGN, MOTION, Field, FieldMaker, must_agree
 from graphcam.studio.size_ranges import (
     MAX_PHASES,
     MIN_PHASE_ANGLE,
     SizeRange,
-    given_radii,
+    adopted,
     has_angles,
     lift_of,
     lift_size,
@@ -35,8 +32,8 @@ from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 from graphcam.tasks.task import table_of
 from graphcam.words import Caption, Tell, Words, say, say_in
 
-PENCIL_RANGE = SizeRange(0.0, 0.5, 0.05)
-"""Standard deviation of a line [mm]; 0.2 is a careful student's."""
+PENCIL_RANGE = {"pencil": SizeRange(0.0, 0.5, 0.05)}
+"""Standard deviation of a line [mm], which a request gives beside the task; 0.2 is a careful student's."""
 RATIO_RANGE = SizeRange(0.2, 5.0, 0.1)
 """The range of the ratio of accelerations of a law's parts."""
 KIND_NAMES = {"rise": say("rise"), "dwell": say("dwell"), "return": say_in("a phase", "return")}
@@ -149,14 +146,12 @@ def form_of(solution: AnySolution, tell: Tell) -> list[Field]:
     >>> [(field["path"], field["value"], field["adopted"]) for field in fields if "adopted" in field][1:4]
     [('follower.offset', -10.0, -10.0), ('follower.roller_radius', None, 17.0), ('cam.prime_radius', None, 44.0)]
     """
-    found = ranges(solution) | {"pencil": PENCIL_RANGE}
     # What the task leaves out has its default.
     said = solution.task.to_dict() | {"pencil": solution.chain.pencil.line}
-    make = FieldMaker(said, found, tell)
+    make = FieldMaker(solution.task, said, ranges(solution) | PENCIL_RANGE, adopted(solution), tell)
     if isinstance(solution, ArcsSolution):
         return [*_arcs(make, solution), *_sheet(make)]
-    fields = _motion(make, solution), _follower(make, solution), _limits(make, solution), _drawing(make, solution)
-    return [*(field for part in fields for field in part), *_sheet(make)]
+    return [*_motion(make, solution), *_follower(make, solution), *_limits(make, solution), *_sheet(make)]
 
 
 def _arcs(make: FieldMaker, solution: ArcsSolution) -> Iterator[Field]:
@@ -168,18 +163,17 @@ def _arcs(make: FieldMaker, solution: ArcsSolution) -> Iterator[Field]:
     for name in ("A", "C2"):
         # A may be left out only where the centre tells where the rise begins, and the other way round.
         open_ = getattr(arcs, "A" if name == "C2" else "C2") is not None
-        adopted = tuple(round(float(x), 6) for x in getattr(cam, name)) if open_ else None
-        yield from (make.coordinate(arcs, name, k, adopted) for k in (0, 1))
+        point = tuple(round(float(x), 6) for x in getattr(cam, name)) if open_ else None
+        yield from (make.coordinate(arcs, name, k, point) for k in (0, 1))
     yield make.number("arcs.dwell")
     yield make.number("follower.roller_radius")
-    yield make.open_number("speed_rpm", None)
+    yield make.number("speed_rpm")
     yield make.number("drawing.divisions")
 
 
 def _motion(make: FieldMaker, solution: Solution) -> Iterator[Field]:
-    if solution.task.motion.table is not None:
-        yield make.number("motion.tolerance") | {"unit": _lift_unit(make, solution)}
-    elif solution.task.motion.phases is not None:
+    yield from make.numbers("motion.tolerance")
+    if solution.task.motion.phases is not None:
         yield _phases(make, solution)
     if lift := lift_size(solution.task):
         path, value, room, shares = lift
@@ -192,10 +186,9 @@ def _motion(make: FieldMaker, solution: Solution) -> Iterator[Field]:
             **room.plain(),
             "with": shares,
         }
-    for name, _ in given_radii(solution.task):
-        yield make.number(name)
-    yield make.choice("rotation", MOTION, say("Rotation of the cam"), SENSE_NAMES.items())
-    yield make.open_number("speed_rpm", None)
+    yield from make.numbers("motion.radii")
+    yield make.choice("rotation", say("Rotation of the cam"), SENSE_NAMES.items())
+    yield make.number("speed_rpm")
 
 
 def _phases(make: FieldMaker, solution: Solution) -> Field:
@@ -239,73 +232,37 @@ def _lift_unit(make: FieldMaker, solution: Solution) -> str:
 
 def _follower(make: FieldMaker, solution: Solution) -> Iterator[Field]:
     """The fields of the follower, its sizes, and the prime radius."""
-    sizes, chain = sizes_of(solution.task), solution.chain
-    kinds = make.choice("follower.kind", FOLLOWER, say("Kind of follower"), ())
+    sizes = sizes_of(solution.task)
+    kinds = make.choice("follower.kind", say("Kind of follower"), ())
     yield kinds | {"choices": kind_choices(solution, make.tell)}
-    if "offset" in sizes:
-        yield make.open_number("follower.offset", chain.place)
-    if "arm" in sizes:
-        yield make.number("follower.arm")
-        yield make.open_number("follower.distance", chain.place)
-        yield make.choice("follower.lift", FOLLOWER, say("Lifts of the phases"), LIFT_NAMES.items())
-    if "face_offset" in sizes:
-        yield make.number("follower.distance")
-        yield make.number("follower.face_offset")
-    if "roller_radius" in sizes:
-        yield make.open_number("follower.roller_radius", chain.roller_radius)
+    yield from make.numbers("follower")
+    if "lift" in sizes:
+        yield make.choice("follower.lift", say("Lifts of the phases"), LIFT_NAMES.items())
+    if "roller_rule" in sizes:
         rules: list[tuple[str, Words]] = [(DEFAULT_RULE, DEFAULT_RULE)]
         rules += [(name, f"{each.rule} ({name})") for name, each in NAMED_RULES.items()]
-        yield make.choice("follower.roller_rule", FOLLOWER, say("Rule for the roller"), rules)
+        yield make.choice("follower.roller_rule", say("Rule for the roller"), rules)
     if not solution.task.motion.gives_cam:
-        yield make.open_number("cam.prime_radius", chain.prime_radius)
+        yield from make.numbers("cam")
 
 
 def _limits(make: FieldMaker, solution: Solution) -> Iterator[Field]:
-    """What the cam must keep to, and the spring and the material if there are such."""
-    yield make.open_number("limits.min_curvature_radius", None)
+    """What the cam must keep to, the spring and the material if there are such, the draughtsman's choices."""
+    yield from make.numbers("limits")
     if has_angles(solution.task):
-        yield make.number("limits.pressure_angle_rise")
-        yield make.open_number("limits.pressure_angle_return", None)
-        yield make.choice("limits.rest", LIMITS, say("Angle in the lower dwell"), DWELL_LIMIT_CHOICES.items())
-    if solution.spring is not None:
-        yield from _spring(make, solution.spring)
-    if solution.task.material is not None:
-        for name in ("width", "young_cam", "young_follower", "poisson_cam", "poisson_follower"):
-            yield make.number(f"material.{name}")
-        yield make.open_number("material.permitted_stress", None)
-
-
-def _spring(make: FieldMaker, spring: SpringDesign) -> Iterator[Field]:
-    """The fields of what presses the follower on the cam."""
-    load, (_, preload, stiffness) = spring.load, spring.units
-    yield make.number("spring.inertia" if isinstance(load, ArmLoad) else "spring.mass")
-    yield make.number("spring.stiffness") | {"unit": make.unit(stiffness)}
-    yield make.open_number("spring.preload", load.preload) | {"unit": make.unit(preload)}
-    if isinstance(load, ArmLoad) and load.at is not None:
-        yield from map(make.number, ("spring.at.arm", "spring.at.anchor[0]", "spring.at.anchor[1]"))
-    yield make.number("spring.friction")
-    yield make.number("spring.acceleration")
-    yield make.number("spring.damping") | {"unit": make.unit(spring.damping_unit)}
-    if not isinstance(load.load, LoadCurve):
-        yield make.number("spring.load")
-
-
-def _drawing(make: FieldMaker, solution: Solution) -> Iterator[Field]:
-    """The fields of the draughtsman's choices."""
-    board = solution.chain.board
-    yield make.open_number("drawing.divisions", board.divisions)
-    yield make.open_number("drawing.ordinate", board.ordinate)
-    yield from (make.entry("drawing.poles", board.poles, k) for k in (0, 1))
-    yield make.choice("drawing.jerk", DRAWING, say("Jerk"), JERK_CHOICES.items())
+        yield make.choice("limits.rest", say("Angle in the lower dwell"), DWELL_LIMIT_CHOICES.items())
+    for table in ("spring", "material", "drawing"):
+        yield from make.numbers(table)
+    yield make.choice("drawing.jerk", say("Jerk"), JERK_CHOICES.items())
 
 
 def _sheet(make: FieldMaker) -> Iterator[Field]:
     """The fields of the drawing error and of the sheet."""
     yield make.number("pencil")
-    yield make.choice("drawing.format", DRAWING, say("Format"), [(each, each) for each in get_args(Format)])
-    yield make.choice("drawing.frame", DRAWING, say("Frame"), [(each, FRAME_NAMES[each]) for each in get_args(Frame)])
+    yield make.choice("drawing.format", say("Format"), [(each, each) for each in get_args(Format)])
+    yield make.choice("drawing.frame", say("Frame"), [(each, FRAME_NAMES[each]) for each in get_args(Frame)])
     spoken = [(each, LANGUAGE_NAMES.get(each, each)) for each in languages()]
-    yield make.choice("drawing.language", DRAWING, say("Language of the sheet"), spoken)
+    yield make.choice("drawing.language", say("Language of the sheet"), spoken)
 
 
 KINDS: dict[str, Caption] = {

@@ -19,25 +19,22 @@ from graphcam.mechanism.three_arc_cam import three_arc_cam
 from graphcam.solving.arcs_solution import AnySolution, ArcsSolution
 from graphcam.solving.shown_solution import plain_number
 from graphcam.solving.solution import Solution
-from graphcam.studio.form_fields import DRAWING, NUMBER_FIELDS, POINT_NAMES, must_agree, unit_at
+from graphcam.studio.form_fields import POINT_NAMES, must_agree, unit_of
 from graphcam.studio.handle import changes_with
 from graphcam.studio.held_solutions import held_solution
 from graphcam.studio.size_ranges import ARC_POINTS, MIN_PHASE_ANGLE, SizeRange, has_angles, lift_size, ranges, sizes_of
 from graphcam.studio.task_paths import changed_task, value_at
 from graphcam.studio.views_request import number, optional_value, optional_whole_number, task_data, task_in
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.declared_numbers import numbers_of
 from graphcam.tasks.task import Task
 from graphcam.words import Caption, Tell, say
 
 DEFAULT_DESIGNS, MAX_DESIGNS = 200, 400
 MAX_MEASURED_DESIGNS = 60
 """The maximum number of designs of a measured motion, whose extremes take ten times as long."""
-UNSWEPT_PATHS = (
-    "motion.tolerance",
-    "speed_rpm",
-    *(path for path in NUMBER_FIELDS if path.startswith(("spring.", "material."))),
-)
-"""Sizes that change none of the curves, or too slowly."""
+UNSWEPT_PATHS = "motion.tolerance", "speed_rpm", "spring.", "material.", "drawing."
+"""How the paths of sizes begin that change none of the curves, or too slowly."""
 MAX_SIZE = 1e6
 PHASE_FACTOR = 2.5
 """How many times shorter and longer a phase is looked at: of much less angle every cam is huge."""
@@ -186,9 +183,9 @@ def swept_sizes(solution: AnySolution) -> dict[str, tuple[Caption, SizeRange, st
     """The sizes that can be swept, by their paths: name, range and unit."""
     found = ranges(solution)
     sizes = {
-        path: (name, found[path], unit_at(path))
-        for path, (group, name) in NUMBER_FIELDS.items()
-        if path in found and path not in UNSWEPT_PATHS and group is not DRAWING
+        path: (number.name, found[path], unit_of(solution.task, path, number))
+        for path, number in numbers_of(solution.task).items()
+        if number.name and path in found and not path.startswith(UNSWEPT_PATHS)
     }
     return sizes | (_of_points(solution) if isinstance(solution, ArcsSolution) else _phase_sizes(solution))
 

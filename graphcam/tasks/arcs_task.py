@@ -1,47 +1,48 @@
 """The assignment of a cam of three circular arcs: a task file with a table ``[arcs]`` in place of a motion."""
 
-import math
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from graphcam.errors import DesignError
 from graphcam.given.follower import Translating
-from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.three_arcs import ThreeArcs
 from graphcam.showing import parts_text
+from graphcam.tasks.declared_numbers import About, Fixed, Ruled
+from graphcam.tasks.number_limits import Within, check_limits
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.sheet_tables import SheetTable, TitleTable, plain_data
-from graphcam.tasks.units import Angle, Length, Speed
+from graphcam.tasks.units import Length, PartOfTurn, Size, SizeOrZero, Speed
 from graphcam.words import say
 
 MAX_PARTS = 200
 """The maximum number of parts of an arc; more cannot be drawn apart."""
+PARTS_LIMIT = say("from 2 to {most} parts of each arc", most=MAX_PARTS)
 XY = tuple[Length, Length]
 
 
 @dataclass(frozen=True)
 class ArcsTable:
-    """``[arcs]``: the data of :class:`~graphcam.given.three_arcs.ThreeArcs`, points as [x, y] in mm.
+    """``[arcs]``: a cam of three circular arcs by its points, as [x, y], and a radius.
 
+    D : mm, end of the rise
+    G : mm, where the second and third arcs meet
+    rho1 : mm, radius of the first arc
+    A : mm, start of the rise; left out: found
+    C1 : mm, centre of the first arc; left out: found
+    C2 : mm, centre of the second arc; left out: found
     dwell : degrees of the upper dwell on the outer circle; the return is the rise's mirror image
     """
 
     D: XY
     G: XY
-    rho1: Length
+    rho1: Annotated[Size, say("Radius of the first arc ρ₁"), Ruled()]
     A: XY | None = None
     C1: XY | None = None
     C2: XY | None = None
-    dwell: Angle = 0.0
+    dwell: Annotated[PartOfTurn, say("Upper dwell"), Fixed(0.0, 180.0, 1.0)] = 0.0
 
     def __post_init__(self) -> None:
-        if not (math.isfinite(self.dwell) and 0 <= self.dwell < 360):
-            raise DesignError("dwell", self.dwell, say("at least 0 and less than 360 degrees"))
         self()
-        check_positive("rho1", self.rho1, "mm")
-        for name in ("D", "G", "A", "C1", "C2"):
-            for coordinate in getattr(self, name) or ():
-                bounded(name, coordinate, "mm")
+        check_limits(self)
 
     def __call__(self) -> ThreeArcs:
         """The data of the cam."""
@@ -50,14 +51,17 @@ class ArcsTable:
 
 @dataclass(frozen=True)
 class RollerTable:
-    """``[follower]``: a central translating follower; roller_radius : mm, 0 for a knife edge."""
+    """``[follower]``: a central translating follower.
 
-    roller_radius: Length = 0.0
+    roller_radius : mm, 0 for a knife edge
+    """
+
+    roller_radius: Annotated[SizeOrZero, say("Roller radius r"), Ruled()] = 0.0
     kind: Literal["translating"] = "translating"
 
     def __post_init__(self) -> None:
         self()
-        check_positive(say("roller radius"), self.roller_radius or None, "mm")
+        check_limits(self)
 
     def __call__(self) -> Translating:
         """The follower."""
@@ -66,22 +70,19 @@ class RollerTable:
 
 @dataclass(frozen=True)
 class ArcsDrawingTable(SheetTable):
-    """``[drawing]``: the sheet, and ``divisions``, the equal parts of each arc at whose ends the roller is drawn."""
+    """``[drawing]``: the sheet, and the divisions of the arcs.
 
-    divisions: int = 4
+    divisions : equal parts of each arc, at whose ends the roller is drawn
+    """
 
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if not 2 <= self.divisions <= MAX_PARTS:
-            raise DesignError("divisions", self.divisions, say("from 2 to {most} parts of each arc", most=MAX_PARTS))
+    divisions: Annotated[int, Within(2, MAX_PARTS, PARTS_LIMIT), say("Divisions of a phase"), Fixed(2, 12, 1)] = 4
 
 
 @dataclass(frozen=True)
 class ArcsTask:
     """A cam of three circular arcs, as its file says it.
 
-    speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
-    part : the data for the workshop; None is a part that follows from the cam
+    speed_rpm : rpm, speed of the cam; left out: velocities and accelerations per radian of the cam
 
     Raises
     ------
@@ -94,14 +95,14 @@ class ArcsTask:
 
     arcs: ArcsTable
     follower: RollerTable = field(default_factory=RollerTable)
-    speed_rpm: Speed | None = None
+    speed_rpm: Annotated[Speed | None, say("Speed"), About(300.0)] = None
     title: TitleTable = field(default_factory=TitleTable)
     drawing: ArcsDrawingTable = field(default_factory=ArcsDrawingTable)
     part: PartTable | None = None
     __repr__ = parts_text
 
     def __post_init__(self) -> None:
-        check_positive("speed_rpm", self.speed_rpm, "rpm")
+        check_limits(self)
 
     def to_dict(self) -> dict[str, Any]:
         """The task with the keys of its file, as plain lists, numbers and text; what is open is left out.

@@ -1,22 +1,31 @@
 """The table ``[material]`` of a task file: the materials of cam and follower, and the permitted stress."""
 
 from dataclasses import dataclass
+from typing import Annotated
 
-from graphcam.errors import DesignError
-from graphcam.given.plausible_ranges import check_positive
-from graphcam.given.roller_contact import STEEL_POISSON_RATIO, STEEL_YOUNG_MODULUS, RollerContact
-from graphcam.tasks.units import Length, Stress
+from graphcam.given.roller_contact import (
+    STEEL_POISSON_RATIO as STEEL_RATIO,
+    STEEL_YOUNG_MODULUS as STEEL_MODULUS,
+    RollerContact,
+)
+from graphcam.tasks.declared_numbers import About, Fixed
+from graphcam.tasks.number_limits import Within, check_limits
+from graphcam.tasks.units import Modulus, Size, Stress
 from graphcam.words import say
+
+PoissonRatio = Annotated[float, Within(0.0, 0.5, say("from 0 to 0.5"), say("metals have about 0.3"))]
 
 
 @dataclass(frozen=True)
 class MaterialTable:
-    """``[material]``: what the contact stress depends on beside the force; it needs a ``[spring]``.
+    """``[material]``: of cam and follower where they touch, for the contact stress; it needs a ``[spring]``.
 
     width : mm, of the contact along the axes
-    young_cam, young_follower : MPa, moduli of elasticity of the cam, and of the roller or the flat face
-    poisson_cam, poisson_follower : their Poisson's ratios
-    permitted_stress : MPa, of the pressure in the middle of the contact; with None no stress is judged
+    young_cam : MPa, modulus of elasticity; left out: steel
+    young_follower : MPa, of the roller or the flat face
+    poisson_cam : Poisson's ratio; left out: steel
+    poisson_follower : of the roller or the flat face
+    permitted_stress : MPa, of the pressure in the middle of the contact; left out: no stress is judged
 
     Raises
     ------
@@ -26,21 +35,15 @@ class MaterialTable:
     RollerContact(width=15, young1=206000.0, young2=206000.0, poisson1=0.3, poisson2=0.3)
     """
 
-    width: Length
-    young_cam: Stress = STEEL_YOUNG_MODULUS
-    young_follower: Stress = STEEL_YOUNG_MODULUS
-    poisson_cam: float = STEEL_POISSON_RATIO
-    poisson_follower: float = STEEL_POISSON_RATIO
-    permitted_stress: Stress | None = None
+    width: Annotated[Size, say("Width of the contact"), About(15.0)]
+    young_cam: Annotated[Modulus, say("Modulus of elasticity E₁, cam"), About(STEEL_MODULUS)] = STEEL_MODULUS
+    young_follower: Annotated[Modulus, say("Modulus of elasticity E₂, follower"), About(STEEL_MODULUS)] = STEEL_MODULUS
+    poisson_cam: Annotated[PoissonRatio, say("Poisson's ratio ν₁, cam"), Fixed(0.0, 0.5, 0.01)] = STEEL_RATIO
+    poisson_follower: Annotated[PoissonRatio, say("Poisson's ratio ν₂, follower"), Fixed(0.0, 0.5, 0.01)] = STEEL_RATIO
+    permitted_stress: Annotated[Stress | None, say("Permitted contact stress"), About(1200.0)] = None
 
     def __post_init__(self) -> None:
-        check_positive("width", self.width, "mm")
-        check_positive("permitted_stress", self.permitted_stress, "MPa")
-        for name in ("young_cam", "young_follower"):
-            check_positive(name, getattr(self, name), "MPa of a modulus")
-        for name in ("poisson_cam", "poisson_follower"):
-            if not 0 <= getattr(self, name) <= 0.5:
-                raise DesignError(name, getattr(self, name), say("from 0 to 0.5"), say("metals have about 0.3"))
+        check_limits(self)
 
     def __call__(self) -> RollerContact:
         """The contact."""

@@ -16,12 +16,24 @@ from graphcam.given.laws import canonical_law
 from graphcam.given.motion import FULL_TURN, NEAR_TURN_SHARE, Dwell, Motion, Phase, Return, Rise
 from graphcam.given.motion_law import Law
 from graphcam.given.outline_motion import outline_motion
-from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.point_outline import cam_through_points
 from graphcam.given.polynomial_law import CONSTANT_VELOCITY, constant_velocity_law
 from graphcam.given.table_file import CurveTable, Turn
 from graphcam.tasks.dataclass_reader import ByKind, ByName
-from graphcam.tasks.units import LIFT, Acceleration, Angle, Jerk, Length, Lift, Velocity
+from graphcam.tasks.declared_numbers import About, Fixed
+from graphcam.tasks.number_limits import Positive, Within, check_limits
+from graphcam.tasks.units import (
+    LIFT,
+    Acceleration,
+    Angle,
+    Jerk,
+    Length,
+    Lift,
+    PartOfTurn,
+    PhaseAngle,
+    PhaseLift,
+    Velocity,
+)
 from graphcam.words import Words, say
 
 ANGLE_CLOSURE = 1e-9
@@ -33,29 +45,33 @@ TWO_TURNS = 720.0
 """The maximum angle [degrees] at which a part may end, as a part may pass the end of the turn."""
 
 
-def _check_angle(angle: float, name: str = "angle") -> None:
-    if not 0 <= angle <= TWO_TURNS:
-        limit = say("from 0 to {two_turns:g} degrees", two_turns=TWO_TURNS)
-        raise DesignError(name, angle, limit, say("count the cam angle from 0"))
+AngleInMotion = Annotated[
+    Angle,
+    Within(
+        0.0, TWO_TURNS, say("from 0 to {two_turns:g} degrees", two_turns=TWO_TURNS), say("count the cam angle from 0")
+    ),
+]
 
 
 @dataclass(frozen=True)
 class PointTable:
-    """Conditions on the motion at a cam angle [degrees]; what is left out is free.
+    """Conditions on the motion at a cam angle; what is left out is free.
 
-    s : mm (degrees for an arm);  v, a, j : its derivatives by the cam angle in radians
+    angle : degrees of the cam
+    s : mm (degrees for an arm), the lift there
+    v : mm/rad (deg/rad for an arm), its first derivative by the cam angle
+    a : mm/rad^2 (deg/rad^2 for an arm), its second
+    j : mm/rad^3 (deg/rad^3 for an arm), its third
     """
 
-    angle: Angle
+    angle: AngleInMotion
     s: Lift | None = None
     v: Velocity | None = None
     a: Acceleration | None = None
     j: Jerk | None = None
 
     def __post_init__(self) -> None:
-        _check_angle(self.angle)
-        for name in DERIVATIVE_NAMES:
-            bounded(name, getattr(self, name), "mm/rad^2")
+        check_limits(self)
         self()
 
     def __call__(self, unit: float = 1.0) -> MotionPoint:
@@ -66,7 +82,11 @@ class PointTable:
 
 @dataclass(frozen=True)
 class PolynomialTable:
-    """The polynomial through points, of the degree that all their conditions need."""
+    """The polynomial through points, of the degree that all their conditions need.
+
+    points : with conditions
+    degree : left out: that of the conditions
+    """
 
     points: tuple[PointTable, ...]
     degree: int | None = None
@@ -82,16 +102,20 @@ class PolynomialTable:
 
 @dataclass(frozen=True)
 class SplineTable:
-    """The B-spline of a degree through points; inner knots [degrees] that are left out are chosen."""
+    """The B-spline of a degree through points.
+
+    points : with conditions
+    degree : of its pieces
+    knots : degrees, of the inner knots; left out: they are chosen
+    """
 
     points: tuple[PointTable, ...]
     degree: int = 5
-    knots: tuple[Angle, ...] | None = None
+    knots: tuple[AngleInMotion, ...] | None = None
     kind: Literal["spline"] = "spline"
 
     def __post_init__(self) -> None:
-        for k, knot in enumerate(self.knots or ()):
-            _check_angle(knot, f"knots[{k}]")
+        check_limits(self)
         self()
 
     def __call__(self, unit: float = 1.0) -> SplinePart:
@@ -118,13 +142,16 @@ def _spline(table: SplineTable, unit: float) -> SplinePart:
 
 @dataclass(frozen=True)
 class DwellTable:
-    """A phase of rest over ``angle`` degrees."""
+    """A phase of rest.
 
-    angle: Angle
+    angle : degrees of the cam
+    """
+
+    angle: PhaseAngle
     kind: Literal["dwell"] = "dwell"
 
     def __post_init__(self) -> None:
-        check_positive("angle", self.angle, "degrees")
+        check_limits(self)
 
     def __call__(self, unit: float = 1.0) -> Dwell:
         """The phase in radians; ``unit`` has no effect, since a dwell has no lift."""
@@ -133,8 +160,22 @@ class DwellTable:
 
 @dataclass(frozen=True)
 class _MovingTable:
-    angle: Angle
-    lift: Lift
+    """A phase that moves the follower.
+
+    angle : degrees of the cam
+    lift : mm (degrees for an arm)
+    law : "rectangular" (constant acceleration), "triangular", "cosine", "cycloidal", "trapezoidal",
+        "modified-trapezoidal", "modified-sine", "2-3", "3-4-5", "4-5-6-7"; for a rise and a return without a dwell
+        between "double-harmonic", "eighth-degree"; "constant-velocity" between two blends; a textbook's name does too:
+        "SHM", "UARM", "parabolic", "uniform velocity"
+    ratio : only for "rectangular", "triangular", "cycloidal", "modified-trapezoidal", "modified-sine": the first part's
+        acceleration over the second's
+    blends : only for "constant-velocity": the fractions of the phase that they take; left out: a quarter each; with
+        [0, 0] the velocity jumps, which is the uniform velocity of the textbooks
+    """
+
+    angle: PhaseAngle
+    lift: PhaseLift
     law: Annotated[str | Law, ByName()]
     ratio: float = 1.0
     blends: tuple[float, float] | None = None
@@ -142,8 +183,7 @@ class _MovingTable:
     moves: ClassVar[type[Rise] | type[Return]]
 
     def __post_init__(self) -> None:
-        check_positive("angle", self.angle, "degrees")
-        check_positive("lift", self.lift, "mm (degrees for an arm)")
+        check_limits(self)
         object.__setattr__(self, "law", canonical_law(self.law))
         if self.blends is not None and self.law != CONSTANT_VELOCITY:
             left_out = say("left out for the law '{law}'", law=getattr(self.law, "name", self.law))
@@ -159,11 +199,7 @@ class _MovingTable:
 
 @dataclass(frozen=True)
 class RiseTable(_MovingTable):
-    """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees, by a law of graphcam or of your own.
-
-    blends : of the law "constant-velocity", the fractions of the phase that its blends take; of 0 the velocity jumps;
-        None is a quarter each
-    """
+    """A rise of ``lift`` mm (degrees for an arm) over ``angle`` degrees, by a law of graphcam or of your own."""
 
     kind: Literal["rise"] = "rise"
     moves = Rise
@@ -171,7 +207,7 @@ class RiseTable(_MovingTable):
 
 @dataclass(frozen=True)
 class ReturnTable(_MovingTable):
-    """A return by ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law; ``blends`` as of a rise."""
+    """A return by ``lift`` mm (degrees for an arm) over ``angle`` degrees by a law."""
 
     kind: Literal["return"] = "return"
     moves = Return
@@ -182,29 +218,25 @@ PhaseTable = Annotated[RiseTable | DwellTable | ReturnTable, ByKind()]
 
 @dataclass(frozen=True)
 class RadiiTable:
-    """``[arcs]`` of a given cam of base circle, flank and nose, whose motion is asked for.
+    """``[arcs]``: in place of [motion] and [cam], a cam that is given by its radii, and whose motion is asked for.
 
-    base_radius, nose_radius, lift : mm
-    flank_radius : mm, negative of a hollow flank, or "straight" for a tangent cam
-    ascent, dwell : degrees from the start of the flank to the apex, and for which the follower is held up
-
-    Three of flank_radius, nose_radius, lift and ascent are given, or lift alone for an eccentric cam.
+    base_radius : mm, of the base circle
+    flank_radius : mm, negative of a hollow flank; or "straight", a tangent cam
+    nose_radius : mm; of flank_radius, nose_radius, lift and ascent three are given, of an eccentric cam lift alone
+    lift : mm, from the base circle to the apex
+    ascent : degrees from the start of the flank to the apex
+    dwell : degrees for which the follower is held up
     """
 
-    base_radius: Length
-    flank_radius: Length | Straight | None = None
-    nose_radius: Length | None = None
-    lift: Length | None = None
-    ascent: Angle | None = None
-    dwell: Angle = 0.0
+    base_radius: Annotated[Length, say("Base radius"), About(30.0)]
+    flank_radius: Annotated[Length | Straight | None, say("Flank radius"), About(60.0)] = None
+    nose_radius: Annotated[Length | None, say("Nose radius"), About(20.0)] = None
+    lift: Annotated[Length | None, say("Lift"), About(15.0)] = None
+    ascent: Annotated[PartOfTurn | None, say("Angle of ascent"), Fixed(0.0, 180.0, 1.0)] = None
+    dwell: Annotated[PartOfTurn, say("Upper dwell"), Fixed(0.0, 180.0, 1.0)] = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("base_radius", "flank_radius", "nose_radius", "lift"):
-            if isinstance(size := getattr(self, name), float | int):
-                bounded(name, abs(size), "mm")
-        for name in ("ascent", "dwell"):
-            if not 0 <= (angle := getattr(self, name) or 0.0) < 360:
-                raise DesignError(name, angle, say("at least 0 and less than 360 degrees"))
+        check_limits(self)
         self()
 
     def __call__(self) -> ArcOutline:
@@ -215,18 +247,36 @@ class RadiiTable:
 
 
 @dataclass(frozen=True)
-class MotionTable:
-    """``[motion]``: the phases of one revolution, in order, or parts by conditions, or the table of a measured motion.
+class OutlineTable:
+    """``[outline]``: in place of [motion], [arcs] and [cam], points of a cam are given, as it lies at the cam angle 0.
 
-    phases : their angles sum to 360 degrees, their lifts to 0; what rounding leaves, less than 0.001 degrees, the
-        longest dwell takes up
-    parts : polynomials and splines through points, in place of phases; where they leave a gap the follower rests
-    table : of a measured motion, or of points of a given cam, in place of phases; a file gives the name of a CSV file
-        beside it, of a given cam as ``outline.file``
+    file : a table with the columns x_mm,y_mm from the cam centre, or angle_deg,radius_mm; or a drawing, "cam.dxf"
+    tolerance : mm, how far the follower may pass the points; about 4.5 times the scatter of a measured cam
+    layer : of a drawing with several closed loops; left out: the only one
+    """
+
+    file: str
+    tolerance: Length = 0.01
+    layer: str | None = None
+
+
+@dataclass(frozen=True)
+class MotionTable:
+    """``[motion]``: the follower's motion over one revolution, by phases, by conditions, or as it was measured.
+
+    phases : one after another, each a "rise", "dwell" or "return"; their angles sum to 360 degrees, their rises and
+        returns to 0; what rounding leaves, less than 0.001 degrees, the longest dwell takes up
+    table : of a measured motion, in place of phases: a CSV file beside this one; its header is phi_deg,s_mm (of an arm
+        phi_deg,s_deg) or phi_deg,a (accelerations, mm per rad^2), its rows cover one turn; phi_rad, s_in and s_thou
+        (inches, thousandths) are read too
+    tolerance : mm (degrees for an arm), by which the motion may miss a row: 4.5 times their scatter (sd) or more, which
+        is 1.5 times an error that is told as 3 sigma; left out: 0.01
+    parts : polynomials and splines through points with conditions, in place of phases; where they leave a gap the
+        follower dwells
     radii : of a given cam, in place of phases; a file gives them as a table ``[arcs]``
-    tolerance : mm (degrees for an arm), how far the motion may pass the table, of a given cam mm; None is 0.01
-    symmetric : whether the table is half of the cam: it goes back in mirror image, and dwells for the rest of the turn
-    per_cam_degree : degrees of the table's angle for one of the cam: 2 for crank degrees of a four-stroke engine
+    symmetric : whether the table is half of the cam, which goes back in mirror image and dwells for the rest of the
+        turn
+    per_cam_degree : degrees of the table for one of the cam, 2 for crank degrees of a four-stroke engine; left out: 1
 
     ``lift_unit`` is what one unit of lift is in the API: 1 mm, or for an arm 1 degree or 1 mm of arc in radians; it and
     ``follows``, the follower that a given cam moves and its sense of rotation, are set by the task.
@@ -234,11 +284,11 @@ class MotionTable:
 
     phases: tuple[PhaseTable, ...] | None = None
     table: CurveTable | None = None
-    tolerance: Lift | None = None
+    tolerance: Annotated[Lift | None, say("Tolerance of the fit"), Fixed(0.002, 0.2, 0.001)] = None
     parts: tuple[PartOfMotion, ...] | None = None
     radii: RadiiTable | None = None
     symmetric: bool | None = None
-    per_cam_degree: float | None = None
+    per_cam_degree: Annotated[float, Positive("degrees")] | None = None
     lift_unit: float = field(default=1.0, init=False, repr=False, compare=False)
     follows: tuple[Follower, Rotation] = field(default=(FlatFaced(), "ccw"), init=False, repr=False, compare=False)
 
@@ -256,8 +306,7 @@ class MotionTable:
         if self.tolerance is not None and self.table is None:
             left_out = say("left out where there is no table")
             raise DesignError("tolerance", self.tolerance, left_out, say("{given} are kept exactly", given=given[0]))
-        bounded("tolerance", self.tolerance, "mm (degrees for an arm)")
-        check_positive("per_cam_degree", self.per_cam_degree, "degrees")
+        check_limits(self)
         for name, value in (("symmetric", self.symmetric), ("per_cam_degree", self.per_cam_degree)):
             if value is not None and (self.table is None or self.gives_cam):
                 raise DesignError(name, value, say("left out where there is no table"), say("delete it"))

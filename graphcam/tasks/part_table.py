@@ -1,12 +1,11 @@
 """The table ``[part]`` of a task file: the cam as a part that a workshop makes."""
 
 from dataclasses import dataclass
-from typing import Literal, get_args
+from typing import Literal
 
 from graphcam.errors import DesignError
-from graphcam.given.plausible_ranges import check_positive
-from graphcam.tasks.sheet_tables import check_choice
-from graphcam.tasks.units import Density, Feed, Length, Roughness
+from graphcam.tasks.number_limits import check_limits
+from graphcam.tasks.units import Density, Feed, Roughness, Size
 from graphcam.words import say
 
 Keyway = Literal["din6885", "gost23360", "none"]
@@ -17,25 +16,30 @@ SplineDegree = Literal[2, 3, 4, 5]
 
 @dataclass(frozen=True)
 class PartTable:
-    """``[part]``: sizes and data of the part for the workshop; what is None follows from the cam or the frame.
+    """``[part]``: the cam as a part, for its working drawing (graphcam solve --working-drawing).
 
-    name, number : of the part, in its title block; None is "Cam", and no number
-    bore : mm; None is the largest standard shaft diameter that leaves enough wall
-    keyway : standard of the keyway in the bore; None is that of the sheet's frame
-    width : mm, of the cam; None is a width that carries the bore
-    hub_diameter, hub_length : mm, both or neither; the length counts from one side of the cam to the hub's far end
-    material : as the title block says it; None is carbon steel by the frame's standards
+    name : of the part, in its title block; left out: Cam
+    number : of its drawing
+    bore : mm; left out: the largest standard shaft diameter that leaves enough wall
+    keyway : "din6885", "gost23360" or "none"; left out: by the frame
+    width : mm, of the cam; left out: 0.8 of the bore, in round millimetres
+    hub_diameter : mm, of a hub on one side; leave out both for a plain disk
+    hub_length : mm over all, the cam's width included
+    material : left out: carbon steel C45, in a gost frame by its Russian name
     density : kg/m^3, for the mass
-    hardness : of the profile, as the notes say it; empty where it is not hardened
-    hardness_depth : the same of its depth; None is a usual one
-    profile_roughness, bore_roughness, roughness : Ra in micrometres, of the profile, of the bore, and of the rest
-    profile_tolerance : mm, width of the zone of the profile of a line (ISO 1101); None goes by the cam's size
-    bore_tolerance : of the bore's diameter, by ISO 286
-    cutter_radius : mm, of the cutter whose centre the table follows too; None leaves it out
-    table_step : degrees of the polar angle from row to row of the table, which is finer where the profile needs it;
-        with the table ``[part]`` the note too has the exact profile, in just these steps
+    hardness : of the profile; "" if it is not hardened
+    hardness_depth : of the hardened layer; left out: a usual one
+    profile_roughness : Ra in micrometres, of the profile
+    bore_roughness : Ra in micrometres, of the bore
+    roughness : Ra in micrometres, of all other faces
+    profile_tolerance : mm, of the profile of a line, ISO 1101; left out: 0.0005 of the diameter, a round value
+    bore_tolerance : "H6", "H7", "H8" or "H9"
+    cutter_radius : mm, of a cutter, for a column with the positions of its centre
+    table_step : degrees, 1, 2, 5 or 10, from row to row of the note's table of the exact profile; that of the working
+        drawing has rows between where the profile needs them
     feed : mm/min, of the cutter in the program of G-code
-    spline_degree, spline_control_points : of the profile's spline in DXF and STEP; None is as many as it takes
+    spline_degree : of the profile's spline in DXF and STEP: 2 to 5
+    spline_control_points : left out: as many as half a micrometre takes; the error is given in solution.json
 
     Raises
     ------
@@ -48,11 +52,11 @@ class PartTable:
 
     name: str | None = None
     number: str | None = None
-    bore: Length | None = None
+    bore: Size | None = None
     keyway: Keyway | None = None
-    width: Length | None = None
-    hub_diameter: Length | None = None
-    hub_length: Length | None = None
+    width: Size | None = None
+    hub_diameter: Size | None = None
+    hub_length: Size | None = None
     material: str | None = None
     density: Density = 7850.0
     hardness: str = "45...50 HRC"
@@ -60,31 +64,20 @@ class PartTable:
     profile_roughness: Roughness = 0.8
     bore_roughness: Roughness = 1.6
     roughness: Roughness = 3.2
-    profile_tolerance: Length | None = None
+    profile_tolerance: Size | None = None
     bore_tolerance: BoreTolerance = "H7"
-    cutter_radius: Length | None = None
+    cutter_radius: Size | None = None
     table_step: TableStep = 5
     feed: Feed = 100.0
     spline_degree: SplineDegree = 3
     spline_control_points: int | None = None
 
     def __post_init__(self) -> None:
-        for name in ("bore", "width", "hub_diameter", "hub_length", "profile_tolerance", "cutter_radius"):
-            check_positive(name, getattr(self, name), "mm")
-        for name in ("profile_roughness", "bore_roughness", "roughness"):
-            check_positive(name, getattr(self, name), "micrometres")
-        check_positive("density", self.density, "kg/m^3")
-        check_positive("feed", self.feed, "mm/min")
+        check_limits(self)
         self._check_words()
         self._check_hub()
 
     def _check_words(self) -> None:
-        check_choice("keyway", self.keyway or "none", get_args(Keyway))
-        check_choice("bore_tolerance", self.bore_tolerance, get_args(BoreTolerance))
-        if self.table_step not in get_args(TableStep):
-            raise DesignError("table_step", self.table_step, say("1, 2, 5 or 10 degrees"))
-        if self.spline_degree not in get_args(SplineDegree):
-            raise DesignError("spline_degree", self.spline_degree, say("2, 3, 4 or 5"))
         for name in ("name", "number", "material", "hardness", "hardness_depth"):
             if not (text := getattr(self, name) or "").isprintable():
                 raise DesignError(name, text, say("printable text on one line"))

@@ -2,11 +2,12 @@
 
 import dataclasses
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, Self, get_args
+from typing import Any, Literal, Self
 
 from graphcam.errors import DesignError, choice_limit
 from graphcam.given.motion_law import Law
 from graphcam.language import ENGLISH, language, languages
+from graphcam.tasks.number_limits import check_limits
 from graphcam.tasks.units import InUnit
 from graphcam.words import Tell, say
 
@@ -39,10 +40,17 @@ def check_choice(quantity: str, value: str, known: tuple[str, ...]) -> None:
 
 @dataclass(frozen=True)
 class TitleTable:
-    """``[title]``: the entries of the title block; the numbers of sheets are added automatically.
+    """``[title]``: what the title block says; every key may be left out, and the numbers of sheets are added.
 
-    scale : None is, on each sheet, the scale of what is drawn on it: of the cam, or else of the largest other view
-        that has a drawing scale; a sheet of diagrams, each with scales of its own, has none
+    name : of the mechanism
+    organisation : of the author
+    author : who draws
+    checked : who checks
+    group : of students
+    document : number of the drawing
+    mass : of the cam, only as text
+    scale : only as text; left out: on each sheet the scale of what is drawn on it: of the cam, or else of the largest
+        other view that has a drawing scale; a sheet of diagrams, each with scales of its own, has none
     """
 
     name: str = str(DEFAULT_NAME)
@@ -68,7 +76,10 @@ class TitleTable:
 class SheetTable:
     """The part of ``[drawing]`` that is about the sheet.
 
-    orientation : None is landscape, but portrait for A4 in the frame of GOST
+    format : "A1", "A2", "A3" or "A4"
+    frame : "gost" or "iso", whatever the language
+    orientation : "landscape" or "portrait"; left out: landscape, but A4 in the frame "gost" stands
+    language : of sheet, note and player: "en", "ru", "vi" or "zh"
     """
 
     format: Format = "A1"
@@ -77,10 +88,7 @@ class SheetTable:
     language: str = ENGLISH.name
 
     def __post_init__(self) -> None:
-        check_choice("format", self.format, get_args(Format))
-        check_choice("frame", self.frame, get_args(Frame))
-        if self.orientation is not None:
-            check_choice("orientation", self.orientation, get_args(Orientation))
+        check_limits(self)
         check_choice("language", self.language, languages())
 
     def on(self, format_: Format) -> Self:

@@ -3,22 +3,25 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from graphcam.errors import DesignError, check_number
-from graphcam.given.plausible_ranges import bounded, check_positive
-from graphcam.tasks.units import Length
+from graphcam.errors import DesignError
+from graphcam.tasks.number_limits import check_limits
+from graphcam.tasks.units import Length, Size
 from graphcam.words import say
 
-RangeTable = Length | tuple[Length, Length]
+RangeTable = Size | tuple[Size, Size]
 """A range [mm], or the one size that is permitted."""
 
 
 @dataclass(frozen=True)
 class SizingTable:
-    """``[sizing]``: the ranges [mm] for ``graphcam size``; it needs a ``[spring]`` and a ``[material]``.
+    """``[sizing]``: ranges in which ``graphcam size`` seeks the best cam; it needs [spring], [material] and a stress.
 
-    prime_radius, base_radius : one of both, the least radius of the pitch curve or of the profile
-    offset, roller_radius, width : what is left out is what ``[follower]`` and ``[material]`` give
-    objective : "size", the least radius, or "stress", the least contact stress
+    prime_radius : mm, or base_radius, which is less by the roller; a number in place of a range gives a size
+    base_radius : mm, in place of prime_radius
+    offset : mm; offset, roller_radius and width: left out: as [follower] and [material] give them
+    roller_radius : mm
+    width : mm, of the contact
+    objective : "size", the smallest cam; or "stress", that of the lowest contact stress
 
     Raises
     ------
@@ -30,23 +33,18 @@ class SizingTable:
 
     prime_radius: RangeTable | None = None
     base_radius: RangeTable | None = None
-    offset: RangeTable | None = None
+    offset: Length | tuple[Length, Length] | None = None
     roller_radius: RangeTable | None = None
     width: RangeTable | None = None
     objective: Literal["size", "stress"] = "size"
 
     def __post_init__(self) -> None:
+        check_limits(self)
         for name, (low, high) in self.ranges().items():
             if not low <= high:
                 limit = say("a range from the smaller size to the larger, in mm")
                 found = say("from {low:g} to {high:g}", low=low, high=high)
                 raise DesignError(name, found, limit, say("exchange the two"))
-            for end in (low, high):
-                if name == "offset":
-                    check_number(name, end, say("a finite number of mm"))
-                    bounded(name, end, "mm")
-                else:
-                    check_positive(name, end, "mm")
         if (self.prime_radius is None) == (self.base_radius is None):
             either = say("either prime_radius or base_radius")
             if self.prime_radius is None:

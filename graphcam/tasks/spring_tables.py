@@ -2,11 +2,13 @@
 
 import math
 from dataclasses import dataclass
+from typing import Annotated
 
-from graphcam.errors import DesignError, check_number
+from graphcam.errors import DesignError
 from graphcam.given.load_curve import Load, LoadCurve
-from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.spring_load import ArmLoad, ArmSpring, SpringLoad
+from graphcam.tasks.declared_numbers import About, Fixed, Ruled
+from graphcam.tasks.number_limits import NotNegative, Positive, Within, check_limits
 from graphcam.tasks.units import (
     Angle,
     AngularAcceleration,
@@ -18,6 +20,7 @@ from graphcam.tasks.units import (
     Inertia,
     Length,
     Mass,
+    Preload,
     Stiffness,
     check_turning,
 )
@@ -42,29 +45,17 @@ def load_of(said: LoadTable) -> Load:
     return LoadCurve([math.radians(angle) for angle, _ in said], [force for _, force in said])
 
 
-def _check_common(stiffness: float, stiffness_unit: str, preload: float | None, preload_unit: str) -> None:
-    check_positive("stiffness", stiffness, stiffness_unit)
-    if preload is not None:
-        limit = say("a finite number of 0 {preload_unit} or more", preload_unit=preload_unit)
-        check_number("preload", preload, limit, least=0)
-    bounded("preload", preload, preload_unit)
-
-
-def _check_moving(spring: "SpringTable | ArmSpringTable", damping_unit: str) -> None:
-    bounded("acceleration", spring.acceleration, "rad/s^2")
-    if not 0 <= spring.friction <= MAX_FRICTION:
-        remedy = say("it is the coefficient mu between cam and follower")
-        raise DesignError("friction", spring.friction, say("from 0 to {most:g}", most=MAX_FRICTION), remedy)
-    limit = say("a finite number of 0 {unit} or more", unit=damping_unit)
-    check_number("damping", spring.damping, limit, least=0)
-    bounded("damping", spring.damping, damping_unit)
-    for each in [spring.load] if not isinstance(spring.load, tuple) else [force for _, force in spring.load]:
-        bounded("load", each, "N")
-    load_of(spring.load)
-
-
 MAX_FRICTION = 2.0
 """The maximum coefficient of friction; a greater one is a typing error."""
+Friction = Annotated[
+    float,
+    Within(
+        0.0,
+        MAX_FRICTION,
+        say("from 0 to {most:g}", most=MAX_FRICTION),
+        say("it is the coefficient mu between cam and follower"),
+    ),
+]
 
 
 @dataclass(frozen=True)
@@ -73,26 +64,26 @@ class SpringTable:
 
     mass : kg, of the follower and all that moves with it
     stiffness : N/mm
-    preload : N, of the spring at the lowest place; None is the least one that keeps contact
+    preload : N, in the lowest position; left out: the minimum that keeps contact; if that is 0, nothing presses in the
+        lower dwell: choose more
     acceleration : rad/s^2, of the cam, at the speed
-    friction : mu, between cam and follower
-    load : N, what presses on the follower besides: a number, or rows [[degrees, N], ...] from 0 to 360 degrees
+    friction : coefficient mu between cam and follower
+    load : N, what else presses the follower on; or a table over the turn: [[0, 20], [90, 60], [360, 20]]
     damping : N s/m, against the motion
     """
 
-    mass: Mass
-    stiffness: Stiffness
-    preload: Force | None = None
-    acceleration: AngularAcceleration = 0.0
-    friction: float = 0.0
-    load: LoadTable = 0.0
-    damping: Damping = 0.0
+    mass: Annotated[Mass, say("Moving mass"), About(1.0)]
+    stiffness: Annotated[Stiffness, say("Stiffness c"), About(3.0)]
+    preload: Annotated[Preload | None, say("Preload F₀"), About(100.0, from_zero=True)] = None
+    acceleration: Annotated[AngularAcceleration, say("Angular acceleration ε"), Fixed(-500.0, 500.0, 5.0)] = 0.0
+    friction: Annotated[Friction, say("Friction at the cam μ"), Fixed(0.0, 0.5, 0.01)] = 0.0
+    load: Annotated[LoadTable, say("Load P"), About(100.0, from_zero=True)] = 0.0
+    damping: Annotated[Damping, say("Damping d"), About(100.0, from_zero=True)] = 0.0
     swings = False
 
     def __post_init__(self) -> None:
-        check_positive("mass", self.mass, "kg")
-        _check_common(self.stiffness, "N/mm", self.preload, "N")
-        _check_moving(self, "N s/m")
+        check_limits(self)
+        load_of(self.load)
 
     def __call__(self, speed_rpm: float) -> SpringLoad:
         """The load at a speed [rpm]; an open preload is 0 in it.  Friction belongs to the contact, not to the load."""
@@ -110,16 +101,17 @@ class ArmSpringPlace:
     anchor : mm, (x, y) of the spring's other end in the frame, whose origin is the cam centre
     """
 
-    arm: Length
-    anchor: tuple[Length, Length]
+    arm: Annotated[Length, say("Spring from the pivot"), Ruled()]
+    anchor: tuple[
+        Annotated[Length, say("Anchor of the spring, x"), Ruled()],
+        Annotated[Length, say("Anchor of the spring, y"), Ruled()],
+    ]
 
     def __post_init__(self) -> None:
         if self.arm == 0:
             limit = say("a length other than 0 mm")
             raise DesignError("arm", self.arm, limit, say("at the pivot a spring turns nothing"))
-        bounded("arm", self.arm, "mm")
-        for coordinate in self.anchor:
-            bounded("anchor", coordinate, "mm")
+        check_limits(self)
 
     def __call__(self) -> ArmSpring:
         """The spring in the terms of the exact side."""
@@ -132,31 +124,32 @@ class ArmSpringTable:
 
     inertia : kg mm^2, of the arm and all that swings with it, about the pivot
     stiffness : N mm/rad, of a torsion spring about the pivot; N/mm, of a spring at a point
-    preload : at the lowest place, N mm of a torsion spring, N of a spring at a point; None is the least one that keeps
-        contact
+    preload : N mm in the lowest position, N of a spring at a point; left out: the minimum that keeps contact
     acceleration : rad/s^2, of the cam, at the speed
-    friction : mu, between cam and follower
-    load : N, what presses on the arm's end along its path besides: a number, or rows [[degrees, N], ...] from 0 to 360
-    at : where a spring acts on the arm; None is a torsion spring about the pivot
+    friction : coefficient mu between cam and follower
+    load : N, what else presses on the arm's end along its path; or a table over the turn
+    at : where a spring acts: mm from the pivot, and to what point of the frame; left out: a torsion spring about the
+        pivot
     damping : N mm s/rad, about the pivot against the motion
     """
 
-    inertia: Inertia
-    stiffness: ArmStiffness
-    preload: ArmPreload | None = None
-    acceleration: AngularAcceleration = 0.0
-    friction: float = 0.0
-    load: LoadTable = 0.0
+    inertia: Annotated[Inertia, say("Moment of inertia J"), About(900.0)]
+    stiffness: Annotated[ArmStiffness, say("Stiffness c"), About(3.0)]
+    preload: Annotated[ArmPreload | None, say("Preload F₀"), About(100.0, from_zero=True)] = None
+    acceleration: Annotated[AngularAcceleration, say("Angular acceleration ε"), Fixed(-500.0, 500.0, 5.0)] = 0.0
+    friction: Annotated[Friction, say("Friction at the cam μ"), Fixed(0.0, 0.5, 0.01)] = 0.0
+    load: Annotated[LoadTable, say("Load P"), About(100.0, from_zero=True)] = 0.0
     at: ArmSpringPlace | None = None
-    damping: ArmDamping = 0.0
+    damping: Annotated[ArmDamping, say("Damping d"), About(100.0, from_zero=True)] = 0.0
     swings = True
 
     def __post_init__(self) -> None:
-        check_positive("inertia", self.inertia, "kg mm^2")
-        units = ("N mm/rad", "N mm") if self.at is None else ("N/mm", "N")
+        check_limits(self)
         check_turning(self, turning=self.at is None)
-        _check_common(self.stiffness, units[0], self.preload, units[1])
-        _check_moving(self, "N mm s/rad")
+        Positive("N mm/rad" if self.at is None else "N/mm").check("stiffness", self.stiffness)
+        if self.preload is not None:
+            NotNegative("N mm" if self.at is None else "N").check("preload", self.preload)
+        load_of(self.load)
 
     def __call__(self, speed_rpm: float) -> ArmLoad:
         """The load at a speed [rpm]; an open preload is 0 in it.  Friction belongs to the contact, not to the load."""

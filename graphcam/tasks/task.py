@@ -14,7 +14,6 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 
 from graphcam.errors import DesignError
 from graphcam.given.follower import (
-    LIMIT_NAMES,
     FlatFaced,
     Limits,
     Oscillating,
@@ -25,22 +24,26 @@ from graphcam.given.follower import (
 )
 from graphcam.given.impact import NO_FORCE, velocity_jumps
 from graphcam.given.laid_outline import GivenCamMotion
-from graphcam.given.plausible_ranges import bounded, check_positive
 from graphcam.given.roller_rule import DEFAULT_RULE, Candidate, roller_rule
 from graphcam.showing import MAX_WIDTH, value_text
 from graphcam.tasks.dataclass_reader import ByKeys, ByKind
+from graphcam.tasks.declared_numbers import About, Fixed, Ruled
 from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.motion_tables import MotionTable
+from graphcam.tasks.number_limits import Within, check_limits
 from graphcam.tasks.part_table import PartTable
-from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, check_choice, plain_data
+from graphcam.tasks.sheet_tables import Format, SheetTable, TitleTable, plain_data
 from graphcam.tasks.sizing_table import SizingTable
 from graphcam.tasks.spring_tables import ArmSpringTable, SpringTable
 from graphcam.tasks.tolerances_table import TolerancesTable
-from graphcam.tasks.units import Angle, Length, Speed, check_turning
+from graphcam.tasks.units import Length, PaperLength, PermittedAngle, Size, SizeOrZero, Speed, check_turning
 from graphcam.words import say
 
+ANGLE_RANGE = Fixed(15.0, 60.0, 1.0)
+"""Of permitted pressure angles [degrees]; beyond, a follower jams or needs no limit."""
 MAX_DIVISIONS = 1000
 """The maximum number of parts of a phase; more cannot be drawn apart."""
+Divisions = Annotated[int, Within(1, MAX_DIVISIONS, say("from 1 to {most} parts per phase", most=MAX_DIVISIONS))]
 LARGER_RADIUS_REMEDY = say("or a larger cam.prime_radius")
 NO_FACE_REMEDY = "a flat face square to its motion has no pressure angle; give limits.min_curvature_radius"
 
@@ -102,23 +105,25 @@ class _FollowerTable:
 
 @dataclass(frozen=True)
 class TranslatingTable(_FollowerTable):
-    """``[follower]`` of kind "translating".
+    """``[follower]`` of kind "translating", a stem.
 
-    offset : mm, to the right of the cam centre; None is open: the minimum radius decides
-    roller_radius : mm, 0 for a knife edge; None is open: the rule decides
-    roller_rule : see :func:`graphcam.given.roller_rule.roller_rule`
+    offset : mm, of the follower's line to the right of the cam centre; 0 for a central follower; left out: found with
+        the minimum radius
+    roller_radius : mm, 0 for a knife edge; left out: chosen by the rule
+    roller_rule : "K rho", "K r0", "rho - MM" or min(..., ...) of these: rho is the minimum radius of curvature of the
+        pitch curve, r0 the prime radius; or a name: "coursework" is min(0.65 rho, 0.4 r0), "coursework-prime-radius"
+        0.45 r0, "gorbenko" 0.7 rho, "least-profile-radius" rho - 5, "norton" 0.33 rho
     """
 
-    offset: Length | None = None
-    roller_radius: Length | None = None
+    offset: Annotated[Length | None, say("Offset e"), Ruled()] = None
+    roller_radius: Annotated[SizeOrZero | None, say("Roller radius r"), Ruled()] = None
     roller_rule: str = DEFAULT_RULE
     kind: Literal["translating"] = "translating"
     sought = "offset", "roller_radius"
 
     def __post_init__(self) -> None:
         self()
-        bounded("offset", self.offset, "mm")
-        check_positive(say("roller radius"), self.roller_radius or None, "mm")
+        check_limits(self)
         roller_rule(self.roller_rule)
 
     def __call__(self) -> Translating:
@@ -141,17 +146,23 @@ class TranslatingTable(_FollowerTable):
 
 @dataclass(frozen=True)
 class OscillatingTable(_FollowerTable):
-    """``[follower]`` of kind "oscillating".
+    """``[follower]`` of kind "oscillating", an arm.
+
+    The arm's pivot lies to the right of the cam centre, level with it, and the arm above the line through both. A rise
+    always turns the arm clockwise: with rotation = "ccw" arm and cam turn in opposite senses on the rise, with "cw" in
+    the same sense. An ordinary rise has a positive pressure angle with "ccw" and a negative one with "cw"; limits bound
+    its magnitude.
 
     arm : mm, its length
-    distance : mm, of the centres; None is open: the minimum radius decides
-    roller_radius, roller_rule : as for a translating follower
-    lift : what the phases' lifts are, "angle" in degrees or "arc" in mm along the path of the trace point
+    distance : mm, from the cam centre to the pivot; left out: found with the prime radius
+    roller_radius : mm, as of a translating follower
+    roller_rule : as of a translating follower
+    lift : of the phases: "angle" in degrees, or "arc" in mm along the arc of the arm's end
     """
 
-    arm: Length
-    distance: Length | None = None
-    roller_radius: Length | None = None
+    arm: Annotated[Size, say("Arm length l"), Ruled()]
+    distance: Annotated[Size | None, say("Centre distance c"), Ruled()] = None
+    roller_radius: Annotated[SizeOrZero | None, say("Roller radius r"), Ruled()] = None
     roller_rule: str = DEFAULT_RULE
     lift: Literal["angle", "arc"] = "angle"
     kind: Literal["oscillating"] = "oscillating"
@@ -160,11 +171,8 @@ class OscillatingTable(_FollowerTable):
 
     def __post_init__(self) -> None:
         self()
-        check_positive("arm", self.arm, "mm")
-        check_positive(say("centre distance"), self.distance, "mm")
-        check_positive(say("roller radius"), self.roller_radius or None, "mm")
+        check_limits(self)
         roller_rule(self.roller_rule)
-        check_choice("lift", self.lift, ("angle", "arc"))
 
     @property
     def lift_unit(self) -> float:
@@ -183,12 +191,12 @@ class OscillatingTable(_FollowerTable):
 
 @dataclass(frozen=True)
 class FlatFacedTable(_FollowerTable):
-    """``[follower]`` of kind "flat-faced".
+    """``[follower]`` of kind "flat-faced", a face square to its motion.
 
-    face_margin : mm, of the face beyond the contact on each side; None adopts no face
+    face_margin : mm, of the face beyond the contact, on each side; the face is then rounded up; left out: no face
     """
 
-    face_margin: Length | None = None
+    face_margin: SizeOrZero | None = None
     kind: Literal["flat-faced"] = "flat-faced"
     takes_corners = False
     roller_radius = 0.0
@@ -197,7 +205,7 @@ class FlatFacedTable(_FollowerTable):
     without: ClassVar = {"pressure_angle_rise": NO_FACE_REMEDY, "pressure_angle_return": NO_FACE_REMEDY}
 
     def __post_init__(self) -> None:
-        check_positive(say("face margin"), self.face_margin or None, "mm")
+        check_limits(self)
 
     def __call__(self) -> FlatFaced:
         """The follower."""
@@ -206,14 +214,16 @@ class FlatFacedTable(_FollowerTable):
 
 @dataclass(frozen=True)
 class OscillatingFlatTable(_FollowerTable):
-    """``[follower]`` of kind "oscillating-flat"; the phases' lifts are in degrees.
+    """``[follower]`` of kind "oscillating-flat", a flat face on a pivot.
 
-    distance : mm, from the cam centre to the pivot
+    Its pivot lies where an arm's would; the lifts of the phases are in degrees; a rise turns it clockwise.
+
+    distance : mm, from the cam centre to the pivot; must be given
     face_offset : mm, of the face from the line through the pivot, towards the cam centre if positive
     """
 
-    distance: Length
-    face_offset: Length = 0.0
+    distance: Annotated[Size, say("Centre distance c"), Ruled()]
+    face_offset: Annotated[Length, say("Face offset f"), Ruled()] = 0.0
     kind: Literal["oscillating-flat"] = "oscillating-flat"
     takes_corners = False
     roller_radius = 0.0
@@ -223,8 +233,7 @@ class OscillatingFlatTable(_FollowerTable):
     without: ClassVar = {"pressure_angle_rise": SWINGING_FACE_REMEDY, "pressure_angle_return": SWINGING_FACE_REMEDY}
 
     def __post_init__(self) -> None:
-        check_positive(say("centre distance"), self.distance, "mm")
-        bounded(say("face offset"), self.face_offset, "mm")
+        check_limits(self)
         self()
 
     @property
@@ -275,34 +284,37 @@ def table_of(follower: Mapping[str, Any]) -> type[_FollowerTable]:
 
 @dataclass(frozen=True)
 class CamTable:
-    """``[cam]``: the prime radius in mm; None is open: the minimum one is found, and rounded up."""
+    """``[cam]``: its size.
 
-    prime_radius: Length | None = None
+    prime_radius : mm, of the pitch curve in the lower dwell; left out: the minimum, rounded up
+    """
+
+    prime_radius: Annotated[Size | None, say("Prime radius r₀"), Ruled()] = None
 
     def __post_init__(self) -> None:
-        check_positive(say("prime radius"), self.prime_radius, "mm")
+        check_limits(self)
 
 
 @dataclass(frozen=True)
 class LimitsTable:
     """``[limits]``: what the cam must satisfy.
 
-    pressure_angle_rise : degrees; None takes the usual one of the follower's kind
-    pressure_angle_return : degrees; None is force closure, where the return does not limit the radius
-    min_curvature_radius : mm, of the working profile, convex parts only under a roller; None is no limit
-    rest : whether the angle at the lower dwell must keep the limits of the phases beside it too
+    pressure_angle_rise : degrees, maximum pressure angle on a rise; left out: 30, for an arm 45
+    pressure_angle_return : degrees, on a return; left out: force closure, where a spring drives the return
+    min_curvature_radius : mm, of the working profile, convex parts only under a roller; left out: no limit
+    rest : whether the limits also hold for the pressure angle in the lower dwell
     """
 
-    pressure_angle_rise: Angle | None = None
-    pressure_angle_return: Angle | None = None
-    min_curvature_radius: Length | None = None
+    pressure_angle_rise: Annotated[PermittedAngle | None, say("Permitted pressure angle, rise"), ANGLE_RANGE] = None
+    pressure_angle_return: Annotated[PermittedAngle | None, say("Permitted pressure angle, return"), ANGLE_RANGE] = None
+    min_curvature_radius: Annotated[
+        Size | None, say("Minimum radius of curvature of the profile"), Fixed(0.5, 50.0, 0.5)
+    ] = None
     rest: bool = True
 
     def __post_init__(self) -> None:
-        check_positive(say("minimum radius of curvature"), self.min_curvature_radius, "mm")
         self()
-        for name, permitted in (("rise", self.pressure_angle_rise), ("return", self.pressure_angle_return)):
-            check_positive(LIMIT_NAMES[name], permitted, "degrees permitted")
+        check_limits(self)
 
     def __call__(self) -> Limits:
         """The permitted pressure angles in radians."""
@@ -315,32 +327,30 @@ class LimitsTable:
 class DrawingTable(SheetTable):
     """``[drawing]``: divisions, scales and rounding of the constructions, and the sheet.
 
-    divisions : equal parts per phase; None is 12, and more in a phase whose acceleration lasts less than a part
-    ordinate : mm on paper, the maximum ordinate of the first rise's acceleration; None is the longest of a round
-        series at which the whole diagram keeps to its room on the sheet
-    poles : mm on paper, the pole distances of the integrations a to v and v to s; None is 40 at 1 degree a millimetre,
-        in proportion to the axis, or what makes the diagrams neither too high nor too low
-    profile_scale : a ratio of the frame's standard, such as "2:1", at which the cam's profile is drawn; None is the
-        largest at which it fits its room on the sheet
-    rounding : mm, to which adopted sizes are rounded; None is the largest power of ten below r0/10, at most 1
+    divisions : equal parts per phase; of a measured motion, stations lie on rows if this divides a phase's steps; left
+        out: 12, and up to 48 in a phase whose acceleration lasts less than such a part
+    ordinate : mm on paper, the maximum ordinate of the first rise's acceleration; left out: the longest round one at
+        which the whole diagram suits the sheet
+    poles : mm on paper, pole distances of the integrations, acceleration to velocity and on to lift; left out: 40 where
+        a degree is a millimetre (A1), less in proportion, or what suits the sheet
+    rounding : mm, adopted sizes are rounded to multiples of it; left out: a tenth of r0 or less, at most 1
     jerk : whether the jerk is drawn too, by differentiation of the acceleration diagram
+    profile_scale : a standard scale at which the cam's profile is drawn; left out: the largest that
+        suits the sheet
     """
 
-    divisions: int | None = None
-    ordinate: Length | None = None
-    poles: tuple[Length, Length] | None = None
-    rounding: Length | None = None
+    divisions: Annotated[Divisions | None, say("Divisions of a phase"), Fixed(4, 36, 1)] = None
+    ordinate: Annotated[PaperLength | None, say("Maximum ordinate of the first rise"), Ruled()] = None
+    poles: (
+        tuple[
+            Annotated[PaperLength, say("Pole distance H₁"), Fixed(10.0, 80.0, 1.0)],
+            Annotated[PaperLength, say("Pole distance H₂"), Fixed(10.0, 80.0, 1.0)],
+        ]
+        | None
+    ) = None
+    rounding: Size | None = None
     jerk: bool = False
     profile_scale: str | None = None
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.divisions is not None and not 1 <= self.divisions <= MAX_DIVISIONS:
-            raise DesignError("divisions", self.divisions, say("from 1 to {most} parts per phase", most=MAX_DIVISIONS))
-        check_positive("ordinate", self.ordinate, "mm on paper")
-        for k, pole in enumerate(self.poles or ()):
-            check_positive(f"poles[{k}]", pole, "mm on paper")
-        check_positive("rounding", self.rounding, "mm")
 
     def on(self, format_: Format) -> Self:
         """The table for another format; ordinate, poles and scale are left open, as the given ones suit this one.
@@ -355,12 +365,8 @@ class DrawingTable(SheetTable):
 class Task:
     """A design task, with the tables of its file.
 
-    rotation : "ccw" or "cw"
-    speed_rpm : speed of the cam; None leaves velocities and accelerations per radian of the cam
-    material : the data for the contact stress besides the spring's force; None is no stress
-    tolerances : how far profile and sizes may be off as they are made; None is no tolerances
-    sizing : ranges in which ``graphcam size`` finds the best cam; ``solve`` solves the cam of the other tables
-    part : the data for the workshop; None is a part that follows from the cam
+    rotation : sense in which the cam turns, "cw" or "ccw"
+    speed_rpm : rpm, speed of the cam; left out: velocities and accelerations per radian of the cam
 
     Raises
     ------
@@ -377,7 +383,7 @@ class Task:
     rotation: Rotation
     motion: MotionTable
     follower: FollowerTable
-    speed_rpm: Speed | None = None
+    speed_rpm: Annotated[Speed | None, say("Speed"), About(300.0)] = None
     title: TitleTable = field(default_factory=TitleTable)
     cam: CamTable = field(default_factory=CamTable)
     limits: LimitsTable = field(default_factory=LimitsTable)
@@ -400,7 +406,7 @@ class Task:
 
     def __post_init__(self) -> None:
         sense(self.rotation)
-        check_positive("speed_rpm", self.speed_rpm, "rpm")
+        check_limits(self)
         self._inform_tables()
         self._check_limits()
         if self.cam.prime_radius is not None:

@@ -37,6 +37,7 @@ from graphcam.tasks.dataclass_reader import (
     WrongType,
     read_dataclass,
 )
+from graphcam.tasks.declared_numbers import declared
 from graphcam.tasks.material_table import MaterialTable
 from graphcam.tasks.outline_file import outline_from_dxf
 from graphcam.tasks.part_table import PartTable
@@ -93,17 +94,16 @@ _KEYS_BY_QUANTITY = {
     "sum of the phase angles": "phases",
     "sum of rises less returns": "phases",
     "motion": "phases",
-    "roller radius": "roller_radius",
-    "roller rule": "roller_rule",
     "centre distance": "distance",
-    "prime radius": "prime_radius",
     "permitted pressure angle on the rise": "pressure_angle_rise",
     "permitted pressure angle on the return": "pressure_angle_return",
     "minimum radius of curvature": "min_curvature_radius",
     "the table's lift": "table",
 }
-"""Keys of the file by the quantity of a design error, where the two differ."""
-OUTLINE_KEYS = ("file", "tolerance", "layer")
+"""Keys of the file by the quantity of a design error, where the two differ by more than underscores."""
+LISTS = "phases", "parts"
+"""The lists of tables in a file; an error about one of their keys from outside is shown beside the whole list."""
+OUTLINE_KEYS = tuple(each.name for each in dataclasses.fields(motion_tables.OutlineTable))
 """The keys of a table ``[outline]``, which stands for a motion with the table of a given cam."""
 _MAX_SHOWN_LENGTH = 60
 """The maximum number of characters of a value in a message."""
@@ -513,6 +513,25 @@ def _misfit(path: str, data: dict[str, Any], place: Place, error: DesignError) -
     # How radians are written in Python is nothing for a file, which has degrees.
     remedy = "" if "math.radians" in error.remedy else error.advice
     return TaskError(path, field, _shown_value(value), limit, remedy or EXAMPLE_REMEDY)
+
+
+def path_of_key(quantity: str) -> str:
+    """The path in a task of the key that a quantity of a design error has, of several tables the first; empty if none.
+
+    >>> path_of_key("roller radius"), path_of_key("lift"), path_of_key("poles[1]"), path_of_key("colour")
+    ('follower.roller_radius', 'motion.phases', 'drawing.poles[1]', '')
+    """
+    key, bracket, index = _KEYS_BY_QUANTITY.get(quantity, quantity.replace(" ", "_")).rpartition(".")[2].partition("[")
+    for place, table in (*_CLASSES.items(), *_CLASSES_OF_ARCS.items()):
+        if key not in _keys(table):
+            continue
+        if place[1:2] and place[1] in LISTS:
+            return ".".join(place[:2])
+        # The kind of a follower is no step in the file.
+        path = ".".join((*(place[:1] if place[:1] == ("follower",) else place), key))
+        first = "[0]" if f"{key}[0]" in declared(table) else ""
+        return path + (bracket + index or first)
+    return ""
 
 
 def _look_up(data: Any, place: Place) -> tuple[str, Any]:

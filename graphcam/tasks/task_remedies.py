@@ -14,12 +14,17 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from graphcam.errors import TaskError, nearest_word_remedy, suggestion
-from graphcam.tasks.task import table_of
+from graphcam.tasks.declared_numbers import Ruled, declared
+from graphcam.tasks.task import Task, table_of
 from graphcam.tasks.units import UNITS
 from graphcam.typed_words import names_of, plain
 from graphcam.words import Words, bare_caption, say
 
-OPTIONAL_KEYS = ("offset", "prime_radius", "roller_radius", "distance")
+FOUND_KEYS = {
+    path.rpartition(".")[2]
+    for path, each in declared(Task).items()
+    if each.name and each.is_open and isinstance(each.range, Ruled)
+}
 """Keys that may be left out, because graphcam finds their values."""
 
 
@@ -78,7 +83,7 @@ def value_remedy(key: str, value: Any, choices: Iterable[str]) -> Words:
     """
     if not isinstance(value, str):
         return ""
-    return say("or leave it out to let it be found") if key in OPTIONAL_KEYS else suggestion(value, choices)
+    return say("or leave it out to let it be found") if key in FOUND_KEYS else suggestion(value, choices)
 
 
 def missing_remedy(key: str, data: Mapping[str, Any]) -> Words:

@@ -4,19 +4,23 @@ from dataclasses import dataclass
 
 from graphcam.errors import DesignError
 from graphcam.given.making_errors import TOLERANCED_SIZES, Distribution, MakingErrors, deviations_within
-from graphcam.given.plausible_ranges import check_positive
-from graphcam.tasks.units import Length
+from graphcam.tasks.number_limits import check_limits
+from graphcam.tasks.units import Size
 from graphcam.words import say
 
 
 @dataclass(frozen=True)
 class TolerancesTable:
-    """``[tolerances]``: errors of making, and the part of all cams that is to lie within the stated bands.
+    """``[tolerances]``: errors of making: how far the motion may be off, and which tolerance matters most.
 
-    waviness : mm, amplitudes of the profile's waves;  harmonics : as many, waves per turn
-    roller_diameter, offset, distance, arm : mm, widths of tolerance zones; None is exact
-    distribution : of the sizes in their zones, "normal" or "uniform"
-    coverage : the part of all cams
+    waviness : mm, amplitudes of waves of the profile along its normal
+    harmonics : as many: waves per turn
+    roller_diameter : mm, widths of tolerance zones, from the smallest size to the largest
+    offset : mm, of a translating follower
+    distance : mm, of an arm: of the centre distance
+    arm : mm, and of the arm's length
+    distribution : of the sizes in their zones: "normal", three standard deviations on either side; or "uniform"
+    coverage : the part of all mechanisms that the bands hold
 
     Raises
     ------
@@ -26,20 +30,17 @@ class TolerancesTable:
     {'waviness 24': 0.005, 'offset': 0.025}
     """
 
-    waviness: tuple[Length, ...] = ()
+    waviness: tuple[Size, ...] = ()
     harmonics: tuple[int, ...] = ()
-    roller_diameter: Length | None = None
-    offset: Length | None = None
-    distance: Length | None = None
-    arm: Length | None = None
+    roller_diameter: Size | None = None
+    offset: Size | None = None
+    distance: Size | None = None
+    arm: Size | None = None
     distribution: Distribution = "normal"
     coverage: float = 0.95
 
     def __post_init__(self) -> None:
-        for k, amplitude in enumerate(self.waviness):
-            check_positive(f"waviness[{k}]", amplitude, "mm")
-        for name in TOLERANCED_SIZES:
-            check_positive(name, getattr(self, name), "mm")
+        check_limits(self)
         self()
         deviations_within(self.coverage)
 

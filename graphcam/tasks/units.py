@@ -6,12 +6,13 @@ The types at the end are those of the fields of tables: a field has its unit the
 import dataclasses
 import math
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
-from typing import Annotated, Any, get_args, get_origin, get_type_hints
+from typing import Annotated, Any
 
 from graphcam.errors import DesignError, suggestion
+from graphcam.tasks.number_limits import Bounded, NotNegative, Positive, Within
 from graphcam.words import Caption, Words, or_list, say
 
 Factors = Mapping[str, float]
@@ -131,24 +132,6 @@ def numbers_in_units(table: Any, path: str = "") -> Iterator[tuple[str, InUnit]]
             yield from numbers_in_units(getattr(table, name), f"{path}.{name}".lstrip("."))
 
 
-def mark_at(hint: Any, steps: Sequence[int | str]) -> HeldIn | None:
-    """The mark of the number at a place in tables, the first of several; None if it has no unit.
-
-    hint : the type of the tables
-    """
-    marks = [mark for mark in getattr(hint, "__metadata__", ()) if isinstance(mark, HeldIn)]
-    if marks:
-        return None if steps else marks[0]
-    if dataclasses.is_dataclass(hint):
-        hints = get_type_hints(hint, include_extras=True)
-        return mark_at(hints[steps[0]], steps[1:]) if steps and steps[0] in hints else None
-    parts = get_args(hint)
-    if get_origin(hint) is tuple:
-        place, *steps = steps or (0,)
-        parts = parts[:1] if parts[1:] == (...,) else parts[int(place) :][:1]
-    return next(filter(None, (mark_at(part, steps) for part in parts)), None)
-
-
 def check_turning(table: Any, *, turning: bool, path: str = "") -> None:
     """Check that numbers whose unit depends on a rotation are given in one that fits.
 
@@ -166,24 +149,35 @@ def _other_unit(unit: str, other: str, own: str) -> Caption:
     return say("{unit} converts to {other}, not to {own}", unit=unit, other=other, own=own)
 
 
-Length = Annotated[float, HeldIn("mm")]
+Length = Annotated[float, HeldIn("mm"), Bounded("mm")]
+Size = Annotated[Length, Positive("mm")]
+"""A length greater than 0."""
+SizeOrZero = Annotated[Length, Positive("mm", or_zero=True)]
+PaperLength = Annotated[float, HeldIn("mm"), Positive("mm on paper")]
 Angle = Annotated[float, HeldIn("deg")]
+PhaseAngle = Annotated[Angle, Positive("degrees")]
+PermittedAngle = Annotated[Angle, Positive("degrees permitted")]
+PartOfTurn = Annotated[Angle, Within(0.0, 360.0, say("at least 0 and less than 360 degrees"), open_end=True)]
 LIFT = HeldIn("mm", "deg")
-Lift = Annotated[float, LIFT]
-Velocity = Annotated[float, HeldIn("mm/rad", "deg/rad")]
-Acceleration = Annotated[float, HeldIn("mm/rad^2", "deg/rad^2")]
-Jerk = Annotated[float, HeldIn("mm/rad^3", "deg/rad^3")]
-Speed = Annotated[float, HeldIn("rpm")]
-AngularAcceleration = Annotated[float, HeldIn("rad/s^2")]
-Mass = Annotated[float, HeldIn("kg")]
-Inertia = Annotated[float, HeldIn("kg mm^2")]
-Force = Annotated[float, HeldIn("N")]
-Stiffness = Annotated[float, HeldIn("N/mm")]
+Lift = Annotated[float, LIFT, Bounded("mm (degrees for an arm)")]
+PhaseLift = Annotated[Lift, Positive("mm (degrees for an arm)")]
+Velocity = Annotated[float, HeldIn("mm/rad", "deg/rad"), Bounded("mm/rad^2")]
+Acceleration = Annotated[float, HeldIn("mm/rad^2", "deg/rad^2"), Bounded("mm/rad^2")]
+Jerk = Annotated[float, HeldIn("mm/rad^3", "deg/rad^3"), Bounded("mm/rad^2")]
+Speed = Annotated[float, HeldIn("rpm"), Positive("rpm")]
+AngularAcceleration = Annotated[float, HeldIn("rad/s^2"), Bounded("rad/s^2")]
+Mass = Annotated[float, HeldIn("kg"), Positive("kg")]
+Inertia = Annotated[float, HeldIn("kg mm^2"), Positive("kg mm^2")]
+Force = Annotated[float, HeldIn("N"), Bounded("N")]
+Preload = Annotated[float, HeldIn("N"), NotNegative("N")]
+Stiffness = Annotated[float, HeldIn("N/mm"), Positive("N/mm")]
 ArmStiffness = Annotated[float, HeldIn("N/mm", "N mm/rad")]
 ArmPreload = Annotated[float, HeldIn("N", "N mm")]
-Damping = Annotated[float, HeldIn("N s/m")]
-ArmDamping = Annotated[float, HeldIn("N mm s/rad")]
-Stress = Annotated[float, HeldIn("MPa")]
-Density = Annotated[float, HeldIn("kg/m^3")]
-Roughness = Annotated[float, HeldIn("um")]
-Feed = Annotated[float, HeldIn("mm/min")]
+"""Those of a spring on an arm: its table checks them in the unit that they have there."""
+Damping = Annotated[float, HeldIn("N s/m"), NotNegative("N s/m")]
+ArmDamping = Annotated[float, HeldIn("N mm s/rad"), NotNegative("N mm s/rad")]
+Stress = Annotated[float, HeldIn("MPa"), Positive("MPa")]
+Modulus = Annotated[float, HeldIn("MPa"), Positive("MPa of a modulus")]
+Density = Annotated[float, HeldIn("kg/m^3"), Positive("kg/m^3")]
+Roughness = Annotated[float, HeldIn("um"), Positive("micrometres")]
+Feed = Annotated[float, HeldIn("mm/min"), Positive("mm/min")]

@@ -24,6 +24,7 @@ from nbformat import NotebookNode
 from PIL import Image
 from sphinx.cmd.build import build_main
 from studio_links import FOLDER, studio_page, try_it
+from task_file_page import task_file_page
 
 import graphcam as gc
 from graphcam.bench.hard_cases import computed_rows, drawn_rows, hard_cases_page
@@ -147,7 +148,7 @@ def write_gallery(folder: Path, drawn: Iterable[str]) -> None:
 
 
 def write_reference(folder: Path) -> None:
-    """A page for each group of public names, so that no name is left out, and one of the commands."""
+    """A page for each group of public names, so that no name is left out, one of the commands, one of the task file."""
     left = set(gc.__all__)
     for page, (title, rooms) in GROUPS.items():
         names = [name for name in gc.__all__ if room_of(name) in rooms]
@@ -157,6 +158,7 @@ def write_reference(folder: Path) -> None:
     if left:
         raise SystemExit(f"the reference has no page for {', '.join(sorted(left))}: see GROUPS")
     (folder / "commands.md").write_text(commands(), encoding="utf-8")
+    (folder / "task-file.md").write_text(task_file_page(), encoding="utf-8")
 
 
 def room_of(name: str) -> str:

@@ -40,6 +40,7 @@ def test_every_page_is_written_for_somebody_and_says_what_to_do():
         "sweep-many-cams",
         "design-in-python",
         "add-a-law",
+        "add-a-field",
         "add-a-language",
         "add-a-construction",
         "add-a-follower",

@@ -188,7 +188,7 @@ def test_a_task_without_ranges_is_told_so(name, tmp_path):
     ("text", "field", "said"),
     [
         (TEXT.replace("[60, 120]", "[120, 60]"), "sizing.base_radius", "120 to 60 smaller larger exchange"),
-        (TEXT.replace("[60, 120]", "[-60, 120]"), "sizing.base_radius", "-60 greater than 0 mm"),
+        (TEXT.replace("[60, 120]", "[-60, 120]"), "sizing.base_radius[0]", "-60 greater than 0 mm"),
         (TEXT.replace("[60, 120]", "[60]"), "sizing.base_radius[1]", "missing"),
         (TEXT.replace("[60, 120]", '"60"'), "sizing.base_radius", "'60' a number"),
         (TEXT.replace("[10, 30]", "0"), "sizing.width", "0 greater than 0 mm"),

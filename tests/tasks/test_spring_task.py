@@ -304,7 +304,7 @@ def test_without_a_spring_nothing_is_said_of_one():
         (ARM.replace("inertia = 1500", "inertia = -1"), "spring.inertia", "-1 greater than 0 kg mm^2"),
         (ARM.replace("inertia = 1500\n", ""), "spring.inertia", "missing kg mm^2"),
         (ARM + "at = { arm = 0, anchor = [1, 2] }\n", "spring.at.arm", "0 pivot"),
-        (ARM + "at = { arm = 5, anchor = [1, 1e12] }\n", "spring.at.anchor", "mm in magnitude"),
+        (ARM + "at = { arm = 5, anchor = [1, 1e12] }\n", "spring.at.anchor[1]", "mm in magnitude"),
         (ARM + "at = { arm = 5, anchor = [1] }\n", "spring.at.anchor[1]", "missing"),
         (ARM + "at = { arms = 5, anchor = [1, 2] }\n", "spring.at.arms", "unknown did you mean 'arm'"),
     ],

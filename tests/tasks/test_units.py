@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from decimal import Decimal
 from importlib.resources import files
 from pathlib import Path
-from typing import Any, get_args, get_type_hints
+from typing import Any, get_args, get_origin, get_type_hints
 
 import pytest
 from over_all import fast_first
@@ -33,6 +33,7 @@ from graphcam.studio.task_paths import changed_task, steps_of, value_at
 from graphcam.studio.task_text import opened_task, plain_task
 from graphcam.sweeps.design_space import load_space
 from graphcam.tasks.arcs_task import ArcsTask
+from graphcam.tasks.declared_numbers import Fixed, declared
 from graphcam.tasks.spring_tables import ArmSpringTable
 from graphcam.tasks.task import Task
 from graphcam.tasks.task_file import (
@@ -43,7 +44,7 @@ from graphcam.tasks.task_file import (
     task_from,
 )
 from graphcam.tasks.task_writer import task_files
-from graphcam.tasks.units import UNITS, HeldIn, mark_at, numbers_in_units
+from graphcam.tasks.units import UNITS, HeldIn, numbers_in_units
 
 SPRING = {"mass": 0.3, "stiffness": 3.0, "preload": 40.0, "acceleration": 2.0, "load": 12.0, "damping": 5.0}
 ROWS = [[0.0, 12.0], [180.0, 60.0], [360.0, 12.0]]
@@ -106,6 +107,10 @@ TASKS = {
     "arcs": builtin_arcs_task().to_dict() | {"speed_rpm": 90.0},
 }  # fmt: skip
 """Tasks in which every number that has a unit stands at least once."""
+for path, number in declared(Task).items():
+    # A number that is new, and stands nowhere yet.
+    if isinstance(number.range, Fixed) and all(value_at(task, path) is None for task in TASKS.values()):
+        TASKS["translating"] = changed_task(TASKS["translating"], {path: number.range.least + number.range.step})
 
 
 def leaves(data: Any, path: str = "") -> Iterator[tuple[str, float]]:
@@ -118,6 +123,24 @@ def leaves(data: Any, path: str = "") -> Iterator[tuple[str, float]]:
             yield from leaves(value, f"{path}[{k}]")
     elif isinstance(data, float | int) and not isinstance(data, bool):
         yield path, data
+
+
+def mark_at(hint: Any, steps: tuple[int | str, ...]) -> HeldIn | None:
+    """The mark of the number at a place in tables, the first of several; None if it has no unit.
+
+    hint : the type of the tables
+    """
+    marks = [mark for mark in getattr(hint, "__metadata__", ()) if isinstance(mark, HeldIn)]
+    if marks:
+        return None if steps else marks[0]
+    if isinstance(hint, type) and dataclasses.is_dataclass(hint):
+        hints = get_type_hints(hint, include_extras=True)
+        return mark_at(hints[steps[0]], steps[1:]) if steps and steps[0] in hints else None
+    parts = get_args(hint)
+    if get_origin(hint) is tuple:
+        place, *steps = steps or (0,)
+        parts = parts[:1] if parts[1:] == (...,) else parts[int(place) :][:1]
+    return next(filter(None, (mark_at(part, steps) for part in parts)), None)
 
 
 def held(data: dict[str, Any], path: str) -> tuple[HeldIn, str] | None:
