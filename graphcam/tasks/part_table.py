@@ -20,7 +20,7 @@ class PartTable:
 
     name : of the part, in its title block; left out: Cam
     number : of its drawing
-    bore : mm; left out: the largest standard shaft diameter that leaves enough wall
+    bore : mm, for which an open prime radius leaves room; left out: the largest standard one that leaves enough wall
     keyway : "din6885", "gost23360" or "none"; left out: by the frame
     width : mm, of the cam; left out: 0.8 of the bore, in round millimetres
     hub_diameter : mm, of a hub on one side; leave out both for a plain disk
