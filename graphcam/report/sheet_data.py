@@ -211,15 +211,19 @@ def _finer_phases(solution: Solution) -> list[Row]:
 
 
 def _limits(solution: Solution) -> list[Row]:
-    limits, least = solution.chain.board.limits, solution.task.limits.min_curvature_radius
+    board, least, part = solution.chain.board, solution.task.limits.min_curvature_radius, solution.task.part
+    limits, bores = board.limits, list[Row]()
+    if part is not None and part.bore is not None and board.prime_radius is None:
+        bores = [(say("bore"), mm(part.bore), GIVEN_LABEL)]
     if "pressure_angle" not in solution.drawn:
-        return [(say("permitted radius of curvature"), mm(least or 0), LIMIT_LABEL)]
+        return [(say("permitted radius of curvature"), mm(least or 0), LIMIT_LABEL), *bores]
     back = degrees(limits.return_) if limits.return_ else say("force closure")
     sharp = [] if least is None else [(say("permitted radius of curvature"), mm(least), LIMIT_LABEL)]
     return [
         (say("permitted angle, rise"), degrees(limits.rise), LIMIT_LABEL),
         (say("permitted angle, return"), back, LIMIT_LABEL),
         *sharp,
+        *bores,
     ]
 
 

@@ -9,6 +9,7 @@ from over_all import over_all
 import graphcam as gc
 from graphcam.given.limits_and_fits import shaft_radius
 from graphcam.report.note import note
+from graphcam.report.sheet_data import data
 from graphcam.tasks.part_table import PartTable
 from graphcam.tasks.task import CamTable, Task
 from graphcam.workshop.part_contents import PartContents
@@ -47,6 +48,7 @@ def test_an_open_radius_leaves_room_for_the_shaft_and_no_smaller_round_one_does(
     # The workshop can make it.
     assert PartContents(solution).part.bore == task.part.bore
     assert "the shaft, its keyway and a wall take" in note(solution)
+    assert ("bore", f"{task.part.bore:g} mm", "given") in [tuple(map(str, row)) for row in data(solution).rows]
 
 
 def test_a_small_bore_changes_nothing_and_a_given_radius_stays():
