@@ -94,8 +94,8 @@ def test_the_sheets_of_a_russian_course_are_russian():
 def test_a_certificate_that_is_none_is_refused():
     with pytest.raises(TaskError, match="make it again"):
         AnswerKey.from_json("{}")
-    text = issued("integration")[1].to_json().replace('"format": 3', '"format": 2')
-    with pytest.raises(TaskError, match="format 2"):
+    text = issued("integration")[1].to_json().replace('"format": 4', '"format": 3')
+    with pytest.raises(TaskError, match="format 3"):
         AnswerKey.from_json(text)
 
 
