@@ -111,7 +111,7 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
     policies = (policy, policy.without_follow_through, policy.without_caps)
     marks, strict, uncapped = (earned(each, judged, mistakes) for each in policies)
     marked = tuple(_marked(one, beside_key.get(one.asked.name), paid) for one, paid in zip(judged, marks, strict=True))
-    slip = None if diagnosis else single_slip(compared, following, answer_key.bound)
+    slip = None if diagnosis else single_slip(compared, following, answer_key.bound, answer_key.keys)
     most = policy.max_share(mistakes) * exercise.marks if sum(marks) < sum(uncapped) else None
     return Record(
         student=answer_key.student,
