@@ -48,18 +48,23 @@ def dependences(
     one, several = np.split(_redrawn_answers(chain, asked, own), [alone.size // centres.size])
     one, several = one.reshape(alone.shape), several.reshape(trials.shape)
     found: dict[str, Dependence] = {}
-    for k in range(1, centres.size):
+    hand_rows: list[dict[str, float]] = [{} for _ in careful]
+    for k, key in enumerate(centres.tolist()):
         effects = {
-            asked[i].name: _effect(float(centres[i]), float(widths[i]), alone[i, :, i], one[i, :, k], float(centres[k]))
+            asked[i].name: _effect(float(centres[i]), float(widths[i]), alone[i, :, i], one[i, :, k], key)
             for i in range(k)
-            if np.nanmax(np.abs(one[i, :, k] - centres[k]), initial=0.0) > NEGLIGIBLE_EFFECT * bound * scatters[k]
+            if np.nanmax(np.abs(one[i, :, k] - key), initial=0.0) > NEGLIGIBLE_EFFECT * bound * scatters[k]
         }
+        own = careful[:, k].tolist()
         if effects:
             rows = _moved_rows(found, asked[:k], centres, trials[k - 1])
-            whole = _put_together(effects, float(centres[k]), rows, several[k - 1, :, k])
-            hand_rows = _moved_rows(found, asked[:k], centres, careful)
-            off = np.array([whole.expected(float(centres[k]), row) for row in hand_rows]) - careful[:, k]
-            found[asked[k].name] = replace(whole, scatter=max(least[k], float(np.sqrt(np.nanmean(off**2)))))
+            whole = _put_together(effects, key, rows, several[k - 1, :, k])
+            following = [whole.expected(key, row) for row in hand_rows]
+            off = float(np.sqrt(np.nanmean((np.array(following) - own) ** 2)))
+            found[asked[k].name] = replace(whole, scatter=max(least[k], off))
+            own = [whole.moved(key, given, expected) for given, expected in zip(own, following, strict=True)]
+        for row, moved in zip(hand_rows, own, strict=True):
+            row[asked[k].name] = moved
     return found
 
 
