@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, strategies as st
 from issued_variants import SECRET
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, TaskError
 from graphcam.exercises.course.roster import MAX_FOLDER_BYTES, folder_name, student_of
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import AskedAnswer, Parameter
@@ -270,3 +270,13 @@ def test_a_greatest_angle_that_careful_hands_find_on_either_side_is_not_asked_fo
         hands = answers_of(only, chain.by(exercise.hand.pencil(200)))
         assert torn(only, chain, hands) is either, offset
         assert torn(exercise, chain, answers_of(exercise, chain.by(exercise.hand.pencil(200)))) is False
+
+
+def test_a_parameter_stands_within_a_text_too_and_one_that_is_none_is_told():
+    exercise = find_exercise("curvature-and-roller")
+    variant = drawn(exercise, "Anna", SECRET, 0)
+    assert variant.task.follower.roller_rule == f"{variant.parameters['factor']} rho"
+    follower = {**exercise.task["follower"], "roller_rule": "{facto} rho"}
+    wrong = replace(variant, exercise=replace(exercise, task={**exercise.task, "follower": follower}))
+    with pytest.raises(TaskError, match="factor"):
+        _ = wrong.task
