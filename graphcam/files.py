@@ -13,7 +13,7 @@ import os
 import shutil
 import sys
 import tempfile
-from collections.abc import Generator, Mapping
+from collections.abc import Generator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from types import MappingProxyType
@@ -153,13 +153,18 @@ def whole_folder(
     if folder == "":
         raise OutputError(folder, say("it has no name"), say("name a folder; '.' is the current one"))
     folder = Path(folder)
-    # In the folder itself, so that each file moves by a rename within one file system.
-    with _draft(folder, folder) as draft:
+    fresh = _is_missing(folder)
+    # In the folder itself, so that each file moves by a rename within one file system; where it is to come, if there
+    # is none yet: then all moves by one rename, and a run that is killed leaves all or nothing.
+    with _draft(folder, folder.parent if fresh else folder) as draft:
         new, old = draft / "new", draft / "old"
         new.mkdir()
         old.mkdir()
         yield new
-        _exchange(new, old, folder, former, first)
+        if fresh and _is_missing(folder):
+            new.rename(folder)
+        else:
+            _exchange(new, old, folder, former, first)
 
 
 @contextmanager
@@ -203,7 +208,7 @@ def _draft(target: Path, place: Path) -> Generator[Path]:
             try:
                 yield draft
             except OSError as error:
-                if _error_concerns(place, error):
+                if _error_concerns((target, draft), error):
                     raise _output_error(target, error) from error
                 raise
     except BaseException:
@@ -211,11 +216,23 @@ def _draft(target: Path, place: Path) -> Generator[Path]:
         raise
 
 
-def _error_concerns(place: Path, error: OSError) -> bool:
-    """Whether an error of the system is about a place: it names a file there, or names none and is about a disk."""
+def _is_missing(path: Path) -> bool:
+    """Whether there is nothing at a path that could be one."""
+    try:
+        path.lstat()
+    except FileNotFoundError:
+        return True
+    except (OSError, ValueError):
+        return False
+    return False
+
+
+def _error_concerns(places: Sequence[Path], error: OSError) -> bool:
+    """Whether an error of the system is about some places: it names a file there, or names none and is about a disk."""
     if error.filename is None:
         return error.errno in REMEDIES
-    return Path(os.fsdecode(error.filename)).absolute().is_relative_to(place.absolute())
+    named = Path(os.fsdecode(error.filename)).absolute()
+    return any(named.is_relative_to(place.absolute()) for place in places)
 
 
 def check_new(path: str | Path) -> None:

@@ -47,17 +47,20 @@ SHARPENING = 2.0
 def codes_in(pixels: Photograph, tags: Tags | None = None) -> list[str]:
     """The texts of the QR codes in a picture (h, w, 3) or (h, w), each once.
 
-    tags : those of the page, if they have been found; they help where the paper is oblique
+    tags : those of the page, if they have been found; they help where the paper is oblique, and where some are there
+        twice another sheet's code is looked for in the whole picture too
     """
     grey = pixels if pixels.ndim == 2 else np.asarray(cv2.cvtColor(pixels, cv2.COLOR_BGR2GRAY), np.uint8)
     if min(grey.shape) < MIN_PIXELS:
         return []
+    texts: dict[str, None] = {}
     for picture in _tries(grey, tags):
         found = zxingcpp.read_barcodes(picture, formats=zxingcpp.BarcodeFormat.QRCode)  # pyright: ignore[reportArgumentType]
-        texts = [code.text for code in found if code.valid and code.text]
-        if texts:
-            return list(dict.fromkeys(texts))
-    return []
+        texts |= {code.text: None for code in found if code.valid and code.text}
+        reduced = picture.size < grey.size
+        if texts and not (reduced and tags is not None and tags.doubled):
+            break
+    return list(texts)
 
 
 def _tries(grey: Grey, tags: Tags | None) -> Iterator[Grey]:

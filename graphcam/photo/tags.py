@@ -52,11 +52,13 @@ class Tags:
     corners : (n, 4) of the black squares: those at the lower left, lower right, upper right, upper left on the paper
     widths : (n, 4) of their edges [px], below, right, above, left, in which the light goes from a fifth of
         the way between black and white to four fifths; None if they were not measured
+    doubled : how many numbers were left out because they are there twice, as in a photograph of two sheets
     """
 
     numbers: NDArray[np.int64]
     corners: Places
     widths: NDArray[np.float64] | None = None
+    doubled: int = 0
 
     def __len__(self) -> int:
         return len(self.numbers)
@@ -64,7 +66,7 @@ class Tags:
     def selected(self, kept: NDArray[np.bool_]) -> Tags:
         """The tags that a mask (n,) chooses."""
         widths = None if self.widths is None else self.widths[kept]
-        return Tags(self.numbers[kept], self.corners[kept], widths)
+        return Tags(self.numbers[kept], self.corners[kept], widths, self.doubled)
 
 
 def find_tags(grey: Grey) -> Tags:
@@ -86,6 +88,7 @@ def find_tags(grey: Grey) -> Tags:
         np.array(list(single), int),
         np.array([corners for corners, _ in single.values()], complex).reshape(-1, 4),
         np.array([widths for _, widths in single.values()], float).reshape(-1, 4),
+        len(found) - len(single),
     )
 
 

@@ -10,9 +10,12 @@ import numpy as np
 import pytest
 from issued_variants import issued, outcomes
 
+from graphcam.exercises.definition.drawn_answers import board_chain, drawn_answer, is_length, with_own_answers
 from graphcam.exercises.definition.exercise import Answers, AskedAnswer, Exercise
+from graphcam.exercises.definition.variant import Variant
 from graphcam.exercises.key.answer_key import AnswerKey, Hypothesis, Key
 from graphcam.exercises.key.expected_answers import Expected
+from graphcam.exercises.key.follow_through import Dependence
 from graphcam.exercises.marking.marking import mark
 
 FIRST = AskedAnswer("first", "A length.", "integration", reading="v", unit="mm", marks=1.0)
@@ -26,9 +29,12 @@ class Rule:
 
     rule: Callable[[Mapping[str, float]], float]
     together: str = "product"
+    scatter: float = math.inf
 
     def expected(self, key: float, own: Mapping[str, float]) -> float:
         return self.rule(own)
+
+    moved = Dependence.moved
 
 
 def twice(own: Mapping[str, float]) -> float:
@@ -50,7 +56,7 @@ def three(
         for asked, value in zip((FIRST, SECOND, THIRD), (10.0, second, 40.0), strict=True)
     }
     hypotheses = {name: Hypothesis.of(Expected(each, scatter) for each in values) for name, values in mistakes.items()}
-    dependences = {"second": rule or Rule(twice), "third": Rule(lambda own: 2 * own["second"])}
+    dependences = {"second": rule or Rule(twice), "third": Rule(lambda own: 2 * own["second"] * own["first"] / 10)}
     return replace(exercise, answers=(FIRST, replace(SECOND, unit=unit), THIRD)), replace(
         answer_key, bound=2.0, keys=keys, hypotheses=hypotheses, dependences=dependences
     )
@@ -142,3 +148,50 @@ def test_an_answer_that_stands_there_and_cannot_be_read_is_not_a_missing_one():
     assert set(outcomes(record).values()) == {"unreadable"}
     assert set(outcomes(mark(*three(), Answers({}))).values()) == {"missing"}
     assert (record.total, [each.given for each in record.answers]) == (0.0, [None] * 3)
+
+
+def test_what_hands_share_with_their_own_earlier_answers_is_no_tolerance_of_what_follows():
+    exact = three(rule=Rule(twice, scatter=0.1))
+    for share, expected in ((1.0, "follow-through"), (1.001, "wrong")):
+        assert outcome({"first": 20.0, "second": 40.0 + 0.4 * share}, exact) == expected
+    # What is known of a hand's error is never less strict than the key.
+    assert outcome({"first": 20.0, "second": 42.001}, three(rule=Rule(twice, scatter=5.0))) == "wrong"
+
+
+@pytest.mark.parametrize(
+    ("name", "slip", "factor", "most"),
+    [
+        ("least-radius-offset", "mu_s", 1.5, 0.03),
+        ("least-radius-offset", "v_4", 1.5, 0.03),
+        ("integration", "mu_v", 1.5, 0.05),
+        ("pressure-angle", "mu_s", 1.5, 0.05),
+        ("pressure-angle", "v_4", 1.5, 0.05),
+        ("curvature-and-roller", "rho", 2.0, 0.05),
+    ],
+)
+def test_hands_that_go_on_from_one_slip_lose_nothing_else(name: str, slip: str, factor: float, most: float):
+    """Of hands that draw all right but take so many times as much once, and everything after from that."""
+    exercise, answer_key = issued(name)
+    chain = board_chain(Variant(exercise, "Anna", 0, answer_key.parameters).task, exercise.hand.pencil(200, 77))
+    columns: dict[str, np.ndarray] = {}
+    for asked in exercise.answers:
+        value = drawn_answer(chain, asked) * (chain.pencil.stretch_factors if is_length(chain, asked) else 1.0)
+        columns[asked.name] = np.round(value * (factor if asked.name == slip else 1.0), asked.decimals)
+        if asked.name == slip:
+            chain = with_own_answers(chain, asked, columns[slip])
+    rows = [dict(zip(columns, map(float, row), strict=True)) for row in zip(*columns.values(), strict=True)]
+    found = [outcomes(mark(exercise, answer_key, Answers(row))) for row in rows]
+    losing = [any(said == "wrong" for other, said in each.items() if other != slip) for each in found]
+    assert all(each[slip] == "wrong" for each in found)
+    assert np.mean(losing) <= most
+
+
+def test_the_roller_of_another_variant_does_not_follow_from_its_radius_of_curvature():
+    """Each has a rule of its own: who copies both numbers is paid for neither."""
+    exercise, own = issued("curvature-and-roller")
+    rho, factor = 1.6 * own.keys["rho"].expected.value, own.parameters["factor"]
+    assert isinstance(factor, float)
+    for other in set(exercise.parameters["factor"].values) - {factor}:
+        copied = Answers({"rho": rho, "roller": float(other) * rho})
+        assert outcomes(mark(exercise, own, copied))["roller"] != "follow-through"
+    assert outcomes(mark(exercise, own, Answers({"rho": rho, "roller": factor * rho})))["roller"] == "follow-through"

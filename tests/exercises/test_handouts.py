@@ -95,8 +95,8 @@ def test_the_sheets_of_a_russian_course_are_russian():
 def test_a_certificate_that_is_none_is_refused():
     with pytest.raises(TaskError, match="make it again"):
         AnswerKey.from_json("{}")
-    text = issued("integration")[1].to_json().replace('"format": 3', '"format": 2')
-    with pytest.raises(TaskError, match="format 2"):
+    text = issued("integration")[1].to_json().replace('"format": 4', '"format": 3')
+    with pytest.raises(TaskError, match="format 3"):
         AnswerKey.from_json(text)
 
 
@@ -364,3 +364,16 @@ def test_a_copy_of_an_exercise_is_its_file_and_replaces_nothing(tmp_path):
     assert replace(find_exercise(str(path)), name="integration") == find_exercise("integration")
     assert CliRunner().invoke(app, command).exit_code == 2
     assert CliRunner().invoke(app, [*command[:-1], str(tmp_path / "mine.txt")]).exit_code == 2
+
+
+@pytest.mark.parametrize("name", library())
+def test_every_worksheet_tells_how_to_see_a_print_that_is_too_small(name: str):
+    """Right work on a print at 99 % keeps its marks, at 98 % it need not: the rule of 100 mm on the sheet shows it."""
+    exercise = find_exercise(name)
+    sheet = worksheet(drawn(exercise, "Anna", SECRET, 0), Student("Anna", "Anna"))
+    for page in sheet.pages:
+        texts = [e.text for group in page.groups for e in group.entities if isinstance(e, Text)]
+        assert "100" in texts
+        assert any("true to scale" in text for text in texts)
+    told = " ".join(e.text for p in sheet.pages for g in p.groups for e in g.entities if isinstance(e, Text))
+    assert "if it is shorter than 99 mm, print the sheet again" in " ".join(told.split())

@@ -40,3 +40,13 @@ def test_the_complement_of_an_angle_is_named():
     right = key(issued("pressure-angle")[1])
     record = marked("pressure-angle", alpha_8=90 - right["alpha_8"] if right["alpha_8"] > 0 else -90 - right["alpha_8"])
     assert "complement" in record.feedback[-1]
+
+
+def test_a_length_as_measured_on_paper_is_named_though_its_scale_is_right():
+    _, answer_key = issued("integration")
+    one = answer_key.keys["v_max"]
+    record = marked("integration", v_max=one.expected.value * one.tolerance_paper / one.tolerance)
+    assert "multiply it by its scale" in record.feedback[-1]
+    assert [each.name for each in record.answers if each.outcome != "right"] == ["v_max"]
+    # A length that is asked on paper has no scale to forget.
+    assert "multiply it" not in marked("integration", s_5=1.37 * key(answer_key)["s_5"]).feedback[-1]

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, strategies as st
 from issued_variants import SECRET
 
-from graphcam.errors import DesignError
+from graphcam.errors import DesignError, TaskError
 from graphcam.exercises.course.roster import MAX_FOLDER_BYTES, folder_name, student_of
 from graphcam.exercises.definition.drawn_answers import board_chain
 from graphcam.exercises.definition.exercise import AskedAnswer, Parameter
@@ -33,15 +33,19 @@ GOLDEN = {
         "rise": 86,
     },
     "curvature-and-roller": {
-        "back": 65,
-        "dwell": 25,
-        "law_down": "cosine",
-        "law_up": "3-4-5",
-        "lift": 26,
-        "offset": 24,
-        "r0": 61,
-        "rise": 88,
-        "rotation": "cw",
+        "back": 108,
+        "dwell": 50,
+        "factor": 0.35,
+        "law_down": "3-4-5",
+        "law_up": "cycloidal",
+        "lift": 27.5,
+        "offset": -19,
+        "ordinate": 50,
+        "pole_s": 38,
+        "pole_v": 30,
+        "r0": 79.5,
+        "rise": 76,
+        "rotation": "ccw",
     },
     "differentiation": {
         "back": 65,
@@ -102,16 +106,18 @@ GOLDEN = {
         "rotation": "ccw",
     },
     "least-radius-offset": {
-        "back": 74,
-        "dwell": 23,
-        "law_down": "3-4-5",
-        "law_up": "cycloidal",
-        "lift": 27.5,
-        "limit_down": 48,
-        "limit_up": 31,
-        "offset": 19,
-        "pole": 49,
-        "rise": 93,
+        "back": 76,
+        "dwell": 33,
+        "law_down": "cosine",
+        "law_up": "3-4-5",
+        "lift": 33.5,
+        "limit_down": 50,
+        "limit_up": 27,
+        "offset": 16,
+        "ordinate": 38,
+        "pole_s": 42,
+        "pole_v": 55,
+        "rise": 102,
         "rotation": "cw",
     },
     "pressure-angle": {
@@ -152,13 +158,13 @@ def test_parameters_are_the_same_on_every_machine_and_version():
 
 ISSUED = {
     "acceleration-and-scales": [5, 7, 2],
-    "curvature-and-roller": [24, 14, 3],
+    "curvature-and-roller": [3, 1, 2],
     "differentiation": [3, 0, 5],
     "integration": [6, 1, 3],
     "inversion-arm": [5, 0, 4],
     "inversion-translating": [1, 0, 10],
     "least-radius": [3, 12, 0],
-    "least-radius-offset": [2, 11, 7],
+    "least-radius-offset": [2, 15, 12],
     "pressure-angle": [2, 1, 12],
     "whole-cam": [0, 2, 1],
 }
@@ -264,3 +270,13 @@ def test_a_greatest_angle_that_careful_hands_find_on_either_side_is_not_asked_fo
         hands = answers_of(only, chain.by(exercise.hand.pencil(200)))
         assert torn(only, chain, hands) is either, offset
         assert torn(exercise, chain, answers_of(exercise, chain.by(exercise.hand.pencil(200)))) is False
+
+
+def test_a_parameter_stands_within_a_text_too_and_one_that_is_none_is_told():
+    exercise = find_exercise("curvature-and-roller")
+    variant = drawn(exercise, "Anna", SECRET, 0)
+    assert variant.task.follower.roller_rule == f"{variant.parameters['factor']} rho"
+    follower = {**exercise.task["follower"], "roller_rule": "{facto} rho"}
+    wrong = replace(variant, exercise=replace(exercise, task={**exercise.task, "follower": follower}))
+    with pytest.raises(TaskError, match="factor"):
+        _ = wrong.task

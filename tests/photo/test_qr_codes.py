@@ -65,3 +65,19 @@ def test_colours_and_no_codes():
     blank = np.full((300, 400), 200, np.uint8)
     assert codes_in(blank) == codes_in(blank, find_tags(blank)) == []
     assert codes_in(np.zeros((1, 1), np.uint8)) == []
+
+
+def test_the_code_of_a_second_sheet_is_found_in_the_whole_picture():
+    """In the reduced one only the nearer sheet's code is large enough; that there are two the doubled tags tell."""
+    camera = Camera(PAGE, (0.0, 0.0, 0.0), (2600, 1950), (0, 0))
+    one = photograph(camera, with_code())
+    other = np.array([list(row) for row in segno.make_qr("GC1/another/sheet", error="m").matrix]) == 1
+    small = np.where(np.kron(np.pad(other, 4), np.ones((2, 2))) > 0, 20, 220).astype(np.uint8)
+    two = np.pad(np.concatenate([one, one]), ((0, 0), (0, 3400)), constant_values=220)
+    two[-len(small) - 40 : -40, 40 : 40 + len(small)] = small
+    tags = find_tags(two)
+    assert len(tags) == 0
+    assert tags.doubled == len(PAGE.tags)
+    assert sorted(codes_in(two, tags)) == ["GC1/another/sheet", TEXT]
+    assert codes_in(two) == [TEXT]
+    assert find_tags(one).doubled == 0

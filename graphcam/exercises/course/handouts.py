@@ -32,6 +32,10 @@ from graphcam.words import Caption, Words, say, say_in, say_many
 
 LINE_LENGTH = 96
 """Letters in a line of the task in ``answers.toml``."""
+PRINT_CHECK = say(
+    "Measure the rule of 100 mm on this sheet: if it is shorter than 99 mm, print the sheet again at 100 % of its size."
+)
+"""What tells a print that is too small: right work on one at 99 % keeps its marks, at 98 % it need not."""
 KEY_COLUMNS = (say("name"), say("unit"), say("value"), say_in("of an answer", "tolerance"), say("marks"))
 """The columns of the key's table, as :func:`key_rows` fills them."""
 
@@ -93,7 +97,9 @@ def worksheet(variant: Variant, student: Student) -> Drawing:
         (name, step) for name, count in exercise.sheet.items() for step in construction_of(chain, name).steps()[:count]
     ]
     steps += [(name, empty_axes(exercise, chain, name)) for name in exercise.axes]
-    return _composed(variant, student, steps, [answer_table(exercise)], [instructions(variant)])
+    # One that is photographed has bars of its own, whose lengths are asked.
+    notes = [instructions(variant), *([] if exercise.paper else [exercise.tell(PRINT_CHECK)])]
+    return _composed(variant, student, steps, [answer_table(exercise)], notes)
 
 
 def answer_table(exercise: Exercise) -> Table:

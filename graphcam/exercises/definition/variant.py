@@ -21,6 +21,8 @@ from graphcam.words import Tell, Words, say
 
 PLACEHOLDER_PATTERN = re.compile(r"^(-?)\{(-?)([a-z_0-9]+)\}$")
 """A whole value of the template: a parameter's name in braces, perhaps with a minus."""
+PARAMETER_PATTERN = re.compile(r"\{([a-z_0-9]+)\}")
+"""A parameter's name in braces within a text."""
 REMAINING_ANGLE = "rest"
 """The angle that is missing of 360 degrees."""
 
@@ -47,7 +49,7 @@ def sentence(text: str, parameters: Mapping[str, Value], tell: Tell = str) -> st
     >>> sentence("A lift of {lift} mm; it turns {sense}.", {"lift": 0.5, "sense": "cw"})
     'A lift of 0.5 mm; it turns clockwise.'
     """
-    return re.sub(r"\{([a-z_0-9]+)\}", lambda place: tell(_value_text(parameters.get(place[1], place[0]))), text)
+    return PARAMETER_PATTERN.sub(lambda place: tell(_value_text(parameters.get(place[1], place[0]))), text)
 
 
 def _value_text(value: Value) -> Words:
@@ -61,14 +63,19 @@ def _filled_template(node: Any, parameters: Mapping[str, Value], path: str) -> A
         return {key: _filled_template(value, parameters, path) for key, value in node.items()}
     if isinstance(node, list | tuple):
         return [_filled_template(value, parameters, path) for value in node]
-    place = PLACEHOLDER_PATTERN.match(node) if isinstance(node, str) else None
-    if place is None:
+    if not isinstance(node, str):
         return node
-    *signs, name = place.groups()
-    if name not in parameters:
-        raise TaskError(path, "task", node, say("a parameter in braces"), nearest_word_remedy(name, parameters))
-    value = parameters[name]
-    return -value if signs[0] != signs[1] and not isinstance(value, str) else value
+
+    def value_of(name: str) -> Value:
+        if name not in parameters:
+            raise TaskError(path, "task", node, say("a parameter in braces"), nearest_word_remedy(name, parameters))
+        return parameters[name]
+
+    if place := PLACEHOLDER_PATTERN.match(node):
+        *signs, name = place.groups()
+        value = value_of(name)
+        return -value if signs[0] != signs[1] and not isinstance(value, str) else value
+    return PARAMETER_PATTERN.sub(lambda each: str(value_of(each[1])), node)
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,7 @@ from graphcam.exercises.key.expected_answers import Expected, from_stored, store
 from graphcam.exercises.key.follow_through import Dependence
 from graphcam.words import say
 
-FORMAT_VERSION = 3
+FORMAT_VERSION = 4
 PLAIN_FIELDS = (
     *("exercise", "version", "student", "draw", "parameters"),
     *("bound", "careful", "alike"),

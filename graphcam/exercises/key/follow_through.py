@@ -1,9 +1,10 @@
 """How an answer follows from the student's own earlier ones: the construction drawn again from these.
 
 The construction is drawn again when the answer key is made (:mod:`graphcam.exercises.key.redrawing`), from a range of
-values in place of each earlier answer, the others being right; marking only looks up.  A student with several answers
-off gets the effects put together, by factors or by sums, whichever agrees better with drawings from several own values
-at once.
+values in place of each earlier answer, the others before it being right and those after it following; marking only
+looks up.  A student with several answers off gets the effects put together, by factors or by sums, whichever agrees
+better with drawings from several own values at once.  What an own answer owes to those before it is in their effects
+already, so it counts as :meth:`Dependence.moved` says: one slip that all the rest follows is exactly one effect.
 """
 
 from __future__ import annotations
@@ -64,13 +65,18 @@ class Effect:
 
 @dataclass(frozen=True, eq=False)
 class Dependence:
-    """All effects on one answer, by the name of the earlier answer, and how they go together."""
+    """All effects on one answer, by the name of the earlier answer, and how they go together.
+
+    scatter : standard deviation of what a careful hand answers about what follows from its own earlier answers, in the
+        unit of the answer
+    """
 
     effects: Mapping[str, Effect]
     together: Together
+    scatter: float
 
     def expected(self, key: float, own: Mapping[str, float]) -> float:
-        """The answer that follows from a student's own values; NaN where it cannot be drawn."""
+        """The answer that follows from a student's own values, each moved; NaN where it cannot be drawn."""
         found = key
         for name, effect in self.effects.items():
             if name in own:
@@ -78,19 +84,32 @@ class Dependence:
                 found = found * alone / key if self.together == "product" else found + alone - key
         return found
 
+    def moved(self, key: float, given: float, expected: float) -> float:
+        """An own answer as it would be if all before it were right; NaN where what follows cannot be drawn.
+
+        key : the right answer; expected : what follows from those before it
+
+        >>> Dependence({}, "product", 0.1).moved(30.0, given=45.0, expected=45.0)  # it follows from them
+        30.0
+        """
+        if self.together == "sum":
+            return given - expected + key
+        return given * key / expected if expected else math.nan
+
     def to_json(self) -> str:
         """The dependence as JSON text."""
         effects = {
             name: [each.centre, each.width, list(each.values), each.power] for name, each in self.effects.items()
         }
-        return json.dumps({"together": self.together, "effects": effects}, allow_nan=False)
+        said = {"together": self.together, "effects": effects, "scatter": self.scatter}
+        return json.dumps(said, allow_nan=False)
 
     @staticmethod
     def from_json(text: str) -> Dependence:
         """The dependence in the text that :meth:`to_json` wrote."""
         said = json.loads(text)
         effects = {name: Effect(c, w, tuple(values), power) for name, (c, w, values, power) in said["effects"].items()}
-        return Dependence(effects, said["together"])
+        return Dependence(effects, said["together"], said["scatter"])
 
 
 def span(centre: float, width: float) -> float:

@@ -93,7 +93,7 @@ def key_or_reason(variant: Variant) -> AnswerKey | RefusedDraw:
         keys={asked.name: Key(key, most, most / length, is_drawn) for asked, key, most, length, is_drawn in rows},
         hypotheses={name: Hypothesis.of(values) for name, values in wrong.items()},
         alike=not_told,
-        dependences=dependences(exercise, drawn.right, keys, bound),
+        dependences=dependences(exercise, drawn.right, keys, bound, hands, drawn.lengths),
     )
 
 

@@ -4,7 +4,7 @@ Outcomes become marks in one place, :func:`earned`.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from graphcam.exercises.definition.exercise import Answers, AskedAnswer, Exercise
 from graphcam.exercises.definition.marks_policy import MarksPolicy
 from graphcam.exercises.key.answer_key import AnswerKey
+from graphcam.exercises.key.follow_through import Dependence
 from graphcam.exercises.marking.diagnosis import ComparedAnswer, compare, diagnose
 from graphcam.exercises.marking.exactness import too_exact
 from graphcam.exercises.marking.feedback import feedback
@@ -110,7 +111,7 @@ def mark(exercise: Exercise, answer_key: AnswerKey, answers: Answers, *, level: 
     policies = (policy, policy.without_follow_through, policy.without_caps)
     marks, strict, uncapped = (earned(each, judged, mistakes) for each in policies)
     marked = tuple(_marked(one, beside_key.get(one.asked.name), paid) for one, paid in zip(judged, marks, strict=True))
-    slip = None if diagnosis else single_slip(compared, following, answer_key.bound)
+    slip = None if diagnosis else single_slip(compared, following, answer_key.bound, answer_key.keys)
     most = policy.max_share(mistakes) * exercise.marks if sum(marks) < sum(uncapped) else None
     return Record(
         student=answer_key.student,
@@ -142,26 +143,31 @@ def _following(answer_key: AnswerKey, compared: Sequence[ComparedAnswer], explai
     # Once the mistake has shown in the student's own answers, what it brings with it is a consequence.
     caused = sorted(explained)[1:]
     for each in compared:
-        if each.place in caused or (each.wrong and each.place > first and _is_follow_through(answer_key, each, own)):
+        given, key, dependence = each.given, each.key.value, answer_key.dependences.get(each.asked.name)
+        follows = each.place in caused
+        if isinstance(given, float) and isinstance(key, float):
+            moved = given
+            if dependence:
+                expected = dependence.expected(key, own)
+                moved = dependence.moved(key, given, expected)
+                follows |= each.place > first and _is_follow_through(answer_key.bound, each, dependence, expected)
+            own[each.asked.name] = moved
+        if follows:
             found.add(each.asked.name)
-        if isinstance(each.given, float):
-            own[each.asked.name] = each.given
     return found
 
 
-def _is_follow_through(answer_key: AnswerKey, answer: ComparedAnswer, own: Mapping[str, float]) -> bool:
-    given, key = answer.given, answer.key
-    dependence = answer_key.dependences.get(answer.asked.name)
-    if dependence is None or not isinstance(given, float) or not isinstance(key.value, float):
-        return False
-    expected = dependence.expected(key.value, own)
-    tolerance = answer_key.bound * float(key.scatter)
+def _is_follow_through(bound: float, answer: ComparedAnswer, dependence: Dependence, expected: float) -> bool:
+    """Whether a number is what follows, within the tolerance that a hand has there."""
+    given, key, scatter = float(answer.given), float(answer.key.value), float(answer.key.scatter)
+    # What careful hands share with their own earlier answers, as the error of a scale, is in what follows already.
+    tolerance = bound * min(scatter, dependence.scatter)
     # Nought follows from too much that was never drawn.
-    if abs(given) <= tolerance < abs(key.value):
+    if not answer.wrong or abs(given) <= tolerance < abs(key):
         return False
     if dependence.together == "product" and not answer.asked.unit.startswith("deg"):
         # A hand's error grows with the lengths that a wrong scale makes, and does not shrink with them.
-        tolerance *= max(1.0, abs(expected) / max(abs(key.value), SMALL_KEY_TOLERANCES * tolerance))
+        tolerance *= max(1.0, abs(expected) / max(abs(key), SMALL_KEY_TOLERANCES * tolerance))
     return abs(given - expected) <= tolerance
 
 

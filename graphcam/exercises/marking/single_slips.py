@@ -1,4 +1,4 @@
-"""Slips of one answer: a wrong sign, degrees in place of radians, twice or half, a power of ten, another answer.
+"""Slips of one answer: a wrong sign, degrees for radians, twice or half, a power of ten, another answer, no scale.
 
 They are looked for where no catalogued mistake explains the answers and one answer alone is off; what follows from it
 is right.  A slip is named only where no other one brings the same number.
@@ -8,6 +8,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 
 from graphcam.drafting.ink import Caption, say
+from graphcam.exercises.key.answer_key import Key
 from graphcam.exercises.marking.diagnosis import ComparedAnswer
 
 Slip = Callable[[float], float]
@@ -33,14 +34,17 @@ SLIPS: Sequence[tuple[Caption, Sequence[Slip]]] = (
 )
 """What is said of each slip, and what it makes of a right answer."""
 COMPLEMENT = say("{name}: you seem to have measured the angle from the other axis: it is the complement of yours.")
+ON_PAPER = say("You seem to have given a length as measured on paper: multiply it by its scale.")
 OTHERS_VALUE = say("{name}: you have given the same number for {other}; it is right there.")
 
 
-def single_slip(compared: Sequence[ComparedAnswer], following: set[str], bound: float) -> Caption | None:
+def single_slip(
+    compared: Sequence[ComparedAnswer], following: set[str], bound: float, keys: Mapping[str, Key]
+) -> Caption | None:
     """What is said of the slip in the one answer that is wrong; None where there are several or it fits no slip alone.
 
     following : the names of the answers that follow from the student's own earlier ones
-    bound : pencil units within which an answer is right
+    bound : pencil units within which an answer is right; keys : of all answers
     """
     wrong = [each for each in compared if each.wrong and each.asked.name not in following]
     if len(wrong) != 1 or not isinstance(given := wrong[0].given, float):
@@ -49,6 +53,10 @@ def single_slip(compared: Sequence[ComparedAnswer], following: set[str], bound: 
     fitting = [caption for caption, slips in SLIPS if any(_fits(answer, given, slip, bound) for slip in slips)]
     if answer.asked.unit.startswith("deg") and _fits(answer, given, _complement, bound):
         fitting.append(COMPLEMENT)
+    # Units of the answer in a millimetre of paper, NaN for what is no length there.
+    scale = keys[name].tolerance / keys[name].tolerance_paper
+    if scale > 0 and answer.asked.of == "value" and _fits(answer, given, _times(1 / scale), bound):
+        fitting.append(ON_PAPER)
     found = [caption.with_values(name=name) for caption in fitting]
     # The same digits in two answers are seldom chance; a value that lies near another one often is.
     values: Mapping[str, float] = {
