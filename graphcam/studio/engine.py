@@ -101,6 +101,8 @@ def _field(error: GraphcamError, request: Mapping[str, Any]) -> str:
     """The field of the form, or the key of the request, that an error is about."""
     task = given if isinstance(given := request.get("task"), dict) else {}
     quantity = getattr(error, "quantity", "")
+    if quantity in request:
+        return quantity
     return field_of(error, task) or (quantity if PATH_PATTERN.fullmatch(quantity) else "")
 
 

@@ -20,6 +20,8 @@ from graphcam.exercises.key.answer_scatter import answers_of
 from graphcam.exercises.key.unlisted_mistakes import unlisted_names
 from graphcam.exercises.marking.marking import mark
 
+pytestmark = pytest.mark.slow
+
 STUDENTS = ("Anna", "Boris")
 
 

@@ -285,6 +285,7 @@ def course(tmp_path: Path) -> Path:
     return tmp_path / "course"
 
 
+@pytest.mark.slow
 def test_an_nbgrader_assignment_has_a_cell_for_every_answer(course: Path):
     exercise = issued(NAME)[0]
     notebook = nbformat.read(course / "source" / NAME / "answers.ipynb", as_version=4)

@@ -166,6 +166,7 @@ def made(tmp_path):
     return out, result.stdout
 
 
+@pytest.mark.slow
 def test_the_first_course_makes_its_secret_says_so_and_is_graded_with_it(made, tmp_path):
     out, said = made
     secret = out / "teacher" / "secret"
@@ -298,7 +299,7 @@ def test_processes_and_a_cluster_make_the_same_files(tmp_path):
         assert made("cluster", cluster=cluster.scheduler_address) == one
 
 
-@pytest.mark.parametrize("name", [name for name in library() if name != "differentiation"])
+@pytest.mark.parametrize("name", fast_first((name for name in library() if name != "differentiation"), 2))
 def test_the_diagrams_of_a_variant_find_room_on_its_axes(name):
     """A curve that a hand draws over the empty axes ends neither above nor below them."""
     exercise, answer_key = issued(name)

@@ -87,6 +87,7 @@ def test_no_page_tells_who_somebody_is_and_the_table_tells_whose_each_is(course:
     assert sorted(whose.values(), key=students.index) == sorted(whose.values())
 
 
+@pytest.mark.slow
 def test_without_it_the_pages_do_tell_so_the_check_above_would_find_it(course: Path):
     group = grade(course, "pages", anonymous=False)
     assert identities(group) >= {*IDS, "Mustermann"}

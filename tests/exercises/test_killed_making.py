@@ -14,6 +14,8 @@ import pytest
 from graphcam.exercises.course.course_folder import SECRET_FILE, STUDENTS_FOLDER, TEACHER_FOLDER
 from graphcam.exercises.course.course_making import make
 
+pytestmark = pytest.mark.slow
+
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="nothing is killed so there")
 NAMES = ("s-1", "s-2")
 AT_RENAME = """
@@ -97,7 +99,6 @@ def test_in_a_folder_that_holds_something_the_secret_comes_first(roster: Path, t
     assert kept == {"kept"}
 
 
-@pytest.mark.slow
 def test_at_any_moment_there_is_all_or_nothing(roster: Path, tmp_path: Path):
     begin = time.monotonic()
     assert child(roster, tmp_path / "measured", 1000).wait(120) == 0

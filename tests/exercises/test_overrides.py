@@ -39,6 +39,7 @@ def table(course: Path, name: str) -> list[dict[str, str]]:
     return list(csv.DictReader((course / "out" / name).read_text(encoding="utf-8").splitlines()))
 
 
+@pytest.mark.slow
 def test_marks_given_by_hand_last_and_are_shown(course: Path):
     before = grade(course)
     (course / TEACHER_FOLDER / OVERRIDES_FILE).write_text(

@@ -134,6 +134,7 @@ def test_seeds_give_every_variant_and_one_seed_the_same(folder: Path):
     assert Stand(folder, 2**32 - 5).data == Stand(folder, 2**32 - 5).data
 
 
+@pytest.mark.slow
 def test_the_key_has_all_marks_and_every_mistake_is_named_and_loses_some(folder: Path):
     exercise = issued(NAME)[0]
     stand = Stand(folder, 7)

@@ -138,6 +138,7 @@ def test_a_students_page_does_not_hold_the_key(pages: Path):
         assert set(disclosed(html, answer_key)) <= given_right & own, student
 
 
+@pytest.mark.slow
 def test_the_teachers_page_shows_the_key_so_the_check_above_would_find_it(pages: Path):
     assert "pitch" in disclosed((pages / "grades.html").read_text(), issued(NAME, "Boris")[1])
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 from issued_variants import course_of, issued, key
+from over_all import fast_first
 from typer.testing import CliRunner
 
 from graphcam.cli import app
@@ -74,7 +75,7 @@ FILES = {
 }
 
 
-@pytest.mark.parametrize("system", FOLDERS)
+@pytest.mark.parametrize("system", fast_first(FOLDERS))
 def test_a_folder_of_a_learning_system_is_that_of_the_student(course: Path, system: str):
     for folder, student in FOLDERS[system]:
         (course / "packed" / folder).mkdir()

@@ -58,7 +58,7 @@ def check(sampled: list[Sampled]) -> None:
 
 
 def test_random_motions_are_told_from_their_tables():
-    check(list(sampled_motions(15)))
+    check(list(sampled_motions(10)))
 
 
 @over_seeds(4)

@@ -96,7 +96,7 @@ def test_what_is_no_pair_is_refused(change, said):
         gc.ConjugateCam(**{"cam": stem(), "at": (8, -62), "roller_radius": 9.0} | change)
 
 
-@over_seeds(12)
+@over_seeds(5)
 def test_the_outer_wall_of_a_groove_lies_a_roller_outside_of_the_pitch_curve(seed):
     cam = random_cam(seed)
     cam = gc.Cam(cam.motion, gc.Translating(cam.follower.offset, 2.0), cam.prime_radius + 10, cam.rotation)

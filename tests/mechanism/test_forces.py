@@ -30,7 +30,7 @@ def load(seed: int) -> gc.SpringLoad:
 GUIDE = gc.Guide(friction=0.12, overhang=70.0, length=90.0)
 
 
-@over_seeds(8)
+@over_seeds(4)
 def test_the_follower_is_in_equilibrium(seed):
     """Forces across and along the motion and moments about the roller's centre, each bearing with its own friction."""
     cam, spring = steady_cam(seed), load(seed)

@@ -314,6 +314,7 @@ def test_without_the_rest_condition_a_large_distance_needs_no_angle_between_arm_
     assert (found.prime_radius, found.distance, found.active) == (300.0, 400.0, ())
 
 
+@pytest.mark.slow
 @over_all(("name", "limit"), pairs(LAWS, [0.01, 1.0, 10.0, 80.0, 89.9, 90 - 1e-6]))
 def test_limits_near_0_and_90_degrees(name, limit):
     """The cam keeps the limit, and one at the same distance of a radius smaller by 1e-6 does not."""

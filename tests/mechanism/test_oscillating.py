@@ -42,7 +42,7 @@ def points(values: list) -> np.ndarray:
     return np.array([[float(x), float(y)] for x, y in values])
 
 
-@over_seeds(12)
+@over_seeds(6)
 def test_random_cams_agree_with_the_differentiated_definition(seed):
     cam, phi = random_cam(seed), np.random.default_rng(seed + 1000).random(8) * FULL_TURN
     exact = ReferenceArm(cam)
@@ -145,7 +145,7 @@ def test_the_same_disk_turned_the_other_way_gives_the_motion_backwards(seed):
     assert_allclose(other.pitch_curvature(-phi), cam.pitch_curvature(phi), rtol=1e-11)
 
 
-@over_seeds(12)
+@over_seeds(6)
 def test_extremes_are_not_exceeded_and_are_reached(seed):
     cam = random_cam(seed)
     extremes, u = cam.extremes(), np.linspace(0, 1, 4001)

@@ -44,7 +44,7 @@ def points(values: list) -> np.ndarray:
     return np.array([[float(x), float(y)] for x, y in values])
 
 
-@over_seeds(12)
+@over_seeds(6)
 def test_random_cams_agree_with_the_differentiated_definition(seed):
     cam, phi = random_cam(seed), np.random.default_rng(seed + 1000).random(8) * FULL_TURN
     exact = ReferenceCam(cam)
@@ -161,7 +161,7 @@ def test_shapes_and_nan():
 # --- extremes --------------------------------------------------------------------------------------------------------
 
 
-@over_seeds(12)
+@over_seeds(6)
 def test_extremes_are_the_greatest_and_their_angles_are_roots(seed):
     cam = random_cam(seed)
     extremes, exact = cam.extremes(), ReferenceCam(cam)

@@ -13,6 +13,8 @@ from graphcam.photo.drawn_curves import CurveReading, read_curve
 from graphcam.photo.flag_runs import bridged
 from graphcam.photo.pencil_ink import ink_of
 
+pytestmark = pytest.mark.slow
+
 Points = NDArray[np.complex128]
 MEDIAN, P95 = 0.1, 0.3
 """mm, of the places of a curve where it is seen."""
@@ -44,7 +46,6 @@ def why(reading: CurveReading) -> str:
     return str(refusal[0])
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("ink", "pen", "camera"),
     [
@@ -86,7 +87,6 @@ def test_what_an_eraser_left_and_hatching_do_not_derail_it() -> None:
     assert_read(read(sheet), np.append(drawn, drawn[:1]))
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("part", [0.15, 0.4, 0.7])
 def test_what_an_eraser_left_of_a_whole_curve_is_not_read_beside_a_part_of_a_dark_one(part: float) -> None:
     sheet = profile_sheet()
@@ -130,7 +130,6 @@ def test_points_run_counter_clockwise_from_the_origin_of_the_view() -> None:
     assert turns.sum() == pytest.approx(2 * np.pi)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("apart", [2.0, 4.0])
 @pytest.mark.parametrize("whole", [True, False])
 def test_two_curves_are_refused(apart: float, whole: bool) -> None:
@@ -173,7 +172,6 @@ def test_an_empty_sheet_is_refused(construction: bool) -> None:
     assert why(read(sheet)) == "no curve can be seen"
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_scribbles_are_refused(seed: int) -> None:
     sheet = profile_sheet(seed=seed)
@@ -220,7 +218,6 @@ def diagram(amplitude: float) -> Points:
     return x + 1j * amplitude * (np.sin(np.pi * rise / 2) ** 2 - np.sin(np.pi * fall / 2) ** 2)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("amplitude", [12.0, 38.0])
 def test_a_displacement_over_its_axis(amplitude: float) -> None:
     sheet = diagram_sheet()

@@ -14,6 +14,8 @@ from PIL import Image
 from graphcam.photo.file_intake import Photograph, UnopenedFile, pictures_in
 from graphcam.photo.pictures import MAX_KEPT_PIXELS
 
+pytestmark = pytest.mark.slow
+
 RED, BLUE, WHITE = (10, 10, 250), (250, 10, 10), (240, 240, 240)
 
 
@@ -246,7 +248,6 @@ def test_hostile_files_take_little_memory(tmp_path):
     assert megabytes < 300
 
 
-@pytest.mark.slow
 def test_the_largest_pictures_stay_within_600_mb(tmp_path):
     sample(12_000, 9_900).save(tmp_path / "a.jpg")
     sample(8_000, 5_900).save(tmp_path / "b.jpg")
@@ -257,7 +258,6 @@ def test_the_largest_pictures_stay_within_600_mb(tmp_path):
     assert megabytes < 600
 
 
-@pytest.mark.slow
 def test_where_memory_ends_the_rest_goes_on(tmp_path):
     sample(10_000, 7_900).save(tmp_path / "a.png")
     sample(6_000, 4_000).save(tmp_path / "b.jpg")

@@ -8,6 +8,8 @@ from photo.drawn_flats import Camera, Sheet, cam, circle, profile_sheet
 from graphcam.photo.pencil_ink import ink_of
 from graphcam.photo.plotted_points import Mark, PointReading, read_points
 
+pytestmark = pytest.mark.slow
+
 NEAR = 0.25
 """mm, of a point's place."""
 SPOTS = 38 * np.exp(1j * np.radians(np.arange(20, 360, 40)))
@@ -33,7 +35,6 @@ def assert_found(reading: PointReading, places: NDArray[np.complex128]) -> None:
     assert nearest.max() < NEAR
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["cross", "dot", "ring"])
 @pytest.mark.parametrize("pen", ["HB", "2H"])
 def test_marks_in_the_open(kind: Mark, pen: str) -> None:
@@ -44,7 +45,6 @@ def test_marks_in_the_open(kind: Mark, pen: str) -> None:
     assert set(reading.kinds) == {kind}
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["cross", "dot", "ring"])
 def test_marks_on_rays(kind: Mark) -> None:
     sheet = profile_sheet(seed=2)
@@ -83,7 +83,6 @@ def test_the_surest_come_first_and_nothing_outside_the_room() -> None:
     assert read_points(ink_of(sheet.flat(), sheet.page()), type(sheet.view)(0j, (0, 0, 1, 1), True)).points.size == 0
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["cross", "dot", "ring"])
 def test_fainter_points_are_found_besides_the_sure_ones_and_take_no_place_from_them(kind: Mark) -> None:
     sheet = profile_sheet(seed=3)

@@ -11,6 +11,8 @@ from photographed import FINE, Camera, drawn, page_of, photograph
 from graphcam.photo.qr_codes import codes_in
 from graphcam.photo.tags import find_tags
 
+pytestmark = pytest.mark.slow
+
 TEXT = "GC1/inversion-translating/3f2a/17/0/1/9f3c2a77"
 PAGE = page_of()
 
@@ -26,7 +28,6 @@ def with_code(module=0.75):
     return paper
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("size", "tilt", "shot"),
     [

@@ -13,6 +13,8 @@ from graphcam.photo.rectify import EvenPicture, lookup_maps, rectify, sampled
 from graphcam.photo.registration import register
 from graphcam.photo.tags import find_tags
 
+pytestmark = pytest.mark.slow
+
 PAGE = page_of()
 DOTS = (np.linspace(60, 360, 7) + 1j * np.linspace(50, 250, 5)[:, None]).ravel()
 

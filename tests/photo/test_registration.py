@@ -15,6 +15,8 @@ from graphcam.photo.pictures import PhotographError
 from graphcam.photo.registration import register
 from graphcam.photo.tags import Tags, find_tags
 
+pytestmark = pytest.mark.slow
+
 A3 = page_of()
 A4 = page_of(210.0, 297.0, side=9.0, edge=6.0)
 RANDOM = np.random.default_rng(18)
@@ -68,7 +70,6 @@ def test_two_tags_may_be_hidden(hidden):
     assert camera.misses(found).max() < 0.1
 
 
-@pytest.mark.slow
 @over_all(("page", "slope", "degrees"), [(A3, 0.0, -15), (A4, 0.08, -8), (A3, 5.0, 4), (A4, 0.0, 15), (A3, 0.08, 15)])
 def test_a_fold_is_registered_or_refused(page, slope, degrees):
     refused = 0
@@ -86,7 +87,6 @@ def test_a_fold_is_registered_or_refused(page, slope, degrees):
     assert refused <= 1
 
 
-@pytest.mark.slow
 @over_all(
     ("page", "direction", "lift"), [(A3, 0.0, -8.0), (A4, 90.0, -3.0), (A3, 35.0, 2.0), (A4, 0.0, 8.0), (A3, 90.0, 8.0)]
 )

@@ -8,6 +8,8 @@ from graphcam.photo.pencil_ink import ink_of
 from graphcam.photo.pictures import PhotographError
 from graphcam.photo.straight_lines import Segment, crossing, read_lines
 
+pytestmark = pytest.mark.slow
+
 PLACE = 0.1
 """mm, of a ruled line."""
 CROSSING = 0.2

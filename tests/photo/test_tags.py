@@ -9,6 +9,8 @@ from photographed import CORNERS, Camera, page_of, photograph
 
 from graphcam.photo.tags import find_tags
 
+pytestmark = pytest.mark.slow
+
 PAGE = page_of(200.0, 150.0, 3, 2)
 SIZE = (1600, 1200)
 

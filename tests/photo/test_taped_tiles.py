@@ -14,6 +14,8 @@ from graphcam.photo.registration import register
 from graphcam.photo.tags import Tags
 from graphcam.photo.taped_tiles import joined_tiles, rectify_tiles, registered_tiles
 
+pytestmark = pytest.mark.slow
+
 SIZES = {12: (3000, 4000), 5: (1944, 2592), 1: (900, 1200)}
 SHEET = page_of(210.0, 297.0)
 

@@ -58,6 +58,7 @@ def test_without_axes_a_new_figure_is_shown(solution):
     assert dict(mpl.rcParams) == settings
 
 
+@pytest.mark.slow
 def test_a_drawing_of_a_notebook_leaves_pyplot_alone(solution):
     for thing in things(solution):
         assert thing._repr_svg_() is not None
@@ -124,6 +125,7 @@ def test_a_cam_of_arcs_passes_its_points():
         gc.solve(gc.builtin_arcs_task()).roots[1].plot()
 
 
+@pytest.mark.slow
 def test_a_later_step_shows_more(solution):
     for construction in solution.drawn.values():
         if construction.name == "roller":

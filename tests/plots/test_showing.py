@@ -136,6 +136,7 @@ def test_a_notebook_shows_cams_motions_and_steps():
     assert other._repr_svg_() is None
 
 
+@pytest.mark.slow
 def test_functions_of_rooms_above_are_there():
     """They are named in words, which no type checker reads."""
     named: set[str] = set()

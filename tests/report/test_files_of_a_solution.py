@@ -133,6 +133,7 @@ def test_pencil_and_seed_reach_the_drawing(printed, document):
     assert len(set(exact)) == 1
 
 
+@pytest.mark.slow
 def test_a_dxf_for_cad_programs_has_dimensions(tmp_path):
     result = CliRunner().invoke(app, ["solve", "--dxf", "cad", "--out", str(tmp_path)])
     assert result.exit_code == 0

@@ -210,7 +210,7 @@ def test_a_face_that_is_drawn_too_narrow_is_told():
 
 @pytest.mark.parametrize("margin", [-1.0, 1e12])
 def test_a_margin_that_cannot_be_is_refused(margin):
-    with pytest.raises(DesignError, match="face margin"):
+    with pytest.raises(DesignError, match="face_margin"):
         FlatFacedTable(face_margin=margin)
 
 

@@ -46,7 +46,7 @@ def test_thousands_of_random_requests_are_answered():
 
 @pytest.mark.parametrize("ask", ["task_file", "open", "sweep", "nothing", 3, [], {}])
 def test_other_questions_are_answered_too(ask):
-    for seed in range(12):
+    for seed in range(4):
         found = answer({**random_request(seed), "ask": ask, "text": str(random_request(seed)["task"])})
         json.dumps(found, allow_nan=False)
         assert found["ok"] or found["error"]["message"]

@@ -135,6 +135,7 @@ def test_every_quantity_has_a_field_or_a_reason():
     assert not {name: places for name, places in unknown.items() if not all("part_table" in each for each in places)}
 
 
+@pytest.mark.slow
 def test_no_reason_is_out_of_date():
     assert set(NOT_REACHED) <= set(quantities()) | of_variables()
     assert set(PARAMETERS) <= set(quantities())

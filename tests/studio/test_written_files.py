@@ -32,6 +32,7 @@ def test_the_note_is_that_of_solve(tmp_path):
         assert (tmp_path / "page" / name).read_bytes() == (tmp_path / "solve" / name).read_bytes()
 
 
+@pytest.mark.slow
 def test_the_folder_holds_one_cam(tmp_path):
     files = WrittenFiles(tmp_path)
     files.write({"kind": "note", "task": TASK})
@@ -42,7 +43,7 @@ def test_the_folder_holds_one_cam(tmp_path):
     # The note that was asked for before has come along.
     assert "60" in (tmp_path / "note.md").read_text(encoding="utf-8")
     # A cam without a working drawing keeps nobody from its note, and has no drawing of another cam.
-    part = {**TASK, "part": {"bore": 80}}
+    part = {**TASK, "cam": {"prime_radius": 44}, "part": {"bore": 80}}
     refused = files.write({"kind": "working drawing", "task": part})
     assert refused["error"]["message"].startswith("part.bore")
     assert radius(tmp_path) == 60

@@ -38,6 +38,7 @@ def with_parts(*changes: tuple[str, str]) -> str:
     return WHOLE.replace(MOTION, parts)
 
 
+@pytest.mark.slow
 def test_a_motion_by_conditions_is_drawn_and_written_as_any_other(tmp_path):
     task = task_in(tmp_path, with_parts())
     motion = task.motion()

@@ -81,6 +81,7 @@ def test_the_files_say_the_same(tmp_path):
     assert {path.name for path in tmp_path.iterdir()} == FILES | {"mine.txt"}
 
 
+@pytest.mark.slow
 def test_all_files_are_written_or_none(tmp_path, monkeypatch):
     from graphcam.report import sizing_files
 

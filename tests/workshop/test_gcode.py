@@ -10,6 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from over_all import fast_first
 from programs import library, program
 from scipy.spatial import cKDTree
 from test_spline import greatest_distance, sized
@@ -113,7 +114,7 @@ CAMS = {
 }
 
 
-@pytest.fixture(params=CAMS)
+@pytest.fixture(params=fast_first(CAMS, 5))
 def cam(request) -> gc.Cam:
     return CAMS[request.param]()
 

@@ -297,9 +297,10 @@ def test_a_worksheet_has_no_working_drawing(tmp_path: Path) -> None:
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.slow
 def test_a_part_that_cannot_be_ends_the_command_with_one_message(tmp_path: Path) -> None:
     text = (Path(gc.__file__).parent / "data" / "tasks" / "flat.toml").read_text(encoding="utf-8")
-    (tmp_path / "cam.toml").write_text(text + "\n[part]\nbore = 60\n", encoding="utf-8")
+    (tmp_path / "cam.toml").write_text(text + "\n[cam]\nprime_radius = 40\n\n[part]\nbore = 60\n", encoding="utf-8")
     for more in ([], ["--json"]):
         asked = ["solve", str(tmp_path / "cam.toml"), "--working-drawing", *more]
         result = CliRunner().invoke(app, asked if more else [*asked, "--out", str(tmp_path / "out")])
