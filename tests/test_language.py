@@ -220,7 +220,6 @@ def test_what_the_built_in_tasks_show_is_in_their_language_and_takes_no_more_pap
     assert (pages["coursework"], pages["spring"]) == (1, 2)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("spoken", CATALOGS)
 def test_a_player_has_no_english_word(spoken):
     solution = in_language(spoken, "coursework")
