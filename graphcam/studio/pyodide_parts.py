@@ -49,8 +49,15 @@ UNUSED_ENDINGS = (".pyi", ".pxd", ".pyx", ".h", ".c", ".a", "RECORD")
 """Endings of NumPy's files for tests, compilers, type checkers or installers, and transforms that no drawing needs."""
 ROOMS_ABOVE = frozenset({"__main__.py", "cli", "exercises", "notebooks", "bench", "plots", "photo", "sweeps"})
 """The rooms of graphcam that the studio does not need: above it, and sweeps and photographs beside it."""
-UNREAD_FILES = frozenset({"hard_cases.toml", "space.toml"})
-"""The data of such rooms."""
+UNREAD_FILES = frozenset(
+    {
+        *("hard_cases.toml", "space.toml"),
+        *("matplotlib_renderer.py", "dxf_renderer.py", "cad_renderer.py"),
+        *("server.py", "local_studio.py", "widget.py"),
+        *("commented_task.py", "help_texts.py", "examples.toml"),
+    }
+)
+"""The data of such rooms; what needs Matplotlib, ezdxf, a server or a notebook; what writes a new task file."""
 KEPT_ENDINGS = frozenset({".py", ".pyi", ".json", ".po", ".toml", ".csv"})
 """Kinds of files of graphcam that the engine reads; pages, scripts and fonts are not for it."""
 ENGINE_LIBRARIES = ("lazy_loader", "tomli_w", "typing_extensions")
