@@ -73,7 +73,7 @@ def test_a_perfect_pencil_keeps_every_bound(law, seeds):
         assert set(stations_outside(solution.comparison).values()) == {0.0}, seed
 
 
-SEEDS = range(60)
+SEEDS = range(30)
 ALLOWED = 0.015
 """Of the pairs of quantity and seed; beyond three standard deviations lie 0.3 % of a normal law, more if it is skew."""
 

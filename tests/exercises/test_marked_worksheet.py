@@ -254,7 +254,7 @@ def test_a_course_on_paper_is_graded_by_the_keys_of_its_paper(tmp_path: Path):
 
 @pytest.mark.slow
 @BOTH
-@EACH
+@pytest.mark.parametrize("paper", ["A3", "A3-tiles"])
 def test_the_key_has_a_sheet_too(name: str, paper: str):
     exercise = find_exercise(name, paper=paper)
     one, key = issue(exercise, "Anna", SECRET)

@@ -51,8 +51,8 @@ TASKS = {
     "arcs": gc.builtin_arcs_task(),
 }
 
-EXECUTED = ("spring", "arm, distance left open", "flat with a spring", "measured", "arcs")
-"""Every follower and every construction: the cells of the others are among theirs."""
+EXECUTED = ("spring", "arm, distance left open", "arcs")
+"""A stem with a spring, an arm, three arcs: the cells of the others are like theirs."""
 
 
 def written(folder, task):
