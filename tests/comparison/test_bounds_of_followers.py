@@ -14,7 +14,7 @@ from graphcam.errors import DesignError
 from graphcam.solving.solution import Solution
 from graphcam.solving.solve import solve
 
-TASKS = 24
+TASKS = 16
 FOLLOWERS = {"arm": random_arm_task, "flat": random_flat_task}
 OWN = {"arm": {"minimum_distance"}, "flat": {"face_left", "face_right"}}
 """The quantities that other followers do not have."""

@@ -52,6 +52,7 @@ def on_axis(body: ElementStresses) -> np.ndarray:
     return beside[np.argsort(body.depth[beside])]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("which", [0, 1])
 def test_stresses_on_the_axis_are_johnsons(which):
     found = contact(parts=20)

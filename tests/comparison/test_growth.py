@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from over_all import fast_first
 
 from graphcam.comparison.quantities import Comparison
 from graphcam.constructions.working_profile import _covered
@@ -33,7 +34,7 @@ FOLLOWERS = {
     "arm": (OscillatingTable(arm=100.0, distance=120.0, roller_radius=2.0), LimitsTable(40.0, 40.0)),
     "flat": (FlatFacedTable(), LimitsTable(min_curvature_radius=5.0)),
 }
-each_follower = pytest.mark.parametrize("follower", FOLLOWERS)
+each_follower = pytest.mark.parametrize("follower", fast_first(FOLLOWERS))
 
 
 def comparison_of(follower: str, phases: int) -> Comparison:

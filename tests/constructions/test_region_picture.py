@@ -37,11 +37,11 @@ def far_away(seed: int) -> Task:
 
 
 TASKS = {
-    **{f"random {seed}": random_task(seed) for seed in range(12)},
+    **{f"random {seed}": random_task(seed) for seed in range(8)},
     **{f"offset near r₀ {seed}": near_the_prime_radius(seed, (-1.2, 0.95, -0.8, 1.5)[seed % 4]) for seed in range(8)},
     **{f"far away {seed}": far_away(seed) for seed in range(4)},
 }
-ARMS = {f"arm {seed}": random_arm_task(seed) for seed in range(16)}
+ARMS = {f"arm {seed}": random_arm_task(seed) for seed in range(8)}
 
 
 @cache

@@ -161,6 +161,7 @@ def test_a_region_over_the_offset_takes_a_rule_with_the_prime_radius():
     assert len(gc.sizing_sheet(found).pages) == 1
 
 
+@pytest.mark.slow
 def test_the_sheet_of_the_region_is_drawn(tmp_path):
     from graphcam.sheets.matplotlib_renderer import write_pdf, write_png
     from graphcam.sheets.model import Text
@@ -352,6 +353,7 @@ def test_active_limits_are_passed_by_a_move_and_others_are_not(name):
         assert value == pytest.approx(low if end == "least" else high, rel=1e-6, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_base_radius_is_the_prime_radius_less_the_roller():
     """With one roller both ranges say the same; with a range of rollers a grid has no smaller base radius."""
     motion, load, asked = CASES["angle and stress"]

@@ -19,7 +19,7 @@ PACKAGE = Path(gc.__file__).parent
 TASKS = ("coursework", "arm", "flat", "measured", "arcs")
 
 
-@pytest.fixture(scope="module", params=fast_first(TASKS, 2))
+@pytest.fixture(scope="module", params=fast_first(TASKS))
 def solution(request):
     return gc.solve(gc.builtin_arcs_task() if request.param == "arcs" else gc.builtin_task(request.param))
 

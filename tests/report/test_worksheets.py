@@ -59,6 +59,7 @@ def test_a_worksheet_can_be_laid_over_the_finished_sheet() -> None:
         assert {e.at for e in blank} <= {e.at for e in whole[key].entities if isinstance(e, Text)}
 
 
+@pytest.mark.slow
 def test_scales_are_left_blank_until_they_are_found() -> None:
     """Whoever reads mu_s off the sheet need not integrate."""
     scales = [text for text in texts(finished()) if text.startswith("μ") and "mm/mm" in text]

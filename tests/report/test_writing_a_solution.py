@@ -97,6 +97,7 @@ def test_beside_an_unfinished_sheet_stand_no_answers(solution, tmp_path, upto):
     }
 
 
+@pytest.mark.slow
 def test_the_command_line_tells_no_answers_of_a_worksheet(tmp_path, monkeypatch):
     """Neither in its table, nor in its warnings, nor as JSON."""
     (tmp_path / "cam.toml").write_text(

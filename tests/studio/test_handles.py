@@ -68,12 +68,17 @@ def pointers(handle, count, seed=17):
         yield tuple(x + stream.uniform(-REACH, REACH) for x in handle["at"])
 
 
-def each_handle():
-    """All handles of the built-in tasks, those of the cam angle alike in every diagram."""
-    return [pytest.param(name, handle, id=f"{name}-{handle['id']}") for name in BUILT_IN for handle in handles(name)]
+def each_handle(fast=1):
+    """All handles of the built-in tasks, those of the cam angle alike in every diagram; one in ``fast`` is quick."""
+    every = [(name, handle) for name in BUILT_IN for handle in handles(name)]
+    marks = [[] if k % fast == 0 else [pytest.mark.slow] for k in range(len(every))]
+    return [
+        pytest.param(name, handle, id=f"{name}-{handle['id']}", marks=own)
+        for (name, handle), own in zip(every, marks, strict=True)
+    ]
 
 
-@pytest.mark.parametrize(("name", "handle"), each_handle())
+@pytest.mark.parametrize(("name", "handle"), each_handle(fast=3))
 def test_a_handle_follows_the_hand(name, handle):
     """After a drag it lies within a step of the hand, unless the range or the design ends before."""
     followed = 0

@@ -194,6 +194,7 @@ def fields_of(table: Any) -> Iterator[tuple[type, str]]:
                 yield from fields_of(value)
 
 
+@pytest.mark.slow
 def test_every_number_is_the_same_in_every_unit():
     wrong, count = [], 0
     for name, path, value, _, own in NUMBERS:

@@ -48,7 +48,7 @@ def distances(points: np.ndarray, curve: np.ndarray) -> np.ndarray:
     return cKDTree(np.stack([curve.real, curve.imag], axis=-1)).query(np.stack([points.real, points.imag], axis=-1))[0]
 
 
-@over_all(("turned", "rotation"), [(0.4, "ccw"), (1.7, "cw"), (3.9, "ccw"), (5.8, "cw")])
+@over_all(("turned", "rotation"), [(1.7, "cw"), (3.9, "ccw")])
 def test_files_stand_as_the_table_says(turned, rotation):
     made = cam(turned, rotation)
     assert made.motion.zero != 0
