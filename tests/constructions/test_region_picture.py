@@ -41,7 +41,7 @@ TASKS = {
     **{f"offset near r₀ {seed}": near_the_prime_radius(seed, (-1.2, 0.95, -0.8, 1.5)[seed % 4]) for seed in range(8)},
     **{f"far away {seed}": far_away(seed) for seed in range(4)},
 }
-ARMS = {f"arm {seed}": random_arm_task(seed) for seed in range(8)}
+ARMS = {f"arm {seed}": random_arm_task(seed) for seed in range(12)}
 
 
 @cache
