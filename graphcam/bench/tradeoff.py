@@ -56,6 +56,7 @@ def methods(effort: Effort) -> Iterator[Method]:
         return _timed_method(effort, Method(question, name, "sampled", sizes[kind]), work, error)
 
     def drawn(question: str, kind: str, where: BenchFollower, construction: str, reading: str) -> Method:
+        """A row of a reading of a construction, by the number of parts of a phase."""
         method, error = Method(question, "graphical", "graphical", sizes[kind]), partial(error_of, where, construction)
         return _timed_method(
             effort, method, lambda n: where.chain(n)[construction], lambda n: error(reading, where.chain(n))
@@ -77,6 +78,7 @@ def methods(effort: Effort) -> Iterator[Method]:
     ):
 
         def found(n: int, solve: Callable[[rivals.Lines, rivals.Point], float] = solve) -> float:
+            """The minimum prime radius [mm] by n lines."""
             return solve(rivals.translating_lines(free_motion, PERMITTED_ANGLE, n), INNER_POINT)
 
         yield sampled(radius, name, kind, found, lambda n, found=found: abs(found(n) / least - 1))

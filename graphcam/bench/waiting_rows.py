@@ -151,6 +151,7 @@ def dragging(task: dict[str, Any], view: str) -> Callable[[], dict[str, Any]]:
     hold, steps = answer({"task": task, "views": asked})["hold"], count(1)
 
     def next_picture() -> dict[str, Any]:
+        """The answer with the next size."""
         moved = changed_task(task, {path: value_at(task, path) + SIZE_STEP * next(steps)})
         return answer({"task": moved, "views": asked, "hold": hold})
 

@@ -139,6 +139,7 @@ def acceleration_diagram(
     axis, begins = _station_ticks(hand, origin, stations, mu_phi), [span.start for span in stations.phases]
 
     def ordinates(u: Floats, phase: NDArray[np.intp], side: Side = "right") -> Floats:
+        """The ordinates [mm of paper] at parts u of phases; 0 where the velocity jumps."""
         drawn = np.where(motion.in_blow(phase, u, side), 0.0, motion.at(phase, u, side)[2])
         return ordinate / reference * drawn
 

@@ -134,6 +134,7 @@ def _draw_curve(plotted: Construction[AngleDiagramGivens]) -> Step:
     ).with_values(scale=np.degrees(plotted.givens.mu_alpha.per_mm), name=names[k], alpha=degrees[k], y=heights[k])
 
     def mm(k: int) -> Words:
+        """The angle of a station, and its ordinate in mm of paper."""
         said = say("{alpha:z.2f}°, {y:.2f} mm upward") if degrees[k] >= 0 else say("{alpha:.2f}°, {y:.2f} mm downward")
         return said.with_values(alpha=degrees[k], y=abs(heights[k]))
 

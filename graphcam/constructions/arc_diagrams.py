@@ -239,6 +239,7 @@ def _diagram(plotted: Construction[ArcDiagramsGivens], name: str) -> Step:
     values = {"degree": float(np.degrees(mu_phi.per_mm)), "mu": per_mm, "paper": paper, "value": paper * per_mm}
 
     def laid_off(k: int) -> Words:
+        """What is laid off at a station, in mm of paper."""
         place, x = dots.shown[k], round(float(feet.shown[k].real), 2)
         if np.isnan(place):
             return say("nothing was read, so nothing is plotted at {x:g} mm", x=x)

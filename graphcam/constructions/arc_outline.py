@@ -335,6 +335,7 @@ def _profile(arcs: ArcOutline) -> Step:
         middle = say("There is no upper dwell, so the return is mirrored in the line OD itself.")
 
     def of_arc(said: Caption, arc: str, centre: str, name: str) -> Caption:
+        """A sentence on an arc, with its radius in mm and on paper."""
         return said.with_values(arc=arc, centre=centre, name=name, rho=radii[name], paper=radii[name] / mu_l)
 
     said = [

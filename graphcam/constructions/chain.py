@@ -325,17 +325,16 @@ class Chain(Drawings):
         board = self.board
         same = {name: drawn for name, drawn in self.perfect.lying.items() if name in ("acceleration", "integration")}
         other = replace(self.perfect, decided=AdoptedSizes(radius, place, 0.0), done=same)
-        roller = board.roller_radius
-        if roller is None:
+        roller = touching = board.roller_radius
+        if roller is None or touching is None:
             proposed = float(other.roller.value("roller_radius"))
-            roller = max(0.0, multiple(math.floor(proposed / self.rounding + ROUNDING_SLACK), self.rounding))
-        base = radius - max(roller, 0.0)
-        if board.min_profile_radius is None:
-            return Trial(radius, place, math.inf, 0.0, base, board.shaft_radius)
-        # The rule leaves the profile blunt enough, if it leaves a roller at all.
-        touching = roller if board.roller_radius is not None else 0.0 if roller else self.rounding
-        needed = touching + board.min_profile_radius
-        return Trial(radius, place, float(other.curvature.value("rho")), needed, base, board.shaft_radius)
+            roller = self._rounded_roller(proposed) if 0 < proposed < math.inf else 0.0
+            # The rule leaves the profile blunt enough, if it leaves a roller at all.
+            touching = 0.0 if proposed >= self.rounding else self.rounding
+        rho, needed = math.inf, 0.0
+        if board.min_profile_radius is not None:
+            rho, needed = float(other.curvature.value("rho")), touching + board.min_profile_radius
+        return Trial(radius, place, rho, needed, radius - roller, board.shaft_radius)
 
     @cached_property
     def _by_angles(self) -> tuple[float, float]:
@@ -400,7 +399,11 @@ class Chain(Drawings):
             remedy = say("give follower.roller_radius or another rule")
             quantity = say("roller radius by the rule")
             raise DesignError(quantity, say("{length:.4g} mm", length=proposed), say("greater than 0 mm"), remedy)
-        # A roller smaller than the rounding is kept as proposed: rounding it down would leave none.
+        return self._rounded_roller(proposed)
+
+    def _rounded_roller(self, proposed: float) -> float:
+        """The next round number below a proposed roller radius [mm]."""
+        # One smaller than the rounding is kept as proposed: rounding it down would leave none.
         return multiple(math.floor(proposed / self.rounding + ROUNDING_SLACK), self.rounding) or proposed
 
     @property

@@ -16,7 +16,9 @@ from graphcam.exercises.course.course_making import make
 
 pytestmark = pytest.mark.slow
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="nothing is killed so there")
+if sys.platform == "win32":
+    pytest.skip("nothing is killed so there", allow_module_level=True)
+
 NAMES = ("s-1", "s-2")
 AT_RENAME = """
 import os, signal, sys
