@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from html import escape
 from io import BytesIO
 from typing import TYPE_CHECKING
+from urllib.parse import quote
 
 from graphcam.constructions.readings import ReadingRow, rows
 from graphcam.drafting.ink import Construction, Part, Step
@@ -18,6 +19,7 @@ from graphcam.report.documents import contents_of, drawing_of
 from graphcam.report.sheet_contents import all_constructions, chapters_of
 from graphcam.report.step_player import player_of, run_text
 from graphcam.sheets.model import Page
+from graphcam.sheets.svg_renderer import svg
 from graphcam.solving.arcs_solution import AnySolution
 from graphcam.subscripts import in_html
 from graphcam.words import Tell, say, sequence
@@ -30,6 +32,10 @@ if TYPE_CHECKING:
 SHEET_DPI = 65
 """The resolution [dots an inch] at which a sheet of A1 fills a screen."""
 SHADE_COUNT = 16
+BESIDE_RATIO = 0.6
+"""Height to width of a drawing, above which it stands beside the text on paper."""
+SAFE_IN_ADDRESS = " /:;=,()+'"
+"""Signs that stand as they are in the address of a picture."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +47,7 @@ class Picture:
     caption : the line below it; may be empty
 
     >>> print(Picture("<svg/>", "a blank sheet", "Nothing").html)
-    <figure><img src="data:image/svg+xml;base64,PHN2Zy8+" alt="a blank sheet"><figcaption>Nothing</figcaption></figure>
+    <figure><img src="data:image/svg+xml,%3Csvg/%3E" alt="a blank sheet"><figcaption>Nothing</figcaption></figure>
     """
 
     image: str | bytes
@@ -51,9 +57,12 @@ class Picture:
     @property
     def html(self) -> str:
         """The picture as a figure of a web page, the image inside."""
-        kind, data = ("svg+xml", self.image.encode()) if isinstance(self.image, str) else ("png", self.image)
         below = f"<figcaption>{escape(self.caption)}</figcaption>" if self.caption else ""
-        source = f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
+        if isinstance(self.image, str):
+            # A text in an address is shorter than its base64, and with single quotes shorter still.
+            source = "data:image/svg+xml," + quote(self.image.replace('"', "'"), safe=SAFE_IN_ADDRESS)
+        else:
+            source = f"data:image/png;base64,{base64.b64encode(self.image).decode()}"
         return f'<figure><img src="{source}" alt="{escape(self.alt)}">{below}</figure>'
 
     def _repr_mimebundle_(self, **_: object) -> dict[str, str]:
@@ -132,19 +141,15 @@ class Stage:
         """The drawing so far with the current step in colour."""
         if self.page is None:
             return None
-        # The renderer loads matplotlib.
-        from graphcam.sheets.matplotlib_renderer import svg
 
         title, view = self.tell(self.step.title), self.tell(self.step.view.title)
         said = {"view": view, "number": self.number.rstrip("."), "title": title, "caption": self.step.caption}
         alt = say("{view}. Drawn so far, step {number} in colour: {title}. {caption}", **said)
-        return Picture(svg(self.page), self.tell(alt), f"{view}: {title[0].lower()}{title[1:]}")
+        return Picture(svg(self.page, ""), self.tell(alt), f"{view}: {title[0].lower()}{title[1:]}")
 
     @property
     def pictures(self) -> list[Picture]:
         """The drawing as far as each part of the strip, that part in colour."""
-        from graphcam.sheets.matplotlib_renderer import svg
-
         number, places = self.number.rstrip("."), self.step.places
         alt = say("Drawn up to part {part} of step {number}, which is in colour: {caption}", number=number)
         # A sentence of the list above is not said again.
@@ -152,8 +157,8 @@ class Stage:
         found: list[Picture] = []
         for k, page in self.strip.items():
             told = {"part": k + 1, "count": len(places), "caption": places[k].caption}
-            below = said if _is_row(self.step, k) else bare
-            found.append(Picture(svg(page), self.tell(alt.with_values(**told)), self.tell(below.with_values(**told))))
+            words = (alt, said if _is_row(self.step, k) else bare)
+            found.append(Picture(svg(page, ""), *(self.tell(each.with_values(**told)) for each in words)))
         return found
 
     @property
@@ -167,7 +172,8 @@ class Stage:
         shown = self.picture.html if self.picture else ""
         read = "".join(f"<li>{_reading(row, self.tell)}</li>" for row in self.reads)
         readings = f'<ul class="readings">{read}</ul>' if read else ""
-        return f'<section class="step">{words}{shown}{readings}</section>'
+        beside = " beside" * bool(self.page and self.page.height > BESIDE_RATIO * self.page.width)
+        return f'<section class="step{beside}">{words}{shown}{readings}</section>'
 
     def _told(self, part: Part) -> str:
         """A part in words, a run of like parts with its table, as HTML."""
@@ -245,14 +251,12 @@ def drawing(construction: Construction, view: str | None = None, tell: Tell = st
     ------
     DesignError : the construction draws nothing in that view
     """
-    from graphcam.sheets.matplotlib_renderer import svg
-
     of_view = board_of(construction, tell).by_view
     if view is not None and view not in of_view:
         raise DesignError("view", view, say("one of {names}", names=", ".join(of_view)))
     board = of_view[view] if view is not None else next(iter(of_view.values()))
     title = str(board.steps[-1].view.title)
-    return Picture(svg(board.page()), f"{title}. {board.steps[-1].caption}", title)
+    return Picture(svg(board.page(), ""), f"{title}. {board.steps[-1].caption}", title)
 
 
 def show_steps(

@@ -226,7 +226,8 @@ def write_sheet(
     # The renderers take long to load, so they come when there is something to render.
     from graphcam.sheets.cad_renderer import write_cad
     from graphcam.sheets.dxf_renderer import write_dxf
-    from graphcam.sheets.matplotlib_renderer import write_pdf, write_png, write_svg
+    from graphcam.sheets.matplotlib_renderer import write_pdf, write_png
+    from graphcam.sheets.svg_renderer import write_svg
 
     if "pdf" in kinds:
         report(say("writing PDF"))

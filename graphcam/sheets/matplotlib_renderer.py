@@ -1,7 +1,7 @@
-"""PDF, SVG and PNG true to scale, by matplotlib.
+"""PDF and PNG true to scale, by matplotlib.
 
-The figure is the page; nothing is fitted or cropped.  Every group of the drawing is drawn by one artist, which opens a
-group of the renderer (a ``<g>`` of the SVG) and joins all lines of one role into one path.
+The figure is the page; nothing is fitted or cropped.  Every group of the drawing is drawn by one artist, which joins
+all lines of one role into one path.
 
 PNG is written here (ISO/IEC 15948).  A sheet is mostly white, so its rows are compressed as they are.  Imaging
 libraries try five filters on each row first, which takes as long as drawing the sheet, and saves a twentieth of the
@@ -11,12 +11,10 @@ file.
 import cmath
 import math
 import os
-import re
 import struct
 import zlib
 from collections.abc import Iterator, Sequence
 from functools import cache, lru_cache
-from io import StringIO
 from pathlib import Path as File
 from typing import IO, Any, cast
 
@@ -52,15 +50,13 @@ from graphcam.sheets.model import (
 from graphcam.sheets.smooth_curves import bezier
 from graphcam.sheets.styles import STYLES_BY_ROLE
 from graphcam.sheets.text_measures import Letters, letters_of, points_size, start_of
-from graphcam.sheets.typefaces import FALLBACK_FAMILY, FONT_FAMILY, cubic, font_faces
+from graphcam.sheets.typefaces import FALLBACK_FAMILY, FONT_FAMILY, cubic
 
 MM_PER_INCH = 25.4
 POINTS_PER_MM = 72 / MM_PER_INCH
 PAPER_COLOUR = (1.0, 1.0, 1.0, 1.0)
 _RC_SETTINGS: dict[Any, Any] = {
     "pdf.fonttype": 42,
-    "svg.fonttype": "none",
-    "svg.hashsalt": "graphcam",
     "path.simplify": False,
 }
 
@@ -71,23 +67,6 @@ def write_pdf(drawing: Drawing, path: str | os.PathLike[str] | IO[bytes]) -> Non
     with mpl.rc_context(_RC_SETTINGS), PdfPages(path, metadata=about) as pdf:
         for page in drawing.pages:
             pdf.savefig(_figure(page, embeds_cubic=False))
-
-
-def write_svg(page: Page, path: str | os.PathLike[str]) -> None:
-    """Write one page as an SVG file, see :func:`svg`."""
-    File(path).write_text(svg(page), encoding="utf-8", newline="\n")
-
-
-def svg(page: Page) -> str:
-    """The text of a page as SVG: its size in mm, a ``<g id="step-03">`` for each group, texts with their letters."""
-    text = StringIO()
-    with mpl.rc_context(_RC_SETTINGS):
-        _figure(page).savefig(text, format="svg", metadata={"Date": None, "Creator": "graphcam"})
-    # matplotlib gives the size in points.
-    size = f'width="{page.width:g}mm" height="{page.height:g}mm"'
-    sized = re.sub(r'width="[\d.]+pt" height="[\d.]+pt"', size, text.getvalue(), count=1)
-    drawn = (e.text for group in page.groups for e in group.entities if isinstance(e, Text))
-    return sized.replace("<defs>", f'<defs>\n  <style type="text/css">{font_faces(drawn)}</style>', 1)
 
 
 def write_png(page: Page, path: str | os.PathLike[str] | IO[bytes], dpi: float = 100) -> None:
@@ -139,14 +118,12 @@ class _GroupArtist(Artist):
         self.set_in_layout(False)
 
     def draw(self, renderer: RendererBase) -> None:
-        """Draw into the group of the renderer that bears the group's key."""
-        renderer.open_group("group", gid=self.group.key)
+        """Draw the lines and texts of the group."""
         for kind, role, run in _path_runs(self.group):
             if isinstance(run, Path):
                 self._draw_path(renderer, run, kind, role)
             else:
                 self._draw_texts(renderer, run, role)
-        renderer.close_group("group")
 
     @property
     def _times(self) -> float:
@@ -216,7 +193,7 @@ def _font(face: File, height: float) -> FontProperties:
     return FontProperties(family=[FONT_FAMILY, FALLBACK_FAMILY], fname=str(face), size=points_size(height))
 
 
-# PDF, SVG and PNG of a page are drawn one after another from the same paths.
+# PDF and PNG of a page are drawn one after another from the same paths.
 @lru_cache(maxsize=256)
 def _path_runs(group: Group) -> list[tuple[str, str, Path | list[Text]]]:
     """The runs of a group: kind, role, and one path for all lines of a run, or its texts."""

@@ -46,8 +46,20 @@ def _unnumbered(_: Source) -> tuple[None, bool]:
     return None, False
 
 
-def group_svg(group: Group, height: float, numbers: Numbers = _unnumbered) -> str:
+Look = Callable[[str, str, str], str]
+"""The attributes for the looks of an element, by its kind, its role and the alignment of its text."""
+
+
+def _classes(kind: str, role: str, align: str) -> str:
+    """The classes that the page's style sheet knows."""
+    shown = kind + ANCHOR_CLASSES[align] + (f" {role}" if role != kind else "")
+    return f'class="{shown}"'
+
+
+def group_svg(group: Group, height: float, numbers: Numbers = _unnumbered, look: Look = _classes) -> str:
     """The elements of a group as SVG on a page of ``height`` mm; 1 unit is 1 mm, y points down.
+
+    numbers : which act an entity shows; look : how it looks, by default as classes of a style sheet
 
     >>> import numpy as np
     >>> print(group_svg(Group("step-01 a", (Strokes(np.array([0, 5j]), np.array([10, 10 + 5j]), "axis"),)), 297.0))
@@ -55,7 +67,7 @@ def group_svg(group: Group, height: float, numbers: Numbers = _unnumbered) -> st
     """
     pieces = ((place, entity) for whole in group.entities for place, entity in _in_pieces(whole, numbers))
     runs = groupby(pieces, key=lambda piece: (piece[0], kind_of(piece[1]), piece[1].role))
-    return "".join(_run(kind, role, where, [e for _, e in run], height) for (where, kind, role), run in runs)
+    return "".join(_run(kind, role, where, [e for _, e in run], height, look) for (where, kind, role), run in runs)
 
 
 def _in_pieces(entity: Entity, numbers: Numbers) -> Iterator[tuple[str, Entity]]:
@@ -79,19 +91,19 @@ def _role_css(role: str, style: Style) -> str:
     return f".page .{role}{{--width:{style.width:g}px;--print:{style.colour};{dashes}}}"
 
 
-def _run(kind: str, role: str, where: str, run: Iterable[Entity], height: float) -> str:
+def _run(kind: str, role: str, where: str, run: Iterable[Entity], height: float, look: Look) -> str:
     if kind == "text":
-        return "".join(_text(cast(Text, text), where, height) for text in run)
+        return "".join(_text(cast(Text, text), where, height, look) for text in run)
     paths = "".join(_path(entity, height) for entity in run)
-    return f'<path class="{kind} {role}"{where} d="{paths}"/>'
+    return f'<path {look(kind, role, "left")}{where} d="{paths}"/>'
 
 
-def _text(text: Text, where: str, height: float) -> str:
+def _text(text: Text, where: str, height: float, look: Look) -> str:
     x, y = _number(text.at.real), _number(height - text.at.imag)
     size = _size(text.height)
     turn = f' transform="rotate({-math.degrees(text.angle):.2f} {x} {y})"' if text.angle else ""
-    classes = f"text{ANCHOR_CLASSES[text.align]}" + (f" {text.role}" if text.role != "text" else "")
-    return f'<text class="{classes}"{where} x="{x}" y="{y}" font-size="{size}"{turn}>{_letters(text)}</text>'
+    shown = look("text", text.role, text.align)
+    return f'<text {shown}{where} x="{x}" y="{y}" font-size="{size}"{turn}>{_letters(text)}</text>'
 
 
 def _letters(text: Text) -> str:

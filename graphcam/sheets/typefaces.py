@@ -241,10 +241,10 @@ def missing_characters(texts: Iterable[str]) -> str:
     return "".join(character for character in sorted(set("".join(texts))) if face_of(character) is None)
 
 
-def font_faces(texts: Iterable[str]) -> str:
-    """The CSS rules with which a page carries the letters of these texts, under the family's name."""
+def font_faces(texts: Iterable[str], alphabet: str = ALPHABET) -> str:
+    """The CSS rules with which a page carries the letters of these texts and an alphabet, under the family's name."""
     needed = sorted(set("".join(texts)))
-    by_face: dict[Path, str] = {lettering_file(): ALPHABET}
+    by_face: dict[Path, str] = {lettering_file(): alphabet}
     for character in needed:
         if (face := face_of(character)) is not None:
             by_face[face] = by_face.get(face, "") + character

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import base64
 import re
+import subprocess
 from dataclasses import replace
 from html import unescape
+from urllib.parse import unquote
 
 import nbformat
 import pytest
@@ -101,7 +102,7 @@ def test_a_russian_page_has_no_english_word(tmp_path):
     page = re.sub(r"<iframe.*?</iframe>|<style>.*?</style>|<pre.*?</pre>|<annotation.*?</annotation>", "", page,
                   flags=re.DOTALL)  # fmt: skip
     alts = re.findall(r'alt="([^"]*)"', page)
-    pictures = [base64.b64decode(data).decode() for data in re.findall(r"svg\+xml;base64,([^\"]+)", page)]
+    pictures = [unquote(data) for data in re.findall(r"svg\+xml,([^\"]+)", page)]
     lettered = [text for picture in pictures for text in re.findall(r"<text[^>]*>(.*?)</text>", picture, re.DOTALL)]
     assert '<html lang="ru">' in page
     assert len(alts) >= 8
@@ -127,8 +128,7 @@ def test_a_notebook_runs_beside_its_task(name, tmp_path):
     images = re.findall(r"<img[^>]*>", page)
     assert len(images) >= 8
     assert all(re.search(r'alt="[^"]{20,}"', image) for image in images)
-    pictures = [data for image in images for data in re.findall(r';base64,([^"]+)', image)]
-    assert max(len(base64.b64decode(picture)) for picture in pictures) <= 300_000
+    assert max(map(len, images)) <= 200_000
 
 
 def test_the_command_writes_notebook_page_and_print(tmp_path):
@@ -137,7 +137,10 @@ def test_the_command_writes_notebook_page_and_print(tmp_path):
     assert done.exit_code == 0, done.output
     folder = tmp_path / "lesson"
     assert {path.name for path in folder.iterdir()} == {"notebook.ipynb", "notebook.html", "notebook.pdf", "task.toml"}
-    assert (folder / "notebook.pdf").read_bytes().startswith(b"%PDF")
+    about = subprocess.run([program("pdfinfo"), folder / "notebook.pdf"], capture_output=True, text=True, check=True)
+    # What a student prints, and what a learning platform takes.
+    assert 10 <= int(re.search(r"Pages: +(\d+)", about.stdout)[1]) <= 25
+    assert (folder / "notebook.ipynb").stat().st_size <= 3_000_000
     assert any(cell.get("outputs") for cell in nbformat.read(folder / "notebook.ipynb", 4).cells)
     with opened(folder / "notebook.html") as (shown, wrong):
         assert shown.locator("figure img").count() > 20

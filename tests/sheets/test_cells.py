@@ -12,11 +12,12 @@ from hypothesis.extra.numpy import arrays
 
 from graphcam.sheets.dxf_renderer import write_dxf
 from graphcam.sheets.marked_paper import bar, cells, in_tiles, square
-from graphcam.sheets.matplotlib_renderer import svg, write_png
+from graphcam.sheets.matplotlib_renderer import write_png
 from graphcam.sheets.model import Box, Drawing, Group, Page, Polygons, Strokes, moved_entity
 from graphcam.sheets.player_svg import group_svg
 from graphcam.sheets.sampling import box_of
 from graphcam.sheets.styles import LIGHT_ROLES
+from graphcam.sheets.svg_renderer import svg
 
 DARK = np.array([[1, 1, 0], [0, 1, 0], [1, 0, 1]], dtype=bool)
 CODE = cells(DARK, 5 + 5j, 2.0)
@@ -68,7 +69,7 @@ def test_a_page_and_the_player_have_them_as_paths():
         == '<path class="filled frame" d="M0 10L2 10L2 8L0 8Z"/>'
     )
     text = svg(page(square(12 + 2j, 3.0, LIGHT_ROLES["colour"])))
-    assert "fill: #a6e3fa" in text
+    assert '<path fill="#a6e3fa" d="M12 13L15 13L15 10L12 10Z"/>' in text
 
 
 def test_a_bar_is_ruled():

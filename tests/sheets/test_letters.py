@@ -31,10 +31,11 @@ from graphcam.report.documents import sheet_of
 from graphcam.report.markdown import FORMULA_PATTERN
 from graphcam.sheets import typefaces
 from graphcam.sheets.dxf_renderer import write_dxf
-from graphcam.sheets.matplotlib_renderer import svg, write_pdf, write_png
+from graphcam.sheets.matplotlib_renderer import write_pdf, write_png
 from graphcam.sheets.model import Box, Drawing, Group, Page, Text
 from graphcam.sheets.sampling import corners
 from graphcam.sheets.sheet_frame import TitleBlock, title_block
+from graphcam.sheets.svg_renderer import svg
 from graphcam.sheets.text_measures import extent, index_height, letters_of, points_size, width, wrap
 
 RUSSIAN, GREEK = "АБВГДЕЁЖЗИЙКЛМНОПРСТУФХЦЧШЩЪЫЬЭЮЯабвгдеёжзийклмнопрстуфхцчшщъыьэюя", "αβγδεμνπρστφψωΔΣ"
