@@ -26,8 +26,8 @@ def svg(page: Page, alphabet: str = ALPHABET) -> str:
     alphabet : letters that the file carries beside those of its texts
 
     >>> from graphcam.sheets.model import Box
-    >>> print(svg(Page(210.0, 297.0, Box(20, 5, 205, 292), ())).splitlines()[1][39:104])
-    width="210mm" height="297mm" viewBox="0 0 210 297" stroke-linejoin
+    >>> print(svg(Page(210.0, 297.0, Box(20, 5, 205, 292), ())).splitlines()[1][40:90])
+    width="210mm" height="297mm" viewBox="0 0 210 297"
     """
     size = f'width="{page.width:g}mm" height="{page.height:g}mm" viewBox="0 0 {page.width:g} {page.height:g}"'
     looks = f'stroke-linejoin="round" font-family="{FONT_FAMILY}, {FALLBACK_FAMILY}"'
