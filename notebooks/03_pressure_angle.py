@@ -71,7 +71,7 @@ from graphcam.notebooks import Question, Slider, chart, compared, explore, lesso
 # notebook 4; here take it as given.
 
 # %%
-task = lesson_task("task.toml", follower="translating")
+task = lesson_task("task.toml", "translating")
 solution = gc.solve(task)
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]

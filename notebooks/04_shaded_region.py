@@ -82,7 +82,7 @@ from graphcam.notebooks import (
 # on the return. The follower's offset is to be found.
 
 # %%
-task = changed(lesson_task("task.toml", follower="translating"), {
+task = changed(lesson_task("task.toml", "translating"), {
     "follower.offset": None,
     "limits.pressure_angle_rise": 30.0,
     "limits.pressure_angle_return": 50.0,

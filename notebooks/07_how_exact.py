@@ -104,12 +104,12 @@ axes.legend(fontsize=8)
 axes.set_xticks(n, [f"{int(k)}" for k in n], minor=False)
 axes.minorticks_off()
 best = int(n[np.argmin(both)])
+straight = method[-1] < 1e-6  # straight ordinates leave no error of the method
 picture_of(figure, f"Error against the number of parts, both axes logarithmic: the ideal pencil's error falls steadily from {method[0]:.1f} to {method[-1]:.2f} "
            f"percent; that of a 0.2 mm pencil falls to {both.min():.1f} percent at {best} parts and is {both[-1]:.1f} percent at {int(n[-1])}.",
            f"More parts help an ideal pencil; a real one is best at {best}")
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
-straight = method[-1] < 1e-6  # straight ordinates leave no error of the method
 assert straight or abs(np.polyfit(np.log(n[3:]), np.log(method[3:]), 1)[0] + 2) < 0.3
 assert both[-1] > both.min() * 1.2
 
@@ -159,9 +159,9 @@ table(("act: share of the variance, %", *shares), [
 
 # %% jupyter={"source_hidden": true} tags=["remove-cell"]
 assert all(abs(row[5] ** 2 - row[3] ** 2 - row[4] ** 2) < 1e-6 for row in budget)
-worst = max(budget, key=lambda row: row[5])
 
 # %% jupyter={"source_hidden": true} tags=["remove-input"]
+worst = max(budget, key=lambda row: row[5])
 Markdown(f"The weak point is the {worst[0]}: {worst[5]:.1f} %, of which the bias is {abs(worst[3]):.1f} %. "
          f"The best of the three is the {min(budget, key=lambda row: row[5])[0]}, good to {min(row[5] for row in budget):.1f} %.")
 

@@ -54,7 +54,7 @@ from graphcam.report.documents import sheet_of
 # ## The sheet
 
 # %%
-task = lesson_task("task.toml", follower="translating")
+task = lesson_task("task.toml", "translating")
 solution = gc.solve(task)
 picture_of_page(sheet_of(solution).pages[0], "The finished coursework sheet: three diagrams one under the other with their poles, beside the displacement the combined "
                 "diagram with the shaded region, the cam profile with its inversion lines, tables and title block.", "The finished sheet")

@@ -117,6 +117,8 @@ def test_the_wheel_holds_tasks_and_types(tmp_path):
     assert {"graphcam/py.typed", "graphcam/data/examples.toml", "graphcam/cli/solve.py"} <= held
     assert "graphcam/exercises/library/whole-cam.toml" in held
     assert "graphcam/data/fonts/osifont.ttf" in held
+    course = {path.name for path in (ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb")} | {"hard_cases.toml"}
+    assert {name.split("/")[-1] for name in held if name.startswith("graphcam/notebooks/course/")} == course
     licences = f"graphcam-{graphcam.__version__}.dist-info/licenses"
     assert {f"{licences}/LICENSE", f"{licences}/graphcam/data/fonts/osifont-licence.txt"} <= held
     assert {name.split("/")[0] for name in held} == {"graphcam", f"graphcam-{graphcam.__version__}.dist-info"}

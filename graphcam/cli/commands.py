@@ -41,8 +41,16 @@ def notebook(
     language: Annotated[
         str | None, Option(metavar="NAME", help="Language of the captions, instead of the task's.")
     ] = None,
+    course: Annotated[
+        Path | None,
+        Option(
+            parser=nonempty_path,
+            metavar="DIR",
+            help="Write the whole course for this task instead: the student's edition, and the teacher's with answers.",
+        ),
+    ] = None,
 ) -> None:
-    """Write the step-by-step notebook of a task.
+    """Write the step-by-step notebook of a task, or the course of notebooks for it.
 
     [bold]Examples[/bold]
 
@@ -52,6 +60,8 @@ def notebook(
 
     graphcam notebook cam.toml --out lesson --html --pdf
 
+    graphcam notebook cam.toml --course course --html
+
     To execute it you need the extra "notebooks": in the folder of graphcam's source, pip install ".\\[notebooks]"
     """
     voice().choose(language)
@@ -60,10 +70,15 @@ def notebook(
         if language is not None:
             given = replace(given, drawing=replace(given.drawing, language=language))
         # Loads nbconvert: only when the input has been found right.
+        from graphcam.notebooks.course_editions import write_course
         from graphcam.notebooks.notebook_folder import write_folder
 
         with errors_name(task):
-            files = write_folder(given, out, run=run, html=html, pdf=pdf, progress=progress_lines(quiet=False))
+            if course is not None:
+                out = course
+                files = write_course(given, out, html=html, pdf=pdf, progress=progress_lines(quiet=False))
+            else:
+                files = write_folder(given, out, run=run, html=html, pdf=pdf, progress=progress_lines(quiet=False))
     typer.echo(f"{out}: " + ", ".join(files))
 
 

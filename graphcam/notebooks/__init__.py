@@ -19,7 +19,7 @@ from graphcam.notebooks.construction_stages import (
     show_steps,
 )
 from graphcam.notebooks.explore import Slider, changed, explore, lesson_task
-from graphcam.notebooks.question import Question
+from graphcam.notebooks.question import Question, kept_questions
 from graphcam.notebooks.shown_tables import compared, error_budget, table
 
 __all__ = [
@@ -32,6 +32,7 @@ __all__ = [
     "drawing",
     "error_budget",
     "explore",
+    "kept_questions",
     "lesson_task",
     "picture_of",
     "picture_of_page",

@@ -142,15 +142,15 @@ def _replaced(table: Any, name: str, path: list[str], value: Any) -> Any:
     return dataclasses.replace(table, **{path[0]: value})
 
 
-def lesson_task(file: Path | str, *, follower: str | None = None, by_laws: bool = False) -> Task:
+def lesson_task(file: Path | str, *followers: str, by_laws: bool = False) -> Task:
     """The task of a lesson; where it is not what the lesson needs, the built-in cam by another law: a line says so.
 
-    follower : the kind that is needed; by_laws : whether a motion by laws is
+    followers : the kinds of which one is needed, of none any; by_laws : whether a motion by laws is
     """
     task = load_task(file)
     if (
         isinstance(task, Task)
-        and follower in (None, task.follower.kind)
+        and (not followers or task.follower.kind in followers)
         and (task.motion.phases is not None or not by_laws)
     ):
         return task

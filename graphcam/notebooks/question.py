@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import base64
+import json
 import math
 import re
-from collections.abc import Callable, Mapping
+import zlib
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
 from typing import Literal
@@ -32,6 +35,9 @@ ANSWER_PATTERN = re.compile(rf"([-+{MINUS_SIGN}]?[\d.,\s]*[\d.,](?:[eE][-+]?\d+)
 """A number, and a unit behind it if there is one."""
 ROUGH_TOLERANCES = 2.0
 """The error, in tolerances, up to which a wrong answer counts as the right way done roughly."""
+QUESTIONS_FILE = "questions.json"
+"""The file of the teacher with all questions of a course, by notebook and by the name of the student's number."""
+KEPT_FIELDS = "value", "tolerance", "unit", "look", "mistakes", "found_by", "bias"
 FoundBy = Literal["drawing", "calculation", "counting"]
 """How the reader comes to the number."""
 
@@ -211,6 +217,26 @@ class Question:
 
     def _tolerance_at(self, wrong: float) -> float:
         return self.tolerance * max(1.0, abs(wrong / self.value) if self.value else 1.0)
+
+
+def kept_text(questions: Sequence[Question]) -> str:
+    """Questions as one text, so that who reads a notebook does not read their answers: no secret, but out of sight."""
+    fields = [
+        [getattr(question, name) if name != "mistakes" else dict(question.mistakes) for name in KEPT_FIELDS]
+        for question in questions
+    ]
+    return base64.b64encode(zlib.compress(json.dumps(fields, ensure_ascii=False).encode(), 9)).decode("ascii")
+
+
+def kept_questions(text: str) -> tuple[Question, ...]:
+    """The questions that :func:`kept_text` kept.
+
+    >>> (radius,) = kept_questions(kept_text([Question(43.28, 0.6, "mm", "step 5", {"on paper": 72.13})]))
+    >>> radius.check(43.0).status, radius.mistakes
+    ('right', {'on paper': 72.13})
+    """
+    fields = json.loads(zlib.decompress(base64.b64decode(text)))
+    return tuple(Question(**dict(zip(KEPT_FIELDS, each, strict=True))) for each in fields)
 
 
 def _number(given: object, unit: str) -> float | None:

@@ -95,7 +95,7 @@ def test_the_hard_cases_of_the_course_are_those_of_the_table():
 def test_a_lesson_that_needs_another_follower_goes_on_with_the_built_in_cam(name, goes_on, tmp_path, capsys):
     for file, text in task_files(gc.builtin_task(name)).items():
         (tmp_path / file).write_text(text, encoding="utf-8")
-    task = lesson_task(tmp_path / "task.toml", follower="translating")
+    task = lesson_task(tmp_path / "task.toml", "translating")
     assert (task != gc.builtin_task(name)) is goes_on
     assert ("Markdown object" in capsys.readouterr().out) is goes_on
     assert task.follower.kind == "translating"

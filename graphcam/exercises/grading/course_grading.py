@@ -37,6 +37,7 @@ from graphcam.exercises.grading.empty_submissions import (
 )
 from graphcam.exercises.grading.grade_one import Assignment, Submission, grade, read_hand_in, unmarked
 from graphcam.exercises.grading.gradebook import ENTERED_FILE, check_gradebook, enter_scores
+from graphcam.exercises.grading.notebook_marks import course_questions, grade_notebooks
 from graphcam.exercises.grading.overrides import OVERRIDES_FILE, Override, overridden, read_overrides
 from graphcam.exercises.marking.copy_detection import alike_pairs
 from graphcam.exercises.marking.record import is_handed_in
@@ -216,6 +217,10 @@ def grade_course(course: Course, step: Callable[[int, int], None] = lambda done,
     GraphcamError : wrong input, or a level of isolation that there is not here
     """
     _check_places(course)
+    if questions := course_questions(course.folder):
+        given = {"--feedback": course.feedback, "--gradebook": course.gradebook, "--overrides": course.overrides}
+        with unpacked(course.folder) as (handed_in, _):
+            return grade_notebooks(handed_in, course.out, questions, given)
     folder, kept = AnswerKeys.of(course.folder)
     if not course.folder.is_dir() and not kept.course():
         remedy = say("put it beside the folder 'teacher' of its course, or unpack it")
