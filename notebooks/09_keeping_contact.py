@@ -181,7 +181,8 @@ explore(
 #
 # $$ m\,(a\,\omega^2 + v\,\varepsilon) = N\,(\cos\alpha - \mu\sin\alpha) - (F_0 + c\,s) - P . $$
 #
-# What is left of a unit of normal force, $\tau = \cos\alpha - \mu\sin\alpha$, is the **transmission coefficient**. Where it falls to zero, at $\tan\alpha = 1/\mu$, no
+# Here $N$ is the normal force, $\varepsilon$ the angular acceleration of the camshaft (0 at a steady speed) and $P$ what the machine's work presses against the
+# follower. What is left of a unit of normal force, $\tau = \cos\alpha - \mu\sin\alpha$, is the **transmission coefficient**. Where it falls to zero, at $\tan\alpha = 1/\mu$, no
 # force, however large, moves the follower: it **jams**. On the return $\alpha$ is negative, and friction carries part of the load.
 #
 # With $\mu = 0.15$ that would be at 81°. Why then is 30° the usual limit? Because of the **guide**. The side force $N\sin\alpha$ acts below its two bearings and tilts the stem,

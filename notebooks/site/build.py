@@ -33,6 +33,10 @@ from graphcam.notebooks.notebook_execution import execute
 HERE = Path(__file__).parent
 COURSE = HERE.parent
 NOTEBOOKS = sorted(COURSE.glob("[0-9][0-9]_*.py"))
+NEEDED = "task.toml", "hard_cases.toml"
+"""What the notebooks read beside them."""
+CONTENTS_PATTERN = re.compile(r"# (\d+\. .*?) \*\*Aim\..*\*\*You need\*\* (.*)\*\*Time:\*\* ([^.]*)")
+"""Title, needs and time in a notebook's first cell."""
 GALLERY = {
     "coursework": "A translating roller follower: constant acceleration, the cam turns clockwise.",
     "arm": "An oscillating follower.",
@@ -87,11 +91,15 @@ def build(
         for name in PICTURES:
             shutil.copy(COURSE.parent / ".readme" / name, source)
         shutil.copy(COURSE.parent / "exercises" / "README.md", source / "exercises.md")
+        for name in NEEDED:
+            shutil.copy(COURSE / name, source / "course" / name)
         for path in NOTEBOOKS:
             lesson = notebook(path)
             if pyodide:
                 lesson.cells[0].source += f"\n\n{try_it(path.stem)}"
+            lesson.cells[0].source += f"\n\n{{download}}`Download this notebook <{path.stem}.ipynb>`"
             nbformat.write(lesson, source / "course" / f"{path.stem}.ipynb")
+        write_contents(source / "course" / "index.md")
         if pyodide:
             write_studio(source, out / FOLDER, pyodide)
         write_gallery(source / "gallery", sheets)
@@ -102,6 +110,17 @@ def build(
         return build_main(
             ["-q", "-W", "--keep-going", "-b", "html", "-c", str(HERE), "-d", f"{folder}/doctrees", str(source), str(out)]
         )
+
+
+def write_contents(index: Path) -> None:
+    """The table of the course on its page: what each notebook is about, what it needs, how long it takes."""
+    rows = ["| notebook | you need | time |", "|---|---|---|"]
+    for path in NOTEBOOKS:
+        first = " ".join(stored(path).cells[0].source.split())
+        title, needs, time = CONTENTS_PATTERN.search(first).groups()  # pyright: ignore[reportOptionalMemberAccess]
+        rows.append(f"| [{title.strip()}]({path.stem}.ipynb) | {needs.strip()} | {time.strip()} |")
+    text = index.read_text(encoding="utf-8")
+    index.write_text(text.replace("\n```{toctree}", "\n" + "\n".join(rows) + "\n\n```{toctree}", 1), encoding="utf-8")
 
 
 def write_shown(out: Path) -> None:
