@@ -196,7 +196,7 @@ second_ordinate.check(your_second_ordinate)
 laws = ("cosine", "cycloidal", "2-3", "3-4-5")
 moving = [k for k, phase in enumerate(task.motion.phases) if hasattr(phase, "law")]
 gc.studio(task, view="acceleration", stills={
-    f"law of rise and return: {law}": {f"motion.phases[{k}].law": law for k in moving} for law in laws})
+    f"law of rise and return: {law}": {f"motion.phases[{k}].{key}": value for k in moving for key, value in (("ratio", 1), ("law", law))} for law in laws})
 
 # %% [markdown]
 # ## Drawn and exact

@@ -55,7 +55,7 @@ from graphcam.tasks.task import SpringTable
 
 # %%
 speed, mass, stiffness = 400.0, 0.5, 3.0
-task = changed(lesson_task("task.toml", "translating"), {"speed_rpm": speed, "spring": SpringTable(mass=mass, stiffness=stiffness)})
+task = changed(lesson_task("task.toml", "translating", roller=True), {"speed_rpm": speed, "spring": SpringTable(mass=mass, stiffness=stiffness)})
 solution = gc.solve(task)
 design = solution.spring
 omega = speed * 2 * np.pi / 60

@@ -11,6 +11,7 @@ on places that are refined.  It rests if two places explain the rows better than
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
@@ -32,6 +33,8 @@ MAX_LEVEL_DEVIATION = 6.0
 """The rows of a rest are off their level by less than this [sd of the noise]."""
 STOP_DEVIATION, STOP_LEG_SHARE = 100.0, 0.15
 """A stop is judged by rows that are off its level by no more than this [sd of the noise] and part of the leg, ..."""
+MAX_STOP_ROWS, MIN_WAY_ROWS = 512, 32
+"""Of more rows about a stop the means of neighbours are looked at, which tell as much where so many lie on its way."""
 MIN_STOP_ROWS = 5
 """The minimum number of rows on either side by which a stop is judged."""
 SLOW_FACTOR = 2.0
@@ -83,6 +86,27 @@ class StopRows:
     reach: tuple[float, float]
     noise: float
 
+    @property
+    def joined(self) -> int:
+        """How many neighbours one mean is made of: 1 where there are few rows, or few on the way."""
+        before, after = self.reach
+        way = min(np.count_nonzero(self.x < -before), np.count_nonzero(self.x > after))
+        return max(1, min(-(-self.x.size // MAX_STOP_ROWS), way // MIN_WAY_ROWS))
+
+    @property
+    def means(self) -> StopRows:
+        """The means of neighbours; rows that are over at the end are left out.
+
+        >>> StopRows(np.arange(-512.0, 513), np.ones(1025), (1, 1), (400.0, 400.0), 0.3).means.x[:3].tolist()
+        [-511.0, -508.0, -505.0]
+        """
+        count = self.joined
+        if count == 1:
+            return self
+        whole = self.x.size // count * count
+        x, y = (ordered_sum(each[:whole].reshape(-1, count)) / count for each in (self.x, self.y))
+        return replace(self, x=x, y=y, noise=self.noise / math.sqrt(count))
+
     def leaving(self, side: int, places: Floats, since: Floats, powers: Floats) -> _Squares:
         """The least squares of rows from ``since`` on, for a motion that leaves at the places; backwards before 0."""
         x, y = (self.x, self.y) if side else (-self.x[::-1], self.y[::-1])
@@ -115,10 +139,11 @@ def find_stop(rows: StopRows, shortest: float) -> StopInterval:
     >>> np.degrees([stop.start, stop.end]).round(3).tolist(), stop.powers
     ([-7.0, 7.0], (3, 3))
     """
+    table, rows = rows, rows.means
     variance = rows.noise**2
     freedom = variance * max(rows.x.size - 7, 1)
     turnings, places, powers = _best_turnings(rows)
-    resting, (before, after), left_by = _best_dwell(rows)
+    resting, (before, after), left_by, level = _best_dwell(rows)
     long = before + after >= LONG_REST_SHARE * (rows.x[-1] - rows.x[0])
     prices = ordered_sum(FLAT_PENALTIES[powers - END_POWERS[0]]) if long else 0.0
     best = int(np.argmin(turnings + prices * variance))
@@ -126,6 +151,9 @@ def find_stop(rows: StopRows, shortest: float) -> StopInterval:
         turning = float(turnings[best])
         place = float(places[best]) if np.isfinite(turning) else 0.0
         return StopInterval(place, place, (int(powers[best, 0]), int(powers[best, 1])), turning / freedom)
+    if table is not rows:
+        ends = enumerate(zip((before, after), left_by, strict=True))
+        before, after = (_at_row(table, side, end, power, level)[1] for side, (end, power) in ends)
     return StopInterval(-before, after, left_by, resting / freedom)
 
 
@@ -147,8 +175,8 @@ def _best_turnings(rows: StopRows) -> tuple[Floats, Floats, NDArray[np.intp]]:
     return squares, centre, np.stack([before, after], axis=1)
 
 
-def _best_dwell(rows: StopRows) -> tuple[float, list[float], tuple[int, int]]:
-    """The least sum of squares of a motion that rests at 0, how long before and after, and its powers."""
+def _best_dwell(rows: StopRows) -> tuple[float, list[float], tuple[int, int], float]:
+    """The least sum of squares of a motion that rests at 0, how long before and after, its powers, and its level."""
     level = float(rows.y[np.argmin(np.abs(rows.x))])
     low: list[Floats] = [np.zeros(END_POWERS.size)] * 2
     high: list[Floats] = [np.full(END_POWERS.size, far) for far in rows.reach]
@@ -170,7 +198,7 @@ def _best_dwell(rows: StopRows) -> tuple[float, list[float], tuple[int, int]]:
         weights, levels, _, _ = zip(*found, strict=True)
         level = float(np.average(levels, weights=weights))
     ends = [_at_row(rows, side, end, power, level) for side, (_, _, end, power) in enumerate(found)]
-    return sum(cost for cost, _ in ends), [end for _, end in ends], (found[0][3], found[1][3])
+    return sum(cost for cost, _ in ends), [end for _, end in ends], (found[0][3], found[1][3]), level
 
 
 def _closer(places: Floats, best: NDArray[np.intp]) -> tuple[Floats, Floats, Floats]:
@@ -186,9 +214,12 @@ def _at_row(rows: StopRows, side: int, end: float, power: int, level: float) -> 
     level : of the rest
     """
     x = np.abs(rows.x[rows.x * (side - 0.5) > 0])
-    places = np.array([end, x[np.argmin(np.abs(x - end))]])
-    squares = rows.leaving(side, places, np.zeros(2), np.full(2, power)).at(level)
-    k = int(squares[1] <= squares[0] + ROW_SNAP * rows.noise**2)
+    # As near as the means of rows may have moved it.
+    count = 2 * rows.joined - 1
+    places = np.append(end, x[np.argsort(np.abs(x - end), kind="stable")[:count]])
+    squares = rows.leaving(side, places, np.zeros(places.size), np.full(places.size, power)).at(level)
+    k = 1 + int(np.argmin(squares[1:]))
+    k *= int(squares[k] <= squares[0] + ROW_SNAP * rows.noise**2)
     return float(squares[k]), float(places[k])
 
 
@@ -279,10 +310,7 @@ def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float) -> tuple[l
         raise DesignError("tolerance", tolerance, limit)
     flats = _with_intermediate_dwells(around, rows, flats, noise, MIN_LEG_LIFT * tolerance)
     gap = FULL_TURN / s.size
-    neighbours = zip([flats[-1].shifted(-s.size), *flats], flats, [*flats[1:], flats[0].shifted(s.size)], strict=False)
-    found = [_stop(around, rows, near, noise, gap) for near in neighbours]
-    # On a leg's way a stop without a rest is none.
-    stops = [(flat, stop) for flat, (stop, turns) in zip(flats, found, strict=True) if turns or stop.end > stop.start]
+    stops = _stops(around, rows, flats, noise, gap)
     ends = [(flat.level, *_to_the_turn(*_ends(stop, gap), gap)) for flat, stop in stops]
     first = ends[0]
     legs = [
@@ -291,7 +319,27 @@ def find_legs(phi: Floats, s: Floats, tolerance: float, noise: float) -> tuple[l
             [*ends, (first[0], first[1] + FULL_TURN, first[2] + FULL_TURN)]
         )
     ]
-    return legs, float(np.sqrt(max(stop.misfit for stop, _ in found)))
+    return legs, float(np.sqrt(max(stop.misfit for _, stop in stops)))
+
+
+def _stops(
+    around: Floats, rows: Floats, flats: list[_LevelRows], noise: float, gap: float
+) -> list[tuple[_LevelRows, StopInterval]]:
+    """The flats at which the motion turns or rests, each with its stop.
+
+    On a leg's way a stop without a rest is none.  Slow rows beside a rest may look like one, and leave few rows by
+    which the rest is judged: without them it is judged once more.
+    """
+    n = rows.size // 3
+    judged: dict[tuple[_LevelRows, _LevelRows, _LevelRows], tuple[StopInterval, bool]] = {}
+    while True:
+        neighbours = [*zip([flats[-1].shifted(-n), *flats], flats, [*flats[1:], flats[0].shifted(n)], strict=False)]
+        judged |= {near: _stop(around, rows, near, noise, gap) for near in neighbours if near not in judged}
+        found = ((near[1], *judged[near]) for near in neighbours)
+        stops = [(flat, stop) for flat, stop, turns in found if turns or stop.end > stop.start]
+        if len(stops) == len(flats):
+            return stops
+        flats = [flat for flat, _ in stops]
 
 
 def _turnings(s: Floats, depth: float) -> list[int]:

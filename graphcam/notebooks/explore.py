@@ -142,16 +142,17 @@ def _replaced(table: Any, name: str, path: list[str], value: Any) -> Any:
     return dataclasses.replace(table, **{path[0]: value})
 
 
-def lesson_task(file: Path | str, *followers: str, by_laws: bool = False) -> Task:
+def lesson_task(file: Path | str, *followers: str, by_laws: bool = False, roller: bool = False) -> Task:
     """The task of a lesson; where it is not what the lesson needs, the built-in cam by another law: a line says so.
 
-    followers : the kinds of which one is needed, of none any; by_laws : whether a motion by laws is
+    followers : the kinds of which one is needed, of none any; by_laws, roller : whether a motion by laws is, and a roller
     """
     task = load_task(file)
     if (
         isinstance(task, Task)
         and (not followers or task.follower.kind in followers)
         and (task.motion.phases is not None or not by_laws)
+        and not (roller and task.follower.roller_radius == 0)
     ):
         return task
     needed = say("This lesson needs another follower, or a motion by laws: it goes on with the built-in cam.")

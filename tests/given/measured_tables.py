@@ -1,6 +1,6 @@
 """Random measured tables with reading noise, run-out and jumps: which dwells are found, and which are lost or false.
 
-``python tests/given/measured_tables.py --cases 500 --seed 1`` prints a line for each law, kind of table and step of the
+``python tests/given/measured_tables.py --cases 500 --seed 1``, of dense rows with ``--step 0.1``, prints a line for each law, kind of table and step of the
 rows: how many dwells were found, how many of these have an end that is off by more than noise hides, how many were
 lost, how many were found where there is none, and how many tables were refused.  For as many lobes of arcs under a
 flat face, whose acceleration jumps, it prints how many are smoothed to a motion that is undercut, for how many that is
@@ -75,8 +75,10 @@ def _dwells(motion: Motion, zero: float) -> list[tuple[float, float]]:
     return found
 
 
-def random_table(seed: int, k: int) -> MeasuredTable:
+def random_table(seed: int, k: int, given_step: float = 0.0) -> MeasuredTable:
     """Table k of a seed: 1 to 3 dwells of 30 degrees or more among rises and returns of one law.
+
+    given_step : of the rows [degrees], instead of a random one
 
     >>> random_table(1, 0).kind
     'four decimals'
@@ -84,6 +86,7 @@ def random_table(seed: int, k: int) -> MeasuredTable:
     random = np.random.default_rng([seed, k])
     kind, law = KINDS[k % len(KINDS)], LAWS[k // len(KINDS) % len(LAWS)]
     step = float(random.choice(STEPS.get(kind, USUAL_STEPS)))
+    step = given_step or step
     motion = _random_motion(random, law)
     phi = np.radians(np.arange(0.0, 360.0, step))
     s = motion(phi)[0]
@@ -144,10 +147,10 @@ def _common(one: tuple[float, float], other: tuple[float, float]) -> float:
     return max(min(one[1], end) - max(one[0], begin) for begin, end in turns)
 
 
-def outcomes(cases: int, seed: int) -> Iterator[tuple[MeasuredTable, Counter[str]]]:
-    """The tables of a seed, and what came of each."""
+def outcomes(cases: int, seed: int, step: float = 0.0) -> Iterator[tuple[MeasuredTable, Counter[str]]]:
+    """The tables of a seed, and what came of each; ``step`` of the rows [degrees], 0 for the usual ones."""
     for k in range(cases):
-        table = random_table(seed, k)
+        table = random_table(seed, k, step)
         yield table, outcome(table)
 
 
@@ -191,9 +194,10 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--cases", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--step", type=float, default=0.0, help="of the rows, in degrees, instead of the usual ones")
     asked = parser.parse_args(arguments)
     total: dict[tuple[str, ...], Counter[str]] = {}
-    for table, count in outcomes(asked.cases, asked.seed):
+    for table, count in outcomes(asked.cases, asked.seed, asked.step):
         for key in ((table.law, table.kind, f"{table.step:g}"), ("all", table.kind, ""), ("all", "", "")):
             total.setdefault(key, Counter()).update(count)
     columns = "found", "off", "lost", "false", "refused"
