@@ -145,7 +145,8 @@ def _replaced(table: Any, name: str, path: list[str], value: Any) -> Any:
 def lesson_task(file: Path | str, *followers: str, by_laws: bool = False, roller: bool = False) -> Task:
     """The task of a lesson; where it is not what the lesson needs, the built-in cam by another law: a line says so.
 
-    followers : the kinds of which one is needed, of none any; by_laws, roller : whether a motion by laws is, and a roller
+    followers : the kinds of which one is needed, of none any
+    by_laws, roller : whether a motion by laws is needed, and a roller
     """
     task = load_task(file)
     if (

@@ -1,10 +1,11 @@
 """Random measured tables with reading noise, run-out and jumps: which dwells are found, and which are lost or false.
 
-``python tests/given/measured_tables.py --cases 500 --seed 1``, of dense rows with ``--step 0.1``, prints a line for each law, kind of table and step of the
-rows: how many dwells were found, how many of these have an end that is off by more than noise hides, how many were
-lost, how many were found where there is none, and how many tables were refused.  For as many lobes of arcs under a
-flat face, whose acceleration jumps, it prints how many are smoothed to a motion that is undercut, for how many that is
-told as a fact though it is false, and how many are told of those that are truly undercut by half a millimetre.
+``python tests/given/measured_tables.py --cases 500 --seed 1``, of dense rows with ``--step 0.1``, prints a line for
+each law, kind of table and step of the rows: how many dwells were found, how many of these have an end that is off by
+more than noise hides, how many were lost, how many were found where there is none, and how many tables were refused.
+For as many lobes of arcs under a flat face, whose acceleration jumps, it prints how many are smoothed to a motion
+that is undercut, for how many that is told as a fact though it is false, and how many are told of those that are
+truly undercut by half a millimetre.
 """
 
 from __future__ import annotations
