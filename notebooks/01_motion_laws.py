@@ -207,7 +207,7 @@ gc.studio(task, view="acceleration", stills={
 # %%
 mu_a = float(solution.drawn["integration"].readings["a"].scale)
 phases = [p for p in task.motion().phases if not isinstance(p, gc.Dwell)]
-exact = np.array([gc.law(p.law).peak_acceleration * p.lift / p.angle**2 for p in phases])
+exact = np.array([p.normalised.peak_acceleration * p.lift / p.angle**2 for p in phases])
 table(("phase", "on paper, mm", "× μₐ", "exact"), [
     (type(phase).__name__.lower(), float(y), float(y) * mu_a, float(a)) for phase, y, a in zip(phases, greatest, exact, strict=True)
 ])

@@ -107,6 +107,13 @@ def test_a_lesson_that_needs_another_follower_goes_on_with_the_built_in_cam(name
 OTHER_TASKS = {
     "anticlockwise, central": {"rotation": "ccw", "follower.offset": 0.0},
     "constant acceleration": {"rotation": "cw"},
+    "unequal parts of the laws": {
+        "motion.phases": tuple(
+            changed(phase, {"ratio": 1.8}) if phase.kind != "dwell" else phase
+            for phase in gc.builtin_task().motion.phases
+        ),
+        "drawing.divisions": 6,
+    },
     "few parts, another pole": {"drawing.divisions": 8, "drawing.poles": (50.0, 30.0), "drawing.ordinate": 40.0},
 }
 FOLLOWING = ("01", "02", "03", "04", "05", "06", "09", "10")
