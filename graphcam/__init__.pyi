@@ -41,7 +41,6 @@ from .mechanism.conjugate_cam import ConjugateCam as ConjugateCam
 from .mechanism.contact import (
     Contact as Contact,
     SpringPreload as SpringPreload,
-    least_preload as least_preload,
     spring_preload as spring_preload,
 )
 from .mechanism.flat_faced import FaceWidth as FaceWidth, face_width as face_width

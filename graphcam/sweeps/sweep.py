@@ -1,5 +1,7 @@
 """The sweep: quantities of many designs, in chunks that stay in the cache, on as many processors as there are."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Sequence
 from concurrent.futures import Executor
@@ -15,8 +17,15 @@ from graphcam.given.making_errors import MakingErrors
 from graphcam.given.spring_load import ArmLoad, SpringLoad
 from graphcam.mechanism.motion_bands import COVERAGE
 from graphcam.sweeps.designs import Designs
-from graphcam.sweeps.sweep_forces import FORCE_QUANTITIES, SweptLoad
-from graphcam.sweeps.sweep_quantities import BAND_QUANTITIES, QUANTITIES, Chunk, SweptErrors
+from graphcam.sweeps.sweep_forces import FORCE_QUANTITIES, QuantityUnderLoad, SweptLoad
+from graphcam.sweeps.sweep_quantities import (
+    BAND_QUANTITIES,
+    QUANTITIES,
+    Chunk,
+    Quantity,
+    QuantityOfErrors,
+    SweptErrors,
+)
 from graphcam.words import say
 from graphcam.workers import ordered_results
 
@@ -32,11 +41,12 @@ WORKING_SET = 2**22
 # keep it asks the system for again at once, which would cost more than all arithmetic.
 np.empty(WORKING_SET, dtype=np.uint8)
 Columns = dict[str, NDArray[Any]]
+AnyQuantity = Quantity | QuantityUnderLoad | QuantityOfErrors
 
 
 def sweep(
     designs: Designs,
-    quantities: str | Sequence[str] = QUANTITIES,
+    quantities: AnyQuantity | Sequence[AnyQuantity] = QUANTITIES,
     executor: Executor | None = None,
     *,
     limits: Limits | None = None,

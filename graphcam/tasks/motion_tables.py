@@ -193,7 +193,7 @@ class _MovingTable:
 
     def __call__(self, unit: float = 1.0) -> Rise | Return:
         """The phase in radians, its lift times ``unit`` (radians per degree for an arm, else 1)."""
-        law = constant_velocity_law(*self.blends) if self.blends else self.law
+        law = constant_velocity_law(*self.blends) if self.blends else canonical_law(self.law)
         return self.moves(self.lift * unit, math.radians(self.angle), law, self.ratio)
 
 
