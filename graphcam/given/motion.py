@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+import sys
+import warnings
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import pairwise
 from typing import ClassVar, NamedTuple
 
@@ -38,6 +40,20 @@ def _check_turn(angle: float, remedy: Words) -> None:
         raise DesignError("angle", say("{angle:.6g} rad", angle=angle), say("at most a full turn, 2 pi rad"), remedy)
 
 
+class DegreesWarning(UserWarning):
+    """A cam angle in radians that looks like degrees."""
+
+
+@cache
+def _warn_of_degrees() -> None:
+    """Tell once that cam angles are radians, with the user's line."""
+    frame, level = sys._getframe(), 1
+    while frame.f_back and frame.f_globals["__name__"].startswith("graphcam."):
+        frame, level = frame.f_back, level + 1
+    told = "cam angles are radians here; a whole number beyond 2 pi looks like degrees: write gc.cam_angle(60) for 60°"
+    warnings.warn(told, DegreesWarning, stacklevel=level)
+
+
 def wrap(phi: ArrayLike) -> Floats:
     """The cam angles in [0, 2 pi); NaN and infinities give NaN.
 
@@ -47,6 +63,8 @@ def wrap(phi: ArrayLike) -> Floats:
     phi = np.asarray(phi, dtype=np.float64)
     if phi.size and phi.min() >= 0 and phi.max() < FULL_TURN:
         return phi  # the usual case, and the remainder is dear
+    if phi.size == 1 and float(phi.item()).is_integer():
+        _warn_of_degrees()
     with np.errstate(invalid="ignore"):
         turned = np.mod(phi, FULL_TURN)
     return np.where(turned < FULL_TURN, turned, turned - FULL_TURN)  # a tiny negative angle rounds up to a full turn

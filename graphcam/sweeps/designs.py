@@ -106,6 +106,11 @@ class Designs:
         """The fields that may differ from cam to cam."""
         return {field.name: getattr(self, field.name) for field in fields(self) if field.name != "follower"}
 
+    @property
+    def varied(self) -> dict[str, NDArray[Any]]:
+        """The columns (n,) in which the cams differ, by the names of the fields."""
+        return {name: column for name, column in self._columns.items() if column.ndim}
+
     def __len__(self) -> int:
         return max(array.size for array in self._columns.values())
 

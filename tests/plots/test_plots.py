@@ -216,7 +216,9 @@ def comparable():
     """Pairs of values that one may want on the same axes."""
     spring = gc.SpringLoad(mass=0.5, speed_rpm=300, stiffness=4, preload=200)
     laws = "3-4-5", "cycloidal"
-    motions = [gc.Motion([gc.Rise(20, 2.0, law), gc.Dwell(1.0), gc.Return(20, 2.0, law), gc.Dwell(REST)]) for law in laws]
+    motions = [
+        gc.Motion([gc.Rise(20, 2.0, law), gc.Dwell(1.0), gc.Return(20, 2.0, law), gc.Dwell(REST)]) for law in laws
+    ]
     cams = [gc.Cam(motion, gc.Translating(0, 8), 40) for motion in motions]
     forces = [gc.CamForces(cam, spring) for cam in cams]
     yield motions
