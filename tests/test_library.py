@@ -39,7 +39,12 @@ def test_signatures_are_short():
         if "numpy._typing" in str(parameter) or len(str(parameter)) > LONGEST_PARAMETER
     }
     # The default of "quantities" is all of them; a task's follower is of four kinds, its title is a caption.
-    assert long <= {("sweep", "quantities"), ("sizing_sheet", "title"), ("Task", "follower"), ("MinimumRadius", "active")}
+    assert long <= {
+        ("sweep", "quantities"),
+        ("sizing_sheet", "title"),
+        ("Task", "follower"),
+        ("MinimumRadius", "active"),
+    }
 
 
 def test_literals_are_the_words_that_are_known():
