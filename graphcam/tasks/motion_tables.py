@@ -311,6 +311,8 @@ class MotionTable:
             if value is not None and (self.table is None or self.gives_cam):
                 raise DesignError(name, value, say("left out where there is no table"), say("delete it"))
         if self.phases is not None:
+            if not self.phases:
+                raise DesignError("phases", say("an empty list"), say("a list with a rise and a return"))
             turn = math.fsum(phase.angle for phase in self.phases)
             if abs(turn - 360) > ROUNDED_CLOSURE:
                 raise DesignError(say("sum of the phase angles"), turn, say("360 degrees"), _remedy(turn, self.phases))
