@@ -350,6 +350,7 @@ def largest_roller(cam: Cam) -> float:
     ------
     DesignError : the follower has no roller
     """
+    check_kind("cam", cam, Cam)
     if not cam.kinematics.takes_roller:
         limit = say("one with a roller")
         raise DesignError("follower", cam.follower.kind, limit, say("enlarge the prime radius instead"))

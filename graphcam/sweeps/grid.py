@@ -13,6 +13,7 @@ from graphcam.errors import DesignError
 from graphcam.given.follower import Kind, Rotation
 from graphcam.given.laws import LawName
 from graphcam.given.motion_law import Law
+from graphcam.given.plausible_ranges import NUMBER_TYPES
 from graphcam.sweeps.design_space import number_axis
 from graphcam.sweeps.designs import SIZE_NAMES, Designs
 from graphcam.words import say
@@ -82,6 +83,8 @@ def _axis(name: str, value: Any) -> NDArray[Any]:
     if not len(value):
         raise DesignError(name, say("an empty list"), say("at least one"))
     words = not isinstance(value[0], int | float | np.number)
+    if name in SIZE_NAMES and not all(isinstance(each, NUMBER_TYPES) and np.ndim(each) == 0 for each in value):
+        raise DesignError(name, say("no number"), say("a number, a list of numbers, or a range"))
     found = np.empty(len(value), dtype=object) if words else np.asarray(value, dtype=np.float64)
     if words:
         found[:] = value

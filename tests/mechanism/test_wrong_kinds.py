@@ -53,6 +53,12 @@ WRONG = {
     "preload is of the kind SpringPreload, but must be a number of N; write spring_preload": lambda: gc.SpringLoad(
         0.8, 600, 5, gc.spring_preload(MOTION, 0.8, 600, 5)
     ),
+    "pencil is of the kind float, but must be a Pencil; write graphcam.Pencil.of": lambda: gc.solve(
+        gc.builtin_task(), 0.2
+    ),
+    "errors is of the kind float, but must be a MakingErrors": lambda: gc.motion_bands(CAM, 0.1),
+    "cam is of the kind Motion, but must be a Cam$": lambda: gc.largest_roller(MOTION),
+    "path is of the kind int, but must be a str or Path": lambda: gc.load_task(3),
     "follower is of the kind str, but must be a Translating": lambda: gc.minimum_radius(MOTION, "flat-faced"),
     "sizes is 'ofset', but must be one of roller_radius, offset, distance, .*; did you mean 'offset'": lambda: (
         gc.Deviations((), NONE, {"ofset": 0.05})

@@ -42,6 +42,9 @@ def test_a_sweep_is_a_frame():
     ("sizes", "message"),
     [
         ({"prime_radius": []}, "prime_radius is an empty list"),
+        ({"lift": "30"}, "lift is no number, but must be a number, a list of numbers, or a range"),
+        ({"lift": [30, None]}, "lift is no number"),
+        ({"lift": [[30]]}, "lift is no number"),
         ({"prime_radius": {"start": 40, "stop": 60}}, "prime_radius.count is missing"),
         ({"prime_radius": {"start": 40, "stop": 60, "step": 5}}, "prime_radius.step is an unknown key.*count = 5"),
         ({"rise_law": ["cicloidal", "3-4-5"]}, "rise_law is 'cicloidal'.*did you mean 'cycloidal'"),
