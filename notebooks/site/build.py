@@ -178,8 +178,9 @@ def write_reference(folder: Path) -> None:
     """A page for each group of public names, so that no name is left out, one of the commands, one of the task file."""
     if missing := set(gc.__all__) ^ set(" ".join(SUBJECTS.values()).split()):
         raise SystemExit(f"SUBJECTS and the public names differ: {', '.join(sorted(missing))}")
-    with (folder / "index.md").open("a", encoding="utf-8") as index:
-        index.write(f"\n{names_by_subject()}")
+    index = folder / "index.md"
+    before, conventions, after = index.read_text(encoding="utf-8").partition("## Conventions")
+    index.write_text(f"{before}{names_by_subject()}\n{conventions}{after}", encoding="utf-8")
     left = set(gc.__all__)
     for page, (title, rooms) in GROUPS.items():
         names = [name for name in gc.__all__ if room_of(name) in rooms]
